@@ -146,8 +146,10 @@ def test_what_cannot_be_saved_says_so_when_it_is_to_be_saved() -> None:
     Same = define(type("ShoeDetector", (), {"__annotations__": {}, "update": Quiet.update}))
     for detector, what in ((Bare(), "no attrs class"), (Same(), "give it another name")):
         session = Session(evolve(recipes.DEFAULT, detector=detector))
-        with pytest.raises(TypeError, match=what):
-            session.snapshot()
+        session._state.wearer._keep(session._state.wearer._tracker(Foot.LEFT))
+        for save_it in (session.snapshot, session.pack):
+            with pytest.raises(TypeError, match=what):
+                save_it()
 
 
 # --- promises ---------------------------------------------------------------------------------------------------------

@@ -13,14 +13,12 @@ from typing import Any
 
 import pytest
 from attrs import define, evolve, field
-from toys import NUMBERED
 from walks import LEFT, RIGHT, ROUGH, SHORT, machines, packets, samples
 
-from solepath import Calibration, Foot, Packet, Phase, Recipe, Session, Site, SnapshotError, recipes
+from solepath import Calibration, Foot, Phase, Recipe, Session, SnapshotError, recipes
 from solepath.body.height.altitude import Altitude
 from solepath.body.part import Track
 from solepath.calibration import InsoleCalibration, Limbs, Newtons, ShoeGeometry
-from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.sensortags import CC2650
@@ -59,14 +57,6 @@ def test_the_state_of_two_devices_is_below_20_kB_at_any_moment_of_a_walk(device:
         if i % 40 == 0:
             largest = max(largest, len(session.pack()))
     assert 5000 < largest < 20_000
-
-
-def test_a_walk_that_is_packed_and_unpacked_again_and_again_says_the_same() -> None:
-    straight, broken = Session(poses=True), Session(poses=True)
-    for i, packet in enumerate(packets()["cc2650"]):
-        broken = Session.unpack(broken.pack()) if i % 4 == 0 else broken
-        assert repr(broken.feed(packet)) == repr(straight.feed(packet))
-    assert broken.finish() == straight.finish()
 
 
 def test_equal_sessions_are_packed_alike_and_packing_changes_nothing() -> None:
@@ -115,21 +105,6 @@ def test_a_calibrated_session_of_every_recipe_goes_on_with_what_was_known(recipe
     assert exact(again) == exact(session)
 
 
-def test_a_session_with_a_driver_of_the_apps_own_is_unpacked_with_it_and_not_without() -> None:
-    session = Session(poses=True, profiles=[NUMBERED])
-    fields: dict[str, Any] = {"ticks": 0, "count": 1, "up": [9.80665]}
-    for k in range(100):
-        data = NUMBERED.write("toy/data", {"number": k, **fields})
-        session.feed(Packet(1.0 + 0.01 * k, Site.LEFT_FOOT, "toy/data", data))
-    again = Session.unpack(session.pack(), profiles=[NUMBERED])
-    assert exact(again) == exact(session)
-    assert again.advance(9.0) == session.advance(9.0) != []
-    with pytest.raises(SnapshotError, match="toy"):
-        Session.unpack(session.pack())
-    with pytest.raises(SnapshotError, match=r"toy.*another driver"):
-        Session.unpack(session.pack(), profiles=[evolve(NUMBERED, acc_range=8.0)])
-
-
 # --- what must be given again -----------------------------------------------------------------------------------------
 
 
@@ -153,15 +128,6 @@ def test_a_session_is_not_unpacked_with_another_recipe_or_other_parts() -> None:
     assert exact(Session.unpack(session.pack(), bare)) == exact(session)
     with pytest.raises(SnapshotError, match="packed with 5 parts, and this recipe has 6"):
         Session.unpack(session.pack())
-
-
-def test_the_floor_plan_that_it_had_must_be_given_again() -> None:
-    saved = packed("session, particles")
-    with pytest.raises(SnapshotError, match="with the floor plan that it had"):
-        Session.unpack(saved)
-    assert Session.unpack(saved, floorplan=BUILDING).place is not None
-    with pytest.raises(SnapshotError, match="without a floor plan"):
-        Session.unpack(packed(), floorplan=BUILDING)
 
 
 # --- detectors of an app's own ----------------------------------------------------------------------------------------
@@ -236,16 +202,6 @@ def test_a_detector_that_has_other_fields_now_is_named() -> None:
 
 
 def test_what_cannot_be_packed_says_so_when_it_is_to_be_packed() -> None:
-    class Bare:
-        update = Usual.update
-
-    Ours = define(type("ShoeDetector", (), {"__annotations__": {}, "update": Usual.update}))
-    for detector, what in ((Bare(), "no attrs class"), (Ours(), "give it another name")):
-        session = Session(evolve(recipes.DEFAULT, detector=detector))
-        session.feed(samples(cells=0)[:0])
-        session._state.wearer._keep(session._state.wearer._tracker(Foot.LEFT))
-        with pytest.raises(TypeError, match=what):
-            session.pack()
     for value in (inf, nan, 10**400):
         session = Session(OWN)
         session.feed(samples(cells=0)[:50])
