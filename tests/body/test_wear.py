@@ -171,20 +171,6 @@ def test_while_both_feet_are_heard_the_place_is_their_mean_to_the_last_digit(who
         assert where.covariance == tuple(sums)
 
 
-@given(st.integers(0, 10_000))
-@settings(max_examples=5, deadline=None)
-def test_a_session_saved_while_a_foot_is_away_goes_on_to_the_same_place(cut: int) -> None:
-    items = tuple(silent(walk(), LEFT, 4.0, 9.0))
-    k = cut % len(items)
-    session = Session()
-    session.feed(items[:k])
-    session = Session.restore(json.loads(json.dumps(session.snapshot(), allow_nan=False)))
-    session.feed(items[k:])
-    straight = Session()
-    straight.feed(items)
-    assert session.position == straight.position
-
-
 # --- left and right exchanged ---
 
 
@@ -270,16 +256,15 @@ def test_insoles_numbered_as_mirror_images_look_alike_when_exchanged_and_nothing
 
 @given(st.integers(0, 10_000))
 @settings(max_examples=5, deadline=None)
-def test_a_session_saved_at_any_moment_goes_on_to_tell_the_same(cut: int) -> None:
+def test_a_session_saved_at_any_moment_goes_on_to_tell_the_same_and_to_the_same_place(cut: int) -> None:
     items = exchanged(without(LEFT, 6.0, 10.0))
     k = cut % len(items)
-    session = Session()
+    session, straight = Session(), Session()
     told = session.feed(items[:k])
     session = Session.restore(json.loads(json.dumps(session.snapshot(), allow_nan=False)))
     told += session.feed(items[k:])
-    kinds = FeetSwapped | FootSilent | FootHeard
-    assert of(kinds, told) == said(kinds, items)
-    assert of(kinds, told) != []
+    assert told == straight.feed(items) and session.position == straight.position
+    assert len(of(FeetSwapped | FootSilent | FootHeard, told)) >= 3
 
 
 @given(st.lists(st.floats(-10.0, 10.0), min_size=1, max_size=60), st.floats(-5.0, 5.0))
