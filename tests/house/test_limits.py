@@ -20,7 +20,6 @@ LONGER = {
     "src/solepath/papers/walking_modes/modes.py": 314,
     "src/solepath/session/session.py": 377,
     "tests/cli/test_cli_view.py": 322,
-    "tests/helpers/radio/memory_radio.py": 363,
     "tests/report/test_report.py": 321,
 }
 """Files that are longer today, with their lines: a number may only fall, and goes when the file is below 300."""
