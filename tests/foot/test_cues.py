@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath import Foot, Sample, Session, Site, ToeOff
+from solepath import Foot, Sample, Session, ToeOff
 from solepath.emulate import Route, Walker
 from solepath.events import Event, HeelStrike
 from solepath.foot.cues.impact import Impact
@@ -126,10 +126,6 @@ def test_heading_grows_less_certain_with_time() -> None:
     lasted = samples[-1].t - 2.0  # what comes before the first heel-off is one stretch, and so is what is under way
     assert foot.gait.way.yaw == pytest.approx(foot.corrector.heading_drift**2 * lasted, rel=0.4)
     assert session.position is not None and session.position.covariance[3] > foot.gait.way.yaw * 10.0**2 / 4
-
-
-def test_sites_are_their_own_foot() -> None:
-    assert Site.LEFT_FOOT.foot is Foot.LEFT and Site.PELVIS.foot is None
 
 
 # --- the middle of an impact ------------------------------------------------------------------------------------------

@@ -10,9 +10,10 @@ import pytest
 from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
+from one_foot import SOLE, TARE, above
 from walks import LEFT, SHORT, insoles, of, samples
 
-from solepath import Cell, Foot, FootFlat, HeelOff, HeelStrike, Layout, Sample, Session, StrideTaken, ToeOff
+from solepath import Foot, FootFlat, HeelOff, HeelStrike, Layout, Sample, Session, StrideTaken, ToeOff
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
@@ -21,15 +22,6 @@ from solepath.foot.pressure.insole import Extremes, InsoleLoads
 from solepath.foot.stance.pressure import MaximumPressure, TwoArea
 from solepath.foot.stance.stance import Load, Stance
 from solepath.types import Phase
-
-SOLE = Layout(7, Foot.LEFT, (Cell(0.05, 0.01), Cell(0.05, -0.01), Cell(0.13, 0.0), Cell(0.20, 0.02)), 0.26)
-"""Two cells at the heel (x < 0.33 x 0.26), one under the arch, one at the forefoot (x > 0.55 x 0.26)."""
-
-TARE = (10.0, 20.0, 0.0, 30.0)
-
-
-def above(*loads: float) -> tuple[float, ...]:
-    return tuple(zero + load for zero, load in zip(TARE, loads, strict=True))
 
 
 def worn(*frames: tuple[float, ...]) -> InsoleLoads:
