@@ -11,6 +11,7 @@ from xml.etree import ElementTree
 import pytest
 from commands import refused, run
 from floors import LOW, OFFICE, RIGHT, Pedestrian, office, tour
+from recordings import written
 from walks import insoles
 
 from solepath import PlaceLost
@@ -19,7 +20,6 @@ from solepath.cli.common.failure import Failure
 from solepath.cli.common.floorplan import start_of
 from solepath.floorplan.importers.geojson import write_floorplan
 from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Start, Wall
-from solepath.recording import PacketWriter
 from solepath.show.places import PlaceCounts
 from solepath.show.tables.placed import place_lines
 from solepath.show.tables.plan import PlanPicture, colour
@@ -114,11 +114,7 @@ def test_the_summary_of_a_wearer_who_was_never_found_says_so() -> None:
 
 @pytest.fixture(scope="module")
 def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("walk") / "walk.jsonl"
-    with PacketWriter(path) as writer:
-        for packet in insoles(cells=12).packets:
-            writer.write(packet)
-    return path
+    return written(tmp_path_factory.mktemp("walk") / "walk.jsonl", insoles(cells=12).packets)
 
 
 @pytest.fixture(scope="module")
