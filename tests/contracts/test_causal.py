@@ -135,14 +135,6 @@ def test_live_position_comes_with_the_sample() -> None:
             assert not event.final
 
 
-def test_who_asks_for_poses_has_the_wearer_no_place_else() -> None:
-    plain, posed = Session(), Session(poses=True)
-    for sample in samples(cells=0)[:600]:
-        plain.feed(sample)
-        posed.feed(sample)
-        assert posed.position == plain.position
-
-
 # --- 4: cuts do not matter --------------------------------------------------------------------------------------------
 
 FAR = st.integers(0, 399).map(lambda k: 400 - k)

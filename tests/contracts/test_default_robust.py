@@ -20,7 +20,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
 from solepath.foot.tracker import FootTracker
-from solepath.recipes import DEFAULT, Recipe
+from solepath.recipes import DEFAULT
 from solepath.recording.samples import load_samples
 from solepath.types import Vec3
 from solepath.types.vector import GRAVITY, ZERO
@@ -39,24 +39,14 @@ def recorded(path: Path, seconds: float) -> tuple[Sample, ...]:
     return tuple(sample for sample in samples if sample.t - samples[0].t <= seconds)
 
 
-def tracker_of(recipe: Recipe, **options: bool) -> FootTracker:
-    parts = deepcopy(recipe)
-    return FootTracker(Foot.RIGHT, parts.detector, evolve(parts.corrector, **options), cues=parts.cues)
-
-
-def tracked(samples: Iterable[Sample]) -> tuple[FootTracker, list[StrideTaken]]:
-    """One foot by the default recipe, without the body."""
-    tracker = tracker_of(DEFAULT)
+def tracked(samples: Iterable[Sample], recover: bool = True) -> tuple[FootTracker, list[StrideTaken]]:
+    """One foot by the default recipe, without the body. Not `recover`: clipped readings are taken as they are."""
+    parts = deepcopy(DEFAULT)
+    tracker = FootTracker(Foot.RIGHT, parts.detector, evolve(parts.corrector, recover=recover), cues=parts.cues)
     steps: list[StrideTaken] = []
     for sample in samples:
         steps += of(StrideTaken, tracker.feed(sample))
     return tracker, steps
-
-
-def untouched(samples: Iterable[Sample]) -> list[StrideTaken]:
-    """The steps of a filter that takes clipped readings as they are."""
-    tracker = tracker_of(DEFAULT, recover=False)
-    return [step for sample in samples for step in of(StrideTaken, tracker.feed(sample))]
 
 
 def clipped(samples: Iterable[Sample], rate: float = 1e3, force: float = 1e3, told: bool = False) -> list[Sample]:
@@ -99,7 +89,7 @@ def test_what_a_gyroscope_that_ends_at_400_degrees_per_second_missed_is_made_up_
     cut = clipped(walk(), rate=radians(400.0))
     _, mended = tracked(cut)
     assert lengths(mended) == pytest.approx(lengths(whole), rel=0.02)
-    unmended = untouched(cut)
+    _, unmended = tracked(cut, recover=False)
     assert abs(way(mended) - way(whole)) < 0.3 * abs(way(unmended) - way(whole))
 
 
@@ -107,7 +97,7 @@ def test_what_an_accelerometer_that_ends_at_2_g_missed_is_made_up_for_in_part() 
     _, whole = tracked(walk())
     cut = clipped(walk(), force=2.0 * GRAVITY)
     _, mended = tracked(cut)
-    unmended = untouched(cut)
+    _, unmended = tracked(cut, recover=False)
     assert len(mended) == len(whole)
     assert abs(way(mended) - way(whole)) < 0.75 * abs(way(unmended) - way(whole))
 

@@ -38,16 +38,14 @@ STEP = (above(100, 100, 50, 150), above(0, 0, 0, 200), TARE, above(30, 30, 0, 0)
 
 
 def test_nothing_is_known_until_the_load_has_fallen_and_risen_again() -> None:
-    insole = InsoleLoads()
-    insole.wear(SOLE)
+    insole = worn()
     said = [insole.update(0.01 * k, cells) for k, cells in enumerate(STEP)]
     assert [load is None for load in said] == [True, True, True, True, False]
 
 
 def test_a_load_that_only_falls_is_not_a_foot_in_the_air() -> None:
     """Weight goes over to the other foot before the first step: the least load so far is still a load."""
-    insole = InsoleLoads()
-    insole.wear(SOLE)
+    insole = worn()
     for k in range(60):
         share = 1.0 - 0.01 * k
         assert insole.update(0.01 * k, above(*(share * part for part in (100, 100, 50, 150)))) is None
@@ -65,10 +63,7 @@ def test_the_load_is_a_share_of_the_wearers_own() -> None:
 
 
 def test_newtons_and_counts_serve_alike() -> None:
-    one, other = worn(*STEP), InsoleLoads()
-    other.wear(SOLE)
-    for k, cells in enumerate(STEP):
-        other.update(0.01 * k, tuple(4.7 * value for value in cells))
+    one, other = worn(*STEP), worn(*(tuple(4.7 * value for value in cells) for cells in STEP))
     a, b = one.update(0.05, above(40, 10, 5, 60)), other.update(0.05, tuple(4.7 * v for v in above(40, 10, 5, 60)))
     assert a is not None and b is not None
     assert b.cells == pytest.approx([4.7 * value for value in a.cells])

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 
 import pytest
 from commands import refused, run
-from floors import LOW, OFFICE, RIGHT, Pedestrian, office, tour
+from floors import LOW, OFFICE, RIGHT, Pedestrian, follow, office, tour
 from recordings import written
 from walks import insoles
 
@@ -31,9 +31,8 @@ def pictured(plan: FloorPlan, one: Pedestrian, start: Start | None = None) -> El
     part, picture = Particles(), PlanPicture(plan)
     if start is not None:
         part.set_out(start)
-    for told in one.told:
-        for event in part.follow(OFFICE, told.events, told.here):
-            picture.add(event)
+    for event in follow(part, one.told):
+        picture.add(event)
     return ElementTree.fromstring(ElementTree.tostring(picture.drawn("a tour <of two> floors & a lift")))
 
 
@@ -71,12 +70,10 @@ def test_a_plan_is_drawn_without_any_place_too_and_every_coordinate_is_a_plain_n
 
 def test_the_track_is_broken_where_the_place_was_lost() -> None:
     picture = PlanPicture(office())
-    one = Pedestrian(32, "0", (12.0, LOW))
-    one.walk((24.0, LOW))
     part = Particles()
-    part.set_out(Start("0", (12.0, LOW), -one.turned))
-    events = [event for told in one.told for event in part.follow(OFFICE, told.events, told.here)]
-    for event in events:
+    one = Pedestrian(32, "0", (12.0, LOW)).known_to(part)
+    one.walk((24.0, LOW))
+    for event in follow(part, one.told):
         picture.add(event)
     whole = len([1 for line in picture.drawn("t").iter() if line.tag == "polyline"])
     picture.breaks |= {6, 12}
