@@ -211,14 +211,12 @@ def test_devices_that_say_that_they_are_on_the_right_feet_are_believed() -> None
 
 
 def test_layouts_of_the_other_foot_on_both_sides_are_told_after_a_step() -> None:
-    mirrored = Calibration({foot: InsoleCalibration(layout(24, other)) for foot, other in _MIRRORED.items()})
+    left, right = (InsoleCalibration(layout(24, foot)) for foot in Foot)
+    mirrored = Calibration({Foot.LEFT: right, Foot.RIGHT: left})
     session = Session(calibration=mirrored)
     told = session.feed(samples(WALK, rate=50.0))
     (swapped,) = of(FeetSwapped, told)
     assert len([step for step in of(StrideTaken, told) if step.t <= swapped.t]) <= 2
-
-
-_MIRRORED = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
 
 
 def pressure_alone(numbered_alike: bool) -> tuple[tuple[Sample, ...], Calibration]:

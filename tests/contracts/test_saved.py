@@ -214,13 +214,6 @@ def test_a_snapshot_of_another_version_is_refused_by_name(version: Any) -> None:
         Session.restore(saved)
 
 
-def test_a_snapshot_of_a_recipe_that_nobody_knows_is_refused() -> None:
-    saved = json.loads(taken("session, cc2650"))
-    saved["state"]["wearer"]["recipe"]["detector"] = {"kind": "CrystalBall", "is": {}}
-    with pytest.raises(SnapshotError):
-        Session.restore(saved)
-
-
 @pytest.mark.parametrize("name", [name for name in PACKET_NAMES if name.startswith("session")])
 def test_a_flipped_digit_is_noticed(name: str) -> None:
     text = taken(name)

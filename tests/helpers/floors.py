@@ -19,6 +19,7 @@ from solepath import (
     Foot,
     LiftRidden,
     Placed,
+    PlaceLost,
     StrideFeatures,
     StrideTaken,
     Vec3,
@@ -242,6 +243,11 @@ def follow(part: Method, told: list[Told], plan: IndexedPlan = OFFICE) -> list[E
 
 def placed(events: list[Event]) -> list[Placed]:
     return [event for event in events if isinstance(event, Placed)]
+
+
+def lost(events: list[Event]) -> list[str]:
+    """Why the place was lost each time."""
+    return [event.what for event in events if isinstance(event, PlaceLost)]
 
 
 CORNERS = ((LEFT, LOW), (RIGHT, LOW), (RIGHT, HIGH), (LEFT, HIGH))

@@ -166,21 +166,18 @@ async def test_who_has_the_token_steers() -> None:
         assert asked == [Command("pause"), Command("seek", 3.0), Command("speed", 4.0)]
 
 
-async def test_who_has_no_token_watches_and_is_shown_out_on_trying_to_steer(caplog: pytest.LogCaptureFixture) -> None:
+@pytest.mark.parametrize(("plays", "query"), [(True, ""), (False, f"?token={TOKEN}")])
+async def test_who_has_no_token_or_nothing_to_play_watches_and_is_shown_out_on_trying_to_steer(
+    plays: bool, query: str, caplog: pytest.LogCaptureFixture
+) -> None:
     asked: list[Command] = []
-    async with served(commands=asked.append) as (_, client, url), client.ws_connect(f"{url}ws") as watching:
+    commands = asked.append if plays else None
+    async with served(commands=commands) as (_, client, url), client.ws_connect(f"{url}ws{query}") as watching:
         assert (await scene_of(watching))["control"] is False
         await watching.send_str('{"do":"pause"}')
         assert await closed(watching) == 1008
     assert asked == []
     assert [one.name for one in caplog.records] == [LOGGER]
-
-
-async def test_a_page_with_nothing_to_play_is_not_steered() -> None:
-    async with served() as (_, client, url), client.ws_connect(f"{url}ws?token={TOKEN}") as watching:
-        assert (await scene_of(watching))["control"] is False
-        await watching.send_str('{"do":"pause"}')
-        assert await closed(watching) == 1008
 
 
 @pytest.mark.parametrize("query", ["token=wrong", "token=", f"token={TOKEN}&token=wrong", "token=%ff", "token=%f0%9f"])

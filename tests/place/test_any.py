@@ -20,6 +20,7 @@ from floors import (
     beside,
     doing,
     follow,
+    lost,
     office,
     stepped,
 )
@@ -122,10 +123,6 @@ def test_the_state_is_small_and_does_not_grow(part: Method) -> None:
             found.append(sizes[-1])
     assert max(sizes) < 10_000, "while it is undecided"
     assert sum(found) / len(found) < 8_000 and max(found[-100:]) < 10_000, "once it is decided"
-
-
-def lost(events: list[Event]) -> list[str]:
-    return [event.what for event in events if isinstance(event, PlaceLost)]
 
 
 @pytest.mark.parametrize(

@@ -21,12 +21,13 @@ from floors import (
     Told,
     beside,
     doing,
+    lost,
     placed,
     round_to,
     tour,
 )
 
-from solepath import Activity, Event, LiftRidden, PlaceLost
+from solepath import Activity, Event, LiftRidden
 from solepath.body.place.particles import Particles
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import FloorPlan, Level, Start
@@ -51,10 +52,6 @@ class Followed:
     @property
     def mean(self) -> float:
         return sum(self.errors) / len(self.errors)
-
-    @property
-    def lost(self) -> list[str]:
-        return [event.what for event in self.events if isinstance(event, PlaceLost)]
 
 
 def followed(part: Method, told: list[Told]) -> Followed:
@@ -83,7 +80,7 @@ def test_a_wearer_who_comes_out_of_some_lift_is_found_and_followed_within_a_metr
     result = followed(part, tour(seed).told)
     assert result.dropped == 0
     assert result.errors and result.mean <= 1.0
-    assert len(result.lost) == 1 and "no start" in result.lost[0]
+    assert len(lost(result.events)) == 1 and "no start" in lost(result.events)[0]
 
 
 @pytest.mark.soak
@@ -113,7 +110,7 @@ def test_a_known_start_finds_the_wearer_with_or_without_the_heading(part: Method
     one.walk((RIGHT, LOW), (RIGHT, HIGH), (20.0, HIGH))
     part.set_out(start)
     result = followed(part, one.told)
-    assert result.dropped == 0 and result.lost == []
+    assert result.dropped == 0 and lost(result.events) == []
     assert result.errors[-1] <= 1.0
     heading = placed(result.events)[-1].candidates[0].heading
     assert heading is not None
