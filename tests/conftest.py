@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 from collections.abc import Callable, Iterator
 from functools import cache
+from inspect import iscoroutinefunction, signature
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,7 +15,7 @@ import pytest
 from solepath import recipes
 
 if TYPE_CHECKING:
-    from browsers import Browsing
+    from browsers import Browser, Browsing
 
     from solepath.lab.evaluate.report import Result
 
@@ -52,3 +54,23 @@ def browser() -> Iterator[Browsing]:
         pytest.skip(reason)
     with browsing() as found:
         yield found
+
+
+@pytest.fixture
+def chromium(browser: Browsing) -> Browser:
+    """The same, for a test that is a coroutine."""
+    return browser.browser
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
+    """Runs a test that is a coroutine: on the browser's loop where it asks for `chromium`, elsewhere on a loop of its
+    own, for half a minute at the most."""
+    if not iscoroutinefunction(pyfuncitem.obj):
+        return None
+    given = {name: pyfuncitem.funcargs[name] for name in signature(pyfuncitem.obj).parameters}
+    if "chromium" in given:
+        pyfuncitem.funcargs["browser"].run(lambda _: pyfuncitem.obj(**given))
+    else:
+        asyncio.run(asyncio.wait_for(pyfuncitem.obj(**given), 30.0))
+    return True

@@ -23,7 +23,16 @@ ROOT = Path(__file__).resolve().parents[2]
 
 CORE: dict[str, tuple[str, ...]] = {
     "link/clock.py": ("link/test_clock.py", "link/test_stories.py", "contracts/test_time.py"),
-    "link/stream.py": ("link/test_stream.py", "link/test_decoder.py", "link/test_stories.py", "link/test_receiver.py"),
+    "link/stream.py": (
+        "link/test_stream.py",
+        "link/test_readings.py",
+        "link/test_drivers.py",
+        "link/test_decoder.py",
+        "link/test_insole.py",
+        "link/test_sensortags.py",
+        "link/test_stories.py",
+        "link/test_receiver.py",
+    ),
     "foot/stance/cycle.py": ("foot/test_stance.py", "foot/test_tracks.py", "foot/test_limits.py"),
     "foot/navigate/error_state.py": ("foot/test_tracks.py", "foot/test_level.py", "foot/test_limits.py"),
     "body/gait/measuring.py": ("body/test_gait_parameters.py", "body/test_gait_means.py", "link/test_gait_clocks.py"),

@@ -75,28 +75,6 @@ def test_whatever_the_samples_are_events_come_in_their_time_and_the_state_can_be
     assert all(event.known_at >= event.t for event in wearing.part.finish(t))
 
 
-@given(st.integers(0, len(walk())))
-@settings(max_examples=8, deadline=None)
-def test_saved_anywhere_it_goes_on_the_same(cut: int) -> None:
-    whole, halved = Wearing(), Wearing()
-    for k, sample in enumerate(walk()):
-        if k == cut:
-            halved.restore()
-        assert whole.feed(sample) == halved.feed(sample)
-    assert whole.saved() == halved.saved()
-
-
-def test_its_state_is_small_however_long_the_walk() -> None:
-    wearing, largest, now = Wearing(), 0, 0.0
-    for lap in range(3):
-        for k, sample in enumerate(walk()):
-            now = lap * 100.0 + sample.t
-            wearing.feed(Sample(t=now, site=sample.site, acc=sample.acc, gyro=sample.gyro))
-            if k % 50 == 0:
-                largest = max(largest, len(wearing.saved()))
-    assert largest < 12_000
-
-
 def test_after_a_long_gap_nobody_knows_what_was_done_in_it() -> None:
     wearing = Wearing()
     told: list[Event] = []

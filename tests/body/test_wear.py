@@ -171,20 +171,6 @@ def test_while_both_feet_are_heard_the_place_is_their_mean_to_the_last_digit(who
         assert where.covariance == tuple(sums)
 
 
-@given(st.integers(0, 10_000))
-@settings(max_examples=5, deadline=None)
-def test_a_session_saved_while_a_foot_is_away_goes_on_to_the_same_place(cut: int) -> None:
-    items = tuple(silent(walk(), LEFT, 4.0, 9.0))
-    k = cut % len(items)
-    session = Session()
-    session.feed(items[:k])
-    session = Session.restore(json.loads(json.dumps(session.snapshot(), allow_nan=False)))
-    session.feed(items[k:])
-    straight = Session()
-    straight.feed(items)
-    assert session.position == straight.position
-
-
 # --- left and right exchanged ---
 
 
@@ -225,14 +211,12 @@ def test_devices_that_say_that_they_are_on_the_right_feet_are_believed() -> None
 
 
 def test_layouts_of_the_other_foot_on_both_sides_are_told_after_a_step() -> None:
-    mirrored = Calibration({foot: InsoleCalibration(layout(24, other)) for foot, other in _MIRRORED.items()})
+    left, right = (InsoleCalibration(layout(24, foot)) for foot in Foot)
+    mirrored = Calibration({Foot.LEFT: right, Foot.RIGHT: left})
     session = Session(calibration=mirrored)
     told = session.feed(samples(WALK, rate=50.0))
     (swapped,) = of(FeetSwapped, told)
     assert len([step for step in of(StrideTaken, told) if step.t <= swapped.t]) <= 2
-
-
-_MIRRORED = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
 
 
 def pressure_alone(numbered_alike: bool) -> tuple[tuple[Sample, ...], Calibration]:
@@ -270,16 +254,15 @@ def test_insoles_numbered_as_mirror_images_look_alike_when_exchanged_and_nothing
 
 @given(st.integers(0, 10_000))
 @settings(max_examples=5, deadline=None)
-def test_a_session_saved_at_any_moment_goes_on_to_tell_the_same(cut: int) -> None:
+def test_a_session_saved_at_any_moment_goes_on_to_tell_the_same_and_to_the_same_place(cut: int) -> None:
     items = exchanged(without(LEFT, 6.0, 10.0))
     k = cut % len(items)
-    session = Session()
+    session, straight = Session(), Session()
     told = session.feed(items[:k])
     session = Session.restore(json.loads(json.dumps(session.snapshot(), allow_nan=False)))
     told += session.feed(items[k:])
-    kinds = FeetSwapped | FootSilent | FootHeard
-    assert of(kinds, told) == said(kinds, items)
-    assert of(kinds, told) != []
+    assert told == straight.feed(items) and session.position == straight.position
+    assert len(of(FeetSwapped | FootSilent | FootHeard, told)) >= 3
 
 
 @given(st.lists(st.floats(-10.0, 10.0), min_size=1, max_size=60), st.floats(-5.0, 5.0))

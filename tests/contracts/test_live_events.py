@@ -7,17 +7,16 @@ from typing import Any
 
 import pytest
 from attrs import evolve
+from one_foot import SOLE, TARE, above
 from walks import LEFT, insoles, of, samples
 
 from solepath import (
     Calibration,
-    Cell,
     CellFault,
     CellsFailed,
     Event,
     Foot,
     FootPressed,
-    Layout,
     LayoutKnown,
     Limitation,
     Phase,
@@ -33,9 +32,7 @@ from solepath.emulate.sensors.insoles import layout
 from solepath.events import LiveEvent
 
 BOTH = {"poses": True, "pressures": True}
-SOLE = Layout(7, Foot.LEFT, (Cell(0.05, 0.01), Cell(0.05, -0.01), Cell(0.13, 0.0), Cell(0.20, 0.02)), 0.26)
 KNOWN = Calibration(insoles={Foot.LEFT: InsoleCalibration(SOLE)})
-AIR = (10.0, 20.0, 0.0, 30.0)
 
 
 def frames(*cells: tuple[float, ...], begin: float = 0.0) -> list[Sample]:
@@ -43,11 +40,7 @@ def frames(*cells: tuple[float, ...], begin: float = 0.0) -> list[Sample]:
     return [Sample(begin + 0.01 * k, LEFT, pressure=values) for k, values in enumerate(cells)]
 
 
-def above(*loads: float) -> tuple[float, ...]:
-    return tuple(zero + load for zero, load in zip(AIR, loads, strict=True))
-
-
-STEP = (above(100, 100, 50, 150), above(0, 0, 0, 200), AIR, above(30, 10, 0, 0), above(100, 100, 50, 150))
+STEP = (above(100, 100, 50, 150), above(0, 0, 0, 200), TARE, above(30, 10, 0, 0), above(100, 100, 50, 150))
 """On the whole sole, on the forefoot, in the air, on the heel, on the whole sole again. Known to have been in the air
 once the load has risen again."""
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import json
 import sys
 import threading
-from math import inf
 
 import pytest
 from attrs import define, evolve, field
+from own import Quiet
 from walks import samples
 
 from solepath import Calibration, Foot, Session, recipes
@@ -16,10 +16,8 @@ from solepath.body.fuse.both_feet import BothFeet
 from solepath.body.part import Track
 from solepath.calibration import InsoleCalibration
 from solepath.emulate.sensors.insoles import layout
-from solepath.foot.stance.stance import Detector, Load, Stance
 from solepath.recipes import own
-from solepath.types import Cell, Quat, Vec3, shared
-from solepath.types.vector import IDENTITY, ZERO
+from solepath.types import Cell, shared
 
 
 def test_sessions_are_begun_in_many_threads_at_once() -> None:
@@ -47,18 +45,10 @@ def test_sessions_are_begun_in_many_threads_at_once() -> None:
 
 
 @define
-class Likeness(Detector):
+class Likeness(Quiet):
     """A detector whose limit is compared by nobody, and a second one that cannot be compared at all."""
 
     limit: float = field(default=0.8, eq=False)
-    since: float = field(default=0.0, init=False)
-
-    def update(
-        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
-    ) -> Stance:
-        rate = sum([w * w for w in gyro]) ** 0.5
-        self.since = t
-        return Stance(ZERO, 0.01 if rate < self.limit else inf, rate, None)
 
 
 @define(eq=False)
@@ -78,11 +68,8 @@ class Loner(Likeness):
 
 
 @define(slots=False)
-class Loose(Detector):
+class Loose(Quiet):
     """It may hold what is in no field."""
-
-    limit: float = 0.8
-    update = Likeness.update
 
 
 @pytest.mark.parametrize("kind", [Likeness, Quarrel, Loner])

@@ -9,8 +9,6 @@ import attrs
 import numpy as np
 import pytest
 from attrs import evolve
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from walks import LEFT, NAMES, PACKET_NAMES, RIGHT, machines, of, samples
 
 from solepath import Foot, FootMoved, PacketsLost, Sample, SampleGap, Session, StreamResumed, StreamStale, StrideTaken
@@ -155,27 +153,6 @@ def test_the_same_samples_with_regular_times_on_them_are_another_walk() -> None:
     lengths = [[step.length for step in steps_of(one)] for one in (regular(), fed, untold)]
     assert max(abs(b - a) for a, b in zip(lengths[0], lengths[1], strict=True)) < 0.03
     assert max(abs(b - a) for a, b in zip(lengths[0], lengths[2], strict=False)) > 0.15
-
-
-@given(st.floats(2.5, 12.0), st.floats(0.05, 0.4))
-@settings(max_examples=12, deadline=None)
-def test_a_gap_is_an_event_and_its_step_is_degraded(start: float, duration: float) -> None:
-    told = Session().feed([sample for sample in regular() if not start <= sample.t <= start + duration])
-    (gap,) = of(SampleGap, told)
-    assert gap.t == pytest.approx(start, abs=0.011) and gap.duration == pytest.approx(duration, abs=0.021)
-    assert gap.known_at == pytest.approx(start + duration, abs=0.011)
-    steps = of(StrideTaken, told)
-    assert steps, "a gap must not end the walk"
-    for step in steps:
-        inside = step.t_start <= gap.t + gap.duration and gap.t <= step.t_end
-        if not inside:
-            assert not step.degraded
-        elif step.t_start < gap.t and gap.t + gap.duration < step.t_end:
-            assert step.degraded
-    ends = [step.t_end for step in steps]
-    for true in walker().truth().steps(Foot.LEFT):
-        if true.t_end < gap.t - 0.1 or true.t_start > gap.t + gap.duration + 0.5:
-            assert min(abs(true.t_end - end) for end in ends) < 0.1, "a step away from the gap was lost"
 
 
 def test_lost_packets_are_counted_and_their_gap_degrades_the_step() -> None:

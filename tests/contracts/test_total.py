@@ -15,7 +15,6 @@ from walks import LEFT, PACKET_NAMES, RIGHT, SAMPLE_NAMES, insoles, machines, of
 
 from solepath import (
     FootMoved,
-    Limitation,
     Packet,
     PacketRejected,
     Rejection,
@@ -26,7 +25,6 @@ from solepath import (
     StrideTaken,
 )
 from solepath.link.catalogue import PROFILES
-from solepath.link.decoder import SET_BACK
 
 CHANNELS = sorted({channel.name for profile in PROFILES for channel in profile.channels})
 CUTS = 8
@@ -143,16 +141,6 @@ def test_bytes_that_are_not_a_bytes_object_are_bytes_all_the_same() -> None:
     plain = Session().feed(items)
     for kind in (bytearray, memoryview):
         assert Session().feed([evolve(item, data=kind(item.data)) for item in items]) == plain
-
-
-def test_a_wild_arrival_time_on_one_foot_does_not_silence_the_other() -> None:
-    walk = insoles()
-    session = Session()
-    session.feed(walk.packets[:400])
-    before = session.snapshot()
-    wild = Packet(1e9, LEFT, "insole/frame", b"\xf5 not a frame")
-    assert [type(event) for event in session.feed(wild)] == [PacketRejected]
-    assert session.snapshot() == before
 
 
 def test_a_receiver_whose_clock_is_set_back_goes_on_finding_steps() -> None:
@@ -276,20 +264,3 @@ def test_a_sample_cannot_be_known_before_it_was() -> None:
     told = session.feed([evolve(sample, known_at=sample.t - 3.0) for sample in samples()])
     assert len(of(FootMoved, told)) > 500
     strict(told)
-
-
-def test_a_site_that_is_no_foot_is_said_once() -> None:
-    session = Session()
-    told = session.feed([Sample(0.01 * k, Site.PELVIS, (0.0, 0.0, 9.8), (0.0, 0.0, 0.0)) for k in range(50)])
-    assert [type(event) for event in told] == [Limitation]
-    assert told[0].site is Site.PELVIS and "pelvis" in told[0].what
-
-
-def test_nineteen_packets_from_the_past_are_refused_and_the_twentieth_sets_the_clock() -> None:
-    walk = insoles()
-    session = Session()
-    session.feed(walk.packets[:200])
-    (left,) = (packet for packet in walk.packets[200:202] if packet.site is LEFT)
-    said = [session.feed(evolve(left, t=-50.0 + 0.01 * k)) for k in range(SET_BACK)]
-    assert all(event.reason is Rejection.TIME_BACKWARDS for events in said[:-1] for event in events)
-    assert [type(event).__name__ for event in said[-1]][:1] == ["ClockReset"]

@@ -171,13 +171,6 @@ STAIRS = Connector(ConnectorKind.STAIRS, "stairs", (ConnectorStop("0", (1.0, 5.0
 HOUSE = FloorPlan("house", (level("0", 0.0), level("1", 3.0)), (LIFT, STAIRS))
 
 
-def test_one_walks_through_a_door_and_not_beside_it() -> None:
-    plan = IndexedPlan(HOUSE)
-    assert not plan.crosses(0, 4.5, -0.5, 4.5, 0.5)
-    assert plan.crosses(0, 3.5, -0.5, 3.5, 0.5)
-    assert plan.crosses(0, 4.0, -0.5, 4.0, 0.5)  # the door's post
-
-
 def test_without_rooms_one_is_inside_what_the_walls_and_doors_enclose() -> None:
     plan = IndexedPlan(HOUSE)
     for x, y in ((0.01, 0.01), (5.0, 3.0), (9.99, 5.99), (4.5, 0.01)):

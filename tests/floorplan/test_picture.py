@@ -10,10 +10,10 @@ from commands import run
 from floorplans import FILES
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from recordings import written
 from walks import insoles
 
 from solepath.floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Wall
-from solepath.recording import PacketWriter
 from solepath.show.tables.plan import PlanPicture
 
 any_text = st.text(st.characters(), min_size=1, max_size=12) | st.sampled_from(
@@ -41,10 +41,7 @@ def test_a_full_disk_is_told_with_the_name_of_the_picture() -> None:
 
 
 def test_a_picture_that_cannot_be_written_is_told_before_the_walk_is_computed(tmp_path: Path) -> None:
-    recorded = tmp_path / "walk.jsonl"
-    with PacketWriter(recorded) as writer:
-        for packet in insoles().packets[:400]:
-            writer.write(packet)
+    recorded = written(tmp_path / "walk.jsonl", insoles().packets[:400])
     (tmp_path / "out" / "plan.svg").mkdir(parents=True)
     plan = FILES / "house.geojson"
     done = run("track", recorded, "--floorplan", plan, "--out", tmp_path / "out")

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
-from solepath.foot.navigate.covariance import Covariance, propagate, update
+from solepath.foot.navigate.covariance import HEIGHT, Covariance, believed_height, propagate, update
 
 BLOCKS = [(0, 0), (0, 3), (0, 6), (3, 3), (3, 6), (6, 6)]
 
@@ -64,3 +66,13 @@ def test_the_velocity_update_is_the_kalman_update(seed: int) -> None:
     likelihood = float(z @ np.linalg.inv(innovation) @ z)
     assert update(flat(p), *z.tolist(), r, likelihood * 0.999) is None
     assert update(flat(p), *z.tolist(), r, likelihood * 1.001) is not None
+
+
+@given(st.integers(0, 2**32 - 1), st.floats(0.0, 1.0))
+@settings(max_examples=30, deadline=None)
+def test_a_height_known_from_elsewhere_leaves_a_covariance(seed: int, left: float) -> None:
+    root = np.random.default_rng(seed).normal(size=(9, 9))
+    p, d = root @ root.T, np.diag([1.0, 1.0, left**0.5, *[1.0] * 6])
+    found = believed_height(flat(p), left)
+    np.testing.assert_allclose(square(found), d @ p @ d, rtol=1e-9, atol=1e-12)
+    assert found[HEIGHT] == pytest.approx(left * p[2, 2])

@@ -8,10 +8,11 @@ from statistics import median
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from walks import of
 
-from solepath import Foot, Sample, Session, Site, ToeOff
+from solepath import Foot, Sample, Session, ToeOff
 from solepath.emulate import Route, Walker
-from solepath.events import Event, HeelStrike
+from solepath.events import HeelStrike
 from solepath.foot.cues.impact import Impact
 from solepath.foot.cues.inertial import InertialCues
 from solepath.foot.navigate.error_state import ErrorStateFilter
@@ -24,10 +25,6 @@ from solepath.types.vector import GRAVITY, ZERO, from_rotation_vector, rotate
 def walked(speed: float, rate: float = 100.0, far: float = 15.0) -> tuple[Walker, list[Sample]]:
     walker = Walker(Route().stand(2).walk(far, speed).stop(2), seed=5)
     return walker, [Sample(s.t, s.site, s.acc, s.gyro) for s in walker.samples(Foot.LEFT, rate)]
-
-
-def of(kind: type[HeelStrike] | type[ToeOff], events: list[Event]) -> list[HeelStrike | ToeOff]:
-    return [event for event in events if isinstance(event, kind)]
 
 
 @pytest.mark.parametrize("speed", [0.9, 1.3, 1.7])
@@ -126,10 +123,6 @@ def test_heading_grows_less_certain_with_time() -> None:
     lasted = samples[-1].t - 2.0  # what comes before the first heel-off is one stretch, and so is what is under way
     assert foot.gait.way.yaw == pytest.approx(foot.corrector.heading_drift**2 * lasted, rel=0.4)
     assert session.position is not None and session.position.covariance[3] > foot.gait.way.yaw * 10.0**2 / 4
-
-
-def test_sites_are_their_own_foot() -> None:
-    assert Site.LEFT_FOOT.foot is Foot.LEFT and Site.PELVIS.foot is None
 
 
 # --- the middle of an impact ------------------------------------------------------------------------------------------

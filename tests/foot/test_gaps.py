@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
 from itertools import pairwise
 from math import hypot, radians
 from random import Random
@@ -10,12 +9,11 @@ from random import Random
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from one_foot import PHASES, heard, walked, without
 from walks import of
 
-from solepath import Event, Foot, FootFlat, HeelOff, HeelStrike, Sample, Session, StrideTaken, ToeOff
+from solepath import Event, Foot, Session, StrideTaken
 from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.parts import LSM6DSOX
-from solepath.emulate.wearers.truth import TrueStep
 from solepath.emulate.wearers.walker import Walker
 from solepath.foot.gaps.gap import NoLeap, leap
 from solepath.foot.gaps.moment import corrected, moments
@@ -25,29 +23,6 @@ from solepath.foot.tracker import FootTracker
 from solepath.saving import codec as machine
 from solepath.types import Quat, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO
-
-PHASES = HeelStrike | FootFlat | HeelOff | ToeOff
-
-
-STRAIGHT = Route().stand(2.0).walk(12.0, 1.3).stop(2.0)
-
-
-@cache
-def walked(route: Route = STRAIGHT, seed: int = 5) -> tuple[tuple[Sample, ...], tuple[TrueStep, ...]]:
-    """The left foot at 100 Hz without cells, and its true steps."""
-    walker = Walker(route, seed=seed)
-    return tuple(walker.samples(Foot.LEFT, 100.0, LSM6DSOX)), walker.truth().steps(Foot.LEFT)
-
-
-def without(samples: tuple[Sample, ...], *gaps: tuple[float, float]) -> list[Sample]:
-    """What is left of them after gaps from one time to another, s."""
-    return [sample for sample in samples if not any(a < sample.t < b for a, b in gaps)]
-
-
-def heard(samples: list[Sample] | tuple[Sample, ...]) -> tuple[list[Event], Session]:
-    session = Session()
-    return session.feed(samples), session
-
 
 # --- before anything is known -----------------------------------------------------------------------------------------
 

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from functools import cache
 from itertools import pairwise
 from math import hypot, radians
 
 import pytest
 from attrs import evolve
+from one_foot import PHASES, heard, walked, without
 from walks import of
 
-from solepath import Event, Foot, FootFlat, HeelOff, HeelStrike, Sample, SampleGap, Session, StrideTaken, ToeOff
+from solepath import Event, Foot, FootFlat, HeelOff, HeelStrike, Sample, SampleGap, StrideTaken, ToeOff
 from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.truth import TrueStep
-from solepath.emulate.wearers.walker import Walker
 from solepath.foot.gaps.straight import StraightOn
 
-PHASES = HeelStrike | FootFlat | HeelOff | ToeOff
-STRAIGHT = Route().stand(2.0).walk(12.0, 1.3).stop(2.0)
 GENTLE = {
     f"{degrees} degrees a stride": Route().stand(2.0).walk(6.0, 1.3).turn(radians(120), radius=radius).walk(4.0).stop()
     for degrees, radius in ((5, 15.5), (8, 9.7), (10, 7.8))
@@ -27,23 +23,6 @@ SHARP = {
     "about a corner": Route().stand(2.0).walk(6.0, 1.2).turn(radians(90), radius=0.8).walk(5.0).stop(),
     "to the right": Route().stand(2.0).walk(6.0, 1.2).turn(radians(-90), radius=1.0).walk(5.0).stop(),
 }
-
-
-@cache
-def walked(route: Route = STRAIGHT, seed: int = 5) -> tuple[tuple[Sample, ...], tuple[TrueStep, ...]]:
-    """The left foot at 100 Hz without cells, and its true steps."""
-    walker = Walker(route, seed=seed)
-    return tuple(walker.samples(Foot.LEFT, 100.0, LSM6DSOX)), walker.truth().steps(Foot.LEFT)
-
-
-def without(samples: tuple[Sample, ...], *gaps: tuple[float, float]) -> list[Sample]:
-    """What is left of them after gaps from one time to another, s."""
-    return [sample for sample in samples if not any(a < sample.t < b for a, b in gaps)]
-
-
-def heard(samples: list[Sample] | tuple[Sample, ...]) -> tuple[list[Event], Session]:
-    session = Session()
-    return session.feed(samples), session
 
 
 def around(steps: tuple[StrideTaken, ...] | list[StrideTaken], t: float) -> StrideTaken:

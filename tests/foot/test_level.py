@@ -19,7 +19,6 @@ from solepath.emulate.sensors.parts import LSM6DSOX, MPU6050, Imu
 from solepath.emulate.wearers.motion import Kinematics
 from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
 from solepath.emulate.wearers.walker import Walker
-from solepath.foot.navigate.covariance import HEIGHT, believed_height
 from solepath.foot.navigate.level import LevelGround
 from solepath.recipes import DEFAULT, Recipe
 from solepath.saving import codec as machine
@@ -129,24 +128,6 @@ def test_whatever_is_judged_the_state_stays_finite(rows: list[tuple[float, ...]]
         level.judge((x, y, z), turn, variance, pitched(tilt))
     assert machine.load(LevelGround, machine.save(level)) == level
     assert abs(judged(level, [0.0])[0]) < 1.0
-
-
-@given(st.integers(0, 2**32 - 1), st.floats(0.0, 1.0))
-@settings(max_examples=30, deadline=None)
-def test_a_height_known_from_elsewhere_leaves_a_covariance(seed: int, left: float) -> None:
-    root = np.random.default_rng(seed).normal(size=(9, 9))
-    places = [
-        (row + i, column + j)
-        for row, column in [(0, 0), (0, 3), (0, 6), (3, 3), (3, 6), (6, 6)]
-        for i in range(3)
-        for j in range(3)
-        if row != column or j >= i
-    ]
-    p = root @ root.T
-    d = np.diag([1.0, 1.0, left**0.5, *[1.0] * 6])
-    found = believed_height(tuple(float(p[place]) for place in places), left)
-    np.testing.assert_allclose(found, [(d @ p @ d)[place] for place in places], rtol=1e-9, atol=1e-12)
-    assert found[HEIGHT] == pytest.approx(left * p[2, 2])
 
 
 # --- walked -----------------------------------------------------------------------------------------------------------

@@ -91,14 +91,6 @@ def test_a_session_has_its_own_copy_of_the_recipe() -> None:
     assert recipes.DEFAULT.detector.sigma != 7.0
 
 
-def test_after_finish_time_brings_nothing() -> None:
-    walk = emulate(Route().stand(1).walk(2, 1.2).stop(1), seed=3)
-    session = Session()
-    session.feed(walk.packets)
-    session.finish()
-    assert session.advance(1e4) == [] and session.finish() == []
-
-
 def test_a_packet_that_cannot_be_used_does_not_set_the_clock_back() -> None:
     walk = emulate(Route().stand(3), devices={LEFT: CC2650()}, seed=1)
     session = Session()

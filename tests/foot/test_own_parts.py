@@ -1,82 +1,29 @@
-"""A corrector and cues of an app's own: in a recipe, in a snapshot, and held against what a session needs of them."""
+"""A detector, a corrector and cues of an app's own: in a recipe and in a snapshot."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
-from math import inf, nan
+from collections import deque
+from math import inf
 from typing import Any
 
 import pytest
 from attrs import define, evolve, field
+from own import CELLS, WALKED, ByMotion, Quiet, Resets
 from walks import of, samples
 
-from solepath import Foot, HeelStrike, Phase, Session, SnapshotError, StrideTaken, recipes
+from solepath import Foot, HeelStrike, Session, SnapshotError, StrideTaken, recipes
 from solepath.calibration import Calibration, InsoleCalibration
-from solepath.emulate import Route, Walker
-from solepath.emulate.sensors.insoles import layout
-from solepath.foot.cues.cues import Cues, Seen
-from solepath.foot.navigate.corrector import Corrector
-from solepath.foot.navigate.dedrift import LinearDedrift
-from solepath.foot.phase import Cue
-from solepath.foot.stance.stance import Load, Stance
-from solepath.recipes import NAMES, by_name
+from solepath.foot.stance.stance import Stance
+from solepath.saving.codec import load, save
 from solepath.testing.promises import broken
-from solepath.types import Layout, Vec3
+from solepath.types import Vec3
 
-CELLS = layout(24, Foot.LEFT)
-WALKED = tuple(Walker(Route().stand(2).walk(8).stop(2)).samples(Foot.LEFT, 100.0, layout=CELLS))
-
-
-@define
-class Resets(LinearDedrift):
-    """The velocity is reset in stance, and the position keeps its drift."""
-
-    resets: int = field(default=0, init=False)
-
-    def correct(self, t: float, stance: Stance) -> bool:
-        where = self.position
-        if not LinearDedrift.correct(self, t, stance):
-            return False
-        self.position = where
-        self.resets += 1
-        return True
+OWN = evolve(recipes.DEFAULT, name="mine", detector=Quiet(), corrector=Resets(), cues=ByMotion())
+PARTS = [Quiet, Resets, ByMotion]
 
 
-@define
-class ByMotion(Cues):
-    """A foot that is still has landed flat, one that is not is lifted, and one that is fast has left the ground."""
-
-    fast: float = 1.0
-    for_foot: str = ""
-    cells: int = field(default=0, init=False)
-    stood: float | None = field(default=None, init=False)
-
-    def update(
-        self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
-        load: Load | None, stance: Stance,
-    ) -> Sequence[Seen]:  # fmt: skip
-        if still:
-            self.stood = t
-            return (Seen(Cue.CONTACT, t), Seen(Cue.FLAT, t)) if phase is not Phase.STATIONARY else ()
-        if phase is Phase.STATIONARY:
-            return (Seen(Cue.LIFT, t),)
-        return (Seen(Cue.CLEAR, t),) if speed > self.fast and phase is not Phase.SWING else ()
-
-    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[Seen]:
-        return (Seen(Cue.CLEAR if load.airborne else Cue.CONTACT, t),)
-
-    def wear(self, layout: Layout) -> None:
-        self.cells = len(layout.cells)
-
-    def calibrated(self, foot: Foot, calibration: Calibration) -> ByMotion:
-        return evolve(self, for_foot=foot.value)
-
-
-OWN = evolve(recipes.DEFAULT, name="mine", corrector=Resets(), cues=ByMotion())
-
-
-def test_a_walk_with_a_corrector_and_cues_of_ones_own_is_saved_and_goes_on_when_their_classes_are_named() -> None:
+def test_a_walk_with_parts_of_ones_own_is_saved_and_goes_on_when_their_classes_are_named() -> None:
     walked = samples(cells=0)
     whole, half = Session(OWN), len(walked) // 2
     events = [whole.feed(sample) for sample in walked]
@@ -87,12 +34,23 @@ def test_a_walk_with_a_corrector_and_cues_of_ones_own_is_saved_and_goes_on_when_
     first = Session(OWN)
     first.feed(walked[:half])
     saved = json.loads(json.dumps(first.snapshot()))
-    for parts, missing in (([Resets], "ByMotion"), ([ByMotion], "Resets")):
-        with pytest.raises(SnapshotError, match=f"'{missing}'"):
-            Session.restore(saved, parts=parts)
-    for second in (Session.restore(saved, parts=[Resets, ByMotion]), Session.unpack(first.pack(), OWN)):
+    for missing in PARTS:
+        with pytest.raises(SnapshotError, match=f"'{missing.__name__}'"):
+            Session.restore(saved, parts=[part for part in PARTS if part is not missing])
+    ended = whole.finish()
+    for second in (Session.restore(saved, parts=PARTS), Session.unpack(first.pack(), OWN)):
         assert [second.feed(sample) for sample in walked[half:]] == events[half:]
-        assert second.recipe == OWN
+        assert second.finish() == ended and second.recipe == OWN
+        assert json.dumps(second.snapshot()) == json.dumps(whole.snapshot())
+
+
+def test_a_clock_that_begins_anew_leaves_a_detector_of_ones_own_with_its_settings_alone() -> None:
+    session = Session(evolve(OWN, detector=Quiet(limit=0.7)))
+    session.feed(WALKED[:50])
+    tracker = session.feet[Foot.LEFT]
+    assert tracker.detector != evolve(OWN.detector, limit=0.7)
+    tracker.interrupt()
+    assert tracker.detector == evolve(OWN.detector, limit=0.7)
 
 
 def test_cues_of_ones_own_are_told_where_the_cells_are_and_speak_for_an_insole_alone() -> None:
@@ -102,121 +60,79 @@ def test_cues_of_ones_own_are_told_where_the_cells_are_and_speak_for_an_insole_a
     assert len(of(HeelStrike, events)) >= 3
 
 
-# --- promises ---------------------------------------------------------------------------------------------------------
-
-PARTS: dict[str, Any] = {
-    **{type(part).__name__: part for recipe in map(by_name, NAMES) for part in (recipe.corrector, recipe.cues)},
-    "Resets": Resets(),
-    "ByMotion": ByMotion(),
-}
-
-
-@pytest.mark.parametrize("name", PARTS)
-def test_correctors_and_cues_that_recipes_have_keep_their_promises(name: str) -> None:
-    assert broken(PARTS[name], WALKED, CELLS) == []
+def test_classes_that_are_no_parts_or_share_a_name_are_refused() -> None:
+    saved = Session(OWN).snapshot()
+    other = define(type("Quiet", (), {"__annotations__": {}}))
+    with pytest.raises(TypeError, match="attrs class"):
+        Session.restore(saved, parts=[int])
+    with pytest.raises(ValueError, match="one name"):
+        Session.restore(saved, parts=[Quiet, other])
+    with pytest.raises(SnapshotError):
+        Session.restore(saved, parts=[other])
 
 
 @define
-class Drifting(Resets):
-    """Its position is no number after a while."""
+class Usual(Quiet):
+    """Beside what was usual lately, by windows that forget by themselves."""
 
-    def correct(self, t: float, stance: Stance) -> bool:
-        if t > 6.0:
-            self.position = (nan, 0.0, 0.0)
-        return Resets.correct(self, t, stance)
+    rates: deque[float] = field(factory=lambda: deque(maxlen=8), init=False)
+    by_kind: dict[str, deque[float]] = field(factory=dict, init=False)
 
-
-@define
-class Flat(Resets):
-    def correct(self, t: float, stance: Stance) -> bool:
-        believed = Resets.correct(self, t, stance)
-        if t > 1e5:
-            self.position = (0.0, 0.0, inf)
-        return believed
+    def update(self, t: float, dt: float, acc: Vec3, gyro: Vec3, *rest: Any) -> Stance:
+        rate = sum([w * w for w in gyro]) ** 0.5
+        self.rates.append(rate)
+        self.by_kind.setdefault("all", deque(maxlen=5)).append(rate)
+        usual = sum(self.rates) / len(self.rates) + sum(self.by_kind["all"])
+        return Quiet.update(self, t, dt, acc, gyro, *rest)._replace(statistic=usual)
 
 
-@define
-class Growing(Resets):
-    def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
-        Resets.predict(self, dt, acc, gyro, saturated)
-        w, x, y, z = self.attitude
-        self.attitude = (1.001 * w, 1.001 * x, 1.001 * y, 1.001 * z)
-
-
-@define
-class Certain(Resets):
-    def covariance(self) -> tuple[float, ...]:
-        return (-1.0, *Resets.covariance(self)[1:])
+def test_a_window_that_forgets_by_itself_still_does_after_it_was_saved() -> None:
+    assert broken(Usual(), WALKED) == []
+    one = Usual()
+    for sample in WALKED[:20]:
+        assert sample.acc is not None and sample.gyro is not None
+        one.update(sample.t, 0.01, sample.acc, sample.gyro, None)
+    saved: Any = json.loads(json.dumps(save(one)))
+    again = load(Usual, saved)
+    assert again == one and again.rates.maxlen == 8 and again.by_kind["all"].maxlen == 5
+    assert save(again) == saved
+    for most, items in ((8, None), (2, [1.0, 2.0, 3.0]), (-1, []), (True, [1.0]), ("8", [])):
+        with pytest.raises(SnapshotError):
+            load(Usual, saved | {"rates": {"maxlen": most, "is": items}})
 
 
 @define
-class Hoarding(Resets):
-    seen: list[float] = field(factory=list, init=False)
-
-    def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
-        self.seen.append(dt)
-        Resets.predict(self, dt, acc, gyro, saturated)
-
-
-@define(slots=False)
-class Leaving(Resets):
-    """It remembers in no field how many samples there were."""
-
-    def correct(self, t: float, stance: Stance) -> bool:
-        self.__dict__["times"] = self.__dict__.get("times", 0) + 1
-        self.lasted = 0.001 * self.__dict__["times"]
-        return Resets.correct(self, t, stance)
+class Window:
+    recent: deque = field(factory=deque)  # type: ignore[type-arg]
 
 
 @define
-class Foretelling(ByMotion):
-    def update(self, t: float, *rest: Any) -> Sequence[Seen]:
-        return [Seen(one.cue, t + 1.0) for one in ByMotion.update(self, t, *rest)]
+class Level:
+    highest: float = inf
 
 
 @define
-class Listing(ByMotion):
-    seen: list[float] = field(factory=list, init=False)
-
-    def update(self, t: float, *rest: Any) -> Sequence[Seen]:
-        self.seen.append(t)
-        return ByMotion.update(self, t, *rest)
+class Holder:
+    held: Window | Level | None
 
 
-@define
-class Turning(ByMotion):
-    @property
-    def sagittal(self) -> float:
-        return nan
+def test_what_a_snapshot_cannot_hold_is_named_with_its_class_and_field() -> None:
+    with pytest.raises(TypeError, match=r"cannot hold Window\.recent: .* write deque\[float\]"):
+        save(Holder(Window()))
+    with pytest.raises(SnapshotError, match=r"cannot hold Level\.highest: inf"):
+        save(Holder(Level()))
+    with pytest.raises(TypeError, match=r"cannot hold Holder\.held: a Quiet where Window or Level is known"):
+        save(Holder(Quiet()))  # type: ignore[arg-type]
 
 
-@pytest.mark.parametrize(
-    ("part", "what"),
-    [
-        (Drifting(), "cannot hold Drifting.position: nan"),
-        (Flat(), "position is three finite numbers"),
-        (Growing(), "attitude is a unit quaternion"),
-        (Certain(), "a covariance is seven finite numbers"),
-        (Hoarding(), "more and more"),
-        (Leaving(), "in no field"),
-        (Foretelling(), "a cue is of the past"),
-        (Listing(), "more and more"),
-        (Turning(), "sagittal is finite"),
-    ],
-    ids=lambda value: value if isinstance(value, str) else type(value).__name__,
-)
-def test_a_broken_promise_is_named(part: Any, what: str) -> None:
-    assert any([what in sentence for sentence in broken(part, WALKED)])
-
-
-def test_a_class_that_extends_nothing_is_no_part() -> None:
-    @define
+def test_what_cannot_be_saved_says_so_when_it_is_to_be_saved() -> None:
     class Bare:
-        limit: float = 1.0
+        update = Quiet.update
 
-    with pytest.raises(TypeError, match="Bare extends neither Detector nor Corrector nor Cues"):
-        broken(Bare(), WALKED)  # type: ignore[arg-type]
-
-
-def test_a_corrector_need_not_be_one_of_ours() -> None:
-    assert Corrector in Resets.__mro__ and not issubclass(ByMotion, LinearDedrift)
+    Same = define(type("ShoeDetector", (), {"__annotations__": {}, "update": Quiet.update}))
+    for detector, what in ((Bare(), "no attrs class"), (Same(), "give it another name")):
+        session = Session(evolve(recipes.DEFAULT, detector=detector))
+        session._state.wearer._keep(session._state.wearer._tracker(Foot.LEFT))
+        for save_it in (session.snapshot, session.pack):
+            with pytest.raises(TypeError, match=what):
+                save_it()

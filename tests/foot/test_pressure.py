@@ -10,9 +10,10 @@ import pytest
 from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
+from one_foot import SOLE, TARE, above
 from walks import LEFT, SHORT, insoles, of, samples
 
-from solepath import Cell, Foot, FootFlat, HeelOff, HeelStrike, Layout, Sample, Session, StrideTaken, ToeOff
+from solepath import Foot, FootFlat, HeelOff, HeelStrike, Layout, Sample, Session, StrideTaken, ToeOff
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
@@ -21,15 +22,6 @@ from solepath.foot.pressure.insole import Extremes, InsoleLoads
 from solepath.foot.stance.pressure import MaximumPressure, TwoArea
 from solepath.foot.stance.stance import Load, Stance
 from solepath.types import Phase
-
-SOLE = Layout(7, Foot.LEFT, (Cell(0.05, 0.01), Cell(0.05, -0.01), Cell(0.13, 0.0), Cell(0.20, 0.02)), 0.26)
-"""Two cells at the heel (x < 0.33 x 0.26), one under the arch, one at the forefoot (x > 0.55 x 0.26)."""
-
-TARE = (10.0, 20.0, 0.0, 30.0)
-
-
-def above(*loads: float) -> tuple[float, ...]:
-    return tuple(zero + load for zero, load in zip(TARE, loads, strict=True))
 
 
 def worn(*frames: tuple[float, ...]) -> InsoleLoads:
@@ -46,16 +38,14 @@ STEP = (above(100, 100, 50, 150), above(0, 0, 0, 200), TARE, above(30, 30, 0, 0)
 
 
 def test_nothing_is_known_until_the_load_has_fallen_and_risen_again() -> None:
-    insole = InsoleLoads()
-    insole.wear(SOLE)
+    insole = worn()
     said = [insole.update(0.01 * k, cells) for k, cells in enumerate(STEP)]
     assert [load is None for load in said] == [True, True, True, True, False]
 
 
 def test_a_load_that_only_falls_is_not_a_foot_in_the_air() -> None:
     """Weight goes over to the other foot before the first step: the least load so far is still a load."""
-    insole = InsoleLoads()
-    insole.wear(SOLE)
+    insole = worn()
     for k in range(60):
         share = 1.0 - 0.01 * k
         assert insole.update(0.01 * k, above(*(share * part for part in (100, 100, 50, 150)))) is None
@@ -73,10 +63,7 @@ def test_the_load_is_a_share_of_the_wearers_own() -> None:
 
 
 def test_newtons_and_counts_serve_alike() -> None:
-    one, other = worn(*STEP), InsoleLoads()
-    other.wear(SOLE)
-    for k, cells in enumerate(STEP):
-        other.update(0.01 * k, tuple(4.7 * value for value in cells))
+    one, other = worn(*STEP), worn(*(tuple(4.7 * value for value in cells) for cells in STEP))
     a, b = one.update(0.05, above(40, 10, 5, 60)), other.update(0.05, tuple(4.7 * v for v in above(40, 10, 5, 60)))
     assert a is not None and b is not None
     assert b.cells == pytest.approx([4.7 * value for value in a.cells])

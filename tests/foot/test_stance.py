@@ -86,18 +86,6 @@ def test_the_statistic_is_what_its_formula_says(detector: Any, formula: Any, len
     assert found == pytest.approx(formula(ACC[-length:], GYRO[-length:]), rel=1e-9)
 
 
-def test_by_hand() -> None:
-    """Two samples, worked out on paper."""
-    acc: Rows = [(0.0, 0.0, GRAVITY), (0.0, 0.0, GRAVITY + 0.2)]
-    gyro: Rows = [(0.03, 0.0, 0.0), (0.0, 0.04, 0.0)]
-    assert run(MovingVariance(), acc, gyro)[-1].statistic == pytest.approx(0.1**2 / 1e-4)
-    assert run(AngularRate(), acc, gyro)[-1].statistic == pytest.approx((0.0009 + 0.0016) / 2 / SIGMA_GYRO**2)
-    assert run(ShoeDetector(), acc, gyro)[-1].statistic == pytest.approx(0.04 / 2 / 1e-4 + 0.0025 / 2 / SIGMA_GYRO**2)
-    three: Rows = [(0.0, 0.0, 0.0), (0.0, 0.0, 0.0), (0.0, 3.0, 4.0)]  # one stands apart by 5
-    # cuts (0, 1): (0 + 5) / (1 x 3); (0, 2): 5 / (2 x 2); (1, 2): (5 + 5) / (1 x 2)
-    assert run(Graph(), three, [(0.0, 0.0, 0.0)] * 3)[-1].statistic == pytest.approx(5.0)
-
-
 @pytest.mark.parametrize(
     ("detector", "formula", "length"),
     [

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from attrs import evolve
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from walks import LEFT, of
 
@@ -117,6 +117,9 @@ def turned(sample: Sample, mounting: tuple[float, float, float, float]) -> Sampl
 
 
 @given(_QUATS)
+@example((0.0, 1.0, 0.0, 0.0))
+@example((0.0, 0.0, 1.0, 0.0))
+@example(normalise((1.0, 1.0, 0.0, 0.0)))
 @settings(max_examples=8, deadline=None)
 def test_steps_are_the_same_however_the_sensor_is_turned(mounting: tuple[float, float, float, float]) -> None:
     plain = of(StrideTaken, told(fed()))
@@ -127,16 +130,6 @@ def test_steps_are_the_same_however_the_sensor_is_turned(mounting: tuple[float, 
         assert b.length == pytest.approx(a.length, abs=0.01)
         assert b.displacement == pytest.approx(a.displacement, abs=0.02)
         assert b.heading_change == pytest.approx(a.heading_change, abs=0.01)
-
-
-@pytest.mark.parametrize(
-    "mounting", [(0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0), normalise((1.0, 1.0, 0.0, 0.0))], ids=str
-)
-def test_upside_down_or_on_edge_is_a_mounting_too(mounting: tuple[float, float, float, float]) -> None:
-    steps = of(StrideTaken, told(turned(sample, mounting) for sample in fed()))
-    assert [step.length for step in steps] == pytest.approx(
-        [step.length for step in of(StrideTaken, told(fed()))], abs=0.01
-    )
 
 
 def test_a_sensor_on_the_laces_finds_the_same_steps_as_one_in_the_sole() -> None:

@@ -18,13 +18,27 @@ from solepath import (
     FlightClimbed,
     Foot,
     LiftRidden,
+    Placed,
+    PlaceLost,
     StrideFeatures,
     StrideTaken,
     Vec3,
 )
 from solepath.body.part import Position
+from solepath.body.place.particles import Particles
 from solepath.floorplan.index import IndexedPlan
-from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Point, Wall
+from solepath.floorplan.plan import (
+    Anchor,
+    Connector,
+    ConnectorKind,
+    ConnectorStop,
+    FloorPlan,
+    Level,
+    Point,
+    Start,
+    Wall,
+)
+from solepath.papers.footstep_tracker.snake import SnakeGame
 
 STOREY = 3.6
 WIDE, DEEP = 40.0, 30.0
@@ -101,6 +115,9 @@ def office(anchor: Anchor | None = None) -> FloorPlan:
 
 
 OFFICE = IndexedPlan(office())
+METHODS = (Particles, SnakeGame)
+Method = Particles | SnakeGame
+"""Finds a wearer on a plan."""
 
 
 @define
@@ -138,6 +155,11 @@ class Pedestrian:
         self.scale = 1.0 + 0.02 * self.random.choice([-1.0, 1.0])
         self.drift = radians(5.0) / 60.0 * self.random.choice([-1.0, 1.0])
         self.turned = self.random.uniform(-pi, pi)
+
+    def known_to(self, part: Method) -> Pedestrian:
+        """It is told where the first step begins, and how the track is turned."""
+        part.set_out(Start(self.level, self.place, -self.turned))
+        return self
 
     def here(self) -> Position:
         return Position(self.t, self.track, (0.01, 0.0, 0.0, 0.01, 0.0, 0.01))
@@ -212,6 +234,20 @@ def stepped(
 
 def doing(t: float, known_at: float, activity: Activity) -> ActivityChanged:
     return ActivityChanged(t=t, known_at=max(t, known_at), activity=activity, probability=None)
+
+
+def follow(part: Method, told: list[Told], plan: IndexedPlan = OFFICE) -> list[Event]:
+    """What it says of all this."""
+    return [event for one in told for event in part.follow(plan, one.events, one.here)]
+
+
+def placed(events: list[Event]) -> list[Placed]:
+    return [event for event in events if isinstance(event, Placed)]
+
+
+def lost(events: list[Event]) -> list[str]:
+    """Why the place was lost each time."""
+    return [event.what for event in events if isinstance(event, PlaceLost)]
 
 
 CORNERS = ((LEFT, LOW), (RIGHT, LOW), (RIGHT, HIGH), (LEFT, HIGH))

@@ -15,9 +15,10 @@ from typing import Any, get_type_hints
 
 import figures
 import pytest
-from commands import run
+from commands import run, solepath
 from here import EXAMPLES, PROTOCOL, TESTS
 from quoted import NUMBER, PAGES, ROOT, below, blocks, nearly_the_same
+from recordings import written
 from snooped import insoles_log
 
 from solepath import LiftRidden, Session
@@ -27,7 +28,6 @@ from solepath.emulate import Route, emulate
 from solepath.fleet import NumberedEvent, Sent, sent_line, told_row
 from solepath.foot.pressure.insole import InsoleLoads
 from solepath.recipes import PARTS, part_class
-from solepath.recording import PacketWriter
 from solepath.show.output import STRIDE_COLUMNS, TRACK_COLUMNS
 from solepath.types import Foot, Site
 
@@ -108,9 +108,7 @@ def test_a_wearer_of_a_fleet_goes_through_its_step_and_through_its_job(played, t
     pytest.importorskip("bytewax", reason="bytewax has no release for this Python")
     testing, parquet = import_module("bytewax.testing"), import_module("pyarrow.parquet")
     walk = emulate(Route().stand(2).walk(3).stop(1), seed=1)
-    with PacketWriter(tmp_path / "walk.jsonl") as writer:
-        for packet in walk.packets:
-            writer.write(packet)
+    written(tmp_path / "walk.jsonl", walk.packets)
     (tmp_path / "sent").mkdir()
     sent = [sent_line(Sent("w-17", number, packet)) for number, packet in enumerate(walk.packets)]
     for hour in (11, 8, 10, 9):
@@ -227,8 +225,8 @@ def anchors(text: str) -> set[str]:
 
 
 def test_links_of_all_pages_lead_somewhere():
-    for page, written in MARKDOWN.items():
-        text = re.sub(r"`[^`\n]*`", "", written)
+    for page, source in MARKDOWN.items():
+        text = re.sub(r"`[^`\n]*`", "", source)
         for target in re.findall(r"\]\(([^)\s]+)\)", text) + re.findall(r'<img src="([^"]+)"', text):
             path, _, anchor = target.partition("#")
             if path.startswith("https:"):
@@ -264,13 +262,7 @@ def test_the_table_of_parts_has_them_all():
 
 
 def test_the_demonstration_of_100_m_comes_to_what_is_quoted():
-    done = subprocess.run(
-        [sys.executable, "-m", "solepath", *figures.LONG_DEMO],
-        capture_output=True,
-        stdin=subprocess.DEVNULL,
-        text=True,
-        check=True,
-    )
+    done = solepath(*figures.LONG_DEMO)
     *fresh, fresh_end = figures.lines("figure", figures.walked(done.stdout))
     *quoted, end = below("hundred")
     nearly_the_same(quoted, fresh)

@@ -12,19 +12,6 @@ SRC = ROOT / "src" / "solepath"
 LINES, FILES, NAMES = 300, 14, 20
 """Lines of a file, Python files of a folder, names at the top of src/solepath: at the most."""
 
-LONGER = {
-    "tests/helpers/radio/memory_radio.py": 363,
-    "tests/link/test_decoder.py": 645,
-    "tests/link/test_stream.py": 453,
-    "tests/page/test_browser.py": 344,
-    "tests/page/test_player.py": 305,
-    "tests/page/test_scene.py": 575,
-    "tests/page/test_server.py": 754,
-}
-"""Files that are longer today, with their lines: a number may only fall, and goes when the file is below 300."""
-SHARED = {"Access"}
-"""Names that two classes have today."""
-
 
 def lines(path: Path) -> int:
     return len(path.read_text(encoding="utf-8").splitlines())
@@ -34,11 +21,9 @@ def python(folder: Path) -> list[Path]:
     return [path for path in sorted(folder.rglob("*.py")) if "__pycache__" not in path.parts]
 
 
-def test_no_file_is_longer_than_300_lines_but_for_those_that_shrink() -> None:
+def test_no_file_is_longer_than_300_lines() -> None:
     found = {path.relative_to(ROOT).as_posix(): lines(path) for top in (SRC, TESTS) for path in python(top)}
-    grown = {name: count for name, count in found.items() if count > LONGER.get(name, LINES)}
-    assert grown == {}, "split them by subject"
-    assert [name for name in LONGER if found.get(name, 0) <= LINES] == [], "these need no number any more"
+    assert {name: count for name, count in found.items() if count > LINES} == {}, "split them by subject"
 
 
 def test_no_folder_holds_more_than_14_python_files() -> None:
@@ -60,4 +45,4 @@ def test_no_class_has_the_name_of_another() -> None:
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
         if isinstance(node, ast.ClassDef)
     )
-    assert {name for name, count in named.items() if count > 1} <= SHARED
+    assert {name for name, count in named.items() if count > 1} == set()

@@ -2,22 +2,22 @@
 
 import io
 import re
-import subprocess
-import sys
 from argparse import ArgumentParser
 from contextlib import redirect_stdout
 from functools import cache
+from pathlib import Path
 from typing import get_args
 
 import figures
 import pytest
+from commands import solepath
 from quoted import NUMBER, README, below, blocks
+from recordings import written
 
 from solepath import Event
 from solepath.cli.main import parser
 from solepath.emulate import Radio, Route, emulate
 from solepath.recipes import NAMES
-from solepath.recording import PacketWriter
 from solepath.types import Foot
 
 
@@ -27,9 +27,7 @@ def first_cells(table: list[str]) -> list[str]:
 
 @cache
 def demonstration() -> str:
-    return subprocess.run(
-        [sys.executable, "-m", "solepath", "demo"], capture_output=True, stdin=subprocess.DEVNULL, text=True, check=True
-    ).stdout
+    return solepath("demo").stdout
 
 
 def test_it_is_short():
@@ -39,9 +37,7 @@ def test_it_is_short():
 def test_its_loop_hears_every_step_of_a_walk(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     walk = emulate(Route().stand(2).walk(6, speed=1.3).stop(2), radio=Radio(corrupt=0.02), seed=1)
-    with PacketWriter("walk.jsonl") as writer:
-        for packet in walk.packets:
-            writer.write(packet)
+    written(Path("walk.jsonl"), walk.packets)
     (program,) = blocks(README, "python")
     with redirect_stdout(io.StringIO()) as out:
         exec(compile(program, "README.md", "exec"), {"__name__": "readme"})

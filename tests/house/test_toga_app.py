@@ -50,16 +50,12 @@ def shown(canvas: Any, what: str) -> list[Any]:
     return [done[1] for done in canvas._impl.draw_instructions if isinstance(done, tuple) and done[0] == what]
 
 
-def test_after_a_walk_the_labels_say_what_was_walked_and_the_canvases_show_it(example: Any) -> None:
-    async def go() -> Any:
-        app = opened(example)
-        assert {label.text for label in app.figures.values()} == {"0", "–"}
-        app.begin(of(WALK.packets))
-        assert app.start.text == "Stop" and not app.show.enabled
-        await app.listening
-        return app
-
-    app = asyncio.run(go())
+async def test_after_a_walk_the_labels_say_what_was_walked_and_the_canvases_show_it(example: Any) -> None:
+    app = opened(example)
+    assert {label.text for label in app.figures.values()} == {"0", "–"}
+    app.begin(of(WALK.packets))
+    assert app.start.text == "Stop" and not app.show.enabled
+    await app.listening
     said = {name: label.text for name, label in app.figures.items()}
     true = [step for foot in Foot for step in WALK.truth.steps(foot)]
     assert int(said["steps"]) == len(true)
@@ -78,40 +74,33 @@ def test_after_a_walk_the_labels_say_what_was_walked_and_the_canvases_show_it(ex
     assert max(ys) - min(ys) > 0.5 * app.map.layout.content_height, "10 m straight on are drawn straight up"
 
 
-def test_one_sample_that_is_far_too_high_does_not_pale_what_the_soles_show(example: Any) -> None:
-    async def go() -> Any:
-        app = opened(example)
-        app.begin(of(WALK.packets))
-        await app.listening
-        highest = max(max(load.values) for load in app.load.values())
-        assert 0.5 * highest < app.peak, "who stands bears less than who walks"
-        before, load = app.peak, app.load[Foot.LEFT]
-        app.take([evolve(load, values=(1e6, *load.values[1:]))])
-        app.draw()
-        return before, app
-
-    before, app = asyncio.run(go())
+async def test_one_sample_that_is_far_too_high_does_not_pale_what_the_soles_show(example: Any) -> None:
+    app = opened(example)
+    app.begin(of(WALK.packets))
+    await app.listening
+    highest = max(max(load.values) for load in app.load.values())
+    assert 0.5 * highest < app.peak, "who stands bears less than who walks"
+    before, load = app.peak, app.load[Foot.LEFT]
+    app.take([evolve(load, values=(1e6, *load.values[1:]))])
+    app.draw()
     assert app.peak <= 1.1 * before
     assert [one["text"] for one in shown(app.soles, "fill text")] == ["L", "R"]
 
 
-def test_the_emulated_wearer_can_be_stopped_and_what_stops_the_sensors_is_told(example: Any) -> None:
+async def test_the_emulated_wearer_can_be_stopped_and_what_stops_the_sensors_is_told(example: Any) -> None:
     async def broken() -> AsyncIterator[Packet]:
         raise OSError("Bluetooth is off: switch it on")
         yield WALK.packets[0]
 
-    async def go() -> None:
-        app = opened(example)
-        app.begin(example.emulated(100.0))
-        listening = app.listening
-        while app.steps < 4:
-            await asyncio.sleep(0.01)
-        app.begin(of(()))  # the button says Stop by now
-        await asyncio.wait([listening])
-        assert app.status.text == "stopped" and app.listening is None and app.steps >= 4
-        app.begin(broken())
-        await asyncio.wait([app.listening])
-        assert app.status.text == "Bluetooth is off: switch it on"
-        assert app.steps == 0 and app.start.text == "Insoles"
-
-    asyncio.run(go())
+    app = opened(example)
+    app.begin(example.emulated(100.0))
+    listening = app.listening
+    while app.steps < 4:
+        await asyncio.sleep(0.01)
+    app.begin(of(()))  # the button says Stop by now
+    await asyncio.wait([listening])
+    assert app.status.text == "stopped" and app.listening is None and app.steps >= 4
+    app.begin(broken())
+    await asyncio.wait([app.listening])
+    assert app.status.text == "Bluetooth is off: switch it on"
+    assert app.steps == 0 and app.start.text == "Insoles"

@@ -72,11 +72,37 @@ READ: dict[str, tuple[Any, Rejection]] = {
 }
 
 
-def refused(device: Toy, value: bytes, reason: Rejection) -> None:
+def refused(device: Toy, value: bytes, reason: Rejection, which: str = "data") -> None:
     before = machine.save(device.decoder)
-    (told,) = device.hear(10.06, "data", value)
+    (told,) = device.hear(10.06, which, value)
     assert isinstance(told, PacketRejected) and told.reason is reason, told
     assert machine.save(device.decoder) == before
+
+
+REFUSED = {
+    "too short": ("data", b"\x00" * 10, Rejection.TRUNCATED),
+    "too long": ("data", b"\x00" * 12, Rejection.OVERSIZED),
+    "no channel of its": ("crumbs", b"", Rejection.UNKNOWN_CHANNEL),
+    "what its reader does not know": ("more", b"\x63" + bytes(8), Rejection.MALFORMED),
+    "samples on another channel": ("more", b"\x09" + bytes(8), Rejection.MALFORMED),
+    "a division by zero": ("more", b"\x0a" + bytes(8), Rejection.MALFORMED),
+    "a missing key": ("more", b"\x0b" + bytes(8), Rejection.MALFORMED),
+    "the other foot": ("more", b"\x05" + bytes(8), Rejection.WRONG_SITE),
+    "a full battery and more": ("more", b"\x00\x40" + bytes(7), Rejection.ABSURD),
+    "no rate": ("more", b"\x01" + bytes(8), Rejection.ABSURD),
+    "air pressure without end": ("more", b"\x03\x7f\xf0" + bytes(6), Rejection.NOT_FINITE),
+    "air pressure of a star": ("more", b"\x03\x7f\xe0" + bytes(6), Rejection.ABSURD),
+    "acceleration that is no number": ("data", bytes(6) + b"\x01\x7f\xc0\x00\x00", Rejection.NOT_FINITE),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_cannot_be_used_is_refused_and_changes_nothing(name: str) -> None:
+    which, value, reason = REFUSED[name]
+    device = toy(BOTH)
+    for k in range(5):
+        device.packet(k)
+    refused(device, value, reason, which)
 
 
 @pytest.mark.parametrize("name", READ)
@@ -117,10 +143,7 @@ def test_a_construct_that_cannot_make_anything_of_bytes_rejects_them(part: Any, 
     device = toy(evolve(TICKING, formats={**FORMATS, "toy/more": Struct("what" / part, Terminated)}, readers={}))
     if not first:
         device.packet(1)
-    before = machine.save(device.decoder)
-    (told,) = device.hear(10.06, "more", b"\x00" if part.__class__ is ExprValidator else b"\x09")
-    assert isinstance(told, PacketRejected) and told.reason is MALFORMED
-    assert machine.save(device.decoder) == before
+    refused(device, b"\x00" if part.__class__ is ExprValidator else b"\x09", MALFORMED, "more")
 
 
 def test_a_construct_that_asks_for_what_is_not_there_rejects_all() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from decoded import LEFT, insole_frame
 
 from solepath import (
     BatteryLevel,
@@ -19,22 +20,15 @@ from solepath import (
     StreamRestarted,
 )
 from solepath.link.decoder import Decoder
-from solepath.types import Foot, Sample
+from solepath.types import Sample
 from solepath.wire.fields import build_text
-from solepath.wire.insole import InsoleFrame, InsoleSample, build_frame
 from solepath.wire.receiver import ConnectionFrame, build_connected, build_dropped
 
-LEFT = Site.LEFT_FOOT
 CHARGED = b"\x64"
 
 
 def packet(t: float, channel: str, data: bytes = b"", device: str = "") -> Packet:
     return Packet(t, LEFT, channel, data, device)
-
-
-def frame(sequence: int, ticks: int) -> bytes:
-    sample = InsoleSample((), (0, 0, 2048, 0, 0, 0), None)
-    return build_frame(InsoleFrame(Foot.LEFT, 0, sequence, ticks, 328, (sample,)))
 
 
 def test_what_the_receiver_says_becomes_events() -> None:
@@ -59,7 +53,7 @@ def test_what_the_receiver_says_becomes_events() -> None:
 def test_a_tick_lets_a_silence_become_known_as_advance_does() -> None:
     told, ticked = Session(), Session()
     for session in (told, ticked):
-        session.feed(packet(0.0, "insole/frame", frame(1, 0)))
+        session.feed(packet(0.0, "insole/frame", insole_frame(1, ticks=0)))
     assert told.advance(5.0) == ticked.feed(packet(5.0, "receiver/tick")) != []
 
 
@@ -115,9 +109,9 @@ def test_the_receiver_is_heard_whatever_device_the_site_is_bound_to() -> None:
 
 def test_a_site_can_be_bound_to_a_new_device_in_mid_walk() -> None:
     session = Session()
-    session.feed([packet(0.01 * k, "insole/frame", frame(k, 328 * k), "F0:01") for k in range(50)])
+    session.feed([packet(0.01 * k, "insole/frame", insole_frame(k), "F0:01") for k in range(50)])
     session.bind(LEFT, "F0:02")
-    events = session.feed(packet(0.6, "insole/frame", frame(9000, 77), "F0:02"))
+    events = session.feed(packet(0.6, "insole/frame", insole_frame(9000, ticks=77), "F0:02"))
     assert not [event for event in events if isinstance(event, PacketRejected | ClockReset)]
     assert reasons(session, packet(0.7, "device/battery", CHARGED, "F0:01")) == [Rejection.WRONG_DEVICE]
     session.bind(LEFT, "")
@@ -131,20 +125,20 @@ def test_a_site_can_be_bound_to_a_new_device_in_mid_walk() -> None:
 def test_an_insole_that_begins_anew_soon_after_its_start_is_not_taken_for_late() -> None:
     decoder = Decoder(site=LEFT)
     for k in range(60):
-        decoder.feed(packet(0.01 * k, "insole/frame", frame(k, 328 * k)))
+        decoder.feed(packet(0.01 * k, "insole/frame", insole_frame(k)))
     decoder.feed(packet(0.7, "receiver/disconnected"))
     decoder.feed(packet(0.9, "receiver/connected", build_connected(ConnectionFrame("", None))))
-    first, *rest = decoder.feed(packet(1.0, "insole/frame", frame(0, 0)))
+    first, *rest = decoder.feed(packet(1.0, "insole/frame", insole_frame(0)))
     assert isinstance(first, ClockReset) and first.restarted
     assert [type(one) for one in rest] == [Sample]
-    [sample] = decoder.feed(packet(1.01, "insole/frame", frame(1, 328)))
+    [sample] = decoder.feed(packet(1.01, "insole/frame", insole_frame(1)))
     assert isinstance(sample, Sample)
 
 
 def test_counters_that_go_on_across_a_connection_tell_what_was_lost() -> None:
     decoder = Decoder(site=LEFT)
     for k in range(60):
-        decoder.feed(packet(0.01 * k, "insole/frame", frame(k, 328 * k)))
+        decoder.feed(packet(0.01 * k, "insole/frame", insole_frame(k)))
     decoder.feed(packet(0.9, "receiver/connected", build_connected(ConnectionFrame("", None))))
-    lost, sample = decoder.feed(packet(1.0, "insole/frame", frame(100, 32800)))
+    lost, sample = decoder.feed(packet(1.0, "insole/frame", insole_frame(100)))
     assert lost.count == 40 and isinstance(sample, Sample)  # type: ignore[union-attr]

@@ -1,9 +1,9 @@
-"""Declared devices: what makes their times, what is lost, late, begun anew, and what a driver must be."""
+"""Declared devices: what makes their times, what is lost, late, begun anew, and what else they say."""
 
 from __future__ import annotations
 
 import json
-from math import inf, nan
+from math import inf
 from random import Random
 from typing import Any
 
@@ -11,9 +11,10 @@ import pytest
 from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from toys import BASE, BOTH, COARSE, FORMATS, KIND, LAYOUT, LEFT, NUMBERED, PROFILE, TICKING, Toy, data, of, times, toy
+from toys import BASE, COARSE, KIND, LAYOUT, LEFT, NUMBERED, PROFILE, TICKING, Toy, times, toy
+from walks import of
 
-from solepath import Packet, Sample, Session, SnapshotError
+from solepath import Packet, Sample
 from solepath.events import (
     BatteryLevel,
     ClockReset,
@@ -26,12 +27,10 @@ from solepath.events import (
     ScaleSuspect,
     StreamStale,
 )
-from solepath.link.catalogue import DECLARED, PROFILES
+from solepath.link.catalogue import DECLARED
 from solepath.link.decoder import Decoder
-from solepath.link.devices import orphe
-from solepath.link.driver import Driver, Reading, TimeAxis
-from solepath.link.known import KINDS, kinds
-from solepath.link.profile import Write
+from solepath.link.driver import TimeAxis
+from solepath.link.known import kinds
 from solepath.recipes import part_class
 from solepath.saving import codec as machine
 
@@ -263,35 +262,6 @@ def test_a_limitation_is_said_once_and_a_wrong_range_is_suspected() -> None:
     assert "8 g would fit" not in suspect.suggestion and "0.50 g at rest with 16 g" in suspect.suggestion
 
 
-REFUSED = {
-    "too short": ("data", b"\x00" * 10, Rejection.TRUNCATED),
-    "too long": ("data", b"\x00" * 12, Rejection.OVERSIZED),
-    "no channel of its": ("crumbs", b"", Rejection.UNKNOWN_CHANNEL),
-    "what its reader does not know": ("more", b"\x63" + bytes(8), Rejection.MALFORMED),
-    "samples on another channel": ("more", b"\x09" + bytes(8), Rejection.MALFORMED),
-    "a division by zero": ("more", b"\x0a" + bytes(8), Rejection.MALFORMED),
-    "a missing key": ("more", b"\x0b" + bytes(8), Rejection.MALFORMED),
-    "the other foot": ("more", b"\x05" + bytes(8), Rejection.WRONG_SITE),
-    "a full battery and more": ("more", b"\x00\x40" + bytes(7), Rejection.ABSURD),
-    "no rate": ("more", b"\x01" + bytes(8), Rejection.ABSURD),
-    "air pressure without end": ("more", b"\x03\x7f\xf0" + bytes(6), Rejection.NOT_FINITE),
-    "air pressure of a star": ("more", b"\x03\x7f\xe0" + bytes(6), Rejection.ABSURD),
-    "acceleration that is no number": ("data", bytes(6) + b"\x01\x7f\xc0\x00\x00", Rejection.NOT_FINITE),
-}
-
-
-@pytest.mark.parametrize("name", REFUSED)
-def test_what_cannot_be_used_is_refused_and_changes_nothing(name: str) -> None:
-    which, value, reason = REFUSED[name]
-    device = toy(BOTH)
-    for k in range(5):
-        device.packet(k)
-    before = machine.save(device.decoder)
-    (told,) = device.hear(10.1, which, value)
-    assert isinstance(told, PacketRejected) and told.reason is reason, told
-    assert machine.save(device.decoder) == before
-
-
 @pytest.mark.parametrize("name", KIND)
 @given(
     st.lists(
@@ -314,140 +284,3 @@ def test_any_bytes_at_any_time_give_events_and_a_state_that_can_be_saved(name: s
                     newest = one.t
         saved = json.dumps(machine.save(device.decoder), allow_nan=False)
         device = Toy(device.driver, machine.load(Decoder, json.loads(saved), part_class))
-
-
-# --- drivers ----------------------------------------------------------------------------------------------------------
-
-
-def test_a_driver_that_does_not_fit_together_is_refused() -> None:
-    other = (evolve(PROFILE.channels[0], name="other/data"), *PROFILE.channels[1:])
-    elsewhere = evolve(PROFILE, channels=other, streams=("other/data",))
-    for wrong in (
-        {"formats": {"toy/data": FORMATS["toy/data"]}},
-        {"readers": {"toy/nothing": data}},
-        {"profile": elsewhere, "formats": {**FORMATS, "other/data": FORMATS["toy/data"]}},
-        {"profile": evolve(PROFILE, streams=())},
-        {"profile": evolve(PROFILE, setup=(Write("toy/start", b"\x01\x02"),))},
-        {"profile": evolve(PROFILE, setup=(Write("toy/start", b""),))},
-        {"tick_rate": 100.0},
-        {"tick_rate": inf, "tick_modulus": 256},
-        {"tick_modulus": 256},
-        {"tick_rate": 100.0, "tick_modulus": 1 << 65},
-        {"sequence": -1},
-        {"sequence": 1},
-        {"acc_range": 0.0},
-        {"acc_range": inf},
-    ):
-        with pytest.raises(ValueError, match="toy: "):
-            evolve(BASE, **wrong)
-
-
-@pytest.mark.parametrize(
-    "wrong",
-    [
-        {"name": ""},
-        {"name": "toy/one"},
-        {"streams": ("toy/typo",)},
-        {"streams": ("toy/start",)},
-        {"setup": (Write("toy/nothing", b"\x01"),)},
-        {"setup": (Write("toy/start", b"\x01", then_read=("toy/nothing",)),)},
-        {"reads": ("toy/nothing",)},
-        {"channels": (PROFILE.channels[0], *PROFILE.channels)},
-        {"stale_after": 0.0},
-        {"stale_after": -1.0},
-        {"stale_after": inf},
-        {"stale_after": nan},
-        {"nominal_rate": 0.0},
-        {"nominal_rate": inf},
-        {"nominal_rate": nan},
-    ],
-    ids=str,
-)
-def test_a_profile_that_does_not_fit_together_is_refused(wrong: dict[str, Any]) -> None:
-    with pytest.raises(ValueError, match="^a profile|^toy: "):
-        evolve(PROFILE, **wrong)
-
-
-def test_a_reader_that_is_wrong_itself_is_not_hidden() -> None:
-    def wrong(sent: Any, known: Any) -> Reading:
-        return sent.nothing  # type: ignore[no-any-return]
-
-    device = toy(evolve(BASE, readers={"toy/data": wrong}))
-    with pytest.raises(AttributeError):
-        device.say(1.0)
-
-
-def test_an_app_adds_devices_and_may_replace_declared_ones_but_not_ours() -> None:
-    for profile in PROFILES:
-        kind = KINDS.get(profile.name.removesuffix("-20hz"))
-        assert kind is not None and kind.profile in PROFILES
-    assert KINDS.get("toy") is None and kinds([NUMBERED]).get("toy") is not None
-    other = evolve(orphe.DRIVER, limitation="")
-    assert not of(Limitation, Session(profiles=[other]).feed(mode_four()))
-    assert of(Limitation, Session().feed(mode_four()))
-    first = (evolve(PROFILE.channels[0], name="insole/data"),)
-    named = evolve(PROFILE, name="insole", channels=first, streams=("insole/data",), setup=())
-    ours = Driver(named, {"insole/data": FORMATS["toy/data"]}, {"insole/data": data})
-    for taken in ([ours], [NUMBERED, TICKING]):
-        with pytest.raises(ValueError, match="already"):
-            Session(profiles=taken)
-    with pytest.raises(TypeError, match="Driver"):
-        Session(profiles=[PROFILE])  # type: ignore[list-item]
-
-
-def mode_four() -> Packet:
-    value = bytes([56]) + bytes(103)
-    return Packet(1.0, LEFT, "orphe/values", value)
-
-
-def test_a_session_with_a_device_of_its_own_is_restored_with_it_and_not_without() -> None:
-    def packets(first: int, last: int) -> list[Packet]:
-        fields: dict[str, Any] = {"ticks": 0, "count": 1, "up": [9.80665]}
-        return [
-            Packet(1.0 + 0.01 * k, LEFT, "toy/data", NUMBERED.write("toy/data", {"number": k, **fields}))
-            for k in range(first, last)
-        ]
-
-    session = Session(poses=True, profiles=[NUMBERED])
-    session.feed(packets(0, 100))
-    saved = json.loads(json.dumps(session.snapshot(), allow_nan=False))
-    again = Session.restore(saved, profiles=[NUMBERED])
-    assert again.feed(packets(103, 150)) == session.feed(packets(103, 150)) != []
-    assert again.advance(9.0) == session.advance(9.0) != []
-    with pytest.raises(SnapshotError, match="toy"):
-        Session.restore(saved)
-
-
-@pytest.mark.parametrize(
-    "other",
-    [
-        evolve(NUMBERED, sequence=0),
-        evolve(NUMBERED, sequence=1 << 15),
-        BOTH,
-        COARSE,
-        evolve(NUMBERED, acc_range=8.0),
-        evolve(NUMBERED, profile=evolve(PROFILE, nominal_rate=50.0)),
-    ],
-    ids=["no numbers", "other numbers", "ticks", "coarse ticks", "another range", "another rate"],
-)
-def test_a_session_is_not_restored_with_a_driver_of_the_same_name_that_counts_otherwise(other: Driver) -> None:
-    session = Session(profiles=[NUMBERED])
-    fields = {"number": 1, "ticks": 0, "count": 1, "up": [9.8]}
-    session.feed(Packet(1.0, LEFT, "toy/data", NUMBERED.write("toy/data", fields)))
-    saved = json.loads(json.dumps(session.snapshot()))
-    with pytest.raises(SnapshotError, match="toy.*another driver"):
-        Session.restore(saved, profiles=[other])
-    assert Session.restore(saved, profiles=[evolve(NUMBERED, limitation="it is a toy")]).snapshot() == saved
-
-
-def test_what_an_app_put_in_our_place_is_restored_with_it_and_not_with_ours() -> None:
-    replaced, ours = evolve(orphe.DRIVER, limitation=""), Session()
-    session = Session(profiles=[replaced])
-    session.feed(mode_four())
-    ours.feed(mode_four())
-    with pytest.raises(SnapshotError, match="orphe.*another driver"):
-        Session.restore(session.snapshot())
-    with pytest.raises(SnapshotError, match="orphe.*another driver"):
-        Session.restore(ours.snapshot(), profiles=[replaced])
-    assert Session.restore(session.snapshot(), profiles=[replaced]).snapshot() == session.snapshot()
-    assert Session.restore(ours.snapshot()).snapshot() == ours.snapshot()

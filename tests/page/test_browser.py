@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Iterable
 from contextlib import AsyncExitStack, asynccontextmanager, suppress
 from time import process_time
 
@@ -12,7 +12,7 @@ from airs import memory
 from attrs import define, field
 from benches import LEFT, RIGHT
 from browsers import PATIENCE, UNREACHABLE, Browser, Browsing, Window, window
-from shown import CONNECTED, after, again, between, fresh, meanwhile, opened, show, square, squares, walked
+from shown import CONNECTED, Told, after, again, between, fresh, meanwhile, opened, show, square, squares, walked
 
 from solepath import Connected, LinkTrouble, Placed, Session, WearerMoved
 from solepath.ble import Devices, Wanted
@@ -32,10 +32,6 @@ MINUTE = 60.0
 MARGIN = 0.7e6
 """Bytes; eight minutes more of tracks are 1800 points."""
 FEET = ("left", "right")
-
-
-async def text(view: Window, name: str) -> str:
-    return (await view.tab.locator(f"#{name}").inner_text()).strip()
 
 
 async def picture(view: Window, name: str) -> str:
@@ -102,82 +98,67 @@ def link(site: str, state: str) -> str:
 # --- what is seen -----------------------------------------------------------------------------------------------------
 
 
-def test_the_page_connects_and_names_what_it_shows(browser: Browsing) -> None:
-    async def main(chromium: Browser) -> None:
-        async with opened(chromium, fresh("Ward 3, corridor")) as (view, _):
-            assert await text(view, "title") == "Ward 3, corridor"
-            assert await text(view, "recipe") == "default"
-            assert "Ward 3, corridor" in await view.tab.title()
-
-    browser.run(main)
+async def test_the_page_connects_and_names_what_it_shows(chromium: Browser) -> None:
+    async with opened(chromium, fresh("Ward 3, corridor")) as (view, _):
+        assert await view.text("title") == "Ward 3, corridor"
+        assert await view.text("recipe") == "default"
+        assert "Ward 3, corridor" in await view.tab.title()
 
 
-def test_both_soles_move_and_say_so(browser: Browsing) -> None:
-    async def main(chromium: Browser) -> None:
-        scene = after(6.0)
-        async with opened(chromium, scene) as (view, _):
-            await view.until(f"{link('left', 'ok')} && {link('right', 'ok')}")
-            seen: dict[str, set[str]] = {foot: set() for foot in FEET}
-            heard: dict[str, set[str | None]] = {foot: set() for foot in FEET}
-            async with meanwhile(show(scene, between(6.0, 40.0))), asyncio.timeout(PATIENCE):
-                while min(map(len, seen.values())) < 10 or min(map(len, heard.values())) < 3:
-                    for foot in FEET:
-                        seen[foot].add(await picture(view, f"sole-{foot}"))
-                        heard[foot].add(await words(view, f"sole-{foot}"))
-                    await asyncio.sleep(0.05)
-            for foot, sayings in heard.items():
-                assert all(said and said.startswith(f"{foot.capitalize()} sole: ") for said in sayings)
-
-    browser.run(main)
+async def test_both_soles_move_and_say_so(chromium: Browser) -> None:
+    scene = after(6.0)
+    async with opened(chromium, scene) as (view, _):
+        await view.until(f"{link('left', 'ok')} && {link('right', 'ok')}")
+        seen: dict[str, set[str]] = {foot: set() for foot in FEET}
+        heard: dict[str, set[str | None]] = {foot: set() for foot in FEET}
+        async with meanwhile(show(scene, between(6.0, 40.0))), asyncio.timeout(PATIENCE):
+            while min(map(len, seen.values())) < 10 or min(map(len, heard.values())) < 3:
+                for foot in FEET:
+                    seen[foot].add(await picture(view, f"sole-{foot}"))
+                    heard[foot].add(await words(view, f"sole-{foot}"))
+                await asyncio.sleep(0.05)
+        for foot, sayings in heard.items():
+            assert all(said and said.startswith(f"{foot.capitalize()} sole: ") for said in sayings)
 
 
-def test_the_track_and_the_ribbon_grow_with_every_step(browser: Browsing) -> None:
-    async def main(chromium: Browser) -> None:
-        scene = after(6.0)
-        async with opened(chromium, scene) as (view, _):
-            await view.until("Number(document.getElementById('track').dataset.points) > 0")
-            before = {name: await picture(view, name) for name in ("track", "ribbon")}
-            points = int(await view.tab.locator("#track").get_attribute("data-points"))
-            steps, said = int(await text(view, "steps")), await words(view, "track")
-            await show(scene, between(6.0, 12.0), speed=4.0)
-            await view.until(f"Number(document.getElementById('steps').textContent) >= {steps + 8}")
-            assert int(await view.tab.locator("#track").get_attribute("data-points")) > points
-            assert await words(view, "track") != said
-            for name, old in before.items():
-                assert await picture(view, name) != old
-
-    browser.run(main)
+async def test_the_track_and_the_ribbon_grow_with_every_step(chromium: Browser) -> None:
+    scene = after(6.0)
+    async with opened(chromium, scene) as (view, _):
+        await view.until("Number(document.getElementById('track').dataset.points) > 0")
+        before = {name: await picture(view, name) for name in ("track", "ribbon")}
+        points = int(await view.tab.locator("#track").get_attribute("data-points"))
+        steps, said = int(await view.text("steps")), await words(view, "track")
+        await show(scene, between(6.0, 12.0), speed=4.0)
+        await view.until(f"Number(document.getElementById('steps').textContent) >= {steps + 8}")
+        assert int(await view.tab.locator("#track").get_attribute("data-points")) > points
+        assert await words(view, "track") != said
+        for name, old in before.items():
+            assert await picture(view, name) != old
 
 
-def test_whoever_comes_late_sees_the_way_that_was_walked_before(browser: Browsing) -> None:
-    async def main(chromium: Browser) -> None:
-        async with opened(chromium, after(40.0)) as (view, _):
-            await view.until("Number(document.getElementById('track').dataset.points) > 100")
-            await view.until("document.querySelectorAll('#gait-rows tr').length >= 8")
-            assert await text(view, "activity") == "Walking"
-            assert int(await text(view, "steps")) > 50
-
-    browser.run(main)
+async def test_whoever_comes_late_sees_the_way_that_was_walked_before(chromium: Browser) -> None:
+    async with opened(chromium, after(40.0)) as (view, _):
+        await view.until("Number(document.getElementById('track').dataset.points) > 100")
+        await view.until("document.querySelectorAll('#gait-rows tr').length >= 8")
+        assert await view.text("activity") == "Walking"
+        assert int(await view.text("steps")) > 50
 
 
-def test_when_the_walk_stops_the_last_figures_stay(browser: Browsing) -> None:
-    async def main(chromium: Browser) -> None:
-        scene = after(6.0)
-        async with opened(chromium, scene) as (view, _):
-            await show(scene, between(6.0, 6.5))
-            for foot in Foot:
-                force = scene.feet[foot].force
-                assert force > 0.0
-                await view.until(
-                    f"Math.abs(parseFloat(document.getElementById('force-{foot.value}').textContent) - {force}) <= 1 &&"
-                    f"document.getElementById('sole-{foot.value}').ariaLabel.includes(' newton')"
-                )
-
-    browser.run(main)
+async def test_when_the_walk_stops_the_last_figures_stay(chromium: Browser) -> None:
+    scene = after(6.0)
+    async with opened(chromium, scene) as (view, _):
+        await show(scene, between(6.0, 6.5))
+        for foot in Foot:
+            force = scene.feet[foot].force
+            assert force > 0.0
+            await view.until(
+                f"Math.abs(parseFloat(document.getElementById('force-{foot.value}').textContent) - {force}) <= 1 &&"
+                f"document.getElementById('sole-{foot.value}').ariaLabel.includes(' newton')"
+            )
 
 
-def test_a_plan_shows_the_wearer_once_that_is_decided_and_gives_up_the_way_to_where_nobody_is(
-    browser: Browsing,
+async def test_a_plan_shows_the_wearer_once_that_is_decided_and_gives_up_the_way_to_where_nobody_is(
+    chromium: Browser,
 ) -> None:
     ground, upper = (level.id for level in BUILDING.levels[:2])
 
@@ -191,154 +172,125 @@ def test_a_plan_shows_the_wearer_once_that_is_decided_and_gives_up_the_way_to_wh
         ]
         return Placed(t=t, known_at=t, level=level, position=(x, 5.0, 0.0), spread=1.0, candidates=tuple(candidates))
 
-    async def main(chromium: Browser) -> None:
-        scene = Scene("a building", "default", "live", plan=BUILDING)
-        async with opened(chromium, scene) as (view, _):
-            seen = "document.getElementById('track').dataset"
-            note = "document.getElementById('track-note').innerText"
-            await view.until(f"{seen}.view === 'track' && {note}.startsWith('Where on the plan is not known yet')")
-            for k in range(4):
-                t, walked = 1.0 + k, 0.8 * k
-                scene.take(None, [WearerMoved(t=t, known_at=t, position=(walked, 0.0, 0.0), covariance=(0.01,) * 6)])
-                scene.take(None, [place(t, 5.0 + walked, ground, 25.0 + walked)])
-            await view.until(f"{seen}.view === 'plan' && {seen}.points === '4' && {seen}.since === '0'")
-            name = BUILDING.levels[0].name or ground
-            await view.until(f"{note} === '2 possible places; the likeliest, on {name}, has 60 %.'")
-            spoken = await words(view, "track")
-            assert spoken is not None and "The wearer is" not in spoken
-            scene.take(None, [place(5.0, 27.4, ground)])
-            await view.until(f"{seen}.since === '4' && document.getElementById('track-note').hidden")
-            await view.until("document.getElementById('track').ariaLabel.includes('The wearer is on')")
-            scene.take(None, [place(6.0, 27.5, upper)])
-            await view.until(f"{seen}.level === '{upper}'")
-            assert await view.tab.evaluate(f"{seen}.since") == "4"
-
-    browser.run(main)
+    scene = Scene("a building", "default", "live", plan=BUILDING)
+    async with opened(chromium, scene) as (view, _):
+        seen = "document.getElementById('track').dataset"
+        note = "document.getElementById('track-note').innerText"
+        await view.until(f"{seen}.view === 'track' && {note}.startsWith('Where on the plan is not known yet')")
+        for k in range(4):
+            t, walked = 1.0 + k, 0.8 * k
+            scene.take(None, [WearerMoved(t=t, known_at=t, position=(walked, 0.0, 0.0), covariance=(0.01,) * 6)])
+            scene.take(None, [place(t, 5.0 + walked, ground, 25.0 + walked)])
+        await view.until(f"{seen}.view === 'plan' && {seen}.points === '4' && {seen}.since === '0'")
+        name = BUILDING.levels[0].name or ground
+        await view.until(f"{note} === '2 possible places; the likeliest, on {name}, has 60 %.'")
+        spoken = await words(view, "track")
+        assert spoken is not None and "The wearer is" not in spoken
+        scene.take(None, [place(5.0, 27.4, ground)])
+        await view.until(f"{seen}.since === '4' && document.getElementById('track-note').hidden")
+        await view.until("document.getElementById('track').ariaLabel.includes('The wearer is on')")
+        scene.take(None, [place(6.0, 27.5, upper)])
+        await view.until(f"{seen}.level === '{upper}'")
+        assert await view.tab.evaluate(f"{seen}.since") == "4"
 
 
 # --- when something goes wrong ----------------------------------------------------------------------------------------
 
 
-def test_a_lost_link_shows_and_recovers(browser: Browsing) -> None:
+async def test_a_lost_link_shows_and_recovers(chromium: Browser) -> None:
     """Emulated devices in real time; one of them is out of reach for 1.5 s."""
 
-    async def main(chromium: Browser) -> None:
-        scene, session = fresh(), Session(poses=True, pressures=True)
-        faults = parse_faults("1.5 left_foot vanish 1.5")
-        devices = dict.fromkeys((LEFT, RIGHT), Insole(cells=16))
-        bench = Bench(Route().stand(30.0), devices=devices, faults=faults)
-        bench.prepare()
-        wanted = [Wanted(one.site, one.address) for one in bench.peripherals]
-        async with (
-            opened(chromium, scene) as (view, _),
-            memory(bench) as backend,
-            Devices(wanted, backend=backend) as found,
-        ):
+    scene, session = fresh(), Session(poses=True, pressures=True)
+    faults = parse_faults("1.5 left_foot vanish 1.5")
+    devices = dict.fromkeys((LEFT, RIGHT), Insole(cells=16))
+    bench = Bench(Route().stand(30.0), devices=devices, faults=faults)
+    bench.prepare()
+    wanted = [Wanted(one.site, one.address) for one in bench.peripherals]
+    async with (
+        opened(chromium, scene) as (view, _),
+        memory(bench) as backend,
+        Devices(wanted, backend=backend) as found,
+    ):
 
-            async def listen() -> None:
-                async for packet in found:
-                    for event in session.feed(packet):
-                        scene.take(None, [event])
+        async def listen() -> None:
+            async for packet in found:
+                for event in session.feed(packet):
+                    scene.take(None, [event])
 
-            bench.walk_from(asyncio.get_running_loop().time())
-            async with meanwhile(listen()):
-                for state in ("ok", "lost", "ok"):
-                    await view.until(link("left", state))
-                    await view.until(link("right", "ok"))
-
-    browser.run(main)
+        bench.walk_from(asyncio.get_running_loop().time())
+        async with meanwhile(listen()):
+            for state in ("ok", "lost", "ok"):
+                await view.until(link("left", state))
+                await view.until(link("right", "ok"))
 
 
-def test_the_page_finds_its_server_again_by_itself_or_when_asked_where_that_had_ended(browser: Browsing) -> None:
+async def test_the_page_finds_its_server_again_by_itself_or_when_asked_where_that_had_ended(chromium: Browser) -> None:
     """First the network between them fails; then the program ends, and another one takes its place."""
 
-    async def main(chromium: Browser) -> None:
-        scene, token, line = after(10.0, "before"), "the same as before", Line()
-        async with AsyncExitStack() as stack:
-            async with Page(scene, port=0, token=token) as first, line.to(first.port) as port:
-                view = await stack.enter_async_context(window(chromium, first.url.replace(str(first.port), str(port))))
-                await view.until(CONNECTED)
-                line.cut()
-                await view.until(offline("cannot be reached"))
-                line.mend()
-                await view.until(CONNECTED)
+    scene, token, line = after(10.0, "before"), "the same as before", Line()
+    async with AsyncExitStack() as stack:
+        async with Page(scene, port=0, token=token) as first, line.to(first.port) as port:
+            view = await stack.enter_async_context(window(chromium, first.url.replace(str(first.port), str(port))))
+            await view.until(CONNECTED)
+            line.cut()
+            await view.until(offline("cannot be reached"))
+            line.mend()
+            await view.until(CONNECTED)
+            await view.tab.locator("#offline").wait_for(state="hidden")
+            await first.__aexit__(None, None, None)
+            await view.until(offline("has ended"))
+            async with Page(after(12.0, "after"), port=0, token=token) as second:
+                line.port = second.port
+                await view.tab.locator("#retry").click()
+                await view.until(f"{CONNECTED} && document.getElementById('title').textContent === 'after'")
                 await view.tab.locator("#offline").wait_for(state="hidden")
-                await first.__aexit__(None, None, None)
-                await view.until(offline("has ended"))
-                async with Page(after(12.0, "after"), port=0, token=token) as second:
-                    line.port = second.port
-                    await view.tab.locator("#retry").click()
-                    await view.until(f"{CONNECTED} && document.getElementById('title').textContent === 'after'")
-                    await view.tab.locator("#offline").wait_for(state="hidden")
-            assert all(UNREACHABLE.search(said) for said in view.complaints), view.complaints
-
-    browser.run(main)
+        assert all(UNREACHABLE.search(said) for said in view.complaints), view.complaints
 
 
-def test_names_from_the_air_are_shown_as_text(browser: Browsing) -> None:
+async def test_names_from_the_air_are_shown_as_text(chromium: Browser) -> None:
     hostile = "<img src=x onerror=\"document.title='broken'\"><script>document.title='broken'</script>"
-
-    async def main(chromium: Browser) -> None:
-        scene = after(6.0, hostile)
-        name = hostile.ljust(248, "W")  # as long as a device can have one
-        scene.take(None, [Connected(t=6.0, known_at=6.0, site=LEFT, device="F0:5E:00:00:00:01", name=name, signal=-50)])
-        scene.take(None, [LinkTrouble(t=6.0, known_at=6.0, site=LEFT, what="W" * 300)])
-        async with opened(chromium, scene, width=PHONE) as (view, _):
-            assert await text(view, "title") == hostile
-            await view.until("document.getElementById('links').textContent.includes('onerror')")
-            await view.until("document.getElementById('links').textContent.includes('WWW')")
-            assert await view.tab.evaluate("document.scrollingElement.scrollWidth") <= PHONE
-            ends = "[...document.querySelectorAll('#links *')].map(e => e.getBoundingClientRect().right)"
-            assert await view.tab.evaluate(f"Math.max(...{ends})") <= PHONE
-            assert await view.tab.locator("main img, main script, header img, header script").count() == 0
-            assert await view.tab.title() != "broken"
-
-    browser.run(main)
+    scene = after(6.0, hostile)
+    name = hostile.ljust(248, "W")  # as long as a device can have one
+    scene.take(None, [Connected(t=6.0, known_at=6.0, site=LEFT, device="F0:5E:00:00:00:01", name=name, signal=-50)])
+    scene.take(None, [LinkTrouble(t=6.0, known_at=6.0, site=LEFT, what="W" * 300)])
+    async with opened(chromium, scene, width=PHONE) as (view, _):
+        assert await view.text("title") == hostile
+        await view.until("document.getElementById('links').textContent.includes('onerror')")
+        await view.until("document.getElementById('links').textContent.includes('WWW')")
+        assert await view.tab.evaluate("document.scrollingElement.scrollWidth") <= PHONE
+        ends = "[...document.querySelectorAll('#links *')].map(e => e.getBoundingClientRect().right)"
+        assert await view.tab.evaluate(f"Math.max(...{ends})") <= PHONE
+        assert await view.tab.locator("main img, main script, header img, header script").count() == 0
+        assert await view.tab.title() != "broken"
 
 
 # --- as long as one likes ---------------------------------------------------------------------------------------------
 
 
-def test_ten_minutes_of_two_feet_leave_the_page_as_large_as_it_was(browser: Browsing) -> None:
-    walk = again(square(), 10.0 * MINUTE)
+async def stays_as_large(chromium: Browser, walk: Iterable[Told], speeds: tuple[float, float] = (1.0, 1.0)) -> None:
+    """After two minutes of a walk, and after the rest of it; what the page draws and what all this costs is printed."""
+    scene, clock = fresh(), asyncio.get_running_loop().time
+    async with opened(chromium, scene) as (view, _):
+        begun, used = clock(), process_time()
+        await show(scene, walk, speeds[0], until=2.0 * MINUTE)
+        heap, elements = await view.memory()
+        await show(scene, walk, speeds[1], until=10.0 * MINUTE)
+        after = await view.memory()
+        seconds, frames = clock() - begun, await view.tab.evaluate("solepath.frames")
+        print(f"{frames / seconds:.1f} frames a second, {process_time() - used:.1f} s of {seconds:.0f} used")
+        print(f"bytes and elements: {heap} and {elements} after 2 min, {after[0]} and {after[1]} after 10")
+        assert after[0] < heap + MARGIN
+        assert after[1] == elements
+        assert await view.tab.locator("#log > *").count() <= 50
 
-    async def main(chromium: Browser) -> None:
-        scene = fresh()
-        async with opened(chromium, scene) as (view, _):
-            await show(scene, walk, speed=40.0, until=2.0 * MINUTE)
-            heap, elements = await view.memory()
-            await show(scene, walk, speed=80.0, until=10.0 * MINUTE)
-            heap_after, elements_after = await view.memory()
-            print(f"after 2 min {heap} bytes and {elements} elements, after 10 {heap_after} and {elements_after}")
-            assert heap_after < heap + MARGIN
-            assert elements_after == elements
-            assert await view.tab.locator("#log > *").count() <= 50
 
-    browser.run(main)
+async def test_ten_minutes_of_two_feet_leave_the_page_as_large_as_it_was(chromium: Browser) -> None:
+    await stays_as_large(chromium, again(square(), 10.0 * MINUTE), (40.0, 80.0))
 
 
 @pytest.mark.soak
 def test_ten_minutes_in_real_time_leave_the_page_as_large_as_it_was(browser: Browsing) -> None:
-    """With 96 cells; eighteen thousand messages. What the page draws, and what all this costs, is printed."""
-    packets = [packet for packet in walked(squares(15)) if packet.t <= 10.0 * MINUTE]
-
-    async def main(chromium: Browser) -> None:
-        scene, session = fresh(), Session(poses=True, pressures=True)
-        walk = ((packet.t, tuple(session.feed(packet))) for packet in packets)
-        async with opened(chromium, scene) as (view, _):
-            clock = asyncio.get_running_loop().time
-            begun, used = clock(), process_time()
-            await show(scene, walk, until=2.0 * MINUTE)
-            heap, elements = await view.memory()
-            await show(scene, walk)
-            heap_after, elements_after = await view.memory()
-            seconds, frames = clock() - begun, await view.tab.evaluate("solepath.frames")
-            print(
-                f"{frames / seconds:.1f} frames a second; session, server and test {process_time() - used:.1f} s of "
-                f"{seconds:.0f}; after 2 min {heap} bytes and {elements} elements, after 10 {heap_after} and "
-                f"{elements_after}"
-            )
-            assert heap_after < heap + MARGIN
-            assert elements_after == elements
-
-    browser.run(main, longest=15.0 * MINUTE)
+    """With 96 cells; eighteen thousand messages."""
+    session = Session(poses=True, pressures=True)
+    walk = ((packet, tuple(session.feed(packet))) for packet in walked(squares(15)))
+    browser.run(lambda chromium: stays_as_large(chromium, walk), longest=15.0 * MINUTE)

@@ -9,6 +9,7 @@ from math import radians
 from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
+from said import moved
 from shown import frame, shown
 from walks import insoles
 
@@ -19,13 +20,11 @@ from solepath import (
     Disconnected,
     Event,
     Foot,
-    FootMoved,
     FootPressed,
     GaitCycleMeasured,
     LayoutKnown,
     Packet,
     PacketsLost,
-    Phase,
     Placed,
     Session,
     Site,
@@ -48,13 +47,6 @@ def walk() -> tuple[Event, ...]:
 
 def until(t: float) -> Scene:
     return shown([event for event in walk() if event.known_at <= t])
-
-
-def moved(t: float, foot: Foot = LEFT, known_at: float | None = None) -> FootMoved:
-    at = t if known_at is None else known_at
-    return FootMoved(
-        t=t, known_at=at, foot=foot, position=(0.0, 0.0, 0.0), velocity=(0.0, 0.0, 0.0), phase=Phase.STATIONARY
-    )
 
 
 def changed(t: float, activity: Activity) -> ActivityChanged:

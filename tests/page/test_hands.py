@@ -8,7 +8,7 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from typing import Any
 
-from browsers import Browser, Browsing, Window
+from browsers import Browser, Window
 from shown import CONNECTED, after, meanwhile, opened, placed, walked
 
 from solepath import Session
@@ -84,136 +84,115 @@ async def focused(view: Window) -> str:
 # --- keys -------------------------------------------------------------------------------------------------------------
 
 
-def test_the_space_bar_pauses_and_goes_on_and_the_arrows_seek(browser: Browsing) -> None:
-    async def main(chromium: Browser) -> None:
-        async with played(chromium) as (view, playback):
-            for state, name in (("paused", "Play"), ("playing", "Pause"), ("paused", "Play")):
-                await view.tab.keyboard.press("Space")
-                await view.until("(name) => document.getElementById('play').ariaLabel === name", name)
-                assert playback.state == state
-            t = playback.t
-            for key, there in (("ArrowRight", t + 5.0), ("ArrowLeft", t), ("Shift+ArrowRight", playback.end)):
-                await view.tab.keyboard.press(key)
-                await view.until("(t) => Math.abs(document.getElementById('seek').value - t) < 0.3", there)
-            await view.until("Number(document.getElementById('steps').textContent) > 15")
-            await view.tab.keyboard.press("Shift+ArrowLeft")
-            await view.until("Number(document.getElementById('seek').value) < 0.3")
-            await view.until("!(Number(document.getElementById('steps').textContent) > 0)")
-
-    browser.run(main)
-
-
-def test_on_the_way_to_another_time_the_page_says_where_it_is_and_whither(browser: Browsing) -> None:
-    async def main(chromium: Browser) -> None:
-        scene = after(22.0)
-        scene.playback = Playback(begin=0.0, end=150.0, t=22.0, state="playing", seeking=115.0)
-        async with opened(chromium, scene, width=NARROW, height=740) as (view, _):
-            await view.until("document.getElementById('seeking').innerText === 'Going to 1:55, now at 0:22'")
-            await view.until("document.querySelector('main').ariaBusy === 'true'")
-            await view.until("document.getElementById('announcer').textContent.includes('Going to 1:55')")
-            assert await view.tab.locator("#time-now").inner_text() == "0:22"
-            scene.playback = Playback(begin=0.0, end=150.0, t=115.0, state="playing")
-            await view.tab.locator("#seeking").wait_for(state="hidden")
-            await view.until("document.querySelector('main').ariaBusy === 'false'")
-            assert await view.tab.locator("#seek").get_attribute("aria-valuetext") == "1:55 of 2:30"
-
-    browser.run(main)
-
-
-def test_the_speed_is_chosen_from_a_list(browser: Browsing) -> None:
-    async def main(chromium: Browser) -> None:
-        async with played(chromium) as (view, playback):
-            await view.tab.locator("#speed-choice").select_option("4")
-            await view.until("document.getElementById('speed-choice').value === '4'")
-            await view.until("solepath.state.playback.speed === 4")
-            assert playback.speed == 4.0
-
-    browser.run(main)
-
-
-def test_plus_minus_and_nought_look_nearer_and_farther_on_the_track(browser: Browsing) -> None:
-    async def main(chromium: Browser) -> None:
-        async with opened(chromium, after(20.0)) as (view, _):
-            await view.until("Number(document.getElementById('track').dataset.points) > 0")
-            for key in "+-":
-                await view.tab.keyboard.press(key)
-                await view.until("document.getElementById('zoom-fit').ariaPressed === 'false'")
-                await view.tab.keyboard.press("0")
-                await view.until("document.getElementById('zoom-fit').ariaPressed === 'true'")
-
-    browser.run(main)
-
-
-def test_the_tab_key_reaches_every_control_in_the_order_of_the_page(browser: Browsing) -> None:
-    async def main(chromium: Browser) -> None:
-        async with played(chromium, width=NARROW, height=800) as (view, _):
+async def test_the_space_bar_pauses_and_goes_on_and_the_arrows_seek(chromium: Browser) -> None:
+    async with played(chromium) as (view, playback):
+        for state, name in (("paused", "Play"), ("playing", "Pause"), ("paused", "Play")):
             await view.tab.keyboard.press("Space")
-            await view.until("document.getElementById('play').ariaLabel === 'Play'")
-            assert await view.tab.evaluate("document.scrollingElement.scrollWidth") <= NARROW
-            # so that some of them lie where the playback bar is
-            low = await view.tab.evaluate("document.getElementById('zoom').getBoundingClientRect().bottom")
-            await view.tab.set_viewport_size({"width": NARROW, "height": round(low) + 10})
-            controls = await view.tab.evaluate(
-                """() => [...document.querySelectorAll("a[href], button, input, select, summary, [tabindex]")]
-                    .filter((one) => one.checkVisibility() && !one.disabled && one.tabIndex >= 0)
-                    .map((one, k) => (one.dataset.control = String(k)))"""
-            )
-            assert len(controls) > 5
-            reached = []
-            for _ in controls:
-                await view.tab.keyboard.press("Tab")
-                reached.append(await focused(view))
-                assert await view.tab.evaluate(
-                    "() => { const at = document.activeElement, style = getComputedStyle(at);"
-                    " return style.outlineStyle !== 'none' || style.boxShadow !== 'none'; }"
-                ), f"nothing shows where the focus is: {await view.tab.evaluate('document.activeElement.outerHTML')}"
-                assert await view.tab.evaluate(COVERED) is None
-            assert reached == controls
-
-    browser.run(main)
+            await view.until("(name) => document.getElementById('play').ariaLabel === name", name)
+            assert playback.state == state
+        t = playback.t
+        for key, there in (("ArrowRight", t + 5.0), ("ArrowLeft", t), ("Shift+ArrowRight", playback.end)):
+            await view.tab.keyboard.press(key)
+            await view.until("(t) => Math.abs(document.getElementById('seek').value - t) < 0.3", there)
+        await view.until("Number(document.getElementById('steps').textContent) > 15")
+        await view.tab.keyboard.press("Shift+ArrowLeft")
+        await view.until("Number(document.getElementById('seek').value) < 0.3")
+        await view.until("!(Number(document.getElementById('steps').textContent) > 0)")
 
 
-def test_a_page_that_may_only_watch_pauses_nothing(browser: Browsing) -> None:
-    async def main(chromium: Browser) -> None:
-        async with played(chromium, token=False) as (view, playback):
-            for key in ("Space", "ArrowLeft"):
-                await view.tab.keyboard.press(key)
-            t = playback.t
-            await view.until("(t) => solepath.state.t > t", t + 0.5)
-            assert playback.state == "playing"
-            assert await view.tab.evaluate(CONNECTED)
+async def test_on_the_way_to_another_time_the_page_says_where_it_is_and_whither(chromium: Browser) -> None:
+    scene = after(22.0)
+    scene.playback = Playback(begin=0.0, end=150.0, t=22.0, state="playing", seeking=115.0)
+    async with opened(chromium, scene, width=NARROW, height=740) as (view, _):
+        await view.until("document.getElementById('seeking').innerText === 'Going to 1:55, now at 0:22'")
+        await view.until("document.querySelector('main').ariaBusy === 'true'")
+        await view.until("document.getElementById('announcer').textContent.includes('Going to 1:55')")
+        assert await view.text("time-now") == "0:22"
+        scene.playback = Playback(begin=0.0, end=150.0, t=115.0, state="playing")
+        await view.tab.locator("#seeking").wait_for(state="hidden")
+        await view.until("document.querySelector('main').ariaBusy === 'false'")
+        assert await view.tab.locator("#seek").get_attribute("aria-valuetext") == "1:55 of 2:30"
 
-    browser.run(main)
+
+async def test_the_speed_is_chosen_from_a_list(chromium: Browser) -> None:
+    async with played(chromium) as (view, playback):
+        await view.tab.locator("#speed-choice").select_option("4")
+        await view.until("document.getElementById('speed-choice').value === '4'")
+        await view.until("solepath.state.playback.speed === 4")
+        assert playback.speed == 4.0
+
+
+async def test_plus_minus_and_nought_look_nearer_and_farther_on_the_track(chromium: Browser) -> None:
+    async with opened(chromium, after(20.0)) as (view, _):
+        await view.until("Number(document.getElementById('track').dataset.points) > 0")
+        for key in "+-":
+            await view.tab.keyboard.press(key)
+            await view.until("document.getElementById('zoom-fit').ariaPressed === 'false'")
+            await view.tab.keyboard.press("0")
+            await view.until("document.getElementById('zoom-fit').ariaPressed === 'true'")
+
+
+async def test_the_tab_key_reaches_every_control_in_the_order_of_the_page(chromium: Browser) -> None:
+    async with played(chromium, width=NARROW, height=800) as (view, _):
+        await view.tab.keyboard.press("Space")
+        await view.until("document.getElementById('play').ariaLabel === 'Play'")
+        assert await view.tab.evaluate("document.scrollingElement.scrollWidth") <= NARROW
+        # so that some of them lie where the playback bar is
+        low = await view.tab.evaluate("document.getElementById('zoom').getBoundingClientRect().bottom")
+        await view.tab.set_viewport_size({"width": NARROW, "height": round(low) + 10})
+        controls = await view.tab.evaluate(
+            """() => [...document.querySelectorAll("a[href], button, input, select, summary, [tabindex]")]
+                .filter((one) => one.checkVisibility() && !one.disabled && one.tabIndex >= 0)
+                .map((one, k) => (one.dataset.control = String(k)))"""
+        )
+        assert len(controls) > 5
+        reached = []
+        for _ in controls:
+            await view.tab.keyboard.press("Tab")
+            reached.append(await focused(view))
+            assert await view.tab.evaluate(
+                "() => { const at = document.activeElement, style = getComputedStyle(at);"
+                " return style.outlineStyle !== 'none' || style.boxShadow !== 'none'; }"
+            ), f"nothing shows where the focus is: {await view.tab.evaluate('document.activeElement.outerHTML')}"
+            assert await view.tab.evaluate(COVERED) is None
+        assert reached == controls
+
+
+async def test_a_page_that_may_only_watch_pauses_nothing(chromium: Browser) -> None:
+    async with played(chromium, token=False) as (view, playback):
+        for key in ("Space", "ArrowLeft"):
+            await view.tab.keyboard.press(key)
+        t = playback.t
+        await view.until("(t) => solepath.state.t > t", t + 0.5)
+        assert playback.state == "playing"
+        assert await view.tab.evaluate(CONNECTED)
 
 
 # --- a screen reader --------------------------------------------------------------------------------------------------
 
 
-def test_a_screen_reader_finds_landmarks_pictures_in_words_and_a_table(browser: Browsing) -> None:
-    async def main(chromium: Browser) -> None:
-        async with opened(chromium, after(40.0)) as (view, _):
-            await view.until("[...document.querySelectorAll('canvas')].every((one) => !one.ariaLabel.includes('yet'))")
-            names = await view.names()
-            roles = [role for role, _ in names]
-            assert roles.count("banner") == roles.count("main") == roles.count("contentinfo") == 1
-            regions = {name for role, name in names if role == "region"}
-            assert regions >= {"Activity", "Soles", "Phases", "Track", "Height", "Gait", "Links", "What happened"}
-            assert len([name for role, name in names if role == "image"]) == 5
-            [table] = [name for role, name in names if role == "table"]
-            assert table.startswith("Means of steady strides")
-            assert {"parameter", "left", "right"} <= {name for role, name in names if role == "columnheader"}
-            assert any(name.startswith("stride length") for role, name in names if role == "rowheader")
-            assert "status" in roles
-            nameless = [role for role, name in names if role in ("button", "slider", "combobox", "image") and not name]
-            assert nameless == []
-
-    browser.run(main)
+async def test_a_screen_reader_finds_landmarks_pictures_in_words_and_a_table(chromium: Browser) -> None:
+    async with opened(chromium, after(40.0)) as (view, _):
+        await view.until("[...document.querySelectorAll('canvas')].every((one) => !one.ariaLabel.includes('yet'))")
+        names = await view.names()
+        roles = [role for role, _ in names]
+        assert roles.count("banner") == roles.count("main") == roles.count("contentinfo") == 1
+        regions = {name for role, name in names if role == "region"}
+        assert regions >= {"Activity", "Soles", "Phases", "Track", "Height", "Gait", "Links", "What happened"}
+        assert len([name for role, name in names if role == "image"]) == 5
+        [table] = [name for role, name in names if role == "table"]
+        assert table.startswith("Means of steady strides")
+        assert {"parameter", "left", "right"} <= {name for role, name in names if role == "columnheader"}
+        assert any(name.startswith("stride length") for role, name in names if role == "rowheader")
+        assert "status" in roles
+        nameless = [role for role, name in names if role in ("button", "slider", "combobox", "image") and not name]
+        assert nameless == []
 
 
 # --- narrow, dark, magnified ------------------------------------------------------------------------------------------
 
 
-def test_a_phone_has_nothing_to_scroll_sideways_light_and_dark(browser: Browsing) -> None:
+async def test_a_phone_has_nothing_to_scroll_sideways_light_and_dark(chromium: Browser) -> None:
     async def narrow(view: Window) -> None:
         grounds = []
         for scheme in ("light", "dark"):
@@ -223,21 +202,15 @@ def test_a_phone_has_nothing_to_scroll_sideways_light_and_dark(browser: Browsing
             grounds.append(sum(map(int, re.findall(r"\d+", ground)[:3])))
         assert grounds[0] > 3 * 200 and grounds[1] < 3 * 55
 
-    async def main(chromium: Browser) -> None:
-        for scene in (after(40.0), placed(29.0)):
-            async with opened(chromium, scene, width=NARROW, height=740) as (view, _):
-                await view.until("document.querySelectorAll('#gait-rows tr').length > 0")
-                await narrow(view)
-
-    browser.run(main)
+    for scene in (after(40.0), placed(29.0)):
+        async with opened(chromium, scene, width=NARROW, height=740) as (view, _):
+            await view.until("document.querySelectorAll('#gait-rows tr').length > 0")
+            await narrow(view)
 
 
-def test_every_text_stands_out_from_its_ground_light_and_dark(browser: Browsing) -> None:
-    async def main(chromium: Browser) -> None:
-        for dark in (False, True):
-            async with opened(chromium, after(40.0), dark=dark) as (view, _):
-                await view.until("document.querySelectorAll('#gait-rows tr').length > 0")
-                await view.tab.locator("summary").click()
-                assert await view.tab.evaluate(FAINT) == []
-
-    browser.run(main)
+async def test_every_text_stands_out_from_its_ground_light_and_dark(chromium: Browser) -> None:
+    for dark in (False, True):
+        async with opened(chromium, after(40.0), dark=dark) as (view, _):
+            await view.until("document.querySelectorAll('#gait-rows tr').length > 0")
+            await view.tab.locator("summary").click()
+            assert await view.tab.evaluate(FAINT) == []

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
-from browsers import Browser, Browsing
+from browsers import Browser
 from shown import fresh, opened
 
 PLAYED = """async ([speed, real, paused]) => {
@@ -33,14 +31,11 @@ PLAYED = """async ([speed, real, paused]) => {
 
 
 @pytest.mark.parametrize("paused", [False, True])
-def test_what_scrolls_keeps_to_what_was_played_also_where_it_cannot_be_played_so_fast(
-    browser: Browsing, paused: bool
+async def test_what_scrolls_keeps_to_what_was_played_also_where_it_cannot_be_played_so_fast(
+    chromium: Browser, paused: bool
 ) -> None:
-    async def main(chromium: Browser) -> list[dict[str, Any]]:
-        async with opened(chromium, fresh()) as (view, _):
-            asked = [(1.0, 1.0), (16.0, 16.0), (16.0, 8.0), (32.0, 2.5)]
-            return [await view.tab.evaluate(PLAYED, [*pace, paused]) for pace in asked]
-
-    for played, off in zip(browser.run(main), (0.05, 0.6, 0.3, 0.3), strict=True):
-        assert -off < played["least"] and played["most"] < off
-        assert played["back"] <= (0.1 if paused else 0.0)
+    async with opened(chromium, fresh()) as (view, _):
+        for speed, real, off in ((1.0, 1.0, 0.05), (16.0, 16.0, 0.6), (16.0, 8.0, 0.3), (32.0, 2.5, 0.3)):
+            played = await view.tab.evaluate(PLAYED, [speed, real, paused])
+            assert -off < played["least"] and played["most"] < off
+            assert played["back"] <= (0.1 if paused else 0.0)

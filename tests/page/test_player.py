@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
+from itertools import count
 
 import pytest
 from hypothesis import given, settings
@@ -35,13 +37,8 @@ WALL = 0.05
 
 def slices(items: int) -> Callable[[], bool]:
     """Enough after so many items."""
-    left = [items]
-
-    def enough() -> bool:
-        left[0] -= 1
-        return left[0] <= 0
-
-    return enough
+    looks = count(1)
+    return lambda: next(looks) >= items
 
 
 def never() -> bool:
@@ -59,14 +56,29 @@ def play_until(one: Player, t: float) -> None:
     """In real time, and on to the moment `t` itself."""
     one.play()
     while one.playback.t + WALL * one.playback.speed < t:
-        one.passed(WALL)
-        one.work(never)
-    one.passed((t - one.playback.t) / one.playback.speed)
-    one.work(never)
+        pass_by(one, WALL)
+    pass_by(one, (t - one.playback.t) / one.playback.speed)
 
 
 def settle(one: Player, items: int = 100) -> None:
     while one.work(slices(items)):
+        pass
+
+
+def pass_by(one: Player, seconds: float) -> None:
+    """So many s on the wall, in which it keeps up."""
+    one.passed(seconds)
+    one.work(never)
+
+
+def stop_at(one: Player, t: float, items: int = 100) -> None:
+    one.pause()
+    one.seek(t)
+    settle(one, items)
+
+
+def run_out(one: Player) -> None:
+    while one.run_through(slices(1000)):
         pass
 
 
@@ -79,21 +91,19 @@ def shown(one: Player) -> dict:
 
 END = KeptItems(PACKETS).end
 BEGIN = KeptItems(PACKETS).begin
-STRAIGHT: dict[float, tuple[dict, dict]] = {}
 
 
+@cache
 def straight(t: float) -> tuple[dict, dict]:
     """Scene and snapshot at `t` of a run that nobody touched."""
-    if t not in STRAIGHT:
-        one = player()
-        if t > BEGIN:
-            one.speed(8.0)
-            play_until(one, t)
-        else:
-            one.work(never)
-        assert one.playback.t == pytest.approx(t, abs=1e-9)
-        STRAIGHT[t] = shown(one), one.session.snapshot()
-    return STRAIGHT[t]
+    one = player()
+    if t > BEGIN:
+        one.speed(8.0)
+        play_until(one, t)
+    else:
+        one.work(never)
+    assert one.playback.t == pytest.approx(t, abs=1e-9)
+    return shown(one), one.session.snapshot()
 
 
 TIMES = st.sampled_from([BEGIN, *(round(BEGIN + share * (END - BEGIN), 3) for share in (0.1, 0.3, 0.5, 0.7, 0.9)), END])
@@ -121,9 +131,7 @@ def test_what_is_shown_at_a_time_is_the_same_whatever_was_played_before(doings, 
         else:
             one.work(slices(doing))
         one.scene.whole()  # somebody watches
-    one.pause()
-    one.seek(end)
-    settle(one)
+    stop_at(one, end)
     assert one.playback.t == end and one.playback.seeking is None
     assert (shown(one), one.session.snapshot()) == straight(end)
 
@@ -151,20 +159,17 @@ def test_a_recording_plays_at_the_speed_that_was_asked_for_and_stops_at_its_end(
     one = player()
     assert (one.playback.state, one.playback.speed, one.playback.t) == ("playing", 1.0, BEGIN)
     one.work(never)
-    one.passed(0.1)
-    one.work(never)
+    pass_by(one, 0.1)
     assert one.playback.t == pytest.approx(BEGIN + 0.1)
     one.speed(10.0)
-    one.passed(0.1)
-    one.work(never)
+    pass_by(one, 0.1)
     assert one.playback.t == pytest.approx(BEGIN + 1.1)
     one.pause()
     one.passed(0.1)
     assert not one.work(never) and one.playback.t == pytest.approx(BEGIN + 1.1)
     one.play()
     for _ in range(100):
-        one.passed(0.1)
-        one.work(never)
+        pass_by(one, 0.1)
     assert (one.playback.state, one.playback.t) == ("ended", END)
     one.play()
     assert one.playback.state == "playing" and one.playback.t == BEGIN
@@ -175,8 +180,7 @@ def test_a_recording_plays_at_the_speed_that_was_asked_for_and_stops_at_its_end(
 
 def test_going_back_from_the_end_plays_on_and_the_pace_has_bounds():
     one = player()
-    while one.run_through(slices(1000)):
-        pass
+    run_out(one)
     assert one.playback.state == "ended"
     one.seek(END - 1.0)
     settle(one)
@@ -185,9 +189,7 @@ def test_going_back_from_the_end_plays_on_and_the_pace_has_bounds():
     assert one.playback.speed == FASTEST
     one.speed(0.0)
     assert one.playback.speed == SLOWEST
-    one.pause()
-    one.seek(-1e9)
-    settle(one)
+    stop_at(one, -1e9)
     assert one.playback.state == "paused" and one.playback.t == BEGIN
 
 
@@ -229,9 +231,7 @@ def test_a_foot_is_shown_as_not_heard_from_when_it_fell_silent_whoever_looked_me
     looks = []
     for items in (1, 9, 1000):
         one = player(samples)
-        one.pause()
-        one.seek(3.2)
-        settle(one, items)
+        stop_at(one, 3.2, items)
         looks.append(shown(one))
     assert looks[0] == looks[1] == looks[2]
     phases = looks[0]["phases"]["left"]
@@ -241,16 +241,14 @@ def test_a_foot_is_shown_as_not_heard_from_when_it_fell_silent_whoever_looked_me
 
 def test_a_computer_that_slept_plays_on_where_it_was():
     one = player()
-    one.passed(3600.0)
-    settle(one)
+    pass_by(one, 3600.0)
     assert one.playback.t < BEGIN + 1.0
 
 
 def test_saved_moments_are_few_however_long_the_recording_is(monkeypatch):
     monkeypatch.setattr(playing, "MOMENTS", 8)
     one = player(spacing=0.04)
-    while one.run_through(slices(1000)):
-        pass
+    run_out(one)
     assert len(one._moments) <= playing.MOMENTS and one.spacing > 0.04
     times = [moment.t for moment in one._moments]
     assert times == sorted(times) and times[0] == BEGIN
@@ -262,13 +260,10 @@ def test_a_damaged_recording_plays_up_to_the_damage_and_says_so():
     half = PACKETS[: len(PACKETS) // 2]
     one = player(KeptItems(half), fault="walk.jsonl: line 500: is not JSON")
     assert all("line 500" not in line[2] for line in shown(one)["log"])
-    while one.run_through(slices(1000)):
-        pass
+    run_out(one)
     assert one.playback.t == half[-1].t and one.playback.state == "ended"
     assert shown(one)["log"][-1][1:] == ("link", "walk.jsonl: line 500: is not JSON")
-    one.seek(BEGIN)
-    one.pause()
-    settle(one)
+    stop_at(one, BEGIN)
     assert all("line 500" not in line[2] for line in shown(one)["log"])
 
 

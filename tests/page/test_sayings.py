@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from browsers import Browser, Browsing
+from browsers import Browser
 from shown import after, between, opened, show
 
 from solepath import Disconnected
@@ -26,60 +26,46 @@ WATCH = """() => {
 }"""
 
 
-def test_the_page_does_not_say_that_somebody_walks_of_whom_nothing_is_heard(browser: Browsing) -> None:
-    async def main(chromium: Browser) -> None:
-        scene = after(12.0)
-        async with opened(chromium, scene) as (view, _):
-
-            async def text(name: str) -> str:
-                found: str = await view.tab.locator(f"#{name}").inner_text()
-                return found
-
-            await view.until("document.getElementById('activity').textContent === 'Walking'")
-            assert all([float(await text(name)) > 0.0 for name in FIGURES])
-            rows = await view.tab.locator("#gait-rows tr").all_inner_texts()
-            assert rows[0].split()[:3] == ["strides", *[str(n) for n in strides(scene.whole()[0]["frame"]["gait"])]]
-            angle = next(row for row in rows if row.startswith("toe-off"))
-            assert angle.rstrip().endswith("°"), "degrees, not a share of an angle"
-            assert "settle with 30 and more" in await text("gait-note")
-            for site in SITE_OF_FOOT.values():
-                scene.take(None, [Disconnected(t=12.0, known_at=12.0, site=site)])
-            scene.tick(15.0)
-            await view.until("document.getElementById('activity').textContent === 'Not known, last: walking'")
-            assert await text("since") in ("no foot is heard for 2 s", "no foot is heard for 3 s")
-            assert [await text(name) for name in FIGURES] == ["–", "–"]
-            assert int(await text("steps")) > 10, "what was walked is still known"
-            await view.until("document.getElementById('announcer').textContent.includes('Not known, last: walking')")
-            links = await view.tab.locator("#links").inner_text()
-            assert "loss" not in links and "lost" in links
-
-    browser.run(main)
+async def test_the_page_does_not_say_that_somebody_walks_of_whom_nothing_is_heard(chromium: Browser) -> None:
+    scene = after(12.0)
+    async with opened(chromium, scene) as (view, _):
+        await view.until("document.getElementById('activity').textContent === 'Walking'")
+        assert all([float(await view.text(name)) > 0.0 for name in FIGURES])
+        rows = await view.tab.locator("#gait-rows tr").all_inner_texts()
+        assert rows[0].split()[:3] == ["strides", *[str(n) for n in strides(scene.whole()[0]["frame"]["gait"])]]
+        angle = next(row for row in rows if row.startswith("toe-off"))
+        assert angle.rstrip().endswith("°"), "degrees, not a share of an angle"
+        assert "settle with 30 and more" in await view.text("gait-note")
+        for site in SITE_OF_FOOT.values():
+            scene.take(None, [Disconnected(t=12.0, known_at=12.0, site=site)])
+        scene.tick(15.0)
+        await view.until("document.getElementById('activity').textContent === 'Not known, last: walking'")
+        assert await view.text("since") in ("no foot is heard for 2 s", "no foot is heard for 3 s")
+        assert [await view.text(name) for name in FIGURES] == ["–", "–"]
+        assert int(await view.text("steps")) > 10, "what was walked is still known"
+        await view.until("document.getElementById('announcer').textContent.includes('Not known, last: walking')")
+        links = await view.text("links")
+        assert "loss" not in links and "lost" in links
 
 
-def test_all_see_the_colours_that_the_session_chose(browser: Browsing) -> None:
-    async def main(chromium: Browser) -> None:
-        scene = after(12.0)
-        top = scene.scales.units["kPa"].top
-        said = f"document.getElementById('scale-top').textContent.endsWith('{top:.0f} kPa')"
-        async with opened(chromium, scene) as (first, _):
-            await first.until(said)
-            async with opened(chromium, scene) as (late, _):
-                await late.until(said)
-
-    browser.run(main)
+async def test_all_see_the_colours_that_the_session_chose(chromium: Browser) -> None:
+    scene = after(12.0)
+    top = scene.scales.units["kPa"].top
+    said = f"document.getElementById('scale-top').textContent.endsWith('{top:.0f} kPa')"
+    async with opened(chromium, scene) as (first, _):
+        await first.until(said)
+        async with opened(chromium, scene) as (late, _):
+            await late.until(said)
 
 
-def test_picture_and_words_of_a_sole_are_of_one_moment(browser: Browsing) -> None:
-    async def main(chromium: Browser) -> None:
-        scene = after(6.0)
-        async with opened(chromium, scene) as (view, _):
-            await view.until("document.getElementById('sole-left').ariaLabel.includes(' newton')")
-            await view.tab.evaluate(WATCH)
-            await show(scene, between(6.0, 10.0))
-            await view.until("window.said >= 4")
-            assert await view.tab.evaluate("window.unlike") == []
-
-    browser.run(main)
+async def test_picture_and_words_of_a_sole_are_of_one_moment(chromium: Browser) -> None:
+    scene = after(6.0)
+    async with opened(chromium, scene) as (view, _):
+        await view.until("document.getElementById('sole-left').ariaLabel.includes(' newton')")
+        await view.tab.evaluate(WATCH)
+        await show(scene, between(6.0, 10.0))
+        await view.until("window.said >= 4")
+        assert await view.tab.evaluate("window.unlike") == []
 
 
 def strides(gait: object) -> list[int]:

@@ -1,54 +1,31 @@
-"""What the page shows: out of events alone, the same to whoever has watched from the start and who comes late."""
+"""What the page shows: out of events alone, whatever sensors there are."""
 
 from __future__ import annotations
 
 import base64
 import json
-import pickle
-import re
-from collections.abc import Iterable
-from copy import deepcopy
-from functools import cache
-from math import inf, nan, pi
-from typing import Any
+from math import inf, nan
 
 from attrs import evolve
-from here import PROTOCOL
-from hypothesis import given, settings
-from hypothesis import strategies as st
+from said import eventful, fed, moved, rough
 from shown import frame, later, shown
-from walks import ROUGH, SHORT, insoles, samples
+from walks import SHORT, insoles, samples
 
 from solepath import (
     Activity,
     ActivityChanged,
-    BatteryLevel,
-    Candidate,
-    CellFault,
-    CellsFailed,
     Connected,
     Disconnected,
-    Event,
     Foot,
-    FootHeard,
-    FootMoved,
     FootPressed,
-    FootSilent,
-    LayoutKnown,
     Packet,
-    PacketRejected,
     PacketsLost,
     Phase,
-    Placed,
     PlaceLost,
-    Sample,
-    SampleGap,
-    Session,
     Site,
     StreamResumed,
     StreamStale,
     StrideTaken,
-    TurnMade,
     WearerMoved,
 )
 from solepath.emulate.routes.building import BUILDING
@@ -56,176 +33,18 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.sensortags import CC2650
 from solepath.emulate.walk import emulate
 from solepath.papers.pressure_contour.recipe import PRESSURE_CONTOUR
-from solepath.recipes import DEFAULT, Recipe
-from solepath.show.page.messages import FASTEST, SLOWEST, encode, parse_command
+from solepath.show.page.messages import encode
 from solepath.show.page.player.playback import Playback
-from solepath.show.page.scene.lists import MOST_POINTS, RECENT
-from solepath.show.page.scene.log import MOST_LINES, sentence
 from solepath.show.page.scene.scene import Scene
 from solepath.show.tables.gait import gait_lines, gait_rows
-from solepath.types import Turn
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
-LISTS = ("phases", "tracks", "places", "log")
-
-
-def fed(items: Iterable[Packet | Sample], recipe: Recipe = DEFAULT) -> tuple[Session, list[Event]]:
-    """A session that has heard all of them, and what it said."""
-    session = Session(recipe, poses=True, pressures=True)
-    return session, session.feed(items)
-
-
-@cache
-def walk() -> tuple[Session, tuple[Event, ...]]:
-    session, events = fed(insoles(SHORT, ROUGH).packets)
-    return session, tuple(events)
-
-
-def step(t: float, x: float, foot: Foot = LEFT) -> StrideTaken:
-    """A step to x m."""
-    first = next(event for event in walk()[1] if isinstance(event, StrideTaken))
-    return evolve(first, foot=foot, t=t, known_at=t, t_start=t - 1.0, t_end=t, position=(x, 0.0, 0.0))
-
-
-def moved(t: float, known_at: float | None = None, foot: Foot = LEFT, x: float = 0.0) -> FootMoved:
-    at = t if known_at is None else known_at
-    return FootMoved(t=t, known_at=at, foot=foot, position=(x, 0.0, 0.0), velocity=(0.0, 0.0, 0.0), phase=Phase.SWING)
-
-
-# --- a page that applies what comes ----------------------------------------------------------------------------------
-
-
-class Reader:
-    """Does what protocol/page.md tells a page to do."""
-
-    def __init__(self) -> None:
-        self.scene: dict[str, Any] = {}
-        self.wholes = 0
-
-    def take(self, text: str) -> None:
-        message = json.loads(text)
-        if message["type"] == "scene":
-            self.scene = message
-            self.wholes += 1
-            return
-        now = self.scene["frame"]
-        for key, value in message.items():
-            if key not in LISTS:
-                now[key] = value
-        for name, points in message.get("tracks", {}).items():
-            for point in points:
-                self.scene["tracks"][name] = self._longer(self.scene["tracks"][name], point)
-        for point in message.get("places", []):
-            self.scene["places"] = self._longer(self.scene["places"], point)
-        for foot, begun in message.get("phases", {}).items():
-            kept = self.scene["phases"][foot]
-            for one in begun:
-                kept.append(one)
-                while len(kept) > 1 and (kept[1][0] <= one[0] - 20.0 or len(kept) > 500):
-                    kept.pop(0)
-        for line in message.get("log", []):
-            self.scene["log"] = [*self.scene["log"], line][-50:]
-
-    def _longer(self, points: list[Any], point: Any) -> list[Any]:
-        points = [*points, point]
-        return points[::2] if len(points) > 2000 else points
-
-
-def eventful() -> list[Event]:
-    """A walk, and everything else that a page can be told."""
-    events = list(walk()[1])
-    begin, end = events[0].known_at, events[-1].known_at
-    middle, third = events[len(events) // 2].known_at, events[len(events) // 3].known_at
-    candidate = Candidate("0", (1.0, 2.0, 0.0), 0.5, 0.75, "stairs A")
-    other = Candidate("1", (1.0, 2.0, 3.0), None, 0.25, "stairs A")
-    others = [
-        Connected(t=begin, known_at=begin, site=Site.LEFT_FOOT, device="", name="Insole", signal=-60),
-        Connected(t=begin, known_at=begin, site=Site.PELVIS, device="", name="", signal=None),
-        Placed(t=third, known_at=third, level="0", position=(1.0, 2.0, 0.0), spread=2.0, candidates=(candidate, other)),
-        Placed(t=middle, known_at=middle, level="0", position=(1.0, 2.0, 0.0), spread=0.5, candidates=(candidate,)),
-        PlaceLost(t=end, known_at=end, what="the track goes where the plan has no way"),
-        Disconnected(t=third, known_at=third, site=Site.LEFT_FOOT),
-        BatteryLevel(t=third, known_at=third, site=Site.LEFT_FOOT, level=0.1),
-        Connected(t=middle, known_at=middle, site=Site.LEFT_FOOT, device="", name="Insole", signal=-60),
-        TurnMade(t=middle, known_at=middle, t_start=third, angle=pi / 2, turn=Turn.LEFT),
-    ]
-    return sorted([*events, *others], key=lambda event: event.known_at)
-
-
-@cache
-def long_way() -> list[Event]:
-    return [step(1.0 + k, 0.7 * k) for k in range(MOST_POINTS + 2 * RECENT)]
-
-
-def agree(events: list[Event], looks: list[int], scene: Scene | None = None) -> Reader:
-    """Somebody looks after so many events each; what they have is what somebody gets who comes at the end."""
-    scene = Scene("a walk", "default", plan=BUILDING) if scene is None else scene
-    reader = Reader()
-    message, cursor = scene.whole()
-    reader.take(encode(message))
-    for index, event in enumerate(events):
-        scene.take(None, [event])
-        for _ in range(looks.count(index)):
-            news, cursor = scene.since(cursor)
-            if news is not None:
-                reader.take(encode(news))
-    news, cursor = scene.since(cursor)
-    if news is not None:
-        reader.take(encode(news))
-    late = json.loads(encode(scene.whole()[0]))
-    for one in (late, reader.scene):
-        for key in LISTS:
-            one["frame"].pop(key, None)
-        one["frame"].pop("type", None)
-    assert reader.scene == late
-    return reader
-
-
-@settings(deadline=None, max_examples=8)
-@given(st.data())
-def test_who_hears_what_changed_ends_with_what_who_comes_late_is_shown(data: st.DataObject) -> None:
-    events = eventful()
-    looks = data.draw(st.lists(st.integers(0, len(events) - 1), max_size=40))
-    agree(events, looks)
-
-
-@settings(deadline=None, max_examples=8)
-@given(st.lists(st.integers(0, MOST_POINTS + 2 * RECENT), max_size=30))
-def test_a_long_track_is_thinned_alike_on_both_sides(looks: list[int]) -> None:
-    agree(long_way(), looks)
-
-
-def test_a_page_that_is_far_behind_gets_everything_anew() -> None:
-    events: list[Event] = [step(1.0 + k, 0.7 * k) for k in range(RECENT + 10)]
-    assert agree(events, []).wholes == 2
-    assert agree(events, [RECENT // 2]).wholes == 1
-
-
-def test_a_page_that_drew_no_soles_draws_anew_when_the_cells_are_known() -> None:
-    known = [event for event in walk()[1] if isinstance(event, LayoutKnown) and event.site is Site.LEFT_FOOT]
-    reader = agree(list(known), [0])
-    assert reader.wholes == 2
-    assert len(reader.scene["layouts"]["left"]["cells"]) == 96
-    assert reader.scene["layouts"]["left"]["unit"] == "N"
-    scene = shown(known)
-    _, cursor = scene.whole()
-    news, _ = shown(known, scene).since(cursor)  # the same once more
-    assert news is None or news["type"] == "frame"
-
-
-def test_nothing_new_is_no_message() -> None:
-    scene = shown(walk()[1])
-    _, cursor = scene.whole()
-    assert scene.since(cursor) == (None, cursor)
-    scene.tick(scene.now)
-    assert scene.since(cursor)[0] is None
-
 
 # --- it shows what the session says ----------------------------------------------------------------------------------
 
 
 def test_a_page_shows_where_the_feet_and_the_wearer_are() -> None:
-    session, events = walk()
+    session, events = rough()
     told = frame(shown(events))
     for foot in Foot:
         one = told["feet"][foot.value]
@@ -241,7 +60,7 @@ def test_a_page_shows_where_the_feet_and_the_wearer_are() -> None:
 
 
 def test_cells_are_one_byte_each_of_the_highest_so_far() -> None:
-    _, events = walk()
+    _, events = rough()
     pressed = [event for event in events if isinstance(event, FootPressed) and event.foot is LEFT]
     told = frame(shown(events))["feet"]["left"]
     assert told["peak"] == round(max(max(event.values) for event in pressed), 3)
@@ -321,7 +140,7 @@ def test_other_recipes_are_shown_as_well() -> None:
 
 
 def test_feet_that_fall_silent_show_nothing_and_come_back() -> None:
-    _, events = walk()
+    _, events = rough()
     scene = shown(events)
     end = scene.now
     scene.tick(end + 5.0)
@@ -436,132 +255,3 @@ def test_a_page_says_how_a_recording_is_played() -> None:
         "t": 0.0,
         "playback": {"begin": 0.0, "end": 9.0, "t": 1.0, "state": "playing", "speed": 1.0, "seeking": None},
     }
-
-
-# --- memory ----------------------------------------------------------------------------------------------------------
-
-
-def test_hours_of_walking_do_not_make_a_scene_larger() -> None:
-    many = FootMoved | FootPressed | PacketsLost | PacketRejected | SampleGap
-    once = [event for event in eventful() if not isinstance(event, many)]
-    length = once[-1].known_at + 1.0
-    scene, sizes = Scene("hours", "default", plan=BUILDING), []
-    for lap in range(500):
-        for event in eventful() if lap % 125 == 124 else once:
-            event = later(event, lap * length)
-            if isinstance(event, StrideTaken | WearerMoved | Placed):
-                x, y, z = event.position
-                event = evolve(event, position=(x + lap, y, z))
-            scene.take(None, [event])
-        if lap % 125 == 124:
-            message = scene.whole()[0]
-            assert all(len(track) <= MOST_POINTS for track in message["tracks"].values())
-            assert len(message["places"]) <= MOST_POINTS
-            assert len(message["log"]) == MOST_LINES
-            assert all(len(phases) < 100 for phases in message["phases"].values())
-            sizes.append(len(pickle.dumps(scene)))
-    assert max(sizes[2:]) < 1.3 * max(sizes[:2])
-    assert max(sizes) < 1_000_000
-
-
-# --- the log ---------------------------------------------------------------------------------------------------------
-
-
-def test_every_event_is_either_a_sentence_or_none() -> None:
-    said = [told for event in eventful() if (told := sentence(event)) is not None]
-    assert {kind for kind, _ in said} <= {"link", "wear", "gait", "place"}
-    assert all(text and "\n" not in text and "_" not in text for _, text in said)
-
-
-def test_the_log_speaks_of_feet_and_not_of_events() -> None:
-    failed = CellsFailed(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, fault=CellFault.DEAD, cells=(3,))
-    assert sentence(failed) == ("wear", "left foot: 1 cell shows no load; left out from now on")
-    assert sentence(evolve(failed, cells=(3, 4))) == (
-        "wear", "left foot: 2 cells show no load; left out from now on",
-    )  # fmt: skip
-    turned = TurnMade(t=1.0, known_at=1.0, t_start=0.0, angle=-pi / 2, turn=Turn.RIGHT)
-    assert sentence(turned) == ("gait", "turned right by 90 degrees")
-
-
-def test_a_low_battery_is_said_once() -> None:
-    levels = [BatteryLevel(t=t, known_at=t, site=Site.LEFT_FOOT, level=0.2 - 0.01 * t) for t in (1.0, 6.0, 7.0, 8.0)]
-    assert [line[2] for line in shown(levels).log.lines.items] == ["left foot: the battery is at 14 %"]
-
-
-def test_a_silence_that_the_link_told_is_not_told_again_of_the_foot() -> None:
-    stale = StreamStale(t=1.0, known_at=2.0, site=Site.LEFT_FOOT, silent_for=1.0)
-    silent = FootSilent(t=1.0, known_at=2.5, foot=LEFT, silent_for=1.5)
-    heard = FootHeard(t=3.0, known_at=3.0, foot=LEFT, silent_for=2.0)
-    assert len(shown([moved(0.5), stale, silent]).log.lines.items) == 1
-    assert len(shown([moved(1.9), moved(2.5), silent, heard]).log.lines.items) == 2
-
-
-def test_a_name_from_the_air_cannot_break_a_line() -> None:
-    named = Connected(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, device="", name="a\nb\x1b[2J" + 999 * "x", signal=None)
-    _, text = sentence(named) or ("", "")
-    assert "\n" not in text and "\x1b" not in text and len(text) <= 300
-
-
-def test_a_plan_is_drawn_and_written_once_whoever_watches() -> None:
-    plan = evolve(BUILDING, name="drawn once")
-    scene = Scene("along a corridor", "default", plan=plan)
-    first, _ = scene.whole()
-    copied = deepcopy(scene)
-    assert copied.plan is plan
-    for one in (scene, copied):
-        message, _ = one.whole()
-        assert message["plan"] is first["plan"]
-        assert json.loads(encode(message)) == json.loads(json.dumps(message))
-        assert message["plan"].text is first["plan"].text
-
-
-# --- protocol/page.md -------------------------------------------------------------------------------------------------
-
-PAGE = (PROTOCOL / "page.md").read_text()
-
-
-def keys(title: str) -> set[str]:
-    """The first column of the table below this heading."""
-    table = PAGE.split(f"### {title}\n", 1)[1].split("|---|---|\n", 1)[1].split("\n\n", 1)[0]
-    return {name for row in table.splitlines() for name in re.findall(r"`([^`]+)`", row.split("|")[1])}
-
-
-def test_messages_are_made_of_the_keys_that_the_protocol_names() -> None:
-    events = [event for event in eventful() if not isinstance(event, PlaceLost)]
-    scene = shown(events, Scene("a walk", "default", "recording", BUILDING, Playback(0.0, 1.0, 0.0)))
-    for event in fed(insoles(Route().stand(1.5).walk(14.0, 1.3).stop(1.0)).packets)[1]:
-        scene.take(None, [later(event, 100.0)])
-    message = json.loads(encode(scene.whole()[0]))
-    told = message["frame"]
-    assert message.keys() == keys("`scene`")
-    assert told.keys() == keys("`frame`")
-    assert told["feet"]["left"].keys() == told["feet"]["right"].keys() == keys("foot")
-    assert told["gait"].keys() == keys("gait")
-    assert all(row.keys() == keys("row") for row in told["gait"]["rows"])
-    assert all(link.keys() == keys("link") for link in told["links"].values())
-    assert all(scale.keys() == keys("scale") for scale in told["scales"].values()) and told["scales"]
-    for name in ("wearer", "place", "activity", "pace", "playback"):
-        (row,) = re.findall(rf"^\| `{name}` \| (.*) \|$", PAGE, re.MULTILINE)
-        assert told[name].keys() <= set(re.findall(r"`([a-z]+)`", row)), name
-    prose = PAGE.replace("\n", " ")
-    level, stop = message["plan"]["levels"][0], message["plan"]["connectors"][0]["stops"][0]
-    known = {*level, *stop, *message["plan"], *message["plan"]["connectors"][0], *message["layouts"]["left"]}
-    assert all(f"`{name}`" in prose for name in known)
-
-
-def test_the_examples_of_the_protocol_are_what_is_sent() -> None:
-    news, before = [json.loads(text) for text in re.findall(r"^```json\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)]
-    assert json.loads(encode(Scene("left and right insole", "default").whole()[0])) == before
-    assert news.keys() <= keys("`frame`")
-    assert news["feet"]["left"].keys() == keys("foot")
-    assert news["links"]["left foot"].keys() == keys("link")
-
-
-def test_the_protocol_tells_the_bounds_of_the_speed() -> None:
-    assert f"so many times real time, {SLOWEST:g} to {FASTEST:g} |" in PAGE
-
-
-def test_the_commands_of_the_protocol_are_commands() -> None:
-    table = PAGE.split("| message | meaning |\n", 1)[1].split("\n\n", 1)[0]
-    commands = [parse_command(text) for text in re.findall(r"^\| `(.*?)` \|", table, re.MULTILINE)]
-    assert [command.do for command in commands] == ["play", "pause", "speed", "seek"]

@@ -11,17 +11,18 @@ from floors import (
     HIGH,
     LIFTS,
     LOW,
+    METHODS,
     OFFICE,
     RIGHT,
     STAIRS,
-    STOREY,
+    Method,
     Pedestrian,
-    Told,
     beside,
     doing,
+    follow,
+    lost,
     office,
     stepped,
-    tour,
 )
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -32,14 +33,10 @@ from solepath.body.part import Position
 from solepath.body.place.particles import Particles
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import FloorPlan, Level, Start, Wall
-from solepath.papers.footstep_tracker.snake import SnakeGame
 from solepath.saving import codec as machine
 from solepath.saving.packed import Lists, write
 from solepath.saving.schema import record_of
 from solepath.saving.streams import to_bytes
-
-METHODS = [Particles, SnakeGame]
-Method = type[Particles] | type[SnakeGame]
 
 NUMBERS = st.one_of(
     st.floats(-60.0, 60.0), st.floats(allow_nan=True, allow_infinity=True), st.sampled_from([0.0, 1e-300, 1e300, -1e9])
@@ -106,29 +103,13 @@ def test_no_events_and_no_track_whatever_make_it_raise_and_what_it_tells_is_soun
     assert machine.load(method, json.loads(json.dumps(machine.save(part)))) == part
 
 
-@pytest.mark.parametrize("method", METHODS)
-@settings(max_examples=8, deadline=None)
-@given(seed=st.integers(101, 1000), cut=st.floats(0.0, 1.0))
-def test_saved_anywhere_it_goes_on_the_same_bit_for_bit(method, seed, cut) -> None:  # type: ignore[no-untyped-def]
-    told = tour(seed).told[:70]
-    at = int(cut * len(told))
-    whole, part = method(most=100), method(most=100)
-    for one in told[:at]:
-        assert whole.follow(OFFICE, one.events, one.here) == part.follow(OFFICE, one.events, one.here)
-    again = machine.load(method, json.loads(json.dumps(machine.save(part))))
-    for one in told[at:]:
-        assert whole.follow(OFFICE, one.events, one.here) == again.follow(OFFICE, one.events, one.here)
-
-
 def packed_size(part: object) -> int:
     lists: Lists = ([], [], [], [])
     write(record_of(type(part)), part, lists)
     return len(to_bytes(*lists, (0.0, 0.0)))
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_the_state_is_small_and_does_not_grow(method: Method) -> None:
-    part = method()
+def test_the_state_is_small_and_does_not_grow(part: Method) -> None:
     sizes = []
     one = Pedestrian(21, "1", LIFTS["lift south"])
     one.ride("0")
@@ -144,15 +125,6 @@ def test_the_state_is_small_and_does_not_grow(method: Method) -> None:
     assert sum(found) / len(found) < 8_000 and max(found[-100:]) < 10_000, "once it is decided"
 
 
-def lost(events: list[Event]) -> list[str]:
-    return [event.what for event in events if isinstance(event, PlaceLost)]
-
-
-def follow(part: Particles | SnakeGame, told: list[Told], plan: IndexedPlan = OFFICE) -> list[Event]:
-    return [event for one in told for event in part.follow(plan, one.events, one.here)]
-
-
-@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize(
     ("start", "why"),
     [
@@ -161,25 +133,21 @@ def follow(part: Particles | SnakeGame, told: list[Told], plan: IndexedPlan = OF
     ],
 )
 def test_a_start_that_is_nowhere_is_said_once_and_the_wearer_is_found_later(
-    method: Method, start: Start, why: str
+    part: Method, start: Start, why: str
 ) -> None:
     one = Pedestrian(22, "1", LIFTS["lift south"])
     one.step(0.1, 0.0)
     one.step(-0.1, 0.0)
     one.ride("0")
     one.walk(beside(one.place), (RIGHT, LOW), (RIGHT, HIGH))
-    part = method()
     part.set_out(start)
     events = follow(part, one.told)
     assert len(lost(events)) == 1 and lost(events)[0].startswith(why)
     assert part.place is not None and part.place.level == "0"
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_a_track_through_walls_is_not_bent_to_the_plan_for_long_but_loses_the_place(method: Method) -> None:
-    one = Pedestrian(23, "0", (12.0, LOW))
-    part = method()
-    part.set_out(Start("0", one.place, -one.turned))
+def test_a_track_through_walls_is_not_bent_to_the_plan_for_long_but_loses_the_place(part: Method) -> None:
+    one = Pedestrian(23, "0", (12.0, LOW)).known_to(part)
     one.walk((20.0, LOW), (20.0, 40.0))  # across the block, where nobody can go, and out of the house
     events = follow(part, one.told)
     assert part.place is None
@@ -192,44 +160,33 @@ def test_a_track_through_walls_is_not_bent_to_the_plan_for_long_but_loses_the_pl
     assert part.place is not None, "the next lift finds the wearer again"
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_a_wearer_who_leaves_by_the_door_is_no_longer_on_the_plan(method: Method) -> None:
-    one = Pedestrian(24, "0", (20.0, LOW))
-    part = method()
-    part.set_out(Start("0", one.place, -one.turned))
+def test_a_wearer_who_leaves_by_the_door_is_no_longer_on_the_plan(part: Method) -> None:
+    one = Pedestrian(24, "0", (20.0, LOW)).known_to(part)
     one.walk((60.0, LOW))
     events = follow(part, one.told)
     assert part.place is None and len(lost(events)) == 1
     assert "the track leaves the plan near (4" in lost(events)[0] and "on level 0" in lost(events)[0]
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_a_track_that_leaps_loses_the_place(method: Method) -> None:
-    one = Pedestrian(25, "0", (12.0, LOW))
-    part = method()
-    part.set_out(Start("0", one.place, -one.turned))
+def test_a_track_that_leaps_loses_the_place(part: Method) -> None:
+    one = Pedestrian(25, "0", (12.0, LOW)).known_to(part)
     one.walk((16.0, LOW))
     one.step(500.0, 0.0)
     assert lost(follow(part, one.told)) == ["the track leaps by more than 100 m"]
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_without_start_stairs_and_lifts_it_says_that_the_place_cannot_be_known(method: Method) -> None:
+def test_without_start_stairs_and_lifts_it_says_that_the_place_cannot_be_known(part: Method) -> None:
     bare = IndexedPlan(evolve(office(), connectors=()))
     one = Pedestrian(26, "0", (12.0, LOW))
     one.walk((30.0, LOW))
     one.ride("1")
-    part = method()
     what = "no start was given and the plan has neither stairs nor lifts: the place cannot be known"
     assert lost(follow(part, one.told, bare)) == [what] and part.place is None
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_stairs_that_the_plan_does_not_have_change_no_level(method: Method) -> None:
+def test_stairs_that_the_plan_does_not_have_change_no_level(part: Method) -> None:
     lifts_only = IndexedPlan(evolve(office(), connectors=office().connectors[:3]))
-    one = Pedestrian(27, "0", (20.0, LOW))
-    part = method()
-    part.set_out(Start("0", one.place, -one.turned))
+    one = Pedestrian(27, "0", (20.0, LOW)).known_to(part)
     one.walk(beside(STAIRS["stairs south"]), STAIRS["stairs south"])
     one.climb("1", "stairs south")
     one.walk(beside(STAIRS["stairs south"]), (RIGHT, LOW))
@@ -259,7 +216,3 @@ def test_a_start_of_what_is_no_number_is_the_callers_mistake() -> None:
     for start in (Start("0", (10.0, LOW), nan), Start("0", (nan, LOW)), Start("0", (10.0, LOW), 0.0, inf)):
         with pytest.raises(ValueError, match="numbers"):
             Particles().set_out(start)
-
-
-def test_a_storey_of_the_plan_is_what_the_tests_take_it_for() -> None:
-    assert [level.elevation for level in OFFICE.plan.levels] == [0.0, STOREY]

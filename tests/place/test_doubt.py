@@ -2,67 +2,64 @@
 
 from __future__ import annotations
 
-from math import cos, hypot, radians, sin
+from math import cos, dist, radians, sin
 
 import pytest
 from attrs import evolve
-from floors import HIGH, LEFT, LIFTS, LOW, OFFICE, RIGHT, STAIRS, Pedestrian, Told, beside, doing, office
+from floors import (
+    HIGH,
+    LEFT,
+    LIFTS,
+    LOW,
+    OFFICE,
+    RIGHT,
+    STAIRS,
+    Method,
+    Pedestrian,
+    Told,
+    beside,
+    doing,
+    follow,
+    office,
+    placed,
+)
 
-from solepath import Activity, Event, LiftRidden, Placed, TurnMade
+from solepath import Activity, LiftRidden, TurnMade
 from solepath.body.place.crowd import rounded
-from solepath.body.place.particles import Particles
 from solepath.floorplan.index import IndexedPlan
-from solepath.floorplan.plan import Start
-from solepath.papers.footstep_tracker.snake import SnakeGame
 
-METHODS = [Particles, SnakeGame]
-Method = type[Particles] | type[SnakeGame]
 NEAR = 3.5
 
 
-def near(part: Particles | SnakeGame, level: str, place: tuple[float, float]) -> float:
+def near(part: Method, level: str, place: tuple[float, float]) -> float:
     """The weight of all candidates on that level near the place."""
-    if part.place is None:
-        return 0.0
-    return sum(
-        [
-            one.weight
-            for one in part.place.candidates
-            if one.level == level and hypot(one.position[0] - place[0], one.position[1] - place[1]) < NEAR
-        ]
-    )
+    here = [] if part.place is None else [one for one in part.place.candidates if one.level == level]
+    return sum([one.weight for one in here if dist(one.position[:2], place) < NEAR])
 
 
-def follow(part: Particles | SnakeGame, told: list[Told], plan: IndexedPlan = OFFICE) -> list[Event]:
-    return [event for one in told for event in part.follow(plan, one.events, one.here)]
+def never_drops_the_truth(part: Method, told: list[Told]) -> None:
+    for one in told:
+        part.follow(OFFICE, one.events, one.here)
+        assert one.level is None or one.place is None or near(part, one.level, one.place) > 0.0
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_who_walks_past_stairs_and_is_said_to_climb_them_stays_among_the_candidates(method: Method) -> None:
-    one = Pedestrian(201, "0", (20.0, LOW))
-    part = method()
-    part.set_out(Start("0", one.place, -one.turned))
+def test_who_walks_past_stairs_and_is_said_to_climb_them_stays_among_the_candidates(part: Method) -> None:
+    one = Pedestrian(201, "0", (20.0, LOW)).known_to(part)
     one.walk(beside(STAIRS["stairs south"]))
     one.say(doing(one.t, one.t, Activity.STAIRS_UP))
     for k in range(20):  # to and fro before the stairs, as on two flights
         one.step(0.25 if k < 10 else -0.25, 0.0)
     one.say(doing(one.t, one.t, Activity.WALKING))
     one.walk((RIGHT, LOW))
-    for told in one.told:
-        part.follow(OFFICE, told.events, told.here)
-        if told.level is not None and told.place is not None:
-            assert near(part, told.level, told.place) > 0.0
+    never_drops_the_truth(part, one.told)
     assert part.place is not None and {found.level for found in part.place.candidates} >= {"0"}
 
 
-@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("words", [("down", "down"), ("down", "up"), ("up", "down")])
 def test_stairs_up_that_are_told_as_stairs_down_lead_up_where_there_is_no_way_down(
-    method: Method, words: tuple[str, str]
+    part: Method, words: tuple[str, str]
 ) -> None:
-    one = Pedestrian(202, "0", (20.0, LOW))
-    part = method()
-    part.set_out(Start("0", one.place, -one.turned))
+    one = Pedestrian(202, "0", (20.0, LOW)).known_to(part)
     one.walk(beside(STAIRS["stairs south"]), STAIRS["stairs south"])
     one.track = (one.track[0], one.track[1], 0.0)
     for flight, word in enumerate(words):
@@ -76,10 +73,8 @@ def test_stairs_up_that_are_told_as_stairs_down_lead_up_where_there_is_no_way_do
     assert near(part, "1", one.place) > 0.1
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_an_unknown_wearer_whose_flights_are_told_up_and_down_may_be_on_either_level(method: Method) -> None:
+def test_an_unknown_wearer_whose_flights_are_told_up_and_down_may_be_on_either_level(part: Method) -> None:
     one = Pedestrian(203, "1", STAIRS["stairs south"])
-    part = method()
     one.step(0.1, 0.0, counts=False)
     for flight, word in enumerate((Activity.STAIRS_UP, Activity.STAIRS_DOWN)):
         one.say(doing(one.t, one.t, word))
@@ -94,14 +89,11 @@ def test_an_unknown_wearer_whose_flights_are_told_up_and_down_may_be_on_either_l
     assert {found.level for found in part.place.candidates} == {"0", "1"}
 
 
-@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("wrong", [-110.0, 100.0])
 def test_an_about_turn_that_the_track_has_wrong_by_a_hundred_degrees_is_put_right_by_the_walls(
-    method: Method, wrong: float
+    part: Method, wrong: float
 ) -> None:
-    one = Pedestrian(204, "0", (12.0, LOW))
-    part = method()
-    part.set_out(Start("0", one.place, -one.turned))
+    one = Pedestrian(204, "0", (12.0, LOW)).known_to(part)
     one.walk((20.0, LOW))
     one.turned += radians(wrong)
     begun = one.t
@@ -111,10 +103,7 @@ def test_an_about_turn_that_the_track_has_wrong_by_a_hundred_degrees_is_put_righ
     one.say(TurnMade(t=begun + 3.0, known_at=one.t, t_start=begun, angle=radians(180.0 + wrong), turn=None))
     one.told[-1] = evolve_angle(one.told[-1])
     one.walk((LEFT, LOW), (LEFT, HIGH))
-    for told in one.told:
-        part.follow(OFFICE, told.events, told.here)
-        if told.level is not None and told.place is not None:
-            assert near(part, told.level, told.place) > 0.0
+    never_drops_the_truth(part, one.told)
     assert near(part, "0", one.place) > 0.9
 
 
@@ -131,15 +120,12 @@ def unknown_heights() -> IndexedPlan:
     return IndexedPlan(evolve(plan, levels=levels, heights_known=False))
 
 
-@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("rise", [0.14, 0.22])
 def test_heights_that_no_plan_knows_neither_keep_a_wearer_from_another_level_nor_are_told(
-    method: Method, rise: float
+    part: Method, rise: float
 ) -> None:
     plan = unknown_heights()
-    one = Pedestrian(205, "0", (20.0, LOW))
-    part = method()
-    part.set_out(Start("0", one.place, -one.turned))
+    one = Pedestrian(205, "0", (20.0, LOW)).known_to(part)
     one.walk(beside(STAIRS["stairs south"]), STAIRS["stairs south"])
     one.say(doing(one.t, one.t, Activity.STAIRS_UP))
     for k in range(20):
@@ -148,17 +134,14 @@ def test_heights_that_no_plan_knows_neither_keep_a_wearer_from_another_level_nor
     one.level = "1"
     one.walk(beside(STAIRS["stairs south"]), (RIGHT, LOW), (RIGHT, 14.0))
     events = follow(part, one.told, plan)
-    last = [event for event in events if isinstance(event, Placed)][-1]
+    last = placed(events)[-1]
     assert last.level == "1" and near(part, "1", one.place) > 0.9
     assert last.position[2] == pytest.approx(20.0 * rise, abs=1e-3), "the track's own height"
     assert {one.position[2] for one in last.candidates} == {last.position[2]}
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_a_ride_over_a_storey_of_another_height_than_guessed_ends_on_the_next_level(method: Method) -> None:
-    one = Pedestrian(206, "0", LIFTS["lift south"])
-    part = method()
-    part.set_out(Start("0", one.place, -one.turned))
+def test_a_ride_over_a_storey_of_another_height_than_guessed_ends_on_the_next_level(part: Method) -> None:
+    one = Pedestrian(206, "0", LIFTS["lift south"]).known_to(part)
     one.step(0.05, 0.0)
     one.say(LiftRidden(t=one.t + 10.0, known_at=one.t + 11.0, t_start=one.t + 2.0, up=True, height=4.6))
     one.t += 12.0

@@ -10,7 +10,8 @@ from xml.etree import ElementTree
 
 import pytest
 from commands import refused, run
-from floors import LOW, OFFICE, RIGHT, Pedestrian, office, tour
+from floors import LOW, OFFICE, RIGHT, Pedestrian, follow, office, tour
+from recordings import written
 from walks import insoles
 
 from solepath import PlaceLost
@@ -19,7 +20,6 @@ from solepath.cli.common.failure import Failure
 from solepath.cli.common.inputs import start_of
 from solepath.floorplan.importers.geojson import write_floorplan
 from solepath.floorplan.plan import Anchor, Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Start, Wall
-from solepath.recording import PacketWriter
 from solepath.show.places import PlaceCounts
 from solepath.show.tables.plan import COLOURS, PlanPicture, blend
 from solepath.show.tables.summary import place_lines
@@ -31,9 +31,8 @@ def pictured(plan: FloorPlan, one: Pedestrian, start: Start | None = None) -> El
     part, picture = Particles(), PlanPicture(plan)
     if start is not None:
         part.set_out(start)
-    for told in one.told:
-        for event in part.follow(OFFICE, told.events, told.here):
-            picture.add(event)
+    for event in follow(part, one.told):
+        picture.add(event)
     return ElementTree.fromstring(ElementTree.tostring(picture.drawn("a tour <of two> floors & a lift")))
 
 
@@ -71,12 +70,10 @@ def test_a_plan_is_drawn_without_any_place_too_and_every_coordinate_is_a_plain_n
 
 def test_the_track_is_broken_where_the_place_was_lost() -> None:
     picture = PlanPicture(office())
-    one = Pedestrian(32, "0", (12.0, LOW))
-    one.walk((24.0, LOW))
     part = Particles()
-    part.set_out(Start("0", (12.0, LOW), -one.turned))
-    events = [event for told in one.told for event in part.follow(OFFICE, told.events, told.here)]
-    for event in events:
+    one = Pedestrian(32, "0", (12.0, LOW)).known_to(part)
+    one.walk((24.0, LOW))
+    for event in follow(part, one.told):
         picture.add(event)
     whole = len([1 for line in picture.drawn("t").iter() if line.tag == "polyline"])
     picture.breaks |= {6, 12}
@@ -115,11 +112,7 @@ def test_the_summary_of_a_wearer_who_was_never_found_says_so() -> None:
 
 @pytest.fixture(scope="module")
 def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("walk") / "walk.jsonl"
-    with PacketWriter(path) as writer:
-        for packet in insoles(cells=12).packets:
-            writer.write(packet)
-    return path
+    return written(tmp_path_factory.mktemp("walk") / "walk.jsonl", insoles(cells=12).packets)
 
 
 @pytest.fixture(scope="module")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import atan2, cos, degrees, hypot, radians, sin
+from math import atan2, cos, degrees, dist, radians, sin
 
 import pytest
 from attrs import define, field
@@ -11,26 +11,27 @@ from floors import (
     LEFT,
     LIFTS,
     LOW,
+    METHODS,
     OFFICE,
     RIGHT,
     STAIRS,
     STOREY,
+    Method,
     Pedestrian,
     Told,
     beside,
     doing,
+    lost,
+    placed,
     round_to,
     tour,
 )
 
-from solepath import Activity, Event, LiftRidden, Placed, PlaceLost
+from solepath import Activity, Event, LiftRidden
 from solepath.body.place.particles import Particles
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import FloorPlan, Level, Start
-from solepath.papers.footstep_tracker.snake import SnakeGame
 
-METHODS = [Particles, SnakeGame]
-Method = type[Particles] | type[SnakeGame]
 SURE = 0.99
 """With so much of the belief a candidate is found."""
 NEAR = 3.5
@@ -52,12 +53,8 @@ class Followed:
     def mean(self) -> float:
         return sum(self.errors) / len(self.errors)
 
-    @property
-    def lost(self) -> list[str]:
-        return [event.what for event in self.events if isinstance(event, PlaceLost)]
 
-
-def followed(part: Particles | SnakeGame, told: list[Told]) -> Followed:
+def followed(part: Method, told: list[Told]) -> Followed:
     result = Followed()
     for k, one in enumerate(told):
         result.events += part.follow(OFFICE, one.events, one.here)
@@ -68,31 +65,22 @@ def followed(part: Particles | SnakeGame, told: list[Told]) -> Followed:
             result.dropped += 1
             continue
         here = [candidate for candidate in place.candidates if candidate.level == one.level]
-        off = [apart(candidate.position[:2], one.place) for candidate in here]
+        off = [dist(candidate.position[:2], one.place) for candidate in here]
         result.dropped += min(off, default=99.0) > NEAR
         sure = place.candidates[0].weight >= SURE
         if sure and result.found is None:
             result.found = k
         if sure:
-            result.errors.append(apart(place.position[:2], one.place) if place.level == one.level else float("inf"))
+            result.errors.append(dist(place.position[:2], one.place) if place.level == one.level else float("inf"))
     return result
 
 
-def apart(a: tuple[float, float], b: tuple[float, float]) -> float:
-    return hypot(a[0] - b[0], a[1] - b[1])
-
-
-def placed(events: list[Event]) -> list[Placed]:
-    return [event for event in events if isinstance(event, Placed)]
-
-
-@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("seed", [1, 2, 3])
-def test_a_wearer_who_comes_out_of_some_lift_is_found_and_followed_within_a_metre(method: Method, seed: int) -> None:
-    result = followed(method(), tour(seed).told)
+def test_a_wearer_who_comes_out_of_some_lift_is_found_and_followed_within_a_metre(part: Method, seed: int) -> None:
+    result = followed(part, tour(seed).told)
     assert result.dropped == 0
     assert result.errors and result.mean <= 1.0
-    assert len(result.lost) == 1 and "no start" in result.lost[0]
+    assert len(lost(result.events)) == 1 and "no start" in lost(result.events)[0]
 
 
 @pytest.mark.soak
@@ -105,9 +93,7 @@ def test_the_true_candidate_is_never_dropped_in_fifty_walks_and_the_mean_error_i
     assert sum(result.mean for result in found) / len(found) <= 1.0
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_while_several_places_are_possible_all_of_them_are_told_with_weights_that_add_up_to_one(method: Method) -> None:
-    part = method()
+def test_while_several_places_are_possible_all_of_them_are_told_with_weights_that_add_up_to_one(part: Method) -> None:
     told = tour(4).told
     first = placed(followed(part, told[:3]).events)[-1]
     assert {candidate.origin for candidate in first.candidates} == set(LIFTS)
@@ -117,16 +103,14 @@ def test_while_several_places_are_possible_all_of_them_are_told_with_weights_tha
     assert first.t <= first.known_at
 
 
-@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("known", [True, False])
-def test_a_known_start_finds_the_wearer_with_or_without_the_heading(method: Method, known: bool) -> None:
+def test_a_known_start_finds_the_wearer_with_or_without_the_heading(part: Method, known: bool) -> None:
     one = Pedestrian(7, "0", (12.0, LOW))
     start = Start("0", one.place, -one.turned if known else None)
     one.walk((RIGHT, LOW), (RIGHT, HIGH), (20.0, HIGH))
-    part = method()
     part.set_out(start)
     result = followed(part, one.told)
-    assert result.dropped == 0 and result.lost == []
+    assert result.dropped == 0 and lost(result.events) == []
     assert result.errors[-1] <= 1.0
     heading = placed(result.events)[-1].candidates[0].heading
     assert heading is not None
@@ -136,14 +120,11 @@ def test_a_known_start_finds_the_wearer_with_or_without_the_heading(method: Meth
         assert result.found == 0 and result.mean <= 1.0
 
 
-@pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("flights", [True, False])
 def test_stairs_lead_to_the_other_level_and_the_height_is_the_plans_whatever_the_track_says(
-    method: Method, flights: bool
+    part: Method, flights: bool
 ) -> None:
-    one = Pedestrian(8, "0", (LEFT, 12.0))
-    part = method()
-    part.set_out(Start("0", one.place, -one.turned))
+    one = Pedestrian(8, "0", (LEFT, 12.0)).known_to(part)
     one.walk((LEFT, LOW), beside(STAIRS["stairs south"]), STAIRS["stairs south"])
     one.climb("1", "stairs south", flights)
     x, y, z = one.track
@@ -158,11 +139,8 @@ def test_stairs_lead_to_the_other_level_and_the_height_is_the_plans_whatever_the
     assert any(0.5 < height < 3.0 for height in heights), "on the stairs one is between the levels"
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_a_landing_half_way_up_is_no_level(method: Method) -> None:
-    one = Pedestrian(9, "0", (20.0, LOW))
-    part = method()
-    part.set_out(Start("0", one.place, -one.turned))
+def test_a_landing_half_way_up_is_no_level(part: Method) -> None:
+    one = Pedestrian(9, "0", (20.0, LOW)).known_to(part)
     one.walk(beside(STAIRS["stairs south"]), STAIRS["stairs south"])
     one.say(doing(one.t, one.t, Activity.STAIRS_UP))
     for _ in range(10):
@@ -180,11 +158,8 @@ def test_a_landing_half_way_up_is_no_level(method: Method) -> None:
     assert placed(followed(part, one.told).events)[-1].level == "1"
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_a_few_steps_that_look_like_stairs_on_level_ground_change_nothing(method: Method) -> None:
-    one = Pedestrian(10, "0", (9.0, LOW))
-    part = method()
-    part.set_out(Start("0", one.place, -one.turned))
+def test_a_few_steps_that_look_like_stairs_on_level_ground_change_nothing(part: Method) -> None:
+    one = Pedestrian(10, "0", (9.0, LOW)).known_to(part)
     one.walk((24.0, LOW))
     one.say(doing(one.t - 1.0, one.t, Activity.STAIRS_UP))
     one.walk((26.0, LOW))
@@ -195,22 +170,16 @@ def test_a_few_steps_that_look_like_stairs_on_level_ground_change_nothing(method
     assert {event.level for event in placed(result.events)} == {"0"}
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_who_stands_in_a_lift_that_has_stopped_is_on_the_level_that_it_went_to(method: Method) -> None:
-    one = Pedestrian(11, "0", (20.0, LOW))
-    part = method()
-    part.set_out(Start("0", one.place, -one.turned))
+def test_who_stands_in_a_lift_that_has_stopped_is_on_the_level_that_it_went_to(part: Method) -> None:
+    one = Pedestrian(11, "0", (20.0, LOW)).known_to(part)
     one.walk(beside(LIFTS["lift south"]), LIFTS["lift south"])
     one.ride("1", STOREY)
     last = placed(followed(part, one.told).events)[-1]
-    assert last.level == "1" and last.t == one.t and apart(last.position[:2], one.place) <= 1.0
+    assert last.level == "1" and last.t == one.t and dist(last.position[:2], one.place) <= 1.0
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_a_lift_that_only_the_activity_tells_of_changes_the_level_too(method: Method) -> None:
-    one = Pedestrian(11, "0", (20.0, LOW))
-    part = method()
-    part.set_out(Start("0", one.place, -one.turned))
+def test_a_lift_that_only_the_activity_tells_of_changes_the_level_too(part: Method) -> None:
+    one = Pedestrian(11, "0", (20.0, LOW)).known_to(part)
     one.walk(beside(LIFTS["lift south"]), LIFTS["lift south"])
     one.say(doing(one.t + 2.0, one.t + 4.0, Activity.ELEVATOR_UP))
     one.t += 14.0
@@ -219,13 +188,11 @@ def test_a_lift_that_only_the_activity_tells_of_changes_the_level_too(method: Me
     one.level = "1"
     one.walk(beside(LIFTS["lift south"]), (LEFT, LOW), (LEFT, 14.0))
     last = placed(followed(part, one.told).events)[-1]
-    assert last.level == "1" and apart(last.position[:2], one.place) <= 1.0
+    assert last.level == "1" and dist(last.position[:2], one.place) <= 1.0
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_a_ride_far_from_where_the_plan_had_the_wearer_begins_the_search_anew(method: Method) -> None:
+def test_a_ride_far_from_where_the_plan_had_the_wearer_begins_the_search_anew(part: Method) -> None:
     one = Pedestrian(12, "0", (14.0, HIGH))
-    part = method()
     part.set_out(Start("0", (20.0, HIGH), None))  # wrong by 6 m, and far from every lift
     one.walk((18.0, HIGH))
     one.place, one.level = LIFTS["lift east"], "1"
@@ -233,16 +200,13 @@ def test_a_ride_far_from_where_the_plan_had_the_wearer_begins_the_search_anew(me
     one.walk(*round_to(beside(LIFTS["lift east"]), (14.0, LOW), False), (LEFT, LOW), (LEFT, 14.0))
     result = followed(part, one.told)
     last = placed(result.events)[-1]
-    true = [c for c in last.candidates if c.level == "0" and apart(c.position[:2], one.place) <= 1.5]
+    true = [c for c in last.candidates if c.level == "0" and dist(c.position[:2], one.place) <= 1.5]
     assert len(last.candidates) <= 3, "the office looks nearly the same from the other side"
     assert true and true[0].weight > 0.1 and true[0].origin == "lift east"
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_a_gap_in_the_track_widens_the_belief_and_the_wearer_is_followed_on(method: Method) -> None:
-    one = Pedestrian(13, "0", (12.0, LOW))
-    part = method()
-    part.set_out(Start("0", one.place, -one.turned))
+def test_a_gap_in_the_track_widens_the_belief_and_the_wearer_is_followed_on(part: Method) -> None:
+    one = Pedestrian(13, "0", (12.0, LOW)).known_to(part)
     one.walk((20.0, LOW))
     before = placed(followed(part, one.told).events)[-1].spread
     one.told, one.t = [], one.t + 6.0
@@ -256,9 +220,8 @@ def test_a_gap_in_the_track_widens_the_belief_and_the_wearer_is_followed_on(meth
 
 
 def test_a_lift_ride_that_was_told_before_is_not_told_again_by_the_activity() -> None:
-    one = Pedestrian(15, "1", LIFTS["lift south"])
     part = Particles()
-    part.set_out(Start("1", one.place, -one.turned))
+    one = Pedestrian(15, "1", LIFTS["lift south"]).known_to(part)
     one.step(0.0, 0.1)
     one.say(doing(one.t + 1.0, one.t + 3.0, Activity.ELEVATOR_DOWN))
     one.t += 12.0
@@ -270,18 +233,16 @@ def test_a_lift_ride_that_was_told_before_is_not_told_again_by_the_activity() ->
     assert placed(result.events)[-1].level == "0" and result.mean < 1.0
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_a_plan_of_rooms_without_walls_far_from_its_zero_is_a_plan_too(method: Method) -> None:
+def test_a_plan_of_rooms_without_walls_far_from_its_zero_is_a_plan_too(part: Method) -> None:
     room = ((1e6, 1e6), (1e6 + 60.0, 1e6), (1e6 + 60.0, 1e6 + 60.0), (1e6, 1e6 + 60.0))
     hall = IndexedPlan(FloorPlan("hall", (Level("0", "ground", 0, 0.0, (), (), (room,)),)))
-    part = method()
     part.set_out(Start("0", (1e6 + 20.0, 1e6 + 20.0), 0.0))
     one = Pedestrian(11, "0", (20.0, 20.0))
     one.walk((30.0, 20.0))
     events = [event for told in one.told for event in part.follow(hall, told.events, told.here)]
     assert len(placed(events)) == len(events) > 5
     x, y, _ = placed(events)[-1].position
-    assert apart((x - 1e6, y - 1e6), (20.0, 20.0)) == pytest.approx(10.0, abs=1.5)
+    assert dist((x - 1e6, y - 1e6), (20.0, 20.0)) == pytest.approx(10.0, abs=1.5)
 
 
 def test_the_track_turned_by_any_angle_leads_to_the_same_place() -> None:
@@ -293,4 +254,4 @@ def test_the_track_turned_by_any_angle_leads_to_the_same_place() -> None:
         part.set_out(Start("0", one.place, -one.turned))
         one.walk((RIGHT, LOW), (RIGHT, 14.0))
         ends.append(placed(followed(part, one.told).events)[-1].position)
-    assert max(apart(end[:2], one.place) for end in ends) <= 1.0
+    assert max(dist(end[:2], one.place) for end in ends) <= 1.0

@@ -4,39 +4,28 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterator
-from math import inf
 from typing import Any
 
 import pytest
 from attrs import define, evolve
 from fleets import WEARER, walked
+from own import Quiet
 
 from solepath import Calibration, Session, SnapshotError, recipes
 from solepath.fleet import Fleet
-from solepath.foot.stance.stance import Detector, Load, Stance
-from solepath.types import Quat, Vec3
-from solepath.types.vector import IDENTITY, ZERO
 
 SHORT: list[Exception] = []
 """What copying a detector ends in, if anything."""
 
 
 @define
-class Large(Detector):
+class Large(Quiet):
     """A detector that takes room."""
-
-    limit: float = 0.8
 
     def __deepcopy__(self, memo: Any) -> Large:
         for error in SHORT:
             raise error
         return Large(self.limit)
-
-    def update(
-        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
-    ) -> Stance:
-        rate = sum([w * w for w in gyro]) ** 0.5
-        return Stance(ZERO, 0.01 if rate < self.limit else inf, rate, None)
 
 
 @pytest.fixture(autouse=True)

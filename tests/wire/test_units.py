@@ -17,8 +17,7 @@ VECTORS = PROTOCOL / "vectors"
 
 
 def physical(name: str) -> list[Any]:
-    file = json.loads((VECTORS / f"{name}.json").read_text("utf-8"))
-    return [pytest.param(v, id=v["id"]) for v in file["vectors"] if "physical" in v]
+    return [v for v in json.loads((VECTORS / f"{name}.json").read_text("utf-8"))["vectors"] if "physical" in v]
 
 
 def counts_of(name: str, vector: Any) -> Any:
@@ -33,24 +32,22 @@ def test_both_tags_count_angular_rate_alike() -> None:
     assert old_tag.GYRO == new_tag.GYRO
 
 
-@pytest.mark.parametrize("vector", physical("cc2541-gyroscope"))
-def test_an_old_tags_gyroscope_counts_are_worth_what_the_vector_says(vector: Any) -> None:
-    counts = counts_of("gyroscope", vector).gyro
-    values = vector["physical"]
-    assert tuple(degrees(c * old_tag.GYRO) for c in counts) == near(values["gyro_dps"], values["tolerance"])
+AXES = {"gyroscope": ("gyro", degrees(old_tag.GYRO), "gyro_dps"), "magnetometer": ("mag", 1e6 * old_tag.MAG, "mag_ut")}
+"""Sensor -> its field, what a count is worth, and the quantity in the vector."""
 
 
-@pytest.mark.parametrize("vector", physical("cc2541-magnetometer"))
-def test_an_old_tags_magnetometer_counts_are_worth_what_the_vector_says(vector: Any) -> None:
-    counts = counts_of("magnetometer", vector).mag
-    values = vector["physical"]
-    assert tuple(c * old_tag.MAG * 1e6 for c in counts) == near(values["mag_ut"], values["tolerance"])
+@pytest.mark.parametrize("sensor", AXES)
+def test_counts_of_an_old_tag_are_worth_what_the_vectors_say(sensor: str) -> None:
+    field, unit, quantity = AXES[sensor]
+    for vector in physical(f"cc2541-{sensor}"):
+        counts, values = getattr(counts_of(sensor, vector), field), vector["physical"]
+        assert tuple(unit * c for c in counts) == near(values[quantity], values["tolerance"]), vector["id"]
 
 
 @pytest.mark.parametrize(
     ("firmware", "code", "key"), [("1.4 (x)", 3, "64"), ("1.5 (x)", 1, "64"), ("1.5 (x)", 3, "16")]
 )
-@pytest.mark.parametrize("vector", physical("cc2541-accelerometer"))
+@pytest.mark.parametrize("vector", physical("cc2541-accelerometer"), ids=lambda vector: vector["id"])
 def test_an_old_tags_acceleration_depends_on_firmware_and_range(
     vector: Any, firmware: str, code: int, key: str
 ) -> None:

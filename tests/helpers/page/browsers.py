@@ -116,6 +116,11 @@ class Window:
         except TimeoutError:
             raise AssertionError(f"not within {patience:g} s: {condition}") from None
 
+    async def text(self, name: str) -> str:
+        """What is read in the element of this id."""
+        found: str = await self.tab.locator(f"#{name}").inner_text()
+        return found.strip()
+
     async def names(self) -> list[tuple[str, str]]:
         """Role and name of everything that is read out, in order."""
         tree = await self.devtools.send("Accessibility.getFullAXTree")

@@ -16,7 +16,7 @@ import bus
 from bleak.exc import BleakError, BleakGATTProtocolError
 from bus import Refused
 from dbus_fast import Variant
-from memory_radio import LoopbackLink
+from memory_link import LoopbackLink
 
 from solepath.emulate.devices.attributes import Characteristic, Service
 from solepath.emulate.devices.peripheral import Peripheral

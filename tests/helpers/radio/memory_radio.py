@@ -12,8 +12,8 @@ is longer than the MTU allows is cut without a word. Time is that of the running
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable, Iterable
-from typing import Any, ClassVar, TypeVar, cast
+from collections.abc import Iterable
+from typing import Any, ClassVar, cast
 
 from bleak.args import SizedBuffer
 from bleak.assigned_numbers import CharacteristicPropertyName
@@ -24,104 +24,22 @@ from bleak.backends.device import BLEDevice
 from bleak.backends.scanner import AdvertisementData, AdvertisementDataCallback, BaseBleakScanner
 from bleak.backends.service import BleakGATTService, BleakGATTServiceCollection
 from bleak.exc import BleakDeviceNotFoundError, BleakError, BleakGATTProtocolError
+from memory_link import LoopbackLink
 
 from solepath.ble.air import Backend
 from solepath.emulate.devices.attributes import (
     SMALLEST_MTU,
     AttCode,
-    AttError,
     Characteristic,
-    Outgoing,
 )
 from solepath.emulate.devices.peripheral import Peripheral
 from solepath.link.profile import standard
-
-T = TypeVar("T")
 
 ADVERTISING = 0.1
 """s between advertisements of a device."""
 SIGNAL = -50
 """dBm with which every device is heard."""
 _SUBSCRIPTION = standard(0x2902)
-
-
-class LoopbackLink:
-    """A connection: carries requests one after the other, and notifications when they are due."""
-
-    def __init__(self, device: Peripheral, mtu: int, round_trip: float, lost: Callable[[], None]) -> None:
-        self.mtu = mtu
-        self.callbacks: dict[str, NotifyCallback] = {}
-        self._device, self._round_trip, self._lost = device, round_trip, lost
-        self._loop = asyncio.get_running_loop()
-        self._gone = self._loop.create_future()
-        self._turn = asyncio.Lock()
-        self._timer: asyncio.TimerHandle | None = None
-        device.changed = self._schedule
-        device.connected(self._loop.time(), mtu)
-
-    @property
-    def is_up(self) -> bool:
-        return not self._gone.done()
-
-    async def request(self, do: Callable[[float], T | None]) -> T:
-        """What the device answers. BleakGATTProtocolError when it refuses, BleakError when the link is lost first."""
-        async with self._turn:
-            await asyncio.wait([self._gone], timeout=self._round_trip)
-            if self.is_up:
-                try:
-                    answer = do(self._loop.time())
-                except AttError as error:
-                    raise BleakGATTProtocolError(error.code) from None
-                if answer is not None:
-                    return answer
-                await asyncio.wait([self._gone])
-            raise BleakError("disconnected")
-
-    def command(self, do: Callable[[float], object]) -> None:
-        """A write without response: nobody hears what becomes of it."""
-        if self.is_up:
-            try:
-                do(self._loop.time())
-            except AttError:
-                return
-
-    def lose(self) -> None:
-        """The link is lost, or ended."""
-        if not self.is_up:
-            return
-        self._gone.set_result(None)
-        if self._timer is not None:
-            self._timer.cancel()
-        self._device.changed = None
-        self._device.disconnected(self._loop.time())
-        self._lost()
-
-    def _schedule(self) -> None:
-        if self._timer is not None:
-            self._timer.cancel()
-        due = self._device.next_due()
-        self._timer = None if due is None else self._loop.call_at(due, self._wake)
-
-    def _wake(self) -> None:
-        now = self._loop.time()
-        for outgoing in self._device.poll(now):
-            if self.is_up:
-                self._notify(outgoing)
-        if not self.is_up:
-            return
-        if self._device.hang_up(now):
-            self.lose()
-        else:
-            self._schedule()
-
-    def _notify(self, outgoing: Outgoing) -> None:
-        callback = self.callbacks.get(outgoing.channel)
-        if callback is None:
-            return
-        try:
-            callback(bytearray(outgoing.value[: self.mtu - 3]))
-        except Exception as error:  # the host's own; the next notification comes all the same
-            self._loop.call_exception_handler({"message": "a notification's callback failed", "exception": error})
 
 
 class MemoryRadio:

@@ -24,7 +24,7 @@ class AccessDenied(Exception):
 
 
 @frozen
-class Access:
+class PageAccess:
     """Of a page that is served at `host` (a name or an address). `token`: what whoever steers must know."""
 
     host: str

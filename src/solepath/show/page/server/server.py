@@ -21,7 +21,7 @@ from aiohttp import web
 
 from ..messages import Command
 from ..scene.scene import Scene
-from .access import Access, AccessDenied, listen, reached_at
+from .access import AccessDenied, PageAccess, listen, reached_at
 from .connection import HEADERS, BrowserConnection, NoRoom
 from .offences import Offences
 from .watcher import Watcher
@@ -62,7 +62,7 @@ class Page:
         self.offences = Offences(logging.getLogger("solepath.show.page"))
         self._host = host.removeprefix("[").removesuffix("]")
         self._port = port
-        self._access = Access(self._host, secrets.token_urlsafe(16) if token is None else token)
+        self._access = PageAccess(self._host, secrets.token_urlsafe(16) if token is None else token)
         self._files = _files(files(__package__) / "static")
         self._watchers: set[Watcher] = set()
         self._server: web.Server | None = None

@@ -6,6 +6,7 @@ from typing import Any
 
 from attrs import evolve, frozen
 from construct import Int8ub, Int16ub, Int32ub, Struct, Terminated
+from walks import of
 
 from solepath import Packet, Sample, Site
 from solepath.link.decoder import Decoder
@@ -112,10 +113,6 @@ class Toy:
 
 def toy(driver: Driver) -> Toy:
     return Toy(driver, Decoder(LEFT))
-
-
-def of(kind: type, told: list[Any]) -> list[Any]:
-    return [one for one in told if isinstance(one, kind)]
 
 
 def times(told: list[Any]) -> list[float]:

@@ -1,0 +1,222 @@
+"""What a session needs of a part, and that a part which does not keep to it is named."""
+
+from __future__ import annotations
+
+from collections import Counter, deque
+from collections.abc import Sequence
+from itertools import count
+from math import inf, nan
+from typing import Any
+
+import pytest
+from attrs import define, evolve, field
+from own import CELLS, WALKED, ByMotion, Quiet, Resets
+
+from solepath.foot.cues.cues import Seen
+from solepath.foot.stance.stance import Stance
+from solepath.recipes import NAMES, by_name
+from solepath.testing.promises import broken
+from solepath.types import Vec3
+
+OURS = [part for one in map(by_name, NAMES) for part in (one.detector, one.corrector, one.cues)]
+PARTS: dict[str, Any] = {type(part).__name__: part for part in (*OURS, Quiet(), Resets(), ByMotion())}
+
+
+@pytest.mark.parametrize("name", PARTS)
+def test_the_parts_that_recipes_have_keep_their_promises(name: str) -> None:
+    assert broken(PARTS[name], WALKED, CELLS) == []
+
+
+@define
+class Hoarder(Quiet):
+    seen: list[float] = field(factory=list, init=False)
+
+    def update(self, t: float, *rest: Any) -> Stance:
+        self.seen.append(t)
+        return Quiet.update(self, t, *rest)
+
+
+@define
+class Restless(Quiet):
+    def update(self, t: float, *rest: Any) -> Stance:
+        return Quiet.update(self, t, *rest)._replace(statistic=float(next(TURNS)))
+
+
+TURNS = count()
+
+
+@define(slots=False)
+class Forgetful(Quiet):
+    def update(self, t: float, *rest: Any) -> Stance:
+        self.__dict__["calls"] = self.__dict__.get("calls", 0.0) + 1.0
+        return Quiet.update(self, t, *rest)._replace(statistic=self.__dict__["calls"])
+
+
+@define
+class Sharing(Quiet):
+    window: deque[float] = field(factory=deque, init=False)
+
+    def __deepcopy__(self, memo: Any) -> Sharing:
+        copy = Sharing(self.limit)
+        copy.window, copy.since = self.window, self.since
+        return copy
+
+    def update(self, t: float, *rest: Any) -> Stance:
+        self.window.append(t)
+        while len(self.window) > 10:
+            self.window.popleft()
+        return Quiet.update(self, t, *rest)
+
+
+@define
+class Reckless(Quiet):
+    def update(self, t: float, *rest: Any) -> Stance:
+        return Stance((nan, 0.0, 0.0), 0.0, inf, True)  # type: ignore[arg-type]
+
+
+@define
+class Altered(Quiet):
+    counts: dict[str, int] = field(factory=Counter, init=False)
+
+    def update(self, t: float, *rest: Any) -> Stance:
+        self.counts["still" if self.since else "moving"] += 1
+        return Quiet.update(self, t, *rest)._replace(statistic=float("missing" in self.counts))
+
+
+@define
+class Learning(Quiet):
+    def update(self, t: float, *rest: Any) -> Stance:
+        self.limit = 0.9
+        return Quiet.update(self, t, *rest)
+
+
+@define
+class Lost(Quiet):
+    best: float = field(default=0.0, init=False)
+
+    def update(self, t: float, *rest: Any) -> Stance:
+        self.best = inf
+        return Quiet.update(self, t, *rest)
+
+
+@define
+class Drifting(Resets):
+    """Its position is no number after a while."""
+
+    def correct(self, t: float, stance: Stance) -> bool:
+        if t > 6.0:
+            self.position = (nan, 0.0, 0.0)
+        return Resets.correct(self, t, stance)
+
+
+@define
+class Flat(Resets):
+    def correct(self, t: float, stance: Stance) -> bool:
+        believed = Resets.correct(self, t, stance)
+        if t > 1e5:
+            self.position = (0.0, 0.0, inf)
+        return believed
+
+
+@define
+class Growing(Resets):
+    def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
+        Resets.predict(self, dt, acc, gyro, saturated)
+        w, x, y, z = self.attitude
+        self.attitude = (1.001 * w, 1.001 * x, 1.001 * y, 1.001 * z)
+
+
+@define
+class Certain(Resets):
+    def covariance(self) -> tuple[float, ...]:
+        return (-1.0, *Resets.covariance(self)[1:])
+
+
+@define
+class Hoarding(Resets):
+    seen: list[float] = field(factory=list, init=False)
+
+    def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
+        self.seen.append(dt)
+        Resets.predict(self, dt, acc, gyro, saturated)
+
+
+@define(slots=False)
+class Leaving(Resets):
+    """It remembers in no field how many samples there were."""
+
+    def correct(self, t: float, stance: Stance) -> bool:
+        self.__dict__["times"] = self.__dict__.get("times", 0) + 1
+        self.lasted = 0.001 * self.__dict__["times"]
+        return Resets.correct(self, t, stance)
+
+
+@define
+class Foretelling(ByMotion):
+    def update(self, t: float, *rest: Any) -> Sequence[Seen]:
+        return [Seen(one.cue, t + 1.0) for one in ByMotion.update(self, t, *rest)]
+
+
+@define
+class Listing(ByMotion):
+    seen: list[float] = field(factory=list, init=False)
+
+    def update(self, t: float, *rest: Any) -> Sequence[Seen]:
+        self.seen.append(t)
+        return ByMotion.update(self, t, *rest)
+
+
+@define
+class Turning(ByMotion):
+    @property
+    def sagittal(self) -> float:
+        return nan
+
+
+@pytest.mark.parametrize(
+    ("part", "what"),
+    [
+        (Hoarder(), "more and more"),
+        (Restless(), "twice"),
+        (Forgetful(), "in no field"),
+        (Sharing(), "share"),
+        (Altered(), "its field counts comes back as a dict and was a Counter"),
+        (Learning(), "its setting limit changes"),
+        (Lost(), "cannot hold Lost.best: inf"),
+        (Reckless(), "sigma is above 0"),
+        (Reckless(), "v_ref"),
+        (Reckless(), "statistic is finite"),
+        (Reckless(), "hint is"),
+        (Drifting(), "cannot hold Drifting.position: nan"),
+        (Flat(), "position is three finite numbers"),
+        (Growing(), "attitude is a unit quaternion"),
+        (Certain(), "a covariance is seven finite numbers"),
+        (Hoarding(), "more and more"),
+        (Leaving(), "in no field"),
+        (Foretelling(), "a cue is of the past"),
+        (Listing(), "more and more"),
+        (Turning(), "sagittal is finite"),
+    ],
+    ids=lambda value: value if isinstance(value, str) else type(value).__name__,
+)
+def test_a_broken_promise_is_named(part: Any, what: str) -> None:
+    assert any([what in sentence for sentence in broken(part, WALKED)])
+
+
+def test_a_detector_that_returns_something_else_or_has_unsavable_fields_is_named() -> None:
+    class Odd(Quiet):
+        def update(self, t: float, *rest: Any) -> Any:
+            return True
+
+    assert broken(Odd(), WALKED) == ["update returns a Stance, not a bool"]
+    with pytest.raises(TypeError):
+        broken(evolve(Odd(), limit=object()), WALKED)
+
+
+def test_a_class_that_extends_nothing_is_no_part() -> None:
+    @define
+    class Bare:
+        limit: float = 1.0
+
+    with pytest.raises(TypeError, match="Bare extends neither Detector nor Corrector nor Cues"):
+        broken(Bare(), WALKED)  # type: ignore[arg-type]

@@ -1,0 +1,88 @@
+"""A detector, a corrector and cues as an app may have them, and a walk to try them on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import inf
+
+from attrs import define, evolve, field
+
+from solepath import Foot, Phase
+from solepath.calibration import Calibration
+from solepath.emulate import Route, Walker
+from solepath.emulate.sensors.insoles import layout
+from solepath.foot.cues.cues import Cues, Seen
+from solepath.foot.navigate.dedrift import LinearDedrift
+from solepath.foot.phase import Cue
+from solepath.foot.stance.stance import Detector, Load, Stance
+from solepath.types import Layout, Quat, Vec3
+from solepath.types.vector import IDENTITY, ZERO
+
+CELLS = layout(24, Foot.LEFT)
+WALKED = tuple(Walker(Route().stand(2).walk(8).stop(2)).samples(Foot.LEFT, 100.0, layout=CELLS))
+
+
+@define
+class Quiet(Detector):
+    """A foot that turned slowly for a while."""
+
+    limit: float = 0.8
+    hold: float = 0.04
+    since: float | None = field(default=None, init=False)
+
+    def update(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
+    ) -> Stance:
+        x, y, z = gyro
+        rate = (x * x + y * y + z * z) ** 0.5
+        if rate > self.limit:
+            self.since = None
+            return Stance(ZERO, inf, rate, None)
+        self.since = t if self.since is None else self.since
+        sure = t - self.since >= self.hold
+        return Stance(ZERO, 0.01 if sure else 0.1, rate, Phase.STATIONARY if sure else None)
+
+
+@define
+class Resets(LinearDedrift):
+    """The velocity is reset in stance, and the position keeps its drift."""
+
+    resets: int = field(default=0, init=False)
+
+    def correct(self, t: float, stance: Stance) -> bool:
+        where = self.position
+        if not LinearDedrift.correct(self, t, stance):
+            return False
+        self.position = where
+        self.resets += 1
+        return True
+
+
+@define
+class ByMotion(Cues):
+    """A foot that is still has landed flat, one that is not is lifted, and one that is fast has left the ground."""
+
+    fast: float = 1.0
+    for_foot: str = ""
+    cells: int = field(default=0, init=False)
+    stood: float | None = field(default=None, init=False)
+
+    def update(
+        self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
+        load: Load | None, stance: Stance,
+    ) -> Sequence[Seen]:  # fmt: skip
+        if still:
+            self.stood = t
+            return (Seen(Cue.CONTACT, t), Seen(Cue.FLAT, t)) if phase is not Phase.STATIONARY else ()
+        if phase is Phase.STATIONARY:
+            return (Seen(Cue.LIFT, t),)
+        return (Seen(Cue.CLEAR, t),) if speed > self.fast and phase is not Phase.SWING else ()
+
+    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[Seen]:
+        return (Seen(Cue.CLEAR if load.airborne else Cue.CONTACT, t),)
+
+    def wear(self, layout: Layout) -> None:
+        self.cells = len(layout.cells)
+
+    def calibrated(self, foot: Foot, calibration: Calibration) -> ByMotion:
+        return evolve(self, for_foot=foot.value)

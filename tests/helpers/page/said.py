@@ -1,0 +1,70 @@
+"""Events that a page can be told of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from functools import cache
+from math import pi
+
+from walks import ROUGH, SHORT, insoles
+
+from solepath import (
+    BatteryLevel,
+    Candidate,
+    Connected,
+    Disconnected,
+    Event,
+    Foot,
+    FootMoved,
+    Packet,
+    Phase,
+    Placed,
+    PlaceLost,
+    Sample,
+    Session,
+    Site,
+    TurnMade,
+)
+from solepath.recipes import DEFAULT, Recipe
+from solepath.types import Turn
+from solepath.types.vector import ZERO
+
+
+def fed(items: Iterable[Packet | Sample], recipe: Recipe = DEFAULT) -> tuple[Session, list[Event]]:
+    """A session that has heard all of them, and what it said."""
+    session = Session(recipe, poses=True, pressures=True)
+    return session, session.feed(items)
+
+
+@cache
+def rough() -> tuple[Session, tuple[Event, ...]]:
+    """A short walk of insoles over a bad radio."""
+    session, events = fed(insoles(SHORT, ROUGH).packets)
+    return session, tuple(events)
+
+
+def moved(t: float, foot: Foot = Foot.LEFT, known_at: float | None = None) -> FootMoved:
+    """A foot in the air above where it began."""
+    at = t if known_at is None else known_at
+    return FootMoved(t=t, known_at=at, foot=foot, position=ZERO, velocity=ZERO, phase=Phase.SWING)
+
+
+def eventful() -> list[Event]:
+    """The rough walk, and everything else that a page can be told."""
+    events = list(rough()[1])
+    begin, end = events[0].known_at, events[-1].known_at
+    middle, third = events[len(events) // 2].known_at, events[len(events) // 3].known_at
+    candidate = Candidate("0", (1.0, 2.0, 0.0), 0.5, 0.75, "stairs A")
+    other = Candidate("1", (1.0, 2.0, 3.0), None, 0.25, "stairs A")
+    others = [
+        Connected(t=begin, known_at=begin, site=Site.LEFT_FOOT, device="", name="Insole", signal=-60),
+        Connected(t=begin, known_at=begin, site=Site.PELVIS, device="", name="", signal=None),
+        Placed(t=third, known_at=third, level="0", position=(1.0, 2.0, 0.0), spread=2.0, candidates=(candidate, other)),
+        Placed(t=middle, known_at=middle, level="0", position=(1.0, 2.0, 0.0), spread=0.5, candidates=(candidate,)),
+        PlaceLost(t=end, known_at=end, what="the track goes where the plan has no way"),
+        Disconnected(t=third, known_at=third, site=Site.LEFT_FOOT),
+        BatteryLevel(t=third, known_at=third, site=Site.LEFT_FOOT, level=0.1),
+        Connected(t=middle, known_at=middle, site=Site.LEFT_FOOT, device="", name="Insole", signal=-60),
+        TurnMade(t=middle, known_at=middle, t_start=third, angle=pi / 2, turn=Turn.LEFT),
+    ]
+    return sorted([*events, *others], key=lambda event: event.known_at)

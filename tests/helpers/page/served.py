@@ -1,0 +1,88 @@
+"""A page that is served, and who asks it for something."""
+
+from __future__ import annotations
+
+import asyncio
+import base64
+import json
+import os
+from collections.abc import AsyncIterator, Awaitable
+from contextlib import asynccontextmanager
+from typing import Any
+
+import pytest
+from aiohttp import ClientSession, ClientWebSocketResponse, WSMsgType, WSServerHandshakeError
+
+from solepath.show.page.scene.scene import Scene
+from solepath.show.page.server.server import Page
+
+LOGGER = "solepath.show.page"
+TOKEN = "a-token-of-a-test"
+Connection = tuple[asyncio.StreamReader, asyncio.StreamWriter]
+
+
+@asynccontextmanager
+async def served(**given: Any) -> AsyncIterator[tuple[Page, ClientSession, str]]:
+    """A page, somebody who asks, and its address."""
+    scene = given.pop("scene", None) or Scene("a walk", "default")
+    given = {"port": 0, "token": TOKEN, **given}
+    async with ClientSession() as client, Page(scene, **given) as page:
+        yield page, client, page.url.partition("#")[0]
+
+
+async def scene_of(watching: ClientWebSocketResponse) -> dict[str, Any]:
+    told = json.loads(await watching.receive_str())
+    assert isinstance(told, dict) and told["type"] == "scene"
+    return told
+
+
+async def sees(client: ClientSession, url: str, **given: Any) -> None:
+    """Somebody who watches is sent the scene. `given`: to the socket."""
+    async with client.ws_connect(f"{url}ws", **given) as watching:
+        await scene_of(watching)
+
+
+async def closed(watching: ClientWebSocketResponse) -> int | None:
+    """The code with which the server closes."""
+    while True:
+        message = await watching.receive()
+        if message.type is not WSMsgType.TEXT:
+            return watching.close_code
+
+
+async def refused(watching: Awaitable[ClientWebSocketResponse]) -> int:
+    """The status with which a socket is refused."""
+    with pytest.raises(WSServerHandshakeError) as caught:
+        await watching
+    return caught.value.status
+
+
+async def raw(page: Page) -> Connection:
+    """A connection on which nothing was said yet."""
+    return await asyncio.open_connection("127.0.0.1", page.port)
+
+
+async def reply(page: Page, sent: bytes, ends: bool = False) -> bytes:
+    """All that comes of these bytes on a connection of their own. `ends`: nothing more can come after them."""
+    reader, writer = await raw(page)
+    writer.write(sent)
+    if ends:
+        writer.write_eof()
+    told = await reader.read()
+    writer.close()
+    return told
+
+
+def handshake(host: str = "localhost", more: str = "") -> bytes:
+    key = base64.b64encode(os.urandom(16)).decode()
+    return (
+        f"GET /ws HTTP/1.1\r\nHost: {host}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+        f"Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: {key}\r\n{more}\r\n"
+    ).encode()
+
+
+def frame_of(opcode: int, payload: bytes, *, fin: int = 0x80) -> bytes:
+    """A frame of a WebSocket as a client sends it."""
+    size = len(payload)
+    long = bytes([0x80 | size]) if size < 126 else bytes([0x80 | 126]) + size.to_bytes(2, "big")
+    return bytes([fin | opcode]) + long + bytes(4) + payload

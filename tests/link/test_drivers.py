@@ -1,0 +1,168 @@
+"""What a driver must be, and that a session goes on with the drivers that it had."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from functools import partial
+from math import inf, nan
+from typing import Any
+
+import pytest
+from attrs import evolve
+from toys import BASE, BOTH, COARSE, FORMATS, LEFT, NUMBERED, PROFILE, TICKING, data, toy
+from walks import of
+
+from solepath import Packet, Session, SnapshotError
+from solepath.events import (
+    Limitation,
+)
+from solepath.link.catalogue import PROFILES
+from solepath.link.devices import orphe
+from solepath.link.driver import Driver, Reading
+from solepath.link.known import KINDS, kinds
+from solepath.link.profile import Write
+
+
+def test_a_driver_that_does_not_fit_together_is_refused() -> None:
+    other = (evolve(PROFILE.channels[0], name="other/data"), *PROFILE.channels[1:])
+    elsewhere = evolve(PROFILE, channels=other, streams=("other/data",))
+    for wrong in (
+        {"formats": {"toy/data": FORMATS["toy/data"]}},
+        {"readers": {"toy/nothing": data}},
+        {"profile": elsewhere, "formats": {**FORMATS, "other/data": FORMATS["toy/data"]}},
+        {"profile": evolve(PROFILE, streams=())},
+        {"profile": evolve(PROFILE, setup=(Write("toy/start", b"\x01\x02"),))},
+        {"profile": evolve(PROFILE, setup=(Write("toy/start", b""),))},
+        {"tick_rate": 100.0},
+        {"tick_rate": inf, "tick_modulus": 256},
+        {"tick_modulus": 256},
+        {"tick_rate": 100.0, "tick_modulus": 1 << 65},
+        {"sequence": -1},
+        {"sequence": 1},
+        {"acc_range": 0.0},
+        {"acc_range": inf},
+    ):
+        with pytest.raises(ValueError, match="toy: "):
+            evolve(BASE, **wrong)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"name": ""},
+        {"name": "toy/one"},
+        {"streams": ("toy/typo",)},
+        {"streams": ("toy/start",)},
+        {"setup": (Write("toy/nothing", b"\x01"),)},
+        {"setup": (Write("toy/start", b"\x01", then_read=("toy/nothing",)),)},
+        {"reads": ("toy/nothing",)},
+        {"channels": (PROFILE.channels[0], *PROFILE.channels)},
+        {"stale_after": 0.0},
+        {"stale_after": -1.0},
+        {"stale_after": inf},
+        {"stale_after": nan},
+        {"nominal_rate": 0.0},
+        {"nominal_rate": inf},
+        {"nominal_rate": nan},
+    ],
+    ids=str,
+)
+def test_a_profile_that_does_not_fit_together_is_refused(wrong: dict[str, Any]) -> None:
+    with pytest.raises(ValueError, match="^a profile|^toy: "):
+        evolve(PROFILE, **wrong)
+
+
+def test_a_reader_that_is_wrong_itself_is_not_hidden() -> None:
+    def wrong(sent: Any, known: Any) -> Reading:
+        return sent.nothing  # type: ignore[no-any-return]
+
+    device = toy(evolve(BASE, readers={"toy/data": wrong}))
+    with pytest.raises(AttributeError):
+        device.say(1.0)
+
+
+def test_an_app_adds_devices_and_may_replace_declared_ones_but_not_ours() -> None:
+    for profile in PROFILES:
+        kind = KINDS.get(profile.name.removesuffix("-20hz"))
+        assert kind is not None and kind.profile in PROFILES
+    assert KINDS.get("toy") is None and kinds([NUMBERED]).get("toy") is not None
+    other = evolve(orphe.DRIVER, limitation="")
+    assert not of(Limitation, Session(profiles=[other]).feed(mode_four()))
+    assert of(Limitation, Session().feed(mode_four()))
+    first = (evolve(PROFILE.channels[0], name="insole/data"),)
+    named = evolve(PROFILE, name="insole", channels=first, streams=("insole/data",), setup=())
+    ours = Driver(named, {"insole/data": FORMATS["toy/data"]}, {"insole/data": data})
+    for taken in ([ours], [NUMBERED, TICKING]):
+        with pytest.raises(ValueError, match="already"):
+            Session(profiles=taken)
+    with pytest.raises(TypeError, match="Driver"):
+        Session(profiles=[PROFILE])  # type: ignore[list-item]
+
+
+def mode_four() -> Packet:
+    value = bytes([56]) + bytes(103)
+    return Packet(1.0, LEFT, "orphe/values", value)
+
+
+def toys(first: int, last: int) -> list[Packet]:
+    fields: dict[str, Any] = {"ticks": 0, "count": 1, "up": [9.80665]}
+    return [
+        Packet(1.0 + 0.01 * k, LEFT, "toy/data", NUMBERED.write("toy/data", {"number": k, **fields}))
+        for k in range(first, last)
+    ]
+
+
+def kept(session: Session) -> list[Callable[..., Session]]:
+    """The ways to take it up again, from what was saved of it."""
+    saved = json.loads(json.dumps(session.snapshot(), allow_nan=False))
+    return [partial(Session.restore, saved), partial(Session.unpack, session.pack())]
+
+
+def test_a_session_with_a_device_of_its_own_is_restored_with_it_and_not_without() -> None:
+    session = Session(poses=True, profiles=[NUMBERED])
+    session.feed(toys(0, 100))
+    ways = kept(session)
+    on = [session.feed(toys(103, 150)), session.advance(9.0)]
+    assert [] not in on
+    for taken_up in ways:
+        again = taken_up(profiles=[NUMBERED])
+        assert [again.feed(toys(103, 150)), again.advance(9.0)] == on
+        assert json.dumps(again.snapshot()) == json.dumps(session.snapshot())
+        with pytest.raises(SnapshotError, match="toy"):
+            taken_up()
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        evolve(NUMBERED, sequence=0),
+        evolve(NUMBERED, sequence=1 << 15),
+        BOTH,
+        COARSE,
+        evolve(NUMBERED, acc_range=8.0),
+        evolve(NUMBERED, profile=evolve(PROFILE, nominal_rate=50.0)),
+    ],
+    ids=["no numbers", "other numbers", "ticks", "coarse ticks", "another range", "another rate"],
+)
+def test_a_session_is_not_restored_with_a_driver_of_the_same_name_that_counts_otherwise(other: Driver) -> None:
+    session = Session(profiles=[NUMBERED])
+    session.feed(toys(1, 2))
+    for taken_up in kept(session):
+        with pytest.raises(SnapshotError, match="toy.*another driver"):
+            taken_up(profiles=[other])
+        again = taken_up(profiles=[evolve(NUMBERED, limitation="it is a toy")])
+        assert again.snapshot() == session.snapshot()
+
+
+def test_what_an_app_put_in_our_place_is_restored_with_it_and_not_with_ours() -> None:
+    replaced, ours = evolve(orphe.DRIVER, limitation=""), Session()
+    session = Session(profiles=[replaced])
+    session.feed(mode_four())
+    ours.feed(mode_four())
+    with pytest.raises(SnapshotError, match="orphe.*another driver"):
+        Session.restore(session.snapshot())
+    with pytest.raises(SnapshotError, match="orphe.*another driver"):
+        Session.restore(ours.snapshot(), profiles=[replaced])
+    assert Session.restore(session.snapshot(), profiles=[replaced]).snapshot() == session.snapshot()
+    assert Session.restore(ours.snapshot()).snapshot() == ours.snapshot()

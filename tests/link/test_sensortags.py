@@ -1,0 +1,141 @@
+"""What SensorTags say to samples in SI units: the CC2650 by its configuration, the CC2541 by its firmware."""
+
+from __future__ import annotations
+
+from math import radians
+
+import pytest
+from decoded import LEFT, acc_packet, config, feed, gyro_packet, new_tag, old_tag, packet
+from walks import of
+
+from solepath.events import (
+    BatteryLevel,
+    KeysChanged,
+    Limitation,
+    ScaleSuspect,
+)
+from solepath.link.decoder import Decoder
+from solepath.link.devices.cc2541 import counts_per_g
+from solepath.types import Sample
+from solepath.types.vector import GRAVITY
+from solepath.wire.device import build_battery, build_firmware
+
+
+def test_a_cc2650_is_scaled_by_its_configuration() -> None:
+    decoder = Decoder(site=LEFT)
+    raw = new_tag("movement", gyro=(131, 0, -131), acc=(0, 0, 4096), mag=(0, 32760, 0))
+    [at_8g] = feed(decoder, packet(1.0, "cc2650/movement", raw))
+    assert at_8g.acc == pytest.approx((0.0, 0.0, GRAVITY))
+    assert at_8g.gyro == pytest.approx((radians(131 * 500 / 65536), 0.0, -radians(131 * 500 / 65536)))
+    assert at_8g.mag == pytest.approx((4912e-6, 0.0, 0.0))
+    told = config(16, mag=False, gyro_axes=(True, False, True))
+    [at_16g] = feed(decoder, told, packet(1.1, "cc2650/movement", raw))
+    assert at_16g.acc == pytest.approx((0.0, 0.0, 2 * GRAVITY))
+    assert at_16g.gyro is None
+    assert at_16g.mag is None
+
+
+def test_keys_are_named_and_differ_between_the_tags() -> None:
+    new, old = Decoder(site=LEFT), Decoder(site=LEFT)
+    [pressed] = new.feed(packet(1.0, "cc2650/keys", b"\x01"))
+    assert pressed == KeysChanged(t=1.0, known_at=1.0, site=LEFT, down=("left",))
+    [pressed] = old.feed(packet(1.0, "cc2541/keys", b"\x05"))
+    assert pressed.down == ("right", "side")
+
+
+def test_battery_is_a_fraction() -> None:
+    [battery] = Decoder(site=LEFT).feed(packet(1.0, "device/battery", build_battery(83)))
+    assert battery == BatteryLevel(t=1.0, known_at=1.0, site=LEFT, level=0.83)
+
+
+# --- CC2541 -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("firmware", "code", "expected"),
+    [
+        ("1.5 (Oct 23 2013)", 1, 64),
+        ("1.5 (Oct 23 2013)", 2, 32),
+        ("1.5 (Oct 23 2013)", 3, 16),
+        ("1.4 (Jul 12 2013)", 3, 64),
+        ("", 3, 16),
+        ("", 1, 64),
+    ],
+)
+def test_the_scale_goes_by_firmware_and_range(firmware: str, code: int, expected: int) -> None:
+    assert counts_per_g(firmware, code) == expected
+    decoder = Decoder(site=LEFT)
+    if firmware:
+        feed(decoder, packet(0.0, "device/firmware", build_firmware(firmware)))
+    feed(decoder, packet(0.0, "cc2541/accelerometer-config", bytes([code])))
+    outputs = feed(decoder, acc_packet(1.0, (0, 0, expected)), gyro_packet(1.05))
+    assert outputs[0].acc == pytest.approx((0.0, 0.0, GRAVITY))
+
+
+def test_firmware_may_be_read_after_the_tag_began() -> None:
+    decoder = Decoder(site=LEFT)
+    feed(decoder, acc_packet(1.0), gyro_packet(1.05), packet(1.06, "device/firmware", build_firmware("1.4 (Jul 2013)")))
+    [sample] = feed(decoder, acc_packet(1.1, (0, 0, 64)), gyro_packet(1.15))
+    assert sample.acc == pytest.approx((0.0, 0.0, GRAVITY))
+
+
+def test_a_wrong_range_shows_at_rest() -> None:
+    decoder = Decoder(site=LEFT)
+    outputs = feed(decoder, *[acc_packet(1.0 + 0.1 * k, (0, 0, 64)) for k in range(40)])
+    [suspect] = of(ScaleSuspect, outputs)
+    assert suspect.magnitude == pytest.approx(4 * GRAVITY)
+    assert "2 g would fit" in suspect.suggestion
+
+
+def test_a_gyroscope_that_stops_does_not_stop_the_samples() -> None:
+    decoder = Decoder(site=LEFT)
+    outputs = []
+    for k in range(30):
+        outputs += feed(decoder, acc_packet(1.0 + 0.1 * k))
+        if k < 10:
+            outputs += feed(decoder, gyro_packet(1.04 + 0.1 * k))
+    samples = of(Sample, outputs)
+    assert len(samples) == 30
+    assert [sample.gyro is None for sample in samples] == [False] * 11 + [True] * 19
+    assert max(sample.known_at - sample.t for sample in samples) < 0.31
+    assert samples[-1].known_at == samples[-1].t
+
+
+def test_an_accelerometer_that_stops_leaves_the_gyroscope() -> None:
+    decoder = Decoder(site=LEFT)
+    outputs = feed(decoder, acc_packet(1.0), *[gyro_packet(1.04 + 0.1 * k) for k in range(20)])
+    samples = of(Sample, outputs)
+    assert samples[0].acc is not None
+    assert all(sample.acc is None and sample.gyro is not None for sample in samples[1:])
+    assert len(samples) == 18
+
+
+def test_what_waits_for_the_gyroscope_comes_out_at_the_end() -> None:
+    decoder = Decoder(site=LEFT)
+    assert feed(decoder, acc_packet(1.0)) == []
+    [sample] = decoder.finish()
+    assert (sample.t, sample.gyro) == (1.0, None)
+    assert decoder.finish() == []
+
+
+def test_a_barometer_without_calibration_is_said_once() -> None:
+    decoder = Decoder(site=LEFT)
+    raw = bytes.fromhex("b2eec584")
+    [limitation] = feed(decoder, packet(1.0, "cc2541/barometer", raw), packet(2.0, "cc2541/barometer", raw))
+    assert isinstance(limitation, Limitation)
+    calibration = bytes.fromhex("81b2f863febe4e8d591bc607c4f66ddb")
+    feed(decoder, packet(3.0, "cc2541/barometer-calibration", calibration))
+    [sample] = feed(decoder, packet(4.0, "cc2541/barometer", raw))
+    assert sample.air_pressure == pytest.approx(100960.5, abs=0.1)
+
+
+def test_a_cc2541_keeps_the_axes_as_they_were_sent() -> None:
+    decoder = Decoder(site=LEFT)
+    mag = old_tag(0.9, "magnetometer", mag=(1, 2, 3))
+    [sample] = feed(decoder, mag, acc_packet(1.0, (16, 32, -16)), gyro_packet(1.05, (1000, 2000, 3000)))
+    scale = radians(500 / 65536)
+    assert sample.acc == pytest.approx((GRAVITY, 2 * GRAVITY, -GRAVITY))
+    assert sample.gyro == pytest.approx((1000 * scale, 2000 * scale, 3000 * scale))
+    assert sample.mag == pytest.approx(tuple(n * 2000e-6 / 65536 for n in (1, 2, 3)))
+    with pytest.raises(TypeError):
+        Decoder(LEFT, axes="ti-app")  # type: ignore[call-arg]

@@ -1,0 +1,190 @@
+"""Whoever has watched from the start sees what whoever comes late is shown, and neither grows with the walk."""
+
+from __future__ import annotations
+
+import gc
+import json
+import pickle
+from copy import deepcopy
+from functools import cache
+from typing import Any
+
+from attrs import evolve
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from said import eventful, rough
+from shown import later, shown
+
+from solepath import (
+    Event,
+    Foot,
+    FootMoved,
+    FootPressed,
+    LayoutKnown,
+    PacketRejected,
+    PacketsLost,
+    Placed,
+    SampleGap,
+    Site,
+    StrideTaken,
+    WearerMoved,
+)
+from solepath.emulate.routes.building import BUILDING
+from solepath.show.page.messages import encode
+from solepath.show.page.scene import plan_drawing
+from solepath.show.page.scene.lists import MOST_POINTS, RECENT
+from solepath.show.page.scene.log import MOST_LINES
+from solepath.show.page.scene.scene import Scene
+
+LISTS = ("phases", "tracks", "places", "log")
+
+
+def step(t: float, x: float, foot: Foot = Foot.LEFT) -> StrideTaken:
+    """A step to x m."""
+    first = next(event for event in rough()[1] if isinstance(event, StrideTaken))
+    return evolve(first, foot=foot, t=t, known_at=t, t_start=t - 1.0, t_end=t, position=(x, 0.0, 0.0))
+
+
+class Reader:
+    """Does what protocol/page.md tells a page to do."""
+
+    def __init__(self) -> None:
+        self.scene: dict[str, Any] = {}
+        self.wholes = 0
+
+    def take(self, text: str) -> None:
+        message = json.loads(text)
+        if message["type"] == "scene":
+            self.scene = message
+            self.wholes += 1
+            return
+        now = self.scene["frame"]
+        for key, value in message.items():
+            if key not in LISTS:
+                now[key] = value
+        for name, points in message.get("tracks", {}).items():
+            for point in points:
+                self.scene["tracks"][name] = self._longer(self.scene["tracks"][name], point)
+        for point in message.get("places", []):
+            self.scene["places"] = self._longer(self.scene["places"], point)
+        for foot, begun in message.get("phases", {}).items():
+            kept = self.scene["phases"][foot]
+            for one in begun:
+                kept.append(one)
+                while len(kept) > 1 and (kept[1][0] <= one[0] - 20.0 or len(kept) > 500):
+                    kept.pop(0)
+        for line in message.get("log", []):
+            self.scene["log"] = [*self.scene["log"], line][-50:]
+
+    def _longer(self, points: list[Any], point: Any) -> list[Any]:
+        points = [*points, point]
+        return points[::2] if len(points) > 2000 else points
+
+
+@cache
+def long_way() -> list[Event]:
+    return [step(1.0 + k, 0.7 * k) for k in range(MOST_POINTS + 2 * RECENT)]
+
+
+def agree(events: list[Event], looks: list[int], scene: Scene | None = None) -> Reader:
+    """Somebody looks after so many events each; what they have is what somebody gets who comes at the end."""
+    scene = Scene("a walk", "default", plan=BUILDING) if scene is None else scene
+    reader = Reader()
+    message, cursor = scene.whole()
+    reader.take(encode(message))
+    for index, event in enumerate(events):
+        scene.take(None, [event])
+        for _ in range(looks.count(index)):
+            news, cursor = scene.since(cursor)
+            if news is not None:
+                reader.take(encode(news))
+    news, cursor = scene.since(cursor)
+    if news is not None:
+        reader.take(encode(news))
+    late = json.loads(encode(scene.whole()[0]))
+    for one in (late, reader.scene):
+        for key in LISTS:
+            one["frame"].pop(key, None)
+        one["frame"].pop("type", None)
+    assert reader.scene == late
+    return reader
+
+
+@settings(deadline=None, max_examples=8)
+@given(st.data())
+def test_who_hears_what_changed_ends_with_what_who_comes_late_is_shown(data: st.DataObject) -> None:
+    events = eventful()
+    looks = data.draw(st.lists(st.integers(0, len(events) - 1), max_size=40))
+    agree(events, looks)
+
+
+@settings(deadline=None, max_examples=8)
+@given(st.lists(st.integers(0, MOST_POINTS + 2 * RECENT), max_size=30))
+def test_a_long_track_is_thinned_alike_on_both_sides(looks: list[int]) -> None:
+    agree(long_way(), looks)
+
+
+def test_a_page_that_is_far_behind_gets_everything_anew() -> None:
+    events: list[Event] = [step(1.0 + k, 0.7 * k) for k in range(RECENT + 10)]
+    assert agree(events, []).wholes == 2
+    assert agree(events, [RECENT // 2]).wholes == 1
+
+
+def test_a_page_that_drew_no_soles_draws_anew_when_the_cells_are_known() -> None:
+    known = [event for event in rough()[1] if isinstance(event, LayoutKnown) and event.site is Site.LEFT_FOOT]
+    reader = agree(list(known), [0])
+    assert reader.wholes == 2
+    assert len(reader.scene["layouts"]["left"]["cells"]) == 96
+    assert reader.scene["layouts"]["left"]["unit"] == "N"
+    scene = shown(known)
+    _, cursor = scene.whole()
+    news, _ = shown(known, scene).since(cursor)  # the same once more
+    assert news is None or news["type"] == "frame"
+
+
+def test_nothing_new_is_no_message() -> None:
+    scene = shown(rough()[1])
+    _, cursor = scene.whole()
+    assert scene.since(cursor) == (None, cursor)
+    scene.tick(scene.now)
+    assert scene.since(cursor)[0] is None
+
+
+def test_hours_of_walking_do_not_make_a_scene_larger() -> None:
+    many = FootMoved | FootPressed | PacketsLost | PacketRejected | SampleGap
+    once = [event for event in eventful() if not isinstance(event, many)]
+    length = once[-1].known_at + 1.0
+    scene, sizes = Scene("hours", "default", plan=BUILDING), []
+    for lap in range(500):
+        for event in eventful() if lap % 125 == 124 else once:
+            event = later(event, lap * length)
+            if isinstance(event, StrideTaken | WearerMoved | Placed):
+                x, y, z = event.position
+                event = evolve(event, position=(x + lap, y, z))
+            scene.take(None, [event])
+        if lap % 125 == 124:
+            message = scene.whole()[0]
+            assert all(len(track) <= MOST_POINTS for track in message["tracks"].values())
+            assert len(message["places"]) <= MOST_POINTS
+            assert len(message["log"]) == MOST_LINES
+            assert all(len(phases) < 100 for phases in message["phases"].values())
+            sizes.append(len(pickle.dumps(scene)))
+    assert max(sizes[2:]) < 1.3 * max(sizes[:2])
+    assert max(sizes) < 1_000_000
+
+
+def test_a_plan_is_drawn_and_written_once_whoever_watches_and_goes_with_the_last_scene() -> None:
+    plan = evolve(BUILDING, name="drawn once")
+    scene = Scene("along a corridor", "default", plan=plan)
+    first, _ = scene.whole()
+    copied = deepcopy(scene)
+    assert copied.plan is plan
+    for one in (scene, copied, Scene("another walk", "default", plan=plan)):
+        message, _ = one.whole()
+        assert message["plan"] is first["plan"]
+        assert json.loads(encode(message)) == json.loads(json.dumps(message))
+        assert message["plan"].text is first["plan"].text
+    drawings = len(plan_drawing._known)
+    del plan, scene, copied, one
+    gc.collect()
+    assert len(plan_drawing._known) == drawings - 1

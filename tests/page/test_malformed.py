@@ -1,0 +1,139 @@
+"""Whoever sends the page what is no request and no command harms nobody else, and does not fill the log."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import logging
+import socket
+import struct
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from served import LOGGER, frame_of, handshake, raw, refused, reply, sees, served
+
+from solepath.show.page.messages import CommandError, parse_command
+from solepath.show.page.server import offences
+
+
+@settings(deadline=None, max_examples=100)
+@given(st.one_of(st.text(), st.dictionaries(
+    st.sampled_from(["do", "value", "to"]),
+    st.none() | st.booleans() | st.floats() | st.integers() | st.sampled_from(["play", "seek", "speed"]),
+).map(json.dumps)))  # fmt: skip
+def test_any_text_is_a_command_or_none(text: str) -> None:
+    try:
+        command = parse_command(text)
+    except CommandError as error:
+        assert str(error) and "\n" not in str(error)
+    else:
+        assert command.do in ("play", "pause", "speed", "seek")
+        told = {"do": command.do} if command.value is None else {"do": command.do, "value": command.value}
+        assert parse_command(json.dumps(told)) == command
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "", "{", "null", "[]", '"play"', "{}", '{"do":"stop"}', '{"do":["play"]}', '{"do":"play","value":1}',
+        '{"do":"play","do":"play"}', '{"do":"seek"}', '{"do":"seek","value":null}', '{"do":"seek","value":true}',
+        '{"do":"seek","value":"1"}', '{"do":"seek","value":NaN}', '{"do":"seek","value":1e999}',
+        '{"do":"speed","value":0}', '{"do":"speed","value":32.01}', '{"do":"seek","value":Infinity}',
+        '{"do":"seek","value":1' + "0" * 999 + "}", '{"do":"speed","value":-1}', "[" * 5000,
+    ],
+)  # fmt: skip
+def test_what_is_no_command_is_refused(text: str) -> None:
+    with pytest.raises(CommandError):
+        parse_command(text)
+
+
+@pytest.mark.parametrize(
+    ("sent", "code"),
+    [
+        (frame_of(2, b"bytes"), 1003),
+        (frame_of(1, b"\xff\xfe"), 1007),
+        (frame_of(1, b"no json"), 1007),
+        (frame_of(1, b'{"do":"seek","value":NaN}'), 1007),
+        (frame_of(1, b'{"do":"dance"}'), 1008),
+        (frame_of(1, b" " * 4096), 1007),
+        (frame_of(1, b" " * 4097), 1009),
+        (frame_of(3, b"reserved"), 1002),
+        (frame_of(1, b"", fin=0xC0), 1002),
+    ],
+)
+async def test_what_is_malformed_is_answered_with_a_close_and_one_line(
+    sent: bytes, code: int, caplog: pytest.LogCaptureFixture
+) -> None:
+    async with served(commands=lambda command: None) as (page, client, url):
+        reader, writer = await raw(page)
+        writer.write(handshake())
+        await reader.readuntil(b"\r\n\r\n")
+        writer.write(sent)
+        assert await reader.readuntil(b"\x88") and code.to_bytes(2, "big") in await reader.read(3)
+        writer.close()
+        await sees(client, url)
+    assert [one.name for one in caplog.records] == [LOGGER]
+
+
+@settings(deadline=None, max_examples=12)
+@given(st.lists(st.one_of(
+    st.binary(max_size=200),
+    st.builds(frame_of, st.integers(0, 15), st.binary(max_size=125)),
+), max_size=6))  # fmt: skip
+def test_any_bytes_end_one_connection_at_the_most(sent: list[bytes]) -> None:
+    problems: list[dict[str, Any]] = []
+
+    async def main() -> None:
+        asyncio.get_running_loop().set_exception_handler(lambda loop, context: problems.append(context))
+        async with asyncio.timeout(30.0), served() as (page, client, url):
+            for beginning in (b"", handshake()):
+                await reply(page, beginning + b"".join(sent), ends=True)
+            await sees(client, url)
+
+    asyncio.run(main())
+    assert problems == []
+
+
+async def test_who_is_gone_before_the_handshake_ends_is_no_trouble(caplog: pytest.LogCaptureFixture) -> None:
+    async with served() as (page, client, url):
+        host = f"127.0.0.1:{page.port}"
+        for _ in range(20):
+            somebody = socket.create_connection(("127.0.0.1", page.port))
+            await asyncio.sleep(0.01)  # accepted
+            somebody.sendall(handshake(host))
+            somebody.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
+            somebody.close()
+            await asyncio.sleep(0.01)
+        await sees(client, url)
+    assert not caplog.records
+
+
+async def test_somebody_who_repeats_an_offence_does_not_fill_the_log(caplog: pytest.LogCaptureFixture) -> None:
+    async with served() as (_, client, url):
+        for _ in range(100):
+            assert await refused(client.ws_connect(f"{url}ws?token=wrong")) == 403
+    assert len(caplog.records) <= offences.AT_ONCE + 1
+
+
+async def test_no_part_of_the_library_logs_what_a_client_sends(caplog: pytest.LogCaptureFixture) -> None:
+    odd = (b"GET /ws", b"\x16\x03\x01\x02", b"POST / HTTP/1.1\r\nContent-Length: x\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n")
+    async with served() as (page, client, url):
+        for sent in (*odd, handshake("localhost", "Sec-WebSocket-Protocol: EVIL\r\n")):
+            await reply(page, sent, ends=True)
+        assert await refused(client.ws_connect(f"{url}ws", protocols=["EVIL"])) == 400
+        async with client.get(f"{url}ws") as answer:
+            assert answer.status == 400
+    assert {one.name for one in caplog.records} == {LOGGER}
+    assert "EVIL" not in caplog.text
+
+
+def test_what_was_not_told_is_counted(caplog: pytest.LogCaptureFixture) -> None:
+    told = offences.Offences(logging.getLogger(LOGGER))
+    for _ in range(offences.AT_ONCE + 5):
+        told.tell("somebody did it")
+    assert len(caplog.records) == offences.AT_ONCE
+    told._at -= offences.EVERY
+    told.tell("somebody did it")
+    assert caplog.records[-1].getMessage() == "somebody did it (5 more were not told)"
