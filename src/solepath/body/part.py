@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from typing import ClassVar, Protocol, Self
 
 from ..calibration import Calibration
-from ..events import Event
+from ..events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken, TurnMade
 from ..foot.view import FootPose, FootView
 from ..foot.world import Covariance3
 from ..types import Activity, Foot, Layout, Sample, Site, Vec3
@@ -71,6 +71,8 @@ class Position:
 
 Said = Event | Shift | HeightShift | Instead
 Notice = Event | ClockUnsettled | LayoutTold
+LEADS = (StrideTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
+"""After these it is said where the wearer is, to the parts that follow it (`Part.follows`)."""
 
 
 class Part(Protocol):

@@ -6,19 +6,15 @@ from collections.abc import Iterable, Sequence
 from copy import deepcopy
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ..body.part import ClockUnsettled, HeightShift, Instead, LayoutTold, Part, Position, Said, Shift, Track
+from ..body.part import LEADS, ClockUnsettled, HeightShift, Instead, LayoutTold, Part, Position, Said, Shift, Track
 from ..calibration import Calibration
 from ..events import (
-    ActivityChanged,
     ClockReset,
     Event,
-    FlightClimbed,
     LayoutKnown,
-    LiftRidden,
     Limitation,
     SampleRejected,
     StrideTaken,
-    TurnMade,
     WearerMoved,
 )
 from ..foot.pressure.sole import Sole
@@ -31,9 +27,6 @@ from ..types.attrs import MADE_AGAIN, define, field
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
-
-LEADS = (StrideTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
-"""After these it is said where the wearer is, to the parts that follow it (`Part.follows`)."""
 
 _Key = TypeVar("_Key")
 _Held = TypeVar("_Held")

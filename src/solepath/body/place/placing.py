@@ -14,10 +14,7 @@ from math import hypot, isfinite, pi
 from typing import ClassVar
 
 from ...events import (
-    ActivityChanged,
     Event,
-    FlightClimbed,
-    LiftRidden,
     Placed,
     PlaceLost,
     StrideTaken,
@@ -27,7 +24,7 @@ from ...events import (
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Start
 from ...types.attrs import NOT_SAVED, define, field
-from ..part import Notice, Said
+from ..part import LEADS, Notice, Said
 from .arrivals import fan, nowhere
 from .crowd import AGREED, Row, believed, effective, rounded
 from .levels import FARTHEST, FEW, ROUGH, Levels
@@ -49,10 +46,6 @@ STUCK = 5.0
 CLEAR, FADE, ASIDE = 0.9, 0.88, 3.0
 """Where one place has so much of the belief, the one that is within `ASIDE`, m, of it on another level keeps so much of
 its own with each step: floors are often alike, and then no wall ever decides."""
-
-
-LEADS = (StrideTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
-"""What a place follows from."""
 
 
 @define

@@ -89,15 +89,6 @@ def propagate(
     pvzx = pvzx + dt * vvxz + dy * vtxx - dx * vtxy + sz * nzy - sy * nzz
     pvzy = pvzy + dt * vvyz + dy * vtyx - dx * vtyy - sz * nzx + sx * nzz
     pvzz = pvzz + dt * vvzz + dy * vtzx - dx * vtzy + sy * nzx - sx * nzy + q_pv
-    ptxx = nxx
-    ptxy = nxy
-    ptxz = nxz
-    ptyx = nyx
-    ptyy = nyy
-    ptyz = nyz
-    ptzx = nzx
-    ptzy = nzy
-    ptzz = nzz
     # vt' = vt + M1 tt;  vv' = vv + vt M1' + M1 vt''
     wxx = vtxx + sz * ttxy - sy * ttxz
     wxy = vtxy + sz * ttyy - sy * ttyz
@@ -114,24 +105,15 @@ def propagate(
     vvyy = vvyy - sz * vtyx + sx * vtyz - sz * wyx + sx * wyz + q_vv
     vvyz = vvyz + sy * vtyx - sx * vtyy - sz * wzx + sx * wzz
     vvzz = vvzz + sy * vtzx - sx * vtzy + sy * wzx - sx * wzy + q_vv
-    vtxx = wxx
-    vtxy = wxy
-    vtxz = wxz
-    vtyx = wyx
-    vtyy = wyy
-    vtyz = wyz
-    vtzx = wzx
-    vtzy = wzy
-    vtzz = wzz
     ttxx += q_tt
     ttyy += q_tt
     ttzz += q_tt
     return (
         ppxx, ppxy, ppxz, ppyy, ppyz, ppzz,
         pvxx, pvxy, pvxz, pvyx, pvyy, pvyz, pvzx, pvzy, pvzz,
-        ptxx, ptxy, ptxz, ptyx, ptyy, ptyz, ptzx, ptzy, ptzz,
+        nxx, nxy, nxz, nyx, nyy, nyz, nzx, nzy, nzz,
         vvxx, vvxy, vvxz, vvyy, vvyz, vvzz,
-        vtxx, vtxy, vtxz, vtyx, vtyy, vtyz, vtzx, vtzy, vtzz,
+        wxx, wxy, wxz, wyx, wyy, wyz, wzx, wzy, wzz,
         ttxx, ttxy, ttxz, ttyy, ttyz, ttzz,
     )  # fmt: skip
 

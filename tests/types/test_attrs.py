@@ -1,0 +1,75 @@
+"""Classes made by `types.attrs` print, compare and hash as attrs itself would have them do."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import attrs
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from solepath.types import attrs as ours
+
+VALUES = st.one_of(st.none(), st.floats(), st.integers(), st.text(max_size=3), st.tuples(st.floats(), st.booleans()))
+
+
+def made(by: Any, **options: Any) -> tuple[type[Any], type[Any]]:
+    """A class with fields of every kind, and one that derives from it."""
+
+    @by.frozen(**options)
+    class Record:
+        one: Any
+        two: Any = attrs.field(eq=False)
+        three: Any = attrs.field(repr=False)
+        four: Any = attrs.field(repr=lambda value: f"<{value}>", default=4.0)
+
+    @by.frozen(**options)
+    class Longer(Record):
+        five: Any = 5
+
+    return Record, Longer
+
+
+OURS, THEIRS = made(ours), made(attrs)
+
+
+@given(st.lists(VALUES, min_size=4, max_size=4), st.lists(VALUES, min_size=4, max_size=4), st.integers(0, 4))
+def test_a_record_prints_compares_and_hashes_as_attrs_has_it(one: list[Any], two: list[Any], alike: int) -> None:
+    two[:alike] = one[:alike]
+    for mine, theirs in zip(OURS, THEIRS, strict=True):
+        assert repr(mine(*one)) == repr(theirs(*one))
+        assert (mine(*one) == mine(*two)) == (theirs(*one) == theirs(*two))
+        assert (mine(*one) != mine(*two)) == (theirs(*one) != theirs(*two))
+        if mine(*one) == mine(*two):
+            assert hash(mine(*one)) == hash(mine(*two))
+    assert OURS[0](*one) != OURS[1](*one), "a class is part of what is compared"
+
+
+def test_what_can_change_has_no_hash_and_what_asks_for_identity_keeps_it() -> None:
+    @ours.define
+    class State:
+        value: float = 0.0
+
+    @ours.define(eq=False)
+    class Itself:
+        value: float = 0.0
+
+    assert State() == State() and State(1.0) != State()
+    with pytest.raises(TypeError, match="unhashable"):
+        hash(State())
+    assert Itself() != Itself() and len({Itself(), Itself()}) == 2
+
+
+def test_what_a_class_says_itself_is_left_to_it() -> None:
+    @ours.frozen
+    class Named:
+        name: str
+
+        def __repr__(self) -> str:
+            return self.name
+
+        def __eq__(self, other: object) -> bool:
+            return True
+
+    assert repr(Named("a")) == "a" and Named("a") == Named("b")
