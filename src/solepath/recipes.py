@@ -192,34 +192,34 @@ def own(recipe: Recipe) -> Recipe:
     known = _own
     if any([recipe is one.recipe for one in known]):
         return recipe
+    parts = (recipe.detector, recipe.corrector, recipe.cues)
+    beside = repr([vars(part) for part in parts if hasattr(part, "__dict__")])
     if known:
         known = tuple([one for one in known if one.text is not None])
-        text = _Copy(recipe).text
-        if text is None:
+        given = _Copy(recipe, beside).text
+        if given is None:
             return deepcopy(recipe)
         for one in known:
-            if one.text == text:
+            if one.text == given:
                 return one.recipe
-    copy = _Copy(deepcopy(recipe))
+    copy = _Copy(deepcopy(recipe), beside)
     _own = (copy, *known[: _OWN - 1])
     return copy.recipe
 
 
 class _Copy:
-    """A recipe, and what it holds as text, which is made when it is first compared: saving what a session is made of
-    takes longer than making it. None where it holds what cannot be saved, and is like no other."""
+    """A recipe, what its parts hold `beside` their fields, and all of it as text, which is made when it is first
+    compared: it takes longer than a session. None where it cannot be saved, and is like no other."""
 
-    def __init__(self, recipe: Recipe) -> None:
-        self.recipe = recipe
+    def __init__(self, recipe: Recipe, beside: str) -> None:
+        self.recipe, self.beside = recipe, beside
 
     @cached_property
-    def text(self) -> str | None:
+    def text(self) -> tuple[str, str] | None:
         from .saving.codec import save
 
-        parts = (self.recipe.detector, self.recipe.corrector, self.recipe.cues)
-        beside = [vars(part) for part in parts if hasattr(part, "__dict__")]
         try:
-            return repr((save(self.recipe), beside))
+            return repr(save(self.recipe)), self.beside
         except (TypeError, ValueError):
             return None
 

@@ -10,7 +10,7 @@ from commands import run
 from floorplans import FILES
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from recordings import written
+from recordings import recorded
 from walks import insoles
 
 from solepath.floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Wall
@@ -41,9 +41,9 @@ def test_a_full_disk_is_told_with_the_name_of_the_picture() -> None:
 
 
 def test_a_picture_that_cannot_be_written_is_told_before_the_walk_is_computed(tmp_path: Path) -> None:
-    recorded = written(tmp_path / "walk.jsonl", insoles().packets[:400])
+    walk = recorded(tmp_path / "walk.jsonl", insoles().packets[:400])
     (tmp_path / "out" / "plan.svg").mkdir(parents=True)
     plan = FILES / "house.geojson"
-    done = run("track", recorded, "--floorplan", plan, "--out", tmp_path / "out")
+    done = run("track", walk, "--floorplan", plan, "--out", tmp_path / "out")
     assert done.returncode == 2 and done.stdout == "" and "plan.svg" in done.stderr.splitlines()[-1]
     assert [path.name for path in (tmp_path / "out").iterdir()] == ["plan.svg"], "nothing was written"

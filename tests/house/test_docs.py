@@ -18,7 +18,7 @@ import pytest
 from commands import run, solepath
 from here import EXAMPLES, PROTOCOL, TESTS
 from quoted import NUMBER, PAGES, ROOT, below, blocks, nearly_the_same
-from recordings import written
+from recordings import recorded
 from snooped import insoles_log
 
 from solepath import LiftRidden, Session
@@ -108,7 +108,7 @@ def test_a_wearer_of_a_fleet_goes_through_its_step_and_through_its_job(played, t
     pytest.importorskip("bytewax", reason="bytewax has no release for this Python")
     testing, parquet = import_module("bytewax.testing"), import_module("pyarrow.parquet")
     walk = emulate(Route().stand(2).walk(3).stop(1), seed=1)
-    written(tmp_path / "walk.jsonl", walk.packets)
+    recorded(tmp_path / "walk.jsonl", walk.packets)
     (tmp_path / "sent").mkdir()
     sent = [sent_line(Sent("w-17", number, packet)) for number, packet in enumerate(walk.packets)]
     for hour in (11, 8, 10, 9):

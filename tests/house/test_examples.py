@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from here import EXAMPLES, TESTS
-from recordings import written
+from recordings import recorded
 
 from solepath.emulate import Radio, Route, Walker, emulate
 from solepath.types import Foot
@@ -55,7 +55,7 @@ def test_emulated_insoles_are_heard_over_bluetooth():
 
 def test_the_loop_tells_the_steps_of_a_recording(tmp_path):
     walk = emulate(ROUTE, radio=Radio(corrupt=0.02), seed=2)
-    told = run("own_loop", written(tmp_path / "walk.jsonl", walk.packets))
+    told = run("own_loop", recorded(tmp_path / "walk.jsonl", walk.packets))
     for foot in Foot:
         assert told.count(f"{foot.value} step of") == len(walk.truth.steps(foot))
     assert "a packet was not used: checksum" in told
@@ -124,6 +124,6 @@ def test_an_app_of_a_thread_and_a_queue_loses_nothing_unsaid_and_ends():
 
 
 def test_an_app_of_a_thread_and_a_queue_plays_a_recording(tmp_path):
-    walk = written(tmp_path / "walk.jsonl", emulate(ROUTE, seed=2).packets)
+    walk = recorded(tmp_path / "walk.jsonl", emulate(ROUTE, seed=2).packets)
     told = run("thread_and_queue", walk, "inf")
     assert "left step of" in told and "right step of" in told

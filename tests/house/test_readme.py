@@ -12,7 +12,7 @@ import figures
 import pytest
 from commands import solepath
 from quoted import NUMBER, README, below, blocks
-from recordings import written
+from recordings import recorded
 
 from solepath import Event
 from solepath.cli.main import parser
@@ -37,7 +37,7 @@ def test_it_is_short():
 def test_its_loop_hears_every_step_of_a_walk(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     walk = emulate(Route().stand(2).walk(6, speed=1.3).stop(2), radio=Radio(corrupt=0.02), seed=1)
-    written(Path("walk.jsonl"), walk.packets)
+    recorded(Path("walk.jsonl"), walk.packets)
     (program,) = blocks(README, "python")
     with redirect_stdout(io.StringIO()) as out:
         exec(compile(program, "README.md", "exec"), {"__name__": "readme"})

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import pytest
 from commands import refused, run
 from floors import LOW, OFFICE, RIGHT, Pedestrian, follow, office, tour
-from recordings import written
+from recordings import recorded
 from walks import insoles
 
 from solepath import PlaceLost
@@ -111,8 +111,8 @@ def test_the_summary_of_a_wearer_who_was_never_found_says_so() -> None:
 
 
 @pytest.fixture(scope="module")
-def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return written(tmp_path_factory.mktemp("walk") / "walk.jsonl", insoles(cells=12).packets)
+def walk(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return recorded(tmp_path_factory.mktemp("walk") / "walk.jsonl", insoles(cells=12).packets)
 
 
 @pytest.fixture(scope="module")
@@ -127,9 +127,9 @@ def hall(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_track_writes_places_and_the_picture_and_says_where_the_wearer_is(
-    recorded: Path, hall: Path, tmp_path: Path
+    walk: Path, hall: Path, tmp_path: Path
 ) -> None:
-    done = run("track", recorded, "--floorplan", hall, "--start", "0,10,10,30", "--out", tmp_path)
+    done = run("track", walk, "--floorplan", hall, "--start", "0,10,10,30", "--out", tmp_path)
     assert done.returncode == 0
     assert "place: found after 1 step, at" in done.stdout and "at the end: level 0, (1" in done.stdout
     with (tmp_path / "places.csv").open() as file:
@@ -143,23 +143,23 @@ def test_track_writes_places_and_the_picture_and_says_where_the_wearer_is(
     assert svg.tag == f"{SVG}svg" and "walk.jsonl, recipe default" in words(svg)
 
 
-def test_without_a_floor_plan_nothing_of_it_is_written_or_said(recorded: Path, tmp_path: Path) -> None:
-    done = run("track", recorded, "--out", tmp_path)
+def test_without_a_floor_plan_nothing_of_it_is_written_or_said(walk: Path, tmp_path: Path) -> None:
+    done = run("track", walk, "--out", tmp_path)
     assert done.returncode == 0 and "place:" not in done.stdout
     assert not (tmp_path / "places.csv").exists() and not (tmp_path / "plan.svg").exists()
 
 
 def test_a_floor_plan_or_a_start_that_cannot_be_used_is_refused_in_one_line(
-    recorded: Path, hall: Path, tmp_path: Path
+    walk: Path, hall: Path, tmp_path: Path
 ) -> None:
-    assert "give --floorplan, too" in refused("track", recorded, "--start", "0,1,2")
+    assert "give --floorplan, too" in refused("track", walk, "--start", "0,1,2")
     nonsense = tmp_path / "plan.geojson"
     nonsense.write_text("[1, 2")
-    assert "plan.geojson" in refused("track", recorded, "--floorplan", nonsense)
-    assert "No such file" in refused("track", recorded, "--floorplan", tmp_path / "none.geojson")
-    assert "the plan has no level '7', only 0, 1" in refused("track", recorded, "--floorplan", hall, "--start", "7,1,2")
-    assert "(99, 2) is nowhere on level 0" in refused("track", recorded, "--floorplan", hall, "--start", "0,99,2")
-    assert "is not LEVEL,X,Y" in refused("track", recorded, "--floorplan", hall, "--start", "0,one,2")
+    assert "plan.geojson" in refused("track", walk, "--floorplan", nonsense)
+    assert "No such file" in refused("track", walk, "--floorplan", tmp_path / "none.geojson")
+    assert "the plan has no level '7', only 0, 1" in refused("track", walk, "--floorplan", hall, "--start", "7,1,2")
+    assert "(99, 2) is nowhere on level 0" in refused("track", walk, "--floorplan", hall, "--start", "0,99,2")
+    assert "is not LEVEL,X,Y" in refused("track", walk, "--floorplan", hall, "--start", "0,one,2")
 
 
 def test_a_start_is_read_with_and_without_heading_and_commas_in_the_name_of_a_level() -> None:

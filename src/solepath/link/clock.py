@@ -22,6 +22,8 @@ until the two have drifted past one another.
 
 from __future__ import annotations
 
+from copy import copy
+
 from ..types.attrs import define, field
 
 FIRST_WINDOW = 0.25
@@ -127,9 +129,17 @@ class Clock:
         """The time of a sample measured at `ticks`, s; call once per sample, in order of ticks."""
         x = (ticks - self.first_tick) / self.rate
         fitted = self.origin + self.offset + x * (1.0 + self.drift)
-        t = self._slewed(x, fitted)
-        if self.last_x is not None and t <= self.last_t:  # below float resolution, or ticks that stand still
-            t = self.last_t + 1e-6
+        if self.last_x is None:
+            t = fitted if self.floor is None else max(fitted, self.floor)
+        else:
+            step = x - self.last_x
+            straight = self.last_t + step * (1.0 + self.drift)
+            error = fitted - straight
+            limit = step * (SLEW if -FAR < error < FAR else SLEW_FAR)
+            slew = error * (step / SETTLE) if step < SETTLE else error
+            t = straight + max(-limit, min(limit, slew))
+            if t <= self.last_t:  # below float resolution, or ticks that stand still
+                t = self.last_t + 1e-6
         if self.last_x is None or not -WITHIN <= fitted - t <= WITHIN:
             self.away = x
         if x - self.away < SETTLED_FOR:
@@ -139,18 +149,7 @@ class Clock:
 
     def expected(self, ticks: float) -> float:
         """What `time(ticks)` would assign. Changes nothing."""
-        return self._slewed((ticks - self.first_tick) / self.rate, self.fitted(ticks))
-
-    def _slewed(self, x: float, fitted: float) -> float:
-        """The time of device second `x`, where the line is at `fitted`, s."""
-        if self.last_x is None:
-            return fitted if self.floor is None else max(fitted, self.floor)
-        step = x - self.last_x
-        straight = self.last_t + step * (1.0 + self.drift)
-        error = fitted - straight
-        limit = step * (SLEW if -FAR < error < FAR else SLEW_FAR)
-        slew = error * (step / SETTLE) if step < SETTLE else error
-        return straight + max(-limit, min(limit, slew))
+        return copy(self).time(ticks)
 
     def _thin(self) -> None:
         if self.window >= LAST_WINDOW:

@@ -164,9 +164,7 @@ class Session:
             until = decoder.link.doubt
             if until != state.wearer.unsettled.get(site):
                 state.wearer.unsettle(site, until)
-        wearer = state.wearer
-        for item in items:
-            events += wearer.feed(item, True) if isinstance(item, Sample) else wearer.receive(site, item)
+        self._take(site, items, events)
         return events
 
     def _sample(self, state: SessionState, sample: Sample) -> list[Event]:

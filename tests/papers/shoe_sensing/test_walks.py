@@ -63,7 +63,7 @@ def test_every_level_step_is_found_and_ends_as_high_as_it_began(route: Route, ra
             found, true = steps(heard(route, seed, rate), foot), worn(route, seed, rate)[1].steps(foot)
             # of a jog the first two may be told as one
             assert len(true) - (route is JOG) <= len(found) <= len(true)
-            assert all(min(abs(step.t - other.end) for other in true) < 0.15 for step in found)
+            assert all(min(abs(step.t - other.t_end) for other in true) < 0.15 for step in found)
             assert abs(found[-1].position[2]) <= 0.1
             assert sum(step.length for step in found) == pytest.approx(sum(s.length for s in true), rel=0.06)
 

@@ -40,6 +40,8 @@ to its edge, outer (lateral) positive."""
 TH = 2.1
 """`th`, times the mean cell. On the emulator's feet, whose load moves outward in a bend as physics has it, the regions'
 shares in contacts of another mode end below and those of their own begin above it, at 1.1 m/s."""
+LEAST = 1e-9
+"""A mean cell below this is no load, whatever the unit."""
 PACE = 1.1
 """m/s, of `TH`."""
 STRAIGHT_ON = {"L1": 0.58, "L2": 1.55, "L3": 0.87, "R1": 1.52, "R2": 0.68}
@@ -190,7 +192,6 @@ class Contact:
 
     def shares(self) -> dict[str, float] | None:
         """The mean cell of each region as a multiple of the insole's; None without load or layout."""
-        if self.layout is None or self.total <= 0.0 or not self.sums:
+        if self.layout is None or not self.sums or (mean := self.total / len(self.layout.cells)) < LEAST:
             return None
-        mean = self.total / len(self.layout.cells)
         return {name: max(total, 0.0) / len(self.where[name]) / mean for name, total in self.sums.items()}
