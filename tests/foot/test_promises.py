@@ -6,17 +6,22 @@ from collections import Counter, deque
 from collections.abc import Sequence
 from itertools import count
 from math import inf, nan
-from typing import Any
+from typing import Any, ClassVar
 
 import pytest
 from attrs import define, evolve, field
 from own import CELLS, WALKED, ByMotion, Quiet, Resets
 
+from solepath import recipes
+from solepath.body.part import Notice, Part, Said
+from solepath.events import WearerMoved
 from solepath.foot.cues.cues import Seen
 from solepath.foot.stance.stance import Stance
+from solepath.foot.view import FootView
 from solepath.recipes import NAMES, by_name
 from solepath.testing.promises import broken
 from solepath.types import Vec3
+from solepath.types.vector import ZERO
 
 OURS = [part for one in map(by_name, NAMES) for part in (one.detector, one.corrector, one.cues)]
 PARTS: dict[str, Any] = {type(part).__name__: part for part in (*OURS, Quiet(), Resets(), ByMotion())}
@@ -220,3 +225,31 @@ def test_a_class_that_extends_nothing_is_no_part() -> None:
 
     with pytest.raises(TypeError, match="Bare extends neither Detector nor Corrector nor Cues"):
         broken(Bare(), WALKED)  # type: ignore[arg-type]
+
+
+@define
+class Lasting(Part):
+    """Counts in a setting what it has heard: a packed session loses that."""
+
+    count: int = 0
+    newest: float | None = field(default=None, init=False)
+
+    def receive(self, event: Notice) -> Sequence[Said]:
+        self.count += 1
+        return ()
+
+
+@define
+class Foreseeing(Part):
+    feeds: ClassVar[bool] = True
+
+    def feed(self, view: FootView) -> Sequence[Said]:
+        return [WearerMoved(t=view.t + 1.0, known_at=view.t, position=ZERO, covariance=(0.0,) * 6)]
+
+
+def test_parts_of_the_body_keep_their_promises_and_those_that_do_not_are_named() -> None:
+    for part in recipes.DEFAULT.parts:
+        assert broken(part, WALKED, CELLS) == []
+    assert broken(Lasting(), WALKED) == ["its setting count changes: what does is state, a field with init=False"]
+    (sentence,) = broken(Foreseeing(), WALKED)
+    assert sentence.startswith("an event was when it was known or earlier")

@@ -13,6 +13,7 @@ from typing import ClassVar, Protocol, Self
 
 from ..calibration import Calibration
 from ..events import ActivityChanged, Event, FlightClimbed, LiftRidden, StrideTaken, TurnMade
+from ..events.happening import Happening
 from ..foot.view import FootPose, FootView
 from ..foot.world import Covariance3
 from ..types import Activity, Foot, Layout, Sample, Site, Vec3
@@ -69,7 +70,8 @@ class Position:
     covariance: Covariance3
 
 
-Said = Event | Shift | HeightShift | Instead
+Said = Happening | Shift | HeightShift | Instead
+"""What a part may say: events, an app's own too, and corrections."""
 Notice = Event | ClockUnsettled | LayoutTold
 LEADS = (StrideTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
 """After these it is said where the wearer is, to the parts that follow it (`Part.follows`)."""

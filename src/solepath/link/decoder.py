@@ -20,18 +20,9 @@ from __future__ import annotations
 from copy import deepcopy
 from math import isfinite
 
-from ..events import (
-    BatteryLevel,
-    ClockReset,
-    Connected,
-    PacketRejected,
-    Rejection,
-    StreamResumed,
-    StreamStale,
-)
+from ..events import BatteryLevel, ClockReset, Connected, PacketRejected, Rejection, StreamResumed, StreamStale
 from ..types import Packet, Site
 from ..types.attrs import define, fields
-from ..wire.device import parse_battery, parse_firmware
 from ..wire.error import WireError
 from .device_link import DeviceLink, Output
 from .known import KINDS, Kinds
@@ -152,6 +143,8 @@ class Decoder:
 
     def _standard(self, packet: Packet) -> Output:
         """Battery and firmware, which any device may have."""
+        from ..wire.device import parse_battery, parse_firmware
+
         if packet.channel == "device/battery":
             level = parse_battery(packet.data) / 100.0
             return [BatteryLevel(t=packet.t, known_at=packet.t, site=self.site, level=level)]

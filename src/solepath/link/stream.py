@@ -11,13 +11,7 @@ Times come from the best that the device has, by the rules of protocol/clock.md:
 
 from __future__ import annotations
 
-from ..events import (
-    BatteryLevel,
-    KeysChanged,
-    LayoutKnown,
-    Limitation,
-    Rejection,
-)
+from ..events import BatteryLevel, KeysChanged, LayoutKnown, Limitation, Rejection
 from ..types import Sample, Site, Vec3
 from ..types.attrs import define, field
 from ..types.vector import GRAVITY, unit

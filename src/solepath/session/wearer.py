@@ -8,15 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from ..body.part import LEADS, ClockUnsettled, HeightShift, Instead, LayoutTold, Part, Position, Said, Shift, Track
 from ..calibration import Calibration
-from ..events import (
-    ClockReset,
-    Event,
-    LayoutKnown,
-    Limitation,
-    SampleRejected,
-    StrideTaken,
-    WearerMoved,
-)
+from ..events import ClockReset, Event, LayoutKnown, Limitation, SampleRejected, StrideTaken, WearerMoved
 from ..foot.pressure.sole import Sole
 from ..foot.rejection import rejected, with_sound_attitude, wrong_time
 from ..foot.tracker import FootTracker
@@ -166,8 +158,8 @@ class WearerParts:
             moved = self._moved(known_at)
         return moved
 
-    def _take(self, said: Sequence[Said], events: list[Event]) -> None:
-        """What a part said: events are added to those of the sample, corrections are applied."""
+    def _take(self, said: Sequence[Said], events: list[Any]) -> None:
+        """What a part said: events, an app's own too, are added to those of the sample, corrections are applied."""
         for one in said:
             if isinstance(one, Shift):
                 self.feet[one.foot].shift(one.yaw, one.by)

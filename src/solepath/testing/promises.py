@@ -1,9 +1,9 @@
-"""Does a part of a foot keep what a session needs of it? For whoever writes a stance detector, a corrector or cues:
-call `broken` in a test.
+"""Does a part keep what a session needs of it? For whoever writes a stance detector, a corrector, cues or a part of the
+body: call `broken` in a test.
 
-It tries the part on the samples that it is given: a detector by itself, a corrector or cues in a foot whose other parts
-are those of the default recipe. What samples cannot show (that each costs the same, that what is said is any good) it
-does not find.
+It tries the part on the samples that it is given: a detector by itself, the others where a session has them, with the
+default recipe around. What samples cannot show (that each costs the same, that what is said is any good) it does not
+find.
 """
 
 from __future__ import annotations
@@ -11,46 +11,38 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Sequence
 from copy import deepcopy
-from math import inf, isfinite
 from typing import Any
 
 import attrs
-from attrs import define, evolve, field
 
-from ..events import FootFlat, HeelOff, HeelStrike, ToeOff
+from ..body.part import Part
 from ..foot.cues.cues import Cues
 from ..foot.navigate.corrector import Corrector
-from ..foot.navigate.error_state import ErrorStateFilter
-from ..foot.pressure.insole import InsoleLoads
 from ..foot.rejection import ABSURD_ACC, ABSURD_GYRO
-from ..foot.stance.cycle import Cycle
-from ..foot.stance.stance import Detector, Stance
-from ..foot.tracker import FootTracker
+from ..foot.stance.stance import Detector
 from ..saving.codec import Json, SnapshotError, load, save
 from ..saving.schema import record_of, remembers
-from ..types import Foot, Layout, Phase, Sample, Site
-from ..types.vector import IDENTITY, ZERO
+from ..types import Foot, Layout, Sample, Site
+from ..types.vector import IDENTITY
+from .places import placed
 
 GROWTH = 1.5
 """A state that has so many times more values in the second half of the samples than in the first has no bounds."""
-GAPS = ((2.5, 2.6), (5.0, 5.4))
-"""What is left out of every `EVERY` seconds for a corrector or cues, s: gaps to bridge, and gaps to leap over."""
-EVERY = 6.0
-UNIT = 1e-6
-"""The length of a unit quaternion differs by no more from 1."""
 
 
-def broken(part: Detector | Corrector | Cues, samples: Iterable[Sample], layout: Layout | None = None) -> list[str]:
+def broken(
+    part: Detector | Corrector | Cues | Part, samples: Iterable[Sample], layout: Layout | None = None
+) -> list[str]:
     """A sentence for every promise that `part`, which was never fed and is not fed here, breaks; none is good.
 
     `samples`: of one foot in the order of their time, ten seconds of walking or more; those without acc or gyro are
     passed over. `layout`: where the cells are. The attitude that a detector is told is that of a level sensor
-    throughout. TypeError when `part` extends neither Detector nor Corrector nor Cues, is no attrs class, or has a field
-    of a kind that cannot be saved; what its methods raise is not caught.
+    throughout; a part of the body may be tried on samples of both feet. TypeError when `part` extends none of the four
+    kinds, is no attrs class, or has a field of a kind that cannot be saved; what its methods raise is not caught.
     """
     whole = [sample for sample in samples if sample.acc is not None and sample.gyro is not None]
     fresh = save(part)
-    place = _placed(deepcopy(part), whole[0].site.foot or Foot.LEFT if whole else Foot.LEFT, layout)
+    place = placed(deepcopy(part), whole[0].site.foot or Foot.LEFT if whole else Foot.LEFT, layout)
     walked = place.with_gaps(whole)
     half = len(walked) // 2
     found = []
@@ -94,138 +86,6 @@ def _unsettled(before: Any, after: Any) -> list[str]:
     return [name for name in settings if getattr(before, name) != getattr(after, name)]
 
 
-# --- where a part is tried --------------------------------------------------------------------------------------------
-
-
-@define
-class _ByItself:
-    """A detector, and what it is told."""
-
-    part: Detector
-    insole: InsoleLoads
-    t: float | None = field(default=None, init=False)
-
-    def with_gaps(self, samples: list[Sample]) -> list[Sample]:
-        return samples
-
-    def cells_alone(self, samples: list[Sample]) -> list[Sample]:
-        return []
-
-    def restart(self) -> None:
-        kept: Any = self.part
-        self.part = evolve(kept)
-
-    def feed(self, sample: Sample) -> Any:
-        t, last, self.t = sample.t, self.t, sample.t
-        pressed = self.insole.update(t, sample.pressure) if sample.pressure else None
-        acc, gyro = sample.acc or ZERO, sample.gyro or ZERO
-        return self.part.update(t, 0.0 if last is None else t - last, acc, gyro, pressed, IDENTITY)
-
-    def unsound(self, stance: Any) -> Iterator[str]:
-        """What a corrector could make nothing of."""
-        if not isinstance(stance, Stance):
-            yield f"update returns a Stance, not a {type(stance).__name__}"
-            return
-        if len(stance.v_ref) != 3 or not _finite(stance.v_ref):
-            yield f"v_ref is three finite numbers, not {stance.v_ref}"
-        if not 0.0 < stance.sigma <= inf:
-            yield f"sigma is above 0, and infinite where there is nothing to say, not {stance.sigma}"
-        if not isfinite(stance.statistic):
-            yield f"the statistic is finite, not {stance.statistic}"
-        if stance.hint is not None and not isinstance(stance.hint, Phase):
-            yield f"the hint is a Phase or None, not {stance.hint!r}"
-
-
-@define
-class _InFoot:
-    """A corrector or cues in the place that a session has for it."""
-
-    tracker: FootTracker
-    name: str
-    """Of that place."""
-
-    @property
-    def part(self) -> Any:
-        return getattr(self.tracker, self.name)
-
-    @part.setter
-    def part(self, part: Any) -> None:
-        setattr(self.tracker, self.name, part)
-
-    def with_gaps(self, samples: list[Sample]) -> list[Sample]:
-        began = samples[0].t if samples else 0.0
-        return [s for s in samples if not any([a < (s.t - began) % EVERY < b for a, b in GAPS])]
-
-    def cells_alone(self, samples: list[Sample]) -> list[Sample]:
-        t = self.tracker.t or 0.0
-        return [Sample(t + 1.0 + s.t - samples[0].t, s.site, pressure=s.pressure) for s in samples if s.pressure]
-
-    def restart(self) -> None:
-        self.tracker.interrupt()
-
-    def feed(self, sample: Sample) -> Any:
-        tracker = self.tracker
-        events = tracker.feed(sample)
-        one = tracker.corrector
-        found = (one.position, one.velocity, one.attitude, one.covariance(), one.error_index)
-        return sample.t, events, found if tracker.levelled else None, tracker.cues.sagittal
-
-
-@define
-class _Corrects(_InFoot):
-    """A corrector."""
-
-    def unsound(self, said: Any) -> Iterator[str]:
-        """What no event may be made of."""
-        _, _, found, _ = said
-        if found is None:
-            return
-        position, velocity, (w, x, y, z), spread, error_index = found
-        for name, value in (("position", position), ("velocity", velocity)):
-            if len(value) != 3 or not _finite(value):
-                yield f"{name} is three finite numbers, not {value}"
-        if not abs(w * w + x * x + y * y + z * z - 1.0) < 2.0 * UNIT:
-            yield f"attitude is a unit quaternion, not {(w, x, y, z)}"
-        if len(spread) != 7 or not _finite(spread) or min(spread[0], spread[3], spread[5], spread[6]) < 0.0:
-            yield f"a covariance is seven finite numbers with variances of 0 or more, not {spread}"
-        if error_index is not None and not 0.0 <= error_index < inf:
-            yield f"error_index is None, or finite and not below 0, not {error_index}"
-
-
-@define
-class _Sees(_InFoot):
-    """Cues."""
-
-    def unsound(self, said: Any) -> Iterator[str]:
-        """What cannot have been seen."""
-        t, events, _, sagittal = said
-        for event in events:
-            if isinstance(event, HeelStrike | FootFlat | HeelOff | ToeOff) and not event.t <= t:
-                yield f"a cue is of the past, not a {type(event).__name__} of {event.t:.3f} s in a sample of {t:.3f} s"
-        if not isfinite(sagittal):
-            yield f"sagittal is finite, not {sagittal}"
-
-
-def _placed(part: Any, foot: Foot, layout: Layout | None) -> _ByItself | _Corrects | _Sees:
-    kinds = type(part).__mro__
-    if Detector in kinds:
-        insole = InsoleLoads()
-        if layout is not None:
-            insole.wear(layout)
-            part.wear(layout)
-        return _ByItself(part, insole)
-    place: _Corrects | _Sees
-    if Corrector in kinds:
-        place = _Corrects(FootTracker(foot, Cycle(), part), "corrector")
-    elif Cues in kinds:
-        place = _Sees(FootTracker(foot, Cycle(), ErrorStateFilter(), cues=part), "cues")
-    else:
-        raise TypeError(f"{type(part).__name__} extends neither Detector nor Corrector nor Cues")
-    if layout is not None:
-        place.tracker.wear(layout)
-    return place
-
-
 def _said(place: Any, samples: Iterable[Sample]) -> list[Any]:
     return [place.feed(sample) for sample in samples]
 
@@ -265,7 +125,3 @@ def _absurd(samples: Sequence[Sample]) -> Iterator[Sample]:
             acc, gyro = 0.999 * size * ABSURD_ACC, 0.999 * size * ABSURD_GYRO
             quat = IDENTITY if size > 0.0 else None
             yield Sample(t, site, (acc, -acc, acc), (gyro, gyro, -gyro), quat=quat)
-
-
-def _finite(values: Iterable[float]) -> bool:
-    return all([isfinite(value) for value in values])

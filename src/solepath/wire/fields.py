@@ -12,14 +12,7 @@ from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 import attrs
-from construct import (
-    Adapter,
-    Construct,
-    ConstructError,
-    FormatFieldError,
-    StreamError,
-    TerminatedError,
-)
+from construct import Adapter, Construct, ConstructError, FormatFieldError, StreamError, TerminatedError
 
 from ..events import Rejection
 from .error import WireError

@@ -94,6 +94,7 @@ class Activities(Doing):
             if acc is None:
                 return ()
             self.origin = origin = t
+            shipped()
         since = (t - origin + TIE) / BLOCK
         told: Sequence[Said] = ()
         if sample.air_pressure is not None and side.index is not None:

@@ -14,12 +14,10 @@ That is off by 1e-12 at the most, and what is made of it is rounded to 1e-4 (hyp
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from functools import cache
 from math import dist, exp, hypot, log, tanh
 from operator import truediv
-from pkgutil import get_data
 from typing import Any
 
 from ...types import Activity
@@ -110,7 +108,10 @@ class MotionModel:
 
 @cache
 def shipped() -> MotionModel:
-    """The model that comes with this release."""
+    """The model that comes with this release; read once, with the first sample that a session hears."""
+    import json
+    from pkgutil import get_data
+
     return from_json(json.loads(get_data(__package__, "activities.json") or b""))
 
 

@@ -13,14 +13,7 @@ from collections.abc import Sequence
 from math import hypot, isfinite, pi
 from typing import ClassVar
 
-from ...events import (
-    Event,
-    Placed,
-    PlaceLost,
-    StrideTaken,
-    TurnMade,
-    WearerMoved,
-)
+from ...events import Event, Placed, PlaceLost, StrideTaken, TurnMade, WearerMoved
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Start
 from ...types.attrs import NOT_SAVED, define, field

@@ -28,12 +28,7 @@ from ...emulate.wearers.walker import Walker
 from ...events import TouchedDown
 from ...papers.walking_modes.calibrate import MODES, ModeMark, mean_errors, step_errors, touchdowns
 from ...papers.walking_modes.modes import Modes
-from ...papers.walking_modes.recipe import (
-    TOUCHDOWN_ACCELERATION,
-    TOUCHDOWN_HEIGHT,
-    TOUCHDOWN_PRESSURE,
-    WALKING_MODES,
-)
+from ...papers.walking_modes.recipe import TOUCHDOWN_ACCELERATION, TOUCHDOWN_HEIGHT, TOUCHDOWN_PRESSURE, WALKING_MODES
 from ...recipes import Recipe
 from ...recording.decoded import Recorded
 from ...types import SITE_OF_FOOT, Foot, Sample

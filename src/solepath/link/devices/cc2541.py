@@ -9,19 +9,7 @@ from __future__ import annotations
 from math import radians
 from typing import ClassVar
 
-from construct import (
-    Array,
-    BitsInteger,
-    BitsSwapped,
-    BitStruct,
-    Const,
-    Flag,
-    Int8ul,
-    Int16sl,
-    Int16ul,
-    OneOf,
-    Struct,
-)
+from construct import Array, BitsInteger, BitsSwapped, BitStruct, Const, Flag, Int8ul, Int16sl, Int16ul, OneOf, Struct
 
 from ...events import KeysChanged, Limitation
 from ...types import Sample, Site, Vec3

@@ -11,12 +11,7 @@ from math import radians
 from operator import mul
 from typing import ClassVar
 
-from ...events import (
-    LayoutKnown,
-    Limitation,
-    PacketRejected,
-    Rejection,
-)
+from ...events import LayoutKnown, Limitation, PacketRejected, Rejection
 from ...types import Layout, Sample, Site, shared
 from ...types.attrs import define, field
 from ...types.vector import GRAVITY, unit

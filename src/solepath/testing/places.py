@@ -1,0 +1,202 @@
+"""Where a part is tried: a detector by itself, a corrector or cues in a foot, a part of the body at a wearer."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from math import inf, isfinite
+from typing import Any
+
+from attrs import define, evolve, field
+
+from ..body.part import Part
+from ..calibration import Calibration
+from ..events import FootFlat, HeelOff, HeelStrike, ToeOff
+from ..events.happening import Happening
+from ..foot.cues.cues import Cues
+from ..foot.navigate.corrector import Corrector
+from ..foot.navigate.error_state import ErrorStateFilter
+from ..foot.pressure.insole import InsoleLoads
+from ..foot.stance.cycle import Cycle
+from ..foot.stance.stance import Detector, Stance
+from ..foot.tracker import FootTracker
+from ..recipes import DEFAULT
+from ..session.wearer import WearerParts
+from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Sample
+from ..types.vector import IDENTITY, ZERO
+
+GAPS = ((2.5, 2.6), (5.0, 5.4))
+"""What is left out of every `EVERY` seconds for a corrector or cues, s: gaps to bridge, and gaps to leap over."""
+EVERY = 6.0
+UNIT = 1e-6
+"""The length of a unit quaternion differs by no more from 1."""
+
+
+@define
+class ByItself:
+    """A detector, and what it is told."""
+
+    part: Detector
+    insole: InsoleLoads
+    t: float | None = field(default=None, init=False)
+
+    def with_gaps(self, samples: list[Sample]) -> list[Sample]:
+        return samples
+
+    def cells_alone(self, samples: list[Sample]) -> list[Sample]:
+        return []
+
+    def restart(self) -> None:
+        kept: Any = self.part
+        self.part = evolve(kept)
+
+    def feed(self, sample: Sample) -> Any:
+        t, last, self.t = sample.t, self.t, sample.t
+        pressed = self.insole.update(t, sample.pressure) if sample.pressure else None
+        acc, gyro = sample.acc or ZERO, sample.gyro or ZERO
+        return self.part.update(t, 0.0 if last is None else t - last, acc, gyro, pressed, IDENTITY)
+
+    def unsound(self, stance: Any) -> Iterator[str]:
+        """What a corrector could make nothing of."""
+        if not isinstance(stance, Stance):
+            yield f"update returns a Stance, not a {type(stance).__name__}"
+            return
+        if len(stance.v_ref) != 3 or not _finite(stance.v_ref):
+            yield f"v_ref is three finite numbers, not {stance.v_ref}"
+        if not 0.0 < stance.sigma <= inf:
+            yield f"sigma is above 0, and infinite where there is nothing to say, not {stance.sigma}"
+        if not isfinite(stance.statistic):
+            yield f"the statistic is finite, not {stance.statistic}"
+        if stance.hint is not None and not isinstance(stance.hint, Phase):
+            yield f"the hint is a Phase or None, not {stance.hint!r}"
+
+
+@define
+class InFoot:
+    """A corrector or cues in the place that a session has for it."""
+
+    tracker: FootTracker
+    name: str
+    """Of that place."""
+
+    @property
+    def part(self) -> Any:
+        return getattr(self.tracker, self.name)
+
+    @part.setter
+    def part(self, part: Any) -> None:
+        setattr(self.tracker, self.name, part)
+
+    def with_gaps(self, samples: list[Sample]) -> list[Sample]:
+        began = samples[0].t if samples else 0.0
+        return [s for s in samples if not any([a < (s.t - began) % EVERY < b for a, b in GAPS])]
+
+    def cells_alone(self, samples: list[Sample]) -> list[Sample]:
+        t = self.tracker.t or 0.0
+        return [Sample(t + 1.0 + s.t - samples[0].t, s.site, pressure=s.pressure) for s in samples if s.pressure]
+
+    def restart(self) -> None:
+        self.tracker.interrupt()
+
+    def unsound(self, said: Any) -> Iterator[str]:
+        """What no session could go on with."""
+        return iter(())
+
+    def feed(self, sample: Sample) -> Any:
+        tracker = self.tracker
+        events = tracker.feed(sample)
+        one = tracker.corrector
+        found = (one.position, one.velocity, one.attitude, one.covariance(), one.error_index)
+        return sample.t, events, found if tracker.levelled else None, tracker.cues.sagittal
+
+
+@define
+class Corrects(InFoot):
+    """A corrector."""
+
+    def unsound(self, said: Any) -> Iterator[str]:
+        """What no event may be made of."""
+        _, _, found, _ = said
+        if found is None:
+            return
+        position, velocity, (w, x, y, z), spread, error_index = found
+        for name, value in (("position", position), ("velocity", velocity)):
+            if len(value) != 3 or not _finite(value):
+                yield f"{name} is three finite numbers, not {value}"
+        if not abs(w * w + x * x + y * y + z * z - 1.0) < 2.0 * UNIT:
+            yield f"attitude is a unit quaternion, not {(w, x, y, z)}"
+        if len(spread) != 7 or not _finite(spread) or min(spread[0], spread[3], spread[5], spread[6]) < 0.0:
+            yield f"a covariance is seven finite numbers with variances of 0 or more, not {spread}"
+        if error_index is not None and not 0.0 <= error_index < inf:
+            yield f"error_index is None, or finite and not below 0, not {error_index}"
+
+
+@define
+class Sees(InFoot):
+    """Cues."""
+
+    def unsound(self, said: Any) -> Iterator[str]:
+        """What cannot have been seen."""
+        t, events, _, sagittal = said
+        for event in events:
+            if isinstance(event, HeelStrike | FootFlat | HeelOff | ToeOff) and not event.t <= t:
+                yield f"a cue is of the past, not a {type(event).__name__} of {event.t:.3f} s in a sample of {t:.3f} s"
+        if not isfinite(sagittal):
+            yield f"sagittal is finite, not {sagittal}"
+
+
+@define
+class AtWearer(InFoot):
+    """A part of the body, after those of the default recipe."""
+
+    wearer: WearerParts
+
+    @property
+    def part(self) -> Any:
+        return self.wearer.parts[-1]
+
+    @part.setter
+    def part(self, part: Any) -> None:
+        self.wearer.parts[-1] = part
+
+    def restart(self) -> None:
+        for foot in self.wearer.feet:
+            self.wearer.reset(SITE_OF_FOOT[foot])
+
+    def feed(self, sample: Sample) -> Any:
+        self.tracker.t = sample.t
+        return self.wearer.feed(sample, False)
+
+    def unsound(self, events: Any) -> Iterator[str]:
+        """What is no event of this moment."""
+        for event in events:
+            if not isinstance(event, Happening):
+                yield f"what a part says are events, a Shift, a HeightShift or an Instead, not a {type(event).__name__}"
+            elif not (isfinite(event.t) and event.t <= event.known_at):
+                yield f"an event was when it was known or earlier, not a {type(event).__name__} of {event.t} s"
+
+
+def placed(part: Any, foot: Foot, layout: Layout | None) -> ByItself | InFoot:
+    kinds = type(part).__mro__
+    if Detector in kinds:
+        insole = InsoleLoads()
+        if layout is not None:
+            insole.wear(layout)
+            part.wear(layout)
+        return ByItself(part, insole)
+    place: InFoot
+    if Corrector in kinds:
+        place = Corrects(FootTracker(foot, Cycle(), part), "corrector")
+    elif Cues in kinds:
+        place = Sees(FootTracker(foot, Cycle(), ErrorStateFilter(), cues=part), "cues")
+    elif Part in kinds:
+        wearer = WearerParts(evolve(DEFAULT, parts=(*DEFAULT.parts, part)), Calibration(), False)
+        place = AtWearer(FootTracker(foot, Cycle(), ErrorStateFilter()), "", wearer)
+    else:
+        raise TypeError(f"{type(part).__name__} extends neither Detector nor Corrector nor Cues nor Part")
+    if layout is not None:
+        place.tracker.wear(layout)
+    return place
+
+
+def _finite(values: Iterable[float]) -> bool:
+    return all([isfinite(value) for value in values])
