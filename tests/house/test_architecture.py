@@ -52,7 +52,7 @@ def test_a_quiet_frame_goes_the_way_that_the_page_shows() -> None:
 
 def test_the_parts_of_the_page_work_together_and_go_on_from_a_snapshot() -> None:
     page: dict[str, object] = {}
-    for name in ("detector", "part", "recipe"):
+    for name in ("detector", "part", "recipe", "promises"):
         exec(compile(block(name), f"architecture.md, {name}", "exec", dont_inherit=True), page)
     session = page["session"]
     assert isinstance(session, Session)

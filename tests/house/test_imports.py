@@ -112,7 +112,7 @@ def test_there_is_no_circle_of_modules() -> None:
 
 
 def test_the_reader_of_imports_sees_every_kind_of_arrow() -> None:
-    assert "types" in imports("events.gait")[0]
+    assert "types" in imports("events.foot")[0]
     assert {"link.decoder", "foot.tracker", "saving.codec", "recipes"} <= imports("session.session")[0]
     assert {"recipes", "events"} <= imports("__init__")[0]
     assert "recording" in imports("cli.demo")[0], "imports within functions count"

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from .activity import ActivityChanged, FlightClimbed, LiftRidden, TurnMade
 from .body import StrideFused, TouchedDown, WalkingModeChanged
-from .gait import FootFlat, HeelOff, HeelStrike, StrideFeatures, StrideTaken, ToeOff
+from .foot import FootFlat, HeelOff, HeelStrike, StrideFeatures, StrideTaken, ToeOff
+from .gait_cycle import GaitCycleMeasured
 from .link import (
     BatteryLevel,
     ClockReset,
@@ -32,7 +33,6 @@ from .link import (
 )
 from .live import FootMoved, FootPressed, WearerMoved
 from .place import Candidate, Placed, PlaceLost
-from .stride import GaitCycleMeasured
 from .wear import CellFault, CellsFailed, FeetSwapped, FootHeard, FootSilent, InsoleNeverUnloads
 
 __all__ = [

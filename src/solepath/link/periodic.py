@@ -22,7 +22,7 @@ from math import floor
 
 from ..types.attrs import define
 from .clock import Clock
-from .run import Taken
+from .counters import Taken
 
 HOLE = 1.5
 """Periods between two arrivals, from which on a loss is possible."""

@@ -17,11 +17,11 @@ from ..types.attrs import define, field
 from ..types.vector import GRAVITY, unit
 from ..wire.error import WireError
 from ..wire.fields import malformed
+from .counters import Counted, PacketRun, Taken, signed
 from .device_link import DeviceLink, Output
 from .driver import COARSEST, Basis, Driver, Reading, TimeAxis
 from .periodic import Periodic, periodic
 from .rest import RestCheck
-from .run import Counted, PacketRun, Taken, signed
 from .sound import SLOWEST, check
 
 APART = 1.0

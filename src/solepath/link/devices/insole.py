@@ -21,10 +21,10 @@ from ...wire.fragment import is_fragment, parse_fragment
 from ...wire.insole import InsoleFrame, parse_frame
 from ...wire.insole_control import parse_control
 from ...wire.insole_info import InsoleInfo, parse_info
+from ..counters import Counted, PacketRun
 from ..device_link import DeviceLink, Output
 from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write
 from ..rest import RestCheck
-from ..run import Counted, PacketRun
 from .reassembly import Reassembly
 
 COUNTS = 32768

@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...calibration import Calibration, CalibrationError, ShoeGeometry
-from ...calibration.measured import read_rows
+from ...calibration.csv_table import read_rows
 from ...types.attrs import frozen
 
 COLUMNS = ("pitch_deg", "L_r_m", "L_p2t_m")

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from ...calibration import CalibrationError, Newtons
-from ...calibration.measured import read_rows
+from ...calibration.csv_table import read_rows
 from ...types.attrs import frozen
 
 THRESHOLD, MOST = 5.0, 200.0
