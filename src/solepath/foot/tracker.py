@@ -135,7 +135,7 @@ class FootTracker:
             insole.highest,
             layout,
             alone,
-            hasattr(corrector, "shift"),
+            spread and hasattr(corrector, "shift"),
             gait.covariance(corrector) if spread else None,
         )
 

@@ -2,60 +2,64 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Final, NamedTuple
 
 from ..events import Event
 from ..types import Foot, Layout, Phase, Quat, Sample, Vec3
+from ..types.attrs import define
 from .world import Covariance3
 
 
-class FootView(NamedTuple):
+@define(eq=False)
+class FootView:
     """One foot right after one of its samples. Vectors are in the foot's own navigation frame, z up, whose heading is
-    that of the moment when the foot was levelled; `world` turns them into the world frame."""
+    that of the moment when the foot was levelled; `world` turns them into the world frame. Read only: type
+    checkers refuse to write into it, and what is written all the same the foot never sees."""
 
-    foot: Foot
+    foot: Final[Foot]
     """Whose sample it is."""
-    sample: Sample
+    sample: Final[Sample]
     """The sample as the link or the app gave it, calibration not applied."""
-    t: float
+    t: Final[float]
     """Its time, s."""
-    known_at: float
+    known_at: Final[float]
     """When the sample was known, s; never earlier than `t`."""
-    events: tuple[Event, ...]
+    events: Final[tuple[Event, ...]]
     """What the foot said of this sample, in order."""
-    moved_at: float | None
+    moved_at: Final[float | None]
     """The newest sample with both acc and gyro, s; `t` where this one has both; None before any."""
-    levelled: bool
+    levelled: Final[bool]
     """Which way is up is known: the foot is followed."""
-    phase: Phase
+    phase: Final[Phase]
     """What the foot is doing after `events`."""
-    position: Vec3
+    position: Final[Vec3]
     """Of the sensor, m."""
-    velocity: Vec3
+    velocity: Final[Vec3]
     """Of the sensor, m/s."""
-    attitude: Quat
+    attitude: Final[Quat]
     """Sensor to navigation frame."""
-    north: tuple[float, float] | None
+    north: Final[tuple[float, float] | None]
     """cos and sin of the turn from the navigation frame to the world frame; None until the first heading is known."""
-    stood: Quat
+    stood: Final[Quat]
     """`attitude` when the foot was last flat."""
-    gyro_bias: Vec3
+    gyro_bias: Final[Vec3]
     """What the gyroscope shows at rest, rad/s, sensor frame."""
-    acc_grain: float
+    acc_grain: Final[float]
     """What a count of the accelerometer is worth, m/s^2; 0 when nobody knows."""
-    cells: tuple[float, ...]
+    cells: Final[tuple[float, ...]]
     """What the pressure cells show, calibrated and noise taken off; () without any that can be used."""
-    cells_in_newtons: bool
+    cells_in_newtons: Final[bool]
     """Whether `cells` are in N; else they are in the unit of the samples."""
-    highest_cell: float
+    highest_cell: Final[float]
     """The most loaded cell of late, as `cells`."""
-    layout: Layout | None
+    layout: Final[Layout | None]
     """Where the cells are; None when nobody knows."""
-    centre_alone: tuple[float, float] | None
+    centre_alone: Final[tuple[float, float] | None]
     """Centre of pressure (x, y), foot frame, m, of an insole without an inertial sensor; None otherwise."""
-    takes_shifts: bool
-    """Whether this foot's corrector can be turned and moved by a `Shift` (body/part.py)."""
-    covariance: Covariance3 | None
+    takes_shifts: Final[bool]
+    """Whether this foot's corrector can be turned and moved by a `Shift` (body/part.py); given with a stride, False
+    otherwise."""
+    covariance: Final[Covariance3 | None]
     """Of `position`, world frame, m^2; given with a stride, None otherwise: it takes long."""
 
     def world(self, v: Vec3) -> Vec3:

@@ -86,10 +86,10 @@ class Session:
         state = self._state
         if state.finished:
             raise ValueError("this session is finished")
-        if isinstance(data, Packet):
-            return self._packet(data)
         if isinstance(data, Sample):
             return self._sample(state, data)
+        if isinstance(data, Packet):
+            return self._packet(data)
         if not isinstance(data, Iterable) or isinstance(data, str | bytes):
             raise TypeError(f"feed takes packets or samples, not {type(data).__name__}")
         events: list[Event] = []

@@ -87,7 +87,7 @@ class WearerParts:
                 stride = stride or isinstance(event, StrideTaken)
         t, known_at = sample.t, sample.known_at
         known_at = t if known_at is None or known_at < t else known_at
-        view = tracker.view(sample, known_at, tuple(events), spread=stride)
+        view = tracker.view(sample, known_at, tuple(events) if events else (), spread=stride)
         moved = self._flow(events, view, known_at)
         if moved is not None and self.poses and stride:
             events.append(moved)
@@ -141,12 +141,16 @@ class WearerParts:
         after it, if a part wanted to know."""
         moved = None
         for part in self.parts:
+            if not events and not finishing:  # so it is with nearly all samples
+                if view is not None and part.feeds and (said := part.feed(view)):
+                    self._take(said, events)
+                continue
             heard = tuple(events)
-            if heard and part.follows and moved is None and any([isinstance(event, LEADS) for event in heard]):
+            if part.follows and moved is None and any([isinstance(event, LEADS) for event in heard]):
                 moved = self._moved(known_at)
             if view is not None and part.feeds and (said := part.feed(view)):
                 self._take(said, events)
-            if heard and type(part).receive is not Part.receive:
+            if type(part).receive is not Part.receive:
                 for event in heard:
                     if said := part.receive(event):
                         self._take(said, events)
