@@ -102,7 +102,8 @@ def show(name: str, found: list[Way], calls: bool) -> None:
     for way in found:
         named.update(set(way.rooms))
     each = {one: median([way.rooms.count(one) for way in found]) for one, _ in named.most_common()}
-    print("  " + ", ".join(f"{one} {count:.0f}" for one, count in each.items() if count))
+    most = sorted(each.items(), key=lambda item: (-item[1], item[0]))
+    print("  " + ", ".join(f"{one} {count:.0f}" for one, count in most if count))
     if calls:
         way = next(way for way in found if len(way.codes) == middle)
         for code in way.codes:

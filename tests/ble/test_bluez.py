@@ -8,6 +8,7 @@ import sys
 from collections import Counter
 from collections.abc import Callable, Coroutine
 from pathlib import Path
+from time import monotonic
 from typing import Any
 
 import pytest
@@ -18,6 +19,7 @@ from bus import DAEMON, message_bus
 from solepath import Connected, Disconnected, Session
 from solepath.ble import BluetoothError, Devices, Wanted, scan
 from solepath.emulate import Route
+from solepath.emulate.devices.attributes import DRAIN
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import parse_faults
 from solepath.emulate.sensors.device import Device
@@ -40,7 +42,8 @@ BUS = "DBUS_SYSTEM_BUS_ADDRESS"
 
 def bench(faults: str = "", **devices: Device) -> Bench:
     worn = {Site(site): device for site, device in devices.items()} or {LEFT: Insole()}
-    found = Bench(Route().walk(20.0), devices=worn, faults=parse_faults(faults))
+    began = monotonic() - 0.5 * DRAIN  # of whatever the machine's clock shows: no battery changes while a test lasts
+    found = Bench(Route().walk(20.0), devices=worn, began=began, faults=parse_faults(faults))
     found.prepare()
     return found
 

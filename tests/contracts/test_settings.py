@@ -105,3 +105,11 @@ def test_wearers_of_one_kind_of_insole_hold_its_layout_once() -> None:
         where = one.feet[foot].sole.insole.layout
         assert where is not None and where is other.feet[foot].sole.insole.layout
         assert len(where.xs) == len(where.ys) == len(layout(96, foot).cells)
+
+
+def test_every_part_that_a_recipe_has_is_among_those_that_the_contracts_try() -> None:
+    def parts(names: tuple[str, ...]) -> set[type]:
+        found = [recipes.by_name(name) for name in names]
+        return {type(part) for one in found for part in (one.detector, one.corrector, one.cues, one.place, *one.parts)}
+
+    assert parts(recipes.NAMES) == parts(("default", *RECIPES))

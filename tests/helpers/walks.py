@@ -222,6 +222,7 @@ RECIPES = (
     "touchdown-acceleration",
     "footstep-tracker",
     "shoe-sensing",
+    "acceleration-magnitude",
 )
 """Of the recipes, those that have a part of their own."""
 

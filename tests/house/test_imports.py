@@ -154,3 +154,29 @@ def test_a_live_session_of_any_device_loads_neither_numpy_nor_bleak_nor_asyncio(
             loaded = {name.partition(".")[2] for name in live if name.startswith("solepath.")}
             assert {room(name) for name in loaded} <= CORE | {"__init__"}
             assert "link.devices.insole" in loaded and "link.devices.cc2650" not in loaded, "a device loads when heard"
+
+
+BEGUN = """
+import json, sys
+from pathlib import Path
+import solepath
+from solepath import Packet, Session, Site
+session = Session()
+ours = [Path(module.__file__) for name, module in sys.modules.items() if name.partition(".")[0] == "solepath"]
+told = json.load(open(sys.argv[1]))
+packets = [Packet(t, Site(site), channel, bytes.fromhex(data)) for t, site, channel, data in told]
+session.feed(packets[:100])
+early = set(sys.modules)
+session.feed(packets[100:])
+lines = sum(len(path.read_text("utf-8").splitlines()) for path in ours)
+print(json.dumps([len(ours), lines, sorted(set(sys.modules) - early)]))
+"""
+
+
+def test_a_session_loads_little_and_what_it_hears_at_first_is_all_that_it_loads_later(tmp_path: Path) -> None:
+    file = tmp_path / "packets.json"
+    file.write_text(json.dumps([[p.t, p.site.value, p.channel, p.data.hex()] for p in insoles().packets]))
+    done = subprocess.run([sys.executable, "-c", BEGUN, str(file)], capture_output=True, text=True, check=True)
+    modules, lines, later = json.loads(done.stdout)
+    assert modules <= 115 and lines <= 15_500, "`python tests/bench/way.py` says what importing takes"
+    assert later == [], "nothing is imported amid a walk"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import inspect
+import pydoc
 import re
 import types
 from enum import Enum
@@ -112,3 +113,9 @@ def test_a_session_has_the_words_that_the_design_promises() -> None:
 
 def test_the_package_is_typed() -> None:
     assert (ROOT / "py.typed").exists()
+
+
+def test_a_session_and_its_recipe_print_short_and_its_help_is_a_page() -> None:
+    session = solepath.Session()
+    assert (repr(session), repr(session.recipe)) == ("<Session default at None s>", "<Recipe default>")
+    assert len(pydoc.plain(pydoc.render_doc(solepath.Session))) < 6000

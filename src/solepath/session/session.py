@@ -78,6 +78,9 @@ class Session:
         for site, device in (devices or {}).items():
             self.bind(site, device)
 
+    def __repr__(self) -> str:
+        return f"<Session {self._state.wearer.recipe.name} at {self._state.now} s>"
+
     # --- in ---
 
     def feed(self, data: Packet | Sample | Iterable[Packet | Sample]) -> list[Event]:
@@ -233,8 +236,6 @@ class Session:
         """What the foot is doing; None until it was heard of."""
         tracker = self._state.wearer.feet.get(foot)
         return None if tracker is None else tracker.phase
-
-    # --- elsewhere ---
 
     def snapshot(self) -> dict[str, Json]:
         """Everything the session remembers, as plain data for JSON or any other encoder. Costs some milliseconds."""

@@ -13,6 +13,7 @@ Row = tuple[str, str]
 
 LONG_DEMO = ["demo", "--distance", "100", "--loss", "0.05", "--jitter", "0.05"]
 BENCH = "tests/bench/bench.py"
+WAY = "tests/bench/way.py"
 BLUETOOTH = "tests/bench/bluetooth.py"
 PAGE = "tests/bench/page.py"
 PACKED = "tests/bench/packed.py"
