@@ -111,6 +111,14 @@ def test_a_late_first_packet_is_slewed_away_at_half_a_percent() -> None:
     assert error_at(times, 30.0) < 1e-4
 
 
+def test_a_packet_half_a_minute_late_is_of_another_clock_at_once() -> None:
+    clock = Clock(RATE)
+    for second in range(3):
+        clock.observe(second * RATE, float(second))
+    assert clock.jumped(3 * RATE, 3.0 + 31.0)
+    assert not clock.jumped(3 * RATE, 3.0 + 29.0)
+
+
 def test_a_packet_before_its_measurement_means_that_the_clock_jumped() -> None:
     clock = Clock(RATE)
     assigned(arrivals(10.0), clock)
