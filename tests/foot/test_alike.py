@@ -2,16 +2,24 @@
 
 from __future__ import annotations
 
+from math import atan2, pi, remainder
+from typing import Any
+
+from attrs import define
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from own import Quiet
 
 from solepath.foot.attitude import Rest, SampleSpan
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.navigate.strapdown import Strapdown
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.stance.shoe import ShoeDetector
-from solepath.types import Quat, Vec3
-from solepath.types.vector import normalise
+from solepath.foot.stance.stance import Stance
+from solepath.foot.stride import StepBuilder
+from solepath.foot.tracker import FootTracker
+from solepath.types import Foot, Quat, Sample, Site, Vec3
+from solepath.types.vector import conjugate, heading_turned, multiply, normalise, rotate, rotate_back, single
 
 
 def vectors(most: float) -> st.SearchStrategy[Vec3]:
@@ -61,3 +69,38 @@ def test_rest_sums_as_a_span_of_samples_does(samples: list[tuple[float, Vec3, Ve
         rest.update(t, acc, gyro)
         span.add(acc, gyro)
         assert rest.span == span
+
+
+@given(ATTITUDES, ATTITUDES, vectors(500.0))
+def test_turns_that_are_written_out_are_those_of_the_quaternions(before: Quat, after: Quat, v: Vec3) -> None:
+    assert rotate_back(before, v) == rotate(conjugate(before), v)
+    w, _, _, z = multiply(after, conjugate(before))
+    assert abs(remainder(heading_turned(before, after) - 2.0 * atan2(z, w), 2.0 * pi)) < 1e-12
+
+
+@given(st.lists(st.floats(-50.0, 50.0), min_size=1, max_size=60))
+def test_pitches_are_kept_as_singles(rates: list[float]) -> None:
+    step, pitch = StepBuilder(Foot.LEFT), 0.0
+    for k, rate in enumerate(rates):
+        step.moved(0.01 * k, 0.01, 0.0, 0.0, rate)
+        pitch += rate * 0.01
+        assert step.pitches[step.slot - 1] == single(pitch)
+
+
+@given(st.floats(0.8, 1.25), vectors(0.1), vectors(500.0), vectors(100.0))
+def test_a_gap_is_crossed_with_the_scale_and_bias_of_any_other_sample(
+    scale: float, bias: Vec3, acc: Vec3, gyro: Vec3
+) -> None:
+    seen: list[tuple[Vec3, Vec3]] = []
+
+    @define
+    class Sees(Quiet):
+        def update(self, t: float, dt: float, acc: Vec3, gyro: Vec3, *rest: Any) -> Stance:
+            seen.append((acc, gyro))
+            return Quiet.update(self, t, dt, acc, gyro, *rest)
+
+    tracker = FootTracker(Foot.LEFT, Sees(), ErrorStateFilter())
+    tracker.rest.scale, tracker.rest.bias = scale, bias
+    assert not tracker.feed(Sample(0.0, Site.LEFT_FOOT, acc, gyro))
+    if seen:  # or the sample was beyond all limits
+        assert seen == [tracker.rest.calibrated(acc, gyro)]

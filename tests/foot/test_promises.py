@@ -13,7 +13,7 @@ from attrs import define, evolve, field
 from own import CELLS, WALKED, ByMotion, Quiet, Resets
 
 from solepath import recipes
-from solepath.body.part import Notice, Part, Said
+from solepath.body.part import LayoutTold, Notice, Part, Said
 from solepath.events import WearerMoved
 from solepath.foot.cues.cues import Seen
 from solepath.foot.stance.stance import Stance
@@ -247,9 +247,26 @@ class Foreseeing(Part):
         return [WearerMoved(t=view.t + 1.0, known_at=view.t, position=ZERO, covariance=(0.0,) * 6)]
 
 
+@define
+class Lingering(Part):
+    """Knows where the cells are, and says at the end what happens only then."""
+
+    cells: int = field(default=0, init=False)
+
+    def receive(self, event: Notice) -> Sequence[Said]:
+        if isinstance(event, LayoutTold):
+            self.cells = len(event.layout.cells)
+        return ()
+
+    def finish(self, now: float) -> Sequence[Said]:
+        return [WearerMoved(t=now + self.cells, known_at=now, position=ZERO, covariance=(0.0,) * 6)]
+
+
 def test_parts_of_the_body_keep_their_promises_and_those_that_do_not_are_named() -> None:
     for part in recipes.DEFAULT.parts:
         assert broken(part, WALKED, CELLS) == []
     assert broken(Lasting(), WALKED) == ["its setting count changes: what does is state, a field with init=False"]
-    (sentence,) = broken(Foreseeing(), WALKED)
-    assert sentence.startswith("an event was when it was known or earlier")
+    assert broken(Lingering(), WALKED) == []
+    for part, layout in ((Foreseeing(), None), (Lingering(), CELLS)):
+        (sentence,) = broken(part, WALKED, layout)
+        assert sentence.startswith("an event was when it was known or earlier")

@@ -14,7 +14,7 @@ from ..wire.receiver import build_dropped, parse_dropped
 
 DROPPED = "receiver/dropped"
 REPEAT = 60.0
-"""s before the same trouble is told again."""
+"""The same trouble is reported again after so long at the earliest, s."""
 LONGEST = 500
 """Bytes of a trouble."""
 
@@ -34,7 +34,7 @@ class Inbox:
     _kept: deque[Packet] = field(factory=deque, init=False)
     """What may not be dropped and was found among the oldest, or comes next; older than all of `_packets`."""
     _dropped: dict[Site, int] = field(factory=dict, init=False)
-    """By site, how many since that was told last."""
+    """Notifications of each site that went since the last packet receiver/dropped."""
     _passed: dict[Site, Packet] = field(factory=dict, init=False)
     """By site, the newest that was dropped or kept when it was the oldest: the dropped are told at its time, since
     what was kept is taken before."""
@@ -101,8 +101,8 @@ class Voice:
     inbox: Inbox
     site: Site
     address: str = ""
-    _told: dict[str, float] = field(factory=dict, init=False)
-    """Troubles, and when they were told last."""
+    _reported: dict[str, float] = field(factory=dict, init=False)
+    """When each trouble was last reported, s, by its words."""
 
     def pass_on(self, channel: str, data: bytes) -> float:
         """A notification; when it came, s."""
@@ -117,11 +117,11 @@ class Voice:
         return packet
 
     def complain(self, what: str) -> None:
-        """Tell a trouble; the same one not over and over."""
+        """Report a trouble, by a packet receiver/trouble; the same one again after `REPEAT` at the earliest."""
         now = asyncio.get_running_loop().time()
-        if now - self._told.get(what, -REPEAT) >= REPEAT:
-            self._told = {one: t for one, t in self._told.items() if now - t < REPEAT}
-            self._told[what] = now
+        if now - self._reported.get(what, -REPEAT) >= REPEAT:
+            self._reported = {one: t for one, t in self._reported.items() if now - t < REPEAT}
+            self._reported[what] = now
             self.say("receiver/trouble", build_text(shortened(what, LONGEST)))
 
     def _packet(self, channel: str, data: bytes) -> Packet:

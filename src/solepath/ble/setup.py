@@ -79,7 +79,8 @@ def refused(error: BleakError, client: BleakClient) -> bool:
 
 @asynccontextmanager
 async def asking(client: BleakClient, voice: Voice, failure: str) -> AsyncIterator[None]:
-    """Around one request. That the device refuses it is told and passed over. FAILURES."""
+    """The context of one request to a device. A refusal is reported, as `failure` and the reason, and the setup goes
+    on; anything else that goes wrong is raised (FAILURES)."""
     try:
         async with calling(ANSWER):
             yield

@@ -1,4 +1,4 @@
-"""What goes wrong with Bluetooth: caught at every call into bleak, told in a sentence that says what can be done."""
+"""What goes wrong with Bluetooth: caught at every call into bleak, and put in a sentence that says what can be done."""
 
 from __future__ import annotations
 

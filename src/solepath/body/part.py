@@ -98,6 +98,11 @@ class Part(Protocol):
         """The part to be used, given what is known of this wearer; called once, before anything else."""
         return self
 
+    def ready(self) -> None:
+        """A wearer is new, or goes on from a saved state. What must be read from a file is read now: `feed` and
+        `receive` import nothing and open nothing."""
+        return
+
     def receive(self, event: Notice) -> Sequence[Said]:
         """Something was said. What follows from it."""
         return ()

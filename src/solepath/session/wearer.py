@@ -56,8 +56,9 @@ class WearerParts:
         self.parts = [deepcopy(part).calibrated(self.calibration) for part in parts]
 
     def walks_on(self, plan: IndexedPlan | None) -> None:
-        """The floor plan, which is never saved: to be given to a wearer who is new or restored."""
+        """For a wearer who is new or restored: the floor plan, which is never saved, is there from now on."""
         for part in self.parts:
+            part.ready()
             if hasattr(part, "plan"):
                 part.plan = plan
 

@@ -10,7 +10,7 @@ from attrs import define, evolve, field
 
 from ..body.part import Part
 from ..calibration import Calibration
-from ..events import FootFlat, HeelOff, HeelStrike, ToeOff
+from ..events import FootFlat, HeelOff, HeelStrike, LayoutKnown, ToeOff
 from ..events.happening import Happening
 from ..foot.cues.cues import Cues
 from ..foot.navigate.corrector import Corrector
@@ -55,6 +55,9 @@ class ByItself:
         acc, gyro = sample.acc or ZERO, sample.gyro or ZERO
         return self.part.update(t, 0.0 if last is None else t - last, acc, gyro, pressed, IDENTITY)
 
+    def finish(self) -> list[Any]:
+        return []
+
     def unsound(self, stance: Any) -> Iterator[str]:
         """What a corrector could make nothing of."""
         if not isinstance(stance, Stance):
@@ -71,7 +74,29 @@ class ByItself:
 
 
 @define
-class InFoot:
+class OnAWalk:
+    """Where a part is tried on a walk with gaps, and on cells without an inertial sensor after it."""
+
+    t: float = field(default=0.0, init=False)
+    """The newest sample, s."""
+
+    def with_gaps(self, samples: list[Sample]) -> list[Sample]:
+        began = samples[0].t if samples else 0.0
+        return [s for s in samples if not any([a < (s.t - began) % EVERY < b for a, b in GAPS])]
+
+    def cells_alone(self, samples: list[Sample]) -> list[Sample]:
+        return [Sample(self.t + 1.0 + s.t - samples[0].t, s.site, pressure=s.pressure) for s in samples if s.pressure]
+
+    def finish(self) -> list[Any]:
+        return []
+
+    def unsound(self, said: Any) -> Iterator[str]:
+        """What no session could go on with."""
+        return iter(())
+
+
+@define
+class InFoot(OnAWalk):
     """A corrector or cues in the place that a session has for it."""
 
     tracker: FootTracker
@@ -86,23 +111,11 @@ class InFoot:
     def part(self, part: Any) -> None:
         setattr(self.tracker, self.name, part)
 
-    def with_gaps(self, samples: list[Sample]) -> list[Sample]:
-        began = samples[0].t if samples else 0.0
-        return [s for s in samples if not any([a < (s.t - began) % EVERY < b for a, b in GAPS])]
-
-    def cells_alone(self, samples: list[Sample]) -> list[Sample]:
-        t = self.tracker.t or 0.0
-        return [Sample(t + 1.0 + s.t - samples[0].t, s.site, pressure=s.pressure) for s in samples if s.pressure]
-
     def restart(self) -> None:
         self.tracker.interrupt()
 
-    def unsound(self, said: Any) -> Iterator[str]:
-        """What no session could go on with."""
-        return iter(())
-
     def feed(self, sample: Sample) -> Any:
-        tracker = self.tracker
+        tracker, self.t = self.tracker, sample.t
         events = tracker.feed(sample)
         one = tracker.corrector
         found = (one.position, one.velocity, one.attitude, one.covariance(), one.error_index)
@@ -145,7 +158,7 @@ class Sees(InFoot):
 
 
 @define
-class AtWearer(InFoot):
+class AtWearer(OnAWalk):
     """A part of the body, after those of the default recipe."""
 
     wearer: WearerParts
@@ -163,8 +176,11 @@ class AtWearer(InFoot):
             self.wearer.reset(SITE_OF_FOOT[foot])
 
     def feed(self, sample: Sample) -> Any:
-        self.tracker.t = sample.t
+        self.t = sample.t
         return self.wearer.feed(sample, False)
+
+    def finish(self) -> list[Any]:
+        return [self.wearer.finish(self.t)]
 
     def unsound(self, events: Any) -> Iterator[str]:
         """What is no event of this moment."""
@@ -175,7 +191,7 @@ class AtWearer(InFoot):
                 yield f"an event was when it was known or earlier, not a {type(event).__name__} of {event.t} s"
 
 
-def placed(part: Any, foot: Foot, layout: Layout | None) -> ByItself | InFoot:
+def placed(part: Any, foot: Foot, layout: Layout | None) -> ByItself | InFoot | AtWearer:
     kinds = type(part).__mro__
     if Detector in kinds:
         insole = InsoleLoads()
@@ -190,7 +206,11 @@ def placed(part: Any, foot: Foot, layout: Layout | None) -> ByItself | InFoot:
         place = Sees(FootTracker(foot, Cycle(), ErrorStateFilter(), cues=part), "cues")
     elif Part in kinds:
         wearer = WearerParts(evolve(DEFAULT, parts=(*DEFAULT.parts, part)), Calibration(), False)
-        place = AtWearer(FootTracker(foot, Cycle(), ErrorStateFilter()), "", wearer)
+        wearer.walks_on(None)
+        if layout is not None:
+            site = SITE_OF_FOOT[foot]
+            wearer.receive(site, LayoutKnown(t=0.0, known_at=0.0, site=site, layout=layout))
+        return AtWearer(wearer)
     else:
         raise TypeError(f"{type(part).__name__} extends neither Detector nor Corrector nor Cues nor Part")
     if layout is not None:

@@ -72,6 +72,7 @@ def broken(
     said += _said(one, one.cells_alone(walked))
     one.restart()
     said += _said(one, walked)
+    said += one.finish()
     unsound: dict[str, str] = {}
     for what in said:
         for sentence in place.unsound(what):

@@ -75,6 +75,11 @@ class Activities(Doing):
     steps: deque[StrideTaken] = field(factory=deque, init=False)
     """Steps whose activity is not known yet, without their features."""
 
+    def ready(self) -> None:
+        """What was learnt is read."""
+        if self.model is None:
+            shipped()
+
     def reset(self, site: Site) -> None:
         """The clock of the samples of a site restarts: what is under way there is forgotten."""
         if site.foot is None:
@@ -94,7 +99,6 @@ class Activities(Doing):
             if acc is None:
                 return ()
             self.origin = origin = t
-            shipped()
         since = (t - origin + TIE) / BLOCK
         told: Sequence[Said] = ()
         if sample.air_pressure is not None and side.index is not None:

@@ -34,24 +34,14 @@ COUNT = STEP + 11
 def features_of(here: ActivityBlock, near: list[ActivityBlock], step: BlockStride | None) -> list[float]:
     """`COUNT` numbers of the order of 1 for the block `here`, with those `near` it, itself among them, and the stride
     under way in it; what is not known is 0."""
-    told = [0.0] * COUNT
-    earlier, later, turned, tracked = (
-        list[ActivityBlock](),
-        list[ActivityBlock](),
-        list[ActivityBlock](),
-        list[ActivityBlock](),
-    )
+    values = [0.0] * COUNT
+    earlier = [block for block in near if block.index < here.index]
+    later = [block for block in near if block.index > here.index]
+    turned = [block for block in near if block.rates]
+    tracked = [block for block in near if block.tracked]
     whole, forces, squares = 0, 0.0, 0.0
     least = most = here.variance
     for block in near:
-        if block.index < here.index:
-            earlier.append(block)
-        elif block.index > here.index:
-            later.append(block)
-        if block.rates:
-            turned.append(block)
-        if block.tracked:
-            tracked.append(block)
         n, force, variance = block.count, block.force, block.variance
         whole += n
         forces += force * n
@@ -60,16 +50,16 @@ def features_of(here: ActivityBlock, near: list[ActivityBlock], step: BlockStrid
             least = variance
         elif variance > most:
             most = variance
-    told[0] = _logarithm(here.variance)
-    told[1] = _logarithm(least)
-    told[2] = _logarithm(most)
+    values[0] = _logarithm(here.variance)
+    values[1] = _logarithm(least)
+    values[2] = _logarithm(most)
     mean = forces / whole
-    told[3] = _logarithm(max(0.0, squares / whole - mean * mean))
+    values[3] = _logarithm(max(0.0, squares / whole - mean * mean))
     thirds = (earlier, [here], later)
     at = 4
     for third in thirds:
         if third:
-            told[at : at + BINS] = _shares([b.acc_bins for b in third], [b.count for b in third])
+            values[at : at + BINS] = _shares([b.acc_bins for b in third], [b.count for b in third])
         at += BINS
     if turned:
         rates, squares = 0, 0.0
@@ -82,39 +72,39 @@ def features_of(here: ActivityBlock, near: list[ActivityBlock], step: BlockStrid
                 least = rate
             elif rate > most:
                 most = rate
-        told[GYRO] = 1.0
-        told[GYRO + 1] = _logarithm(here.rate if here.rates else turned[0].rate)
-        told[GYRO + 2] = _logarithm(least)
-        told[GYRO + 3] = _logarithm(most)
-        told[GYRO + 4] = _logarithm(squares / rates)
+        values[GYRO] = 1.0
+        values[GYRO + 1] = _logarithm(here.rate if here.rates else turned[0].rate)
+        values[GYRO + 2] = _logarithm(least)
+        values[GYRO + 3] = _logarithm(most)
+        values[GYRO + 4] = _logarithm(squares / rates)
         at = GYRO + 5
         for third in thirds:
             if len(turned) < len(near):
                 third = [block for block in third if block.rates]
             if third:
-                told[at : at + BINS] = _shares([b.gyro_bins for b in third], [b.rates for b in third])
+                values[at : at + BINS] = _shares([b.gyro_bins for b in third], [b.rates for b in third])
             at += BINS
     if tracked:
-        told[TRACK] = 1.0
-        told[TRACK + 1] = min(max([block.climb for block in tracked]), 3.0)
-        told[TRACK + 2] = max(min([block.sink for block in tracked]), -3.0)
-        told[TRACK + 3] = 0.5 * min(max([block.speed for block in tracked]), 6.0)
-        told[TRACK + 4] = min(here.climb, 3.0)
-        told[TRACK + 5] = max(here.sink, -3.0)
+        values[TRACK] = 1.0
+        values[TRACK + 1] = min(max([block.climb for block in tracked]), 3.0)
+        values[TRACK + 2] = max(min([block.sink for block in tracked]), -3.0)
+        values[TRACK + 3] = 0.5 * min(max([block.speed for block in tracked]), 6.0)
+        values[TRACK + 4] = min(here.climb, 3.0)
+        values[TRACK + 5] = max(here.sink, -3.0)
     if step is not None:
         lasted = step.end - step.start
-        told[STEP] = 1.0
-        told[STEP + 1] = min(lasted, 2.0)
-        told[STEP + 2] = min(step.length, 2.0)
-        told[STEP + 3] = 2.0 * min(max(step.rise, -0.6), 0.6)
-        told[STEP + 4] = 2.0 * min(max(step.clearance, 0.0), 0.5)
-        told[STEP + 5] = 0.5 * min(step.speed, 6.0)
-        told[STEP + 6] = min(step.pitch, 3.0)
-        told[STEP + 7] = min(max(step.rise / max(step.length, 0.2), -1.0), 1.0)
-        told[STEP + 8] = 2.0 * min(max(step.top, -0.6), 0.6)
-        told[STEP + 9] = 2.0 * min(max(step.bottom, -0.6), 0.6)
-        told[STEP + 10] = 2.0 * min(max(step.strike, -0.6), 0.6)
-    return told
+        values[STEP] = 1.0
+        values[STEP + 1] = min(lasted, 2.0)
+        values[STEP + 2] = min(step.length, 2.0)
+        values[STEP + 3] = 2.0 * min(max(step.rise, -0.6), 0.6)
+        values[STEP + 4] = 2.0 * min(max(step.clearance, 0.0), 0.5)
+        values[STEP + 5] = 0.5 * min(step.speed, 6.0)
+        values[STEP + 6] = min(step.pitch, 3.0)
+        values[STEP + 7] = min(max(step.rise / max(step.length, 0.2), -1.0), 1.0)
+        values[STEP + 8] = 2.0 * min(max(step.top, -0.6), 0.6)
+        values[STEP + 9] = 2.0 * min(max(step.bottom, -0.6), 0.6)
+        values[STEP + 10] = 2.0 * min(max(step.strike, -0.6), 0.6)
+    return values
 
 
 def _logarithm(variance: float) -> float:

@@ -108,7 +108,7 @@ class MotionModel:
 
 @cache
 def shipped() -> MotionModel:
-    """The model that comes with this release; read once, with the first sample that a session hears."""
+    """The model that comes with this release; read once, when a part that needs it is first made ready."""
     import json
     from pkgutil import get_data
 

@@ -125,6 +125,11 @@ class TwoSecondWindows(Doing):
     told: float | None = field(default=None, init=False)
     """`t` of the newest event."""
 
+    def ready(self) -> None:
+        """What was learnt is read."""
+        if self.model is None:
+            shipped()
+
     def reset(self, site: Site) -> None:
         """The clock of the samples of a site restarts: so do all windows."""
         if site.foot is not None:

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import json
 from functools import cache
-from importlib.resources import files
 from math import log
+from pkgutil import get_data
 
 from ....saving.codec import load
 from ....types.attrs import frozen
@@ -88,5 +88,4 @@ class WindowModel:
 @cache
 def shipped() -> WindowModel:
     """The model that comes with this release."""
-    text = files(__package__).joinpath("footstep_activity.json").read_text(encoding="utf-8")
-    return load(WindowModel, json.loads(text))
+    return load(WindowModel, json.loads(get_data(__package__, "footstep_activity.json") or b""))
