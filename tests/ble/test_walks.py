@@ -11,17 +11,7 @@ from airs import bumble, hear, in_virtual_time, whole
 from attrs import evolve
 from walks import said
 
-from solepath import (
-    Event,
-    FootFlat,
-    HeelOff,
-    HeelStrike,
-    PacketRejected,
-    PacketsLost,
-    SampleGap,
-    StrideTaken,
-    ToeOff,
-)
+from solepath import Event, FootFlat, HeelOff, HeelStrike, PacketRejected, PacketsLost, SampleGap, StrideTaken, ToeOff
 from solepath.ble import Devices, Wanted
 from solepath.emulate import Route, emulate
 from solepath.emulate.devices.bench import Bench

@@ -13,17 +13,7 @@ from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
 from walks import LEFT, PACKET_NAMES, RIGHT, SAMPLE_NAMES, insoles, machines, of, samples
 
-from solepath import (
-    FootMoved,
-    Packet,
-    PacketRejected,
-    Rejection,
-    Sample,
-    SampleRejected,
-    Session,
-    Site,
-    StrideTaken,
-)
+from solepath import FootMoved, Packet, PacketRejected, Rejection, Sample, SampleRejected, Session, Site, StrideTaken
 from solepath.link.catalogue import PROFILES
 
 CHANNELS = sorted({channel.name for profile in PROFILES for channel in profile.channels})

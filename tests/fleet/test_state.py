@@ -20,14 +20,7 @@ from solepath.emulate.routes.building import BUILDING
 from solepath.fleet import End, Fleet, Sent, StateRefused, Tick, Unreadable
 from solepath.fleet.step.keyed import first_number
 from solepath.fleet.step.order import RejectedItem
-from solepath.fleet.step.state import (
-    READERS,
-    VERSION,
-    Identity,
-    read_identity,
-    read_rest,
-    write_state,
-)
+from solepath.fleet.step.state import READERS, VERSION, Identity, read_identity, read_rest, write_state
 from solepath.foot.stance.stance import Detector, Load, Stance
 from solepath.recipes import DEFAULT
 from solepath.session import Session

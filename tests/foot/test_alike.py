@@ -87,7 +87,7 @@ def test_pitches_are_kept_as_singles(rates: list[float]) -> None:
         assert step.pitches[step.slot - 1] == single(pitch)
 
 
-@given(st.floats(0.8, 1.25), vectors(0.1), vectors(500.0), vectors(100.0))
+@given(st.floats(0.8, 1.25), vectors(0.1), vectors(499.0), vectors(99.0))
 def test_a_gap_is_crossed_with_the_scale_and_bias_of_any_other_sample(
     scale: float, bias: Vec3, acc: Vec3, gyro: Vec3
 ) -> None:
@@ -101,6 +101,5 @@ def test_a_gap_is_crossed_with_the_scale_and_bias_of_any_other_sample(
 
     tracker = FootTracker(Foot.LEFT, Sees(), ErrorStateFilter())
     tracker.rest.scale, tracker.rest.bias = scale, bias
-    assert not tracker.feed(Sample(0.0, Site.LEFT_FOOT, acc, gyro))
-    if seen:  # or the sample was beyond all limits
-        assert seen == [tracker.rest.calibrated(acc, gyro)]
+    tracker.feed(Sample(0.0, Site.LEFT_FOOT, acc, gyro))
+    assert seen == [tracker.rest.calibrated(acc, gyro)]

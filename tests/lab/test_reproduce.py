@@ -12,14 +12,7 @@ from solepath.cli.reproduce import NAMES
 from solepath.emulate.routes import ways
 from solepath.lab.processes import each
 from solepath.lab.reproduce import footstep_walks, kupt_dfpc, pressure_contour, shoe_walks, walking_modes
-from solepath.lab.reproduce.published import (
-    CORNERS,
-    KUPT_DFPC,
-    LOOPS,
-    PRESSURE_CONTOUR,
-    WALKING_MODES,
-    corner_row,
-)
+from solepath.lab.reproduce.published import CORNERS, KUPT_DFPC, LOOPS, PRESSURE_CONTOUR, WALKING_MODES, corner_row
 from solepath.lab.reproduce.tables import (
     Boxes,
     Drawn,

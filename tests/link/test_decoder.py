@@ -11,14 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from walks import of
 
-from solepath.events import (
-    BatteryLevel,
-    ClockReset,
-    PacketRejected,
-    Rejection,
-    StreamResumed,
-    StreamStale,
-)
+from solepath.events import BatteryLevel, ClockReset, PacketRejected, Rejection, StreamResumed, StreamStale
 from solepath.link.catalogue import PROFILES
 from solepath.link.decoder import SET_BACK, Decoder
 from solepath.recipes import part_class

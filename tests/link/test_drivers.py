@@ -14,9 +14,7 @@ from toys import BASE, BOTH, COARSE, FORMATS, LEFT, NUMBERED, PROFILE, TICKING, 
 from walks import of
 
 from solepath import Packet, Session, SnapshotError
-from solepath.events import (
-    Limitation,
-)
+from solepath.events import Limitation
 from solepath.link.catalogue import PROFILES
 from solepath.link.devices import orphe
 from solepath.link.driver import Driver, Reading

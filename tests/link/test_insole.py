@@ -11,15 +11,7 @@ from attrs import evolve
 from decoded import LEFT, STEP, feed, fragments, frame_packet, info, insole_frame, packet, walked
 from walks import of
 
-from solepath.events import (
-    ClockReset,
-    LayoutKnown,
-    Limitation,
-    PacketRejected,
-    PacketsLost,
-    Rejection,
-    ScaleSuspect,
-)
+from solepath.events import ClockReset, LayoutKnown, Limitation, PacketRejected, PacketsLost, Rejection, ScaleSuspect
 from solepath.link.decoder import Decoder
 from solepath.saving import codec as machine
 from solepath.types import Sample, Site

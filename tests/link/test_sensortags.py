@@ -8,12 +8,7 @@ import pytest
 from decoded import LEFT, acc_packet, config, feed, gyro_packet, new_tag, old_tag, packet
 from walks import of
 
-from solepath.events import (
-    BatteryLevel,
-    KeysChanged,
-    Limitation,
-    ScaleSuspect,
-)
+from solepath.events import BatteryLevel, KeysChanged, Limitation, ScaleSuspect
 from solepath.link.decoder import Decoder
 from solepath.link.devices.cc2541 import counts_per_g
 from solepath.types import Sample

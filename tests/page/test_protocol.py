@@ -10,9 +10,7 @@ from said import eventful, fed
 from shown import later, shown
 from walks import insoles
 
-from solepath import (
-    PlaceLost,
-)
+from solepath import PlaceLost
 from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.route import Route
 from solepath.show.page.messages import FASTEST, SLOWEST, encode, parse_command

@@ -7,17 +7,7 @@ import struct
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from snooped import (
-    BEGAN,
-    FRAME,
-    TAG,
-    Log,
-    begin,
-    data_of,
-    frames,
-    info,
-    read,
-)
+from snooped import BEGAN, FRAME, TAG, Log, begin, data_of, frames, info, read
 
 from solepath import Packet, Session
 from solepath.recording import RecordingError

@@ -81,8 +81,6 @@ class Session:
     def __repr__(self) -> str:
         return f"<Session {self._state.wearer.recipe.name} at {self._state.now} s>"
 
-    # --- in ---
-
     def feed(self, data: Packet | Sample | Iterable[Packet | Sample]) -> list[Event]:
         """Take packets (as they arrive) or samples (in the order of their time). TypeError for an item that is neither
         (what came before it has been used by then), ValueError after `finish`."""
@@ -185,8 +183,6 @@ class Session:
         wearer = self._state.wearer
         for item in items:
             events += wearer.feed(item, True) if isinstance(item, Sample) else wearer.receive(site, item)
-
-    # --- out ---
 
     @property
     def now(self) -> float | None:

@@ -27,11 +27,7 @@ from bleak.exc import BleakDeviceNotFoundError, BleakError, BleakGATTProtocolErr
 from memory_link import LoopbackLink
 
 from solepath.ble.air import Backend
-from solepath.emulate.devices.attributes import (
-    SMALLEST_MTU,
-    AttCode,
-    Characteristic,
-)
+from solepath.emulate.devices.attributes import SMALLEST_MTU, AttCode, Characteristic
 from solepath.emulate.devices.peripheral import Peripheral
 from solepath.link.profile import standard
 

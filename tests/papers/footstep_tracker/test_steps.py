@@ -17,11 +17,7 @@ from solepath.papers.footstep_tracker.critical_times import CriticalTimes, Row, 
 from solepath.papers.footstep_tracker.projection import Projection
 from solepath.papers.footstep_tracker.segment import StepSegment
 from solepath.papers.footstep_tracker.static_zones import StaticZones
-from solepath.papers.footstep_tracker.step_length import (
-    closed_step_length,
-    step_length,
-    turned_about_vertical,
-)
+from solepath.papers.footstep_tracker.step_length import closed_step_length, step_length, turned_about_vertical
 from solepath.saving import codec as machine
 from solepath.types import Phase, Vec3
 from solepath.types.vector import GRAVITY, ZERO

@@ -21,15 +21,7 @@ from solepath.papers.walking_modes.limbs.inclination import Inclination
 from solepath.papers.walking_modes.limbs.limbs import ABOVE, SEGMENTS, LowerLimbs, foot_end
 from solepath.saving import codec as machine
 from solepath.types import Foot, Quat, Site, Vec3
-from solepath.types.vector import (
-    IDENTITY,
-    conjugate,
-    from_rotation_vector,
-    from_yaw,
-    multiply,
-    normalise,
-    rotate,
-)
+from solepath.types.vector import IDENTITY, conjugate, from_rotation_vector, from_yaw, multiply, normalise, rotate
 
 LIMBS = Limbs(hip_width=0.2, thigh=0.4, shank=0.45, foot=0.2, ankle_height=0.1)
 HIP: Vec3 = (0.0, 0.1, 0.0)
