@@ -10,6 +10,7 @@ import re
 import shutil
 from collections.abc import AsyncIterator, Awaitable, Callable, Iterator
 from contextlib import asynccontextmanager, contextmanager
+from math import inf
 from typing import Any, TypeVar
 
 from attrs import define, field
@@ -100,11 +101,18 @@ class Window:
     async def memory(self) -> tuple[int, int]:
         """Bytes of the heap of its scripts after everything that nobody holds was thrown away, and elements of its
         document but for those of the log, which has as many sentences as there were, up to fifty."""
-        for _ in range(2):  # what has a finalizer goes at the second
-            await self.devtools.send("HeapProfiler.collectGarbage")
-        used = await self.devtools.send("Runtime.getHeapUsage")
+        least = inf
+        while (used := await self._collected()) < least:  # what has a finalizer goes later
+            least = used
         elements = await self.tab.evaluate("document.querySelectorAll('*:not(#log *)').length")
-        return round(used["usedSize"]), elements
+        return round(least), elements
+
+    async def _collected(self) -> float:
+        """Bytes that are used after another collection."""
+        await self.devtools.send("HeapProfiler.collectGarbage")
+        await asyncio.sleep(0.1)
+        used: float = (await self.devtools.send("Runtime.getHeapUsage"))["usedSize"]
+        return used
 
     async def until(self, condition: str, argument: Any = None, patience: float = PATIENCE) -> None:
         """Wait until this holds in the page, an expression or a function of `argument`; fails where it never does.
