@@ -19,6 +19,8 @@ from solepath import Foot, Sample, StrideTaken
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
+from solepath.foot.navigate.error_state import ErrorStateFilter
+from solepath.foot.settings import ErrorStateSettings
 from solepath.foot.tracker import FootTracker
 from solepath.recipes import DEFAULT
 from solepath.recording.samples import load_samples
@@ -42,7 +44,8 @@ def recorded(path: Path, seconds: float) -> tuple[Sample, ...]:
 def tracked(samples: Iterable[Sample], recover: bool = True) -> tuple[FootTracker, list[StrideTaken]]:
     """One foot by the default recipe, without the body. Not `recover`: clipped readings are taken as they are."""
     parts = deepcopy(DEFAULT)
-    tracker = FootTracker(Foot.RIGHT, parts.detector, evolve(parts.corrector, recover=recover), cues=parts.cues)
+    corrector = ErrorStateFilter(ErrorStateSettings(recover=recover))
+    tracker = FootTracker(Foot.RIGHT, parts.detector, corrector, cues=parts.cues)
     steps: list[StrideTaken] = []
     for sample in samples:
         steps += of(StrideTaken, tracker.feed(sample))

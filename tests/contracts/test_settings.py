@@ -49,7 +49,7 @@ def holds_state(record: Any) -> bool:
 def changed_in(session: Session) -> list[str]:
     """The same of all of a session."""
     used = session._state.wearer
-    fresh = WearerParts(used.recipe, used.calibration, used.poses, used.pressures)
+    fresh = WearerParts(used.settings)
     found = list(changed(fresh, used))
     for foot, tracker in used.feet.items():
         found += changed(fresh._tracker(foot), tracker, foot.value)
@@ -93,8 +93,7 @@ def test_what_a_walk_does_to_parts_does_not_reach_the_recipe() -> None:
     before = machine.save(recipes.DEFAULT)
     one, other = Session(), Session()
     one.feed(samples(cells=0, rate=50.0))
-    assert machine.save(one._state.wearer.recipe) == machine.save(other._state.wearer.recipe) == before
-    assert machine.save(recipes.DEFAULT) == before
+    assert machine.save(one.recipe) == machine.save(other.recipe) == machine.save(recipes.DEFAULT) == before
 
 
 def test_wearers_of_one_kind_of_insole_hold_its_layout_once() -> None:

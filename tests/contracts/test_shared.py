@@ -84,7 +84,7 @@ def test_an_unpacked_session_has_the_settings_of_its_recipe_whatever_its_detecto
         again = Session.unpack(session.pack(), recipe)
         assert repr(again.recipe) == repr(session.recipe)
         assert repr(again.feet[Foot.LEFT].detector) == repr(session.feet[Foot.LEFT].detector)
-        assert again._state.wearer.recipe is own(recipe), "and it is held once"
+        assert again._state.wearer.settings.recipe is own(recipe), "and it is held once"
 
 
 def test_recipes_are_told_apart_by_all_that_a_part_holds_and_what_no_copy_is_like_is_not_kept() -> None:

@@ -16,6 +16,7 @@ from solepath.events import HeelStrike
 from solepath.foot.cues.impact import Impact
 from solepath.foot.cues.inertial import InertialCues
 from solepath.foot.navigate.error_state import ErrorStateFilter
+from solepath.foot.navigate.propagated import HEADING_DRIFT
 from solepath.foot.phase import PHASES, Cue
 from solepath.foot.stance.stance import Stance
 from solepath.types import Phase, Quat, Vec3
@@ -121,7 +122,7 @@ def test_heading_grows_less_certain_with_time() -> None:
     session.feed(samples)
     foot = session.feet[Foot.LEFT]
     lasted = samples[-1].t - 2.0  # what comes before the first heel-off is one stretch, and so is what is under way
-    assert foot.gait.way.yaw == pytest.approx(foot.corrector.heading_drift**2 * lasted, rel=0.4)
+    assert foot.gait.way.yaw == pytest.approx(HEADING_DRIFT**2 * lasted, rel=0.4)
     assert session.position is not None and session.position.covariance[3] > foot.gait.way.yaw * 10.0**2 / 4
 
 

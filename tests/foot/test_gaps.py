@@ -17,7 +17,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
 from solepath.foot.gaps.gap import NoLeap, leap
 from solepath.foot.gaps.moment import corrected, moments
-from solepath.foot.gaps.template import Habit
+from solepath.foot.gaps.template import MOST_MOMENTS, OLD, Habit
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.tracker import FootTracker
 from solepath.saving import codec as machine
@@ -113,11 +113,11 @@ def test_a_stride_with_a_gap_or_round_a_corner_is_not_the_habit() -> None:
     assert habit.last is kept
     stride(habit, 3.0, 0.5)
     assert habit.last is kept
-    for k in range(habit.old):
+    for k in range(OLD):
         stride(habit, 4.0 + k, 0.5)
     assert habit.last is not kept  # who does nothing but turn has turning for a habit
     stride(habit, 40.0, 0.0, duration=3.0)  # too slow to be kept whole, and memory is bounded
-    assert len(habit.now) <= habit.most
+    assert len(habit.now) <= MOST_MOMENTS
 
 
 # --- what is possible -------------------------------------------------------------------------------------------------

@@ -86,9 +86,9 @@ def test_final_steps_are_all_seen_from_one_frame(first: Route, seed: int) -> Non
 
 def test_a_session_has_its_own_copy_of_the_recipe() -> None:
     session = Session()
-    session.recipe.detector.sigma = 7.0
-    assert session.recipe.detector.sigma != 7.0
-    assert recipes.DEFAULT.detector.sigma != 7.0
+    session.recipe.detector.past_low = 7.0
+    assert session.recipe.detector.past_low != 7.0
+    assert recipes.DEFAULT.detector.past_low != 7.0
 
 
 def test_a_packet_that_cannot_be_used_does_not_set_the_clock_back() -> None:

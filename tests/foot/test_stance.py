@@ -7,17 +7,17 @@ from typing import Any
 
 import numpy as np
 import pytest
-from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
+from solepath.foot.settings import CycleSettings, StanceThreshold
 from solepath.foot.stance.classic import AngularRate, Graph, MovingVariance
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.stance.pressure import MaximumPressure, TwoArea
-from solepath.foot.stance.sensor_height import Lever
+from solepath.foot.stance.sensor_height import GUESS, HIGHEST, LOWEST, Lever
 from solepath.foot.stance.shoe import ShoeDetector
 from solepath.foot.stance.stance import Load, Stance, soften
 from solepath.types import Foot, Phase, Vec3
@@ -69,14 +69,14 @@ def run(detector: Any, acc: Rows, gyro: Rows, dt: float = 0.01) -> list[Stance]:
 @pytest.mark.parametrize(
     ("detector", "formula", "length"),
     [
-        (ShoeDetector(window=0.035), shoe, 4),
-        (ShoeDetector(window=0.025), shoe, 3),
-        (AngularRate(window=0.035), are, 4),
-        (AngularRate(window=0.025), are, 3),
-        (MovingVariance(window=0.035), mv, 4),
-        (MovingVariance(window=0.025), mv, 3),
-        (Graph(count=4), mbgtd, 4),
-        (Graph(count=3), mbgtd, 3),
+        (ShoeDetector(StanceThreshold(0.035)), shoe, 4),
+        (ShoeDetector(StanceThreshold(0.025)), shoe, 3),
+        (AngularRate(StanceThreshold(0.035)), are, 4),
+        (AngularRate(StanceThreshold(0.025)), are, 3),
+        (MovingVariance(StanceThreshold(0.035)), mv, 4),
+        (MovingVariance(StanceThreshold(0.025)), mv, 3),
+        (Graph(StanceThreshold(4)), mbgtd, 4),
+        (Graph(StanceThreshold(3)), mbgtd, 3),
         (Cycle(), shoe, 3),
     ],
     ids=lambda value: type(value).__name__ if hasattr(value, "update") else None,
@@ -128,11 +128,14 @@ def test_a_foot_that_rests_is_certainly_still(detector: Any) -> None:
     assert last.v_ref == (0.0, 0.0, 0.0)
 
 
+TEN = StanceThreshold(base=10.0, gate=100.0)
+
+
 def test_evidence_grows_softer_with_the_statistic_and_ends_at_the_gate() -> None:
-    assert soften(5.0, 0.01, 10.0, 100.0) == Stance((0.0, 0.0, 0.0), 0.01, 5.0, Phase.STATIONARY)
-    assert soften(40.0, 0.01, 10.0, 100.0) == Stance((0.0, 0.0, 0.0), 0.02, 40.0, None)
-    assert soften(100.0, 0.01, 10.0, 100.0) == Stance((0.0, 0.0, 0.0), inf, 100.0, None)
-    sigmas = [soften(t, 0.01, 10.0, 100.0).sigma for t in np.linspace(0.0, 120.0, 50)]
+    assert soften(5.0, TEN) == Stance((0.0, 0.0, 0.0), 0.01, 5.0, Phase.STATIONARY)
+    assert soften(40.0, TEN) == Stance((0.0, 0.0, 0.0), 0.02, 40.0, None)
+    assert soften(100.0, TEN) == Stance((0.0, 0.0, 0.0), inf, 100.0, None)
+    sigmas = [soften(t, TEN).sigma for t in np.linspace(0.0, 120.0, 50)]
     assert sigmas == sorted(sigmas)
 
 
@@ -192,7 +195,7 @@ def test_cells_that_say_airborne_overrule_a_quiet_sensor() -> None:
 
 
 def test_noise_of_the_evidence_grows_with_the_turning_of_the_foot() -> None:
-    parts = [Cycle(arm=0.06, arm2=0.5) for _ in range(2)]
+    parts = [Cycle(CycleSettings(arm=0.06, arm2=0.5)) for _ in range(2)]
     still, turning = (
         run(part, [ACC_REST] * 9, [(0.0, rate, 0.0)] * 9)[-1] for part, rate in zip(parts, (0.0, 0.15), strict=True)
     )
@@ -243,7 +246,7 @@ def test_a_foot_that_only_stands_leaves_the_height_as_it_was() -> None:
     for k in range(1000):
         lever.roll(0.01, (0.01 * (k % 3), 0.0, GRAVITY), (1e-4 * (k % 2), 0.0, 0.0), IDENTITY)
     lever.lift()
-    assert lever.height == pytest.approx(lever.guess, abs=1e-3)
+    assert lever.height == pytest.approx(GUESS, abs=1e-3)
 
 
 def test_a_sensor_that_is_moved_is_followed() -> None:
@@ -261,7 +264,7 @@ def test_a_rolling_foot_moves_forward_and_the_evidence_says_so() -> None:
     rolling = cycle.update(0.03, 0.03, (0.0, 0.0, GRAVITY), (0.0, 0.1, 0.0), None)
     assert still.v_ref == (0.0, 0.0, 0.0)
     assert rolling.v_ref == pytest.approx((0.1 * cycle.lever.height, 0.0, 0.0))
-    without = evolve(Cycle(), rolls=False)
+    without = Cycle(CycleSettings(rolls=False))
     assert without.update(0.0, 0.0, (0.0, 0.0, GRAVITY), (0.0, 0.1, 0.0), None).v_ref == (0.0, 0.0, 0.0)
 
 
@@ -274,4 +277,4 @@ def test_whatever_is_measured_the_height_stays_that_of_a_sensor_on_a_foot(rows: 
     for dt, ax, ay, az, wx, wy, wz in rows:
         lever.roll(dt, (ax, ay, az), (wx, wy, wz), IDENTITY)
     lever.lift()
-    assert lever.lowest <= lever.height <= lever.highest
+    assert LOWEST <= lever.height <= HIGHEST

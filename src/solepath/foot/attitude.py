@@ -29,6 +29,27 @@ YOUNG, LIFT = 4, 0.02
 """After so many spans of rest the scale is known, and a change by a larger share is a lift starting or stopping."""
 SUSPECT = 0.15
 """An accelerometer that is further from 1 g at rest than by this share is to be looked at."""
+LEVEL_SPAN, REST_SPAN = 0.25, 0.5
+"""Lengths of the spans in which a foot is looked at for its first attitude, and for what is learnt at rest, s."""
+QUIET_ACC = 0.6
+"""Standard deviation of acc that still counts as quiet, m/s^2; eight-bit accelerometers flicker by 0.3."""
+QUIET_GYRO = 0.1
+"""The same of the angular rate, rad/s; its mean says nothing yet, since cheap gyroscopes are off by 0.3 at rest."""
+MOMENT, LONGEST_STRIDE, LEVEL_PATIENCE = 0.06, 1.3, 3.0
+"""Of a foot that walks already: the length of a moment, that of any stride, and when any attitude will do, s."""
+ALIKE = 4.0
+"""How much louder than the quietest moment, in squares, another may be."""
+TURNING = 0.3
+"""What turns the foot at this rate, rad/s, is as loud as 1 m/s^2."""
+STILL_ACC = 0.35
+"""Largest standard deviation of acc at rest, m/s^2, that of its counts aside."""
+STILL_GYRO = 0.02
+"""Largest standard deviation of the rate at rest, rad/s: a standing foot, not one in mid-stance."""
+LARGEST_BIAS = 0.8
+"""A steadier rate than noise and yet larger than this is a turn, not a bias, rad/s; cheap gyroscopes start with
+0.35 and more."""
+LARGEST_CHANGE = 0.5
+"""The same once a bias is known, for how far from that the rate is, rad/s."""
 
 
 @define
@@ -71,24 +92,10 @@ class Levelling:
     """The first attitude: gravity over the first quiet quarter of a second; of a foot that walks already, over the
     middle of a stance.
 
-    That is a span of `moment` s that is about as quiet as the quietest was so far, once `stride` s were seen, for no
-    stride lasts longer; after `patience` it is any. Heading is left as it is (the smallest turn that takes the measured
-    up to up).
+    That is a span of MOMENT that is about as quiet as the quietest was so far, once LONGEST_STRIDE was seen; after
+    LEVEL_PATIENCE it is any. Heading is left as it is (the smallest turn that takes the measured up to up).
     """
 
-    length: float = 0.25
-    quiet_acc: float = 0.6
-    """Standard deviation of acc that still counts as quiet, m/s^2; eight-bit accelerometers flicker by 0.3."""
-    quiet_gyro: float = 0.1
-    """The same of the angular rate, rad/s; its mean says nothing yet, since cheap gyroscopes are off by 0.3 at rest."""
-    moment: float = 0.06
-    stride: float = 1.3
-    alike: float = 4.0
-    """How much louder than the quietest moment, in squares, another may be."""
-    turning: float = 0.3
-    """What turns the foot at this rate, rad/s, is as loud as 1 m/s^2."""
-    patience: float = 3.0
-    # state
     span: SampleSpan = field(factory=SampleSpan, init=False)
     short: SampleSpan = field(factory=SampleSpan, init=False)
     short_start: float = field(default=0.0, init=False)
@@ -105,16 +112,16 @@ class Levelling:
         walking = self._walking(t, acc, gyro, self.begun)
         if walking is not None:
             return walking
-        if t - self.span_start < self.length - TIE or self.span.count < 3:
+        if t - self.span_start < LEVEL_SPAN - TIE or self.span.count < 3:
             return None
         mean_acc, _ = self.span.means()
         acc_variance, gyro_variance = self.span.variances()
-        quiet = acc_variance < self.quiet_acc**2 and gyro_variance < self.quiet_gyro**2
+        quiet = acc_variance < QUIET_ACC**2 and gyro_variance < QUIET_GYRO**2
         self.span = SampleSpan()
         self.span_start = t
         if quiet:
             return levelling(mean_acc), TILT_AT_REST
-        if t - self.begun >= self.patience - TIE:
+        if t - self.begun >= LEVEL_PATIENCE - TIE:
             return levelling(mean_acc), TILT_AT_ANY_TIME
         return None
 
@@ -122,16 +129,16 @@ class Levelling:
         """As `update`, of a foot that never stands for a quarter of a second."""
         short = self.short
         short.add(acc, gyro)
-        if t - self.short_start < self.moment - TIE or short.count < 2:
+        if t - self.short_start < MOMENT - TIE or short.count < 2:
             return None
         (ax, ay, az), (gx, gy, gz) = short.means()
         acc_variance, gyro_variance = short.variances()
         off = (ax * ax + ay * ay + az * az) ** 0.5 - GRAVITY
         rate = gx * gx + gy * gy + gz * gz + gyro_variance
-        loud = acc_variance + off * off + rate / (self.turning * self.turning)
+        loud = acc_variance + off * off + rate / (TURNING * TURNING)
         self.short = SampleSpan()
         self.short_start = t
-        stands = t - begun >= self.stride - TIE and loud <= self.alike * self.quietest
+        stands = t - begun >= LONGEST_STRIDE - TIE and loud <= ALIKE * self.quietest
         self.quietest = min(self.quietest, loud)
         return (levelling((ax, ay, az)), TILT_IN_STANCE) if stands else None
 
@@ -140,17 +147,6 @@ class Levelling:
 class Rest:
     """Gyroscope bias and accelerometer scale, learnt from spans of rest."""
 
-    length: float = 0.5
-    still_acc: float = 0.35
-    """Largest standard deviation of acc at rest, m/s^2, that of its counts aside."""
-    still_gyro: float = 0.02
-    """Largest standard deviation of the rate at rest, rad/s: a standing foot, not one in mid-stance."""
-    largest_bias: float = 0.8
-    """A steadier rate than noise and yet larger than this is a turn, not a bias, rad/s; cheap gyroscopes start with
-    0.35 and more."""
-    largest_change: float = 0.5
-    """The same once a bias is known, for how far from that the rate is, rad/s."""
-    # state
     span: SampleSpan = field(factory=SampleSpan, init=False)
     span_start: float | None = field(default=None, init=False)
     bias: Vec3 = field(default=ZERO, init=False)
@@ -203,16 +199,16 @@ class Rest:
             self.grain = finest = y if y > 0.0 else -y
         if -finest < z < finest and not -EQUAL <= z <= EQUAL:
             self.grain = z if z > 0.0 else -z
-        if t - self.span_start < self.length - TIE or span.count < 4:
+        if t - self.span_start < REST_SPAN - TIE or span.count < 4:
             return False
         (ax, ay, az), (gx, gy, gz) = self.span.means()
         acc_variance, gyro_variance = self.span.variances()
         self.span = SampleSpan()
         self.span_start = t
-        if acc_variance > self.still_acc**2 + 0.75 * self.grain * self.grain or gyro_variance > self.still_gyro**2:
+        if acc_variance > STILL_ACC**2 + 0.75 * self.grain * self.grain or gyro_variance > STILL_GYRO**2:
             return False
         x, y, z = self.bias
-        limit = self.largest_change if self.count else self.largest_bias
+        limit = LARGEST_CHANGE if self.count else LARGEST_BIAS
         if max(abs(gx - x), abs(gy - y), abs(gz - z)) > limit:
             return False
         self.magnitude = (ax * ax + ay * ay + az * az) ** 0.5

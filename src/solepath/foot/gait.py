@@ -11,7 +11,7 @@ from .gaps.gap import Leap
 from .gaps.template import Habit
 from .navigate.corrector import Corrector
 from .phase import BEGINS, PHASES, Cue
-from .stride import StepBuilder, StretchChain
+from .stride import SHORTEST_STRIDE, StepBuilder, StretchChain
 from .world import Covariance3, World
 
 
@@ -20,7 +20,6 @@ class Gait:
     """The phases of one foot and the steps that they make, each an event as soon as its cue is seen."""
 
     foot: Foot
-    # state
     phase: Phase = field(default=Phase.STATIONARY, init=False)
     began: float | None = field(default=None, init=False)
     """When the phase did, s."""
@@ -118,7 +117,7 @@ class Gait:
         position, attitude = corrector.position, corrector.attitude
         if not self.headed and step.t_toe_off is not None:
             # the first step fixes the heading; until then it was the direction in which the foot set out
-            self.headed = world.find(position, step.shortest)
+            self.headed = world.find(position, SHORTEST_STRIDE)
         taken = step.finish(
             t,
             known_at,

@@ -17,7 +17,6 @@ class Limits:
     """Sentences that were said, and that wait for a sample to be said with."""
 
     foot: Foot
-    # state
     said: list[str] = field(factory=list, init=False)
     waiting: list[str] = field(factory=list, init=False)
     since: float | None = field(default=None, init=False)

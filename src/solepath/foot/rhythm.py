@@ -8,22 +8,19 @@ FOLLOW = 0.02
 """Share of the newest wait in the usual one; chosen by hand."""
 ODD = 2.0
 """A wait counts as no more than so many times the usual one, and as no less than that part of it."""
+GAP_SHARE, LEAST_GAP = 1.75, 0.004
+"""A wait is a gap when it is so many times the usual one and so much longer, s."""
+PATIENCE, ALIKE = 10, 0.1
+"""So many gaps in a row, as long as the first within this share of it, make a new rate."""
+YOUNG = 10
+"""So many waits in which a shorter one shows that the first were none to go by."""
 
 
 @define
 class Rhythm:
-    """The usual time between samples, learnt from them. A wait is a gap when it is 1.75 times the usual one and 4 ms
-    longer; many waits in a row that are gaps and alike are no gaps but another rate."""
+    """The usual time between samples, learnt from them. Many waits in a row that are gaps and alike are no gaps but
+    another rate."""
 
-    share: float = 1.75
-    least: float = 0.004
-    """s."""
-    patience: int = 10
-    """Gaps in a row, each as long as the first within `alike`, that make a new rate."""
-    alike: float = 0.1
-    young: int = 10
-    """So many waits in which a shorter one shows that the first were none to go by."""
-    # state
     seen: int = field(default=0, init=False)
     usual: float | None = field(default=None, init=False)
     """s."""
@@ -34,9 +31,9 @@ class Rhythm:
     def update(self, dt: float) -> bool:
         """One wait, s; True when it was a gap."""
         usual = self.usual
-        if self.seen <= self.young:
+        if self.seen <= YOUNG:
             self.seen += 1
-        if usual is None or (self.seen <= self.young and dt * self.share < usual):
+        if usual is None or (self.seen <= YOUNG and dt * GAP_SHARE < usual):
             self.usual = dt
             return False
         # the usual wait follows slowly and mistrusts the unusual
@@ -46,12 +43,12 @@ class Rhythm:
         elif trusted > ODD * usual:
             trusted = ODD * usual
         self.usual = usual + FOLLOW * (trusted - usual)
-        if dt <= self.share * usual or dt - usual <= self.least:
+        if dt <= GAP_SHARE * usual or dt - usual <= LEAST_GAP:
             self.count = 0
             return False
-        if self.count == 0 or abs(dt - self.first) > self.alike * self.first:
+        if self.count == 0 or abs(dt - self.first) > ALIKE * self.first:
             self.count, self.first = 0, dt
         self.count += 1
-        if self.count == self.patience:
+        if self.count == PATIENCE:
             self.usual, self.count = dt, 0
         return True

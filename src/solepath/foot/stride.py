@@ -58,16 +58,15 @@ class StretchChain:
         )
 
 
+SHORTEST_STRIDE, LEAST_TURN = 0.06, 0.35
+"""A foot that comes down this near to where it stood, m, has taken no stride, unless it turned by this much, rad."""
+
+
 @define
 class StepBuilder:
     """Gathers one foot's step while it happens."""
 
     foot: Foot
-    shortest: float = 0.06
-    """A foot that comes down this near to where it stood has not taken a step, m, unless it turned."""
-    least_turn: float = 0.35
-    """By this much, rad."""
-    # state
     number: int = field(default=0, init=False)
     t_start: float | None = field(default=None, init=False)
     start: Vec3 = field(default=ZERO, init=False)
@@ -189,7 +188,7 @@ class StepBuilder:
         displacement = world.vector(sub(position, self.start))
         length, dz = hypot(displacement[0], displacement[1]), displacement[2]
         turn = heading_turned(self.attitude, attitude)
-        if hypot(length, dz) < self.shortest and abs(turn) < self.least_turn:
+        if hypot(length, dz) < SHORTEST_STRIDE and abs(turn) < LEAST_TURN:
             return None
         self.number += 1
         return StrideTaken(

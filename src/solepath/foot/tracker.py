@@ -25,6 +25,7 @@ from .pressure.insole import InsoleLoads
 from .pressure.sole import Sole
 from .rejection import refusal, rejected
 from .rhythm import Rhythm
+from .settings import FootSettings
 from .stance.stance import Detector, Load
 from .view import FootPose, FootView
 from .world import Covariance3
@@ -43,14 +44,10 @@ class FootTracker:
     foot: Foot
     detector: Detector
     corrector: Corrector
-    poses: bool = False
-    """Emit FootMoved for every navigated sample."""
+    settings: FootSettings = FootSettings()
     cues: Cues = field(factory=GaitCues)
-    needs_pressure: bool = False
-    """Without pressure cells nothing is said of this foot."""
     sole: Sole = field()
     """Its cells."""
-    # state
     t: float | None = field(default=None, init=False)
     """The newest sample, s."""
     moved_at: float | None = field(default=None, init=False)
@@ -74,9 +71,7 @@ class FootTracker:
 
     @sole.default
     def _bare(self) -> Sole:
-        return Sole(self.foot, InsoleLoads(), self.needs_pressure)
-
-    # --- what it knows ---
+        return Sole(self.foot, InsoleLoads(), self.settings)
 
     @property
     def phase(self) -> Phase:
@@ -131,7 +126,7 @@ class FootTracker:
             rest.bias,
             rest.grain if rest.count else 0.0,
             cells,
-            insole.newtons is not None or (layout is not None and layout.scale is not None),
+            insole.settings.newtons is not None or (layout is not None and layout.scale is not None),
             insole.highest,
             layout,
             alone,
@@ -146,8 +141,6 @@ class FootTracker:
         move = getattr(self.corrector, "shift", None)
         if move is not None:
             move(yaw, self.gait.shift(yaw, by))
-
-    # --- samples ---
 
     def wear(self, layout: Layout) -> None:
         """The device said where its pressure cells are."""
@@ -168,12 +161,12 @@ class FootTracker:
         self.limits.odd_since = None
         self.gait.interrupt()
         # Windows over the old times would wait for the new ones to catch up. What was learnt stays.
-        settings: Any = self.detector
-        self.detector = evolve(settings)
+        detector: Any = self.detector
+        self.detector = evolve(detector)
         self.cues.anew()
         if self.sole.insole.layout is not None:
             self._wear_parts(self.sole.insole.layout)
-        self.levelling = evolve(self.levelling)
+        self.levelling = Levelling()
         self.sole.interrupt()
         self.rest.interrupt()
 
@@ -204,7 +197,7 @@ class FootTracker:
             gait = self.gait
             if gait.phase is not SWING and gait.step.t_toe_off is None:
                 gait.step.loaded(sole.insole.sum, load.centre)
-        elif self.needs_pressure and not sole.pressed:
+        elif self.settings.needs_pressure and not sole.pressed:
             what = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
             self.limits.lacks(what, t, known_at, events)
             return events
@@ -269,7 +262,7 @@ class FootTracker:
                 corrector.start(*first)
                 self.levelled = True
                 gait.step.begin(t, ZERO, corrector.attitude)
-            if self.poses:
+            if self.settings.poses:
                 self._say_where(t, known_at, events)
             return
         believed = corrector.correct(t, stance)
@@ -288,7 +281,7 @@ class FootTracker:
                 self._see(one, known_at, events)
         elif not gait.headed:
             gait.world.find(position)
-        if self.poses:
+        if self.settings.poses:
             self._say_where(t, known_at, events)
 
     def _say_where(self, t: float, known_at: float, events: list[Event]) -> None:

@@ -25,7 +25,7 @@ from ..types import Foot, shared
 from ..types.attrs import define
 from .snapshot import by_name, check_names
 from .state import VERSION, SessionState
-from .wearer import WearerParts
+from .wearer import WearerParts, WearerSettings
 
 MAGIC = b"sole"
 FORM = 2
@@ -67,8 +67,9 @@ def pack(state: SessionState) -> bytes:
     """The state as bytes. TypeError when a part of the app's own has a field of a kind that cannot be saved,
     SnapshotError when it holds a value that cannot."""
     wearer = state.wearer
-    check_names(wearer.recipe)
-    head = Head(wearer.recipe.name, wearer.calibration, wearer.poses, wearer.pressures, state.plan)
+    known = wearer.settings
+    check_names(known.recipe)
+    head = Head(known.recipe.name, known.calibration, known.poses, known.pressures, known.plan)
     lists: Lists = ([], [], [], [])
     try:
         write(HEAD, head, lists)
@@ -148,8 +149,8 @@ def _begun(recipe: Recipe, head: Head) -> SessionState:
     for known, begun_with, state in _kept:
         if known is recipe and repr(begun_with) == repr(head):
             return state
-    wearer = WearerParts(recipe, head.calibration, head.poses, head.pressures, head.plan is not None)
-    state = SessionState(wearer, head.plan)
+    wearer = WearerParts(WearerSettings(recipe, head.calibration, head.poses, head.pressures, head.plan))
+    state = SessionState(wearer)
     state.wearer.feet = {foot: state.wearer._tracker(foot) for foot in Foot}
     _kept = ((recipe, head, state), *_kept[: KEPT - 1])
     return state

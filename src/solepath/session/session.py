@@ -24,7 +24,7 @@ from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support
 from ..types.attrs import evolve
 from .checked import as_float, beginning, indexed, sound
 from .state import SessionState
-from .wearer import WearerParts, in_order
+from .wearer import WearerParts, WearerSettings, in_order
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
@@ -70,16 +70,17 @@ class Session:
         self._kinds: Kinds = kinds(profiles)
         known = Calibration() if calibration is None else sound(calibration)
         self._plan = indexed(floorplan)
-        wearer = WearerParts(own(recipe), known, poses, pressures, self._plan is not None)
+        plan = None if self._plan is None else self._plan.fingerprint
+        wearer = WearerParts(WearerSettings(own(recipe), known, poses, pressures, plan))
         if start is not None:
             wearer.ask("set_out")(beginning(start, self._plan))
         wearer.walks_on(self._plan)
-        self._state = SessionState(wearer, None if self._plan is None else self._plan.fingerprint)
+        self._state = SessionState(wearer)
         for site, device in (devices or {}).items():
             self.bind(site, device)
 
     def __repr__(self) -> str:
-        return f"<Session {self._state.wearer.recipe.name} at {self._state.now} s>"
+        return f"<Session {self._state.wearer.settings.recipe.name} at {self._state.now} s>"
 
     def feed(self, data: Packet | Sample | Iterable[Packet | Sample]) -> list[Event]:
         """Take packets (as they arrive) or samples (in the order of their time). TypeError for an item that is neither
@@ -192,7 +193,7 @@ class Session:
     @property
     def recipe(self) -> Recipe:
         """The parts that this session is made of."""
-        return deepcopy(self._state.wearer.recipe)
+        return deepcopy(self._state.wearer.settings.recipe)
 
     @property
     def feet(self) -> dict[Foot, FootTracker]:

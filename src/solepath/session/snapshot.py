@@ -10,6 +10,7 @@ from ..recipes import PARTS, Recipe, own, part_class
 from ..saving.codec import Classes, Json, SnapshotError, checksum, load, save
 from ..saving.schema import is_record
 from ..types import Foot, Site
+from ..types.attrs import evolve
 from .state import VERSION, SessionState
 from .wearer import in_order
 
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 
 def taken(state: SessionState) -> dict[str, Json]:
     """It carries a checksum of itself: a session made of damaged numbers could do anything later."""
-    check_names(state.wearer.recipe)
+    check_names(state.wearer.settings.recipe)
     told = save(state)
     return {"solepath": VERSION, "check": checksum(told), "state": told}
 
@@ -37,7 +38,8 @@ def restored(saved: Any, parts: Iterable[type]) -> SessionState:
     state.wearer.feet = in_order(state.wearer.feet, Foot)
     if checksum(save(state)) != saved["check"]:
         raise SnapshotError("the snapshot was damaged: its checksum is another")
-    state.wearer.recipe = own(state.wearer.recipe)
+    settings = state.wearer.settings
+    state.wearer.settings = evolve(settings, recipe=own(settings.recipe))
     return state
 
 
@@ -63,8 +65,10 @@ def by_name(parts: Iterable[type]) -> Classes:
 
 def must_fit(state: SessionState, known: Kinds, plan: IndexedPlan | None) -> None:
     """SnapshotError where the state needs another floor plan than `plan`, or a device that is not `known`."""
-    if state.plan != (None if plan is None else plan.fingerprint):
-        with_one = "with the floor plan that it had" if state.plan is not None else "without a floor plan"
+    if state.wearer.settings.plan != (None if plan is None else plan.fingerprint):
+        with_one = (
+            "with the floor plan that it had" if state.wearer.settings.plan is not None else "without a floor plan"
+        )
         raise SnapshotError(f"a snapshot of a session is restored {with_one}")
     for decoder in state.decoders.values():
         if decoder.link is None:

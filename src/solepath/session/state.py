@@ -17,9 +17,6 @@ class SessionState:
     """All that a session remembers."""
 
     wearer: WearerParts
-    plan: int | None = None
-    """Fingerprint of the floor plan; None without one."""
-    # state
     now: float | None = field(default=None, init=False)
     """The latest moment that anything is known of, s."""
     decoders: dict[Site, Decoder] = field(factory=dict, init=False)

@@ -11,11 +11,12 @@ from ..calibration import Calibration
 from ..events import ClockReset, Event, LayoutKnown, Limitation, SampleRejected, StrideTaken, WearerMoved
 from ..foot.pressure.sole import Sole
 from ..foot.rejection import rejected, with_sound_attitude, wrong_time
+from ..foot.settings import FootSettings
 from ..foot.tracker import FootTracker
 from ..foot.view import FootView
 from ..recipes import Recipe, part_class
 from ..types import Foot, Sample, Site
-from ..types.attrs import MADE_AGAIN, define, field
+from ..types.attrs import MADE_AGAIN, define, field, frozen
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
@@ -25,20 +26,26 @@ _Held = TypeVar("_Held")
 _Calibrated = TypeVar("_Calibrated")
 
 
-@define
-class WearerParts:
-    """Trackers of the feet, and the parts of the body that the recipe has, in their order."""
+@frozen
+class WearerSettings:
+    """What a session is begun with."""
 
     recipe: Recipe
     """Read only: others may hold it too."""
     calibration: Calibration
-    poses: bool
+    poses: bool = False
     """The feet emit FootMoved; WearerMoved after a stride."""
     pressures: bool = False
     """FootPressed with every sample of cells."""
-    placed: bool = False
-    """There is a floor plan, and so the recipe's place part is one of `parts`."""
-    # state
+    plan: int | None = None
+    """Fingerprint of the floor plan, with which the recipe's place part is one of the wearer's; None without one."""
+
+
+@define
+class WearerParts:
+    """Trackers of the feet, and the parts of the body that the recipe has, in their order."""
+
+    settings: WearerSettings
     parts: list[Part] = field(init=False, metadata=MADE_AGAIN)
     """In the order in which they hear of what is said."""
     feet: dict[Foot, FootTracker] = field(factory=dict, init=False, metadata=MADE_AGAIN)
@@ -50,10 +57,11 @@ class WearerParts:
     """Sites whose samples the recipe has no use for; said once."""
 
     def __attrs_post_init__(self) -> None:
-        parts: list[Part] = [*self.recipe.parts]
-        if self.placed:
-            parts.append(self.recipe.place or part_class("Particles")())
-        self.parts = [deepcopy(part).calibrated(self.calibration) for part in parts]
+        settings = self.settings
+        parts: list[Part] = [*settings.recipe.parts]
+        if settings.plan is not None:
+            parts.append(settings.recipe.place or part_class("Particles")())
+        self.parts = [deepcopy(part).calibrated(settings.calibration) for part in parts]
 
     def walks_on(self, plan: IndexedPlan | None) -> None:
         """For a wearer who is new or restored: the floor plan, which is never saved, is there from now on."""
@@ -61,8 +69,6 @@ class WearerParts:
             part.ready()
             if hasattr(part, "plan"):
                 part.plan = plan
-
-    # --- in ---
 
     def feed(self, sample: Sample, scale_is_said: bool) -> list[Event]:
         """A sample of any site. `scale_is_said`: by its link, which knows the range, so the foot need not."""
@@ -90,10 +96,10 @@ class WearerParts:
         known_at = t if known_at is None or known_at < t else known_at
         view = tracker.view(sample, known_at, tuple(events) if events else (), spread=stride)
         moved = self._flow(events, view, known_at)
-        if moved is not None and self.poses and stride:
+        if moved is not None and self.settings.poses and stride:
             events.append(moved)
         if sample.pressure:
-            if self.pressures:
+            if self.settings.pressures:
                 pressed = tracker.sole.pressed_by(t, known_at, sample.pressure)
                 if pressed is not None:
                     events.append(pressed)
@@ -159,7 +165,7 @@ class WearerParts:
                 self._take(part.receive(moved), events)
             if finishing:
                 self._take(part.finish(known_at), events)
-        if moved is None and self.poses and any([isinstance(event, StrideTaken) for event in events]):
+        if moved is None and self.settings.poses and any([isinstance(event, StrideTaken) for event in events]):
             moved = self._moved(known_at)
         return moved
 
@@ -195,15 +201,13 @@ class WearerParts:
             self._take(part.feed_limb(sample), events)
         if not parts and site not in self.unused:
             self.unused.append(site)
-            what = f"recipe {self.recipe.name} has no use for a sensor at the {site.value}"
+            what = f"recipe {self.settings.recipe.name} has no use for a sensor at the {site.value}"
             events.append(Limitation(t=t, known_at=known_at, site=site, what=what))
         return events
 
     def _reset_parts(self, site: Site) -> None:
         for part in self.parts:
             part.reset(site)
-
-    # --- out ---
 
     @property
     def position(self) -> Position | None:
@@ -222,13 +226,12 @@ class WearerParts:
         """What the first part that has something of this name says of it; None where none has."""
         return next((getattr(part, name) for part in self.parts if hasattr(part, name)), None)
 
-    # --- feet ---
-
     def _tracker(self, foot: Foot) -> FootTracker:
         """The foot's own tracker, or a new one that nobody holds yet."""
         tracker = self.feet.get(foot)
         if tracker is None:
-            recipe, known = self.recipe, self.calibration
+            recipe, known = self.settings.recipe, self.settings.calibration
+            settings = FootSettings(self.settings.poses, recipe.needs_pressure)
             detector, corrector, cues, insole = deepcopy(
                 (recipe.detector, recipe.corrector, recipe.cues, recipe.insole)
             )
@@ -236,10 +239,9 @@ class WearerParts:
                 foot,
                 _calibrated(detector, known, foot),
                 _calibrated(corrector, known, foot),
-                self.poses,
+                settings,
                 cues=_calibrated(cues, known, foot),
-                sole=Sole(foot, _calibrated(insole, known, foot), recipe.needs_pressure),
-                needs_pressure=recipe.needs_pressure,
+                sole=Sole(foot, _calibrated(insole, known, foot), settings),
             )
             layout = known.insole(foot).layout
             if layout is not None:

@@ -20,7 +20,7 @@ from ..foot.stance.cycle import Cycle
 from ..foot.stance.stance import Detector, Stance
 from ..foot.tracker import FootTracker
 from ..recipes import DEFAULT
-from ..session.wearer import WearerParts
+from ..session.wearer import WearerParts, WearerSettings
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Sample
 from ..types.vector import IDENTITY, ZERO
 
@@ -205,7 +205,7 @@ def placed(part: Any, foot: Foot, layout: Layout | None) -> ByItself | InFoot | 
     elif Cues in kinds:
         place = Sees(FootTracker(foot, Cycle(), ErrorStateFilter(), cues=part), "cues")
     elif Part in kinds:
-        wearer = WearerParts(evolve(DEFAULT, parts=(*DEFAULT.parts, part)), Calibration(), False)
+        wearer = WearerParts(WearerSettings(evolve(DEFAULT, parts=(*DEFAULT.parts, part)), Calibration()))
         wearer.walks_on(None)
         if layout is not None:
             site = SITE_OF_FOOT[foot]

@@ -17,17 +17,16 @@ from ...types.attrs import define, field
 
 MOST = 1e12
 """A jolt weighs no more than this, m^2/s^5."""
+SHOCK_MEMORY = 0.02
+"""What is older than about this is no part of it, s."""
+ALOFT = 0.1
+"""A jolt nearer than this to toe-off is that of leaving the ground, s."""
 
 
 @define
 class Impact:
     """One swing's, and what ends it. Feed it every sample of the swing."""
 
-    memory: float = 0.02
-    """What is older than about this is no part of it, s."""
-    aloft: float = 0.1
-    """A jolt nearer than this to toe-off is that of leaving the ground, s."""
-    # state
     began: float | None = field(default=None, init=False)
     """When the swing did, s; None: before anybody looked."""
     shock: float = field(default=0.0, init=False)
@@ -63,10 +62,10 @@ class Impact:
             jolt = MOST
         shock = self.shock
         if not landing:
-            shock = shock * (1.0 - dt / self.memory) if dt < self.memory else 0.0
+            shock = shock * (1.0 - dt / SHOCK_MEMORY) if dt < SHOCK_MEMORY else 0.0
         self.shock = shock = shock + jolt
         if jolt > 0.0:
             self.middle += (t - 0.5 * dt - self.middle) * jolt / shock
-        if shock > self.hardest and (self.began is None or self.middle - self.began >= self.aloft):
+        if shock > self.hardest and (self.began is None or self.middle - self.began >= ALOFT):
             self.hardest = shock
             self.jolted = self.middle

@@ -7,7 +7,7 @@ has fallen to half its peak, the steepest place of its fall. Landmarks of this k
 (Sabatini et al., IEEE Trans. Biomed. Eng. 52, 2005; Mariani et al., Gait & Posture 37, 2013).
 The ground may stop the foot later than that, or earlier: heel-strike is the middle of the impact (impact.py).
 
-Settings that name no source were chosen by hand on the recordings of docs/accuracy.md and not swept; those of
+Numbers that name no source were chosen by hand on the recordings of docs/accuracy.md and not swept; those of
 heel-strike and toe-off on those that have such events.
 """
 
@@ -39,45 +39,44 @@ NEWEST = 0.2
 """Share of the newest push-off in the axis."""
 IN_SWING = 2.0
 """A swing that a gap has hidden was under way when its hump was taken to be so many times the least one."""
+SETTLE = 0.009
+"""Stillness, or its loss, must last this long, s."""
+LEAST_PUSH = 1.5
+"""A push-off's peak rate is at least this, rad/s."""
+PAST_PEAK = 0.5
+"""Toe-off is where the rate has fallen to this share of its peak."""
+LEAST_HUMP = 1.0
+"""The swing's negative hump is at least this, rad/s."""
+SLAP = 1.0
+"""The heel lands about when the rate comes up through this, as the ground turns the sole down, rad/s."""
+HEAR_OUT = 0.04
+"""Then the impact is heard out until its middle is this long ago, s: heel-strike is to be known within 60 ms."""
+LONGEST_IMPACT = 0.1
+"""An impact is heard out for no longer than this, s."""
+LEAST_JOLT = 1e4
+"""A foot that has lost its speed has landed if the impact's squared jerk came to this, m^2/s^5: 600 m/s^3 for
+30 ms. Muscles that swing a leg reach half of that jerk, the ground some thousands."""
+SHORTEST_SWING = 0.1
+"""No heel-strike sooner than this after toe-off, s."""
+SHUFFLE_SPEED = 0.35
+"""A foot that moves this fast for SHUFFLE_TIME is in swing, however it got there, m/s."""
+REACH = 0.2
+"""That speed is higher by this for each rad/s, m: no sensor is further from the toes, which a foot rolls over."""
+SHUFFLE_TIME = 0.15
+"""For so long a foot must be so fast to be in swing, s."""
+LOADING_TIME = 0.4
+"""For so long right after heel-strike, when the sensor still swings down with the sole, s."""
+LOOKBACK = 0.02
+"""Stillness is judged over a window, so it began about this long before it showed, s."""
+ROLLING = 0.12
+"""The heel came off when the sagittal rate was last below this, rad/s."""
 
 
 @define
 class InertialCues:
-    """Latency: toe-off one sample; heel-strike `hear_out` s, or when the foot is still where no impact shows; foot-flat
-    and heel-off `settle` s."""
+    """Latency: toe-off one sample; heel-strike HEAR_OUT, or when the foot is still where no impact shows; foot-flat
+    and heel-off SETTLE."""
 
-    settle: float = 0.009
-    """Stillness, or its loss, must last this long, s."""
-    push: float = 1.5
-    """A push-off's peak rate is at least this, rad/s."""
-    past_peak: float = 0.5
-    """Toe-off is where the rate has fallen to this share of its peak."""
-    hump: float = 1.0
-    """The swing's negative hump is at least this, rad/s."""
-    slap: float = 1.0
-    """The heel lands about when the rate comes up through this, as the ground turns the sole down, rad/s."""
-    hear_out: float = 0.04
-    """Then the impact is heard out until its middle is this long ago, s: heel-strike is to be known within 60 ms."""
-    longest_impact: float = 0.1
-    """An impact is heard out for no longer than this, s."""
-    jolt: float = 1e4
-    """A foot that has lost its speed has landed if the impact's squared jerk came to this, m^2/s^5: 600 m/s^3 for
-    30 ms. Muscles that swing a leg reach half of that jerk, the ground some thousands."""
-    shortest_swing: float = 0.1
-    """No heel-strike sooner than this after toe-off, s."""
-    shuffle_speed: float = 0.35
-    """A foot that moves this fast for `shuffle_time` is in swing, however it got there, m/s."""
-    reach: float = 0.2
-    """That speed is higher by this for each rad/s, m: no sensor is further from the toes, which a foot rolls over."""
-    shuffle_time: float = 0.15
-    """For so long a foot must be so fast to be in swing, s."""
-    loading_time: float = 0.4
-    """For so long right after heel-strike, when the sensor still swings down with the sole, s."""
-    lookback: float = 0.02
-    """Stillness is judged over a window, so it began about this long before it showed, s."""
-    rolling: float = 0.12
-    """The heel came off when the sagittal rate was last below this, rad/s."""
-    # state
     still_since: float | None = field(default=None, init=False)
     """Since when the evidence of zero velocity has been believed, s; None while it is not."""
     calm: float | None = field(default=None, init=False)
@@ -130,25 +129,25 @@ class InertialCues:
                 self.moving_since = t
                 self.turned = ZERO
                 self.peak = 0.0
-            if speed < self.shuffle_speed + self.reach * (now if now > 0.0 else -now):
+            if speed < SHUFFLE_SPEED + REACH * (now if now > 0.0 else -now):
                 self.fast_since = None
             elif self.fast_since is None:
                 self.fast_since = t
         if phase is SWING:
             self.calm = None
             return self._in_swing(t, dt, speed, before, now, was)
-        if now < self.rolling and (still or self.calm is None):
+        if now < ROLLING and (still or self.calm is None):
             self.calm = t
         if self.still_since is not None:
-            if phase is not STATIONARY and t - self.still_since >= self.settle - TIE:
-                return Seen(Cue.FLAT, self.still_since - self.lookback)
+            if phase is not STATIONARY and t - self.still_since >= SETTLE - TIE:
+                return Seen(Cue.FLAT, self.still_since - LOOKBACK)
             return None
         x, y, z = self.turned
         self.turned = (x + gx * dt, y + gy * dt, z + gz * dt)
         if phase is STATIONARY:
             if now > self.peak:
                 self.peak = now
-            if self.moving_since is not None and t - self.moving_since >= self.settle - TIE:
+            if self.moving_since is not None and t - self.moving_since >= SETTLE - TIE:
                 return Seen(Cue.LIFT, self.moving_since if self.calm is None else min(self.calm, self.moving_since))
             return None
         return self._in_push_off(t, dt, before, now, phase)
@@ -156,12 +155,12 @@ class InertialCues:
     def _in_push_off(self, t: float, dt: float, before: float, now: float, phase: Phase) -> Seen | None:
         if now > self.peak:
             self.peak = now
-        limit = self.past_peak * self.peak
-        if phase is PUSH_OFF and self.peak > self.push and now < limit and self._learn_axis():
+        limit = PAST_PEAK * self.peak
+        if phase is PUSH_OFF and self.peak > LEAST_PUSH and now < limit and self._learn_axis():
             # between the last two samples, where a straight line meets the limit
             share = (before - limit) / (before - now) if before > limit > now else 1.0
             return self._clear(t - dt * (1.0 - share))
-        patience = self.loading_time if phase is LOADING else self.shuffle_time
+        patience = LOADING_TIME if phase is LOADING else SHUFFLE_TIME
         if self.fast_since is not None and t - self.fast_since >= patience - TIE:
             return self._clear(self.fast_since)
         return None
@@ -176,17 +175,17 @@ class InertialCues:
             impact.feel(t, dt, was, force, speed, struck is not None)
         if struck is not None:
             middle = max(struck, impact.middle)
-            over = t - middle >= self.hear_out - TIE or t - struck >= self.longest_impact - TIE
+            over = t - middle >= HEAR_OUT - TIE or t - struck >= LONGEST_IMPACT - TIE
             return self._landed(middle) if over or self.still_since is not None else None
         if self.still_since is not None:
-            if t - self.still_since >= self.settle - TIE:
-                return self._landed(impact.jolted if impact.hardest > 0.0 else self.still_since - self.lookback)
+            if t - self.still_since >= SETTLE - TIE:
+                return self._landed(impact.jolted if impact.hardest > 0.0 else self.still_since - LOOKBACK)
             return None
-        if self.toe_off is not None and t - self.toe_off < self.shortest_swing - TIE:
+        if self.toe_off is not None and t - self.toe_off < SHORTEST_SWING - TIE:
             return None
-        if before < self.slap <= now and self.trough < -self.hump and self.axis is not None:
-            self.struck = t - dt * (now - self.slap) / (now - before)
-        elif speed < self.shuffle_speed and impact.hardest > self.jolt and t - impact.jolted >= self.hear_out - TIE:
+        if before < SLAP <= now and self.trough < -LEAST_HUMP and self.axis is not None:
+            self.struck = t - dt * (now - SLAP) / (now - before)
+        elif speed < SHUFFLE_SPEED and impact.hardest > LEAST_JOLT and t - impact.jolted >= HEAR_OUT - TIE:
             return self._landed(impact.jolted)
         return None
 
@@ -209,7 +208,7 @@ class InertialCues:
     def cleared(self, t: float) -> Seen:
         """The toe left the ground at `t`, in a gap, and the swing was under way when that ended."""
         seen = self._clear(t)
-        self.trough = -IN_SWING * self.hump
+        self.trough = -IN_SWING * LEAST_HUMP
         return seen
 
     def _clear(self, t: float) -> Seen:
@@ -222,7 +221,7 @@ class InertialCues:
     def pushed_off(self, phase: Phase) -> None:
         """The load says that the toe has left the ground, in `phase`: how the foot has turned shows the axis all the
         same."""
-        if phase is PUSH_OFF and self.peak > self.push:
+        if phase is PUSH_OFF and self.peak > LEAST_PUSH:
             self._learn_axis()
 
     def _learn_axis(self) -> bool:

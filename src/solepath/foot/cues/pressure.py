@@ -1,6 +1,6 @@
 """From loads to cues: what the cells under a foot show.
 
-The settings were chosen by hand on the recordings of docs/accuracy.md that have cells, and not swept.
+The numbers were chosen by hand on the recordings of docs/accuracy.md that have cells, and not swept.
 """
 
 from __future__ import annotations
@@ -18,23 +18,21 @@ STATIONARY: Final = Phase.STATIONARY
 PUSH_OFF: Final = Phase.PUSH_OFF
 LOADING: Final = Phase.LOADING
 """Looked up once: a word of an enum costs as much as five multiplications."""
+CONTACT_LOAD, CLEAR_LOAD = 0.05, 0.03
+"""Contact: the load rises above the first of these shares of the wearer's full load. Clear: it falls below the
+other."""
+AREA_ON = 0.06
+"""An area, heel or forefoot, is loaded above this share of the wearer's full load."""
+AREA_OFF = 0.03
+"""An area is unloaded below this share of it."""
+RECENT = 0.3
+"""The heel's last load before a lift may date it this far back, s."""
 
 
 @define
 class PressureCues:
     """Contact and clear from the total load, flat and lift from heel and forefoot. Latency: one sample."""
 
-    on: float = 0.05
-    """Contact: the load rises above this share of the wearer's full load."""
-    off: float = 0.03
-    """Clear: the load falls below this share of it."""
-    area_on: float = 0.06
-    """An area, heel or forefoot, is loaded above this share of the wearer's full load."""
-    area_off: float = 0.03
-    """An area is unloaded below this share of it."""
-    recent: float = 0.3
-    """The heel's last load before a lift may date it this far back, s."""
-    # state
     before: float = field(default=0.0, init=False)
     """The total load of the sample before, as a share of the wearer's full load."""
     heel_loaded: float | None = field(default=None, init=False)
@@ -43,17 +41,17 @@ class PressureCues:
     def update(self, t: float, dt: float, load: Load, phase: Phase) -> Seen | None:
         before, now = self.before, load.total
         self.before = now
-        if load.heel is not None and load.heel > self.area_off:
+        if load.heel is not None and load.heel > AREA_OFF:
             self.heel_loaded = t
         if phase is SWING:
-            return Seen(Cue.CONTACT, _crossing(t, dt, before, now, self.on)) if now > self.on else None
-        if now < self.off:
-            return Seen(Cue.CLEAR, _crossing(t, dt, before, now, self.off))
+            return Seen(Cue.CONTACT, _crossing(t, dt, before, now, CONTACT_LOAD)) if now > CONTACT_LOAD else None
+        if now < CLEAR_LOAD:
+            return Seen(Cue.CLEAR, _crossing(t, dt, before, now, CLEAR_LOAD))
         return None
 
     def dated(self, lift: Seen) -> Seen:
         """The inertial sensor saw the heel lift; the cells know when it did, if the heel has any."""
-        if self.heel_loaded is None or not 0.0 <= lift.t - self.heel_loaded < self.recent:
+        if self.heel_loaded is None or not 0.0 <= lift.t - self.heel_loaded < RECENT:
             return lift
         return Seen(lift.cue, self.heel_loaded)
 
@@ -61,11 +59,11 @@ class PressureCues:
         """For an insole without an inertial sensor: heel and forefoot say what stillness would have said."""
         if load.heel is None or load.forefoot is None:
             return None
-        if phase is LOADING and load.heel > self.area_off and load.forefoot > self.area_on:
+        if phase is LOADING and load.heel > AREA_OFF and load.forefoot > AREA_ON:
             return Seen(Cue.FLAT, t)
-        if phase is STATIONARY and load.heel < self.area_off and load.forefoot > self.area_on:
+        if phase is STATIONARY and load.heel < AREA_OFF and load.forefoot > AREA_ON:
             return Seen(Cue.LIFT, t)
-        if phase is PUSH_OFF and load.heel > self.area_on and load.forefoot > self.area_on:
+        if phase is PUSH_OFF and load.heel > AREA_ON and load.forefoot > AREA_ON:
             return Seen(Cue.FLAT, t)
         return None
 

@@ -22,31 +22,29 @@ from ..stance.stance import Load
 
 FEW = 16
 """Up to so many cells are looked at one by one."""
+ON, OFF = 0.07, 0.05
+"""Many cells: on the ground above the first of these shares of the wearer's full load, and in the air below the other:
+a recorded insole of 35 cells shows up to 5 % of the load throughout the swing."""
+CELL_ON = 0.20
+"""Few cells: one is loaded above this share of its own range of the last seconds."""
+CELL_OFF = 0.10
+"""Without a layout, which tells front from rear, all cells are unloaded below this."""
+CONTRAST = 0.5
+"""A cell's range is known once it is this share of its highest value."""
+PUSHED = 0.50
+"""A front cell has pushed off, or landed first, above this share."""
+STANCE = 0.3
+"""A foot that did not push off stays on the ground for so long, s."""
+WEAK = 0.10
+"""A cell whose range is below this share of the widest one's tells nothing."""
+FLIGHT = 0.1
+"""A foot that is in the air and moves, or stands still, for so long: the cells are right, or wrong, s."""
 
 
 @define
 class Touch:
     """Latency: none. A foot of which nothing is known yet is on the ground."""
 
-    on: float = 0.07
-    """Many cells: on the ground above this share of the wearer's full load,"""
-    off: float = 0.05
-    """and in the air below this: a recorded insole of 35 cells shows up to 5 % of the load throughout the swing."""
-    cell_on: float = 0.20
-    """Few cells: one is loaded above this share of its own range of the last seconds."""
-    cell_off: float = 0.10
-    """Without a layout, which tells front from rear, all cells are unloaded below this."""
-    contrast: float = 0.5
-    """A cell's range is known once it is this share of its highest value."""
-    pushed: float = 0.50
-    """A front cell has pushed off, or landed first, above this share."""
-    stance: float = 0.3
-    """A foot that did not push off stays on the ground for so long, s."""
-    weak: float = 0.10
-    """A cell whose range is below this share of the widest one's tells nothing."""
-    flight: float = 0.1
-    """A foot that is in the air and moves, or stands still, for so long: the cells are right, or wrong, s."""
-    # state
     known: bool = field(default=False, init=False)
     """The cells were right when the foot swung last."""
     moving_since: float | None = field(default=None, init=False)
@@ -78,7 +76,7 @@ class Touch:
     def update(self, t: float, load: Load | None, still: bool = False) -> bool:
         """True when the foot is in the air. `still`: it stands, whatever the cells say."""
         airborne = load is not None and self._in_the_air(t, load)
-        moved = self.moving_since is not None and t - self.moving_since >= self.flight - TIE
+        moved = self.moving_since is not None and t - self.moving_since >= FLIGHT - TIE
         if load is None:
             self.known = False
         elif self.blind:
@@ -95,7 +93,7 @@ class Touch:
             self.still_since = None
         elif self.still_since is None:
             self.still_since = t
-        elif t - self.still_since >= self.flight - TIE:
+        elif t - self.still_since >= FLIGHT - TIE:
             self.known = False
         return airborne
 
@@ -103,7 +101,7 @@ class Touch:
         if 0 < len(load.cells) <= FEW:
             self.airborne = self._by_cell(t, load.cells)
         else:
-            self.airborne = load.total < (self.on if self.airborne else self.off)
+            self.airborne = load.total < (ON if self.airborne else OFF)
         return self.airborne
 
     def _by_cell(self, t: float, values: tuple[float, ...]) -> bool:
@@ -119,7 +117,7 @@ class Touch:
         known = False
         for k, (extremes, value) in enumerate(zip(self.cells, values, strict=True)):
             reach = extremes.high - extremes.low
-            if reach <= 0.0 or reach < self.contrast * extremes.high or reach < self.weak * widest:
+            if reach <= 0.0 or reach < CONTRAST * extremes.high or reach < WEAK * widest:
                 continue
             known = True
             share = (value - extremes.low) / reach
@@ -130,15 +128,15 @@ class Touch:
         if not known:
             return False
         if not self.ahead:
-            return rear < (self.cell_on if self.airborne else self.cell_off)
+            return rear < (CELL_ON if self.airborne else CELL_OFF)
         if self.airborne:
-            if rear > self.cell_on or front > self.pushed:
+            if rear > CELL_ON or front > PUSHED:
                 self.peak = front
                 self.landed = t
                 return False
             return True
         self.peak = max(self.peak, front)
-        if self.peak > self.pushed:
-            return rear < self.cell_on and front < self.cell_on
+        if self.peak > PUSHED:
+            return rear < CELL_ON and front < CELL_ON
         # it has not pushed off: a valley in mid-stance, where the load lies between the cells, is no swing
-        return max(rear, front) < 0.5 * self.cell_off and t - self.landed >= self.stance
+        return max(rear, front) < 0.5 * CELL_OFF and t - self.landed >= STANCE

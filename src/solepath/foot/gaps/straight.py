@@ -13,22 +13,21 @@ from ...types.attrs import define, field
 
 STRAIGHT = 0.8
 """Share of strides that go on as those before; the others go anywhere."""
+FOOTFALL_SIGMA = 0.025
+"""What the heading of one footfall differs by from those before, of who walks straight on, rad."""
+HEADING_MEMORY = 0.3
+"""Weight of the newest footfall in the heading that is kept."""
+BEND, SEEN_BEND = 0.12, 0.0625
+"""A footfall turned further than this begins another heading, rad, and one that was seen whole further than the
+other."""
+GAP_TURN = 0.08
+"""What a stride's heading errs by after a third of a second by habit, rad."""
 
 
 @define
 class StraightOn:
     """The heading that the footfalls keep, and how far the newest one is off it."""
 
-    sigma: float = 0.025
-    """What the heading of one footfall differs by from those before, of who walks straight on, rad."""
-    memory: float = 0.3
-    """Weight of the newest footfall in the heading that is kept."""
-    bend: float = 0.12
-    """A footfall turned further than this begins another heading, rad; one that was seen whole further than this:"""
-    seen_bend: float = 0.0625
-    gap_turn: float = 0.08
-    """What a stride's heading errs by after a third of a second by habit, rad."""
-    # state
     yaw: float = field(default=0.0, init=False)
     """Heading of the newest footfall against the first, rad."""
     heading: float = field(default=0.0, init=False)
@@ -46,19 +45,19 @@ class StraightOn:
             return 0.0
         off = self.heading + turn
         # between two samples a straight line errs by the square of the time
-        doubt = self.gap_turn * min(2.0, unsure + 200.0 * sparse * sparse)
-        return -off * share(off * off, doubt, self.sigma, pi, 1)
+        doubt = GAP_TURN * min(2.0, unsure + 200.0 * sparse * sparse)
+        return -off * share(off * off, doubt, FOOTFALL_SIGMA, pi, 1)
 
     def footfall(self, turn: float, mended: float, unsure: float, sparse: float) -> None:
         """The foot is flat, turned by `turn` and `mended`, rad; the others as above."""
         off = self.heading + turn + mended
         self.yaw = (self.yaw + (turn + mended) + pi) % (2.0 * pi) - pi
         # what was seen whole and is further off than footfalls are is the wearer's doing, and so may the next be
-        bend = self.bend if unsure > 0.0 or sparse > 0.0 else self.seen_bend
+        bend = BEND if unsure > 0.0 or sparse > 0.0 else SEEN_BEND
         if abs(off) > bend * (1.0 + sparse / 0.1):
             self.heading, self.footfalls = 0.0, 1
         else:
-            self.heading = off * (1.0 - self.memory)
+            self.heading = off * (1.0 - HEADING_MEMORY)
             self.footfalls = min(self.footfalls + 1, 3)
 
 

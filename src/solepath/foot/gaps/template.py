@@ -26,33 +26,30 @@ class Mended(NamedTuple):
     """From foot-flat to foot-flat, m."""
 
 
+SPACING = 0.032
+"""Between the moments that are kept, s."""
+FEWEST_MOMENTS, MOST_MOMENTS = 4, 40
+"""Fewer moments make no stride, and more of one are not kept."""
+GAP_WAY, WAY_SIGMA = 0.15, 0.06
+"""What the end of a stride errs by after a third of a second by habit, and what two strides differ by, m."""
+DENSE = 0.03
+"""Samples less apart than this follow a swing as it is, s."""
+CORNER, OLD = 0.2, 20
+"""A stride that turns further than this, rad, is not kept, unless what was kept is so many strides old."""
+LARGEST_DRIFT = 0.4
+"""A stride that zero velocity moved further than this when the foot came down was not followed well, m."""
+ROOM, HIGHEST = 1.2, 0.4
+"""A stride with a gap in it is no longer than so many times the longest that was seen lately, and no higher than two
+steps of stairs, m."""
+
+
 @define
 class Habit:
     """The last stride that was seen whole, from the heel's rise to foot-flat, and the heading kept since.
 
-    At most `most` moments of two strides are kept. Costs nothing but a comparison between moments, `spacing` s apart.
+    Costs nothing but a comparison between the moments that are kept, MOST_MOMENTS of two strides.
     """
 
-    spacing: float = 0.032
-    """Between the moments that are kept, s."""
-    most: int = 40
-    least: int = 4
-    """So few moments make no stride."""
-    gap_way: float = 0.15
-    """What the end of a stride errs by after a third of a second by habit, m, and what two strides differ by:"""
-    way_sigma: float = 0.06
-    dense: float = 0.03
-    """Samples less apart than this follow a swing as it is, s."""
-    corner: float = 0.2
-    """A stride that turns further than this is not kept, rad, unless what was kept is `old` strides old."""
-    old: int = 20
-    drift: float = 0.4
-    """A stride that zero velocity moved further than this when the foot came down was not followed well, m."""
-    room: float = 1.2
-    """A stride with a gap in it is no longer than so many times the longest that was seen lately; and no higher than
-    two steps of stairs, m:"""
-    highest: float = 0.4
-    # state
     last: TemplateStride | None = field(default=None, init=False)
     age: int = field(default=1000, init=False)
     """Strides since `last`."""
@@ -104,13 +101,13 @@ class Habit:
         """A moment of a moving foot; call when `due` has come."""
         if self.lifted is None:
             return
-        self.due = t + self.spacing
+        self.due = t + SPACING
         if self.guessed > 0.0:
             return
         now = self.now
         if not now:
             self.origin = position
-        elif len(now) >= self.most:
+        elif len(now) >= MOST_MOMENTS:
             self.now = []
             self.lifted = None
             return
@@ -142,7 +139,7 @@ class Habit:
         self.now = []
         self.lifted = None
         self.stood_since = t
-        sparse = interval if interval > self.dense else 0.0
+        sparse = interval if interval > DENSE else 0.0
         unsure = min(1.0, guessed / 0.3)
         yaw, mended = 0.0, None
         if toe_off is not None and guessed + sparse > 0.0:
@@ -150,7 +147,7 @@ class Habit:
             x, y, z = turned(way, 0.5 * yaw)
             if self.last is not None:
                 dx, dy, dz = sub(turned(self.last.way, middle + 0.5 * yaw), (x, y, z))
-                k = share(dx * dx + dy * dy + dz * dz, self.gap_way * unsure, self.way_sigma, 3.0, 2)
+                k = share(dx * dx + dy * dy + dz * dz, GAP_WAY * unsure, WAY_SIGMA, 3.0, 2)
                 x, y, z = x + k * dx, y + k * dy, z + k * dz
             mended = Mended(yaw, (x, y, z))
         if toe_off is not None and lasted is not None and (guessed > 0.0 or crossed):
@@ -165,21 +162,21 @@ class Habit:
         # two strides are one when a gap that was not filled hid the foot-flat between them
         k = max(1.0, min(2.0, lasted / (self.last.lasted + self.stance)))
         x, y, z = mended.way
-        x, y, _ = limited((x, y, 0.0), k * self.room * self.longest)
-        return Mended(mended.turn, (x, y, max(-k * self.highest, min(z, k * self.highest))))
+        x, y, _ = limited((x, y, 0.0), k * ROOM * self.longest)
+        return Mended(mended.turn, (x, y, max(-k * HIGHEST, min(z, k * HIGHEST))))
 
     def _learn(self, t: float, toe_off: float | None, heel_strike: float | None, turn: float, way: Vec3) -> None:
         """Keep the stride that ends at `t` if it was seen whole; `way` as in `TemplateStride`."""
         self.age = min(self.age + 1, 1000)
         if self.lifted is None or toe_off is None or self.guessed > 0.0 or self.crossed:
             return
-        if len(self.now) < self.least:
+        if len(self.now) < FEWEST_MOMENTS:
             return
-        if corrected(self.now) > self.drift:
+        if corrected(self.now) > LARGEST_DRIFT:
             return
         self.longest = max(0.95 * self.longest, hypot(way[0], way[1]))
         # a stride round a corner is no habit, unless no other comes for long
-        if abs(turn) < self.corner or self.age > self.old:
+        if abs(turn) < CORNER or self.age > OLD:
             struck = t if heel_strike is None else heel_strike
             # rounded as the moments are, at one of which they may have been
             self.last = TemplateStride(self.now, single(toe_off - self.lifted), single(struck - self.lifted), way)

@@ -19,16 +19,12 @@ from math import sqrt
 from typing import NamedTuple
 
 from ...types import Vec3
-from ...types.attrs import define, field
+from ...types.attrs import define, field, frozen
 
 SAME = 0.025
 """Readings at the end of a range differ by less than this share of it: calibrations mix the axes, and a bias is off."""
 NEAR = 0.85
 """The ends of the axes' ranges are alike: none is nearer than this share of the largest rate."""
-LEAST = 2.0
-"""No gyroscope's range ends below this, rad/s;"""
-LEAST_FORCE = 15.0
-"""and no accelerometer's below this, m/s^2."""
 SPIKE = 1.5
 """No reading is believed to be more than so many times the largest before it."""
 FADES = 0.97
@@ -42,16 +38,25 @@ SPREAD = 1.0
 FLOOR = 0.05
 MOST = 1.0
 """No end of a range hides more, rad."""
-TRIFLE = 0.004
-"""Less is nothing, rad: what a smooth maximum comes to."""
-TRIFLE_SPEED = 0.03
-"""The same of an accelerometer, m/s."""
 LONGEST = 0.5
 """A reading that stands for longer than this is broken, or turns evenly, s."""
-STEEPEST = 400.0
-"""No foot's rate changes faster, rad/s^2;"""
-STEEPEST_FORCE = 4000.0
-"""nor its specific force, but when it strikes, m/s^3."""
+
+
+@frozen
+class SensorLimits:
+    """What is known of a kind of sensor before anything was seen of it; in rad of a gyroscope, in m/s of an
+    accelerometer."""
+
+    least: float
+    """No range ends below this, rad/s or m/s^2."""
+    steepest: float
+    """What a foot does changes no faster, but when it strikes, rad/s^2 or m/s^3."""
+    trifle: float
+    """Less than this that was missed is nothing, rad or m/s: what a smooth maximum comes to."""
+
+
+GYROSCOPE = SensorLimits(2.0, 400.0, 0.004)
+ACCELEROMETER = SensorLimits(15.0, 4000.0, 0.03)
 
 
 class Missed(NamedTuple):
@@ -96,10 +101,7 @@ class GyroscopeAxis:
 class Clipping:
     """Three axes. Latency: what was missed is known two samples after the range is entered again."""
 
-    least: float = LEAST
-    steepest: float = STEEPEST
-    trifle: float = TRIFLE
-    # state
+    limits: SensorLimits = GYROSCOPE
     axes: list[GyroscopeAxis] = field(init=False)
     largest: float = field(init=False)
     """The largest reading of any axis."""
@@ -109,17 +111,17 @@ class Clipping:
     """An axis is beyond its range, or was a sample ago."""
 
     def __attrs_post_init__(self) -> None:
-        self.axes = [GyroscopeAxis(self.least, -self.least) for _ in range(3)]
-        self._reach(self.least)
+        self.axes = [GyroscopeAxis(self.limits.least, -self.limits.least) for _ in range(3)]
+        self._reach(self.limits.least)
 
     def stepped(self) -> None:
         """A step ended."""
         self._reach(FADES * self.largest)
         for axis in self.axes:
             if not axis.ends_above:
-                axis.top = max(self.least, FADES * axis.top)
+                axis.top = max(self.limits.least, FADES * axis.top)
             if not axis.ends_below:
-                axis.bottom = min(-self.least, FADES * axis.bottom)
+                axis.bottom = min(-self.limits.least, FADES * axis.bottom)
 
     def interrupt(self) -> None:
         """There was a gap: what was missed before it is not known."""
@@ -138,19 +140,19 @@ class Clipping:
             axis, a = self.axes[i], now[i]
             if axis.side == 0:
                 if abs(a) > NEAR * self.largest and not axis.bottom * (1.0 - SAME) < a < axis.top * (1.0 - SAME):
-                    _enter(axis, dt, a, before[i], earlier[i], earlier_dt, told, self.steepest)
+                    _enter(axis, dt, a, before[i], earlier[i], earlier_dt, told, self.limits.steepest)
                     if abs(a) > self.largest:
                         self._reach(min(abs(a), SPIKE * self.largest))
             else:
-                missed = _follow(axis, i, dt, a, self.steepest)
-                if missed is not None and abs(missed.angle) > self.trifle:
+                missed = _follow(axis, i, dt, a, self.limits.steepest)
+                if missed is not None and abs(missed.angle) > self.limits.trifle:
                     found = (*found, missed)
             busy = busy or axis.side != 0
         self.busy = busy
         return found
 
     def _reach(self, rate: float) -> None:
-        self.largest = max(self.least, rate)
+        self.largest = max(self.limits.least, rate)
         self.watch = NEAR * NEAR * self.largest * self.largest
 
 

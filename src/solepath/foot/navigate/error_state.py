@@ -17,11 +17,12 @@ from typing import Final
 from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import GRAVITY, TIE
+from ..settings import ErrorStateSettings
 from ..stance.stance import Stance
 from .clipping import Missed
 from .corrector import LONGEST_BRIDGE
 from .covariance import HEIGHT, believed_height, update
-from .level import LevelGround
+from .level import UNEVEN, LevelGround
 from .propagated import Carried
 from .recovery import Recovery
 from .strapdown import WIDEST_SERIES
@@ -61,33 +62,9 @@ class ErrorStateFilter(Carried):
     what whole terms are worth stands there in the table of the default without one of its parts.
     """
 
-    acc_noise: float = 0.02
-    """Accelerometer noise with all that stands for it (scale, g-sensitivity), m/s^2/sqrt(Hz)."""
-    gyro_noise: float = 0.003
-    """Gyroscope noise, rad/s/sqrt(Hz)."""
-    in_motion: float = 0.001
-    """Added noise as a share of the motion: scale and alignment errors, 1/sqrt(Hz)."""
-    between: float = 0.25
-    """What two neighbouring samples differ by and the straight line between them cannot know, as a share of it. Small
-    at 400 Hz; at 20 Hz, where a heel-strike falls between two samples, all that there is."""
-    recover: bool = True
-    """Make up for the turn that a gyroscope at the end of its range missed (clipping.py, missed.py)."""
-    suspect: float = 8.5
-    """Rates beyond this may be clipped though no end of a range is seen (axes that were turned since, by a
-    calibration), rad/s."""
-    suspect_noise: float = 0.2
-    """Noise of such a rate, rad/s/sqrt(Hz)."""
-    refuse: float = 12.0
-    """Largest normalised innovation squared: of chi-square with three degrees of freedom, 99.3 % are below."""
-    patience: float = 2.0
-    """After refusing everything for this long the filter is lost, s."""
-    lasting: float = 0.35
-    """Evidence that goes on for this long is not refused any longer, s."""
-    tilt_rate: float = 2.0
-    """How fast gravity pulls the tilt upright while the evidence is certain, 1/s."""
-    level: LevelGround = field(factory=LevelGround)
+    settings: ErrorStateSettings = ErrorStateSettings()
+    level: LevelGround = field(factory=LevelGround, init=False)
     """What keeps level walking level."""
-    # state
     accepted: float | None = field(default=None, init=False)
     """When evidence was last accepted, s."""
     quietest: float = field(default=NONE_REFUSED, init=False)
@@ -173,17 +150,20 @@ class ErrorStateFilter(Carried):
         self.velocity = (ux, uy, uz)
         # noise: the sensor's own, a share of the motion, and of what neighbouring samples differ by
         rx, ry, rz = gx - rx, gy - ry, gz - rz
-        share, unknown = self.in_motion * self.in_motion, self.between * self.between * dt
+        settings = self.settings
+        share, unknown = settings.in_motion * settings.in_motion, settings.between * settings.between * dt
         self.acc_variance += (
-            self.acc_noise * self.acc_noise + share * (ax * ax + ay * ay + az * az) + unknown * (x * x + y * y + z * z)
+            settings.acc_noise * settings.acc_noise
+            + share * (ax * ax + ay * ay + az * az)
+            + unknown * (x * x + y * y + z * z)
         ) * dt
-        noise = self.gyro_noise * self.gyro_noise + share * turning + unknown * (rx * rx + ry * ry + rz * rz)
-        if turning > self.suspect * self.suspect and not (turns.busy and self.recover):
-            noise += self.suspect_noise * self.suspect_noise
+        noise = settings.gyro_noise * settings.gyro_noise + share * turning + unknown * (rx * rx + ry * ry + rz * rz)
+        if turning > settings.suspect * settings.suspect and not (turns.busy and settings.recover):
+            noise += settings.suspect_noise * settings.suspect_noise
         self.gyro_variance += noise * dt
         self.since += dt
         self.stretch += dt
-        if (missed or lost) and self.recover:
+        if (missed or lost) and settings.recover:
             self._make_up(missed, lost)
 
     def _make_up(self, missed: tuple[Missed, ...] | None, lost: tuple[Missed, ...] | None) -> None:
@@ -206,7 +186,8 @@ class ErrorStateFilter(Carried):
             self.quiet_since = t
         if self.since < (SHORTEST_INTERVAL if t - self.quiet_since < SETTLED - TIE else SETTLED_INTERVAL):
             return self.accepted is not None and self.quietest >= NONE_REFUSED  # as the sample before was judged
-        share = self.tilt_rate * min(self.since, SETTLED_INTERVAL)
+        settings = self.settings
+        share = settings.tilt_rate * min(self.since, SETTLED_INTERVAL)
         r = sigma * sigma * REFERENCE_INTERVAL / self.since
         self._carry()
         certain = stance.hint is STATIONARY
@@ -214,12 +195,12 @@ class ErrorStateFilter(Carried):
             self.accepted = t
         rx, ry, rz = stance.v_ref
         vx, vy, vz = self.velocity
-        if not certain and t - self.accepted > self.patience - TIE and stance.statistic <= AS_QUIET * self.quietest:
+        if not certain and t - self.accepted > settings.patience - TIE and stance.statistic <= AS_QUIET * self.quietest:
             self._doubt(velocity=LOST_SPEED, tilt=LOST_TILT)
-        elif min(t - self.quiet_since, t - self.accepted) > self.lasting - TIE:
+        elif min(t - self.quiet_since, t - self.accepted) > settings.lasting - TIE:
             # not even a foot that is carried is quiet for so long: it stands, and the velocity is what is wrong
             self._doubt(velocity=abs(vx - rx) + abs(vy - ry) + abs(vz - rz), tilt=LASTING_TILT)
-        outcome = update(self.uncertainty, rx - vx, ry - vy, rz - vz, r, inf if certain else self.refuse)
+        outcome = update(self.uncertainty, rx - vx, ry - vy, rz - vz, r, inf if certain else settings.refuse)
         if outcome is None:
             self.quietest = min(self.quietest, stance.statistic)
             return False
@@ -242,7 +223,7 @@ class ErrorStateFilter(Carried):
         Carried.leap(self, dt, attitude, velocity, position)
 
     def flat(self, start: Vec3, turn: float) -> None:
-        if not self.level.gate:
+        if not self.settings.level:
             return
         self._carry()
         (x, y, z), (sx, sy, sz) = self.position, start
@@ -250,7 +231,7 @@ class ErrorStateFilter(Carried):
         height, level = self.level.judge((x - sx, y - sy, z - sz), turn, variance, self.attitude)
         # tilt and velocity are left out of it: what heights have in common is no random error of theirs
         self.position = self.start_position = (x, y, sz + height)
-        least = self.level.uneven * self.level.uneven
+        least = UNEVEN * UNEVEN
         if variance > least:
             self.uncertainty = believed_height(self.uncertainty, 1.0 - level * (1.0 - least / variance))
 

@@ -39,37 +39,32 @@ LIKELIER = 2.0
 """Natural logarithm of the odds at which the other one is taken for level."""
 FLATTEST = 2e-4
 """The pitch of a flat foot is not known better than by this variance, rad^2."""
+UNEVEN = 0.01
+"""What a level floor differs by from one foot-flat to the next: the sole, the moment that is taken for flat, m."""
+STEEP = 0.08
+"""Standard deviation of the slopes that are walked, rise for each metre."""
+TALL = 1.0
+"""Between the highest stair up and down that a step may take, m."""
+SELDOM = (0.01, 0.03)
+"""How often a step that was on none is followed by one on a slope, and on a stair."""
+STAYS = (0.8, 0.5)
+"""How often a slope, and a stair, is followed by another."""
+LEAN_SIGMA = 0.02
+"""Standard deviation of the lean from sensor to sensor."""
+PITCH_SIGMA = 0.06
+"""How far one foot-flat tells the pitch of the others: those of a start and of a turn differ, rad."""
+ASTRAY = 0.1
+"""Share of foot-flats whose pitch says nothing."""
+LEAST_WAY, CORNER = 0.3, 0.6
+"""A shorter step tells nothing of lean and pitch, m, nor does one that turns by more, rad."""
+MEMORY = 25.0
+"""Level steps that count in what is learnt."""
 
 
 @define
 class LevelGround:
     """Say of every step how high it led (`judge`). Known at its foot-flat; m and rad."""
 
-    gate: bool = True
-    """False: every height stays as it is."""
-    uneven: float = 0.01
-    """What a level floor differs by from one foot-flat to the next: the sole, the moment that is taken for flat, m."""
-    steep: float = 0.08
-    """Standard deviation of the slopes that are walked, rise for each metre."""
-    tall: float = 1.0
-    """Between the highest stair up and down that a step may take, m."""
-    seldom: tuple[float, float] = (0.01, 0.03)
-    """How often a step that was on none is followed by one on a slope, and on a stair."""
-    stays: tuple[float, float] = (0.8, 0.5)
-    """How often a slope, and a stair, is followed by another."""
-    lean_sigma: float = 0.02
-    """Standard deviation of the lean from sensor to sensor."""
-    pitch_sigma: float = 0.06
-    """How far one foot-flat tells the pitch of the others: those of a start and of a turn differ, rad."""
-    astray: float = 0.1
-    """Share of foot-flats whose pitch says nothing."""
-    least: float = 0.3
-    """A shorter step tells nothing of lean and pitch, m, nor does one that turns by more than"""
-    corner: float = 0.6
-    """rad."""
-    memory: float = 25.0
-    """Level steps that count in what is learnt."""
-    # state
     lean: float = field(default=0.0, init=False)
     """Height for each metre of way."""
     leant: float = field(default=0.0, init=False)
@@ -102,25 +97,25 @@ class LevelGround:
         """
         x, y, z = way
         ground = hypot(x, y)
-        if not (self.gate and ground < FARTHEST and abs(z) < FARTHEST and 0.0 < variance < FARTHEST):
+        if not (ground < FARTHEST and abs(z) < FARTHEST and 0.0 < variance < FARTHEST):
             return z, 0.0
         height = z - self.lean * ground
-        noise = self.uneven * self.uneven + self.scale * variance
+        noise = UNEVEN * UNEVEN + self.scale * variance
         # neither is the lean known exactly
-        spread = noise + ground * ground / (1.0 / (self.lean_sigma * self.lean_sigma) + self.leant)
-        rises = self.steep * self.steep
+        spread = noise + ground * ground / (1.0 / (LEAN_SIGMA * LEAN_SIGMA) + self.leant)
+        rises = STEEP * STEEP
         slopes = ground * ground * rises
         gain = slopes / (spread + slopes)
         level, slope, stair = self._expected()
         level *= _density(height, spread)
         slope *= _density(height, spread + slopes)
-        stair /= self.tall
+        stair /= TALL
         up = rotate_back(attitude, UP)
-        walked = ground > self.least and abs(turn) < self.corner
+        walked = ground > LEAST_WAY and abs(turn) < CORNER
         pitch = 0.0
         if walked and self.stood > 0.5:
             pitch = self._pitch(x / ground, y / ground, attitude, up)
-            known = self.pitch_sigma / self.stood
+            known = PITCH_SIGMA / self.stood
             wobble = max(self.wobble, FLATTEST) + known * known
             flat = self._likely(pitch, wobble)
             level *= flat
@@ -132,7 +127,7 @@ class LevelGround:
             level, slope, stair = level / total, slope / total, stair / total
         else:
             level, slope, stair = 0.0, 0.0, 1.0
-        if ground > 0.5 * self.least:  # else the foot was lifted and put down again: still on what it was on
+        if ground > 0.5 * LEAST_WAY:  # else the foot was lifted and put down again: still on what it was on
             self.slope, self.stair = slope, stair
         if walked:
             self._learn(level, height, ground, variance, noise, up, pitch)
@@ -141,9 +136,9 @@ class LevelGround:
 
     def _expected(self) -> tuple[float, float, float]:
         """How likely each of the three is by the step before."""
-        to_slope, to_stair = self.seldom
-        slope = (1.0 - self.slope) * to_slope + self.slope * self.stays[0]
-        stair = (1.0 - self.stair) * to_stair + self.stair * self.stays[1]
+        to_slope, to_stair = SELDOM
+        slope = (1.0 - self.slope) * to_slope + self.slope * STAYS[0]
+        stair = (1.0 - self.stair) * to_stair + self.stair * STAYS[1]
         return 1.0 - slope - stair, slope, stair
 
     def _pitch(self, x: float, y: float, attitude: Quat, up: Vec3) -> float:
@@ -155,7 +150,7 @@ class LevelGround:
 
     def _likely(self, off: float, variance: float) -> float:
         """Of a pitch; that which says nothing is as likely whatever it is, within a radian."""
-        return (1.0 - self.astray) * _density(off, variance) + self.astray
+        return (1.0 - ASTRAY) * _density(off, variance) + ASTRAY
 
     def _learn(
         self, level: float, height: float, ground: float, variance: float, noise: float, up: Vec3, pitch: float
@@ -163,14 +158,14 @@ class LevelGround:
         """From a step that was level with that probability."""
         # least squares of height = lean ground, beside a lean that is about 0
         weight = level * ground * ground / noise
-        before = 1.0 / (self.lean_sigma * self.lean_sigma) + self.leant
+        before = 1.0 / (LEAN_SIGMA * LEAN_SIGMA) + self.leant
         self.lean += weight / (before + weight) * height / ground
-        self.leant = min(self.leant + weight, self.memory * ground * ground / noise)
-        self.scaled = min(self.scaled + level, self.memory)
+        self.leant = min(self.leant + weight, MEMORY * ground * ground / noise)
+        self.scaled = min(self.scaled + level, MEMORY)
         self.scale += level / self.scaled * (min(height * height / max(variance, 1e-6), 2.0) - self.scale)
         if self.stood > 0.5:
             self.wobble += level / (self.stood + 4.0) * (min(pitch * pitch, 0.01) - self.wobble)
-        self.stood = min(self.stood + level, self.memory)
+        self.stood = min(self.stood + level, MEMORY)
         if self.stood > 0.0:
             k = level / self.stood
             x, y, z = self.upright
@@ -192,9 +187,9 @@ class LevelGround:
         ux, uy, uz = up
         self.tipped = (x + k * (ux - x), y + k * (uy - y), z + k * (uz - z))
         lean, other = self.lean, self.lean + self.grade
-        odds = 0.5 * (lean * lean - other * other) / (self.lean_sigma * self.lean_sigma)
+        odds = 0.5 * (lean * lean - other * other) / (LEAN_SIGMA * LEAN_SIGMA)
         # each step more on a slope costs the chance that it goes on; the first one, to be on it from the start or later
-        odds += log(OUTSET / self.seldom[0]) + log(self.stays[0]) * (self.stood - self.run)
+        odds += log(OUTSET / SELDOM[0]) + log(STAYS[0]) * (self.stood - self.run)
         if self.run >= SURE and odds > LIKELIER:
             self.lean, self.upright, self.stood = other, self.tipped, float(self.run)
             self.leant *= 0.5

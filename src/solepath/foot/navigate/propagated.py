@@ -45,22 +45,21 @@ GAP_RISE = 0.04
 """The variance of its height as a share of that of its place: a fifth as far up or down as along the ground."""
 LEAP_PLACE = 0.0025
 """Variance of a place taken by habit, m^2 an axis: 5 cm, for two strides differ by some per cent."""
+HEADING_DRIFT = 0.004
+"""Growth of the heading error, rad/sqrt(s): half a degree in the first four seconds, two in a minute. Process noise
+of yaw is not it: that noise is there to keep tilt correctable, and over a step it cancels."""
+LEAP_VELOCITY = 0.3
+"""What the velocity after a stride that was taken by habit may be off by, m/s."""
+LEAP_TILT = 0.1
+"""What the tilt may be off by then, rad."""
+LEAP_YAW = 0.06
+"""What the heading may be off by then, rad."""
 
 
 @define
 class Carried(Strapdown):
     """The state, its covariance as it was `since` s ago, and where the state was then."""
 
-    heading_drift: float = 0.004
-    """Growth of the heading error, rad/sqrt(s): half a degree in the first four seconds, two in a minute. Process noise
-    of yaw is not it: that noise is there to keep tilt correctable, and over a step it cancels."""
-    leap_velocity: float = 0.3
-    """What the velocity after a stride that was taken by habit may be off by, m/s."""
-    leap_tilt: float = 0.1
-    """What the tilt may be off by then, rad."""
-    leap_yaw: float = 0.06
-    """What the heading may be off by then, rad."""
-    # state
     uncertainty: Covariance = field(default=(0.0,) * 45, init=False)
     since: float = field(default=0.0, init=False)
     """Time since the covariance was last carried forward, s."""
@@ -108,11 +107,11 @@ class Carried(Strapdown):
         self.attitude, self.velocity, self.position = attitude, velocity, position
         self.force = self.rate = None
         self._here()
-        self._doubt(velocity=self.leap_velocity, tilt=self.leap_tilt)
+        self._doubt(velocity=LEAP_VELOCITY, tilt=LEAP_TILT)
         covariance = list(self.uncertainty)
         for i in (PLACE_X, PLACE_Y, HEIGHT):
             covariance[i] += LEAP_PLACE
-        covariance[YAW] += self.leap_yaw * self.leap_yaw
+        covariance[YAW] += LEAP_YAW * LEAP_YAW
         self.uncertainty = tuple(covariance)
 
     def mend(self, yaw: float, position: Vec3) -> None:
@@ -139,7 +138,7 @@ class Carried(Strapdown):
 
     def covariance(self) -> tuple[float, ...]:
         covariance = self._carried() if self.since > 0.0 else self.uncertainty
-        return (*covariance[:6], self.heading_drift * self.heading_drift * self.stretch)
+        return (*covariance[:6], HEADING_DRIFT * HEADING_DRIFT * self.stretch)
 
     def _carried(self) -> Covariance:
         """The covariance as it is now."""

@@ -8,7 +8,7 @@ from __future__ import annotations
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO, from_rotation_vector, multiply, normalise, rotate
-from .clipping import LEAST_FORCE, STEEPEST_FORCE, TRIFLE_SPEED, Clipping, Missed
+from .clipping import ACCELEROMETER, Clipping, Missed
 from .covariance import Covariance
 from .missed import NUDGE, Swing, apart, spread
 
@@ -22,7 +22,7 @@ class Recovery:
 
     turns: Clipping = field(factory=Clipping, init=False)
     """The gyroscope."""
-    blows: Clipping = field(factory=lambda: Clipping(LEAST_FORCE, STEEPEST_FORCE, TRIFLE_SPEED), init=False)
+    blows: Clipping = field(factory=lambda: Clipping(ACCELEROMETER), init=False)
     """The accelerometer; and its last two readings, m/s^2:"""
     felt: Vec3 = field(default=ZERO, init=False)
     felt_before: Vec3 = field(default=ZERO, init=False)

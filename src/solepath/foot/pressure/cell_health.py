@@ -1,16 +1,16 @@
 """Whether the pressure cells of one insole work, and what to use of them when some do not.
 
-Cells are judged over windows of walking, `swings` swings of the foot each; two windows in a row must say the same.
+Cells are judged over windows of walking, SWINGS swings of the foot each; two windows in a row must say the same.
 
 - DEAD, STUCK, SATURATED: what it shows in a window says so (cell_window.py).
-- MISSING: no number comes from it, or samples do not have as many cells as the insole, for `patience` s.
+- MISSING: no number comes from it, or samples do not have as many cells as the insole, for PATIENCE.
 
 Without swings nothing is judged but MISSING.
 
 Failed cells read 0 from then on (`usable`), so that load, areas and centre of pressure go on without them. A cell that
 loads again for two windows is used again; that is not said, but if it fails once more that is. Samples with the wrong
 number of cells have no pressure that anyone could use; their inertial part is used. Without a layout another number of
-cells is taken for another insole after `patience`.
+cells is taken for another insole after PATIENCE.
 """
 
 from __future__ import annotations
@@ -30,6 +30,8 @@ ONE_SWING = 0.7
 """for this long at least it is the same swing, s."""
 SHORTEST, LONGEST = 3.0, 30.0
 """A window lasts this long, s."""
+SWINGS, PATIENCE = 4, 1.0
+"""Swings in a window, and for how long a cell, s, may show no number before it counts as missing."""
 
 
 @define
@@ -38,10 +40,6 @@ class CellHealth:
     it. Costs a sum a sample, and 12 times a second the lowest and highest of each cell."""
 
     site: Site
-    swings: int = 4
-    patience: float = 1.0
-    """s."""
-    # state
     count: int = field(default=0, init=False)
     """How many cells there are; 0 before any."""
     span: CellSpan = field(factory=CellSpan, init=False)
@@ -112,7 +110,7 @@ class CellHealth:
         x, y, z = (FAST, FAST, FAST) if gyro is None else gyro
         if x * x + y * y + z * z >= FAST * FAST and self._swings(t, phase, gyro is None):
             self.swung += 1
-            if self.swung >= self.swings and self.began is not None and t - self.began >= SHORTEST:
+            if self.swung >= SWINGS and self.began is not None and t - self.began >= SHORTEST:
                 self._judge(t, known_at, self.began, layout, events)
                 self.began, self.swung, self.span = t, 0, CellSpan()
         return events
@@ -146,7 +144,7 @@ class CellHealth:
         if count != self.odd or t < self.odd_since:
             self.odd, self.odd_since = count, t
             return False
-        if t - self.odd_since < self.patience:
+        if t - self.odd_since < PATIENCE:
             return False
         if not self.odd_said:
             missing = tuple(range(count, self.count)) or tuple(range(self.count, count))
@@ -167,7 +165,7 @@ class CellHealth:
         since = dict(self.numberless)
         self.numberless = [(i, since.get(i, t)) for i, value in enumerate(cells) if not _number(value)]
         known = self.failed.get(CellFault.MISSING, [])
-        gone = [i for i, began in self.numberless if t - began >= self.patience or i in known]
+        gone = [i for i, began in self.numberless if t - began >= PATIENCE or i in known]
         new = tuple([i for i in gone if i not in known])
         self.failed[CellFault.MISSING] = gone
         self.out = self._all_failed()

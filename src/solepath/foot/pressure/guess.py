@@ -17,6 +17,14 @@ REAR, FRONT = 0.1, 0.9
 """Where the cells that are loaded first and last are put, as shares of the length."""
 UNNAMED = 0
 """Number of a layout that was guessed."""
+STANCES = 2
+"""So many stances must have been seen whole."""
+ON, OFF = 0.10, 0.05
+"""Shares of the full load at which a stance begins and ends."""
+SHORTEST, LONGEST = 0.25, 2.0
+"""Contacts outside this are no stances of walking, s."""
+LEAST_LOAD = 0.02
+"""A cell with less than this share of the most loaded cell's load is not placed: it stays in the middle."""
 
 
 @define
@@ -24,17 +32,6 @@ class LayoutGuess:
     """Feed it every sample until it answers. Costs two additions a cell, and nothing more once it has answered."""
 
     foot: Foot
-    stances: int = 2
-    """So many stances must have been seen whole."""
-    on: float = 0.10
-    off: float = 0.05
-    """Shares of the full load at which a stance begins and ends."""
-    shortest: float = 0.25
-    longest: float = 2.0
-    """Contacts outside this are no stances of walking, s."""
-    least: float = 0.02
-    """A cell with less than this share of the most loaded cell's load is not placed: it stays in the middle."""
-    # state
     began: float | None = field(default=None, init=False)
     """When the stance did, s; None while the foot is in the air."""
     flown: bool = field(default=False, init=False)
@@ -50,7 +47,7 @@ class LayoutGuess:
     def update(self, t: float, cells: tuple[float, ...], share: float) -> Layout | None:
         """One sample: the cells above what they show in the air, and their total as a share of the full load."""
         if self.began is None:
-            if share > self.on:
+            if share > ON:
                 self.began = t
                 self.loads = list(cells)
                 self.moments = [0.0] * len(cells)
@@ -58,26 +55,26 @@ class LayoutGuess:
                 self.flown = True
             return None
         since = t - self.began
-        if share >= self.off and since < self.longest and len(cells) == len(self.loads):
+        if share >= OFF and since < LONGEST and len(cells) == len(self.loads):
             self.loads = list(map(add, self.loads, cells))
             self.moments = [moment + since * cell for moment, cell in zip(self.moments, cells, strict=True)]
             return None
         whole, self.began = self.flown, None
-        self.flown = share < self.off
-        if not whole or not self.shortest <= since < self.longest:
+        self.flown = share < OFF
+        if not whole or not SHORTEST <= since < LONGEST:
             return None
         if len(self.weights) != len(self.loads):
             self.weights, self.middles, self.seen = [0.0] * len(self.loads), [0.0] * len(self.loads), 0
         self.weights = list(map(add, self.weights, self.loads))
         self.middles = [m + moment / since for m, moment in zip(self.middles, self.moments, strict=True)]
         self.seen += 1
-        return self._layout() if self.seen >= self.stances else None
+        return self._layout() if self.seen >= STANCES else None
 
     def _layout(self) -> Layout | None:
         most = max(self.weights)
         if most <= 0.0:
             return None
-        placed = [w > self.least * most for w in self.weights]
+        placed = [w > LEAST_LOAD * most for w in self.weights]
         at = [m / w if known else 0.0 for m, w, known in zip(self.middles, self.weights, placed, strict=True)]
         known = [middle for middle, there in zip(at, placed, strict=True) if there]
         if not known:

@@ -16,15 +16,25 @@ from ...calibration import Calibration, Newtons
 from ...types import Foot, Layout
 from ...types.attrs import define, evolve, field
 from ...types.vector import TIE
+from ..settings import InsoleSettings
 from ..stance.stance import Load
+
+SPAN = 2.0
+"""Length of one of the five spans over which the lowest and highest load are kept, s."""
+CONTRAST = 0.2
+"""Lowest and highest load must differ by this share of the highest before they mean anything."""
+AIRBORNE = 0.02
+"""Below this share of the full load the foot is in the air."""
+LEAST_LOAD = 0.05
+"""Below this share of the full load the centre of pressure is noise."""
+ALIVE = 0.05
+"""An area whose load varies by less than this share of the full load is no area."""
 
 
 @define
 class Extremes:
     """The lowest and highest value of the last 8 to 10 s, from five spans of 2 s. O(1) a sample."""
 
-    span: float = 2.0
-    # state
     ends: float | None = field(default=None, init=False)
     lows: list[float] = field(factory=list, init=False)
     highs: list[float] = field(factory=list, init=False)
@@ -34,7 +44,7 @@ class Extremes:
     def update(self, t: float, value: float) -> float:
         """One more value, at `t`, s: by how much it is above the lowest."""
         if self.ends is None or t >= self.ends - TIE:
-            self.ends = t + self.span
+            self.ends = t + SPAN
             self.lows = [*self.lows[-4:], value]
             self.highs = [*self.highs[-4:], value]
             self.low = min(self.lows)
@@ -57,22 +67,7 @@ class InsoleLoads:
     taken off, never below 0 (Chen et al. 2019: noise "could be removed through deleting p_noise", equation (1)).
     """
 
-    contrast: float = 0.2
-    """Lowest and highest load must differ by this share of the highest before they mean anything."""
-    airborne: float = 0.02
-    """Below this share of the full load the foot is in the air."""
-    least: float = 0.05
-    """Below this share of the full load the centre of pressure is noise."""
-    alive: float = 0.05
-    """An area whose load varies by less than this share of the full load is no area."""
-    heel_ends: float = 0.33
-    """Cells behind this share of the insole's length are the heel's area."""
-    forefoot_begins: float = 0.55
-    """Cells in front of this share are the forefoot's area."""
-    newtons: Newtons | None = None
-    noise: tuple[float, ...] = ()
-    """Of each cell, in the unit of the samples, or N with `newtons`; not used on another number of cells."""
-    # state
+    settings: InsoleSettings = InsoleSettings()
     layout: Layout | None = field(default=None, init=False)
     tells_newtons: bool = field(default=False, init=False)
     """The device does, so `newtons` are not used."""
@@ -96,12 +91,14 @@ class InsoleLoads:
     def calibrated(self, foot: Foot, calibration: Calibration) -> InsoleLoads:
         """The same with what is known of this foot's insole."""
         known = calibration.insole(foot)
-        return evolve(self, newtons=known.newtons or self.newtons, noise=known.noise or self.noise)
+        newtons, noise = known.newtons or self.settings.newtons, known.noise or self.settings.noise
+        return evolve(self, settings=evolve(self.settings, newtons=newtons, noise=noise))
 
     def wear(self, layout: Layout) -> None:
         """The device said where its cells are."""
         self.layout = layout
-        heel_ends, forefoot_begins = self.heel_ends * layout.length, self.forefoot_begins * layout.length
+        settings = self.settings
+        heel_ends, forefoot_begins = settings.heel_ends * layout.length, settings.forefoot_begins * layout.length
         self.heel_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x < heel_ends])
         if len(self.tare) != len(layout.cells):
             self.tare = [0.0] * len(layout.cells)
@@ -113,10 +110,11 @@ class InsoleLoads:
 
     def update(self, t: float, cells: tuple[float, ...]) -> Load | None:
         """The load as shares of the wearer's full load, or None while that is not known."""
-        if self.newtons is not None and not self.tells_newtons:
-            cells = in_newtons(self.newtons, cells)
-        if len(self.noise) == len(cells):
-            pairs = zip(cells, self.noise, strict=True)
+        settings = self.settings
+        if settings.newtons is not None and not self.tells_newtons:
+            cells = in_newtons(settings.newtons, cells)
+        if len(settings.noise) == len(cells):
+            pairs = zip(cells, settings.noise, strict=True)
             cells = tuple([value - zero if value > zero else 0.0 for value, zero in pairs])
         self.cells = cells
         total = self.sum = sum(cells)
@@ -131,24 +129,24 @@ class InsoleLoads:
                 forefoot = self.forefoot.update(t, sum(picker(self.forefoot_cells)(cells)))
         low, high = self.total.low, self.total.high
         reach = high - low
-        if reach <= self.contrast * high or reach <= 0.0:
+        if reach <= CONTRAST * high or reach <= 0.0:
             self.risen = False
             return None
         if not self.risen:
-            self.risen = total - low > self.contrast * high
+            self.risen = total - low > CONTRAST * high
             if not self.risen:
                 return None
         share = (total - low) / reach
-        airborne = share < self.airborne
+        airborne = share < AIRBORNE
         if airborne and (not self.unloaded or total < self.tare_total):  # the toe has hardly left yet at first
             self.tare = list(cells)
             self.tare_total = total
         self.unloaded = airborne
         # an area that never carries anything is dead, or there is none: nothing can be told by it
         if heel is not None:
-            heel = heel / reach if self.heel.high - self.heel.low > self.alive * reach else None
+            heel = heel / reach if self.heel.high - self.heel.low > ALIVE * reach else None
         if forefoot is not None:
-            forefoot = forefoot / reach if self.forefoot.high - self.forefoot.low > self.alive * reach else None
+            forefoot = forefoot / reach if self.forefoot.high - self.forefoot.low > ALIVE * reach else None
         highest = largest / self.highest if self.highest > 0.0 else 0.0
         centre = None if airborne else self.centre_of_pressure(cells)
         return Load(share, heel, forefoot, highest, airborne, cells, centre)
@@ -168,7 +166,7 @@ class InsoleLoads:
             return None
         loads = [value - zero if value > zero else 0.0 for value, zero in zip(cells, self.tare, strict=True)]
         load = sum(loads)
-        if load <= self.least * (self.total.high - self.total.low):
+        if load <= LEAST_LOAD * (self.total.high - self.total.low):
             return None
         return (sum(map(mul, layout.xs, loads)) / load, sum(map(mul, layout.ys, loads)) / load)
 

@@ -8,20 +8,20 @@ from ...events import Event, FootPressed, LayoutKnown
 from ...types import SITE_OF_FOOT, Foot, Layout, Phase, Sample
 from ...types.attrs import define, evolve, field
 from ..limits import Limits
+from ..settings import FootSettings
 from ..stance.stance import Load
 from .cell_health import CellHealth
 from .guess import LayoutGuess
-from .insole import InsoleLoads
+from .insole import LEAST_LOAD, InsoleLoads
 
 
 @define
 class Sole:
-    """Cells that failed are left out. Where nobody says where the cells are, it is learnt if that is `needed`."""
+    """Cells that failed are left out. Where nobody says where the cells are, it is learnt if the recipe needs them."""
 
     foot: Foot
     insole: InsoleLoads
-    needed: bool = False
-    # state
+    settings: FootSettings = FootSettings()
     pressed: bool = field(default=False, init=False)
     """Cells were heard of."""
     health: CellHealth = field(init=False)
@@ -72,7 +72,7 @@ class Sole:
         if self.guessed and layout is not None and len(layout.cells) != len(cells):
             self._forget_layout()  # it was of another insole
         load = self.insole.update(t, cells)
-        if self.needed and self.insole.layout is None and load is not None:
+        if self.settings.needs_pressure and self.insole.layout is None and load is not None:
             self._guess_layout(t, known_at, load, limits, events)
         return load
 
@@ -89,14 +89,14 @@ class Sole:
         centre, layout = None, insole.layout
         if layout is not None and not self.guessed and len(values) == len(layout.cells):
             # a foot in the air for long has a small reach of loads; its cells are less than what they have carried
-            least = insole.least * max(insole.total.high - insole.total.low, insole.highest)
+            least = LEAST_LOAD * max(insole.total.high - insole.total.low, insole.highest)
             if force > least:
                 centre = (sum(map(mul, layout.xs, values)) / force, sum(map(mul, layout.ys, values)) / force)
         return FootPressed(t=t, known_at=known_at, foot=self.foot, values=values, force=force, centre=centre)
 
     def _compare(self, count: int, t: float, known_at: float, limits: Limits, events: list[Event]) -> None:
         """A sample has `count` cells: whether the calibration is of this insole."""
-        layout, noise = self.supposed, self.insole.noise
+        layout, noise = self.supposed, self.insole.settings.noise
         if layout is not None and len(layout.cells) == count:
             self.wear(layout, limits)
             events.append(LayoutKnown(t=t, known_at=known_at, site=SITE_OF_FOOT[self.foot], layout=layout))
@@ -109,7 +109,12 @@ class Sole:
     def _lay_out(self, layout: Layout, limits: Limits) -> None:
         self.insole.wear(layout)
         insole = self.insole
-        if insole.newtons is not None and not insole.tells_newtons and layout.scale is not None and not self.guessed:
+        if (
+            insole.settings.newtons is not None
+            and not insole.tells_newtons
+            and layout.scale is not None
+            and not self.guessed
+        ):
             insole.tells_newtons = True
             what = f"the {self.foot.value} insole tells newtons itself: the calibration's cubic is not used"
             limits.later(what)

@@ -19,6 +19,7 @@ from math import inf, sqrt
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import IDENTITY, ZERO
+from ..settings import StanceThreshold
 from .shoe import SIGMA_ACC, SIGMA_GYRO
 from .stance import Detector, Load, Stance, soften
 
@@ -27,15 +28,7 @@ from .stance import Detector, Load, Stance, soften
 class AngularRate(Detector):
     """ARE: angular rate energy. T = 1/W sum(|w|^2) / s_w^2."""
 
-    window: float = 0.025
-    """How far back it looks, s."""
-    sigma: float = 0.01
-    """Noise of the zero velocity of a foot at rest, m/s."""
-    base: float = 5e3
-    """The statistic up to which the foot is at rest for certain."""
-    gate: float = 1e5
-    """The statistic from which on it is not."""
-    # state
+    settings: StanceThreshold = StanceThreshold(0.025, 5e3, 1e5)
     entries: deque[tuple[float, float]] = field(factory=deque, init=False)
     total: float = field(default=0.0, init=False)
 
@@ -46,26 +39,18 @@ class AngularRate(Detector):
         w2 = wx * wx + wy * wy + wz * wz
         self.entries.append((t, w2))
         self.total += w2
-        oldest = t - self.window + 1e-9
+        oldest = t - self.settings.window + 1e-9
         while len(self.entries) > 1 and self.entries[0][0] < oldest:
             self.total -= self.entries.popleft()[1]
         statistic = max(0.0, self.total) / len(self.entries) / SIGMA_GYRO**2
-        return soften(statistic, self.sigma, self.base, self.gate)
+        return soften(statistic, self.settings)
 
 
 @define
 class MovingVariance(Detector):
     """MV: acceleration moving variance. T = 1/W sum(|a - a_mean|^2) / s_a^2."""
 
-    window: float = 0.05
-    """How far back it looks, s."""
-    sigma: float = 0.01
-    """Noise of the zero velocity of a foot at rest, m/s."""
-    base: float = 5e3
-    """The statistic up to which the foot is at rest for certain."""
-    gate: float = 5e4
-    """The statistic from which on it is not."""
-    # state
+    settings: StanceThreshold = StanceThreshold(0.05, 5e3, 5e4)
     entries: deque[tuple[float, float, float, float]] = field(factory=deque, init=False)
     sums: tuple[float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0), init=False)
 
@@ -77,14 +62,14 @@ class MovingVariance(Detector):
         sx, sy, sz, s2 = sx + ax, sy + ay, sz + az, s2 + ax * ax + ay * ay + az * az
         entries = self.entries
         entries.append((t, ax, ay, az))
-        oldest = t - self.window + 1e-9
+        oldest = t - self.settings.window + 1e-9
         while len(entries) > 2 and entries[0][0] < oldest:
             _, ax, ay, az = entries.popleft()
             sx, sy, sz, s2 = sx - ax, sy - ay, sz - az, s2 - ax * ax - ay * ay - az * az
         self.sums = (sx, sy, sz, s2)
         n = len(entries)
         variance = max(0.0, s2 / n - (sx * sx + sy * sy + sz * sz) / (n * n))
-        return soften(variance / SIGMA_ACC**2, self.sigma, self.base, self.gate)
+        return soften(variance / SIGMA_ACC**2, self.settings)
 
 
 @define
@@ -93,18 +78,10 @@ class Graph(Detector):
 
     For every pair of cuts a < b, counted from 0 as in published code, the distances |a_i - a_j| between the samples up
     to a and the samples from b on are summed and divided by (b - a) (W - b + 1); T is the largest of
-    these, in m/s^2. Costs O(W^2) a sample.
+    these, in m/s^2. Its window is counted in samples. Costs O(W^2) a sample.
     """
 
-    count: int = 5
-    """Samples in the window."""
-    sigma: float = 0.01
-    """Noise of the zero velocity of a foot at rest, m/s."""
-    base: float = 2.0
-    """The statistic up to which the foot is at rest for certain, m/s^2."""
-    gate: float = 8.0
-    """The statistic from which on it is not, m/s^2."""
-    # state
+    settings: StanceThreshold = StanceThreshold(5, 2.0, 8.0)
     entries: deque[Vec3] = field(factory=deque, init=False)
 
     def update(
@@ -112,7 +89,7 @@ class Graph(Detector):
     ) -> Stance:
         entries = self.entries
         entries.append(acc)
-        while len(entries) > self.count:
+        while len(entries) > self.settings.window:
             entries.popleft()
         w = len(entries)
         if w < 3:
@@ -130,4 +107,4 @@ class Graph(Detector):
             for b in range(w - 1, a, -1):
                 tail += column[b]
                 largest = max(largest, tail / ((b - a) * (w - b + 1)))
-        return soften(largest, self.sigma, self.base, self.gate)
+        return soften(largest, self.settings)

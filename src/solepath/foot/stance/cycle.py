@@ -7,9 +7,9 @@ the evidence comes from the motion itself: a foot that turns at w about a point 
 r w. What of that is known, the height of the sensor above the sole (sensor_height.py), is the velocity that it ought to
 have; what is not is noise, and the steeper second term keeps early and late stance from outvoting mid-stance.
 
-The settings were chosen by hand on the recordings of docs/accuracy.md and not swept. What the whole of a term is worth
-stands there in the table of the default without one of its parts: one threshold for all, evidence of one noise, zero
-velocity of a foot that does not roll, no extra noise of a foot that is braked.
+The settings (settings.py) were chosen by hand on the recordings of docs/accuracy.md and not swept. What the whole of a
+term is worth stands there in the table of the default without one of its parts: one threshold for all, evidence of one
+noise, zero velocity of a foot that does not roll, no extra noise of a foot that is braked.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from typing import Final
 from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import GRAVITY, IDENTITY, TIE, ZERO
+from ..settings import CycleSettings, StanceThreshold
 from .sensor_height import EMPTY, Lever
 from .shoe import SIGMA_ACC, SIGMA_GYRO, ShoeDetector
 from .stance import Detector, Load, Stance
@@ -27,6 +28,7 @@ from .stance import Detector, Load, Stance
 ACC_SQUARE = SIGMA_ACC**2
 GYRO_SQUARE = SIGMA_GYRO**2
 TWO_G = 2.0 * GRAVITY
+SHOE_WINDOW = StanceThreshold().window
 
 SWING: Final = Phase.SWING
 STATIONARY: Final = Phase.STATIONARY
@@ -46,32 +48,7 @@ class Cycle(Detector):
     Statistics have no unit: SHOE divides each mean square by that of the sensor's noise (shoe.py).
     """
 
-    share: float = 0.45
-    """Where the threshold lies between the log of the lowest and of the highest statistic, 0 to 1."""
-    floor: float = 2e4
-    """The threshold is never below this statistic, which a standing foot shows."""
-    quietest: float = 3e3
-    """A lower statistic counts as this one: after standing, the next stance is not as still as standing was."""
-    ceiling: float = 6e6
-    """The threshold is never above this statistic, which a runner's stance comes to."""
-    certain: float = 2e3
-    """Below this statistic the foot is still whatever the corrector believes."""
-    sigma: float = 0.01
-    """Noise of a foot that does not move at all, m/s."""
-    arm: float = 0.05
-    """Velocity noise for each rad/s, m: how well the height of the sensor is known at first."""
-    arm2: float = 0.5
-    """Velocity noise for each (rad/s)^2, m s: the rolling foot."""
-    off_gravity: float = 0.05
-    """Velocity noise for each m/s^2 off gravity, s."""
-    off_gravity2: float = 0.02
-    """Velocity noise for each (m/s^2)^2 off gravity, s^3/m: a foot that is braked before it lands may turn no more."""
-    bucket: float = 0.4
-    """Length of one of the four spans over which the extremes are kept, s; together they are a stride of any walker but
-    a slow one."""
-    rolls: bool = True
-    """The velocity that the sensor ought to have is that of a foot that rolls (`lever`); otherwise zero."""
-    # state
+    settings: CycleSettings = CycleSettings()
     lever: Lever = field(factory=Lever, init=False)
     shoe: ShoeDetector = field(factory=ShoeDetector, init=False)
     bucket_end: float | None = field(default=None, init=False)
@@ -98,7 +75,7 @@ class Cycle(Detector):
         s2 += a2
         sw += w2
         entries.append((t, ax, ay, az, a2, w2))
-        oldest = t - shoe.window + 1e-9
+        oldest = t - SHOE_WINDOW + 1e-9
         while entries[0][0] < oldest and len(entries) > 1:
             _, ax, ay, az, a2, w2 = entries.popleft()
             sx -= ax
@@ -121,26 +98,28 @@ class Cycle(Detector):
         if load is not None and load.airborne:
             self.lever.lift()
             return told(Stance, (ZERO, inf, statistic, SWING, None))
-        if statistic < self.floor:
-            hint = STATIONARY if statistic < self.certain else None
-        elif statistic > self.ceiling or statistic > self._threshold():
+        settings = self.settings
+        if statistic < settings.floor:
+            hint = STATIONARY if statistic < settings.certain else None
+        elif statistic > settings.ceiling or statistic > self._threshold():
             if self.lever.sums is not EMPTY:
                 self.lever.lift()
             return told(Stance, (ZERO, inf, statistic, None, None))
         else:
             hint = None
         variance = (
-            self.sigma * self.sigma
-            + (self.arm * self.arm + self.arm2 * self.arm2 * rate) * rate
-            + (self.off_gravity * self.off_gravity + self.off_gravity2 * self.off_gravity2 * force) * force
+            settings.sigma * settings.sigma
+            + (settings.arm * settings.arm + settings.arm2 * settings.arm2 * rate) * rate
+            + (settings.off_gravity * settings.off_gravity + settings.off_gravity2 * settings.off_gravity2 * force)
+            * force
         )
-        if not self.rolls:
+        if not settings.rolls:
             return told(Stance, (ZERO, sqrt(variance), statistic, hint, None))
         vx, vy = self.lever.roll(dt, acc, gyro, attitude)
         return told(Stance, ((vx, vy, 0.0), sqrt(variance), statistic, hint, None))
 
     def _threshold(self) -> float:
-        low, high, quietest = self.low, self.high, self.quietest
+        low, high, quietest = self.low, self.high, self.settings.quietest
         if self.past_low < low:
             low = self.past_low
         if low < quietest:
@@ -149,7 +128,8 @@ class Cycle(Detector):
             high = self.past_high
         if high < quietest:
             high = quietest
-        return exp((1.0 - self.share) * log(low) + self.share * log(high))
+        share = self.settings.share
+        return exp((1.0 - share) * log(low) + share * log(high))
 
     def _next(self, t: float, statistic: float) -> None:
         """A span begins."""
@@ -158,5 +138,5 @@ class Cycle(Detector):
             self.highs = (self.highs[1], self.highs[2], self.high)
             self.past_low = min(self.lows)
             self.past_high = max(self.highs)
-        self.bucket_end = t + self.bucket
+        self.bucket_end = t + self.settings.bucket
         self.low = self.high = statistic

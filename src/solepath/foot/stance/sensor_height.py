@@ -21,40 +21,31 @@ from ...types.vector import TIE
 
 EMPTY = (0.0,) * 18
 
+GUESS = 0.05
+"""Height until a stance says otherwise: between a sensor in the sole and one on the instep, m."""
+TRUST = 0.005
+"""What that guess is worth as a sum of c c dt, (rad/s)^2 s: half a slow stance."""
+MEMORY = 0.95
+"""What a stance counts for at the next one."""
+SHORTEST, LONGEST = 0.06, 0.6
+"""A stance shorter than this says nothing, and a longer one is cut in pieces, since what is integrated drifts, s."""
+LOWEST, HIGHEST = -0.03, 0.2
+"""Between these lies the sensor, m."""
+
 
 @define
 class Lever:
     """Height of the sensor above the point over which the foot rolls, m. Latency: the next stance."""
 
-    guess: float = 0.05
-    """Height until a stance says otherwise: between a sensor in the sole and one on the instep, m."""
-    trust: float = 0.005
-    """What that guess is worth as a sum of c c dt, (rad/s)^2 s: half a slow stance."""
-    memory: float = 0.95
-    """What a stance counts for at the next one."""
-    shortest: float = 0.06
-    """A stance shorter than this says nothing, s."""
-    longest: float = 0.6
-    """A longer one is told in pieces, since what is integrated drifts, s."""
-    lowest: float = -0.03
-    """The sensor lies no lower, m."""
-    highest: float = 0.2
-    """Nor higher, m."""
-    # state
-    height: float = field(init=False)
+    height: float = field(default=GUESS, init=False)
     """As learnt so far, m."""
-    product: float = field(init=False)
+    product: float = field(default=GUESS * TRUST, init=False)
     """Sum of u c dt over the stances, m (rad/s)^2 s."""
-    square: float = field(init=False)
+    square: float = field(default=TRUST, init=False)
     """Sum of c c dt, (rad/s)^2 s."""
     sums: tuple[float, ...] = field(default=EMPTY, init=False)
     """Of the stance under way: count, time, acceleration and u on x and y; sums of t, tt, cc and uc over both axes; of
     u, tu, c and tc on x and on y."""
-
-    def __attrs_post_init__(self) -> None:
-        self.height = self.guess
-        self.square = self.trust
-        self.product = self.guess * self.trust
 
     def roll(self, dt: float, acc: Vec3, gyro: Vec3, attitude: Quat) -> tuple[float, float]:
         """One sample of a foot on the ground. Returns its horizontal velocity h w x up, m/s, navigation frame."""
@@ -75,7 +66,7 @@ class Lever:
             n + 1.0, t, ax, ay, ux, uy, st + t, stt + t * t, scc + cx * cx + cy * cy, suc + ux * cx + uy * cy,
             sux + ux, suy + uy, stux + t * ux, stuy + t * uy, scx + cx, scy + cy, stcx + t * cx, stcy + t * cy,
         )  # fmt: skip
-        if t > self.longest + TIE:
+        if t > LONGEST + TIE:
             self.lift()
         return self.height * cx, self.height * cy
 
@@ -84,7 +75,7 @@ class Lever:
         n, t, _, _, _, _, st, stt, scc, suc, sux, suy, stux, stuy, scx, scy, stcx, stcy = self.sums
         self.sums = EMPTY
         d = n * stt - st * st
-        if t < self.shortest - TIE or n < 5.0 or d <= 0.0:
+        if t < SHORTEST - TIE or n < 5.0 or d <= 0.0:
             return
         # what is left of u c and c c when the best a + b t is taken out of both, axis by axis
         square = (
@@ -101,9 +92,9 @@ class Lever:
             )
             / d
         )
-        if square <= 0.0 or not 2.0 * self.lowest - self.highest < product / square < 2.0 * self.highest - self.lowest:
+        if square <= 0.0 or not 2.0 * LOWEST - HIGHEST < product / square < 2.0 * HIGHEST - LOWEST:
             return  # not a stance
         dt = t / n
-        self.square = self.memory * self.square + square * dt
-        self.product = self.memory * self.product + product * dt
-        self.height = min(max(self.product / self.square, self.lowest), self.highest)
+        self.square = MEMORY * self.square + square * dt
+        self.product = MEMORY * self.product + product * dt
+        self.height = min(max(self.product / self.square, LOWEST), HIGHEST)

@@ -10,6 +10,7 @@ from math import sqrt
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import GRAVITY, IDENTITY
+from ..settings import StanceThreshold
 from .stance import Detector, Load, Stance, soften
 
 SIGMA_ACC = 0.01
@@ -22,15 +23,7 @@ SIGMA_GYRO = 0.1 * 3.141592653589793 / 180.0
 class ShoeDetector(Detector):
     """SHOE: stance hypothesis optimal estimation. T = 1/W sum(|a - g a_mean/|a_mean||^2/s_a^2 + |w|^2/s_w^2)."""
 
-    window: float = 0.025
-    """How far back it looks, s."""
-    sigma: float = 0.01
-    """Noise of the zero velocity of a foot at rest, m/s."""
-    base: float = 1e4
-    """The statistic up to which the foot is at rest for certain."""
-    gate: float = 3.5e5
-    """The statistic from which on it is not."""
-    # state
+    settings: StanceThreshold = StanceThreshold()
     entries: deque[tuple[float, float, float, float, float, float]] = field(factory=deque, init=False)
     sums: tuple[float, float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0, 0.0), init=False)
 
@@ -39,7 +32,7 @@ class ShoeDetector(Detector):
     ) -> Stance:
         from_acc, from_gyro = self.parts(t, acc, gyro)
         statistic = from_acc / SIGMA_ACC**2 + from_gyro / SIGMA_GYRO**2
-        return soften(statistic, self.sigma, self.base, self.gate)
+        return soften(statistic, self.settings)
 
     def parts(self, t: float, acc: Vec3, gyro: Vec3) -> tuple[float, float]:
         """The two means of the statistic before scaling: specific force off gravity, (m/s^2)^2, and rate, (rad/s)^2."""
@@ -55,7 +48,7 @@ class ShoeDetector(Detector):
         sw += w2
         entries = self.entries
         entries.append((t, ax, ay, az, a2, w2))
-        oldest = t - self.window + 1e-9
+        oldest = t - self.settings.window + 1e-9
         while entries[0][0] < oldest and len(entries) > 1:
             _, ax, ay, az, a2, w2 = entries.popleft()
             sx -= ax

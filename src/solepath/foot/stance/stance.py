@@ -14,6 +14,7 @@ from ...calibration import Calibration
 from ...types import Foot, Layout, Phase, Quat, Vec3
 from ...types.attrs import frozen
 from ...types.vector import IDENTITY, ZERO
+from ..settings import StanceThreshold
 
 
 @frozen
@@ -89,9 +90,10 @@ class Detector(Protocol):
         return self
 
 
-def soften(statistic: float, sigma: float, base: float, gate: float) -> Stance:
+def soften(statistic: float, settings: StanceThreshold) -> Stance:
     """Zero-velocity evidence whose noise grows with the statistic: sigma sqrt(max(1, T / base)) up to the gate."""
-    if statistic >= gate:
+    base = settings.base
+    if statistic >= settings.gate:
         return Stance(ZERO, inf, statistic, None)
     hint = Phase.STATIONARY if statistic < base else None
-    return Stance(ZERO, sigma * sqrt(max(1.0, statistic / base)), statistic, hint)
+    return Stance(ZERO, settings.sigma * sqrt(max(1.0, statistic / base)), statistic, hint)

@@ -1,6 +1,6 @@
 """What each part of the default recipe is worth: the main figures without it.
 
-A row is the default recipe with one part switched off by an argument of its constructor, or put back to the plainer one
+A row is the default recipe with one part switched off by its settings, or put back to the plainer one
 that it took the place of. Which figures are the main ones is COLUMNS.
 """
 
@@ -14,7 +14,9 @@ from attrs import evolve, frozen
 from ...body.fuse.position import MeanOfFeet
 from ...body.height.altitude import Altitude
 from ...body.part import Track
-from ...foot.navigate.level import LevelGround
+from ...foot.navigate.error_state import ErrorStateFilter
+from ...foot.settings import CycleSettings, ErrorStateSettings
+from ...foot.stance.cycle import Cycle
 from ...recipes import DEFAULT, Recipe
 from .report import Result
 
@@ -23,24 +25,26 @@ NEVER = 1e12
 FIXED = 1e6
 """SHOE's statistic, of 8e4, 2e5, 4e5 and 1e6 the one with which recorded walks come out best."""
 
-_DETECTOR: Any = DEFAULT.detector
-_CORRECTOR: Any = DEFAULT.corrector
+
+def _cycle(**settings: Any) -> Recipe:
+    return evolve(DEFAULT, detector=Cycle(CycleSettings(**settings)))
+
+
+def _filter(**settings: Any) -> Recipe:
+    return evolve(DEFAULT, corrector=ErrorStateFilter(ErrorStateSettings(**settings)))
+
 
 WITHOUT: dict[str, Recipe] = {
-    "one threshold for all, no wearer's own cycle": evolve(
-        DEFAULT, detector=evolve(_DETECTOR, floor=FIXED, ceiling=FIXED)
-    ),
-    "evidence of one noise, whatever the motion": evolve(
-        DEFAULT, detector=evolve(_DETECTOR, arm=0.0, arm2=0.0, off_gravity=0.0, off_gravity2=0.0)
-    ),
-    "zero velocity, no rolling foot": evolve(DEFAULT, detector=evolve(_DETECTOR, rolls=False)),
-    "no extra noise of a foot that is braked": evolve(DEFAULT, detector=evolve(_DETECTOR, off_gravity2=0.0)),
-    "no refusal of unlikely evidence": evolve(DEFAULT, corrector=evolve(_CORRECTOR, refuse=NEVER)),
-    "no recovery of what was refused": evolve(DEFAULT, corrector=evolve(_CORRECTOR, patience=NEVER, lasting=NEVER)),
-    "no level, slope or stair": evolve(DEFAULT, corrector=evolve(_CORRECTOR, level=LevelGround(gate=False))),
-    "no tilt aiding": evolve(DEFAULT, corrector=evolve(_CORRECTOR, tilt_rate=0.0)),
-    "no noise of what lies between samples": evolve(DEFAULT, corrector=evolve(_CORRECTOR, between=0.0)),
-    "no recovery of a clipped gyroscope": evolve(DEFAULT, corrector=evolve(_CORRECTOR, recover=False)),
+    "one threshold for all, no wearer's own cycle": _cycle(floor=FIXED, ceiling=FIXED),
+    "evidence of one noise, whatever the motion": _cycle(arm=0.0, arm2=0.0, off_gravity=0.0, off_gravity2=0.0),
+    "zero velocity, no rolling foot": _cycle(rolls=False),
+    "no extra noise of a foot that is braked": _cycle(off_gravity2=0.0),
+    "no refusal of unlikely evidence": _filter(refuse=NEVER),
+    "no recovery of what was refused": _filter(patience=NEVER, lasting=NEVER),
+    "no level, slope or stair": _filter(level=False),
+    "no tilt aiding": _filter(tilt_rate=0.0),
+    "no noise of what lies between samples": _filter(between=0.0),
+    "no recovery of a clipped gyroscope": _filter(recover=False),
     "each foot by itself": DEFAULT.exchanged(Track, MeanOfFeet()),
     "no heights of lifts and of the air": DEFAULT.exchanged(Altitude, None),
 }

@@ -21,7 +21,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from ...foot.cues.cues import Cues, Seen
-from ...foot.cues.inertial import InertialCues
+from ...foot.cues.inertial import SHUFFLE_SPEED, InertialCues
 from ...foot.cues.touch import Touch
 from ...foot.phase import Cue
 from ...foot.pressure.cells import centre
@@ -45,7 +45,7 @@ class CopCues(Cues):
     longest_landing: float = 0.4
     """A heel-strike is told after this long even when the foot is not stationary yet, s."""
     shuffle_time: float = 0.25
-    """How long a foot must be fast (InertialCues.shuffle_speed) to have left without ever being in the air, s."""
+    """How long a foot must be fast (SHUFFLE_SPEED of inertial.py) to have left without ever being in the air, s."""
     area_on: float = 0.05
     """For an insole alone: heel and forefoot both above this share of the full load make a foot flat,"""
     area_off: float = 0.03
@@ -103,7 +103,7 @@ class CopCues(Cues):
             return () if seen is None else (seen,)
         found = self._begin(t, airborne, phase) if self.pressed_at is None else []
         found += self._step(t, stationary, airborne, load)
-        if self.stage is StepStage.LEAVING and phase is not Phase.SWING and speed >= self.inertial.shuffle_speed:
+        if self.stage is StepStage.LEAVING and phase is not Phase.SWING and speed >= SHUFFLE_SPEED:
             if self.fast_since is None:
                 self.fast_since = t
             elif t - self.fast_since >= self.shuffle_time - TIE:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from ...foot.navigate.dedrift import LinearDedrift
 from ...foot.pressure.insole import InsoleLoads
+from ...foot.settings import InsoleSettings
 from ...recipes import Recipe, usual
 from ...types.attrs import evolve
 from .cop_cues import CopCues
@@ -19,7 +20,7 @@ KUPT = Recipe(
     KnownVelocity(),
     SwingDedrift(),
     CopCues(),
-    InsoleLoads(heel_ends=BOARD, forefoot_begins=BOARD),
+    InsoleLoads(InsoleSettings(heel_ends=BOARD, forefoot_begins=BOARD)),
     needs_pressure=True,
 )
 """Velocity known from heel-strike to toe-off, without the fusion of both feet."""

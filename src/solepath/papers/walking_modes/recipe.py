@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from ...foot.navigate.error_state import ErrorStateFilter
-from ...foot.navigate.level import LevelGround
+from ...foot.settings import ErrorStateSettings
 from ...foot.stance.cycle import Cycle
 from ...recipes import Recipe, usual
 from .compensation import TABLE_1
 from .modes import Modes
 from .touchdown import Height, NetAcceleration, PressureTouchdown
 
-_OWN_HEIGHTS = ErrorStateFilter(level=LevelGround(gate=False))
+_OWN_HEIGHTS = ErrorStateFilter(ErrorStateSettings(level=False))
 """Method I goes by the height of the feet, so nothing is done about it."""
 
 WALKING_MODES = Recipe(
