@@ -86,7 +86,7 @@ class WearerParts:
             return events
         if known is None:
             self._keep(tracker)
-        stride = False
+        stride, first = False, 0
         if events:
             if isinstance(events[0], SampleRejected):
                 return events
@@ -95,9 +95,16 @@ class WearerParts:
         t, known_at = sample.t, sample.known_at
         known_at = t if known_at is None or known_at < t else known_at
         view = tracker.view(sample, known_at, tuple(events) if events else (), spread=stride)
-        moved = self._flow(events, view, known_at)
-        if moved is not None and self.settings.poses and stride:
-            events.append(moved)
+        if not events:  # so it is with nearly all samples
+            for part in self.parts:
+                first += 1
+                if part.feeds and (said := part.feed(view)):
+                    self._take(said, events)
+                    break
+        if events:
+            moved = self._flow(events, view, known_at, first)
+            if moved is not None and self.settings.poses and stride:
+                events.append(moved)
         if sample.pressure:
             if self.settings.pressures:
                 pressed = tracker.sole.pressed_by(t, known_at, sample.pressure)
@@ -142,16 +149,12 @@ class WearerParts:
         return events
 
     def _flow(
-        self, events: list[Event], view: FootView | None, known_at: float, *, finishing: bool = False
+        self, events: list[Event], view: FootView | None, known_at: float, first: int = 0, *, finishing: bool = False
     ) -> WearerMoved | None:
-        """Let the parts hear in their order of `view` and `events`; what they say is added. Returns where the wearer is
-        after it, if a part wanted to know."""
+        """Let the parts, from number `first` on, hear in their order of `view` and `events`; what they say is added.
+        Returns where the wearer is after it, if a part wanted to know."""
         moved = None
-        for part in self.parts:
-            if not events and not finishing:  # so it is with nearly all samples
-                if view is not None and part.feeds and (said := part.feed(view)):
-                    self._take(said, events)
-                continue
+        for part in self.parts[first:]:
             heard = tuple(events)
             if part.follows and moved is None and any([isinstance(event, LEADS) for event in heard]):
                 moved = self._moved(known_at)

@@ -67,7 +67,9 @@ def closed(rows: Sequence[Row], times: CriticalTimes, end: float = inf) -> list[
     left = _turned(step, 4)
     rises = [1.0 if row[4] > end else 0.0 for row in step]
     sinks = [1.0 if row[4] < -end else 0.0 for row in step]
-    (_, up), (_, down) = _integrals(step, rises), _integrals(step, sinks)
+    up = down = 0.0
+    if 1.0 in rises and 1.0 in sinks:
+        (_, up), (_, down) = _integrals(step, rises), _integrals(step, sinks)
     if not (up > 0.0 and down > 0.0):
         drift = left / (times.rest - times.uplift)
         return [(t, ax, ay, az, gx - drift, gy, gz) for t, ax, ay, az, gx, gy, gz in step]
@@ -186,9 +188,11 @@ def _turned(rows: Sequence[Row], column: int) -> float:
 
 def _integrals(rows: Sequence[Row], values: Sequence[float]) -> tuple[float, float]:
     """The double integral of a value at each row, and the integral, both from zero."""
-    twice = once = 0.0
-    for k in range(1, len(rows)):
-        dt, was, now = rows[k][0] - rows[k - 1][0], values[k - 1], values[k]
+    twice = once = was = 0.0
+    t = rows[0][0]
+    for row, now in zip(rows, values, strict=True):  # the first adds nothing
+        dt, t = row[0] - t, row[0]
         twice += (once + (2.0 * was + now) * dt / 6.0) * dt
         once += 0.5 * (was + now) * dt
+        was = now
     return twice, once
