@@ -14,7 +14,7 @@ from importlib import import_module
 from typing import Any
 
 from .body.activity.activities import Activities
-from .body.fuse.both_feet import BothFeet
+from .body.fuse.both_feet import BothFeet, BothFeetSettings
 from .body.fuse.position import MeanOfFeet
 from .body.gait.cycles import GaitCycles
 from .body.gait.turns import Turns
@@ -84,9 +84,7 @@ class Recipe:
 DEFAULT = Recipe("default", Cycle(), ErrorStateFilter(), parts=usual(BothFeet(), altitude=Altitude()))
 """Stance judged within each gait cycle, nine-state error-state filter, both feet in one frame."""
 
-STRAIGHT_CORRIDORS = evolve(
-    DEFAULT, name="straight-corridors", parts=usual(BothFeet(straight_corridors=True), altitude=Altitude())
-)
+STRAIGHT_CORRIDORS = DEFAULT.exchanged(Track, BothFeet(BothFeetSettings(straight_corridors=True)), "straight-corridors")
 """The same for a wearer who walks straight corridors: the heading is held to them."""
 
 RECIPES: dict[str, str] = {

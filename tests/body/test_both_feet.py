@@ -11,7 +11,7 @@ from attrs import evolve
 
 from solepath import recipes
 from solepath.body.fuse.agreement import HEADING, RATE, STATES, Agreement, X, Y
-from solepath.body.fuse.both_feet import BothFeet
+from solepath.body.fuse.both_feet import BothFeet, BothFeetSettings
 from solepath.body.fuse.corridor import Corridor
 from solepath.body.fuse.position import MeanOfFeet
 from solepath.body.part import Track
@@ -37,7 +37,7 @@ def _samples(seed: int) -> tuple[Sample, ...]:
 
 @cache
 def _walked(part: str) -> tuple[Session, list[Event]]:
-    body = {"both": BothFeet(), "mean": MeanOfFeet(), "apart": BothFeet(feedback=False)}[part]
+    body = {"both": BothFeet(), "mean": MeanOfFeet(), "apart": BothFeet(BothFeetSettings(feedback=False))}[part]
     session = Session(recipes.DEFAULT.exchanged(Track, body))
     events = [event for sample in _samples(102) for event in session.feed(sample)]
     return session, events

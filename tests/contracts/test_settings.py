@@ -11,7 +11,7 @@ from attrs import evolve
 from walks import RECIPES, gone, machines, packets, samples
 
 from solepath import Calibration, Foot, Recipe, Session, recipes
-from solepath.body.fuse.both_feet import BothFeet
+from solepath.body.fuse.both_feet import BothFeet, BothFeetSettings
 from solepath.body.part import Track
 from solepath.calibration import InsoleCalibration, Newtons
 from solepath.emulate.sensors.insoles import layout
@@ -83,9 +83,9 @@ def test_sessions_of_one_recipe_hold_one_copy_of_it_and_of_a_recipe_that_was_cha
     held = own(mine)
     assert held is own(mine) is own(evolve(mine)) and held is not mine
     assert held == mine
-    usual, body.reach = body.reach, 1.25
+    usual, body.settings = body.settings, BothFeetSettings(reach=1.25)
     assert own(mine) is not held and held != mine
-    body.reach = usual
+    body.settings = usual
     assert own(mine) is held
 
 

@@ -7,7 +7,7 @@ Nine errors (the truth less what the tracks say): x, y (m), heading (rad) and th
 each foot, and the walking width (m). A gyroscope's scale and alignment make much the same of every stride, which is why
 the rate is a state; it is forgotten slowly (first-order Gauss-Markov). With a stride d of T s, and c the quarter turn:
 
-    e' = e + (psi + r (T_stood + T_swing / 2)) c d,   psi' = psi + r T,   r' = r exp(-T / memory)
+    e' = e + (psi + r (T_stood + T_swing / 2)) c d,   psi' = psi + r T,   r' = r exp(-T / DRIFT_MEMORY)
 
 Which way both go wrong alike cannot be seen from how they stand to each other, and a filter must not think so. Hence x
 and y are of a track that is turned with its heading about one point for both feet, the end of the newest stride: e =
@@ -30,6 +30,17 @@ WIDTH = 8
 COUNT = 9
 LARGEST = 1e9
 """Beyond this variance nothing is known, and numbers lose their last digits."""
+FIRST_APART, FIRST_ASIDE = 0.06, 0.04
+"""How unsure it is at first how the feet stand to each other, m, and how their first headings do, rad."""
+FIRST_WIDTH = 0.05
+"""How unsure the walking width is at first, m."""
+DRIFT_RATE, DRIFT_MEMORY = 0.0012, 100.0
+"""How fast the heading of a track drifts as a rule, rad/s (0.07 degrees), and for how long it does so, s: it changes
+with the way of walking."""
+HEADING_DRIFT = 0.0015
+"""Growth of the heading error besides, rad/sqrt(s)."""
+SPOILT = 0.06
+"""What a degraded stride adds to that, rad."""
 
 Term = tuple[int, float]
 """A state, and by how much what is measured grows with it."""
@@ -44,21 +55,6 @@ class Agreement:
     """The covariance of the errors. What is found of them is taken out of the tracks at once, so that the filter holds
     no estimate of them; but it keeps the rates."""
 
-    apart: float = 0.06
-    """How unsure it is at first how the feet stand to each other, m,"""
-    aside: float = 0.04
-    """and how their first headings do, rad."""
-    rate: float = 0.0012
-    """How fast the heading of a track drifts as a rule, rad/s (0.07 degrees)."""
-    memory: float = 100.0
-    """For how long it does so, s: it changes with the way of walking."""
-    heading_drift: float = 0.0015
-    """Growth of the heading error besides, rad/sqrt(s)."""
-    spoilt: float = 0.06
-    """What a degraded stride adds to that, rad."""
-    width: float = 0.05
-    """How unsure the walking width is at first, m."""
-    # state
     covariance: list[list[float]] = field(factory=_nothing, init=False)
     centre: tuple[float, float] = field(default=(0.0, 0.0), init=False)
     """The point that the tracks turn about, m."""
@@ -69,11 +65,11 @@ class Agreement:
         """Both feet stand side by side. Of their mean nothing is unknown: the world frame is where they begin."""
         p = self.covariance = _nothing()
         self.rates = [0.0, 0.0]
-        for one, sigma in ((X, self.apart), (Y, self.apart), (HEADING, self.aside)):
+        for one, sigma in ((X, FIRST_APART), (Y, FIRST_APART), (HEADING, FIRST_ASIDE)):
             p[one][one] = p[one + STATES][one + STATES] = 0.25 * sigma * sigma
             p[one][one + STATES] = p[one + STATES][one] = -0.25 * sigma * sigma
-        p[RATE][RATE] = p[RATE + STATES][RATE + STATES] = self.rate * self.rate
-        p[WIDTH][WIDTH] = self.width * self.width
+        p[RATE][RATE] = p[RATE + STATES][RATE + STATES] = DRIFT_RATE * DRIFT_RATE
+        p[WIDTH][WIDTH] = FIRST_WIDTH * FIRST_WIDTH
 
     @property
     def lost(self) -> bool:
@@ -110,9 +106,9 @@ class Agreement:
         x = foot * STATES
         y, heading, rate = x + Y, x + HEADING, x + RATE
         time, middle = stood + swung, stood + 0.5 * swung
-        keep = exp(-time / self.memory)
-        noise = self.spoilt * self.spoilt if degraded else 0.0
-        p[heading][heading] += noise + self.heading_drift * self.heading_drift * time
+        keep = exp(-time / DRIFT_MEMORY)
+        noise = SPOILT * SPOILT if degraded else 0.0
+        p[heading][heading] += noise + HEADING_DRIFT * HEADING_DRIFT * time
         # P <- F P F': the rows of F P, then the columns. Both tracks turn about the new centre, then the foot goes
         for k in (0, STATES):
             px, py, ph = p[k], p[k + 1], p[k + 2]
@@ -140,7 +136,7 @@ class Agreement:
         px[y] += xy
         py[x] += xy
         py[y] += yy
-        pr[rate] += self.rate * self.rate * (1.0 - keep * keep)
+        pr[rate] += DRIFT_RATE * DRIFT_RATE * (1.0 - keep * keep)
         self.rates[foot] *= keep
 
     def doubt(self, foot: int, by: float) -> None:

@@ -21,7 +21,7 @@ from math import atan2, cos, hypot, sin
 from ...events import StrideTaken
 from ...foot.view import FootPose, FootView
 from ...types import Foot, Site, Vec3
-from ...types.attrs import define, field
+from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO, sub
 from ..part import Position, Said, Shift
 from .agreement import HEADING, RATE, STATES, WIDTH, Agreement, Term, X, Y
@@ -37,6 +37,34 @@ UNEVEN = 1e-4
 """What a footprint differs by from a point, m^2."""
 BESIDE = (0.15, 0.05)
 """How well a foot that came back is set beside the other, m and rad."""
+STANDING_APART, WALKING_WIDTH = 0.18, 0.12
+"""How far the feet stand from one another at first, m, and the walking width to begin with, m."""
+LANDS_ASIDE, LANDS_ALONG = 0.045, 0.15
+"""How far a foot comes down to the side of where it does on the average, m, and before or behind the middle of the
+other's stride, m."""
+IN_TURNS = 0.12
+"""In a turn that much more for every metre and radian."""
+SHORTEST_STRIDE, CORNER, ELSEWHERE = 0.5, 0.8, 0.6
+"""A shorter stride says too little of its direction, m; nor does one in which the foot turned further, rad, or which
+leads elsewhere than the foot points, rad."""
+BELIEVED = 16.0
+"""Largest normalised square of what is believed."""
+LONGEST_STRIDE = 2.5
+"""A foot that goes further in one stride is unsure by what is more, m."""
+SETTLES = 5.0
+"""After so many metres the feet are placed, and corrections are theirs."""
+
+
+@frozen
+class BothFeetSettings:
+    """What `BothFeet` is set to."""
+
+    straight_corridors: bool = False
+    """Believe that who seems to walk straight does (corridor.py)."""
+    feedback: bool = True
+    """Hand corrections back to the feet."""
+    reach: float = 1.5
+    """Legs spread by this much at the most, m."""
 
 
 @define
@@ -44,43 +72,16 @@ class BothFeet(MeanOfFeet):
     """The mean of two feet that hold each other's heading and place.
 
     Latency: none; what a step says of the other foot is known with it, and the other's track follows at its own next
-    foot-flat, its place in `position` at once. `straight_corridors` believes that who seems to walk straight does
-    (corridor.py). `feedback`: hand corrections back to the feet. A foot that cannot be shifted keeps its track.
+    foot-flat, its place in `position` at once. A foot that cannot be shifted keeps its track.
     """
 
-    straight_corridors: bool = field(default=False, kw_only=True)
-    feedback: bool = field(default=True, kw_only=True)
-    agreement: Agreement = field(factory=Agreement, kw_only=True)
-    corridor: Corridor = field(factory=Corridor, kw_only=True)
-    standing: float = field(default=0.18, kw_only=True)
-    """How far the feet stand from one another at first, m."""
-    walking: float = field(default=0.12, kw_only=True)
-    """Walking width to begin with, m."""
-    aside: float = field(default=0.045, kw_only=True)
-    """How far a foot comes down to the side of where it does on the average, m,"""
-    along: float = field(default=0.15, kw_only=True)
-    """and before or behind the middle of the other's stride, m."""
-    turning: float = field(default=0.12, kw_only=True)
-    """In a turn that much more for every metre and radian."""
-    shortest: float = field(default=0.5, kw_only=True)
-    """A shorter stride says too little of its direction, m;"""
-    corner: float = field(default=0.8, kw_only=True)
-    """nor does one in which the foot turned further, rad,"""
-    elsewhere: float = field(default=0.6, kw_only=True)
-    """or which leads elsewhere than the foot points, rad."""
-    limit: float = field(default=16.0, kw_only=True)
-    """Largest normalised square of what is believed."""
-    reach: float = field(default=1.5, kw_only=True)
-    """Legs spread by this much at the most, m."""
-    longest: float = field(default=2.5, kw_only=True)
-    """A foot that goes further in one stride is unsure by what is more, m."""
-    settles: float = field(default=5.0, kw_only=True)
-    """After so many metres the feet are placed, and corrections are theirs."""
-    # state
+    settings: BothFeetSettings = BothFeetSettings()
+    agreement: Agreement = field(factory=Agreement, init=False)
+    corridor: Corridor = field(factory=Corridor, init=False)
     met: bool = field(default=False, init=False)
     """Both feet were heard of."""
     way: float = field(default=0.0, init=False)
-    """Up to `settles`, m."""
+    """Up to `SETTLES`, m."""
     width: float = field(default=0.0, init=False)
     """Walking width, m."""
     strides: list[FacingStride | None] = field(factory=lambda: [None, None], init=False)
@@ -126,16 +127,14 @@ class BothFeet(MeanOfFeet):
         # what heights have in common with places that were corrected here is not known: nothing is claimed of it
         return Position(found.t, found.position, (xx, xy, 0.0, yy, 0.0, found.covariance[5]))
 
-    # --- at a step ---
-
     def _meet(self) -> None:
         self.met = True
-        self.width = self.walking
+        self.width = WALKING_WIDTH
         self.agreement.begin()
         if not self.left.waits and not self.right.waits:
             for placed, k in ((self.left, 0.5), (self.right, -0.5)):
                 x, y, z = placed.offset
-                placed.offset = (x, y + k * self.standing, z)
+                placed.offset = (x, y + k * STANDING_APART, z)
         self._placed_anew()
 
     def _placed_anew(self) -> None:
@@ -167,17 +166,17 @@ class BothFeet(MeanOfFeet):
             cs * (xx - yy) + (cc - ss) * xy,
             ss * xx + 2.0 * cs * xy + cc * yy + UNEVEN,
         )
-        wild = max(0.0, taken.length - self.longest)
+        wild = max(0.0, taken.length - LONGEST_STRIDE)
         self.agreement.advance(index, stood, swung, (x, y), (dx, dy), variance, taken.degraded or wild > 0.0)
         if wild > 0.0:
             self.agreement.doubt(index, wild)
-        self.way = min(self.settles, self.way + 0.5 * taken.length)
+        self.way = min(SETTLES, self.way + 0.5 * taken.length)
         x, y, _ = taken.displacement
-        straight = hypot(x, y) > self.shortest and abs(taken.heading_change) < self.corner and not taken.degraded
+        straight = hypot(x, y) > SHORTEST_STRIDE and abs(taken.heading_change) < CORNER and not taken.degraded
         self.strides[index] = FacingStride(taken.t_end, own, atan2(y, x) if straight else None)
-        if self.way >= self.settles or not self._lined_up(index, taken):
+        if self.way >= SETTLES or not self._lined_up(index, taken):
             self._compare(index, taken, dx, dy, stood, swung)
-            if self.straight_corridors:
+            if self.settings.straight_corridors:
                 x, y, z = this.place(own)
                 self._hold(index, taken, (x - dx, y - dy, z), (x, y, z))
         return self._hand_back(index, taken.foot, takes_shifts)
@@ -191,7 +190,7 @@ class BothFeet(MeanOfFeet):
         angle = self.askew.between(this, own.turn, beside, other.turn, side)
         if angle is None:
             return False
-        lay_alongside(own, this, other, beside, angle, 0.5 * taken.length, side * self.walking)
+        lay_alongside(own, this, other, beside, angle, 0.5 * taken.length, side * WALKING_WIDTH)
         self.agreement.begin()
         self.corridor.end()
         self.way, self.facing = 0.0, [Facing(), Facing()]
@@ -202,7 +201,7 @@ class BothFeet(MeanOfFeet):
         """This foot's stride (dx, dy) with where the other one stood."""
         this, other = (self.left, self.right) if index == 0 else (self.right, self.left)
         turn, length = taken.heading_change, hypot(dx, dy)
-        off = self.facing[index].off(atan2(dy, dx), turn) if length > self.shortest else 0.0
+        off = self.facing[index].off(atan2(dy, dx), turn) if length > SHORTEST_STRIDE else 0.0
         beside = self.strides[1 - index]
         if beside is None or other.absent:
             return
@@ -211,9 +210,9 @@ class BothFeet(MeanOfFeet):
         ex, ey, _ = this.place(taken.position)
         if (
             taken.t_start < beside.t_end < taken.t_end
-            and length > self.shortest
-            and abs(turn) < self.corner
-            and abs(off) < self.elsewhere
+            and length > SHORTEST_STRIDE
+            and abs(turn) < CORNER
+            and abs(off) < ELSEWHERE
             and not taken.degraded
         ):
             # n: to the left of the stride's direction u; m: from its middle to the foot that stood
@@ -223,7 +222,7 @@ class BothFeet(MeanOfFeet):
             mx, my = qx - (ex - 0.5 * dx), qy - (ey - 0.5 * dy)
             ahead, left = ux * mx + uy * my, nx * mx + ny * my
             side = 1.0 if index == 1 else -1.0
-            more = self.turning * turn * length
+            more = IN_TURNS * turn * length
             heading, rate = index * STATES + HEADING, index * STATES + RATE
             others = (1 - index) * STATES + HEADING
             # u and the middle follow the heading in mid-swing, psi - r T_swing / 2, and the turn is wrong by r T
@@ -233,24 +232,24 @@ class BothFeet(MeanOfFeet):
                 (rate, length * (stood + swung) / 8.0 - 0.5 * swung * lever), (WIDTH, -side),
             ]  # fmt: skip
             expected = side * self.width - length * turn / 8.0
-            self._take(self.agreement.measure(terms, expected - left, self.aside**2 + more * more, self.limit))
+            self._take(self.agreement.measure(terms, expected - left, LANDS_ASIDE**2 + more * more, BELIEVED))
             terms = [
                 (other_x, ux), (other_y, uy), (this_x, -ux), (this_y, -uy), (heading, left), (others, -left),
                 (rate, -0.5 * swung * left),
             ]  # fmt: skip
-            self._take(self.agreement.measure(terms, -ahead, self.along**2 + more * more, self.limit))
+            self._take(self.agreement.measure(terms, -ahead, LANDS_ALONG**2 + more * more, BELIEVED))
             ex, ey, _ = this.place(taken.position)
         qx, qy, _ = other.place(other.here)
         apart = hypot(qx - ex, qy - ey)
-        if apart > self.reach:
+        if apart > self.settings.reach:
             # a foot that has gone far and took no step there has lost its way, and the other must not follow
             wx, wy, _ = sub(other.here, beside.end)
-            self.agreement.doubt(1 - index, max(0.0, hypot(wx, wy) - self.longest))
+            self.agreement.doubt(1 - index, max(0.0, hypot(wx, wy) - LONGEST_STRIDE))
             if beside.t_end < taken.t_start:  # nor does one stand through strides of the other: its own were missed
                 self.agreement.doubt(1 - index, taken.length)
             nx, ny = (qx - ex) / apart, (qy - ey) / apart
             terms = [(other_x, nx), (other_y, ny), (this_x, -nx), (this_y, -ny)]
-            self._take(self.agreement.measure(terms, self.reach - apart, self.along**2, 1e12))
+            self._take(self.agreement.measure(terms, self.settings.reach - apart, LANDS_ALONG**2, 1e12))
 
     def _take(self, found: list[float] | None) -> None:
         """Take the errors that were found out of both tracks."""
@@ -280,9 +279,9 @@ class BothFeet(MeanOfFeet):
         """The foot is to take what was found since the tracks were placed."""
         this = self.left if index == 0 else self.right
         stride = self.strides[index]
-        if stride is not None and self.way < self.settles:
+        if stride is not None and self.way < SETTLES:
             self.bases[index] = (this.turn, this.offset)
-        elif stride is not None and self.feedback and takes_shifts:
+        elif stride is not None and self.settings.feedback and takes_shifts:
             place, yaw = this.place(stride.end), this.turn
             this.turn, this.offset = self.bases[index]
             own = this.undone(place)

@@ -21,33 +21,30 @@ from ...types.attrs import define, field
 
 MOST = 60
 """Strides of one block: more are no walk."""
+BLOCK_WAY = 5.0
+"""Length of a block, m."""
+STRAIGHT = 0.1
+"""The strides of a block point into its direction, at the most so far off, rad;"""
+FOOT_TURN = 0.17
+"""nor does the foot itself turn further in one, rad."""
+SHORTEST_STRIDE = 0.3
+"""A shorter stride is no walk, m."""
+PAUSE = 3.0
+"""Who does not step for so long stands between, s."""
+DIRECTION_NOISE = 0.005
+"""Standard deviation of a block's direction, rad: feet come down some centimetres to either side."""
+DRIFT_RATE, DRIFT_MEMORY = 0.0012, 100.0
+"""How fast the heading of the wearer drifts as a rule, rad/s, and for how long it does so, s."""
+HEADING_DRIFT = 0.001
+"""Growth of the heading error besides, rad/sqrt(s)."""
+BELIEVED = 9.0
+"""Largest normalised square of a difference that is taken for drift."""
 
 
 @define
 class Corridor:
     """Strides of both feet in, corrections of the heading out, each with the stride that ends a block."""
 
-    block: float = 5.0
-    """Length of a block, m."""
-    within: float = 0.1
-    """The strides of a block point into its direction, at the most so far off, rad;"""
-    turning: float = 0.17
-    """nor does the foot itself turn further in one, rad."""
-    shortest: float = 0.3
-    """A shorter stride is no walk, m."""
-    pause: float = 3.0
-    """Who does not step for so long stands between, s."""
-    direction: float = 0.005
-    """Standard deviation of a block's direction, rad: feet come down some centimetres to either side."""
-    rate: float = 0.0012
-    """How fast the heading of the wearer drifts as a rule, rad/s."""
-    memory: float = 100.0
-    """For how long it does so, s."""
-    wander: float = 0.001
-    """Growth of the heading error besides, rad/sqrt(s)."""
-    limit: float = 9.0
-    """Largest normalised square of a difference that is taken for drift."""
-    # state
     begins: list[Vec3 | None] = field(factory=lambda: [None, None], init=False)
     """Where the block began, left and right, m."""
     ends: list[Vec3 | None] = field(factory=lambda: [None, None], init=False)
@@ -71,9 +68,9 @@ class Corridor:
         Returns what to add to the heading, rad, and to the rate at which it is turned on, rad/s.
         """
         dx, dy = end[0] - start[0], end[1] - start[1]
-        stood = self.newest is None or t - self.newest > self.pause
+        stood = self.newest is None or t - self.newest > PAUSE
         self.newest = t
-        if stood or abs(turn) > self.turning or hypot(dx, dy) < self.shortest or len(self.headings) >= MOST:
+        if stood or abs(turn) > FOOT_TURN or hypot(dx, dy) < SHORTEST_STRIDE or len(self.headings) >= MOST:
             self.end()
             return None
         if not self.headings:
@@ -87,7 +84,7 @@ class Corridor:
             if begin is None or reached is None:
                 return None
             x, y = x + 0.5 * (reached[0] - begin[0]), y + 0.5 * (reached[1] - begin[1])
-        return self._block(t, atan2(y, x)) if hypot(x, y) >= self.block else None
+        return self._block(t, atan2(y, x)) if hypot(x, y) >= BLOCK_WAY else None
 
     def end(self) -> None:
         """The run is over; what was learnt of the drift stays."""
@@ -101,12 +98,12 @@ class Corridor:
 
     def _block(self, t: float, heading: float) -> tuple[float, float] | None:
         middle = 0.5 * (self.began + t)
-        straight = all([abs(wrapped(one - heading)) < self.within for one in self.headings])
+        straight = all([abs(wrapped(one - heading)) < STRAIGHT for one in self.headings])
         self.begins, self.headings = [*self.ends], []
         if not straight:
             self.end()
             return None
-        noise = self.direction * self.direction
+        noise = DIRECTION_NOISE * DIRECTION_NOISE
         self._until(middle)
         if self.heading is None:
             self.heading = heading
@@ -114,7 +111,7 @@ class Corridor:
             return None
         pp, pr, rr = self.drift
         angle, s = wrapped(heading - self.heading), pp + noise
-        if angle * angle > self.limit * s:
+        if angle * angle > BELIEVED * s:
             self.end()
             return None
         a, b = pp / s, pr / s
@@ -123,15 +120,15 @@ class Corridor:
 
     def _until(self, t: float) -> None:
         """The two states at `t`, s."""
-        usual = self.rate * self.rate
+        usual = DRIFT_RATE * DRIFT_RATE
         if self.known is None:
             self.known, self.drift = t, (0.0, 0.0, usual)
         dt = max(0.0, t - self.known)
         self.known = t
         pp, pr, rr = self.drift
-        keep = exp(-dt / self.memory)
+        keep = exp(-dt / DRIFT_MEMORY)
         self.drift = (
-            pp + 2.0 * dt * pr + dt * dt * rr + self.wander * self.wander * dt,
+            pp + 2.0 * dt * pr + dt * dt * rr + HEADING_DRIFT * HEADING_DRIFT * dt,
             keep * (pr + dt * rr),
             keep * keep * rr + usual * (1.0 - keep * keep),
         )

@@ -9,6 +9,13 @@ from ...types.attrs import define, field
 from .corridor import wrapped
 from .position import PlacedTrack
 
+STRIDE_SAYS = 0.1
+"""How much a stride says of which way a foot walks."""
+LEAST_ASKEW = 0.5
+"""What the first steps of who walks straight off may differ by, rad."""
+ALIKE = 0.25
+"""So well the same angle is found again, rad."""
+
 
 @define
 class FacingStride:
@@ -25,8 +32,6 @@ class FacingStride:
 class Facing:
     """Which way a foot walks, seen from itself: who walks backwards or sideways has the other foot elsewhere."""
 
-    share: float = 0.1
-    """How much a stride says of it."""
     turned: float = field(default=0.0, init=False)
     """Sum of the foot's turns, rad."""
     ahead: float | None = field(default=None, init=False)
@@ -39,7 +44,7 @@ class Facing:
         if self.ahead is None:
             self.ahead = wrapped(direction - middle)
         off = wrapped(direction - middle - self.ahead)
-        self.ahead = wrapped(self.ahead + self.share * off)
+        self.ahead = wrapped(self.ahead + STRIDE_SAYS * off)
         return off
 
 
@@ -51,10 +56,6 @@ class Askew:
     has two tracks at any angle to one another, of which nothing small is true. Two feet that walk go the same way.
     """
 
-    least: float = 0.5
-    """What the first steps of who walks straight off may differ by, rad."""
-    alike: float = 0.25
-    """So well the same angle is found again, rad."""
     found: float | None = field(default=None, init=False)
     """The last angle, rad."""
 
@@ -68,7 +69,7 @@ class Askew:
             return None
         before, angle = self.found, wrapped(side * (this.direction + turn - beside.direction - others))
         self.found = angle
-        if before is None or abs(angle) < self.least or abs(wrapped(angle - before)) > self.alike:
+        if before is None or abs(angle) < LEAST_ASKEW or abs(wrapped(angle - before)) > ALIKE:
             return None
         self.found = None
         return side * angle

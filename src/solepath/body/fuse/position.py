@@ -96,7 +96,6 @@ class MeanOfFeet(Track):
 
     feeds: ClassVar[bool] = True
 
-    # state
     left: PlacedTrack = field(factory=PlacedTrack, init=False)
     right: PlacedTrack = field(factory=PlacedTrack, init=False)
     newest: Foot | None = field(default=None, init=False)
@@ -159,8 +158,6 @@ class MeanOfFeet(Track):
         t = max([foot.t for foot in known])
         return Position(t, (x, y, z), (xx, xy, xz, yy, yz, zz))
 
-    # --- who is there ---
-
     def _heard(self, known: list[FootPose]) -> list[FootPose]:
         """Of two feet those that have a track, are not absent and do not wait; never none."""
         moving = [foot for foot in known if foot.moved_at is not None]
@@ -188,8 +185,6 @@ class MeanOfFeet(Track):
             return ZERO
         k = -0.25 if foot is LEFT else 0.25
         return (k * (one[0] + two[0]), k * (one[1] + two[1]), k * (one[2] + two[2]))
-
-    # --- who comes back ---
 
     def _came_back(self, this: PlacedTrack, other: PlacedTrack) -> None:
         """It waits. Should the other fall silent meanwhile, it goes on from where that one is now."""
