@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from views import fed
 
 from solepath import Session
-from solepath.body.activity.activities import Activities
+from solepath.body.activity.activities import Activities, ActivitiesSettings
 from solepath.body.activity.features import COUNT, GYRO
 from solepath.body.activity.motion import MOTIONS, from_json, shipped, to_json
 from solepath.emulate.routes.route import Route
@@ -116,7 +116,7 @@ def test_a_foot_without_a_gyroscope_is_judged_by_its_accelerometer_alone() -> No
 def test_a_model_goes_through_its_file_and_a_snapshot() -> None:
     model = shipped()
     assert from_json(json.loads(json.dumps(to_json(model)))) == model
-    part = Activities(model=model)
+    part = Activities(ActivitiesSettings(model))
     assert machine.load(Activities, machine.save(part)) == part
 
 

@@ -20,7 +20,7 @@ from typing import ClassVar, Final
 from ...events import ActivityChanged, Event, LiftRidden, StrideFeatures, StrideTaken
 from ...foot.view import FootView
 from ...types import Activity, Foot, Site
-from ...types.attrs import define, field
+from ...types.attrs import define, field, frozen
 from ...types.vector import TIE, ZERO
 from ..part import Doing, Said
 from .air import NOTHING, PressureHeight
@@ -49,14 +49,21 @@ AFOOT = {Activity.STAIRS_UP: 1, Activity.STAIRS_DOWN: -1}
 RIDDEN = {Activity.ELEVATOR_UP: True, Activity.ELEVATOR_DOWN: False}
 
 
+@frozen
+class ActivitiesSettings:
+    """What `Activities` is set to."""
+
+    model: MotionModel | None = None
+    """What was learnt of moving feet; None: what comes with this release."""
+
+
 @define
 class Activities(Doing):
-    """`model`: what was learnt of moving feet; None: what comes with this release."""
+    """Says what the wearer does, and tells flights of stairs and rides in a lift."""
 
     feeds: ClassVar[bool] = True
 
-    model: MotionModel | None = None
-    # state
+    settings: ActivitiesSettings = ActivitiesSettings()
     activity: Activity = field(default=Activity.UNKNOWN, init=False)
     """The newest that was told, final or not."""
     origin: float | None = field(default=None, init=False)
@@ -77,7 +84,7 @@ class Activities(Doing):
 
     def ready(self) -> None:
         """What was learnt is read."""
-        if self.model is None:
+        if self.settings.model is None:
             shipped()
 
     def reset(self, site: Site) -> None:
@@ -131,8 +138,6 @@ class Activities(Doing):
         self._tell(now, told, True)
         return told
 
-    # --- blocks ---
-
     def _judge(self, t: float, known_at: float) -> list[Event]:
         """Judge the blocks that are complete in all feet that are heard."""
         heard = [side.index for side in (self.left, self.right) if side.index is not None]
@@ -154,7 +159,7 @@ class Activities(Doing):
     def _judge_block(self, index: int) -> bool:
         """Whether anything was heard in it."""
         t = self._time(index)
-        model = shipped() if self.model is None else self.model
+        model = self.settings.model or shipped()
         sides = (self.left, self.right)
         said = [side.features(index, t + 0.5 * BLOCK) for side in sides]
         air = self.air
@@ -181,8 +186,6 @@ class Activities(Doing):
         self.air = PressureHeight()
         self.courses = Hypotheses()
         self.told, self.instead = [], None
-
-    # --- telling ---
 
     def _tell(self, known_at: float, events: list[Event], at_last: bool = False) -> None:
         """What is new of the likeliest course; `at_last`: all of it is settled."""
@@ -232,8 +235,6 @@ class Activities(Doing):
             probability=probability,
             revises=revises,
         )
-
-    # --- flights ---
 
     def _count_flights(self, t: float, known_at: float, events: list[Event]) -> None:
         """The steps up to the block that was judged last, each with what the wearer did in its middle."""

@@ -66,7 +66,6 @@ NOTHING = (0.0,) * len(_ORDERED)
 class PressureHeight:
     """Feed it every pressure; `climbs` and `height` look back a few seconds."""
 
-    # state
     references: dict[Foot, float] = field(factory=dict)
     """Pressure at height 0 by each foot's barometer, Pa."""
     newest: float = 0.0

@@ -9,9 +9,9 @@ For whoever judges strides one by one, whatever the method:
 
 A flight is over when as many level strides follow each other as feet are heard: a landing gives each foot at least one,
 while a stride that is misjudged in the middle of the stairs stands alone (with one foot it parts the flight). It is
-over as well with the first stride the other way, and when both feet stand at one height for `patience` s: at the top
+over as well with the first stride the other way, and when both feet stand at one height for `PATIENCE` s: at the top
 nobody need walk on, and who rests on the stairs with a foot on each tread is not there yet. What is lower than
-`least_height` is a kerb. Latency: that of the level strides, about a second, or `patience`.
+`LEAST_HEIGHT` is a kerb. Latency: that of the level strides, about a second, or `PATIENCE`.
 
 What no stride of stairs gains (body/activity/steepness.py), or one the other way, is an error of the track and is not
 believed: such a stride is taken to rise by the mean of those of the flight that are, and where these are not even half
@@ -26,23 +26,23 @@ from ...types import Foot
 from ...types.attrs import define, field
 from .steepness import LEAST_RISE, of_stairs
 
+LEAST_HEIGHT = 0.4
+"""m: less than three risers."""
+PATIENCE = 3.0
+"""s."""
+EVEN = 0.08
+"""Feet whose heights differ by less stand on one level, m."""
+HEARD_WITHIN = 4.0
+"""A foot that has not stepped for longer than this is not heard, s."""
+END_RISE = 0.08
+"""A level stride that rises more than this beside a flight's stair strides is the flight's first or last riser, taken
+with a long stride, m."""
+
 
 @define
 class Flights:
     """Counts flights; emits a final `FlightClimbed` for each as soon as it is over."""
 
-    least_height: float = 0.4
-    """m: less than three risers."""
-    patience: float = 3.0
-    """s."""
-    even: float = 0.08
-    """Feet whose heights differ by less stand on one level, m."""
-    heard_within: float = 4.0
-    """A foot that has not stepped for longer than this is not heard, s."""
-    rise: float = 0.08
-    """A level stride that rises more than this beside a flight's stair strides is the flight's first or last riser,
-    taken with a long stride, m."""
-    # state
     way: int = field(default=0, init=False)
     """1 up, -1 down, 0 when no flight is under way."""
     t_start: float = field(default=0.0, init=False)
@@ -84,7 +84,7 @@ class Flights:
             self.level += 1
             if way is None:
                 self.unjudged[foot] = self.unjudged.get(foot, 0) + 1
-            if believed and self.way * height > self.rise and foot in self.climbed:
+            if believed and self.way * height > END_RISE and foot in self.climbed:
                 self._climb(foot, height)
             else:
                 self.before[foot] = height if believed else 0.0
@@ -104,7 +104,7 @@ class Flights:
         first = self.before.pop(foot, 0.0)
         if believed:
             self.believed += height
-            self._climb(foot, height + (first if way * first > self.rise else 0.0))
+            self._climb(foot, height + (first if way * first > END_RISE else 0.0))
         else:
             self.unbelieved[foot] = self.unbelieved.get(foot, 0) + 1
         for other, strides in self.unjudged.items():
@@ -115,10 +115,10 @@ class Flights:
     def waited(self, t: float, known_at: float) -> list[FlightClimbed]:
         """It is `t` s, and no step has come since the last one told."""
         events: list[FlightClimbed] = []
-        if self.way != 0 and t - max(self.stepped_at.values(), default=t) > self.patience:
+        if self.way != 0 and t - max(self.stepped_at.values(), default=t) > PATIENCE:
             heights = list(self.stood.values())
             # once a stride's height is not known, nor is whether the feet stand on one level
-            if self.unbelieved or self.unjudged or max(heights) - min(heights) < self.even:
+            if self.unbelieved or self.unjudged or max(heights) - min(heights) < EVEN:
                 self._over(known_at, events)
                 self.stood = {}
         return events
@@ -144,7 +144,7 @@ class Flights:
     def _heard(self, foot: Foot, t: float) -> int:
         """How many feet are."""
         others = [at for other, at in self.stepped_at.items() if other is not foot]
-        return 1 + sum([abs(t - at) < self.heard_within for at in others])
+        return 1 + sum([abs(t - at) < HEARD_WITHIN for at in others])
 
     def _over(self, known_at: float, events: list[FlightClimbed]) -> None:
         unbelieved = sum(self.unbelieved.values())
@@ -153,7 +153,7 @@ class Flights:
         if 0 < known >= unbelieved:
             feet = len(self.climbed | self.unbelieved)
             height = (sum(self.climbed.values()) + unbelieved * self.believed / known) / feet
-        if self.way * height >= self.least_height and self.strides > 1:
+        if self.way * height >= LEAST_HEIGHT and self.strides > 1:
             events.append(
                 FlightClimbed(
                     t=self.t_end,

@@ -35,7 +35,6 @@ class FootTrack(Protocol):
 class FootBlocks:
     """The newest blocks of one foot. `add` every sample; `close` when a block is over; `features` of a block."""
 
-    # state
     index: int | None = None
     """Of the block under way."""
     force: float = 0.0

@@ -15,13 +15,13 @@ That is off by 1e-12 at the most, and what is made of it is rounded to 1e-4 (hyp
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import cache
+from functools import cache, cached_property
 from math import dist, exp, hypot, log, tanh
 from operator import truediv
 from typing import Any
 
 from ...types import Activity
-from ...types.attrs import field, frozen
+from ...types.attrs import frozen
 from .chain import Chain, Chances, Shifts, chain_of
 from .features import COUNT, GYRO
 
@@ -40,16 +40,15 @@ class Network:
     output: tuple[Row, ...]
     """One for each of `MOTIONS`."""
     output_bias: Row
-    hidden_half: Row = field(init=False, repr=False)
-    """The bias of each unit with w w / 2 of its weights w."""
-    output_half: Row = field(init=False, repr=False)
 
-    @hidden_half.default
-    def _hidden_half(self) -> Row:
+    @cached_property
+    def hidden_half(self) -> Row:
+        """The bias of each unit with w w / 2 of its weights w."""
         return _with_half_squares(self.hidden, self.hidden_bias)
 
-    @output_half.default
-    def _output_half(self) -> Row:
+    @cached_property
+    def output_half(self) -> Row:
+        """The same of the outputs."""
         return _with_half_squares(self.output, self.output_bias)
 
     def log_probabilities(self, features: Sequence[float]) -> list[float]:
@@ -79,11 +78,10 @@ class MotionModel:
     """and their deviation."""
     chances: Chances
     shifts: Shifts
-    middles: tuple[Row, ...] = field(init=False, repr=False)
-    """The means as multiples of the deviations."""
 
-    @middles.default
-    def _middles(self) -> tuple[Row, ...]:
+    @cached_property
+    def middles(self) -> tuple[Row, ...]:
+        """The means as multiples of the deviations."""
         return tuple([tuple(map(truediv, *rows)) for rows in zip(self.usual, self.spread, strict=True)])
 
     def log_probabilities(self, features: Sequence[float]) -> list[float]:

@@ -12,7 +12,7 @@ from typing import Any
 
 from attrs import frozen
 
-from ...body.activity.activities import Activities
+from ...body.activity.activities import Activities, ActivitiesSettings
 from ...body.part import Doing
 from ...papers.footstep_tracker.activity.two_second_windows import TwoSecondWindows
 from ...recipes import Recipe
@@ -58,7 +58,9 @@ LEARNERS: dict[type, Learner] = {
     Activities: Learner(
         _everyone,
         _blocks,
-        lambda taught: Activities(activities.learnt([one for blocks in taught for one in blocks], "the other folds")),
+        lambda taught: Activities(
+            ActivitiesSettings(activities.learnt([one for blocks in taught for one in blocks], "the other folds"))
+        ),
     ),
     TwoSecondWindows: Learner(
         lambda folder: [(one.path, one.subject) for one in recordings(folder / "hugadb")],
