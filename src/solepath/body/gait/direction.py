@@ -15,7 +15,7 @@ from math import pi
 from ...events import StrideTaken
 from ...types import Foot
 from ...types.attrs import define, field, frozen
-from .turning_steps import TurningSteps
+from .turning_steps import NO_TURN, TurningSteps
 
 STANDS = 2.0
 """Who turns and then stands has turned, when no foot has come down for so long, s, or for as long as the last turning
@@ -61,7 +61,6 @@ class Direction:
     """Steps in, whole turns out. Latency: a turn is known when the feet have gone straight on for `STRAIGHT` steps (two
     where only one is heard), or have stood for `STANDS`."""
 
-    # state
     left: FootTurn = field(factory=FootTurn, init=False)
     right: FootTurn = field(factory=FootTurn, init=False)
     began: float | None = field(default=None, init=False)
@@ -91,7 +90,7 @@ class Direction:
         """A foot that took no step from one foot-flat to the next, s, has turned by `angle`, rad: as above, but when it
         is no turning step it is nothing."""
         this, other = self._feet(foot)
-        if abs(angle) <= this.turning.straight:
+        if abs(angle) <= NO_TURN:
             return None
         this.stepped = t_end
         return self._turning(this, other, t_start, t_end, angle)

@@ -8,7 +8,7 @@ barometer is off by (weather, wind, doors, its own offset), with half a second o
 
     a step of height h     the correction is less sure by the variance of h; a level one changes nothing
     a lift                 it jumps by the ride's height, and is less sure by how well that is known
-    time                   each offset wanders by `drift`^2 a second
+    time                   each offset wanders by `OFFSET_DRIFT`^2 a second
 
 So on level ground, where no step gains height, the air can move nothing: weather and doors are offsets. On stairs the
 steps say what each one gains and the air what they came to; in a lift the air alone says it, where there is one.
@@ -26,7 +26,7 @@ from typing import ClassVar
 from ...events import LiftRidden, StrideTaken
 from ...foot.view import FootView
 from ...types import Foot, Site
-from ...types.attrs import define, evolve, field
+from ...types.attrs import define, evolve, field, frozen
 from ..part import HeightShift, Instead, Notice, Part, Said
 from .received import Heard, Told
 
@@ -52,6 +52,15 @@ STRIDES = 64
 """The newest are remembered, for rides that were none."""
 STRODE = 0.3
 """A longer one is no shift of weight, m."""
+OFFSET_DRIFT = 0.03
+"""Wander of a barometer's offset, m in one second: 0.35 Pa, indoors. Weather alone makes less than that."""
+STEP_ERROR, DEGRADED = 0.05, 3.0
+"""What a step's height is wrong by, as a share of it, beside what the filter expects; so many times as much where too
+little was measured (a degraded step)."""
+RIDE_ERROR = 0.1
+"""What a ride's height is wrong by without more air than until its end, as a share of it."""
+SHORTEST, SLOWEST, FASTEST = 1.8, 0.25, 4.0
+"""What a lift rides at least, m, for its height to be believed without air, and between which mean speeds, m/s."""
 
 
 @define
@@ -111,29 +120,23 @@ class PendingReadings:
     """The newest that was used, m."""
 
 
+@frozen
+class AltitudeSettings:
+    """What `Altitude` is set to."""
+
+    air: bool = True
+    """Use the air pressure."""
+    lifts: bool = True
+    """Follow lifts."""
+
+
 @define
 class Altitude(Part):
-    """`air`: use the air pressure; `lifts`: follow lifts. Latency: none for the air; a ride is known after it."""
+    """The filter, fed. Latency: none for the air; a ride is known after it."""
 
     feeds: ClassVar[bool] = True
 
-    air: bool = True
-    lifts: bool = True
-    drift: float = 0.03
-    """Wander of a barometer's offset, m in one second: 0.35 Pa, indoors. Weather alone makes less than that."""
-    share: float = 0.05
-    """What a step's height is wrong by, as a share of it, beside what the filter expects;"""
-    degraded: float = 3.0
-    """so many times as much where too little was measured (a degraded step)."""
-    ridden: float = 0.1
-    """What a ride's height is wrong by without more air than until its end, as a share of it."""
-    shortest: float = 1.8
-    """What a lift rides at least, m, for its height to be believed without air,"""
-    slowest: float = 0.25
-    """m/s, its mean speed, and"""
-    fastest: float = 4.0
-    """m/s."""
-    # state
+    settings: AltitudeSettings = AltitudeSettings()
     now: Heights = field(factory=Heights, init=False)
     base: Heights = field(factory=Heights, init=False)
     """As it was before what is kept."""
@@ -153,7 +156,7 @@ class Altitude(Part):
         if pressure is None:
             return ()
         t, z = view.t, view.position[2]
-        if not (self.air and 2e4 < pressure < 2e5 and abs(z) < FARTHEST):
+        if not (self.settings.air and 2e4 < pressure < 2e5 and abs(z) < FARTHEST):
             return ()
         which = LEFT if view.foot is Foot.LEFT else RIGHT
         side = self.sides[which]
@@ -174,7 +177,7 @@ class Altitude(Part):
         """A stride makes the correction less sure; a ride's height is what is made of it here."""
         if isinstance(event, StrideTaken):
             return self._stepped(event)
-        if self.lifts and isinstance(event, LiftRidden):
+        if self.settings.lifts and isinstance(event, LiftRidden):
             ridden = self._ridden(event)
             return [Instead(event, ridden), self._height()]
         return ()
@@ -193,8 +196,6 @@ class Altitude(Part):
         self.kept.clear()
         self.strides.clear()
 
-    # --- what came ---
-
     def _stepped(self, step: StrideTaken) -> Sequence[Said]:
         self.strides.append((float(round(100.0 * step.t_start)), float(round(100.0 * step.t_end))))
         if step.length < STRODE:
@@ -206,9 +207,9 @@ class Altitude(Part):
         height, variance = abs(step.height_change), step.covariance[5]
         if not LEVEL < height < FARTHEST or not variance < FARTHEST:
             return ()
-        wrong = (self.share * height) ** 2 + max(0.0, variance)
+        wrong = (STEP_ERROR * height) ** 2 + max(0.0, variance)
         if step.degraded:
-            wrong *= self.degraded * self.degraded
+            wrong *= DEGRADED * DEGRADED
         # of the mean of both feet each step is a half
         return self._keep((step.t, MOVE, 0.0, 0.25 * wrong))
 
@@ -221,7 +222,7 @@ class Altitude(Part):
         if not aired and not self._sound(ride):
             return evolve(ride, height=None)
         by = 0.0 if ride.height is None or not abs(ride.height) < FARTHEST else ride.height
-        variance = (self.ridden * by) ** 2 if by else UNKNOWN
+        variance = (RIDE_ERROR * by) ** 2 if by else UNKNOWN
         before = self.now.values[0]
         kept = [one for one in told if one[1] == MOVE or not start - AROUND < one[0] < end + AROUND]
         first = [one for one in kept if one[0] <= end]
@@ -241,9 +242,7 @@ class Altitude(Part):
             return False
         began, ended = 100.0 * ride.t_start, 100.0 * ride.t
         walked = sum([start > began and end < ended for start, end in self.strides])
-        return walked < 2 and abs(height) >= self.shortest and self.slowest <= abs(height) / lasted <= self.fastest
-
-    # --- the filter ---
+        return walked < 2 and abs(height) >= SHORTEST and SLOWEST <= abs(height) / lasted <= FASTEST
 
     def _keep(self, one: Told) -> Sequence[Said]:
         kept = self.kept
@@ -257,4 +256,4 @@ class Altitude(Part):
         if which == MOVE:
             heights.move(value, variance)
         else:
-            heights.read(which, t, value, variance, self.drift * self.drift)
+            heights.read(which, t, value, variance, OFFSET_DRIFT * OFFSET_DRIFT)
