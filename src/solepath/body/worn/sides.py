@@ -13,9 +13,9 @@ Exchanged feet are seen in one of three ways, the surest first:
    toe. Insoles whose cells are numbered as mirror images of each other look alike when they are exchanged together with
    their layouts; this way sees nothing of that.
 
-Both feet must agree, over `least` steps each. Nothing is said of feet that hardly roll: who shuffles, or climbs, may be
+Both feet must agree, over eight steps each. Nothing is said of feet that hardly roll: who shuffles, or climbs, may be
 told late or never. Of 93 recordings of both feet (healthy walkers and patients, a treadmill, stairs, 50 to 200 Hz) none
-is taken for exchanged, and 51 are when they are; of the others all but 9 have fewer than `least` steps of a foot. A
+is taken for exchanged, and 51 are when they are; of the others all but 9 have fewer than eight steps of a foot. A
 sensor frame that is left-handed on both feet (the sign of an axis lost) mirrors the motion, and a mirrored left foot
 is a right one: that is told as exchanged feet, and is as wrong.
 """
@@ -55,13 +55,18 @@ LATE = 0.05
 """The centre of pressure is looked at this often, s."""
 CONTACT = 40
 """Instants of it that are remembered."""
+SPAN = 24.0
+"""Steps of a foot that count most in what is known of it."""
+ENOUGH = 8
+"""Steps of each foot before anything is said."""
+ROLLED, WENT = 0.02, 0.002
+"""By more than this the feet must look exchanged: roll, rad, and centre of pressure, m."""
 
 
 @define
 class Average:
-    """Mean and variance, the last `span` counting most."""
+    """Mean and variance, the last `SPAN` counting most."""
 
-    span: float = 24.0
     count: int = 0
     mean: float = 0.0
     variance: float = 0.0
@@ -69,7 +74,7 @@ class Average:
     def add(self, value: float) -> None:
         """One more."""
         self.count += 1
-        k = 1.0 / min(float(self.count), self.span)
+        k = 1.0 / min(float(self.count), SPAN)
         off = value - self.mean
         self.mean += k * off
         self.variance = (1.0 - k) * (self.variance + k * off * off)
@@ -78,7 +83,7 @@ class Average:
         """There are enough, and the mean is above the limit by twice its own error."""
         if self.count < least:
             return False
-        return self.mean - 2.0 * sqrt(self.variance / min(float(self.count), self.span)) > limit
+        return self.mean - 2.0 * sqrt(self.variance / min(float(self.count), SPAN)) > limit
 
 
 @define
@@ -107,13 +112,6 @@ class Sides:
     """Evidence of both feet; none where a device says of itself on which foot it is. Costs an integral at 50 Hz, or a
     centre of pressure at 20 Hz for an insole alone."""
 
-    least: int = 8
-    """Steps of each foot before anything is said."""
-    rolled: float = 0.02
-    """rad."""
-    gone: float = 0.002
-    """m."""
-    # state
     left: SideSigns = field(factory=SideSigns, init=False)
     right: SideSigns = field(factory=SideSigns, init=False)
 
@@ -177,8 +175,8 @@ class Sides:
         if left.told or right.told:
             return False
         if left.roll.count or right.roll.count:
-            return left.roll.beyond(self.rolled, self.least) and right.roll.beyond(self.rolled, self.least)
-        return left.centre.beyond(self.gone, self.least) and right.centre.beyond(self.gone, self.least)
+            return left.roll.beyond(ROLLED, ENOUGH) and right.roll.beyond(ROLLED, ENOUGH)
+        return left.centre.beyond(WENT, ENOUGH) and right.centre.beyond(WENT, ENOUGH)
 
 
 def _land(side: SideSigns, step: StrideTaken, up: Vec3) -> None:

@@ -8,7 +8,7 @@ from typing import ClassVar, Final
 from ...events import FeetSwapped, FootHeard, FootSilent
 from ...foot.view import FootView
 from ...types import Foot
-from ...types.attrs import define, field
+from ...types.attrs import define, field, frozen
 from ..part import LayoutTold, Notice, Part, Said
 from .sides import Sides
 
@@ -28,6 +28,16 @@ class Hearing:
     """That it is silent."""
 
 
+@frozen
+class WearSettings:
+    """What `Wear` is set to."""
+
+    steps: int = 3
+    """Of the other foot, for one to be silent;"""
+    seconds: float = 3.0
+    """and so long without a sample, s."""
+
+
 @define
 class Wear(Part):
     """Hears every sample of both feet.
@@ -40,10 +50,8 @@ class Wear(Part):
 
     feeds: ClassVar[bool] = True
 
-    steps: int = 3
-    seconds: float = 3.0
-    sides: Sides = field(factory=Sides)
-    # state
+    settings: WearSettings = WearSettings()
+    sides: Sides = field(factory=Sides, init=False)
     left: Hearing = field(factory=Hearing, init=False)
     right: Hearing = field(factory=Hearing, init=False)
     swapped: bool = field(default=False, init=False)
@@ -77,7 +85,7 @@ class Wear(Part):
         if other.missing and other.t is not None and not other.said:
             if t < other.t:
                 other.missing = 0  # this foot lags behind the other on the way here, or its times began anew
-            elif other.missing >= self.steps and t - other.t >= self.seconds:
+            elif other.missing >= self.settings.steps and t - other.t >= self.settings.seconds:
                 other.said = True
                 silent = Foot.RIGHT if is_left else LEFT
                 found.append(FootSilent(t=t, known_at=view.known_at, foot=silent, silent_for=t - other.t))
