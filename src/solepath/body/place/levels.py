@@ -44,7 +44,6 @@ LIKELY = 0.3
 class Levels(Readings):
     """Who is near stairs or a lift when they are told of changes level, or does not."""
 
-    # state
     last: Vec3 = field(default=ZERO, init=False)
     """Up to where the track has been followed, m."""
     references: References = field(factory=References, init=False)
@@ -94,7 +93,7 @@ class Levels(Readings):
             if arrived.sure <= LIKELY:
                 self.release()
                 return
-            there = anew(self.scattered, plan, arrived, self.most)
+            there = anew(self.scattered, plan, arrived, self.settings.most)
             self.either = arrived.kind is ConnectorKind.STAIRS
             found = sum([row[4] for row in there])
             sure = 1.0 - DOUBT[arrived.kind]
@@ -104,8 +103,8 @@ class Levels(Readings):
             self.either = False
         self.arrived = arrived.t
         there = [(x, y, a, b, k * w, level, came, 0) for x, y, a, b, w, level, came, _ in there]
-        if len(there) > self.most:
-            there = self.thinned(there, self.most)
+        if len(there) > self.settings.most:
+            there = self.thinned(there, self.settings.most)
         there = self._caught_up(plan, there, arrived.t) + resampled(rows, FEW, 0.5)
         if there:
             self.keep(there)

@@ -47,7 +47,6 @@ class Placing(Levels):
 
     follows: ClassVar[bool] = True
 
-    # state
     plan: IndexedPlan | None = field(default=None, init=False, eq=False, repr=False, metadata=NOT_SAVED)
     """Where the wearer is; whoever makes or restores a session sets it, since it is not saved."""
     waiting: list[Event] = field(factory=list, init=False)
@@ -121,8 +120,6 @@ class Placing(Levels):
             told.append(self._told(plan, here, known_at))
         return told
 
-    # --- the flow ---
-
     def _begin(self, plan: IndexedPlan, here: WearerMoved, known_at: float, told: list[Event]) -> None:
         start = self.start
         if start is None:
@@ -138,7 +135,7 @@ class Placing(Levels):
             self.last = here.position
             return
         level = plan.number(start.level)
-        count = self.most if start.heading is None else 2 * FEW
+        count = self.settings.most if start.heading is None else 2 * FEW
         self.crowd = rounded(fan(self.scattered, plan, level, start.place, start.spread, start.heading, count, 0, 1.0))
 
     def _move(
@@ -188,8 +185,6 @@ class Placing(Levels):
     def _forget(self) -> None:
         self.crowd, self.newest, self.outside, self.stuck = [], None, 0, 0.0
 
-    # --- what is told ---
-
     def _told(self, plan: IndexedPlan, here: WearerMoved, known_at: float) -> Event:
         rows = self.crowd
         known = plan.plan.heights_known
@@ -208,9 +203,9 @@ class Placing(Levels):
         else:
             self.outside = 0
         others = sum([min(1.0, 10.0 * one.weight) for one in candidates[1:]])
-        wanted = min(self.most, FEW + int(MORE * others if others else 8.0 * min(spread, 5.0)))
+        wanted = min(self.settings.most, FEW + int(MORE * others if others else 8.0 * min(spread, 5.0)))
         if self.wide > 0:
-            self.wide, wanted = self.wide - 1, self.most
+            self.wide, wanted = self.wide - 1, self.settings.most
         few = len(rows) <= 1.25 * wanted and (self.wide > 0 or effective(rows) >= 0.5 * wanted)
         if first.weight >= CLEAR and len(candidates) > 1 and self.wide == 0 and not self.either:
             x0, y0 = plan.plan.origin

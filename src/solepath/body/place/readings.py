@@ -7,7 +7,7 @@ from math import cos, hypot, pi, sin
 
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
-from ...types.attrs import define, field
+from ...types.attrs import define, field, frozen
 from ..part import Part
 from .crowd import Row, resampled, rounded
 from .noise import NOISE, ROWS, following
@@ -24,17 +24,21 @@ WAYS, OF_THEM = 12, 8
 """So many headings are then possible, and so many readings take each."""
 
 
+@frozen
+class ReadingsSettings:
+    """What `Readings` are set to, whatever the method."""
+
+    most: int = 260
+    """More readings of the track than this are never kept."""
+
+
 @define
 class Readings(Part, ABC):
     """How a method extends readings is its own; what is left is here."""
 
-    most: int = 260
-    """More readings of the track than this are never kept."""
-    # state
+    settings: ReadingsSettings = ReadingsSettings()
     crowd: list[Row] = field(factory=list, init=False)
     random: int = field(default=1, init=False)
-
-    # --- how a method differs ---
 
     @abstractmethod
     def extended(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
@@ -49,11 +53,10 @@ class Readings(Part, ABC):
     def thinned(self, rows: list[Row], wanted: int) -> list[Row]:
         """About so many rows that stand for all."""
 
-    # --- what all do ---
-
     def keep(self, rows: list[Row]) -> None:
         """These from now on, or as many that stand for them."""
-        self.crowd = rounded(rows if len(rows) <= self.most else self.thinned(rows, self.most))
+        most = self.settings.most
+        self.crowd = rounded(rows if len(rows) <= most else self.thinned(rows, most))
 
     def stepped(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
         """All rows a move (m, track) further."""
@@ -84,7 +87,8 @@ class Readings(Part, ABC):
                 nx, ny = x + a * dx - b * dy + off * ex, y + b * dx + a * dy + off * ey
                 if plan.inside(level, nx + x0, ny + y0):
                     kept.append((nx, ny, a, b, w, level, origin, held))
-        return kept if len(kept) <= self.most else resampled(kept, self.most, 0.5)
+        most = self.settings.most
+        return kept if len(kept) <= most else resampled(kept, most, 0.5)
 
 
 def looked(plan: IndexedPlan, rows: list[Row]) -> list[Row]:

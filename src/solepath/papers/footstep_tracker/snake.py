@@ -37,7 +37,8 @@ class SnakeGame(Placing):
         """The traces a move further; without those that cannot go there."""
         self.random = following(self.random)
         grown = swayed(plan, rows, move, rough, turned, self.random, True)
-        return grown if len(grown) <= self.most else self.thinned(grown, self.most)
+        most = self.settings.most
+        return grown if len(grown) <= most else self.thinned(grown, most)
 
     def scattered(self, k: int, count: int) -> tuple[float, float, float, float]:
         """For the k-th of `count` new rows, each from -1 to 1: x, y, heading, stretch."""
