@@ -10,9 +10,10 @@ recording) knows the ranges and periods in force.
 from __future__ import annotations
 
 from enum import Enum
+from functools import cached_property
 from math import inf
 
-from ..types.attrs import field, frozen
+from ..types.attrs import frozen
 
 
 class Access(Enum):
@@ -63,10 +64,10 @@ class Profile:
     streams: tuple[str, ...]
     stale_after: float
     prefixes: tuple[str, ...] = ()
-    channel_names: frozenset[str] = field(init=False, repr=False, eq=False)
 
-    @channel_names.default
-    def _every_name(self) -> frozenset[str]:
+    @cached_property
+    def channel_names(self) -> frozenset[str]:
+        """Of all its channels."""
         return frozenset(channel.name for channel in self.channels)
 
     def __attrs_post_init__(self) -> None:
