@@ -71,9 +71,9 @@ def rows_of(page: Node) -> dict[str, list[str]]:
 
 
 def test_the_gait_table_has_the_numbers_of_the_session() -> None:
-    means = GaitMeans(memory=10**9)
+    means = GaitMeans()
     for event in of(GaitCycleMeasured, walked()):
-        means.hear(event)
+        means.hear(event, 10**9)
     parameters = means.of(False)
     assert parameters is not None
     rows = rows_of(shown(told(*walked())))

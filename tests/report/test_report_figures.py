@@ -42,9 +42,9 @@ def test_a_scale_of_nothing_and_a_line_through_one_place_are_drawn_too() -> None
 
 @given(st.integers(0, 3000), st.integers(4, 100))
 def test_of_a_long_row_few_are_kept_evenly_with_the_first_and_the_last(count: int, most: int) -> None:
-    row: Thinned[tuple[int]] = Thinned(most)
+    row: Thinned[tuple[int]] = Thinned()
     for k in range(count):
-        row.add((k,))
+        row.add((k,), most)
     kept = [k for (k,) in row]
     assert len(row) <= most
     assert row.count == count

@@ -45,9 +45,9 @@ def test_time_before_the_first_activity_and_after_the_end_is_nobodys():
 
 
 def test_a_timeline_of_too_many_changes_leaves_out_what_was_short_and_keeps_the_newest():
-    line = Timeline(most=4)
+    line = Timeline()
     for k, t in enumerate((0.0, 10.0, 20.0, 20.5, 30.0)):
-        line.add(told(t, Activity.WALKING if k % 2 else Activity.STANDING))
+        line.add(told(t, Activity.WALKING if k % 2 else Activity.STANDING), 4)
     assert line.last == (30.0, Activity.STANDING)
     assert line.spans(40.0) == [(10.0, 30.0, Activity.WALKING), (30.0, 40.0, Activity.STANDING)]
 

@@ -104,9 +104,9 @@ class Observer:
     """Of every site that was heard of."""
     feet: dict[Foot, FootCounts] = field(factory=dict)
     track: LiveTrack = field(factory=LiveTrack)
-    timeline: Timeline = field(factory=lambda: Timeline(MOST_CHANGES))
+    timeline: Timeline = field(factory=Timeline)
     """What the wearer did when."""
-    gait: GaitMeans = field(factory=lambda: GaitMeans(memory=EVER))
+    gait: GaitMeans = field(factory=GaitMeans)
     """Of all steady strides, none fading."""
     gait_of_late: GaitMeans = field(factory=GaitMeans)
     """The same as `Session.gait` has it: old strides fade."""
@@ -134,8 +134,6 @@ class Observer:
     """How often nothing came of a foot while the other one walked on."""
     _elsewhere: dict[Site, Decoder] = field(factory=dict)
     """What counts the samples in packets of sites that are no feet: a session says nothing of them."""
-
-    # --- in ---
 
     def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
         """What the session was fed, and what it said of that. None: nothing came, time passed or the session ended."""
@@ -222,12 +220,12 @@ class Observer:
                 one.degraded += event.degraded
                 one.distance += event.length
             case GaitCycleMeasured():
-                self.gait.hear(event)
+                self.gait.hear(event, EVER)
                 self.gait_of_late.hear(event)
             case ClockReset(known_at=known_at) if known_at < self.now - BACK:
                 self.now = known_at
             case ActivityChanged():
-                self.timeline.add(event)
+                self.timeline.add(event, MOST_CHANGES)
             case StrideFused(final=True):
                 self.fused = event
             case TouchedDown(mode=mode, final=True):
@@ -261,8 +259,6 @@ class Observer:
                 _once(self.worn, "the feet look swapped: what comes as the left one is like a right one")
             case _:
                 pass
-
-    # --- out ---
 
     @property
     def heard(self) -> list[Foot]:

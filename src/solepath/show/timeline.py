@@ -14,25 +14,24 @@ from ..types import Activity
 
 @define
 class Timeline:
-    """Activities over the time so far. `most`: with more changes than so many the shortest activities are left out, and
-    go to the one before, until half as many are left; None keeps all."""
+    """Activities over the time so far."""
 
-    most: int | None = None
     _starts: list[float] = field(factory=list, init=False)
     """s, rising."""
     _activities: list[Activity] = field(factory=list, init=False)
     _shortest: float = field(default=1.0, init=False)
     """s: what lasts for less is left out next."""
 
-    def add(self, event: ActivityChanged) -> None:
-        """The next event, in the order in which they were told."""
+    def add(self, event: ActivityChanged, most: int | None = None) -> None:
+        """The next event, in the order in which they were told. With more changes than `most` the shortest activities
+        are left out, and go to the one before, until half as many are left; None keeps all."""
         if event.revises is not None:
             self._cut(event.revises)
         self._cut(event.t)
         self._starts.append(event.t)
         self._activities.append(event.activity)
-        if self.most is not None and len(self._starts) > self.most:
-            while len(self._starts) > self.most // 2:
+        if most is not None and len(self._starts) > most:
+            while len(self._starts) > most // 2:
                 self._coarsen()
 
     @property

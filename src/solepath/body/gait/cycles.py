@@ -37,7 +37,6 @@ class GaitCycles(Part):
 
     feeds: ClassVar[bool] = True
 
-    # state
     left: Footfalls = field(factory=Footfalls, init=False)
     right: Footfalls = field(factory=Footfalls, init=False)
     left_followed: Followed = field(factory=Followed, init=False)

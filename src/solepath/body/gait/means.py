@@ -208,9 +208,6 @@ class GaitMeans:
     """Every stride in, running means of the steady ones out: each is counted once the next one of its foot follows, so
     that the last one before a stop is not."""
 
-    memory: int = MEMORY
-    """Strides of a foot after which old ones fade."""
-    # state
     left: GaitCycleMeasured | None = field(default=None, init=False)
     right: GaitCycleMeasured | None = field(default=None, init=False)
     """The foot's newest stride."""
@@ -219,15 +216,15 @@ class GaitMeans:
     running: bool | None = field(default=None, init=False)
     """What the newest stride that counts was; None before any."""
 
-    def hear(self, stride: GaitCycleMeasured) -> None:
-        """One more stride, of either foot in the order of its time."""
+    def hear(self, stride: GaitCycleMeasured, memory: int = MEMORY) -> None:
+        """One more stride, of either foot in the order of its time; its foot's old ones fade after `memory`."""
         if stride.foot is Foot.LEFT:
             before, self.left = self.left, stride
         else:
             before, self.right = self.right, stride
         if before is not None and before.steady and before.t == stride.t_start:
             self.running = running = before.running
-            (self.run if running else self.walked).add(before, self.memory)
+            (self.run if running else self.walked).add(before, memory)
 
     def interrupt(self, foot: Foot) -> None:
         """Nothing that comes follows what came."""

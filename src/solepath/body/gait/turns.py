@@ -64,7 +64,6 @@ class Turns(Part):
 
     feeds: ClassVar[bool] = True
 
-    # state
     direction: Direction = field(factory=Direction, init=False)
     lain: dict[Foot, Lain] = field(factory=dict, init=False)
 

@@ -12,19 +12,18 @@ T = TypeVar("T")
 
 @define
 class Thinned(Generic[T]):
-    """The first and the last item and, evenly among the others, so many that there are fewer than `most`."""
+    """The first and the last item and, evenly among the others, as many as `add` is told to keep."""
 
-    most: int
     kept: list[T] = field(factory=list, init=False)
     every: int = field(default=1, init=False)
     """Each so-many-th item is kept."""
     count: int = field(default=0, init=False)
     last: T | None = field(default=None, init=False)
 
-    def add(self, item: T) -> None:
-        """One more."""
+    def add(self, item: T, most: int) -> None:
+        """One more; fewer than `most` are kept."""
         if self.count % self.every == 0:
-            if len(self.kept) >= self.most:
+            if len(self.kept) >= most:
                 self.kept = self.kept[::2]
                 self.every *= 2
             if self.count % self.every == 0:

@@ -58,8 +58,8 @@ def _installed() -> str:
         return ""
 
 
-def _of_both(most: int) -> dict[Foot, Thinned[T]]:
-    return {foot: Thinned(most) for foot in Foot}
+def _of_both() -> dict[Foot, Thinned[T]]:
+    return {foot: Thinned() for foot in Foot}
 
 
 @define
@@ -79,11 +79,11 @@ class Report:
     observer: Observer = field(factory=Observer)
     # state
     soles: dict[Foot, ReportSole] = field(factory=dict, init=False)
-    strides: dict[Foot, Thinned[GaitCycleMeasured]] = field(factory=lambda: _of_both(STRIDES), init=False)
-    prints: dict[Foot, Thinned[StrideTaken]] = field(factory=lambda: _of_both(POINTS), init=False)
-    heights: dict[Foot, Thinned[FootMoved]] = field(factory=lambda: _of_both(POINTS), init=False)
-    way: Thinned[WearerMoved] = field(factory=lambda: Thinned(POINTS), init=False)
-    places: Thinned[Placed | PlaceLost] = field(factory=lambda: Thinned(PLACES), init=False)
+    strides: dict[Foot, Thinned[GaitCycleMeasured]] = field(factory=_of_both, init=False)
+    prints: dict[Foot, Thinned[StrideTaken]] = field(factory=_of_both, init=False)
+    heights: dict[Foot, Thinned[FootMoved]] = field(factory=_of_both, init=False)
+    way: Thinned[WearerMoved] = field(factory=Thinned, init=False)
+    places: Thinned[Placed | PlaceLost] = field(factory=Thinned, init=False)
     sampled: tuple[float, float] | None = field(default=None, init=False)
     """First and last sample, s ..."""
     spanned: tuple[float, float] | None = field(default=None, init=False)
@@ -106,18 +106,18 @@ class Report:
                 self.sampled = _wider(self.sampled, event.t)
                 self._sole(event.foot).press(event)
             case GaitCycleMeasured():
-                self.strides[event.foot].add(event)
+                self.strides[event.foot].add(event, STRIDES)
                 self._sole(event.foot).stride(event)
             case StrideTaken(final=True):
-                self.prints[event.foot].add(event)
+                self.prints[event.foot].add(event, POINTS)
             case WearerMoved():
-                self.way.add(event)
+                self.way.add(event, POINTS)
             case LayoutKnown(site=site, layout=layout) if site.foot is not None:
                 self._sole(site.foot).layout = layout
             case Placed(candidates=candidates):
-                self.places.add(evolve(event, candidates=candidates[:CANDIDATES]))
+                self.places.add(evolve(event, candidates=candidates[:CANDIDATES]), PLACES)
             case PlaceLost():
-                self.places.add(event)
+                self.places.add(event, PLACES)
             case _:
                 pass
 
@@ -127,7 +127,7 @@ class Report:
     def _height(self, event: FootMoved) -> None:
         last = self.heights[event.foot].last
         if event.phase is Phase.STATIONARY and (last is None or not 0.0 <= event.t - last.t < OFTEN):
-            self.heights[event.foot].add(event)
+            self.heights[event.foot].add(event, POINTS)
 
     @property
     def clock(self) -> ReportClock:
