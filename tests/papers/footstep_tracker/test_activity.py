@@ -20,6 +20,7 @@ from solepath.lab.reproduce import footstep_tracker
 from solepath.lab.train import activities, emulated
 from solepath.lab.train import footstep_activity as footstep_training
 from solepath.lab.train import turns as turns_training
+from solepath.papers.footstep_tracker.activity import two_second_windows
 from solepath.papers.footstep_tracker.activity.two_second_windows import LONGEST_RIDE, MOVING, TwoSecondWindows
 from solepath.papers.footstep_tracker.activity.window_model import FEATURES, Gaussian, WindowModel, shipped
 from solepath.papers.footstep_tracker.activity.windows import BLOCKS, FootWindows
@@ -32,8 +33,6 @@ from solepath.types.vector import GRAVITY, normalise
 RATE = 20.0
 FEET = {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in Foot}
 STILL, UP, DOWN = Activity.STANDING, Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN
-
-# --- one window -------------------------------------------------------------------------------------------------------
 
 
 def windows(accs, gyros=None, rate=RATE):
@@ -101,8 +100,6 @@ def test_no_window_goes_over_a_gap():
     # nothing is heard from 2.0 to 2.5 s; the window from 2.5 s on ends with half-second number 8
     assert [window.index for window in foot.ready] == [8, 9, 10]
 
-
-# --- standing and lifts -----------------------------------------------------------------------------------------------
 
 PULSE = 0.8
 """m/s^2."""
@@ -174,17 +171,11 @@ def test_no_second_pulse_for_a_minute_means_that_there_was_no_ride():
     assert all(event.final for event in events[-1:])
 
 
-# --- feet -------------------------------------------------------------------------------------------------------------
-
-
 def test_a_foot_that_falls_silent_is_not_waited_for():
     both = samples(lambda t: 0.0, 6.0)
     one = samples(lambda t: ride(t, 6.0, 16.0), 24.0, feet=(Foot.LEFT,))
     events = told(both + [item for item in one if item.t >= 6.0])
     assert [event.up for event in events if isinstance(event, LiftRidden)] == [True]
-
-
-# --- the hidden Markov model ------------------------------------------------------------------------------------------
 
 
 def model():
@@ -212,7 +203,7 @@ def test_the_forward_filter_by_hand():
     # a_z swings by +-v: its log variance is 2 log v, and each state is off by its own distance. With one foot the
     # likelihoods are exp(-d^2 / 2) to the power of 1/4, for each window is seen four times.
     swing = np.exp(0.5 * 3.6)
-    part = TwoSecondWindows(model())
+    part = TwoSecondWindows(two_second_windows.TwoSecondSettings(model()))
     items = samples(lambda t: swing * (-1.0) ** round(t * RATE), 4.55, feet=(Foot.LEFT,))
     # windows end at 2.5, 3.0, 3.5, 4.0 and 4.5 s; the first without any standing is the fourth of a movement
     told(items, part)
@@ -226,12 +217,9 @@ def test_the_forward_filter_by_hand():
 def test_the_variance_tree_comes_first():
     # variance 0.81 is below the threshold of 1, 1.21 above it, whatever the hidden Markov model says
     for swing, moves in ((0.9, False), (1.1, True)):
-        part = TwoSecondWindows(model())
+        part = TwoSecondWindows(two_second_windows.TwoSecondSettings(model()))
         told(samples(lambda t, v=swing: v * (-1.0) ** round(t * RATE), 6.0), part)
         assert (part.activity in MOVING) is moves
-
-
-# --- as a machine -----------------------------------------------------------------------------------------------------
 
 
 numbers = st.floats(-499, 499)
@@ -257,9 +245,6 @@ def test_a_clock_that_begins_anew_begins_all_windows_anew():
     assert part.activity is Activity.UNKNOWN
     (first,) = told(samples(lambda t: 0.0, 6.0), part)
     assert first.t == 0.0 and first.activity is STILL
-
-
-# --- what it was taught -----------------------------------------------------------------------------------------------
 
 
 def test_the_shipped_model_is_sound_and_says_what_it_was_taught_on():

@@ -25,7 +25,7 @@ from solepath.emulate.wearers.shoe import IN_SOLE
 from solepath.events import StrideTaken, TurnMade
 from solepath.lab.train.turns import ANGLES, read, trained, walk
 from solepath.papers.footstep_tracker.footsteps import Footsteps
-from solepath.papers.footstep_tracker.projection import Projection
+from solepath.papers.footstep_tracker.projection import Projection, ProjectionSettings
 from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from solepath.papers.footstep_tracker.toe_out import learnt, toe_out
 from solepath.recipes import DEFAULT, Recipe
@@ -57,9 +57,6 @@ def gone(count: int, left: float, right: float) -> Footsteps:
 def base(body: Footsteps) -> tuple[float, float]:
     (lx, ly), (rx, ry), (x, y) = (*(way.here for way in body.ways.values()), body.base)
     return (x + 0.5 * (lx + rx), y + 0.5 * (ly + ry))
-
-
-# --- the one-metre rule -----------------------------------------------------------------------------------------------
 
 
 def test_the_wearer_is_at_the_mean_of_what_both_feet_went() -> None:
@@ -98,9 +95,6 @@ def test_both_feet_go_on_in_the_direction_of_the_mean_of_their_turns() -> None:
         body.step(step(foot, 2.0, way=(cos(own), sin(own))))
     x, y = base(body)
     assert (x - before[0], y - before[1]) == pytest.approx((0.0, 1.0))
-
-
-# --- turning processes ------------------------------------------------------------------------------------------------
 
 
 def told(direction: Direction, steps: list[StrideTaken]) -> list[TurnProcess]:
@@ -153,9 +147,6 @@ def test_a_foot_that_pivots_without_a_step_has_turned_all_the_same() -> None:
     assert (found.t_start, found.t_end) == (3.0, 6.0)
 
 
-# --- the classifier ---------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("left", "right", "turn"),
     [
@@ -189,9 +180,6 @@ def test_a_wearer_who_turns_is_told_to_have_turned() -> None:
     assert right >= 11  # of 12: who swings a foot round by 170 degrees at once does so too fast for its gyroscope
 
 
-# --- walks ------------------------------------------------------------------------------------------------------------
-
-
 @cache
 def corridor(metres: float, seed: int = 1) -> EmulatedWalk:
     device = CC2541(rate=20.0, mounting=IN_SOLE)
@@ -208,7 +196,7 @@ def test_without_what_rest_tells_a_gyroscope_that_clips_makes_steps_too_short() 
         lengths: list[float] = [one.length for p in walked.packets for one in of(StrideTaken, session.feed(p))]
         return sum(lengths)
 
-    printed = length(evolve(FOOTSTEP_TRACKER, corrector=Projection(printed=True)))
+    printed = length(evolve(FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(printed=True))))
     assert printed < 0.7 * length(FOOTSTEP_TRACKER)
 
 
@@ -223,9 +211,6 @@ def test_who_turns_on_the_spot_has_turned_though_the_feet_hardly_leave_the_groun
     (made,) = of(TurnMade, said(walked.packets, recipe))
     assert made.turn is turn
     assert abs(degrees(made.angle) - degrees_) < 30.0
-
-
-# --- the toe-out angle ------------------------------------------------------------------------------------------------
 
 
 def test_the_toe_out_angle_is_the_arc_cosine_of_the_walk_over_the_steps() -> None:
@@ -255,7 +240,7 @@ def test_a_walk_of_another_length_or_of_no_steps_is_refused() -> None:
 
 def test_the_angle_of_a_calibration_is_the_one_that_the_foot_uses() -> None:
     known = Calibration(toe_out={Foot.RIGHT: 0.2})
-    left, right = (Projection().calibrated(foot, known) for foot in Foot)
+    left, right = (Projection().calibrated(foot, known).settings for foot in Foot)
     assert (right.toe_out, right.outwards, left.toe_out, left.outwards) == (0.2, -1.0, 0.0, 1.0)
 
 

@@ -14,7 +14,7 @@ from attrs import frozen
 
 from ...body.activity.activities import Activities, ActivitiesSettings
 from ...body.part import Doing
-from ...papers.footstep_tracker.activity.two_second_windows import TwoSecondWindows
+from ...papers.footstep_tracker.activity.two_second_windows import TwoSecondSettings, TwoSecondWindows
 from ...recipes import Recipe
 from ...recording import RecordingError
 from ..train import activities, footstep_activity
@@ -65,7 +65,7 @@ LEARNERS: dict[type, Learner] = {
     TwoSecondWindows: Learner(
         lambda folder: [(one.path, one.subject) for one in recordings(folder / "hugadb")],
         footstep_activity.of_recording,
-        lambda taught: TwoSecondWindows(footstep_activity.train(taught, "the other folds")),
+        lambda taught: TwoSecondWindows(TwoSecondSettings(footstep_activity.train(taught, "the other folds"))),
     ),
 }
 

@@ -19,8 +19,8 @@ from .segment import StepSegment
 
 @define
 class CriticalCues(Cues):
-    """Latency: all four are known when the static zone that ends the step is, `StaticZones.brief` after foot-flat; so
-    toe-off some 0.6 s after it happened. An insole without an inertial sensor is left to `PressureCues`."""
+    """Latency: all four are known when the static zone that ends the step is, `brief` s (static_zones.py) after
+    foot-flat; so toe-off some 0.6 s after it happened. An insole alone is left to `PressureCues`."""
 
     pressure: PressureCues = field(factory=PressureCues)
 

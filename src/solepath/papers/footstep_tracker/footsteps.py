@@ -61,7 +61,6 @@ class Footsteps(Track):
 
     feeds: ClassVar[bool] = True
 
-    # state
     ways: dict[Foot, FootWay] = field(init=False)
     base: Flat = field(default=(0.0, 0.0), init=False)
     """Where the wearer was at the last restart."""

@@ -19,7 +19,7 @@ from ...foot.navigate.corrector import LONGEST_BRIDGE
 from ...foot.navigate.strapdown import Strapdown
 from ...foot.stance.stance import Stance
 from ...types import Foot, Phase, Quat, Vec3
-from ...types.attrs import define, evolve, field
+from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, heading_turned, multiply, rotate, tipped
 from .critical_times import CriticalTimes
 from .segment import StepSegment
@@ -37,6 +37,18 @@ AT_END = 0.95
 """Rates about the foot's axes are somewhat less than about the sensor's, which are up to 15 degrees off."""
 FURTHEST = 3.0
 """No step is longer, m."""
+STEP_ERROR, TURN_ERROR = 0.1, 0.05
+"""What a step is wrong by, as a share of its length: the paper's figure 11; what its turn is wrong by, rad."""
+
+
+@frozen
+class ProjectionSettings:
+    """What `Projection` is set to. `toe_out`: phi of this foot, rad, outwards positive; `outwards`: 1 for a left foot,
+    -1 for a right one; phi of (1) is their product. `printed`: the equations as they are printed."""
+
+    toe_out: float = 0.0
+    outwards: float = 1.0
+    printed: bool = False
 
 
 @define
@@ -47,18 +59,8 @@ class Projection(Strapdown):
     a strapdown, the former without its height, and leap to the step's own end.
     """
 
-    toe_out: float = 0.0
-    """phi of this foot, rad; outwards positive."""
-    outwards: float = 1.0
-    """1 for a left foot, -1 for a right one: phi of (1) is `toe_out` times this."""
-    printed: bool = False
-    """The equations as they are printed."""
-    share: float = 0.1
-    """What a step is wrong by, as a share of its length: the paper's figure 11."""
-    turn_error: float = 0.05
-    """What a step's turn is wrong by, rad."""
+    settings: ProjectionSettings = ProjectionSettings()
     turning: TurningSteps = field(factory=TurningSteps)
-    # state
     end: float = field(default=0.0, init=False)
     """The largest rate about an axis that the device called saturated, rad/s; 0 when it never did;"""
     near: float = field(default=0.0, init=False)
@@ -77,7 +79,8 @@ class Projection(Strapdown):
     def calibrated(self, foot: Foot, calibration: Calibration) -> Projection:
         """The same for this foot, with its toe-out angle where it is known."""
         outwards = 1.0 if foot is Foot.LEFT else -1.0
-        return evolve(self, toe_out=calibration.toe_out.get(foot, self.toe_out), outwards=outwards)
+        toe_out = calibration.toe_out.get(foot, self.settings.toe_out)
+        return evolve(self, settings=evolve(self.settings, toe_out=toe_out, outwards=outwards))
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         self.attitude = self.stood = attitude
@@ -109,7 +112,7 @@ class Projection(Strapdown):
         segment = stance.detail
         if isinstance(segment, StepSegment):
             self._rest(segment)
-        elif self.printed or self.rate is None or abs(rotate(self.attitude, self.rate)[2]) < PIVOT:
+        elif self.settings.printed or self.rate is None or abs(rotate(self.attitude, self.rate)[2]) < PIVOT:
             self.attitude = self.stood
         self.position, self.velocity = self.anchored, ZERO
         self._level(min(self.moving, 0.1))
@@ -131,9 +134,9 @@ class Projection(Strapdown):
         self.anchored = (x, y, 0.0)
 
     def _stepped(self, segment: StepSegment, times: CriticalTimes) -> tuple[float, float]:
-        phi = self.outwards * self.toe_out
-        rows = segment.rows
-        if self.printed:
+        settings, rows = self.settings, segment.rows
+        phi = settings.outwards * settings.toe_out
+        if settings.printed:
             length, turn = sum(step_length(rows, times, phi)), turned(rows, times)
         else:
             end = AT_END * self.near if self.near > 0.0 else inf
@@ -180,8 +183,8 @@ class Projection(Strapdown):
     def covariance(self) -> tuple[float, ...]:
         x, y, _ = self.position
         x0, y0, _ = self.anchored
-        variance = (self.share * (self.length + hypot(x - x0, y - y0))) ** 2
-        yaw = self.turn_error * self.turn_error * min(self.steps, 1000)
+        variance = (STEP_ERROR * (self.length + hypot(x - x0, y - y0))) ** 2
+        yaw = TURN_ERROR * TURN_ERROR * min(self.steps, 1000)
         return (variance, 0.0, 0.0, variance, 0.0, 0.0, yaw)
 
     def _level(self, dt: float) -> None:

@@ -14,6 +14,8 @@ MISFITS = 3
 """Steps in a row that rise about another axis after which that one is believed."""
 LEAST_RISE = 0.25
 """A heel that rises by less than this angle says nothing of the axis, rad."""
+STEP_WEIGHT = 0.2
+"""Of each step in what was learnt of the axis."""
 
 
 @frozen
@@ -35,9 +37,6 @@ class FootAxes:
     the mounting. Forward is the foot's own direction, the paper's d_f: between it and the way lies the toe-out angle.
     """
 
-    weight: float = 0.2
-    """Of each step in what was learnt."""
-    # state
     right: Vec3 | None = field(default=None, init=False)
     misfits: int = field(default=0, init=False)
     """Steps in a row that rose about another axis."""
@@ -57,7 +56,7 @@ class FootAxes:
                 return
             u, v, w = found
         self.misfits = 0
-        k = self.weight
+        k = STEP_WEIGHT
         self.right = _unit((u + k * (x - u), v + k * (y - v), w + k * (z - w)))
 
     def axes(self, up: Vec3) -> tuple[Vec3, Vec3] | None:

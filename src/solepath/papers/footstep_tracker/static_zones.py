@@ -9,7 +9,7 @@ does not settle, or where it finds nothing:
   flickers between two of them however still it lies: half a count is added to the 0.5.
 - Such an accelerometer has an offset of up to 125 mg and a scale within 3 % (KXTJ9), and it is the offset that is seen
   at rest: it is taken off, along the axis that is vertical then, where the feet of other recipes take it for scale.
-- By time the six samples are five intervals, `length`. At higher rates the paper's sample is the mean over `smooth`:
+- By time the six samples are five intervals, `length`. At higher rates the paper's sample is the mean over `SMOOTH`:
   of the single samples at 128 Hz of a foot on a treadmill every tenth is further off than 0.5 m/s^2 while it stands.
 - Figure 7 has a static zone in every step, and many a foot does not lie still for six samples: at a speed above some
   1.3 m/s it is flat for less, and on a hard floor or in a soft shoe it rolls on all the time. So a zone is also found
@@ -24,7 +24,7 @@ from math import inf
 
 from ...foot.stance.stance import Detector, Load, Stance
 from ...types import Phase, Quat, Vec3
-from ...types.attrs import define, field
+from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY, IDENTITY, ZERO
 from .critical_times import Row, critical_times
 from .segment import FootAxes, StepSegment, turned_to, with_offset
@@ -45,6 +45,11 @@ UNEVEN = 1e-3
 """The times of a fitted clock differ by less than this from even ones, s."""
 LONGEST = 4.0
 """Of a segment, s: the oldest rows of a longer one are given up."""
+ROW_SPACING, SMOOTH, MOST_ROWS = 0.0149, 0.045, 72
+"""Rows that are kept are so far apart, s: 100 Hz give means of two samples, 20 Hz the samples themselves; means over
+`SMOOTH`, s, are judged. When there are more rows, the older half of them becomes twice as coarse."""
+ZONE_BEFORE = 0.25
+"""So much of the zone before it belongs to a segment, s."""
 
 
 @define
@@ -76,32 +81,29 @@ class StaticRun:
         return t - self.since if abs((x * x + y * y + z * z) ** 0.5 - GRAVITY) < LIKE_GRAVITY else 0.0
 
 
+@frozen
+class StaticZonesSettings:
+    """What `StaticZones` is set to. `within`, `loosely`: of rest, on every axis, m/s^2. `length`, `brief`: s. `calm`:
+    rad/s an axis, what a foot that rolls on without a rest does not fall below for 0.1 s, and no swing does."""
+
+    within: float = 0.5
+    length: float = 0.25
+    loosely: float = 1.0
+    brief: float = 0.075
+    calm: float = 1.4
+    sigma: float = 0.01
+
+
 @define
 class StaticZones(Detector):
     """Zero velocity in static zones, nothing to say of the rest. The first sample of a zone brings the segment that it
     ends, a `StepSegment` in `Stance.detail`.
 
-    Latency: `brief` after the foot lies still and `smooth` more at rates above 20 Hz, or `length` when the gyroscope is
+    Latency: `brief` after the foot lies still and `SMOOTH` more at rates above 20 Hz, or `length` when the gyroscope is
     not quiet. At 10 Hz three samples take 0.2 s: the least for a zone.
     """
 
-    within: float = 0.5
-    """Of rest, on every axis, m/s^2."""
-    length: float = 0.25
-    loosely: float = 1.0
-    brief: float = 0.075
-    calm: float = 1.4
-    """rad/s an axis: what a foot that rolls on without a rest does not fall below for 0.1 s, and no swing does."""
-    sigma: float = 0.01
-    """Of the zero velocity, m/s."""
-    spacing: float = 0.0149
-    """Of the rows that are kept, s; 100 Hz give means of two samples, 20 Hz the samples themselves."""
-    smooth: float = 0.045
-    most: int = 72
-    """Rows that are kept; when there are more, the older half of them becomes twice as coarse."""
-    before: float = 0.25
-    """So much of the zone before it belongs to a segment, s."""
-    # state
+    settings: StaticZonesSettings = StaticZonesSettings()
     axes: FootAxes = field(factory=FootAxes)
     last: float | None = field(default=None, init=False)
     """The newest sample, s."""
@@ -132,7 +134,7 @@ class StaticZones(Detector):
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
-        gap = self.spacing if self.last is None else t - self.last
+        gap = ROW_SPACING if self.last is None else t - self.last
         self.last = t
         if gap > self.longest_gap:
             self.longest_gap = gap
@@ -155,10 +157,10 @@ class StaticZones(Detector):
                 segment = self._segment()
             if self.static:
                 self._forget(t)
-            elif len(self.rows) >= self.most:
+            elif len(self.rows) >= MOST_ROWS:
                 self._thin()
         if self.static:
-            return Stance(ZERO, self.sigma, 0.0, Phase.STATIONARY, segment)
+            return Stance(ZERO, self.settings.sigma, 0.0, Phase.STATIONARY, segment)
         return Stance(ZERO, inf, 1.0, None)
 
     def scaled(self, scale: float) -> None:
@@ -184,7 +186,7 @@ class StaticZones(Detector):
             (s, ax, ay, az, gx, gy, gz), (x, y, z), (u, v, w) = self.sums, acc, gyro
             self.sums = (s + t - self.begun, ax + x, ay + y, az + z, gx + u, gy + v, gz + w)
         self.count += 1
-        if t - self.begun + gap < self.spacing:
+        if t - self.begun + gap < ROW_SPACING:
             return False
         k = 1.0 / self.count
         self.count = 0
@@ -195,21 +197,22 @@ class StaticZones(Detector):
 
     def _judge(self, row: Row) -> None:
         """Whether the foot lies as it did in the rows before."""
+        settings = self.settings
         t, ax, ay, az, gx, gy, gz = row
         count = 1
         while count < len(self.rows):
             one = self.rows[-1 - count]
-            if t - one[0] >= self.smooth - self.spacing:
+            if t - one[0] >= SMOOTH - ROW_SPACING:
                 break
             ax, ay, az = ax + one[1], ay + one[2], az + one[3]
             count += 1
         k = 1.0 / count
         ax, ay, az = k * ax, k * ay, k * az
         flicker = 0.5 * self.grain
-        self.strict.add(t, (ax, ay, az), self.within + flicker)
-        loosely = (2.0 - HURRIED) * self.loosely if self.hurried else self.loosely
+        self.strict.add(t, (ax, ay, az), settings.within + flicker)
+        loosely = (2.0 - HURRIED) * settings.loosely if self.hurried else settings.loosely
         self.loose.add(t, (ax, ay, az), loosely + flicker)
-        if max(abs(gx), abs(gy), abs(gz)) > self.calm:
+        if max(abs(gx), abs(gy), abs(gz)) > settings.calm:
             self.calm_since = None
         elif self.calm_since is None:
             self.calm_since = t
@@ -217,26 +220,26 @@ class StaticZones(Detector):
     def _lies(self) -> bool:
         """Long enough, and as gravity has it."""
         t = self.rows[-1][0]
-        if self.strict.lasted(t) >= self.length - UNEVEN:
+        if self.strict.lasted(t) >= self.settings.length - UNEVEN:
             return True
         if self.calm_since is None:
             return False
         if self.left is not None and t - self.left > OVERDUE:
             self.hurried = True
-        brief = HURRIED * self.brief if self.hurried else self.brief
+        brief = HURRIED * self.settings.brief if self.hurried else self.settings.brief
         return min(self.loose.lasted(t), t - self.calm_since) >= brief - UNEVEN
 
     def _leave(self, t: float) -> None:
         """A zone has ended."""
         self.static = False
         self.left = t
-        if self.stood is not None and t - self.stood > self.length:
+        if self.stood is not None and t - self.stood > self.settings.length:
             self.hurried = False
 
     def _forget(self, t: float) -> None:
         """In a zone no more is kept than what the next segment begins with."""
         rows = self.rows
-        oldest = t - self.before
+        oldest = t - ZONE_BEFORE
         if self.loose.since is not None and self.loose.since > oldest:
             oldest = self.loose.since  # what lies before it was the last segment's
         while rows[0][0] < oldest and len(rows) > 1:
@@ -244,9 +247,9 @@ class StaticZones(Detector):
         self.longest_gap = 0.0
 
     def _thin(self) -> None:
-        old, new = self.rows[: self.most // 2], self.rows[self.most // 2 :]
+        old, new = self.rows[: MOST_ROWS // 2], self.rows[MOST_ROWS // 2 :]
         if new[-1][0] - old[0][0] > LONGEST:
-            self.rows = old[self.most // 4 :] + new
+            self.rows = old[MOST_ROWS // 4 :] + new
         else:
             self.rows = [_mean(a, b) for a, b in zip(old[::2], old[1::2], strict=False)] + new
 

@@ -40,7 +40,7 @@ from ....body.part import Doing, Said
 from ....events import ActivityChanged, Event, LiftRidden
 from ....foot.view import FootView
 from ....types import Activity, Foot, Site
-from ....types.attrs import define, field
+from ....types.attrs import define, field, frozen
 from .hmm import forward, spread, weighed
 from .window_model import WindowModel, shipped
 from .windows import BLOCKS, HOP, WINDOW, FootWindow, FootWindows
@@ -101,14 +101,21 @@ class LiftPulses:
     """Windows of it."""
 
 
+@frozen
+class TwoSecondSettings:
+    """What `TwoSecondWindows` is set to."""
+
+    model: WindowModel | None = None
+    """What it was taught; None is what comes with this release."""
+
+
 @define
 class TwoSecondWindows(Doing):
-    """The activity part of footstep-tracker. `model`: what it was taught; None is what comes with this release."""
+    """The activity part of footstep-tracker."""
 
     feeds: ClassVar[bool] = True
 
-    model: WindowModel | None = None
-    # state
+    settings: TwoSecondSettings = TwoSecondSettings()
     activity: Activity = field(default=Activity.UNKNOWN, init=False)
     """The newest that it told."""
     origin: float | None = field(default=None, init=False)
@@ -127,7 +134,7 @@ class TwoSecondWindows(Doing):
 
     def ready(self) -> None:
         """What was learnt is read."""
-        if self.model is None:
+        if self.settings.model is None:
             shipped()
 
     def reset(self, site: Site) -> None:
@@ -165,8 +172,6 @@ class TwoSecondWindows(Doing):
                 events += self._decide(index, seen, known_at)
         return events
 
-    # --- one window ---
-
     def _decide(self, index: int, seen: dict[Foot, FootWindow], known_at: float) -> list[Event]:
         events: list[Event] = []
         if self.decided is not None and index - self.decided > LOST:
@@ -174,7 +179,7 @@ class TwoSecondWindows(Doing):
             self.belief = None
             events += self._change(self._newest(self.decided) + HOP, Activity.UNKNOWN, known_at)
         self.decided = index
-        model = shipped() if self.model is None else self.model
+        model = self.settings.model or shipped()
         if sum([w.variance for w in seen.values()]) > model.moving * len(seen):
             self.moved += 1
             for foot in seen:
@@ -203,8 +208,6 @@ class TwoSecondWindows(Doing):
         before = self.belief
         self.belief = weighed(UNIFORM, likely) if before is None else forward(before, model.transitions, likely)
         return MOVING[self.belief.index(max(self.belief))]
-
-    # --- what follows ---
 
     def _moves(self, index: int, state: Activity, known_at: float) -> list[Event]:
         began = self._newest(index - self.moved + 1)
