@@ -24,6 +24,7 @@ from solepath.foot.world import Covariance3
 from solepath.papers.walking_modes.compensation import TABLE_1
 from solepath.papers.walking_modes.modes import Modes
 from solepath.papers.walking_modes.recipe import WALKING_MODES
+from solepath.papers.walking_modes.settings import ModesSettings
 from solepath.papers.walking_modes.touchdown import Height, NetAcceleration
 from solepath.session import Session
 from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
@@ -32,6 +33,7 @@ LAYOUTS = {SITE_OF_FOOT[foot]: layout(99, foot) for foot in Foot}
 KNOWN = Calibration(insoles={foot: InsoleCalibration(layout=layout(99, foot)) for foot in Foot})
 AROUND = Route().stand(2.0).walk(4.0, MARK_SPEED).turn(pi / 2, 2.0).walk(3.0).stop(1.0)
 III = WALKING_MODES.exchanged(Track, Modes())
+LOOKS_AHEAD = ModesSettings(heading=0.0)
 
 
 @cache
@@ -47,7 +49,7 @@ def suit(route: Route = AROUND, north: float = 0.0, seed: int = 101) -> tuple[Sa
 
 @cache
 def told(heading: float | None = None, north: float = 0.0) -> list[Event]:
-    session = Session(III.exchanged(Track, Modes(heading=heading)), calibration=KNOWN)
+    session = Session(III.exchanged(Track, Modes(settings=ModesSettings(heading=heading))), calibration=KNOWN)
     return [*session.feed(suit(north=north)), *session.finish()]
 
 
@@ -90,11 +92,11 @@ def test_touchdowns_are_final_once_the_first_heading_is() -> None:
 
 @pytest.mark.parametrize("method", [Height(), NetAcceleration()])
 def test_the_other_methods_go_the_same_way_less_well(method: Height | NetAcceleration) -> None:
-    assert hypot(*off(Modes(method, heading=0.0), suit())[0]) < 0.1 * walker().route.length
+    assert hypot(*off(Modes(method, LOOKS_AHEAD), suit())[0]) < 0.1 * walker().route.length
 
 
 def test_the_position_is_midway_between_the_feet_and_says_how_far_it_may_be_off() -> None:
-    (dx, dy), (xx, xy, _, yy, _, _) = off(Modes(heading=0.0), suit())
+    (dx, dy), (xx, xy, _, yy, _, _) = off(Modes(settings=LOOKS_AHEAD), suit())
     assert hypot(dx, dy) < 0.15
     assert (yy * dx * dx - 2.0 * xy * dx * dy + xx * dy * dy) / (xx * yy - xy * xy) < 9.2  # 99 % of a normal pair
 
@@ -124,7 +126,8 @@ def test_who_stands_is_told_to_stand() -> None:
 
 def test_the_compensation_of_the_mode_is_added_along_the_way() -> None:
     straight = {foot: {WalkingMode.STRAIGHT: (0.02, 0.0)} for foot in Foot}
-    session = Session(III.exchanged(Track, Modes(compensation=straight, heading=0.0)), calibration=KNOWN)
+    compensated = Modes(settings=evolve(LOOKS_AHEAD, compensation=straight))
+    session = Session(III.exchanged(Track, compensated), calibration=KNOWN)
     downs = of(TouchedDown, session.feed(suit()))
     ahead = [down for down in downs if down.mode is WalkingMode.STRAIGHT and down.t < 6.0]
     assert ahead and all(down.compensation[0] == pytest.approx(0.02, abs=0.002) for down in ahead[:-1])
@@ -134,12 +137,12 @@ def test_the_compensation_of_the_mode_is_added_along_the_way() -> None:
 
 def test_a_wearers_own_compensation_takes_the_place_of_table_1_mode_by_mode() -> None:
     own = Calibration(modes={Foot.LEFT: {WalkingMode.STRAIGHT: (0.5, 0.25)}})
-    body = Modes(compensation=TABLE_1).calibrated(own)
-    assert body.compensation is not None
-    assert body.compensation[Foot.LEFT][WalkingMode.STRAIGHT] == (0.5, 0.25)
-    assert body.compensation[Foot.LEFT][WalkingMode.LEFT_WIDE] == TABLE_1[Foot.LEFT][WalkingMode.LEFT_WIDE]
-    assert body.compensation[Foot.RIGHT] == TABLE_1[Foot.RIGHT]
-    assert Modes().calibrated(own).compensation is None
+    table = Modes(settings=ModesSettings(TABLE_1)).calibrated(own).settings.compensation
+    assert table is not None
+    assert table[Foot.LEFT][WalkingMode.STRAIGHT] == (0.5, 0.25)
+    assert table[Foot.LEFT][WalkingMode.LEFT_WIDE] == TABLE_1[Foot.LEFT][WalkingMode.LEFT_WIDE]
+    assert table[Foot.RIGHT] == TABLE_1[Foot.RIGHT]
+    assert Modes().calibrated(own).settings.compensation is None
 
 
 def test_sensors_without_attitudes_are_taken_upright_by_gravity() -> None:
@@ -148,7 +151,7 @@ def test_sensors_without_attitudes_are_taken_upright_by_gravity() -> None:
 
 
 def test_a_sensor_that_falls_silent_leaves_the_feet_to_their_own_tracks() -> None:
-    session = Session(III.exchanged(Track, Modes(heading=0.0)), calibration=KNOWN)
+    session = Session(III.exchanged(Track, Modes(settings=LOOKS_AHEAD)), calibration=KNOWN)
     events = session.feed([s for s in suit() if s.site is not Site.LEFT_SHANK or s.t < 5.0])
     assert len(of(TouchedDown, events)) == sum(len(strides) for strides in walker().plan.strides.values())
 

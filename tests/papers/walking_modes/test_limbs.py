@@ -19,11 +19,13 @@ from solepath.emulate.wearers.turning import matrices
 from solepath.emulate.wearers.walker import Walker
 from solepath.papers.walking_modes.limbs.inclination import Inclination
 from solepath.papers.walking_modes.limbs.limbs import ABOVE, SEGMENTS, LowerLimbs, foot_end
+from solepath.papers.walking_modes.settings import ModesSettings
 from solepath.saving import codec as machine
 from solepath.types import Foot, Quat, Site, Vec3
 from solepath.types.vector import IDENTITY, conjugate, from_rotation_vector, from_yaw, multiply, normalise, rotate
 
 LIMBS = Limbs(hip_width=0.2, thigh=0.4, shank=0.45, foot=0.2, ankle_height=0.1)
+WORN = ModesSettings(limbs=LIMBS)
 HIP: Vec3 = (0.0, 0.1, 0.0)
 
 
@@ -77,9 +79,6 @@ def test_the_end_is_the_last_column_of_the_product_of_homogeneous_matrices(
     assert foot_end(pelvis, thigh, shank, foot, HIP, LIMBS) == pytest.approx(tuple(product[:3, 3]), abs=1e-9)
 
 
-# --- sensors on the segments ------------------------------------------------------------------------------------------
-
-
 def stood(chain: LowerLimbs, mounted: dict[Site, Quat], segments: dict[Site, Quat] | None = None) -> None:
     """0.6 s of attitudes at 50 Hz of sensors that are turned by `mounted` against their segments."""
     for k in range(31):
@@ -101,7 +100,7 @@ def swing_back(chain: LowerLimbs, t: float, world: Quat = IDENTITY) -> None:
 
 
 def test_standing_tells_how_every_sensor_sits_on_its_segment() -> None:
-    chain = LowerLimbs(LIMBS)
+    chain = LowerLimbs(WORN)
     stood(chain, MOUNTED)
     assert chain.aligned
     assert chain.end(Foot.LEFT, 0.6) == pytest.approx((0.2, 0.1, -0.95))
@@ -111,7 +110,7 @@ def test_standing_tells_how_every_sensor_sits_on_its_segment() -> None:
 
 
 def test_who_does_not_stand_still_is_not_aligned() -> None:
-    chain = LowerLimbs(LIMBS)
+    chain = LowerLimbs(WORN)
     for k in range(100):
         for site in SEGMENTS:
             chain.told(site, 0.02 * k, pitched(3.0 * k) if site is Site.LEFT_SHANK else IDENTITY)
@@ -120,7 +119,7 @@ def test_who_does_not_stand_still_is_not_aligned() -> None:
 
 def test_the_first_step_tells_where_the_wearer_looked_in_the_world_of_the_sensors() -> None:
     north = 2.0
-    chain = LowerLimbs(LIMBS)
+    chain = LowerLimbs(WORN)
     away = {site: multiply(from_yaw(north), q) for site, q in MOUNTED.items()}
     stood(chain, away)
     for site, lean in ((Site.LEFT_THIGH, -20), (Site.LEFT_SHANK, -20), (Site.RIGHT_THIGH, 15), (Site.RIGHT_SHANK, 15)):
@@ -134,7 +133,7 @@ def test_the_first_step_tells_where_the_wearer_looked_in_the_world_of_the_sensor
 
 @given(st.lists(st.tuples(st.sampled_from(SEGMENTS), st.floats(-5, 5), st.tuples(*[st.floats()] * 4)), max_size=40))
 def test_whatever_the_sensors_say_the_chain_is_somewhere(told: list[tuple[Site, float, Quat]]) -> None:
-    chain = LowerLimbs(LIMBS)
+    chain = LowerLimbs(WORN)
     stood(chain, MOUNTED)
     for site, t, quat in told:
         chain.told(site, t, quat)
@@ -181,7 +180,7 @@ def again(chain: LowerLimbs, site: Site, world: Quat, begin: float) -> None:
 
 
 def test_a_sensor_that_began_anew_is_used_again_in_its_new_world_once_it_stood_still() -> None:
-    chain = LowerLimbs(LIMBS)
+    chain = LowerLimbs(WORN)
     stood(chain, MOUNTED)
     world = from_yaw(2.0)
     chain.interrupt(Site.LEFT_THIGH)
@@ -195,7 +194,7 @@ def test_a_sensor_that_began_anew_is_used_again_in_its_new_world_once_it_stood_s
 
 
 def test_why_the_chain_is_not_known_names_the_site() -> None:
-    chain = LowerLimbs(LIMBS)
+    chain = LowerLimbs(WORN)
     assert chain.why_not(0.0, ()).startswith("no sensor heard at the pelvis, left thigh")
     assert chain.why_not(0.0, ABOVE).startswith("no attitude, and no acceleration")
     stood(chain, MOUNTED)

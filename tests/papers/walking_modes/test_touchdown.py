@@ -47,7 +47,7 @@ def test_two_feet_at_one_height_leave_things_as_they_are() -> None:
 
 
 def test_a_foot_without_net_acceleration_for_a_while_is_down() -> None:
-    method = NetAcceleration(threshold=1.0, steady=0.05)
+    method = NetAcceleration()
     flags = [method.update(0.02 * k, FootState(acceleration=a), FootState(acceleration=5.0)) for k, a in _ACCELERATIONS]
     assert flags == [(down, False) for down in (False, False, False, True, True, True, False)]  # (5)
 

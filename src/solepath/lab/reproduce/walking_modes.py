@@ -144,9 +144,6 @@ def _notes(done: Sequence[ModesWalked]) -> tuple[str, ...]:
     return tuple(told)
 
 
-# --- wearers ----------------------------------------------------------------------------------------------------------
-
-
 def known_of(wearer: Wearer) -> Calibration:
     """What a tape measure, scales and the maker of the insoles say."""
     shoe = wearer.shoe
@@ -193,7 +190,8 @@ def walk(job: ModesJob) -> ModesWalked:
 def _touchdowns(recipe: Recipe, samples: Sequence[Sample], calibration: Calibration) -> dict[Foot, list[TouchedDown]]:
     """What a session says that knows how the first side of the rectangle lies."""
     modes = next(part for part in recipe.parts if isinstance(part, Modes))
-    said = heard(recipe.exchanged(Modes, evolve(modes, heading=0.0)), samples, calibration)
+    known = evolve(modes, settings=evolve(modes.settings, heading=0.0))
+    said = heard(recipe.exchanged(Modes, known), samples, calibration)
     return {foot: [e for e in said if isinstance(e, TouchedDown) and e.final and e.foot is foot] for foot in Foot}
 
 

@@ -25,6 +25,7 @@ from ...session import Session
 from ...types import Foot, WalkingMode
 from ...types.attrs import evolve, frozen
 from .modes import Modes
+from .settings import ModesSettings
 
 NEAR = 0.3
 """A mark that names a time is that of the touchdown within so many s of it."""
@@ -79,12 +80,13 @@ def read_marks(path: Path | str) -> list[ModeMark]:
 
 
 def touchdowns(walk: Recorded, known: Calibration, heading: float | None = None) -> list[TouchedDown]:
-    """What method III makes of a walk, without any compensation, in the order of time. `heading`: as in `Modes`."""
+    """What method III makes of a walk without compensation, in the order of time. `heading`: as in `ModesSettings`."""
     insoles = dict(known.insoles)
     for foot, layout in walk.layouts.items():
         insole = known.insole(foot)
         insoles[foot] = insole if insole.layout is not None else evolve(insole, layout=layout)
-    recipe = Recipe("marked walk", Cycle(), ErrorStateFilter(), parts=usual(Modes(heading=heading)))
+    parts = usual(Modes(settings=ModesSettings(heading=heading)))
+    recipe = Recipe("marked walk", Cycle(), ErrorStateFilter(), parts=parts)
     session = Session(recipe, calibration=evolve(known, insoles=insoles))
     events = [*session.feed(walk.samples), *session.finish()]
     return sorted([event for event in events if isinstance(event, TouchedDown)], key=attrgetter("t"))

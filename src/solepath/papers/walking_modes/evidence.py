@@ -18,7 +18,6 @@ UNSEEN = 2
 class SignEvidence:
     """The sign of one foot, held against its own steps."""
 
-    # state
     shown_at: float | None = field(default=None, init=False)
     """When a sample last had the sign in it, s."""
     silent: bool = field(default=False, init=False)

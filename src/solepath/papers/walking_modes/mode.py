@@ -135,7 +135,6 @@ def decide(foot: Foot, step: float, shares: dict[str, float], forward: float, th
 class Contact:
     """What the regions of one insole bore since the foot came down."""
 
-    # state
     layout: Layout | None = field(default=None, init=False)
     """That the regions are of."""
     where: dict[str, tuple[int, ...]] = field(factory=dict, init=False)

@@ -29,21 +29,22 @@ from math import atan2, hypot
 from typing import ClassVar
 
 from ...body.part import Position, Said, Track
-from ...calibration import Calibration, Limbs
+from ...calibration import Calibration
 from ...events import Event, Limitation, TouchedDown, WalkingModeChanged
 from ...foot.rejection import rejected
 from ...foot.view import FootPose, FootView
 from ...foot.world import Covariance3
-from ...types import OTHER, SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
+from ...types import OTHER, SITE_OF_FOOT, Foot, Sample, Site
 from ...types.attrs import define, evolve, field
 from ...types.vector import TIE, ZERO, sub
-from .compensation import Compensation, chosen, epsilon_p, with_own
+from .compensation import epsilon_p, with_own
 from .evidence import UNSEEN
 from .limbs.above import Above
 from .limbs.limbs import ABOVE
-from .mode import LEAST_STEP, TH
+from .mode import LEAST_STEP
 from .places import FootPlaces
 from .recognition import Recognition
+from .settings import ModesSettings
 from .signs import Signs
 from .touchdown import AnyTouchdown, Carrier, Height, PressureTouchdown, suspended
 
@@ -54,30 +55,21 @@ HOP = 0.3
 its toes does not come so far."""
 PATIENCE = 0.06
 """How long a touchdown waits for attitudes of its instant, s: three samples of the paper's 50 Hz."""
+STEP_SIGMA = 0.02
+"""What one touchdown errs by, m an axis."""
+SCALE_SIGMA, HEADING_SIGMA = 0.02, 0.03
+"""Share of the way by which all of them err alike; of the first heading, rad."""
 
 
 @define
 class Modes(Track):
-    """The wearer's track by touchdowns. `compensation`: epsilon_P, None for methods I to III. `weight`, `th`: see
-    `Recognition`. `heading`: where the wearer looks at the start, in the world that the devices share, rad, where it is
-    known (`LowerLimbs.heading`)."""
+    """The wearer's track by touchdowns."""
 
     feeds: ClassVar[bool] = True
     sites: ClassVar[tuple[Site, ...]] = ABOVE
 
     touchdown: AnyTouchdown = field(factory=PressureTouchdown)
-    compensation: Compensation | None = None
-    limbs: Limbs = field(factory=Limbs)
-    weight: float | None = None
-    heading: float | None = None
-    th: float = TH
-    step_sigma: float = 0.02
-    """What one touchdown errs by, m an axis."""
-    scale_sigma: float = 0.02
-    """Share of the way by which all of them err alike."""
-    heading_sigma: float = 0.03
-    """Of the first heading, rad."""
-    # state
+    settings: ModesSettings = ModesSettings()
     places: FootPlaces = field(init=False)
     above: Above = field(factory=Above, init=False)
     signs: Signs = field(init=False)
@@ -97,27 +89,17 @@ class Modes(Track):
 
     def __attrs_post_init__(self) -> None:
         self.signs = Signs(deepcopy(self.touchdown))
-        self.recognition = Recognition(self.weight, self.th)
-        self.places = FootPlaces(self.limbs, self.heading, self._apart())
-
-    def _apart(self) -> float:
-        """Between the feet at the start, m: the hips' width, as the chain has it in the N-pose. If feet that walk on
-        are known to come down nearer to each other than the chain has them, they stood so as well."""
-        apart = self.limbs.hip_width
-        if self.compensation is None:
-            return apart
-        left, right = (chosen(self.compensation, foot, WalkingMode.STRAIGHT)[1] for foot in Foot)
-        return apart + 0.5 * (left - right)
+        self.recognition = Recognition(self.settings)
+        self.places = FootPlaces(self.settings)
 
     def calibrated(self, calibration: Calibration) -> Modes:
         """The same with the wearer's limbs, weight and compensation; what methods I to III do without stays out."""
-        compensation = self.compensation
+        settings = self.settings
+        compensation = settings.compensation
         if compensation is not None and calibration.modes:
             compensation = with_own(compensation, calibration.modes)
-        limbs, weight = calibration.limbs or self.limbs, calibration.weight or self.weight
-        return evolve(self, limbs=limbs, weight=weight, compensation=compensation)
-
-    # --- samples ---
+        limbs, weight = calibration.limbs or settings.limbs, calibration.weight or settings.weight
+        return evolve(self, settings=evolve(settings, limbs=limbs, weight=weight, compensation=compensation))
 
     def feed_limb(self, sample: Sample) -> Sequence[Said]:
         """A sample of pelvis, thigh or shank: its attitude, or acceleration and angular velocity."""
@@ -226,8 +208,6 @@ class Modes(Track):
             told.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[foot], what=what))
         return told
 
-    # --- places ---
-
     def _came_down(self, foot: Foot, t: float, known_at: float, by_itself: bool = False) -> list[Event]:
         """`by_itself`: it carried already, so that nothing but its own track tells where it is now."""
         places = self.places
@@ -251,8 +231,8 @@ class Modes(Track):
             side.direction = places.facing(t) if chained else (dx / step, dy / step)
             if not chain.aligned:
                 chain.given_up = True
-            if self.compensation is not None:
-                compensation = epsilon_p(self.compensation, foot, mode, side.direction)
+            if self.settings.compensation is not None:
+                compensation = epsilon_p(self.settings.compensation, foot, mode, side.direction)
         places.put(foot, suspended(place, compensation), chained, t)
         self.touchdowns += 1
         events: list[Event] = []
@@ -286,8 +266,8 @@ class Modes(Track):
 
     def _covariance(self, x: float, y: float, known: list[FootPose]) -> Covariance3:
         """Touchdowns that err each for itself and all alike, and a first heading that errs; z is the tracks'."""
-        each = self.step_sigma**2 * (1 + self.touchdowns)
-        scale, turn = self.scale_sigma**2, self.heading_sigma**2
+        each = STEP_SIGMA**2 * (1 + self.touchdowns)
+        scale, turn = SCALE_SIGMA**2, HEADING_SIGMA**2
         xx, yy = each + scale * x * x + turn * y * y, each + scale * y * y + turn * x * x
         xy = (scale - turn) * x * y
         own = [sum([foot.covariance[i] for foot in known]) / len(known) ** 2 for i in range(6)]

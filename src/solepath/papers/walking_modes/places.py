@@ -12,13 +12,13 @@ from __future__ import annotations
 from math import atan2, cos, hypot, pi, sin
 
 from ...body.fuse.position import MeanOfFeet, PlacedTrack
-from ...calibration import Limbs
 from ...foot.view import FootView
 from ...types import OTHER, Foot, Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO, sub
 from .limbs.limbs import LowerLimbs
 from .mode import LEAST_STEP
+from .settings import ModesSettings
 from .touchdown import suspended, v_change
 
 FIRST_WAY = 1.5
@@ -54,13 +54,9 @@ class FootPlace:
 
 @define
 class FootPlaces:
-    """`heading`: where the wearer looks at the start, in the world that the devices share, rad, where it is known
-    (`LowerLimbs.heading`). `apart`: between the feet at the start, m."""
+    """Both feet and the chain between them."""
 
-    limbs: Limbs
-    heading: float | None
-    apart: float
-    # state
+    settings: ModesSettings
     chain: LowerLimbs = field(init=False)
     sides: dict[Foot, FootPlace] = field(init=False)
     headed: bool = field(init=False)
@@ -69,12 +65,13 @@ class FootPlaces:
     """Sets a foot that was not heard for a while beside the other."""
 
     def __attrs_post_init__(self) -> None:
-        self.chain = LowerLimbs(self.limbs, self.heading)
-        self.headed = self.heading is not None
+        settings = self.settings
+        self.chain = LowerLimbs(settings)
+        self.headed = settings.heading is not None
         self.sides = {}
         for foot, sign in ((Foot.LEFT, 0.5), (Foot.RIGHT, -0.5)):
-            place = (0.0, sign * self.apart, 0.0)
-            self.sides[foot] = FootPlace(place, place, (self.limbs.foot, 0.0))
+            place = (0.0, sign * settings.apart, 0.0)
+            self.sides[foot] = FootPlace(place, place, (settings.limbs.foot, 0.0))
 
     def moved(self, view: FootView) -> None:
         """A sample of a foot: where its own track has it."""
@@ -104,7 +101,7 @@ class FootPlaces:
     def _apart(self, foot: Foot, other: FootPlace) -> tuple[float, float]:
         """From the other foot to this one when they stand side by side, facing as the other last went, m."""
         c, s = other.direction
-        k = self.apart if foot is Foot.LEFT else -self.apart
+        k = self.settings.apart if foot is Foot.LEFT else -self.settings.apart
         return -s * k, c * k
 
     def unheard(self, foot: Foot, t: float) -> bool:
@@ -158,7 +155,7 @@ class FootPlaces:
 
     def _reach(self, foot: Foot, t: float) -> tuple[float, float]:
         x, y = self.chain.forward(foot, t)
-        return self.limbs.foot * x, self.limbs.foot * y
+        return self.settings.limbs.foot * x, self.settings.limbs.foot * y
 
     def _head(self, chained: bool) -> None:
         """x along the first heading: until the wearer has gone `FIRST_WAY`, the world is turned so that the way so far

@@ -12,7 +12,8 @@ from __future__ import annotations
 
 from ...types import OTHER, Foot, Layout, WalkingMode
 from ...types.attrs import define, field
-from .mode import LEAST_STEP, LINGERS, STANDING_WEIGHT, TH, Contact, at_pace, decide
+from .mode import LEAST_STEP, LINGERS, STANDING_WEIGHT, Contact, at_pace, decide
+from .settings import ModesSettings
 from .touchdown import FootState, PressureTouchdown
 
 LONG_ENOUGH = 2000
@@ -23,7 +24,6 @@ LONG_ENOUGH = 2000
 class SoleContacts:
     """What the contacts of one foot are told from, and what they told."""
 
-    # state
     step: float = field(default=0.0, init=False)
     """Length of the stride that ended with its last touchdown, m."""
     contact: Contact = field(factory=Contact, init=False)
@@ -37,12 +37,9 @@ class SoleContacts:
 
 @define
 class Recognition:
-    """`weight`: of the wearer, N; None: it is learnt as the mean of what both feet bear. `th`: see mode.py. Feed it
-    `pressed` with every sample of cells and `stepped` with every touchdown."""
+    """Feed it `pressed` with every sample of cells and `stepped` with every touchdown."""
 
-    weight: float | None = None
-    th: float = TH
-    # state
+    settings: ModesSettings = ModesSettings()
     soles: dict[Foot, SoleContacts] = field(init=False)
     pressing: PressureTouchdown = field(factory=PressureTouchdown, init=False)
     """Begins and ends the contacts that tell a mode."""
@@ -105,7 +102,8 @@ class Recognition:
 
     def _standing(self, both: float) -> WalkingMode | None:
         """Standing still by table 2: no step, and the weight is on the feet."""
-        weight = self.borne if self.weight is None or not self.soles[Foot.LEFT].in_newtons else self.weight
+        weight = self.settings.weight if self.soles[Foot.LEFT].in_newtons else None
+        weight = self.borne if weight is None else weight
         return WalkingMode.STANDING if both > STANDING_WEIGHT * weight else None
 
     def _told(self, foot: Foot, both: float) -> WalkingMode | None:
@@ -126,4 +124,4 @@ class Recognition:
         if shares is None:
             return None
         forward = shares["F1"] - shares["F2"] + self.soles[OTHER[foot]].contact.forward
-        return decide(foot, sole.step, at_pace(shares, contact.speed(sole.step)), forward, self.th)
+        return decide(foot, sole.step, at_pace(shares, contact.speed(sole.step)), forward, self.settings.th)

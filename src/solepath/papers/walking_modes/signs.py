@@ -21,7 +21,6 @@ class Signs:
     """Feed it `moved`, and `pressed` for cells that can be used, before `down`."""
 
     method: AnyTouchdown
-    # state
     shown: dict[Foot, FootState] = field(factory=dict, init=False)
     """What each foot shows; of those heard so far."""
     evidence: dict[Foot, SignEvidence] = field(init=False)

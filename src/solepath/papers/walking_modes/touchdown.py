@@ -14,7 +14,7 @@ else nothing changes. So in walking each foot carries from its own touchdown to 
 from __future__ import annotations
 
 from ...types import OTHER, Foot, Vec3
-from ...types.attrs import define, field
+from ...types.attrs import define, field, frozen
 from ...types.vector import TIE, ZERO, sub
 
 
@@ -54,40 +54,36 @@ class FootState:
 Flags = tuple[bool, bool]
 """TD_L, TD_R."""
 
+MARGIN = 0.01
+"""A foot that is down is by so much lower, m; within it the last answer stands, since both feet on a floor differ by
+their errors. The paper has none."""
+A_A, STEADY = 1.0, 0.05
+"""m/s^2 and s. The paper gives neither A_a nor its filter. This is the band of 9 to 11 m/s^2 about gravity in which
+Jimenez, Seco, Prieto, Guevara ("A comparison of pedestrian dead-reckoning algorithms using a low-cost MEMS IMU", WISP
+2009, condition C1) take a foot for still, and it has to last for `STEADY`."""
+RELEASE = 0.5
+"""A foot that is down comes up below this share of the threshold, or a cell that flickers about it would step."""
+
 
 @define
 class Height:
     """Method I, equation (4): the lower foot is down."""
 
-    margin: float = 0.01
-    """By so much lower, m; within it the last answer stands, since both feet on a floor differ by their errors. The
-    paper has none."""
-    # state
     down: Flags = field(default=(False, False), init=False)
 
     def update(self, t: float, left: FootState, right: FootState) -> Flags:
         if left.height is not None and right.height is not None:
-            if right.height > left.height + self.margin:
+            if right.height > left.height + MARGIN:
                 self.down = (True, False)
-            elif left.height > right.height + self.margin:
+            elif left.height > right.height + MARGIN:
                 self.down = (False, True)
         return self.down
 
 
 @define
 class NetAcceleration:
-    """Method II, equation (5): a foot is down while |A|, without gravity, is below A_a.
+    """Method II, equation (5): a foot is down while |A|, without gravity, is below A_a."""
 
-    The paper gives neither A_a nor its filter. `threshold` is the band of 9 to 11 m/s^2 about gravity in which Jimenez,
-    Seco, Prieto, Guevara ("A comparison of pedestrian dead-reckoning algorithms using a low-cost MEMS IMU", WISP 2009,
-    condition C1) take a foot for still, and it has to last for `steady`.
-    """
-
-    threshold: float = 1.0
-    """A_a, m/s^2."""
-    steady: float = 0.05
-    """s."""
-    # state
     moved: tuple[float | None, float | None] = field(default=(None, None), init=False)
     """When each foot was last beyond the threshold, s; None before anything is known."""
 
@@ -102,23 +98,26 @@ class NetAcceleration:
     def _one(self, t: float, acceleration: float | None, moved: float | None) -> tuple[float | None, bool]:
         if acceleration is None:
             return moved, False
-        if moved is None or moved > t or acceleration >= self.threshold:
+        if moved is None or moved > t or acceleration >= A_A:
             return t, False
-        return moved, t - moved >= self.steady - TIE
+        return moved, t - moved >= STEADY - TIE
+
+
+@frozen
+class PressureTouchdownSettings:
+    """What `PressureTouchdown` is set to."""
+
+    threshold: float = 5.0
+    """N (section 3.1: the least that the paper's insole records)."""
+    share: float = 0.1
+    """Where nobody knows what a newton is: of the most that a cell of this foot has ever shown."""
 
 
 @define
 class PressureTouchdown:
-    """Method III, equation (6): a foot is down while its most loaded cell is beyond a threshold, 5 N (section 3.1: the
-    least that the paper's insole records). Where nobody knows what a newton is, a share of the most that a cell of this
-    foot has ever shown."""
+    """Method III, equation (6): a foot is down while its most loaded cell is beyond a threshold."""
 
-    threshold: float = 5.0
-    """N."""
-    share: float = 0.1
-    release: float = 0.5
-    """A foot that is down comes up below this share of the threshold, or a cell that flickers about it would step."""
-    # state
+    settings: PressureTouchdownSettings = PressureTouchdownSettings()
     down: Flags = field(default=(False, False), init=False)
 
     def update(self, t: float, left: FootState, right: FootState) -> Flags:
@@ -129,8 +128,8 @@ class PressureTouchdown:
         """Whether a foot is down that was `down` before."""
         if foot.pressure is None:
             return False
-        threshold = self.threshold if foot.full is None else self.share * foot.full
-        return foot.pressure > (threshold * self.release if down else threshold)
+        threshold = self.settings.threshold if foot.full is None else self.settings.share * foot.full
+        return foot.pressure > (threshold * RELEASE if down else threshold)
 
 
 AnyTouchdown = Height | NetAcceleration | PressureTouchdown
@@ -140,7 +139,6 @@ AnyTouchdown = Height | NetAcceleration | PressureTouchdown
 class Carrier:
     """Which foot carries, by the rule above. None before any foot was down."""
 
-    # state
     foot: Foot | None = field(default=None, init=False)
     down: Flags = field(default=(False, False), init=False)
 

@@ -17,7 +17,6 @@ AHEAD = 60.0
 class Above:
     """Pelvis, thighs and shanks, of which samples come."""
 
-    # state
     leaning: dict[Site, Inclination] = field(factory=dict, init=False)
     times: dict[Site, float] = field(factory=dict, init=False)
     """Newest sample that was used, s."""

@@ -17,17 +17,16 @@ from ....types.vector import GRAVITY, ZERO, from_rotation_vector, multiply, norm
 
 LONGEST = 0.25
 """A gap longer than this is not integrated over, s."""
+SETTLING = 4.0
+"""Time constant of the lean towards the measured up, s: several strides."""
+WEARERS_WAY = 0.4
+"""A sensor that has gone so far from where it stood has gone the way that the wearer goes, m."""
 
 
 @define
 class Inclination:
     """One sensor: acc and gyro in, attitude out."""
 
-    settling: float = 4.0
-    """Time constant of the lean towards the measured up, s: several strides."""
-    way: float = 0.4
-    """A sensor that has gone so far from where it stood has gone the way that the wearer goes, m."""
-    # state
     attitude: Quat | None = field(default=None, init=False)
     """Sensor to its own world; None until it was levelled."""
     heading: float | None = field(default=None, init=False)
@@ -62,7 +61,7 @@ class Inclination:
         self._go(dt, up_x, up_y, rested)
         length = sqrt(up_x * up_x + up_y * up_y + up_z * up_z)
         if length > 0.1 * GRAVITY:
-            k = min(dt / self.settling, 1.0) / length
+            k = min(dt / SETTLING, 1.0) / length
             # the small turn that takes the measured up towards z: up x z
             attitude = multiply(from_rotation_vector((up_y * k, -up_x * k, 0.0)), attitude)
         self.attitude = attitude = normalise(attitude)
@@ -81,5 +80,5 @@ class Inclination:
         self.velocity = (vx, vy)
         x, y = self.place[0] + vx * dt, self.place[1] + vy * dt
         self.place = (x, y)
-        if self.rest.count and hypot(x, y) > self.way:
+        if self.rest.count and hypot(x, y) > WEARERS_WAY:
             self.heading = atan2(y, x)

@@ -19,6 +19,7 @@ from ....calibration import Limbs
 from ....types import OTHER, Foot, Quat, Site, Vec3
 from ....types.attrs import define, field
 from ....types.vector import IDENTITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate
+from ..settings import ModesSettings
 from .segment import LimbSegment
 
 ABOVE = (Site.PELVIS, Site.LEFT_THIGH, Site.RIGHT_THIGH, Site.LEFT_SHANK, Site.RIGHT_SHANK)
@@ -69,13 +70,10 @@ def foot_end(pelvis: Quat, thigh: Quat, shank: Quat, foot: Quat, hip: Vec3, limb
 class LowerLimbs:
     """The chain of one wearer: attitudes in, the ends of both feet out."""
 
-    limbs: Limbs = field(factory=Limbs)
-    heading: float | None = None
-    """Where the wearer looks in the N-pose, in the world that the devices share, rad, if it is known beforehand, as on
-    a floor that was surveyed; None: where the first step goes."""
-    # state
+    settings: ModesSettings = ModesSettings()
     facing: float | None = field(init=False)
-    """The same, or where the first step has gone."""
+    """Where the wearer looks in the N-pose, or where the first step has gone, in the world that the devices share, rad.
+    """
     turn: float = field(default=0.0, init=False)
     """From there to the x axis of the world, rad."""
     segments: dict[Site, LimbSegment] = field(init=False)
@@ -84,7 +82,7 @@ class LowerLimbs:
     """The wearer walked off before all seven were quiet."""
 
     def __attrs_post_init__(self) -> None:
-        self.facing = self.heading
+        self.facing = self.settings.heading
         self.segments = {site: LimbSegment() for site in SEGMENTS}
 
     def told(self, site: Site, t: float, quat: Quat) -> None:
@@ -194,14 +192,15 @@ class LowerLimbs:
         """P_L or P_R at `t` s: the end of the foot seen from the middle of the hips, world frame, m."""
         thigh, shank, end = [self._attitude(site, t) for site in LEGS[foot]]
         side = 0.5 if foot is Foot.LEFT else -0.5
-        hip = (0.0, side * self.limbs.hip_width, 0.0)
-        return foot_end(self._attitude(Site.PELVIS, t), thigh, shank, end, hip, self.limbs)
+        limbs = self.settings.limbs
+        hip = (0.0, side * limbs.hip_width, 0.0)
+        return foot_end(self._attitude(Site.PELVIS, t), thigh, shank, end, hip, limbs)
 
     def height(self, foot: Foot, t: float) -> float:
         """Of the sole below the ankle at `t` s, seen from the middle of the hips, m. Not that of the foot's end, P_Lz
         and P_Rz of (4): in a chain without toes it dips below the floor when the heel comes up, and the foot that
         pushes off would be the lower one."""
-        segments, limbs = self.segments, self.limbs
+        segments, limbs = self.segments, self.settings.limbs
         thigh, shank, end = [segments[site].upright(t) for site in LEGS[foot]]
         side = 0.5 if foot is Foot.LEFT else -0.5
         _, _, hip = rotate(self._attitude(Site.PELVIS, t), (0.0, side * limbs.hip_width, 0.0))
@@ -219,9 +218,10 @@ class LowerLimbs:
         rad from the x axis of the world, when the wearer has walked before the chain was known."""
         if self.facing is not None or not self.aligned:
             return
+        limbs = self.settings.limbs
         x = y = 0.0
         for leg, sign in ((foot, 1.0), (OTHER[foot], -1.0)):
-            for site, length in zip(LEGS[leg], (self.limbs.thigh, self.limbs.shank), strict=False):
+            for site, length in zip(LEGS[leg], (limbs.thigh, limbs.shank), strict=False):
                 dx, dy, _ = rotate(self.segments[site].attitude(0.0, 0.0, t), (0.0, 0.0, -length))
                 x += sign * dx
                 y += sign * dy

@@ -17,7 +17,6 @@ and some sway."""
 class LimbSegment:
     """One segment's attitude, from its sensor's."""
 
-    # state
     t: float | None = field(default=None, init=False)
     """Of the newest attitude, s."""
     sensor: Quat = field(default=IDENTITY, init=False)
