@@ -105,3 +105,17 @@ class InsoleSettings:
     newtons: Newtons | None = None
     noise: tuple[float, ...] = ()
     """Of each cell, in the unit of the samples, or N with `newtons`; not used on another number of cells."""
+
+
+@frozen
+class DedriftSettings:
+    """Of `LinearDedrift`."""
+
+    trusted: float = 0.05
+    """Evidence with a sigma above this is no stance, m/s."""
+    tilt_rate: float = 2.0
+    """How fast stance pulls the tilt towards gravity, 1/s."""
+    share: float = 0.01
+    """What a stretch is wrong by, as a share of its length."""
+    turn_drift: float = 0.002
+    """Growth of the heading error, rad/sqrt(s)."""

@@ -10,10 +10,11 @@ from attrs import evolve
 from solepath.calibration import Calibration, ShoeGeometry
 from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.phase import Cue
+from solepath.foot.settings import DedriftSettings
 from solepath.foot.stance.stance import Load, Stance
 from solepath.papers.kupt_dfpc.kinematics import Sagittal
 from solepath.papers.kupt_dfpc.known_velocity import KnownVelocity
-from solepath.papers.kupt_dfpc.swing_dedrift import SwingDedrift
+from solepath.papers.kupt_dfpc.swing_dedrift import SwingDedrift, SwingSettings
 from solepath.types import Cell, Foot, Layout, Phase, Quat, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector
 
@@ -23,9 +24,6 @@ FOREFOOT = Load(0.6, 0.0, 0.6, 1.0, False, CELLS, (0.20, 0.0))
 HEEL = Load(0.5, 0.5, 0.0, 1.0, False, CELLS, (0.03, 0.0))
 AIR = Load(0.0, 0.0, 0.0, 0.0, True, CELLS)
 STILL: Vec3 = (0.0, 0.0, GRAVITY)
-
-
-# --- the detector -----------------------------------------------------------------------------------------------------
 
 
 def heel_up(pitch: float) -> Quat:
@@ -113,8 +111,8 @@ def test_a_foot_that_the_cells_have_in_the_air_and_that_stands_still_stands() ->
 def test_the_wearers_own_shoe_is_taken_from_the_calibration() -> None:
     shoe = ShoeGeometry(height=0.04)
     known = KnownVelocity().calibrated(Foot.LEFT, Calibration(shoe=shoe))
-    assert known.shoe == shoe
-    assert KnownVelocity().calibrated(Foot.LEFT, Calibration()).shoe == KnownVelocity().shoe
+    assert known.settings.shoe == shoe
+    assert KnownVelocity().calibrated(Foot.LEFT, Calibration()).settings == KnownVelocity().settings
 
 
 NO_AREAS = evolve(BOTH, heel=None, forefoot=None, centre=None)
@@ -164,8 +162,6 @@ def test_cells_that_have_both_loaded_again_end_a_long_motion_and_speak_as_before
     assert known.update(4.05, 0.01, STILL, ZERO, HEEL, IDENTITY).hint is None
 
 
-# --- the corrector ----------------------------------------------------------------------------------------------------
-
 ZERO_VELOCITY = Stance(ZERO, 0.01, 0.5, Phase.STATIONARY)
 SWING = Stance(ZERO, inf, 0.0, Phase.SWING)
 LANDED = Stance(ZERO, inf, 0.0, Phase.LOADING)
@@ -201,7 +197,7 @@ def moved(corrector: LinearDedrift, step: tuple[tuple[Stance, Cue | None], ...] 
 
 
 def fresh(slide: float = 0.0) -> SwingDedrift:
-    return SwingDedrift(slide=slide, tilt_rate=0.0)
+    return SwingDedrift(SwingSettings(slide=slide, tilt_rate=0.0))
 
 
 def test_only_the_swing_loses_a_line_as_in_equation_8_and_the_error_index_is_that_of_equation_10() -> None:
@@ -229,7 +225,7 @@ def test_a_rolling_velocity_far_from_one_that_was_zero_a_moment_ago_is_not_belie
     """Raw means are 0.05 and 0.15 m/s: no integration goes wrong by half a metre per second within 0.2 s, but a foot
     that has left the ground, or slides, does not roll."""
     step = ((rolling(v, Phase.PUSH_OFF), None), (rolling(v, Phase.PUSH_OFF), None), *STEP[2:])
-    corrector, plain = moved(fresh(), step), moved(LinearDedrift(tilt_rate=0.0), step)
+    corrector, plain = moved(fresh(), step), moved(LinearDedrift(DedriftSettings(tilt_rate=0.0)), step)
     assert corrector.error_index is None
     assert corrector.position == pytest.approx(plain.position, abs=1e-12)
     live = moved(fresh(), step[:2])
@@ -253,7 +249,7 @@ def test_a_heel_that_slides_first_is_compared_once_it_rolls() -> None:
 @pytest.mark.parametrize("left_out", [Cue.CLEAR, Cue.CONTACT])
 def test_a_step_without_both_marks_loses_a_line_over_its_whole_time(left_out: Cue) -> None:
     step = tuple((stance, None if cue is left_out else cue) for stance, cue in STEP)
-    corrector, plain = moved(fresh(), step), moved(LinearDedrift(tilt_rate=0.0), step)
+    corrector, plain = moved(fresh(), step), moved(LinearDedrift(DedriftSettings(tilt_rate=0.0)), step)
     # raw way 0.32, velocity 0.8 gathered evenly over 0.8 s: 0.32 - 0.8 x 0.4 = 0
     assert corrector.position == pytest.approx(plain.position, abs=1e-12)
     assert corrector.position[0] == pytest.approx(0.0, abs=1e-12)
@@ -287,7 +283,7 @@ def test_heights_lose_a_line_over_the_whole_motion_unless_they_are_asked_for() -
     up = tuple(
         (Stance((0.1, 0.0, 0.3), 0.1, 0.0, stance.hint) if stance.sigma == 0.1 else stance, cue) for stance, cue in STEP
     )
-    plain, known = moved(fresh(), up), moved(SwingDedrift(slide=0.0, tilt_rate=0.0, vertical=True), up)
+    plain, known = moved(fresh(), up), moved(SwingDedrift(SwingSettings(slide=0.0, tilt_rate=0.0, vertical=True)), up)
     assert plain.position[2] == pytest.approx(0.0, abs=1e-12)
     assert known.position[2] > 0.05
     assert plain.position[:2] == known.position[:2]

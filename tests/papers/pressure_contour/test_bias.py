@@ -8,8 +8,8 @@ import pytest
 
 from solepath.calibration import Calibration
 from solepath.foot.stance.stance import Stance
-from solepath.papers.pressure_contour.acc_bias import AccelerometerBias
-from solepath.papers.pressure_contour.bias_zupt import BiasZupt
+from solepath.papers.pressure_contour.acc_bias import NOISE, SPREAD, WANDER, AccelerometerBias
+from solepath.papers.pressure_contour.bias_zupt import BiasZupt, BiasZuptSettings
 from solepath.saving import codec as machine
 from solepath.types import Foot, Phase, Quat, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector, from_yaw, multiply, rotate
@@ -32,22 +32,28 @@ def fed(corrector: BiasZupt, stance: Stance, acc: Vec3, count: int, dt: float = 
         corrector.correct(k * dt, stance)
 
 
-# --- the filter -------------------------------------------------------------------------------------------------------
-
-
 def test_two_steps_of_the_filter_are_those_of_the_paper() -> None:
-    bias = AccelerometerBias(spread=0.1, noise=0.1, wander=0.1)
-    # M = 0.01, Sigma_v = 0.01: P = M - M^2 / (M + Sigma_v) = 0.005, gain P / Sigma_v = 0.5, y = -a_m
+    bias, sigma_v = AccelerometerBias(), NOISE * NOISE
+    bias.variance = sigma_v
+    # M = Sigma_v: P = M - M^2 / (M + Sigma_v) = Sigma_v / 2, gain P / Sigma_v = 0.5, y = -a_m
     bias.stood((-0.08, 0.04, 0.0))
     assert bias.bias == pytest.approx((0.04, -0.02, 0.0))
-    assert bias.variance == pytest.approx(0.005)
-    # one second: M = P + Sigma_w = 0.015
-    bias.pass_time(1.0)
-    assert bias.variance == pytest.approx(0.015)
-    # P = 0.015 - 0.015^2 / 0.025 = 0.006, gain 0.6: 0.04 + 0.6 (0.08 - 0.04) and -0.02 + 0.6 (-0.04 + 0.02)
+    assert bias.variance == pytest.approx(0.5 * sigma_v)
+    # in this time Sigma_w comes to Sigma_v: M = P + Sigma_w = 1.5 Sigma_v
+    bias.pass_time((NOISE / WANDER) ** 2)
+    assert bias.variance == pytest.approx(1.5 * sigma_v)
+    # P = (1.5 - 1.5^2 / 2.5) Sigma_v, gain 0.6: 0.04 + 0.6 (0.08 - 0.04) and -0.02 + 0.6 (-0.04 + 0.02)
     bias.stood((-0.08, 0.04, 0.01))
     assert bias.bias == pytest.approx((0.064, -0.032, -0.006))
-    assert bias.variance == pytest.approx(0.006)
+    assert bias.variance == pytest.approx(0.6 * sigma_v)
+
+
+def test_before_any_stance_the_bias_is_as_uncertain_as_the_data_sheet_has_it() -> None:
+    later, now = AccelerometerBias(), AccelerometerBias()
+    later.pass_time(1.0)
+    assert later.variance == pytest.approx(SPREAD**2 + WANDER**2, rel=1e-12)
+    now.stood((-0.08, 0.04, 0.0))
+    assert now.variance == pytest.approx(SPREAD**2 * NOISE**2 / (SPREAD**2 + NOISE**2))
 
 
 def test_a_bias_that_never_changes_is_known_ever_better() -> None:
@@ -65,9 +71,6 @@ def test_between_stances_only_the_doubt_grows() -> None:
     known, doubt = bias.bias, bias.variance
     bias.pass_time(10.0)
     assert bias.bias == known and bias.variance is not None and doubt is not None and bias.variance > doubt
-
-
-# --- the corrector ----------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("attitude", [IDENTITY, from_rotation_vector((0.3, -0.2, 1.0))])
@@ -110,7 +113,7 @@ def test_evidence_that_is_too_poor_is_no_stance() -> None:
 def test_a_steady_error_of_a_swing_costs_no_way_when_it_is_spread_and_half_a_t_squared_when_not() -> None:
     # an error of 0.2 m/s^2 for a second: a t^2 / 2 = 0.1 m
     for spread, way in ((True, 0.0), (False, 0.1)):
-        corrector = begun(BiasZupt(spread=spread))
+        corrector = begun(BiasZupt(BiasZuptSettings(spread=spread)))
         corrector.predict(0.0, UP, ZERO)
         corrector.correct(0.0, STANDS)
         fed(corrector, MOVES, (0.2, 0.0, GRAVITY), 99)
@@ -141,9 +144,6 @@ def test_the_heading_goes_on_as_it_was_when_a_device_tells_its_own() -> None:
     corrector.told(multiply(north, from_yaw(0.8)))
     corrector.predict(0.01, UP, ZERO)
     assert corrector.attitude == pytest.approx(from_yaw(0.8), abs=1e-9)
-
-
-# --- drift ------------------------------------------------------------------------------------------------------------
 
 
 def drifting(drift: tuple[float, float] | None) -> BiasZupt:
@@ -186,9 +186,6 @@ def test_after_a_clock_reset_the_way_goes_on_whatever_the_heading_of_the_devices
         corrector.bridge(inf)
     assert corrector.position == pytest.approx((2.0, 0.0, 0.0), abs=0.03)
     assert rotate(corrector.attitude, (1.0, 0.0, 0.0)) == pytest.approx((1.0, 0.0, 0.0), abs=1e-6)
-
-
-# --- what every corrector does ----------------------------------------------------------------------------------------
 
 
 def test_doubt_grows_with_the_way_and_an_anchor_ends_it() -> None:

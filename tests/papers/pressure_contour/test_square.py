@@ -17,7 +17,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.parts import AttitudePart
 from solepath.emulate.walk import EmulatedWalk, emulate
-from solepath.papers.pressure_contour.bias_zupt import BiasZupt
+from solepath.papers.pressure_contour.bias_zupt import BiasZupt, BiasZuptSettings
 from solepath.papers.pressure_contour.recipe import GYROSCOPE
 from solepath.papers.pressure_contour.square import CornerMark, check, fitted, read_marks, square_drift
 from solepath.recipes import DEFAULT, Recipe
@@ -52,7 +52,7 @@ def samples() -> tuple[Packet | Sample, ...]:
 
 def drifting(x: float, y: float) -> Recipe:
     """A recipe whose positions drift by (x, y) m/s in the device's own world."""
-    return evolve(GYROSCOPE, corrector=BiasZupt(drift=(-x, -y)))
+    return evolve(GYROSCOPE, corrector=BiasZupt(BiasZuptSettings(drift=(-x, -y))))
 
 
 def test_a_known_slope_comes_out_in_the_frame_of_the_device() -> None:
@@ -160,9 +160,6 @@ def test_a_straight_walk_is_no_laps() -> None:
         check(fitted(LEFT, straight, 0.0), straight)
     walk = emulate(Route().stand(2.0).walk(25.0, 1.2).stop(1.0), devices={Site.LEFT_FOOT: Insole(rate=50.0)}, seed=3)
     assert "the laps do not close" in refused(items=walk.packets, steps_per_lap=4)
-
-
-# --- bad input --------------------------------------------------------------------------------------------------------
 
 
 def refused(**asked: object) -> str:

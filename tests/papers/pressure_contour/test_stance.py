@@ -21,7 +21,7 @@ from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.foot.pressure.insole import InsoleLoads as Cells
 from solepath.foot.stance.stance import Load
 from solepath.link.decoder import Decoder
-from solepath.papers.pressure_contour.contour_stance import ContourVelocity, GyroscopeMagnitude
+from solepath.papers.pressure_contour.contour_stance import ContourVelocity, GyroscopeMagnitude, GyroscopeSettings
 from solepath.papers.pressure_contour.recipe import GYROSCOPE, PRESSURE_CONTOUR
 from solepath.recipes import Recipe
 from solepath.types import Cell, Foot, Layout, Phase, Sample, Site
@@ -39,9 +39,6 @@ def walked(device: Insole) -> EmulatedWalk:
 DEVICES = {"96 cells": Insole(), "35 cells": Insole(cells=35), "24 cells under the heel": boot(LEFT)}
 
 
-# --- the gyroscope ----------------------------------------------------------------------------------------------------
-
-
 def rates(detector: GyroscopeMagnitude, *values: float) -> list[bool]:
     stances = [
         detector.update(0.01 * k, 0.01, (0.0, 0.0, GRAVITY), (0.0, value, 0.0), None) for k, value in enumerate(values)
@@ -55,11 +52,15 @@ def test_a_rate_that_stays_low_is_a_standing_foot() -> None:
     assert rates(GyroscopeMagnitude(), 3.0, 0.1, 0.1, 0.1, 0.1) == [False, False, False, False, True]
 
 
+def at_once() -> GyroscopeMagnitude:
+    return GyroscopeMagnitude(GyroscopeSettings(lasting=0.0))
+
+
 def test_it_says_what_it_said_until_the_foot_turns_much_faster_than_at_its_quietest() -> None:
     # 0.2 rad/s is less than `below` 0.25: the stance ends at 1.6 times 0.25
-    assert rates(GyroscopeMagnitude(lasting=0.0), 0.6, 0.2, 0.39, 0.41, 0.6) == [False, True, True, False, False]
+    assert rates(at_once(), 0.6, 0.2, 0.39, 0.41, 0.6) == [False, True, True, False, False]
     # and where 0.45 rad/s was the quietest moment, at 1.6 times that
-    assert rates(GyroscopeMagnitude(lasting=0.0), 0.6, 0.45, 0.71, 0.73) == [False, True, True, False]
+    assert rates(at_once(), 0.6, 0.45, 0.71, 0.73) == [False, True, True, False]
 
 
 def strides(quietest: float, count: int = 8) -> list[float]:
@@ -108,9 +109,6 @@ def test_no_motion_of_any_kind_lasts_longer_than_some_seconds(values: list[int])
     cycle = [0.1 * value for value in values + values[::-1]]
     repeated = (cycle * (1000 // len(cycle) + 1))[:1000]
     assert any(rates(GyroscopeMagnitude(), *repeated))
-
-
-# --- the contours -----------------------------------------------------------------------------------------------------
 
 
 def evidence(detector: ContourVelocity, device: Insole) -> tuple[list[float], list[bool]]:
@@ -242,9 +240,6 @@ def test_as_long_as_the_load_is_not_known_the_gyroscope_speaks() -> None:
     detector = worn()
     assert fed(detector, [None] * 6, rate=0.0)[-1] is Phase.STATIONARY
     assert fed(detector, [None] * 6, rate=1.0)[-1] is None
-
-
-# --- in a session -----------------------------------------------------------------------------------------------------
 
 
 def test_too_few_cells_are_said_once_and_the_walk_goes_on_by_the_gyroscope() -> None:

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath.emulate.sensors.insoles import heel_array, layout
-from solepath.papers.pressure_contour.contour import FIGURE_4, Contours
+from solepath.papers.pressure_contour.contour import FIGURE_4, Contours, ContourSettings
 from solepath.types import Cell, Foot, Layout
 
 LENGTH = 0.28
@@ -63,9 +63,8 @@ def test_a_cone_of_pressure_that_moves_is_seen_to_move_as_fast(pascals: tuple[fl
     where = grid()
     centre = (0.046, 0.0)
     for dx, dy in ((0.002, 0.0), (0.0, 0.002), (-0.0015, 0.001)):
-        seen = moved(
-            Contours(pascals=pascals), where, cone(where, *centre), cone(where, centre[0] + dx, centre[1] + dy)
-        )
+        contours, after = Contours(ContourSettings(pascals=pascals)), cone(where, centre[0] + dx, centre[1] + dy)
+        seen = moved(contours, where, cone(where, *centre), after)
         true = integral(dx, dy, 0.02)
         assert hypot(seen[0] - true[0], seen[1] - true[1]) < 0.06 * hypot(*true)
 
@@ -73,7 +72,8 @@ def test_a_cone_of_pressure_that_moves_is_seen_to_move_as_fast(pascals: tuple[fl
 def test_a_contour_that_only_shrinks_does_not_move_wherever_the_rays_begin() -> None:
     where = grid()
     for tip in ((0.046, 0.0), (0.051, 0.003)):
-        seen = moved(Contours(pascals=(60e3, 100e3)), where, cone(where, *tip), cone(where, *tip, part=0.9))
+        contours = Contours(ContourSettings(pascals=(60e3, 100e3)))
+        seen = moved(contours, where, cone(where, *tip), cone(where, *tip, part=0.9))
         # the level at 100 kPa comes in by 2.2 mm within 50 ms, 44 mm/s
         assert hypot(*seen) < 0.0025
 
@@ -93,9 +93,9 @@ def test_levels_that_follow_the_load_need_no_scale() -> None:
 
 
 def test_fixed_pressures_ask_for_newtons() -> None:
-    contours = Contours(pascals=FIGURE_4)
+    contours = Contours(ContourSettings(pascals=FIGURE_4))
     contours.wear(grid(scale=None))
-    assert not contours.absolute and contours.levels == Contours().shares
+    assert not contours.absolute and contours.levels == contours.settings.shares
 
 
 def test_half_a_contour_is_followed_where_the_other_half_lies_beyond_the_cells() -> None:

@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath.foot.stance.stance import Stance
-from solepath.papers.shoe_sensing.gated_tilt import ShoeSensing
+from solepath.papers.shoe_sensing.gated_tilt import ShoeSensing, ShoeSensingSettings
 from solepath.saving import codec as machine
 from solepath.types import Phase, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector
@@ -27,7 +27,7 @@ DT = 0.01
 def begun(**changes: float | bool) -> ShoeSensing:
     """A foot that has stood for a while, with a corrector that does as the paper says and no more."""
     plain: dict[str, float | bool] = {"behind": 0.0, "heed": 0.0}
-    one = evolve(ShoeSensing(), **{**plain, **changes})
+    one = ShoeSensing(evolve(ShoeSensingSettings(), **{**plain, **changes}))
     one.start(IDENTITY, 0.02)
     go(one, [ZERO] * 20, STILL)
     return one
@@ -126,9 +126,6 @@ def test_the_velocity_left_at_the_end_of_a_motion_turns_the_tilt_that_would_expl
     assert 2.0 * one.attitude[2] == pytest.approx(0.05, rel=1e-3)
     go(one, [ZERO], MOVES)
     assert 2.0 * one.attitude[2] == pytest.approx(0.025, rel=0.05)
-
-
-# --- what is doubtful -------------------------------------------------------------------------------------------------
 
 
 def test_in_mid_swing_a_moment_without_acceleration_is_no_stance() -> None:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from solepath.body.activity.steepness import DOWN_FROM, UP_FROM, angle_per_metre, steepness
 from solepath.foot.stance.stance import Stance
-from solepath.papers.shoe_sensing.short_time_energy import AccelerationMagnitude, ShortTimeEnergy
+from solepath.papers.shoe_sensing.short_time_energy import AccelerationMagnitude, EnergySettings, ShortTimeEnergy
 from solepath.saving import codec as machine
 from solepath.types import Phase
 from solepath.types.vector import GRAVITY, ZERO
@@ -49,7 +49,8 @@ def test_a_jogger_that_is_quiet_for_five_samples_may_stand() -> None:
 
 @pytest.mark.parametrize("rate", [20.0, 40.0, 100.0, 200.0, 400.0])
 def test_the_energy_of_the_same_motion_is_the_same_at_every_rate(rate: float) -> None:
-    assert last(ShortTimeEnergy(window=0.2), [1.04] * 100, rate).statistic == pytest.approx(20 * 0.04**2)
+    said = last(ShortTimeEnergy(EnergySettings(window=0.2)), [1.04] * 100, rate)
+    assert said.statistic == pytest.approx(20 * 0.04**2)
 
 
 def test_at_ten_hertz_two_quiet_samples_are_a_stance() -> None:
@@ -76,9 +77,6 @@ def test_whatever_is_measured_the_energy_is_finite(samples: list[tuple[float, fl
         assert isfinite(said.statistic) and said.statistic >= 0.0
         assert said.sigma > 0.0
     assert machine.load(ShortTimeEnergy, json.loads(json.dumps(machine.save(detector), allow_nan=False))) == detector
-
-
-# --- angle per metre --------------------------------------------------------------------------------------------------
 
 
 def test_the_stride_of_figure_28_lies_within_table_1() -> None:

@@ -14,6 +14,7 @@ from math import exp, sqrt
 from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import GRAVITY, ZERO, sub, tipped
+from ..settings import DedriftSettings
 from ..stance.stance import Stance
 from .corrector import LONGEST_BRIDGE
 from .strapdown import Strapdown
@@ -26,15 +27,7 @@ class LinearDedrift(Strapdown):
     Frame and units as in `Corrector`. Latency: the position is corrected, in one jump, with the first sample of stance.
     """
 
-    trusted: float = 0.05
-    """Evidence with a sigma above this is no stance, m/s."""
-    tilt_rate: float = 2.0
-    """How fast stance pulls the tilt towards gravity, 1/s."""
-    share: float = 0.01
-    """What a stretch is wrong by, as a share of its length."""
-    turn_drift: float = 0.002
-    """Growth of the heading error, rad/sqrt(s)."""
-    # state
+    settings: DedriftSettings = DedriftSettings()
     swing: float = field(default=0.0, init=False)
     """Time since stance, s."""
     length: float = field(default=0.0, init=False)
@@ -56,7 +49,7 @@ class LinearDedrift(Strapdown):
         self.lasted += dt
 
     def correct(self, t: float, stance: Stance) -> bool:
-        if stance.sigma > self.trusted or stance.hint is Phase.SWING:
+        if stance.sigma > self.settings.trusted or stance.hint is Phase.SWING:
             return False
         rx, ry, rz = stance.v_ref
         vx, vy, vz = self.velocity
@@ -91,8 +84,9 @@ class LinearDedrift(Strapdown):
         return stretch
 
     def covariance(self) -> tuple[float, ...]:
-        variance = (self.share * self.length) ** 2
-        yaw = self.turn_drift * self.turn_drift * self.lasted
+        variance = (self.settings.share * self.length) ** 2
+        drift = self.settings.turn_drift
+        yaw = drift * drift * self.lasted
         return (variance, 0.0, 0.0, variance, 0.0, variance, yaw)
 
     def _level(self) -> None:
@@ -103,5 +97,5 @@ class LinearDedrift(Strapdown):
     def _pull(self, force: Vec3, dt: float) -> None:
         """Turn the attitude about `force` x z so that `force`, m/s^2, points up, by 1 - exp(-rate dt) of the way."""
         fx, fy, _ = force
-        share = 0.5 * (1.0 - exp(-self.tilt_rate * min(dt, 0.1))) / GRAVITY
+        share = 0.5 * (1.0 - exp(-self.settings.tilt_rate * min(dt, 0.1))) / GRAVITY
         self.attitude = tipped(self.attitude, share * fy, -share * fx)

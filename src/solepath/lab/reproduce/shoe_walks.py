@@ -18,7 +18,7 @@ from ...emulate.wearers.shoe import ON_INSTEP
 from ...emulate.wearers.truth import TrueStep, Truth
 from ...emulate.wearers.walker import Walker
 from ...events import Event, FlightClimbed, StrideTaken
-from ...papers.shoe_sensing.gated_tilt import ShoeSensing
+from ...papers.shoe_sensing.gated_tilt import ShoeSensing, ShoeSensingSettings
 from ...papers.shoe_sensing.recipe import SHOE_MAGNITUDE, SHOE_SENSING
 from ...types import Foot, Sample
 from ..measures.alignment import Floats, align, distances
@@ -144,7 +144,7 @@ def tour_route() -> Route:
 
 def walked(seed: int) -> ShoeWalked:
     """All of it by one wearer."""
-    plain = evolve(SHOE_SENSING, corrector=evolve(ShoeSensing(), eliminate=False))
+    plain = evolve(SHOE_SENSING, corrector=ShoeSensing(ShoeSensingSettings(eliminate=False)))
     energy, before, magnitude = {}, {}, {}
     for k, state in enumerate(STATES):
         samples, truth = worn(route_of(state), 10 * seed + k)

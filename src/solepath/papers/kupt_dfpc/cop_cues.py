@@ -7,12 +7,12 @@ sample A to B of the figure), rests there in the air, and jumps from there to th
 - Toe-off is the sample before the largest jump from motion start to the first sample of swing (point A).
 - Heel-strike is the sample after the largest jump from swing to motion end (point D).
 - Motion ends and starts with the first and after the last sample that the detector calls stationary.
-- A swing is normal when the centre of pressure rested at the foot's centre for `rest` s. A step without one is abnormal
+- A swing is normal when the centre of pressure rested at the foot's centre for `REST` s. A step without one is abnormal
   (section IV.A): "toe-off and heel-strike were not extracted for that step". Its phases go on all the same, without a
   heel-strike, and no mark is set, so that nothing is calibrated by it.
 
 Where there is no load yet (it is not known before it has fallen and risen once) the inertial cues speak. A foot that
-slides away without ever leaving the ground has cleared it when it has been fast for `shuffle_time`. What follows from
+slides away without ever leaving the ground has cleared it when it has been fast for `SHUFFLE_TIME`. What follows from
 what the cells show is the table of stages.py.
 """
 
@@ -33,6 +33,15 @@ from .stages import STAGES, CellCue, StepStage
 
 FARTHEST = 1e3
 """No centre of pressure jumps so far, m."""
+REST, LONGEST_LANDING = 0.1, 0.4
+"""s. For so long the centre of pressure rests at the foot's centre in a normal swing; a heel-strike is told after so
+long even when the foot is not stationary yet."""
+SHUFFLE_TIME = 0.25
+"""How long a foot must be fast (InertialCues) to have left without ever being in the air, s."""
+AREA_ON, AREA_OFF = 0.05, 0.03
+"""For an insole alone: heel and forefoot above this share of the full load make a foot flat; one below that ends it."""
+STALE = 0.05
+"""Samples without cells, where those come more slowly, are no matter for so long, s."""
 
 
 @define
@@ -40,21 +49,8 @@ class CopCues(Cues):
     """Latency: toe-off one sample; heel-strike and foot-flat at the first stationary sample, as the paper has it;
     heel-off one sample."""
 
-    rest: float = 0.1
-    """For so long the centre of pressure rests at the foot's centre in a normal swing, s."""
-    longest_landing: float = 0.4
-    """A heel-strike is told after this long even when the foot is not stationary yet, s."""
-    shuffle_time: float = 0.25
-    """How long a foot must be fast (SHUFFLE_SPEED of inertial.py) to have left without ever being in the air, s."""
-    area_on: float = 0.05
-    """For an insole alone: heel and forefoot both above this share of the full load make a foot flat,"""
-    area_off: float = 0.03
-    """and one of them below this ends that."""
-    stale: float = 0.05
-    """Samples without cells, where those come more slowly, are no matter for so long, s."""
     inertial: InertialCues = field(factory=InertialCues)
     touch: Touch = field(factory=Touch)
-    # state
     mark: Cue | None = field(default=None, init=False)
     """CLEAR: the sample before the last is the best candidate so far for toe-off. CONTACT: the last sample is that for
     heel-strike."""
@@ -94,7 +90,7 @@ class CopCues(Cues):
     ) -> Sequence[Seen]:  # fmt: skip
         self.mark = None
         seen = self.inertial.update(t, dt, acc, gyro, still, speed, phase)
-        if load is None and self.pressed_at is not None and t - self.pressed_at < self.stale:
+        if load is None and self.pressed_at is not None and t - self.pressed_at < STALE:
             return ()
         stationary = still and stance.hint is Phase.STATIONARY
         airborne = self.touch.update(t, load, stationary)
@@ -106,7 +102,7 @@ class CopCues(Cues):
         if self.stage is StepStage.LEAVING and phase is not Phase.SWING and speed >= SHUFFLE_SPEED:
             if self.fast_since is None:
                 self.fast_since = t
-            elif t - self.fast_since >= self.shuffle_time - TIE:
+            elif t - self.fast_since >= SHUFFLE_TIME - TIE:
                 found.append(Seen(Cue.CLEAR, self.fast_since))
         else:
             self.fast_since = None
@@ -121,7 +117,7 @@ class CopCues(Cues):
             if self.stage is StepStage.LANDING:
                 found += self._dated((Cue.CONTACT,), t)
             return found
-        self.flat = min(load.heel, load.forefoot) >= (self.area_off if self.flat else self.area_on)
+        self.flat = min(load.heel, load.forefoot) >= (AREA_OFF if self.flat else AREA_ON)
         return self._step(t, self.flat, self.touch.update(t, load), load)
 
     def _begin(self, t: float, airborne: bool, phase: Phase) -> list[Seen]:
@@ -129,7 +125,7 @@ class CopCues(Cues):
         if airborne:
             left = self.touch.moving_since
             self.stage = StepStage.FLYING
-            self.airborne_since = t - self.rest
+            self.airborne_since = t - REST
             return [] if phase is Phase.SWING else [Seen(Cue.CLEAR, t if left is None else left)]
         if phase is Phase.SWING:
             self._enter(StepStage.LANDING, t)
@@ -161,7 +157,7 @@ class CopCues(Cues):
 
     def _cell_cues(self, t: float, stationary: bool, airborne: bool) -> list[CellCue]:
         """From numbers to cues: what this sample shows, in order."""
-        rested = self.airborne_since is not None and t - self.airborne_since >= self.rest - TIE
+        rested = self.airborne_since is not None and t - self.airborne_since >= REST - TIE
         landing = self.stage is StepStage.LANDING
         if airborne:
             if landing:
@@ -172,7 +168,7 @@ class CopCues(Cues):
             return [touched, CellCue.STANDS] if stationary else [touched]
         if stationary:
             return [CellCue.STANDS]
-        lingers = landing and t - self.since >= self.longest_landing - TIE
+        lingers = landing and t - self.since >= LONGEST_LANDING - TIE
         return [CellCue.MOVES, CellCue.LINGERS] if lingers else [CellCue.MOVES]
 
     def _compare(self, jump: float, before: float | None, t: float) -> None:

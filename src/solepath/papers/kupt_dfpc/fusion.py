@@ -7,23 +7,23 @@ stride length (12), choice of the foot (13).
 What the paper leaves open is settled here:
 
 - The other foot's step is its latest one that ended before this one did (fig. 9: L1, R1, L2, ... each by the one
-  before). It is not used when it ended before this step began (the other foot left one out) or longer than `patience`
+  before). It is not used when it ended before this step began (the other foot left one out) or longer than `PATIENCE`
   before this foot left the ground (the wearer stood), nor when it was abnormal.
 - A step that has nothing to be compared with, or is itself abnormal (no error index), keeps its own length:
   coefficient 1. So does one that is not similar at all, r = 0, or whose similarity is undefined because a path of the
   centre of pressure is constant or unknown: (11) tends to 1 as r goes to 0.
 - A half stride and a whole one are not similar: fig. 11 has low similarities at the first and the last step of a walk.
   Our paths of the centre of pressure end at toe-off, before it shows that a step closes the walk; so strides of which
-  one is shorter than `alike` of the other have r = 0.
+  one is shorter than `ALIKE` of the other have r = 0.
 - (11) is computed as EI_other / (EI_other + r EI_own), which is the same and divides by zero only where both error
   indices are zero; there it is 1 / (1 + r), as for any two equal ones.
 - (13) adds up pairs of steps. A pair is a step and the other foot's before it, each step in one pair at most: with feet
   that take turns that is the k-th left with the k-th right one, and a step that is missing on one side shifts nothing.
   While the sum is zero the foot that stepped first is the chosen one.
 - An abnormal step has no error index, and left out of (13) it would speak for its foot. In a pair with a normal step it
-  counts as `abnormal` m/s worse than that, by the mean of both lengths as in (13): an absurd one weighs as much as it
+  counts as `ABNORMAL` m/s worse than that, by the mean of both lengths as in (13): an absurd one weighs as much as it
   is long. A pair of two abnormal steps favours neither foot.
-- A foot that took no step during `away` steps of the other is not chosen, whatever (13) says, and when it steps again
+- A foot that took no step during `AWAY` steps of the other is not chosen, whatever (13) says, and when it steps again
   its path goes on from the other's end: what it did meanwhile is not known.
 """
 
@@ -51,6 +51,10 @@ LEAST_WAY = 1e-6
 """A shorter step has no direction, m."""
 LEAST_SPREAD = 1e-12
 """A path of the centre of pressure that varies less is constant but for rounding, m^2."""
+PATIENCE, ALIKE, AWAY = 1.0, 0.75, 3
+"""s, a share and steps: see above."""
+ABNORMAL = 1.0
+"""m/s: about as much as the error indices of normal steps on recorded insoles."""
 
 
 @define
@@ -99,13 +103,6 @@ class DoubleFoot(Track):
 
     feeds: ClassVar[bool] = True
 
-    patience: float = 1.0
-    """s."""
-    alike: float = 0.75
-    away: int = 3
-    abnormal: float = 1.0
-    """m/s: about as much as the error indices of normal steps on recorded insoles."""
-    # state
     paths: dict[Foot, CalibratedPath] = field(init=False)
     weighted: float = field(default=0.0, init=False)
     """The sum of (13), m^2/s: positive when the left foot errs more."""
@@ -137,7 +134,7 @@ class DoubleFoot(Track):
         if index is not None and partner is not None and partner.error_index is not None:
             similarity = correlation(rhythm, partner.rhythm)
             shorter, longer = sorted((taken.length, partner.length))
-            if similarity is not None and shorter < self.alike * longer:
+            if similarity is not None and shorter < ALIKE * longer:
                 similarity = 0.0
             coefficient = share(similarity, index, partner.error_index)
             length = coefficient * taken.length + (1.0 - coefficient) * partner.length  # (12)
@@ -169,21 +166,21 @@ class DoubleFoot(Track):
     def _errs(self, own: float | None, other: float | None) -> float:
         """By how much the one step errs more than the other, m/s."""
         if own is None:
-            return 0.0 if other is None else self.abnormal
-        return -self.abnormal if other is None else own - other
+            return 0.0 if other is None else ABNORMAL
+        return -ABNORMAL if other is None else own - other
 
     def _partner(self, taken: StrideTaken, others: CalibratedPath) -> FusedStride | None:
         """The other foot's latest step before this one, unless it is too old."""
         left_at = taken.t_start if taken.t_toe_off is None else taken.t_toe_off
         for stepped in reversed(others.latest):
             if stepped.t_end <= taken.t_end:
-                fresh = stepped.t_end > taken.t_start and left_at - stepped.t_end <= self.patience
+                fresh = stepped.t_end > taken.t_start and left_at - stepped.t_end <= PATIENCE
                 return stepped if fresh else None
         return None
 
     def _extend(self, path: CalibratedPath, others: CalibratedPath, taken: StrideTaken, length: float) -> None:
         """The path goes on in the step's own direction, by the calibrated length."""
-        if path.missed >= self.away:
+        if path.missed >= AWAY:
             path.end, path.distance, path.shifted = others.end, others.distance, others.shifted
         dx, dy, dz = taken.displacement
         own = taken.length
@@ -194,14 +191,14 @@ class DoubleFoot(Track):
         sx, sy = path.shifted
         path.shifted = (sx + (k - 1.0) * dx, sy + (k - 1.0) * dy)
         path.stood, path.missed = taken.position, 0
-        others.missed = min(others.missed + 1, self.away)
+        others.missed = min(others.missed + 1, AWAY)
 
     def _choose(self, stepped: Foot) -> Foot:
         """Which path is the wearer's now, by the sign of (13)."""
         chosen = self.chosen or stepped
         if self.chosen is not None and self.weighted != 0.0:
             chosen = Foot.RIGHT if self.weighted > 0.0 else Foot.LEFT
-        self.chosen = stepped if self.paths[chosen].missed >= self.away else chosen
+        self.chosen = stepped if self.paths[chosen].missed >= AWAY else chosen
         return self.chosen
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:

@@ -32,6 +32,13 @@ LENGTH = 0.285
 """Of the shoe whose geometry is the default, m."""
 SHORTEST, LONGEST = 0.15, 0.40
 """No insole is shorter or longer, m."""
+FLAT_TIME = 0.05
+""""Up" on the flat foot follows what is measured within about this time, s."""
+LEAST_LIFT = 0.35
+"""A push-off lifts the heel by at least this before it tells the direction of the toes, rad."""
+MISFITS, FOLLOW = 3, 0.2
+"""Push-offs in a row in another direction, by more than 60 degrees, after which that one is believed; share by which
+each push-off moves the direction."""
 
 
 def shoe_for(length: float) -> ShoeGeometry:
@@ -75,15 +82,6 @@ class Sagittal:
     Angles in rad. The direction of the toes is known after the first push-off; `toe` is None until then.
     """
 
-    flat_time: float = 0.05
-    """"Up" on the flat foot follows what is measured within about this time, s."""
-    least: float = 0.35
-    """A push-off lifts the heel by at least this before it tells the direction of the toes, rad."""
-    misfits: int = 3
-    """Push-offs in a row in another direction, by more than 60 degrees, after which that one is believed."""
-    follow: float = 0.2
-    """Share by which each push-off moves the direction."""
-    # state
     up: Vec3 | None = field(default=None, init=False)
     """Up in the sensor frame while the foot stood flat, unit length."""
     toe: Vec3 | None = field(default=None, init=False)
@@ -106,7 +104,7 @@ class Sagittal:
             self.up = (x, y, z)
             return
         u, v, w = self.up
-        k = dt / (dt + self.flat_time)
+        k = dt / (dt + FLAT_TIME)
         u, v, w = u + k * (x - u), v + k * (y - v), w + k * (z - w)
         k = 1.0 / sqrt(u * u + v * v + w * w)
         self.up = (u * k, v * k, w * k)
@@ -155,17 +153,17 @@ class Sagittal:
         self.lift = ZERO
         self.highest = 0.0
         size = sqrt(x * x + y * y + z * z)
-        if highest < sin(self.least) ** 2 or size < 1e-9:
+        if highest < sin(LEAST_LIFT) ** 2 or size < 1e-9:
             return
         x, y, z = -x / size, -y / size, -z / size  # "up" tilts to the heel
         if self.toe is None:
             self.toe = (x, y, z)
             return
         u, v, w = self.toe
-        share = self.follow
+        share = FOLLOW
         if u * x + v * y + w * z < 0.5:
             self.strange += 1
-            if self.strange < self.misfits:
+            if self.strange < MISFITS:
                 return
             share = 1.0
         self.strange = 0

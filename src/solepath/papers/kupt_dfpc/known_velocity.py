@@ -14,12 +14,32 @@ from ...foot.cues.touch import Touch
 from ...foot.stance.shoe import ShoeDetector
 from ...foot.stance.stance import Detector, Load, Stance
 from ...types import Foot, Layout, Phase, Quat, Vec3
-from ...types.attrs import define, evolve, field
+from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import IDENTITY, ZERO
 from .kinematics import Sagittal, shoe_for, velocity
 
 LEAST_TURN = 0.5
 """A foot that turns faster than this does not lie flat, whatever its cells say, rad/s."""
+TOE_DOWN = 0.1
+"""A foot that lands with its toes lower than this does not roll over its heel, rad."""
+STALE = 0.05
+"""Loads that come more slowly than inertial samples hold for so long, s."""
+LONGEST_STRIDE, QUIET = 3.0, 0.05
+"""No stride lasts longer, s: the foot stood since, and does not go on to be integrated. After so long the inertial
+detector need not be certain: its zero velocity may have this sigma, m/s."""
+
+
+@frozen
+class KnownVelocitySettings:
+    """What `KnownVelocity` is set to. With both areas above a share `on` of the full load stationary begins; it ends
+    when one of them is below `off`. `sigma`: of a zero velocity, m/s; `rolling_sigma`: of a rolling shoe's, m/s."""
+
+    on: float = 0.05
+    off: float = 0.03
+    sigma: float = 0.01
+    rolling_sigma: float = 0.1
+    shoe: ShoeGeometry | None = None
+    """The wearer's, measured. Without it the default shoe in the insole's size."""
 
 
 @define
@@ -35,27 +55,9 @@ class KnownVelocity(Detector):
     smaller of the two loads as a share of the wearer's full load.
     """
 
-    on: float = 0.05
-    """Both areas above this share of the full load: stationary begins,"""
-    off: float = 0.03
-    """and ends when one of them is below this."""
-    sigma: float = 0.01
-    """Of a zero velocity, m/s."""
-    rolling_sigma: float = 0.1
-    """Of a rolling shoe's, m/s."""
-    toe_down: float = 0.1
-    """A foot that lands with its toes lower than this does not roll over its heel, rad."""
-    stale: float = 0.05
-    """Loads that come more slowly than inertial samples hold for so long, s."""
-    longest: float = 3.0
-    """No stride lasts longer, s: the foot stood since, and does not go on to be integrated."""
-    quiet: float = 0.05
-    """After so long the inertial detector need not be certain: its zero velocity may have this sigma, m/s."""
-    shoe: ShoeGeometry | None = None
-    """The wearer's, measured. Without it the default shoe in the insole's size."""
+    settings: KnownVelocitySettings = KnownVelocitySettings()
     sagittal: Sagittal = field(factory=Sagittal)
     """What was learnt of the mounting."""
-    # state
     default: ShoeGeometry = field(factory=ShoeGeometry, init=False)
     moving: float = field(default=0.0, init=False)
     """Time since the foot was last stationary beyond doubt, s."""
@@ -70,7 +72,8 @@ class KnownVelocity(Detector):
     held_at: float = field(default=0.0, init=False)
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> KnownVelocity:
-        return self if calibration.shoe is None else evolve(self, shoe=calibration.shoe)
+        shoe = calibration.shoe
+        return self if shoe is None else evolve(self, settings=evolve(self.settings, shoe=shoe))
 
     def wear(self, layout: Layout) -> None:
         self.touch.wear(layout)
@@ -79,18 +82,19 @@ class KnownVelocity(Detector):
     @property
     def worn(self) -> ShoeGeometry:
         """The shoe that is reckoned with."""
-        return self.default if self.shoe is None else self.shoe
+        return self.settings.shoe or self.default
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
+        settings = self.settings
         inertial = self.inertial.update(t, dt, acc, gyro, None)
         still = inertial.hint is Phase.STATIONARY
         self.moving += dt
-        overdue = self.moving > self.longest and inertial.sigma <= self.quiet
+        overdue = self.moving > LONGEST_STRIDE and inertial.sigma <= QUIET
         if load is not None:
             self.held, self.held_at = load, t
-        elif self.held is not None and t - self.held_at < self.stale:
+        elif self.held is not None and t - self.held_at < STALE:
             load = self.held
         else:
             self.held = None
@@ -99,7 +103,7 @@ class KnownVelocity(Detector):
         if load is None or not self.touch.known:
             return self._by_inertia(dt, attitude, inertial, overdue)
         heel, forefoot = load.heel, load.forefoot
-        if overdue and (airborne or heel is None or forefoot is None or min(heel, forefoot) < self.on):
+        if overdue and (airborne or heel is None or forefoot is None or min(heel, forefoot) < settings.on):
             self.phase = self.place = None
             return _ends(inertial)
         if heel is None or forefoot is None:
@@ -116,7 +120,7 @@ class KnownVelocity(Detector):
             self.phase = Phase.SWING
             self.place = None
             return Stance(ZERO, inf, statistic, Phase.SWING)
-        if statistic >= (self.off if was is Phase.STATIONARY else self.on):
+        if statistic >= (settings.off if was is Phase.STATIONARY else settings.on):
             if was is not Phase.STATIONARY:
                 sagittal.lifted()
             self.phase = Phase.STATIONARY
@@ -125,7 +129,7 @@ class KnownVelocity(Detector):
             if gx * gx + gy * gy + gz * gz < LEAST_TURN * LEAST_TURN:
                 sagittal.stands(dt, attitude)
             self.place = None if sagittal.toe is None else sagittal.forefoot_place(self.worn)
-            return Stance(ZERO, self.sigma, statistic, Phase.STATIONARY)
+            return Stance(ZERO, settings.sigma, statistic, Phase.STATIONARY)
         if was is Phase.STATIONARY or was is Phase.PUSH_OFF:
             return self._push_off(dt, attitude, statistic, forefoot > heel)
         if was is Phase.SWING or was is Phase.LOADING:
@@ -158,7 +162,7 @@ class KnownVelocity(Detector):
 
     def _loading(self, dt: float, statistic: float, on_heel: bool) -> Stance:
         sagittal = self.sagittal
-        rolls = on_heel and sagittal.toe is not None and sagittal.pitch > -self.toe_down
+        rolls = on_heel and sagittal.toe is not None and sagittal.pitch > -TOE_DOWN
         return self._rolling(Phase.LOADING, sagittal.heel_place(self.worn) if rolls else None, dt, statistic)
 
     def _rolling(self, phase: Phase, place: Vec3 | None, dt: float, statistic: float) -> Stance:
@@ -166,7 +170,7 @@ class KnownVelocity(Detector):
         before, self.place, self.phase = self.place, place, phase
         if before is None or place is None or dt <= 0.0:
             return Stance(ZERO, inf, statistic, phase)
-        return Stance(velocity(before, place, dt), self.rolling_sigma, statistic, phase)
+        return Stance(velocity(before, place, dt), self.settings.rolling_sigma, statistic, phase)
 
 
 def _ends(inertial: Stance) -> Stance:

@@ -10,6 +10,7 @@ from math import hypot
 
 from ...foot.navigate.dedrift import LinearDedrift
 from ...foot.phase import Cue
+from ...foot.settings import DedriftSettings
 from ...foot.stance.stance import Stance
 from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field, frozen
@@ -18,6 +19,13 @@ from ...types.vector import TIE, ZERO
 SHORT_GAP = 0.08
 """A step with a longer gap than this is abnormal, s: two samples of the paper's 30 Hz lie 0.067 s apart when one is
 lost between them, and differences take the true time."""
+ROLLING = 0.2
+"""Evidence of a rolling shoe with a sigma above this is not used, m/s."""
+GROSS = 0.6
+"""A rolling velocity of push-off further than this from the raw one, along the ground, is not believed, m/s. In 0.3 s a
+tilt that is off by 2 degrees and an accelerometer by 20 mg make 0.16 m/s, a rolling velocity is good to 0.1, and three
+times both together is 0.57. Emulated feet stay within 0.05; recorded ones that roll reach 0.5, and those whose cells
+let go late are at 0.7 to 1.3."""
 
 
 @frozen
@@ -31,6 +39,15 @@ class MotionMoment:
     way: Vec3
     known: Vec3
     error: Vec3 | None
+
+
+@frozen
+class SwingSettings(DedriftSettings):
+    """What `SwingDedrift` is set to. `slide`: how long after heel-strike the heel has not stopped sliding, s.
+    `vertical`: take the known velocity for heights too."""
+
+    slide: float = 0.02
+    vertical: bool = False
 
 
 @define
@@ -49,7 +66,7 @@ class SwingDedrift(LinearDedrift):
     makes 8 cm/s, and in level walking nothing of a height that a line over the whole motion does not give as well. So
     heights get that line unless `vertical` is set.
 
-    A raw velocity that was zero at motion start cannot be off by `gross` when the foot leaves the ground a few tenths
+    A raw velocity that was zero at motion start cannot be off by `GROSS` when the foot leaves the ground a few tenths
     of a second later; in fig. 14 too it drifts in swing and landing. On recorded insoles, whose cells let go late, the
     foot is then on its way already and does not roll. So a velocity of push-off that contradicts the raw one so much is
     not believed. Where the heel never rolled the error is that at motion end, and the swing lasts until then.
@@ -58,18 +75,7 @@ class SwingDedrift(LinearDedrift):
     linear drift over its whole time, as with ZUPT. Memory is three moments, however long the motion.
     """
 
-    rolling: float = 0.2
-    """Evidence of a rolling shoe with a sigma above this is not used, m/s."""
-    slide: float = 0.02
-    """How long after heel-strike the heel has not stopped sliding, s."""
-    gross: float = 0.6
-    """A rolling velocity of push-off further than this from the raw one, along the ground, is not believed, m/s. In
-    0.3 s a tilt that is off by 2 degrees and an accelerometer by 20 mg make 0.16 m/s, a rolling velocity is good to
-    0.1, and three times both together is 0.57. Emulated feet stay within 0.05; recorded ones that roll reach 0.5, and
-    those whose cells let go late are at 0.7 to 1.3."""
-    vertical: bool = False
-    """Take the known velocity for heights too."""
-    # state
+    settings: SwingSettings = SwingSettings()
     base: Vec3 = field(default=ZERO, init=False)
     """Where the motion started, m."""
     raw_velocity: Vec3 = field(default=ZERO, init=False)
@@ -124,13 +130,13 @@ class SwingDedrift(LinearDedrift):
     def correct(self, t: float, stance: Stance) -> bool:
         hint = stance.hint
         rolls = hint is Phase.PUSH_OFF or hint is Phase.LOADING
-        if stance.sigma <= self.trusted and not rolls and hint is not Phase.SWING:
+        if stance.sigma <= self.settings.trusted and not rolls and hint is not Phase.SWING:
             self._stand()
             return True
         self.moved = True
         self.before = self.here
         error: Vec3 | None = None
-        if rolls and stance.sigma <= self.rolling:
+        if rolls and stance.sigma <= ROLLING:
             error = self._take(stance.v_ref, hint is Phase.PUSH_OFF)
         elif self.before is not None and self.before.error is not None:
             # nothing new is known: the error stays as it was
@@ -146,7 +152,7 @@ class SwingDedrift(LinearDedrift):
         """The velocity over the last interval is known; returns the error of the raw one, None if not believed."""
         (vx, vy, vz), (rx, ry, rz) = self.mean, v_ref
         error = (vx - rx, vy - ry, vz - rz)
-        if push_off and hypot(error[0], error[1]) > self.gross:
+        if push_off and hypot(error[0], error[1]) > GROSS:
             self._advance(self.mean)
             return None
         self._advance(v_ref)
@@ -163,7 +169,7 @@ class SwingDedrift(LinearDedrift):
         )
         self.velocity = (ux - error[0], uy - error[1], uz - error[2])
         before, strike = self.before, self.strike
-        settled = before is not None and strike is not None and before.at - strike.at >= self.slide - TIE
+        settled = before is not None and strike is not None and before.at - strike.at >= self.settings.slide - TIE
         if settled and self.strike_error is None:
             self.strike = before
             self.strike_error = error
@@ -197,7 +203,7 @@ class SwingDedrift(LinearDedrift):
         way = (x - vx * half, y - vy * half, z - vz * half)
         calibrated = self._calibrated_way(duration)
         if calibrated is not None:
-            way = calibrated if self.vertical else (calibrated[0], calibrated[1], way[2])
+            way = calibrated if self.settings.vertical else (calibrated[0], calibrated[1], way[2])
         x, y, z = self.base
         self.position = (x + way[0], y + way[1], z + way[2])
         self.velocity = ZERO

@@ -20,6 +20,13 @@ from ...types import Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO
 
+SPREAD = 0.098
+"""Standard deviation of the bias before anything is known, m/s^2."""
+NOISE = 0.0076
+"""Square root of Sigma_v, m/s^2 a sample."""
+WANDER = 1.6e-4
+"""Square root of Sigma_w for one second, m/s^2/sqrt(s): sqrt(2 / 300 s) 0.2 mg."""
+
 
 @define
 class AccelerometerBias:
@@ -29,13 +36,6 @@ class AccelerometerBias:
     ug/sqrt(Hz) of noise over the 50 Hz of a sensor read at 100 Hz, and 0.1 mg/K of drift over 2 K within 300 s.
     """
 
-    spread: float = 0.098
-    """Standard deviation of the bias before anything is known, m/s^2."""
-    noise: float = 0.0076
-    """Square root of Sigma_v, m/s^2 a sample."""
-    wander: float = 1.6e-4
-    """Square root of Sigma_w for one second, m/s^2/sqrt(s): sqrt(2 / 300 s) 0.2 mg."""
-    # state
     bias: Vec3 = field(default=ZERO, init=False)
     """z_hat."""
     variance: float | None = field(default=None, init=False)
@@ -43,13 +43,13 @@ class AccelerometerBias:
 
     def pass_time(self, dt: float) -> None:
         """M[k + 1] = P[k] + Sigma_w; z_bar[k + 1] = z_hat[k]."""
-        known = self.spread * self.spread if self.variance is None else self.variance
-        self.variance = known + self.wander * self.wander * dt
+        known = SPREAD * SPREAD if self.variance is None else self.variance
+        self.variance = known + WANDER * WANDER * dt
 
     def stood(self, measured: Vec3) -> None:
         """The foot stands, and `measured` is a_m, m/s^2: what the sensor says beside gravity, sensor frame."""
-        prior = self.spread * self.spread if self.variance is None else self.variance
-        sigma_v = self.noise * self.noise
+        prior = SPREAD * SPREAD if self.variance is None else self.variance
+        sigma_v = NOISE * NOISE
         posterior = prior - prior * prior / (prior + sigma_v)
         gain = posterior / sigma_v
         x, y, z = self.bias

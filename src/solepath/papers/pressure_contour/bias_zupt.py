@@ -11,14 +11,30 @@ from math import atan2, inf
 from ...calibration import Calibration
 from ...foot.navigate.corrector import LONGEST_BRIDGE
 from ...foot.navigate.dedrift import LinearDedrift
+from ...foot.settings import DedriftSettings
 from ...foot.stance.stance import Stance
 from ...types import Foot, Quat, Vec3
-from ...types.attrs import define, evolve, field
+from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import GRAVITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate, rotate_back, sub
 from .acc_bias import AccelerometerBias
 
 STANDS = 1.0
 """A foot that has stood for this long no longer drifts, s."""
+
+
+@frozen
+class BiasZuptSettings(DedriftSettings):
+    """What `BiasZupt` is set to."""
+
+    drift: tuple[float, float] | None = None
+    """Calibrated slope of the position, m/s (x, y): in the device's own world where it tells its attitude, otherwise in
+    the navigation frame."""
+    spread: bool = True
+    """The velocity that a swing ends with was gathered evenly over it, so the position loses half of it times the time
+    since the foot last stood. The paper speaks of resets alone. Without this a tilt of a quarter of a degree, which is
+    what its sensor promises, costs a centimetre a stride."""
+    turn_error: float = 0.0175
+    """Heading error of a device's own attitude: the InertiaCube3's data sheet has 1 degree, rad."""
 
 
 @define
@@ -32,17 +48,8 @@ class BiasZupt(LinearDedrift):
     gravity while the foot stands; a horizontal bias then looks like a tilt, and only the vertical one can be seen.
     """
 
-    drift: tuple[float, float] | None = None
-    """Calibrated slope of the position, m/s (x, y): in the device's own world where it tells its attitude, otherwise in
-    the navigation frame."""
-    spread: bool = True
-    """The velocity that a swing ends with was gathered evenly over it, so the position loses half of it times the time
-    since the foot last stood. The paper speaks of resets alone. Without this a tilt of a quarter of a degree, which is
-    what its sensor promises, costs a centimetre a stride."""
-    turn_error: float = 0.0175
-    """Heading error of a device's own attitude: the InertiaCube3's data sheet has 1 degree, rad."""
+    settings: BiasZuptSettings = BiasZuptSettings()
     bias: AccelerometerBias = field(factory=AccelerometerBias)
-    # state
     given: Quat | None = field(default=None, init=False)
     """The device's own attitude at the sample that comes next."""
     turned: float | None = field(default=None, init=False)
@@ -58,7 +65,8 @@ class BiasZupt(LinearDedrift):
     """The attitude of the last sample is our own."""
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> BiasZupt:
-        return evolve(self, drift=calibration.drift[foot]) if foot in calibration.drift else self
+        drift = calibration.drift.get(foot)
+        return self if drift is None else evolve(self, settings=evolve(self.settings, drift=drift))
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         LinearDedrift.start(self, attitude, tilt_sigma)
@@ -84,8 +92,9 @@ class BiasZupt(LinearDedrift):
             self.rate = gyro
         # (4): a_m in the sensor frame is the specific force without the gravity that the attitude sees there
         self.measured = sub(acc, rotate_back(self.attitude, (0.0, 0.0, GRAVITY)))
-        if self.drift is not None and self.stood < STANDS:
-            dx, dy = self.drift
+        drift = self.settings.drift
+        if drift is not None and self.stood < STANDS:
+            dx, dy = drift
             if self.turned is not None:
                 dx, dy, _ = rotate(from_yaw(self.turned), (dx, dy, 0.0))
             x, y, z = self.position
@@ -97,7 +106,7 @@ class BiasZupt(LinearDedrift):
         if not LinearDedrift.correct(self, t, stance):
             self.stood = 0.0
             return False
-        if not self.spread:
+        if not self.settings.spread:
             self.position = where
         self.stood += self.step
         self.bias.stood(self.measured)
@@ -119,7 +128,7 @@ class BiasZupt(LinearDedrift):
         if self.turned is None:
             return found
         # Each stretch has its heading anew, so what it is off by moves this stretch sideways and no other.
-        variance = found[0] + (self.turn_error * self.length) ** 2
+        variance = found[0] + (self.settings.turn_error * self.length) ** 2
         return (variance, 0.0, 0.0, variance, 0.0, variance, 0.0)
 
     def _turned(self, given: Quat) -> Quat:

@@ -32,7 +32,7 @@ from math import cos, hypot, inf, pi, sin
 from operator import mul, sub
 
 from ...types import Cell, Layout
-from ...types.attrs import define, field
+from ...types.attrs import define, field, frozen
 from ...types.vector import TIE
 
 HEEL = 0.33
@@ -49,6 +49,12 @@ RINGS = 8
 """Points on the longest ray, its centre not counted."""
 NEAREST = 10
 """A point lies in a triangle of three of its nearest cells, out of so many."""
+INTERVAL = 0.05
+"""Delta t of (1), s: long enough for the cells' noise. With `AXES` pairs of rays sigma_v = sqrt(2 / AXES) sigma_r /
+interval an axis and a level, and a radius is as uncertain as the pressure over its slope. A cell of 12-bit resistive
+insoles has 0.12 N rms (emulate/sensors/parts.py), 0.8 kPa on 1.6 cm^2, half a kPa once three are weighted; a heel that
+carries 200 N has slopes of 2 kPa/mm: 0.25 mm, and 0.14 mm over all rays. To stay below the paper's 4 mm/s that takes
+36 ms; 50 ms are taken."""
 MISSING = -1.0
 """Instead of a radius: the contour does not cross this ray."""
 
@@ -56,26 +62,23 @@ Point = tuple[int, int, int, float, float, float]
 """Three cells and their weights; the weighted sum of the cells' loads is the pressure at the point."""
 
 
-@define
-class Contours:
-    """The velocity of the heel's pressure contours. Feed it the loads of the cells while the heel is loaded.
-
-    Latency: none beyond `interval`, over which the contours are compared. That must be long enough for the cells'
-    noise: with `AXES` pairs of rays sigma_v = sqrt(2 / AXES) sigma_r / interval an axis and a level, and a radius is as
-    uncertain as the pressure over its slope. A cell of 12-bit resistive insoles has 0.12 N rms
-    (emulate/sensors/parts.py), 0.8 kPa on 1.6 cm^2, half a kPa once three are weighted; a heel that carries 200 N has
-    slopes of 2 kPa/mm: 0.25 mm, and 0.14 mm over all rays. To stay below the paper's 4 mm/s that takes 36 ms; 50 ms
-    are taken.
-    """
+@frozen
+class ContourSettings:
+    """What `Contours` is set to."""
 
     shares: tuple[float, ...] = (1.4, 1.2, 1.0, 0.8, 0.6, 0.4)
     """The levels as shares of the present mean pressure of the heel's cells: 1.4 is still well below the peak of a
     patch of pressure, 0.4 lies at its edge, where a heel that leans has its only contours."""
     pascals: tuple[float, ...] | None = None
     """Fixed levels in Pa instead, for cells whose scale is known."""
-    interval: float = 0.05
-    """Delta t of (1), s."""
-    # state
+
+
+@define
+class Contours:
+    """The velocity of the heel's pressure contours. Feed it the loads of the cells while the heel is loaded. Latency:
+    none beyond `INTERVAL`, over which the contours are compared."""
+
+    settings: ContourSettings = ContourSettings()
     cells: list[int] = field(factory=list, init=False)
     """Those used here; everything below counts by their order."""
     per_area: list[float] = field(factory=list, init=False)
@@ -87,7 +90,7 @@ class Contours:
     levels: tuple[float, ...] = field(default=(), init=False)
     absolute: bool = field(default=False, init=False)
     past: deque[tuple[float, tuple[float, ...]]] = field(factory=deque, init=False)
-    """Time and radii, level by level and ray by ray, from `interval` ago until now."""
+    """Time and radii, level by level and ray by ray, from `INTERVAL` ago until now."""
 
     def wear(self, layout: Layout) -> str | None:
         """Where the cells are. Returns what is wrong with them for this purpose, if anything."""
@@ -97,8 +100,9 @@ class Contours:
         if len(heel) < FEWEST:
             return f"{len(heel)} pressure cells under the heel have no contour, {FEWEST} are the fewest"
         self.cells = [i for i, cell in enumerate(layout.cells) if cell.x < PORTION * layout.length]
-        self.absolute = self.pascals is not None and layout.scale is not None
-        self.levels = tuple(sorted(self.pascals if self.absolute and self.pascals else self.shares, reverse=True))
+        shares, pascals = self.settings.shares, self.settings.pascals
+        self.absolute = pascals is not None and layout.scale is not None
+        self.levels = tuple(sorted(pascals if self.absolute and pascals else shares, reverse=True))
         used = [layout.cells[i] for i in self.cells]
         self.per_area = [
             1.0 / (max(cell.area, 1e-9) * len(heel)) if cell.x < HEEL * layout.length else 0.0 for cell in used
@@ -116,7 +120,7 @@ class Contours:
 
     def velocity(self, t: float, cells: list[float]) -> tuple[float, float] | None:
         """(forward, left) velocity of the contours' centre, foot frame, m/s: the mean of the levels whose contours
-        exist now and `interval` ago. None where there is none. `cells`: loads above tare of the cells in `self.cells`.
+        exist now and `INTERVAL` ago. None where there is none. `cells`: loads above tare of the cells in `self.cells`.
         """
         if not self.points:
             return None
@@ -125,14 +129,14 @@ class Contours:
         if past and past[-1][0] >= t:  # times began anew
             past.clear()
         before = None
-        while past and past[0][0] <= t - self.interval + TIE:
+        while past and past[0][0] <= t - INTERVAL + TIE:
             before = past.popleft()
         past.append((t, now))
         if before is None:
             return None
         past.appendleft(before)
         since = t - before[0]
-        if since > 3.0 * self.interval:  # slow samples are not far apart, but a gap is
+        if since > 3.0 * INTERVAL:  # slow samples are not far apart, but a gap is
             past.popleft()
             return None
         return self._centre(now, before[1], 1.0 / since)

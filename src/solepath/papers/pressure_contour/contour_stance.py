@@ -9,7 +9,7 @@ from math import hypot, inf, sqrt
 
 from ...foot.stance.stance import Detector, Load, Stance
 from ...types import Layout, Phase, Quat, Vec3
-from ...types.attrs import define, field
+from ...types.attrs import define, field, frozen
 from ...types.vector import IDENTITY, TIE, ZERO
 from .contour import Contours
 
@@ -17,12 +17,36 @@ KEPT = 5
 """The threshold of the gyroscope comes from the median of so many stances."""
 TARE_SAMPLES = 200
 """The tare is the mean of about so many samples in the air: some swings, since a swung shoe presses unevenly."""
+RELEASE = 1.6
+"""A foot that stands turns by less than this times its quietest moment."""
+HEEL_RISES = 0.4
+"""While the heel rises a foot still turns slowly: so long after its stance no quietest moment is sought, s."""
+STANCE_DUE, LONGEST_MOTION = 1.0, 2.5
+"""s. Walking feet at a stroll move for up to 1 s between two stances."""
+LONGEST_STANCE = 1.0
+"""A foot that stands, or a heel that is loaded, for longer does not walk, and says nothing of the next stance, s."""
+LONGEST_GAP = 0.3
+"""Samples farther apart do not tell what went on between, s."""
+HOLD, BLIND, STALE = 0.03, 0.1, 0.05
+"""s, of `ContourVelocity`."""
+
+
+@frozen
+class GyroscopeSettings:
+    """What `GyroscopeMagnitude` is set to. `below`, `first`, `ceiling`: rad/s. `lasting`: s. `sigma`: m/s."""
+
+    below: float = 0.25
+    first: float = 0.5
+    ceiling: float = 1.5
+    margin: float = 1.8
+    lasting: float = 0.03
+    sigma: float = 0.01
 
 
 @define
 class GyroscopeMagnitude(Detector):
     """The sensor hardly turns, so it stands still: |w| has stayed below a threshold for `lasting` s, and has not risen
-    above `release` times the quietest moment of this stance since. The statistic is |w|, rad/s. Latency: `lasting`.
+    above `RELEASE` times the quietest moment of this stance since. The statistic is |w|, rad/s. Latency: `lasting`.
 
     The paper says that angular velocity was used and no more. Published thresholds of |w| are 0.5 rad/s in code after
     Tunca et al. 2017 (Sensors 17, 825) and 0.6 rad/s in the code of Fischer et al. 2013 (IEEE Pervasive Computing 12);
@@ -32,30 +56,12 @@ class GyroscopeMagnitude(Detector):
     within `below` and `ceiling`, and `first` before there is one. A sensor 12 cm from the heel's end moves at 3 cm/s at
     `below`.
 
-    A motion that has lasted for `late` s has gone through a stance that was not seen: then `margin` times the quietest
-    moment of that motion serves, and after `longest` s in proportion to how long it has lasted, without a ceiling. So
-    every motion ends.
+    A motion that has lasted for `STANCE_DUE` s has gone through a stance that was not seen: then `margin` times the
+    quietest moment of that motion serves, and after `LONGEST_MOTION` s in proportion to how long it has lasted, without
+    a ceiling. So every motion ends.
     """
 
-    below: float = 0.25
-    """rad/s, as are:"""
-    first: float = 0.5
-    ceiling: float = 1.5
-    margin: float = 1.8
-    release: float = 1.6
-    lasting: float = 0.03
-    """s, as are:"""
-    rise: float = 0.4
-    """While the heel rises a foot still turns slowly: so long after its stance no quietest moment is sought."""
-    late: float = 1.0
-    """Walking feet at a stroll move for up to 1 s between two stances."""
-    longest: float = 2.5
-    stands: float = 1.0
-    """A longer stance is no stance of walking, and says nothing of the next."""
-    gap: float = 0.3
-    """Samples farther apart do not tell what went on between."""
-    sigma: float = 0.01
-    # state
+    settings: GyroscopeSettings = GyroscopeSettings()
     t: float | None = field(default=None, init=False)
     """The last sample, s."""
     recent: deque[tuple[float, float]] = field(factory=deque, init=False)
@@ -73,32 +79,32 @@ class GyroscopeMagnitude(Detector):
     ) -> Stance:
         x, y, z = gyro
         rate = sqrt(x * x + y * y + z * z)
-        if self.t is None or not self.t < t <= self.t + self.gap:
+        if self.t is None or not self.t < t <= self.t + LONGEST_GAP:
             self.recent.clear()
             self.since, self.still, self.quiet = t, False, None
         self.t = t
         highest = self._highest(t, rate)
         if self.still:
             self.quiet = rate if self.quiet is None else min(self.quiet, rate if highest is None else highest)
-            if rate >= self.release * max(self.below, self.quiet):
-                if t - self.since < self.stands:
+            if rate >= RELEASE * max(self.settings.below, self.quiet):
+                if t - self.since < LONGEST_STANCE:
                     self.levels = (*self.levels[1 - KEPT :], self.quiet)
                 self.since, self.still, self.quiet = t, False, None
         elif highest is not None:
             moved = t - self.since
-            if moved > self.rise and (self.quiet is None or highest < self.quiet):
+            if moved > HEEL_RISES and (self.quiet is None or highest < self.quiet):
                 self.quiet = highest
             if highest < self._threshold(moved):
                 self.since, self.still, self.quiet = t, True, highest
         if self.still:
-            return Stance(ZERO, self.sigma, rate, Phase.STATIONARY)
+            return Stance(ZERO, self.settings.sigma, rate, Phase.STATIONARY)
         return Stance(ZERO, inf, rate, None)
 
     def _highest(self, t: float, rate: float) -> float | None:
         """|w| has not been higher for `lasting`; None while it has not been heard for so long."""
         recent = self.recent
         recent.append((rate, t))
-        oldest = t - self.lasting + TIE
+        oldest = t - self.settings.lasting + TIE
         while len(recent) > 1 and recent[1][1] <= oldest:
             recent.popleft()
         if recent[0][1] > oldest:
@@ -107,23 +113,36 @@ class GyroscopeMagnitude(Detector):
 
     def _threshold(self, moved: float) -> float:
         """For a foot that has moved for so long, s."""
-        levels = [self.margin * level for level in self.levels]
+        settings = self.settings
+        levels = [settings.margin * level for level in self.levels]
         if len(levels) < KEPT:
-            levels.append(self.first)
+            levels.append(settings.first)
         levels.sort()
-        usual = min(max(self.below, levels[len(levels) // 2]), self.ceiling)
-        if moved < self.late or self.quiet is None:
+        usual = min(max(settings.below, levels[len(levels) // 2]), settings.ceiling)
+        if moved < STANCE_DUE or self.quiet is None:
             return usual
-        own = self.margin * self.quiet
-        if moved < self.longest:
-            return max(usual, min(own, self.ceiling))
-        return max(usual, own * moved / self.longest)
+        own = settings.margin * self.quiet
+        if moved < LONGEST_MOTION:
+            return max(usual, min(own, settings.ceiling))
+        return max(usual, own * moved / LONGEST_MOTION)
+
+
+@frozen
+class ContourVelocitySettings:
+    """What `ContourVelocity` is set to. `threshold`: v_thrsh of (3), m/s, the paper's sensing bias; `leave`, `sigma`:
+    m/s. `loaded`: the heel carries at least this share of the wearer's full load."""
+
+    threshold: float = 0.004
+    margin: float = 1.5
+    leave: float = 0.020
+    loaded: float = 0.12
+    sigma: float = 0.01
 
 
 @define
 class ContourVelocity(Detector):
     """The contours of the loaded heel move by no more than `threshold` (3), so the shoe stands still; until they move
-    by more than `leave` for longer than `hold`, or the heel is no longer loaded. The statistic is their speed, m/s.
+    by more than `leave` for longer than `HOLD`, or the heel is no longer loaded. The statistic is their speed, m/s.
 
     `leave` is higher because what is left of the load near heel-off makes noisy contours, and a foot that has stood
     does not move while its heel carries weight. Latency: that of `Contours`, 50 ms after the contours have stopped.
@@ -135,31 +154,16 @@ class ContourVelocity(Detector):
 
     Where no contour can be had (no cells, unknown places, too few under the heel), and as long as the wearer's full
     load is not known, the gyroscope stands in. So it does, unless the foot is in the air, once a heel has borne weight
-    for `blind` s and its contours have not come to rest: in a tight bend it stands on its edge, and what contours lie
-    over cells are cut off; and when contours have not come to rest for `late` s, as in feet that walk on their toes.
-    After `longest` s it does whatever the cells say, so that no motion lasts longer than the gyroscope's do.
+    for `BLIND` s and its contours have not come to rest: in a tight bend it stands on its edge, and what contours lie
+    over cells are cut off; and when contours have not come to rest for `STANCE_DUE` s, as in feet that walk on their
+    toes. After `LONGEST_MOTION` s it does whatever the cells say, so that no motion lasts longer than the gyroscope's.
 
-    Between loads, where cells come more slowly than inertial samples, what was said last holds for `stale` s.
+    Between loads, where cells come more slowly than inertial samples, what was said last holds for `STALE` s.
     """
 
-    threshold: float = 0.004
-    """v_thrsh of (3): the paper's sensing bias, m/s."""
-    margin: float = 1.5
-    leave: float = 0.020
-    hold: float = 0.03
-    """s."""
-    loaded: float = 0.12
-    """The heel carries at least this share of the wearer's full load."""
-    blind: float = 0.1
-    late: float = 1.0
-    longest: float = 2.5
-    stale: float = 0.05
-    stands: float = 1.0
-    """A heel that is loaded for longer is not that of a walking foot, and says nothing of the next stance, s."""
-    sigma: float = 0.01
+    settings: ContourVelocitySettings = ContourVelocitySettings()
     contours: Contours = field(factory=Contours)
     baseline: GyroscopeMagnitude = field(factory=GyroscopeMagnitude)
-    # state
     lacking: str | None = field(default=None, init=False)
     """Why the gyroscope stands in for good, as a sentence; None while it does not."""
     count: int = field(default=0, init=False)
@@ -204,21 +208,21 @@ class ContourVelocity(Detector):
             self.said_at = None
             if load.heel is not None and self.contours.points and len(load.cells) == self.count:
                 self._hear(t, load, load.heel)
-        if self.said_at is None or not self.said_at <= t < self.said_at + self.stale:
+        if self.said_at is None or not self.said_at <= t < self.said_at + STALE:
             return otherwise
-        sigma = self.sigma if self.said is Phase.STATIONARY else inf
+        sigma = self.settings.sigma if self.said is Phase.STATIONARY else inf
         return Stance(ZERO, sigma, self.speed, self.said)
 
     def _hear(self, t: float, load: Load, heel: float) -> None:
         """What a load says; nothing where the gyroscope is to be asked."""
         if self.rested is None or self.rested > t:
             self.rested = t
-        if heel < self.loaded:
+        if heel < self.settings.loaded:
             self._lifted(t)
             if load.airborne:
                 self._tare(load.cells)
             waits = t - self.rested
-            if waits < (self.longest if load.airborne else self.late):
+            if waits < (LONGEST_MOTION if load.airborne else STANCE_DUE):
                 self._say(t, Phase.SWING if load.airborne else None, 0.0)
             return
         cells = load.cells
@@ -230,13 +234,13 @@ class ContourVelocity(Detector):
         if velocity is not None:
             if self.slowest is None or speed < self.slowest:
                 self.slowest = speed
-            if speed <= (self.leave if self.still else self._threshold()):
+            if speed <= (self.settings.leave if self.still else self._threshold()):
                 self.still = True
                 self.seen = self.rested = t
-        self.still = self.still and t - self.seen <= self.hold + TIE
+        self.still = self.still and t - self.seen <= HOLD + TIE
         if self.still:
             self._say(t, Phase.STATIONARY, speed)
-        elif t - self.seen < self.blind - TIE and t - self.rested < self.late:
+        elif t - self.seen < BLIND - TIE and t - self.rested < STANCE_DUE:
             self._say(t, None, speed)
 
     def _say(self, t: float, said: Phase | None, speed: float) -> None:
@@ -244,7 +248,7 @@ class ContourVelocity(Detector):
 
     def _lifted(self, t: float) -> None:
         """The heel carries too little."""
-        if self.seen is not None and self.slowest is not None and t - self.down < self.stands:
+        if self.seen is not None and self.slowest is not None and t - self.down < LONGEST_STANCE:
             self.levels = (*self.levels[1 - KEPT :], self.slowest)
         self.still, self.seen, self.slowest = False, None, None
         self.contours.interrupt()
@@ -255,7 +259,8 @@ class ContourVelocity(Detector):
         self.tare = [zero + k * (cells[i] - zero) for i, zero in zip(self.contours.cells, self.tare, strict=True)]
 
     def _threshold(self) -> float:
+        settings = self.settings
         if not self.levels:
-            return self.threshold
-        usual = self.margin * sorted(self.levels)[len(self.levels) // 2]
-        return min(max(self.threshold, usual), self.leave)
+            return settings.threshold
+        usual = settings.margin * sorted(self.levels)[len(self.levels) // 2]
+        return min(max(settings.threshold, usual), settings.leave)

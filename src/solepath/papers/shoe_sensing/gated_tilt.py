@@ -9,9 +9,10 @@ from math import hypot, sqrt
 
 from ...body.activity.steepness import steepness
 from ...foot.navigate.dedrift import LinearDedrift
+from ...foot.settings import DedriftSettings
 from ...foot.stance.stance import Stance
 from ...types import Phase, Quat, Vec3
-from ...types.attrs import define, field
+from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY, TIE, ZERO, rotate, tipped
 from .posture import gravity_error, posture, turned
 
@@ -33,6 +34,28 @@ LOST = 10.0
 foot from standing."""
 FASTEST = 15.0
 """No foot is faster, m/s."""
+HIGHEST = 0.12
+"""m."""
+DOUBTFUL, LATE = 0.04, 0.9
+"""m/s; of a foot that has moved for `LATE` s without a stance twice as much."""
+SLOW, DRIFTING, STRICT = 0.5, 1.0, 0.5
+"""How fast a standing foot may seem, m/s, and how much more with each second since it last stood, m/s^2: a tilt that is
+off by 6 degrees makes as much. The share of that which doubtful evidence is believed up to."""
+
+
+@frozen
+class ShoeSensingSettings(DedriftSettings):
+    """What `ShoeSensing` is set to. `kp`: 1/s; the paper has no figure. `eliminate`: take the height error of level
+    steps out."""
+
+    kp: float = 1.0
+    heed: float = 0.4
+    """How much of the tilt that would explain the velocity left at the end of a motion is believed: joggers stand too
+    shortly for the feedback. Not in the paper; 0 leaves it out."""
+    eliminate: bool = True
+    behind: float = 0.15
+    """How late the detector may be, s: the window of `ShortTimeEnergy`. A stance that has ended may have done so that
+    long ago, so what the samples since then gained counts as motion."""
 
 
 @define
@@ -52,41 +75,21 @@ class ShoeSensing(LinearDedrift):
     Both V(T) and S_z(T) are printed with `stationary = 1` beside the moving foot and 0 beside the standing one; by
     section 3.1.2 it is the other way about.
 
-    A step is level by its angle per metre (steepness.py). `eliminate`: take the height error of level steps out.
+    A step is level by its angle per metre (steepness.py).
 
     What is beyond the paper. In the middle of a swing, and before a foot is flat, there are moments without
     acceleration, and joggers hardly have longer ones. So evidence without the hint STATIONARY is stance for the time
-    being: only later than `BROKEN` after the last stance, of a sigma up to `doubtful`, and when the integration says
+    being: only later than `BROKEN` after the last stance, of a sigma up to `DOUBTFUL`, and when the integration says
     that the foot is slow. Should the foot then stand more certainly, the motion is put right by that later moment, and
     a wearer whose last stance became certain is not told to stand before: walkers' steps end with certainty, a jogger's
     first one may be told as one with the second. What velocity was left when a stance is over turns the tilt (`heed`).
     And most of a level step's height is a tilt that an accelerometer's bias makes, so much a metre in step after step
     (25 mg make 3.5 cm of 1.4 m): what the level steps so far had in common, `lean`, is taken off every step before it
-    is judged. What then still comes down `highest` or more above or below where it stood is no level step, whatever its
+    is judged. What then still comes down `HIGHEST` or more above or below where it stood is no level step, whatever its
     angle: it has gone onto or off a stair with a long stride, and keeps its height.
     """
 
-    kp: float = 1.0
-    """1/s; the paper has no figure."""
-    heed: float = 0.4
-    """How much of the tilt that would explain the velocity left at the end of a motion is believed: joggers stand too
-    shortly for the feedback. Not in the paper; 0 leaves it out."""
-    eliminate: bool = True
-    highest: float = 0.12
-    """m."""
-    behind: float = 0.15
-    """How late the detector may be, s: the window of `ShortTimeEnergy`. A stance that has ended may have done so that
-    long ago, so what the samples since then gained counts as motion."""
-    doubtful: float = 0.04
-    """m/s; of a foot that has moved for `late` s without a stance, s, twice as much:"""
-    late: float = 0.9
-    slow: float = 0.5
-    """How fast a standing foot may seem, m/s, and how much more with each second since it last stood, m/s^2: a tilt
-    that is off by 6 degrees makes as much."""
-    drifting: float = 1.0
-    strict: float = 0.5
-    """The share of that which doubtful evidence is believed up to."""
-    # state
+    settings: ShoeSensingSettings = ShoeSensingSettings()
     lean: float = field(default=0.0, init=False)
     """Height gained by level steps for each metre of theirs, m; zero without `eliminate`."""
     levelled: int = field(default=0, init=False)
@@ -141,7 +144,7 @@ class ShoeSensing(LinearDedrift):
         self.rate = after = gyro
         attitude = self.attitude
         if self.still:
-            k = min(self.kp, 0.5 / dt) if dt > 0.0 else 0.0
+            k = min(self.settings.kp, 0.5 / dt) if dt > 0.0 else 0.0
             ex, ey, ez = gravity_error(attitude, self.measured)
             ex, ey, ez = k * ex, k * ey, k * ez
             x, y, z = before
@@ -187,7 +190,7 @@ class ShoeSensing(LinearDedrift):
         if stood:
             lately = self.lately
             lately.append((t, self.step, self.gained))
-            oldest = t - self.behind + TIE
+            oldest = t - self.settings.behind + TIE
             while lately and lately[0][0] <= oldest:
                 lately.popleft()
         elif self.raw is None:
@@ -205,10 +208,10 @@ class ShoeSensing(LinearDedrift):
         sigma, sure = stance.sigma, stance.hint is Phase.STATIONARY
         if self.still and self.came < LEAST:
             return True
-        if stance.hint is Phase.SWING or sigma > 2.0 * self.doubtful:
+        if stance.hint is Phase.SWING or sigma > 2.0 * DOUBTFUL:
             return False
         if self.still:
-            return sigma <= max(self.doubtful, self.best)
+            return sigma <= max(DOUBTFUL, self.best)
         (vx, vy, vz), swing = self.velocity, self.swing
         if self.raw is not None:
             if sigma >= self.best:
@@ -216,12 +219,12 @@ class ShoeSensing(LinearDedrift):
             (_, (vx, vy, vz)), swing = self.raw, self.raw_swing
         elif swing < BROKEN and not sure:
             return False
-        limit = self.slow + self.drifting * swing
+        limit = SLOW + DRIFTING * swing
         if not sure:
-            limit *= self.strict
-        if swing > self.late:
-            limit += LOST * (swing - self.late) ** 2
-        elif sigma > self.doubtful:
+            limit *= STRICT
+        if swing > LATE:
+            limit += LOST * (swing - LATE) ** 2
+        elif sigma > DOUBTFUL:
             return False
         return vx * vx + vy * vy + vz * vz < limit * limit
 
@@ -229,10 +232,10 @@ class ShoeSensing(LinearDedrift):
         """The foot stands, more certainly than it did before, where the motion led to this place and velocity."""
         (x, y, z), (vx, vy, vz), (rx, ry, rz) = place, velocity, stance.v_ref
         half = 0.5 * self.raw_swing
-        k = 0.5 * self.heed / (GRAVITY * max(self.raw_swing, BROKEN))
+        k = 0.5 * self.settings.heed / (GRAVITY * max(self.raw_swing, BROKEN))
         self.tipping = (k * (vy - ry), -k * (vx - rx))
         x, y, z = x + (rx - vx) * half, y + (ry - vy) * half, z + (rz - vz) * half
-        if self.eliminate:
+        if self.settings.eliminate:
             z = self._height(x, y, z)
         self.stood = (x, y, z)
         self.best = stance.sigma
@@ -244,7 +247,7 @@ class ShoeSensing(LinearDedrift):
         bx, by, bz = self.before
         ground = hypot(x - bx, y - by)
         height = z - bz - self.lean * ground
-        highest = self.highest * max(1.0, self.raw_swing / USUAL) ** 2
+        highest = HIGHEST * max(1.0, self.raw_swing / USUAL) ** 2
         if abs(height) >= highest or steepness(ground, height) != 0:
             self.slope = 0.0
             return bz + height

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ...recipes import Recipe, usual
-from .gated_tilt import ShoeSensing
+from .gated_tilt import ShoeSensing, ShoeSensingSettings
 from .short_time_energy import AccelerationMagnitude, ShortTimeEnergy
 from .walking_state import AnglePerMetre
 
@@ -13,7 +13,7 @@ SHOE_SENSING = Recipe("shoe-sensing", ShortTimeEnergy(), ShoeSensing(), parts=us
 SHOE_MAGNITUDE = Recipe(
     "acceleration-magnitude",
     AccelerationMagnitude(),
-    ShoeSensing(behind=0.0),
+    ShoeSensing(ShoeSensingSettings(behind=0.0)),
     parts=usual(activity=AnglePerMetre()),
 )
 """The same with stance where the acceleration is as large as gravity: what Li et al. compare with."""

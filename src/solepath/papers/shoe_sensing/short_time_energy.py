@@ -9,7 +9,7 @@ from math import inf, sqrt
 
 from ...foot.stance.stance import Detector, Load, Stance
 from ...types import Phase, Quat, Vec3
-from ...types.attrs import define, field
+from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY, IDENTITY, TIE, ZERO
 
 RATE = 100.0
@@ -18,6 +18,17 @@ LOUDEST = 1e4
 """No sample counts for more than this, g^2: the running sum stays exact to far below the threshold."""
 LONGEST = 0.1
 """Nor for a longer time, s."""
+
+
+@frozen
+class EnergySettings:
+    """What `ShortTimeEnergy` is set to. `threshold`: E_T, g^2, summed over samples at 100 Hz. `window`: N of the
+    paper's samples, s. `shortest`: s. `sigma`: m/s."""
+
+    threshold: float = 0.05
+    window: float = 0.15
+    shortest: float = 0.025
+    sigma: float = 0.01
 
 
 @define
@@ -38,14 +49,7 @@ class ShortTimeEnergy(Detector):
     hint: it may be a jogger's stance, and a corrector that knows how fast the foot is can tell.
     """
 
-    threshold: float = 0.05
-    """E_T, g^2, summed over samples at 100 Hz."""
-    window: float = 0.15
-    """N of the paper's samples, s."""
-    shortest: float = 0.025
-    """s."""
-    sigma: float = 0.01
-    # state
+    settings: EnergySettings = EnergySettings()
     entries: deque[tuple[float, float]] = field(factory=deque, init=False)
     """How long the samples in the window were, s, and what they add to the energy."""
     lasting: float = field(default=0.0, init=False)
@@ -59,6 +63,7 @@ class ShortTimeEnergy(Detector):
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
+        settings = self.settings
         ax, ay, az = acc
         x = sqrt(ax * ax + ay * ay + az * az) / GRAVITY - 1.0
         square = x * x
@@ -74,12 +79,12 @@ class ShortTimeEnergy(Detector):
         quiet = self.quiet + 1
         self.quiet_lasting += dt
         self.quiet_total += energy
-        while quiet and self.quiet_total >= self.threshold:
+        while quiet and self.quiet_total >= settings.threshold:
             dropped, less = entries[-quiet]
             quiet -= 1
             self.quiet_lasting -= dropped
             self.quiet_total -= less
-        while self.lasting - entries[0][0] >= self.window - TIE and len(entries) > 1:
+        while self.lasting - entries[0][0] >= settings.window - TIE and len(entries) > 1:
             dropped, less = entries.popleft()
             self.lasting -= dropped
             self.total -= less
@@ -93,15 +98,15 @@ class ShortTimeEnergy(Detector):
         if quiet == len(entries):
             self.total = self.quiet_total
             self.lasting = self.quiet_lasting
-            if self.lasting >= self.window - TIE:
-                return Stance(ZERO, self.sigma, self.total, Phase.STATIONARY)
+            if self.lasting >= settings.window - TIE:
+                return Stance(ZERO, settings.sigma, self.total, Phase.STATIONARY)
         lasting = self.quiet_lasting
-        if lasting >= self.shortest - TIE:
-            return Stance(ZERO, self.sigma * self.window / lasting, self.total, None)
+        if lasting >= settings.shortest - TIE:
+            return Stance(ZERO, settings.sigma * settings.window / lasting, self.total, None)
         return Stance(ZERO, inf, self.total, None)
 
 
-@define
+@frozen
 class AccelerationMagnitude(Detector):
     """The acceleration is as large as gravity, so the foot stands: what Li et al. compare with, in section 4.2.1, of
     which they give no threshold. Jimenez and others, "A comparison of pedestrian dead-reckoning algorithms using a

@@ -16,6 +16,10 @@ from ...types import Activity, Foot, Phase, Site
 from ...types.attrs import define, field
 from ...types.vector import TIE
 
+STANDS = 1.2
+"""Longer than a foot of a slow walker stands, s."""
+LOST, SILENT = 5.0, 10.0
+"""s."""
 _OF_STEP = {0: Activity.WALKING, 1: Activity.STAIRS_UP, -1: Activity.STAIRS_DOWN}
 
 
@@ -24,25 +28,18 @@ class AnglePerMetre(Doing):
     """Each step of each foot is level, upstairs or downstairs by its own angle per metre; flights are counted.
 
     The paper tells three states and takes walking and jogging for one: a level step is WALKING, however fast. It has no
-    word for who does not walk: feet that stand for `stands` s are STANDING since they came to stand, and feet that move
-    without a step for `lost` s are UNKNOWN. What is told is final and knows no probabilities. Latency: the step's end,
-    for a state that began with its toe-off; `stands` for standing.
+    word for who does not walk: feet that stand for `STANDS` s are STANDING since they came to stand, and feet that move
+    without a step for `LOST` s are UNKNOWN. What is told is final and knows no probabilities. Latency: the step's end,
+    for a state that began with its toe-off; `STANDS` for standing.
 
     A step that gains more than stairs have (steepness.py) is an error of the track, and its angle means nothing: who
     walked or climbed goes on doing so, who stood is UNKNOWN. When the clock of one foot begins anew, the other's goes
-    on and dates what is told; a foot whose times are elsewhere is left out until they come within `lost` s of the
-    other's, or the other begins anew too, or says nothing for `silent` s.
+    on and dates what is told; a foot whose times are elsewhere is left out until they come within `LOST` s of the
+    other's, or the other begins anew too, or says nothing for `SILENT` s.
     """
 
     feeds: ClassVar[bool] = True
 
-    stands: float = 1.2
-    """Longer than a foot of a slow walker stands, s."""
-    lost: float = 5.0
-    """s."""
-    silent: float = 10.0
-    """s."""
-    # state
     activity: Activity = field(default=Activity.UNKNOWN, init=False)
     flights: Flights = field(factory=Flights, init=False)
     since: float | None = field(default=None, init=False)
@@ -93,9 +90,9 @@ class AnglePerMetre(Doing):
         if view.phase is not Phase.STATIONARY:
             if t > self.moved_at:
                 self.moved_at = t
-            if t - self.stepped_at > self.lost and self.activity is not Activity.UNKNOWN:
+            if t - self.stepped_at > LOST and self.activity is not Activity.UNKNOWN:
                 self._tell(Activity.UNKNOWN, self.stepped_at, known_at, told)
-        elif t - self.moved_at >= self.stands - TIE:
+        elif t - self.moved_at >= STANDS - TIE:
             self.stepped_at = max(self.stepped_at, t)
             self._tell(Activity.STANDING, self.moved_at, known_at, told)
         if self.flights.way != 0:
@@ -109,11 +106,11 @@ class AnglePerMetre(Doing):
             for other in apart:
                 apart[other] = None
             return True
-        if clocks and abs(t - max(clocks.values())) > self.lost:
+        if clocks and abs(t - max(clocks.values())) > LOST:
             waiting = apart[foot]
             if waiting is None:
                 apart[foot] = waiting = t
-            if t - waiting <= self.silent:
+            if t - waiting <= SILENT:
                 return False
             for other in clocks:
                 apart[other] = None
