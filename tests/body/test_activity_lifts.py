@@ -74,10 +74,7 @@ def test_a_ride_is_found_whose_first_pulse_was_lost_in_shuffling_feet() -> None:
 
 def test_doors_take_their_time_so_two_rides_are_not_one() -> None:
     found = rides(
-        stood(
-            lambda t: pulse(t, 10.0, 0.6) - pulse(t, 15.0, 0.6) + pulse(t, 27.0, 0.6) - pulse(t, 32.0, 0.6),
-            60.0,
-        )
+        stood(lambda t: pulse(t, 10.0, 0.6) - pulse(t, 15.0, 0.6) + pulse(t, 27.0, 0.6) - pulse(t, 32.0, 0.6), 60.0)
     )
     assert [ride.up for ride in found] == [True, True]
 

@@ -42,8 +42,7 @@ def split(event: Any) -> tuple[list[float], dict[str, Any]]:
 
 
 @pytest.mark.parametrize(
-    ("name", "by"),
-    [(name, 1e6) for name in NAMES] + [(name, -3600.0) for name in NAMES if name.startswith(EARLIER)],
+    ("name", "by"), [(name, 1e6) for name in NAMES] + [(name, -3600.0) for name in NAMES if name.startswith(EARLIER)]
 )
 def test_the_same_walk_at_another_time_gives_the_same_events_at_that_time(name: str, by: float) -> None:
     machine = machines()[name]

@@ -189,11 +189,7 @@ def f1(compared: Mapping[object, FootComparison]) -> float:
 
 @pytest.mark.parametrize(
     ("name", "least", "length_error"),
-    [
-        ("CC2650 at 10 Hz", 0.99, 0.20),
-        ("CC2541 at 10 Hz", 0.97, 0.20),
-        ("CC2541 at 20 Hz", 0.98, 0.15),
-    ],
+    [("CC2650 at 10 Hz", 0.99, 0.20), ("CC2541 at 10 Hz", 0.97, 0.20), ("CC2541 at 20 Hz", 0.98, 0.15)],
 )
 def test_sensor_tags_find_the_steps_of_a_walk(name: str, least: float, length_error: float) -> None:
     compared = tagged(name)

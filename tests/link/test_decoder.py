@@ -38,10 +38,7 @@ def refused() -> dict[str, tuple[Packet, Rejection]]:
         "unknown channel": (packet(t, "insole/frames", good), Rejection.UNKNOWN_CHANNEL),
         "unknown device": (packet(t, "toaster/frame", good), Rejection.UNKNOWN_CHANNEL),
         "no channel": (packet(t, "", good), Rejection.UNKNOWN_CHANNEL),
-        "another device's channel": (
-            packet(t, "cc2650/movement", bytes(18)),
-            Rejection.UNKNOWN_CHANNEL,
-        ),
+        "another device's channel": (packet(t, "cc2650/movement", bytes(18)), Rejection.UNKNOWN_CHANNEL),
         "unknown standard value": (packet(t, "device/colour", b"\x01"), Rejection.UNKNOWN_CHANNEL),
         "another site": (packet(t, "insole/frame", good, Site.RIGHT_FOOT), Rejection.WRONG_SITE),
         "the other foot's frame": (frame_packet(5, foot=Foot.RIGHT), Rejection.WRONG_SITE),
@@ -50,10 +47,7 @@ def refused() -> dict[str, tuple[Packet, Rejection]]:
         "another number of cells": (frame_packet(5, cells=(1, 2, 3)), Rejection.WRONG_LAYOUT),
         "the newest again": (packet(t, "insole/frame", insole_frame(4)), Rejection.DUPLICATE),
         "one before it again": (packet(t, "insole/frame", insole_frame(2)), Rejection.DUPLICATE),
-        "sent again on request": (
-            packet(t, "insole/frame", insole_frame(1, retransmitted=True)),
-            Rejection.DUPLICATE,
-        ),
+        "sent again on request": (packet(t, "insole/frame", insole_frame(1, retransmitted=True)), Rejection.DUPLICATE),
         "the newest sent again on request": (
             packet(t, "insole/frame", insole_frame(4, retransmitted=True)),
             Rejection.DUPLICATE,

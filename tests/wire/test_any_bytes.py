@@ -189,11 +189,7 @@ RECORDS = {
     "insole-frame": frames(),
     "insole-info": INFOS,
     "insole-fragment": st.builds(
-        fragment.Fragment,
-        st.integers(0, 6),
-        st.booleans(),
-        st.integers(0, 15),
-        st.binary(min_size=1, max_size=511),
+        fragment.Fragment, st.integers(0, 6), st.booleans(), st.integers(0, 15), st.binary(min_size=1, max_size=511)
     ),
     "insole-control": st.one_of(
         st.builds(insole_control.StartSampling),
@@ -204,9 +200,7 @@ RECORDS = {
     "device-battery": st.integers(0, 100),
     "device-firmware": st.text(st.characters(codec="utf-8"), min_size=1, max_size=100),
     "receiver-connected": st.builds(
-        receiver.ConnectionFrame,
-        st.text(st.characters(codec="utf-8"), max_size=62),
-        st.none() | st.integers(-128, 126),
+        receiver.ConnectionFrame, st.text(st.characters(codec="utf-8"), max_size=62), st.none() | st.integers(-128, 126)
     ),
     "receiver-dropped": st.integers(1, 2**32 - 1),
     "receiver-trouble": st.text(st.characters(codec="utf-8"), min_size=1, max_size=100),

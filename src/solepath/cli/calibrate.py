@@ -112,7 +112,7 @@ def _shoe(options: argparse.Namespace, known: Calibration) -> Learnt:
     return fit.calibration, [
         f"{fit.measurements} measurements of {fit.postures} postures{steepest}: rms error of L_r "
         f"{1000.0 * fit.residual_radius:.1f} mm, of L_p2t {1000.0 * fit.residual_to_toe:.1f} mm, largest "
-        f"{1000.0 * fit.worst:.1f} mm",
+        f"{1000.0 * fit.worst:.1f} mm"
     ]
 
 
@@ -162,7 +162,7 @@ def _square(options: argparse.Namespace, known: Calibration) -> Learnt:
         verdict = "the laps do not agree on it, so that nothing is taken off (--whole does all the same)"
     return Calibration(drift={found.foot: found.slope if options.whole else found.kept}), [
         f"{found.foot} foot: {found.visits} visits of {found.marks} marks, drift {1000.0 * x:.2f}, "
-        f"{1000.0 * y:.2f} mm/s within {1000.0 * found.scatter:.2f}: {verdict}",
+        f"{1000.0 * y:.2f} mm/s within {1000.0 * found.scatter:.2f}: {verdict}"
     ]
 
 
@@ -219,7 +219,7 @@ def _newton(options: argparse.Namespace, known: Calibration) -> Learnt:
     insole = InsoleCalibration(newtons=fit.newtons)
     return Calibration(insoles={foot: insole for foot in feet}), [
         f"{' and '.join(foot.value for foot in feet)}: N = {a:.4g} + {b:.4g} c + {c:.4g} c^2 + {d:.4g} c^3, "
-        f"{fit.points} points, rms error {fit.residual:.2f} N, largest {fit.worst:.2f} N",
+        f"{fit.points} points, rms error {fit.residual:.2f} N, largest {fit.worst:.2f} N"
     ]
 
 

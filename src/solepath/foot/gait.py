@@ -119,14 +119,7 @@ class Gait:
             # the first step fixes the heading; until then it was the direction in which the foot set out
             self.headed = world.find(position, SHORTEST_STRIDE)
         taken = step.finish(
-            t,
-            known_at,
-            position,
-            attitude,
-            corrector.covariance(),
-            world,
-            error_index=corrector.error_index,
-            rise=rise,
+            t, known_at, position, attitude, corrector.covariance(), world, error_index=corrector.error_index, rise=rise
         )
         if taken is not None:
             # a final step is never seen from another frame again, even when it was too short to give a direction

@@ -2,7 +2,4 @@
 
 from .session import A_NUMBER, Session
 
-__all__ = [
-    "A_NUMBER",
-    "Session",
-]
+__all__ = ["A_NUMBER", "Session"]

@@ -69,11 +69,7 @@ def rotate(q: Quat, v: Vec3) -> Vec3:
     tx = 2.0 * (y * vz - z * vy)
     ty = 2.0 * (z * vx - x * vz)
     tz = 2.0 * (x * vy - y * vx)
-    return (
-        vx + w * tx + y * tz - z * ty,
-        vy + w * ty + z * tx - x * tz,
-        vz + w * tz + x * ty - y * tx,
-    )
+    return (vx + w * tx + y * tz - z * ty, vy + w * ty + z * tx - x * tz, vz + w * tz + x * ty - y * tx)
 
 
 def rotate_back(q: Quat, v: Vec3) -> Vec3:
@@ -83,11 +79,7 @@ def rotate_back(q: Quat, v: Vec3) -> Vec3:
     tx = 2.0 * (z * vy - y * vz)
     ty = 2.0 * (x * vz - z * vx)
     tz = 2.0 * (y * vx - x * vy)
-    return (
-        vx + w * tx - y * tz + z * ty,
-        vy + w * ty - z * tx + x * tz,
-        vz + w * tz - x * ty + y * tx,
-    )
+    return (vx + w * tx - y * tz + z * ty, vy + w * ty - z * tx + x * tz, vz + w * tz - x * ty + y * tx)
 
 
 def turned(v: Vec3, yaw: float) -> Vec3:

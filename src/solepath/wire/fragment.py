@@ -25,13 +25,7 @@ class Fragment:
 
 
 _FRAGMENT = Struct(
-    "head"
-    / BitStruct(
-        "frame_id" / BitsInteger(3),
-        "last" / Flag,
-        "index" / BitsInteger(4),
-    ),
-    "body" / GreedyBytes,
+    "head" / BitStruct("frame_id" / BitsInteger(3), "last" / Flag, "index" / BitsInteger(4)), "body" / GreedyBytes
 )
 
 

@@ -31,10 +31,7 @@ ACTIVITIES = [
     *(word for name in ("default", "footstep-tracker") for word in ("--recipe", name)),
     "--markdown",
 ]
-LONG_WAYS = [
-    *("--emulated", "--walks", "3", "--recipe", "default", "--recipe", "straight-corridors"),
-    "--markdown",
-]
+LONG_WAYS = [*("--emulated", "--walks", "3", "--recipe", "default", "--recipe", "straight-corridors"), "--markdown"]
 EXPERIMENTS = ("kupt-dfpc", "pressure-contour", "walking-modes", "footstep-tracker", "shoe-sensing")
 EVENTS = ("heel-strike", "foot-flat", "heel-off", "toe-off")
 IN_SHORT = {

@@ -145,9 +145,7 @@ async def window(
 ) -> AsyncIterator[Window]:
     """The page at `url` in a window of its own, as large as this in px."""
     context = await browser.new_context(
-        viewport={"width": width, "height": height},
-        color_scheme="dark" if dark else "light",
-        locale="en-GB",
+        viewport={"width": width, "height": height}, color_scheme="dark" if dark else "light", locale="en-GB"
     )
     try:
         context.set_default_timeout(PATIENCE * 1000.0)

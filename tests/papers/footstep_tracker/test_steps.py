@@ -217,9 +217,7 @@ def test_every_stride_is_a_segment_at_any_rate(rate: float) -> None:
 @given(
     st.lists(
         st.tuples(
-            st.floats(1e-9, 1e6),
-            st.tuples(*[st.floats(-500.0, 500.0)] * 3),
-            st.tuples(*[st.floats(-100.0, 100.0)] * 3),
+            st.floats(1e-9, 1e6), st.tuples(*[st.floats(-500.0, 500.0)] * 3), st.tuples(*[st.floats(-100.0, 100.0)] * 3)
         ),
         max_size=40,
     )

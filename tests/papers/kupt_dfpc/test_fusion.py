@@ -197,8 +197,7 @@ def test_the_centre_of_the_foot_is_half_way_between_the_first_and_the_last_cell(
 
 def test_the_chosen_path_is_the_calibrated_one_in_the_foots_own_direction() -> None:
     body, told = walked(
-        step(LEFT, 2.0, 1.2, index=0.3, direction=(0.6, 0.8)),
-        step(RIGHT, 2.55, 1.4, index=0.1, direction=(0.0, 1.0)),
+        step(LEFT, 2.0, 1.2, index=0.3, direction=(0.6, 0.8)), step(RIGHT, 2.55, 1.4, index=0.1, direction=(0.0, 1.0))
     )
     assert told[1].chosen is RIGHT
     assert told[1].position == pytest.approx((0.0, 1.35, 0.0))

@@ -197,9 +197,7 @@ evidence = st.sampled_from((STILL, MOVES, DOUBTFUL, Stance(ZERO, 0.06, 1.0, None
         max_size=50,
     )
 )
-def test_whatever_is_measured_the_state_is_finite_and_saved(
-    samples: list[tuple[float, Vec3, float, Stance]],
-) -> None:
+def test_whatever_is_measured_the_state_is_finite_and_saved(samples: list[tuple[float, Vec3, float, Stance]]) -> None:
     one, t = ShoeSensing(), 0.0
     one.start(IDENTITY, 0.02)
     for dt, acc, rate, stance in samples:

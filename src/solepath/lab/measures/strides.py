@@ -79,11 +79,7 @@ def stride_score(
 
 
 def surveyed_score(
-    times: NDArray[Any],
-    places: NDArray[Any],
-    track_t: Floats,
-    track: Floats,
-    steps: Sequence[tuple[float, float]],
+    times: NDArray[Any], places: NDArray[Any], track_t: Floats, track: Floats, steps: Sequence[tuple[float, float]]
 ) -> StrideScore:
     """Surveyed `places` (n+1,2) at `times` (n+1,) against `steps` as above and the live `track` (m,3) at `track_t`."""
     lengths = np.linalg.norm(np.diff(np.asarray(places, np.float64)[:, :2], axis=0), axis=1)

@@ -167,7 +167,7 @@ def _lengths_told(done: Sequence[ShoeWalked]) -> list[str]:
 def _heights_told(done: Sequence[ShoeWalked]) -> list[str]:
     lines = [
         "Heights after elimination say little: a step that is judged level ends exactly as high as it began, by "
-        "construction, on any floor, a ramp too. What is left comes of level steps that were not judged so.",
+        "construction, on any floor, a ramp too. What is left comes of level steps that were not judged so."
     ]
     for state in STATES[:2]:
         before = [abs(one.before[state].height) for one in done]

@@ -122,14 +122,5 @@ class Assembler:
         known_at = max(known_at, t)
         saturated = gyro is not None and max(map(abs, gyro)) >= RATE_END
         return [
-            Sample(
-                t,
-                self.site,
-                acc,
-                gyro,
-                mag=mag,
-                air_pressure=air_pressure,
-                known_at=known_at,
-                saturated=saturated,
-            )
+            Sample(t, self.site, acc, gyro, mag=mag, air_pressure=air_pressure, known_at=known_at, saturated=saturated)
         ]

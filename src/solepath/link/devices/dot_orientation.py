@@ -53,9 +53,7 @@ PROFILE = evolve(
 
 FORMATS = {
     "dot-orientation/quaternion": Struct(
-        "ticks" / Int32ul,
-        "quat" / ExprValidator(Fields("<4f"), _of_length_one),
-        Terminated,
+        "ticks" / Int32ul, "quat" / ExprValidator(Fields("<4f"), _of_length_one), Terminated
     ),
     "dot-orientation/control": dot.FORMATS["dot/control"],
     "dot-orientation/device-control": dot.FORMATS["dot/device-control"],

@@ -66,11 +66,7 @@ def means(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
 
 
 def _panel(
-    parent: Element,
-    title: str,
-    unit: str,
-    known: dict[Foot, list[tuple[GaitCycleMeasured, float]]],
-    clock: ReportClock,
+    parent: Element, title: str, unit: str, known: dict[Foot, list[tuple[GaitCycleMeasured, float]]], clock: ReportClock
 ) -> None:
     values = [value for some in known.values() for _, value in some]
     what = f"{title} of every stride over time: {len(values)} strides, {min(values):.2f} to {max(values):.2f} {unit}."
