@@ -94,9 +94,6 @@ def _of_start(start: Start) -> Iterator[str]:
         yield f"its spread is {shown(spread)}; it can be 0 to {WIDEST_SPREAD:g} m"
 
 
-# --- what a thing is --------------------------------------------------------------------------------------------------
-
-
 def _is_number(value: Any) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
 

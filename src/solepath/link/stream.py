@@ -106,8 +106,6 @@ class StreamLink(DeviceLink):
     def flush(self, known_at: float) -> Output:
         return []
 
-    # --- what is no sample ------------------------------------------------------------------------------------------
-
     def _check(self, driver: Driver, channel: str, reading: Reading) -> None:
         """WireError when a reading is none that could be used."""
         if reading.foot is not None and reading.foot is not self.site.foot:
@@ -170,8 +168,6 @@ class StreamLink(DeviceLink):
             return []
         t = self._in_order(arrival)
         return [Sample(t, self.site, air_pressure=reading.air_pressure, known_at=max(arrival, t))]
-
-    # --- samples ----------------------------------------------------------------------------------------------------
 
     def _samples(self, driver: Driver, channel: str, reading: Reading, arrival: float) -> Output:
         axis = self.basis.axis

@@ -58,8 +58,6 @@ class CodeGenerator:
         self.space[name] = value
         return name
 
-    # --- writing ---
-
     def name(self) -> str:
         self.named += 1
         return f"x{self.named - 1}"
@@ -142,8 +140,6 @@ class CodeGenerator:
         else:
             item = self.name()
             self.block(f"for {item} in {held}:", (of, item))
-
-    # --- reading ---
 
     def reader(self, record: RecordNode) -> str:
         """The name of the function that reads it."""

@@ -76,9 +76,6 @@ def _form(record: RecordNode) -> _Form:
     return _Form(*CodeGenerator(called, _Kinds).made(record))
 
 
-# --- what the generated code calls ------------------------------------------------------------------------------------
-
-
 class _Kinds:
     """Writes and reads open records: the kind, then the record. What is not known by name is the kind after those that
     are, and its name and how it looks."""

@@ -199,9 +199,6 @@ def placed(error: Exception, cls: type, name: str) -> str:
     return str(error) if str(error).startswith(_CANNOT) else f"{_CANNOT}{cls.__name__}.{name}: {error}"
 
 
-# --- as plain data ----------------------------------------------------------------------------------------------------
-
-
 def described(*roots: RecordNode) -> dict[str, Any]:
     """The schema as plain data (protocol/snapshot.md)."""
     told: dict[str, Any] = {"roots": [], "records": {}, "enums": {}}

@@ -122,8 +122,6 @@ def _opened(data: Any) -> memoryview:
     return body
 
 
-# --- sessions that were just begun, and what was remembered filled in -------------------------------------------------
-
 _kept: tuple[tuple[Recipe, Head, SessionState], ...] = ()
 
 

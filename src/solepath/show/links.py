@@ -175,8 +175,6 @@ class LinkLedger:
     """When the first of an unbroken row of them came: a stream that has just begun is not slow."""
     _losses: LossOfLate = field(factory=LossOfLate)
 
-    # --- in ---
-
     def arrived(self, t: float) -> None:
         """A packet of samples came at `t` s, and was used."""
         self.received += 1
@@ -239,8 +237,6 @@ class LinkLedger:
                 self.trouble = what
             case _:
                 pass
-
-    # --- out ---
 
     @property
     def rate(self) -> float | None:

@@ -92,9 +92,6 @@ class LapCorner:
     feet: dict[Foot, Vec3]
 
 
-# --- routes -----------------------------------------------------------------------------------------------------------
-
-
 def straight(distance: float = 20.0, speed: float = 1.3) -> Route:
     """Straight on; two seconds of standing before and after, as on every way here."""
     return Route().stand(2.0).walk(distance, speed).stop(2.0)
@@ -186,9 +183,6 @@ def through(route: Route, points: Sequence[Point], speed: float, corner: float) 
         route = route.walk(way - cut - after, speed)
         here, heading, cut = there, toward, after
     return route
-
-
-# --- what was true of them --------------------------------------------------------------------------------------------
 
 
 def mode_of(stride: PlannedStride) -> WalkingMode:

@@ -90,8 +90,6 @@ class _Planner:
             self.struck = None
             self.running = None
 
-    # --- where ------------------------------------------------------------------------------------------------------
-
     def _along(self, path: WalkPath) -> list[_Footfall]:
         """Flight by flight, and what lies between them by itself; at the end the feet are set together."""
         falls: list[_Footfall] = []
@@ -164,8 +162,6 @@ class _Planner:
         out = side * (0.5 * self.wearer.step_width + width)
         heading = pose.heading + side * (self.wearer.toe_out + turned)
         return Pose(pose.x - out * sin(pose.heading), pose.y + out * cos(pose.heading), pose.z, heading)
-
-    # --- when -------------------------------------------------------------------------------------------------------
 
     def _walk(self, falls: list[_Footfall]) -> None:
         for fall in falls:

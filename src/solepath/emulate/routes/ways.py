@@ -122,9 +122,6 @@ def wandering(seed: int) -> Way:
     return Way(course.route, course.start, level, one.name, other.name)
 
 
-# --- corridors --------------------------------------------------------------------------------------------------------
-
-
 def _inside(one: Exit, level: str) -> Point:
     """Where one stands in a cabin, or before the first edge of the stairs."""
     if isinstance(one, Cabin):
@@ -182,9 +179,6 @@ def _onward(nodes: dict[Point, list[Point]], path: list[Point]) -> list[Point]:
 
 def _straight(a: Point, b: Point, c: Point) -> bool:
     return a[0] == b[0] == c[0] or a[1] == b[1] == c[1]
-
-
-# --- stairs and lifts -------------------------------------------------------------------------------------------------
 
 
 def _arriving(one: Exit, level: str, dx: float, dy: float) -> Course:

@@ -258,9 +258,6 @@ def _slid(turn: Array, slip: Array) -> Array:
     return np.asarray(slip[:, :1] * turn[:, :, 0] + slip[:, 1:] * turn[:, :, 1])
 
 
-# --- smoothing --------------------------------------------------------------------------------------------------------
-
-
 def _weighted(track: Array, kernel: Array) -> Array:
     """Weighted means of each column around every row; ends go on as they are."""
     half = len(kernel) // 2
@@ -277,9 +274,6 @@ def _least(values: Array, half: int) -> Array:
     """The least of each value and `half` neighbours on either side."""
     padded = np.pad(values, half, mode="edge")
     return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, 2 * half + 1).min(axis=1))
-
-
-# --- turning, on stacks -----------------------------------------------------------------------------------------------
 
 
 def _level(v: Array) -> Array:

@@ -155,9 +155,6 @@ def joined(blocks: list[Kinematics]) -> Kinematics:
     return Kinematics(*(np.concatenate([getattr(b, one.name) for b in blocks]) for one in fields(Kinematics)))
 
 
-# --- turning, on stacks -----------------------------------------------------------------------------------------------
-
-
 def _body_rates(value: list[Array], first: list[Array], second: list[Array]) -> tuple[Array, Array]:
     """Angular rate and its derivative in the foot frame for Rz(yaw) Ry(b) Rx(roll), with b = -pitch."""
     b, b1, b2 = -value[PITCH], -first[PITCH], -second[PITCH]

@@ -81,8 +81,6 @@ class Keyed:
         rest = OtherState(order.ended, order.left, order.strays, order.held, failure, session)
         return write_state(Identity(order.run, order.next, self._told, known), rest)
 
-    # --- in ---
-
     def _open(self, state: bytes) -> None:
         identity = read_identity(state)
         if identity is None:
@@ -202,8 +200,6 @@ class Keyed:
 
     def _drop(self) -> None:
         self._known, self._session = self._now(), None
-
-    # --- out ---
 
     def _now(self) -> float:
         """The newest moment that anything is known of, s; 0 before any."""

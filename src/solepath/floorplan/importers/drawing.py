@@ -176,9 +176,6 @@ def _border_of(part: ConnectorPart, doors: list[Line]) -> Border:
     return Border.OPEN
 
 
-# --- stairs and lifts -------------------------------------------------------------------------------------------------
-
-
 def _joined(parts: list[ConnectorPart], numbers: dict[str, int], storeys: dict[str, Storey]) -> list[Connector]:
     """Parts joined into connectors: those of one group, and those that lie over each other on levels whose order is one
     apart or less, or next to each other in the list of levels."""

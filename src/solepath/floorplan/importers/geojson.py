@@ -171,9 +171,6 @@ class _GeoJsonReader:
         return Connector(kind, name, tuple(ordered), flight, rise)
 
 
-# --- written ----------------------------------------------------------------------------------------------------------
-
-
 def write_floorplan(path: Path | str, plan: FloorPlan) -> None:
     """Write it to a file in the plan's own frame; read again it is equal, once its doors are cut out of its walls.
     OSError where it cannot be written, ValueError for numbers that JSON has not."""

@@ -76,8 +76,6 @@ class _OsmReader:
                     if name:
                         self._drawing.storeys[level_id(level)].name = name
 
-    # --- ways and relations -------------------------------------------------------------------------------------------
-
     def _draw(self, one: Element, shapes: list[list[Refs]], lines: list[Refs]) -> None:
         on = [level_id(level) for level in levels(one)]
         kind, indoor = connects(one), one.tags.get("indoor", "")
@@ -152,8 +150,6 @@ class _OsmReader:
                 held = any(level == part.level and holds(lines, x, y) for level, lines in areas)
                 within[part.group] = within.get(part.group, True) and held
         self._drawing.parts = [part for part in self._drawing.parts if not within.get(part.group, False)]
-
-    # --- nodes --------------------------------------------------------------------------------------------------------
 
     def _spot(self, one: Element) -> None:
         kind, place = connects(one), self._places[one.id]

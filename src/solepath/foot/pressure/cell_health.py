@@ -132,8 +132,6 @@ class CellHealth:
             left[i] = 0.0
         return tuple(left)
 
-    # --- missing ones ---
-
     def _counted(self, t: float, known_at: float, count: int, layout: Layout | None, events: list[Event]) -> bool:
         """Samples have another number of cells; True when that is right from now on."""
         if self.count == 0:
@@ -171,8 +169,6 @@ class CellHealth:
         self.out = self._all_failed()
         if new:
             self._say(t, known_at, CellFault.MISSING, new, events)
-
-    # --- windows ---
 
     def _swings(self, t: float, phase: Phase, unseen: bool) -> bool:
         """A swing has begun: the foot turns fast, or, where that is `unseen`, is in the air."""

@@ -55,9 +55,6 @@ LANDING = 1.0
 """m of a landing before and after its turn, and radius of that turn (0.7 of it)."""
 
 
-# --- ways -------------------------------------------------------------------------------------------------------------
-
-
 def long_way(seed: int) -> Route:
     """500 m and what the last straight has more: straights of 8 to 40 m between turns."""
     return _wandered(seed, lambda length, seconds: length >= LONG_WAY)
@@ -99,9 +96,6 @@ def _wandered(seed: int, enough: Callable[[float, float], bool]) -> Route:
         radius = float(rng.uniform(0.6, 2.5))
         route, length = route.turn(angle, radius), length + abs(angle) * radius
         seconds += abs(angle) * radius / (speed if radius >= 1.0 else min(speed, 0.8))
-
-
-# --- scores -----------------------------------------------------------------------------------------------------------
 
 
 def worn(seed: int) -> dict[Site, Insole]:

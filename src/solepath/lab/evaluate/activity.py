@@ -56,9 +56,6 @@ def windows(true: Sequence[Span], timeline: Timeline, length: float = 2.0) -> Ac
     return compared([at for at, _ in middles], [activity for _, activity in middles], timeline)
 
 
-# --- hugadb -----------------------------------------------------------------------------------------------------------
-
-
 def score_labelled(path: Path, meta: Meta, how: RunSettings) -> Scored:
     """The label that the experimenter pressed at each sample."""
     went = run(path, how, poses=False)
@@ -68,8 +65,6 @@ def score_labelled(path: Path, meta: Meta, how: RunSettings) -> Scored:
     wearers = ", ".join(map(str, sorted(FOLDS[number])))
     return scored(path, went, activity=score, groups=("all", f"of wearers {wearers}"))
 
-
-# --- stairs -----------------------------------------------------------------------------------------------------------
 
 UP, LEVEL = Activity.STAIRS_UP, Activity.WALKING
 CLIMBED: dict[str, tuple[Span, ...]] = {

@@ -74,9 +74,6 @@ def _closed(first: Any, last: Any) -> Figures:
     }
 
 
-# --- strides --------------------------------------------------------------------------------------------------------
-
-
 AUTHORS = {"exp31": 0.31, "exp33": 1.17, "exp37": 2.31, "exp39": 1.11, "exp41": 0.94, "exp45": 1.80}
 """Mean position error of the authors' own system at the surveyed strides, m: INS with an LSTM as zero-velocity detector
 (log in the repository mtahakoroglu/LLIO-aided-iPyShoe). It lost strides of the other trials."""

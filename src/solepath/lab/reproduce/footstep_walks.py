@@ -97,9 +97,6 @@ def _calibrated(known: Wears, seed: int) -> Calibration:
         return Calibration()
 
 
-# --- corridor, fig. 13 (b) and (c) ------------------------------------------------------------------------------------
-
-
 def _corridor(
     known: Wears, calibration: Calibration, seed: int
 ) -> tuple[float, float, float, tuple[float, ...], tuple[float, ...]]:
@@ -140,9 +137,6 @@ def _true_length(walk: EmulatedWalk, step: StrideTaken) -> float | None:
     return None
 
 
-# --- turns, fig. 13 (d) and (e) ---------------------------------------------------------------------------------------
-
-
 def _turns(known: Wears, calibration: Calibration, seed: int) -> tuple[dict[float, float], dict[Turn, tuple[int, int]]]:
     rng = np.random.default_rng([seed, 18])
     turned: dict[float, float] = {}
@@ -173,9 +167,6 @@ def _turn(known: Wears, calibration: Calibration, angle: float, rng: np.random.G
     route = Route(speed=float(rng.uniform(0.9, 1.3))).stand(2.5).walk(6.0).turn(angle, radius if radius > 0.4 else 0.0)
     walk = _worn(known, route.walk(6.0).stop(3.0), seed)
     return [event for event in heard(FOOTSTEP_TRACKER, walk.packets, calibration) if isinstance(event, TurnMade)]
-
-
-# --- place, fig. 13 (f) to (h) ----------------------------------------------------------------------------------------
 
 
 def _placed(known: Wears, calibration: Calibration, way: Way, seed: int) -> PlaceScore:

@@ -15,7 +15,6 @@ from attrs import frozen
 
 from .tables import Statistics, Table, statistics
 
-# --- Chen et al. 2019 -------------------------------------------------------------------------------------------------
 
 KUPT_DFPC_TITLE = "Chen et al. 2019, table I"
 
@@ -34,7 +33,6 @@ KUPT_L_MEAN_IN_TEXT = 19.68
 CORRIDOR_DRIFT = {"ZUPT-L": 11.15, "ZUPT-R": 7.43, "KUPT+DFPC": 0.78}
 """Section IV-C: drift of the total walking distance over about 91 m, m (fig. 13 draws the tracks)."""
 
-# --- Bebek et al. 2010 ------------------------------------------------------------------------------------------------
 
 PRESSURE_CONTOUR_TITLE = "Bebek et al. 2010, table I"
 
@@ -70,7 +68,6 @@ PRESSURE_CONTOUR: Table = {
 prints (4.87 +- 2.75 and 4.30 +- 3.15); its mean percentages, 0.40 and 0.35, are those of the mean errors over the
 mean distance instead."""
 
-# --- Gong et al. 2023 -------------------------------------------------------------------------------------------------
 
 WALKING_MODES_TITLE = "Gong et al. 2023, table 4"
 
@@ -121,7 +118,6 @@ WALKING_MODES: Table = {
 }
 """Table 4 as rows. Quartiles are not in it; its variances are the squares of its deviations."""
 
-# --- Liu et al. 2015 --------------------------------------------------------------------------------------------------
 
 FOOTSTEP_TRACKER_TITLE = "Liu et al. 2015, section V and fig. 13"
 
@@ -137,7 +133,6 @@ FOOTSTEP_TRACKER: Table = {
 """Of the text of sections V-C to V-F: 9.23 m, 9.2 m and 2.64 m off after 63 m; "a location error in 1m" on average, and
 "the initial location is determined after six steps" for one user."""
 
-# --- Li et al. 2016 ---------------------------------------------------------------------------------------------------
 
 SHOE_SENSING_TITLE = "Li et al. 2016, tables 1 and 2, figs. 21 to 35"
 

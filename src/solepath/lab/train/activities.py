@@ -159,9 +159,6 @@ def _pure(label: Label, begin: float) -> Activity | None:
     return most if found.count(most) >= PURE * n else None
 
 
-# --- sources ----------------------------------------------------------------------------------------------------------
-
-
 def hugadb(folder: Path, without: frozenset[int]) -> Iterator[Blocks]:
     """All wearers but these, in every of `WAYS`."""
     for one in recordings(folder):
@@ -234,9 +231,6 @@ def resampled(samples: Sequence[Sample], rate: float) -> list[Sample]:
         for at, (x, y, z, *turn) in zip(when.tolist(), rows, strict=True):
             found.append(attrs.evolve(own[0], t=at, acc=(x, y, z), gyro=(turn[0], turn[1], turn[2]) if turns else None))
     return sorted(found, key=attrgetter("t"))
-
-
-# --- all of it --------------------------------------------------------------------------------------------------------
 
 
 def learnt(parts: Iterable[Blocks], note: str) -> MotionModel:

@@ -140,8 +140,6 @@ class InsoleLink(DeviceLink):
             t=arrival, known_at=arrival, site=self.site, channel="insole/frame", reason=reason, detail=detail
         )
 
-    # --- INFO ---------------------------------------------------------------------------------------------------
-
     def _info(self, data: bytes, arrival: float) -> Output:
         info = parse_info(data)
         if info.foot is not self.site.foot:
@@ -165,8 +163,6 @@ class InsoleLink(DeviceLink):
             full_scale=FULL_PRESSURE * info.pressure_scale if known else FULL_PRESSURE,
         )
         return [LayoutKnown(t=arrival, known_at=arrival, site=self.site, layout=shared(layout))]
-
-    # --- frames -------------------------------------------------------------------------------------------------
 
     def _frame(self, frame: InsoleFrame, arrival: float) -> Output:
         if frame.foot is not self.site.foot:

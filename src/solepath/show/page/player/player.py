@@ -85,8 +85,6 @@ class Player:
         self.scene.playback = self.playback
         self._save(begin)
 
-    # --- what somebody wants ---
-
     def command(self, command: Command) -> None:
         """What the page asks for. Values beyond what there is are taken as the nearest."""
         match command.do:
@@ -126,8 +124,6 @@ class Player:
                 now.state = "playing"
         self._due = t
         now.seeking = t if self._behind else None
-
-    # --- what happens ---
 
     def passed(self, seconds: float) -> None:
         """So much time went by on the wall. Nothing is owed for time in which it could not keep up."""
@@ -198,8 +194,6 @@ class Player:
             self._frontier = len(self.items) + 1
             if self.told is not None:
                 self.told(None, events)
-
-    # --- moments ---
 
     def _save(self, t: float) -> None:
         scene = copy(self.scene)

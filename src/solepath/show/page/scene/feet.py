@@ -45,8 +45,6 @@ class FootScene:
     _map: tuple[tuple[float, ...] | None, float, str | None] = field(default=(None, 0.0, None), init=False)
     """Cells and peak, and what they were last shown as."""
 
-    # --- events: the first two come with every sample ---
-
     def moved(self, event: FootMoved) -> None:
         """A live position."""
         self.position = event.position
@@ -99,8 +97,6 @@ class FootScene:
         """What it does now is not known."""
         self.begin(t, None)
         self.cells = self.centre = None
-
-    # --- what a page shows ---
 
     def frame(self, rate: float, counts: FootCounts) -> dict[str, Any] | None:
         """As "feet" of a frame; None before it was heard of. `rate`: samples a second."""

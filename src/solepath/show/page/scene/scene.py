@@ -88,8 +88,6 @@ class Scene:
     def __attrs_post_init__(self) -> None:
         self.drawing = None if self.plan is None else drawn(self.plan)
 
-    # --- in ---
-
     def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
         """What the session was fed, and what it said of that. None: nothing came, time passed or the session ended."""
         for event in events:
@@ -170,8 +168,6 @@ class Scene:
     def _level(self, level: str) -> str:
         names = [] if self.plan is None else [one.name for one in self.plan.levels if one.id == level]
         return names[0] if names and names[0] else f"level {level}"
-
-    # --- out ---
 
     def whole(self) -> tuple[dict[str, Any], Cursor]:
         """Everything: the message "scene", and what `since` goes on from."""

@@ -80,8 +80,6 @@ class Watcher:
         except (TimeoutError, ConnectionError):
             self._abort()
 
-    # --- out ---
-
     async def _show(self, transport: asyncio.WriteTransport) -> None:
         try:
             await self._show_all(transport)
@@ -134,8 +132,6 @@ class Watcher:
     def _abort(self) -> None:
         if self._transport is not None:
             self._transport.abort()
-
-    # --- in ---
 
     async def _listen(self) -> None:
         offences = self._page.offences
