@@ -1,12 +1,20 @@
-"""How large things may be: files, folders, names at the top; and each class has a name of its own."""
+"""How large things may be: files, folders, names at the top. Each class has a name of its own, and settings apart from
+state."""
 
 from __future__ import annotations
 
 import ast
 from collections import Counter
+from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
+from typing import get_type_hints
 
+import attrs
 from here import ROOT, TESTS
+
+from solepath.saving.schema import alternatives, is_frozen, is_open, is_part
+from solepath.types import Foot, Site
 
 SRC = ROOT / "src" / "solepath"
 LINES, FILES, NAMES = 300, 14, 20
@@ -46,3 +54,27 @@ def test_no_class_has_the_name_of_another() -> None:
         if isinstance(node, ast.ClassDef)
     )
     assert {name for name, count in named.items() if count > 1} == set()
+
+
+PARTED = ("foot", "body", "papers", "session")
+
+
+def mixed() -> Iterator[str]:
+    """Fields of classes with state that are chosen when one is made, and are neither a frozen record, a part of the
+    kind that a recipe chooses, nor whose it is."""
+    whose = {Foot, Site}
+    for path in (path for room in PARTED for path in python(SRC / room) if path.name != "__init__.py"):
+        module = import_module(".".join(path.relative_to(ROOT / "src").with_suffix("").parts))
+        for cls in vars(module).values():
+            if not (isinstance(cls, type) and cls.__module__ == module.__name__ and attrs.has(cls) and is_part(cls)):
+                continue
+            hints = get_type_hints(cls)
+            for one in attrs.fields(cls):
+                kinds = set(alternatives(hints[one.name])) - {type(None)}
+                records = [attrs.has(kind) and (is_frozen(kind) or is_part(kind)) or is_open(kind) for kind in kinds]
+                if one.init and not (all(records) or kinds <= whose):
+                    yield f"{cls.__name__}.{one.name}"
+
+
+def test_what_has_state_has_its_settings_in_a_frozen_record() -> None:
+    assert list(mixed()) == [], "a setting stands among what changes while it runs"
