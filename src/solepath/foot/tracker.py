@@ -27,7 +27,7 @@ from .rejection import refusal, rejected
 from .rhythm import Rhythm
 from .settings import FootSettings
 from .stance.stance import Detector, Load
-from .view import FootPose, FootView
+from .view import FootPose, FootView, PressedCells
 from .world import Covariance3
 
 SWING: Final = Phase.SWING
@@ -106,9 +106,12 @@ class FootTracker:
     def view(self, sample: Sample, known_at: float, events: tuple[Event, ...], *, spread: bool) -> FootView:
         """What a part of the body may see after `sample`, of which `events` came. `spread`: with the covariance."""
         corrector, gait, insole, rest = self.corrector, self.gait, self.sole.insole, self.rest
-        layout, cells, alone = insole.layout, insole.cells, None
-        if cells and self.moved_at is None and sample.gyro is None:
-            alone = insole.centre_of_pressure(cells)
+        layout, cells, pressed = insole.layout, insole.cells, None
+        if cells:
+            newtons = insole.settings.newtons is not None or (layout is not None and layout.scale is not None)
+            alone = self.moved_at is None and sample.gyro is None
+            centre = insole.centre_of_pressure(cells) if alone else None
+            pressed = PressedCells(cells, newtons, insole.highest, centre)
         return FootView(
             self.foot,
             sample,
@@ -125,11 +128,8 @@ class FootTracker:
             gait.step.attitude,
             rest.bias,
             rest.grain if rest.count else 0.0,
-            cells,
-            insole.settings.newtons is not None or (layout is not None and layout.scale is not None),
-            insole.highest,
+            pressed,
             layout,
-            alone,
             spread and hasattr(corrector, "shift"),
             gait.covariance(corrector) if spread else None,
         )

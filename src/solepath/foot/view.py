@@ -10,6 +10,19 @@ from ..types.attrs import define
 from .world import Covariance3
 
 
+class PressedCells(NamedTuple):
+    """What the pressure cells of one sample show, calibrated and noise taken off."""
+
+    values: tuple[float, ...]
+    """N, or in the unit of the samples."""
+    in_newtons: bool
+    """Which of the two."""
+    highest: float
+    """The most loaded cell of late, as `values`."""
+    centre_alone: tuple[float, float] | None
+    """Centre of pressure (x, y), foot frame, m, of an insole without an inertial sensor; None otherwise."""
+
+
 @define(eq=False)
 class FootView:
     """One foot right after one of its samples. Vectors are in the foot's own navigation frame, z up, whose heading is
@@ -46,16 +59,10 @@ class FootView:
     """What the gyroscope shows at rest, rad/s, sensor frame."""
     acc_grain: Final[float]
     """What a count of the accelerometer is worth, m/s^2; 0 when nobody knows."""
-    cells: Final[tuple[float, ...]]
-    """What the pressure cells show, calibrated and noise taken off; () without any that can be used."""
-    cells_in_newtons: Final[bool]
-    """Whether `cells` are in N; else they are in the unit of the samples."""
-    highest_cell: Final[float]
-    """The most loaded cell of late, as `cells`."""
+    pressed: Final[PressedCells | None]
+    """Of a sample with pressure cells that can be used; None otherwise."""
     layout: Final[Layout | None]
     """Where the cells are; None when nobody knows."""
-    centre_alone: Final[tuple[float, float] | None]
-    """Centre of pressure (x, y), foot frame, m, of an insole without an inertial sensor; None otherwise."""
     takes_shifts: Final[bool]
     """Whether this foot's corrector can be turned and moved by a `Shift` (body/part.py); given with a stride, False
     otherwise."""

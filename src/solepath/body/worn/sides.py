@@ -144,7 +144,7 @@ class Sides:
         gyro = view.sample.gyro
         if gyro is None:
             if view.moved_at is None and view.sample.pressure:
-                _press(side, view.t, view.centre_alone)
+                _press(side, view.t, None if view.pressed is None else view.pressed.centre_alone)
             return
         t, turned = view.t, side.turned
         dt = HIDDEN if turned.t is None else t - turned.t

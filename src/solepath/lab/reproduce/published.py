@@ -15,7 +15,6 @@ from attrs import frozen
 
 from .tables import Statistics, Table, statistics
 
-
 KUPT_DFPC_TITLE = "Chen et al. 2019, table I"
 
 KUPT_DFPC: Table = {

@@ -32,7 +32,7 @@ from ...body.part import Position, Said, Track
 from ...calibration import Calibration
 from ...events import Event, Limitation, TouchedDown, WalkingModeChanged
 from ...foot.rejection import rejected
-from ...foot.view import FootPose, FootView
+from ...foot.view import FootPose, FootView, PressedCells
 from ...foot.world import Covariance3
 from ...types import OTHER, SITE_OF_FOOT, Foot, Sample, Site
 from ...types.attrs import define, evolve, field
@@ -126,7 +126,7 @@ class Modes(Track):
                 heading = None if view.north is None else atan2(-view.north[1], view.north[0])
                 self.places.chain.told_own(SITE_OF_FOOT[foot], t, view.attitude, heading)
         self.signs.moved(view, self.places.sides[foot].track[2])
-        told = self._pressed(view) if view.cells else []
+        told = [] if view.pressed is None else self._pressed(view, view.pressed)
         return told + self._carry(foot, t, known_at)
 
     def _carry(self, foot: Foot, t: float, known_at: float) -> list[Event]:
@@ -194,11 +194,11 @@ class Modes(Track):
                 return []
         return self._flushed(known_at)
 
-    def _pressed(self, view: FootView) -> list[Event]:
+    def _pressed(self, view: FootView, cells: PressedCells) -> list[Event]:
         """The cells of a foot: what they show of it, and whether they tell another mode."""
-        foot, t, known_at, state = view.foot, view.t, view.known_at, self.signs.pressed(view)
+        foot, t, known_at, state = view.foot, view.t, view.known_at, self.signs.pressed(view.foot, cells)
         both_heard = OTHER[foot] in self.signs.shown
-        mode = self.recognition.pressed(foot, state, view.cells, view.layout, t, both_heard)
+        mode = self.recognition.pressed(foot, state, cells.values, view.layout, t, both_heard)
         told: list[Event] = []
         if mode is not None:
             told.append(WalkingModeChanged(t=t, known_at=known_at, mode=mode, foot=foot))

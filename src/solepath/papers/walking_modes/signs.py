@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import hypot
 
 from ...events import Event, FootFlat, Limitation, StrideTaken
-from ...foot.view import FootView
+from ...foot.view import FootView, PressedCells
 from ...types import SITE_OF_FOOT, Foot, Phase
 from ...types.attrs import define, field
 from ...types.vector import GRAVITY, rotate
@@ -42,13 +42,13 @@ class Signs:
         if isinstance(self.method, NetAcceleration) and view.levelled and view.sample.acc is not None:
             x, y, z = rotate(view.attitude, view.sample.acc)
             state.acceleration = hypot(x, y, z - GRAVITY)
-        evidence.heard(view.t, bool(view.cells) or not isinstance(self.method, PressureTouchdown))
+        evidence.heard(view.t, view.pressed is not None or not isinstance(self.method, PressureTouchdown))
 
-    def pressed(self, view: FootView) -> FootState:
+    def pressed(self, foot: Foot, cells: PressedCells) -> FootState:
         """The foot's newest sample has cells. Returns what it shows."""
-        state = self.shown[view.foot]
-        state.pressure = max(view.cells)
-        state.full = None if view.cells_in_newtons else view.highest_cell
+        state = self.shown[foot]
+        state.pressure = max(cells.values)
+        state.full = None if cells.in_newtons else cells.highest
         return state
 
     def down(self, t: float, alone: Foot | None, known_at: float, events: list[Event]) -> Flags:
