@@ -24,11 +24,10 @@ STANDS = 1.0
 
 @frozen
 class BiasZuptSettings(DedriftSettings):
-    """What `BiasZupt` is set to."""
+    """What `BiasZupt` is set to. `drift`: calibrated slope of the position, m/s (x, y), in the device's own world where
+    it tells its attitude, otherwise in the navigation frame."""
 
     drift: tuple[float, float] | None = None
-    """Calibrated slope of the position, m/s (x, y): in the device's own world where it tells its attitude, otherwise in
-    the navigation frame."""
     spread: bool = True
     """The velocity that a swing ends with was gathered evenly over it, so the position loses half of it times the time
     since the foot last stood. The paper speaks of resets alone. Without this a tilt of a quarter of a degree, which is

@@ -103,10 +103,9 @@ class LiftPulses:
 
 @frozen
 class TwoSecondSettings:
-    """What `TwoSecondWindows` is set to."""
+    """What `TwoSecondWindows` is set to. `model`: what it was taught; None is what comes with this release."""
 
     model: WindowModel | None = None
-    """What it was taught; None is what comes with this release."""
 
 
 @define
