@@ -8,7 +8,7 @@ from statistics import mean, stdev
 
 import attrs
 import pytest
-from attrs import define
+from attrs import define, field
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from views import fed
@@ -31,7 +31,7 @@ from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.tracker import FootTracker
 from solepath.saving import codec as machine
-from solepath.types import SITE_OF_FOOT, Foot, Sample, Vec3
+from solepath.types import OTHER, SITE_OF_FOOT, Foot, Sample, Vec3
 
 L, R = Foot.LEFT, Foot.RIGHT
 
@@ -42,11 +42,14 @@ class Walked:
 
     strides: GaitCycles
     feet: dict[Foot, FootTracker]
+    newest: dict[Foot, float] = field(factory=dict)
+    """The newest sample of each foot, s."""
 
     def told(self, foot: Foot, t: float, *events: Event) -> list[GaitCycleMeasured]:
         """The events of a sample of `t`, s."""
         sample = Sample(t=t, site=SITE_OF_FOOT[foot], acc=(0.0, 0.0, 9.81), gyro=(0.0, 0.0, 0.0))
-        found = fed(self.strides, self.feet[foot], sample, events)
+        self.newest[foot] = max(t, self.newest.get(foot, t))
+        found = fed(self.strides, self.feet[foot], sample, events, self.newest.get(OTHER[foot]))
         return [event for event in found if isinstance(event, GaitCycleMeasured)]
 
 

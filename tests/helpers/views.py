@@ -12,17 +12,19 @@ from solepath.foot.view import FootView
 from solepath.types import Sample
 
 
-def seen(tracker: FootTracker, sample: Sample, events: Iterable[Event]) -> FootView:
-    """The foot after a sample of which `events` came."""
+def seen(tracker: FootTracker, sample: Sample, events: Iterable[Event], other: float | None = None) -> FootView:
+    """The foot after a sample of which `events` came. `other`: the newest sample of the other foot, s."""
     known_at = sample.t if sample.known_at is None else max(sample.t, sample.known_at)
     found = tuple(events)
     stride = any(isinstance(event, StrideTaken) for event in found)
-    return tracker.view(sample, known_at, found, spread=stride)
+    return tracker.view(sample, known_at, found, stride, other)
 
 
-def fed(part: Part, tracker: FootTracker, sample: Sample, events: Sequence[Event]) -> list[Any]:
+def fed(
+    part: Part, tracker: FootTracker, sample: Sample, events: Sequence[Event], other: float | None = None
+) -> list[Any]:
     """What a part says of a sample of a foot and of what came of it."""
-    said = [*part.feed(seen(tracker, sample, events))] if part.feeds else []
+    said = [*part.feed(seen(tracker, sample, events, other))] if part.feeds else []
     for event in events:
         said += part.receive(event)
     return said

@@ -89,6 +89,9 @@ class Part(Protocol):
 
     feeds: ClassVar[bool] = False
     """It needs samples: `feed` is called."""
+    idle: bool = False
+    """For the moment it needs no samples of which nothing came, but for those with air pressure. True for good, or a
+    field that changes with events only."""
     sites: ClassVar[tuple[Site, ...]] = ()
     """Sites above the ankle whose samples it needs: `feed_limb` is called."""
     follows: ClassVar[bool] = False

@@ -18,7 +18,9 @@ ABSURD_TOTAL = 1e7
 ABSURD_TIME = 1e11
 """s; a time beyond this (or before minus this) is no time."""
 
-LEAST_ACC, LEAST_GYRO, LEAST_TOTAL, LEAST_TIME = -ABSURD_ACC, -ABSURD_GYRO, -ABSURD_TOTAL, -ABSURD_TIME
+LEAST_TOTAL, LEAST_TIME = -ABSURD_TOTAL, -ABSURD_TIME
+SURE_ACC, SURE_GYRO = ABSURD_ACC**2, ABSURD_GYRO**2
+"""A vector whose square is less is sound, (m/s^2)^2 and (rad/s)^2: each axis is less then."""
 
 SHORTEST_QUAT = 1e-12
 """Square of the least length of an attitude."""
@@ -36,14 +38,18 @@ def refusal(sample: Sample, newest: float | None) -> Refusal | None:
     ):
         return wrong_time(sample) or _wrong_order(t, t if newest is None else newest)
     acc, gyro = sample.acc, sample.gyro
-    if acc is not None:
-        x, y, z = acc
-        if not (LEAST_ACC < x < ABSURD_ACC and LEAST_ACC < y < ABSURD_ACC and LEAST_ACC < z < ABSURD_ACC):
-            return _wrong_vector("acc", acc, ABSURD_ACC)
-    if gyro is not None:
-        x, y, z = gyro
-        if not (LEAST_GYRO < x < ABSURD_GYRO and LEAST_GYRO < y < ABSURD_GYRO and LEAST_GYRO < z < ABSURD_GYRO):
-            return _wrong_vector("gyro", gyro, ABSURD_GYRO)
+    sure = True
+    try:
+        if acc is not None:
+            x, y, z = acc
+            sure = x * x + y * y + z * z < SURE_ACC
+        if gyro is not None and sure:
+            x, y, z = gyro
+            sure = x * x + y * y + z * z < SURE_GYRO
+    except OverflowError:  # an int may be too large for a float
+        sure = False
+    if not sure and (wrong := _wrong_vector("acc", acc, ABSURD_ACC) or _wrong_vector("gyro", gyro, ABSURD_GYRO)):
+        return wrong
     if sample.pressure:
         try:
             total: float = sum(sample.pressure)
@@ -63,8 +69,10 @@ def _wrong_order(t: float, newest: float) -> Refusal:
     return Rejection.TIME_BACKWARDS, f"{newest - t:.6g} s before the sample before"
 
 
-def _wrong_vector(name: str, vector: Vec3, limit: float) -> Refusal:
-    worst = next(value for value in vector if not -limit < value < limit)
+def _wrong_vector(name: str, vector: Vec3 | None, limit: float) -> Refusal | None:
+    worst = next((value for value in vector or () if not -limit < value < limit), None)
+    if worst is None:
+        return None
     if worst != worst or abs(worst) == inf:
         return Rejection.NOT_FINITE, f"{name} is not a number"
     return Rejection.ABSURD, f"{name} of {_shown(worst)}"

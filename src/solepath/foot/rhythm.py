@@ -31,11 +31,11 @@ class Rhythm:
     def update(self, dt: float) -> bool:
         """One wait, s; True when it was a gap."""
         usual = self.usual
-        if self.seen <= YOUNG:
+        if usual is None or self.seen <= YOUNG:
             self.seen += 1
-        if usual is None or (self.seen <= YOUNG and dt * GAP_SHARE < usual):
-            self.usual = dt
-            return False
+            if usual is None or (self.seen <= YOUNG and dt * GAP_SHARE < usual):
+                self.usual = dt
+                return False
         # the usual wait follows slowly and mistrusts the unusual
         trusted = dt
         if trusted < usual / ODD:

@@ -27,7 +27,7 @@ from .rejection import refusal, rejected
 from .rhythm import Rhythm
 from .settings import FootSettings
 from .stance.stance import Detector, Load
-from .view import FootPose, FootView, PressedCells
+from .view import NOTHING_HAPPENED, AfterEvents, FootPose, FootView, PressedCells
 from .world import Covariance3
 
 SWING: Final = Phase.SWING
@@ -54,6 +54,8 @@ class FootTracker:
     """The newest sample with both acc and gyro, s."""
     pressed_at: float | None = field(default=None, init=False)
     """The newest sample that lacked one of them, s."""
+    seen_at: float | None = field(default=None, init=False)
+    """The newest sample after which the body had a view, s."""
     load: Load | None = field(default=None, init=False)
     """The newest load, when a sample without acc or gyro brought it."""
     rhythm: Rhythm = field(factory=Rhythm, init=False)
@@ -103,36 +105,30 @@ class FootTracker:
         """Where the foot is; None before any sample."""
         return None if self.t is None else FootPose(self.foot, self.t, self.moved_at, self.position, self.covariance)
 
-    def view(self, sample: Sample, known_at: float, events: tuple[Event, ...], *, spread: bool) -> FootView:
-        """What a part of the body may see after `sample`, of which `events` came. `spread`: with the covariance."""
-        corrector, gait, insole, rest = self.corrector, self.gait, self.sole.insole, self.rest
-        layout, cells, pressed = insole.layout, insole.cells, None
+    def view(
+        self, sample: Sample, known_at: float, events: tuple[Event, ...], spread: bool, other: float | None
+    ) -> FootView:
+        """What a part of the body may see after `sample`, of which `events` came. `spread`: with the covariance.
+        `other`: `seen_at` of the other foot."""
+        corrector, gait, cells, rest = self.corrector, self.gait, self.sole.insole.cells, self.rest
+        after, pressed = NOTHING_HAPPENED, None
+        if events:
+            takes_shifts, covariance = (
+                (hasattr(corrector, "shift"), gait.covariance(corrector)) if spread else (False, None)
+            )
+            after = AfterEvents(gait.step.attitude, self.sole.insole.layout, other, takes_shifts, covariance)
         if cells:
+            insole = self.sole.insole
+            layout = insole.layout
             newtons = insole.settings.newtons is not None or (layout is not None and layout.scale is not None)
             alone = self.moved_at is None and sample.gyro is None
             centre = insole.centre_of_pressure(cells) if alone else None
-            pressed = PressedCells(cells, newtons, insole.highest, centre)
+            pressed = PressedCells(cells, layout, newtons, insole.highest, centre)
         return FootView(
-            self.foot,
-            sample,
-            sample.t,
-            known_at,
-            events,
-            self.moved_at,
-            self.levelled,
-            gait.phase,
-            corrector.position,
-            corrector.velocity,
-            corrector.attitude,
-            gait.world.north,
-            gait.step.attitude,
-            rest.bias,
-            rest.grain if rest.count else 0.0,
-            pressed,
-            layout,
-            spread and hasattr(corrector, "shift"),
-            gait.covariance(corrector) if spread else None,
-        )
+            self.foot, sample, sample.t, known_at, events, self.moved_at, self.levelled, gait.phase,
+            corrector.position, corrector.velocity, corrector.attitude, gait.world.north,
+            rest.bias, rest.grain if rest.count else 0.0, pressed, after,
+        )  # fmt: skip
 
     def shift(self, yaw: float, by: Vec3) -> None:
         """From here on the foot heads `yaw` rad further and stands `by` m off (world frame): its live track and its
@@ -157,7 +153,7 @@ class FootTracker:
         """The clock of the samples begins anew, before or after the old one; what the foot did between is unknown."""
         if self.t is not None and self.levelled:
             self.corrector.bridge(inf)
-        self.t = self.moved_at = self.pressed_at = self.limits.since = self.load = None
+        self.t = self.moved_at = self.pressed_at = self.seen_at = self.limits.since = self.load = None
         self.limits.odd_since = None
         self.gait.interrupt()
         # Windows over the old times would wait for the new ones to catch up. What was learnt stays.
@@ -212,7 +208,7 @@ class FootTracker:
         if acc is not None and gyro is not None:
             self.moved_at = t
             self.limits.since = None
-            if load is None:
+            if load is None and self.load is not None:
                 load, self.load = self.load, None
             if sample.quat is not None:
                 self.corrector.told(sample.quat)

@@ -7,6 +7,7 @@ from typing import Final, NamedTuple
 from ..events import Event
 from ..types import Foot, Layout, Phase, Quat, Sample, Vec3
 from ..types.attrs import define
+from ..types.vector import IDENTITY
 from .world import Covariance3
 
 
@@ -15,6 +16,8 @@ class PressedCells(NamedTuple):
 
     values: tuple[float, ...]
     """N, or in the unit of the samples."""
+    layout: Layout | None
+    """Where the cells are; None when nobody knows."""
     in_newtons: bool
     """Which of the two."""
     highest: float
@@ -23,10 +26,28 @@ class PressedCells(NamedTuple):
     """Centre of pressure (x, y), foot frame, m, of an insole without an inertial sensor; None otherwise."""
 
 
+class AfterEvents(NamedTuple):
+    """Of a foot of which a sample had events."""
+
+    stood: Quat
+    """Its attitude when it was last flat, sensor to navigation frame."""
+    layout: Layout | None
+    """Where its pressure cells are; None when nobody knows."""
+    other_t: float | None
+    """The newest sample of the other foot, s; None before any."""
+    takes_shifts: bool
+    """Whether its corrector can be turned and moved by a `Shift` (body/part.py); given with a stride."""
+    covariance: Covariance3 | None
+    """Of its position, world frame, m^2; None but with a stride: it takes long."""
+
+
+NOTHING_HAPPENED: Final = AfterEvents(IDENTITY, None, None, False, None)
+
+
 @define(eq=False)
 class FootView:
     """One foot right after one of its samples. Vectors are in the foot's own navigation frame, z up, whose heading is
-    that of the moment when the foot was levelled; `world` turns them into the world frame. Read only: type
+    that of the moment when the foot was levelled; `north` turns them into the world frame. Read only: type
     checkers refuse to write into it, and what is written all the same the foot never sees."""
 
     foot: Final[Foot]
@@ -53,29 +74,14 @@ class FootView:
     """Sensor to navigation frame."""
     north: Final[tuple[float, float] | None]
     """cos and sin of the turn from the navigation frame to the world frame; None until the first heading is known."""
-    stood: Final[Quat]
-    """`attitude` when the foot was last flat."""
     gyro_bias: Final[Vec3]
     """What the gyroscope shows at rest, rad/s, sensor frame."""
     acc_grain: Final[float]
     """What a count of the accelerometer is worth, m/s^2; 0 when nobody knows."""
     pressed: Final[PressedCells | None]
     """Of a sample with pressure cells that can be used; None otherwise."""
-    layout: Final[Layout | None]
-    """Where the cells are; None when nobody knows."""
-    takes_shifts: Final[bool]
-    """Whether this foot's corrector can be turned and moved by a `Shift` (body/part.py); given with a stride, False
-    otherwise."""
-    covariance: Final[Covariance3 | None]
-    """Of `position`, world frame, m^2; given with a stride, None otherwise: it takes long."""
-
-    def world(self, v: Vec3) -> Vec3:
-        """A vector of the navigation frame, in the world frame."""
-        if self.north is None:
-            return v
-        c, s = self.north
-        x, y, z = v
-        return (c * x - s * y, s * x + c * y, z)
+    after: Final[AfterEvents]
+    """What is asked for when something happened; NOTHING_HAPPENED otherwise."""
 
 
 class FootPose(NamedTuple):

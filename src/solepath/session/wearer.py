@@ -15,8 +15,8 @@ from ..foot.settings import FootSettings
 from ..foot.tracker import FootTracker
 from ..foot.view import FootView
 from ..recipes import Recipe, part_class
-from ..types import Foot, Sample, Site
-from ..types.attrs import MADE_AGAIN, define, field, frozen
+from ..types import OTHER, Foot, Sample, Site
+from ..types.attrs import MADE_AGAIN, NOT_SAVED, define, field, frozen
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
@@ -48,6 +48,8 @@ class WearerParts:
     settings: WearerSettings
     parts: list[Part] = field(init=False, metadata=MADE_AGAIN)
     """In the order in which they hear of what is said."""
+    sampled: tuple[Part, ...] = field(default=(), init=False, metadata=NOT_SAVED)
+    """Of these the ones that need, for the moment, a sample of which nothing came."""
     feet: dict[Foot, FootTracker] = field(factory=dict, init=False, metadata=MADE_AGAIN)
     height: tuple[float, float] = field(default=(0.0, 0.0), init=False)
     """By how much the wearer is higher than the feet's tracks say, m, and the variance of that, m^2."""
@@ -69,6 +71,10 @@ class WearerParts:
             part.ready()
             if hasattr(part, "plan"):
                 part.plan = plan
+        self._choose()
+
+    def _choose(self) -> None:
+        self.sampled = tuple([part for part in self.parts if part.feeds and not part.idle])
 
     def feed(self, sample: Sample, scale_is_said: bool) -> list[Event]:
         """A sample of any site. `scale_is_said`: by its link, which knows the range, so the foot need not."""
@@ -86,23 +92,24 @@ class WearerParts:
             return events
         if known is None:
             self._keep(tracker)
-        stride, first = False, 0
-        if events:
-            if isinstance(events[0], SampleRejected):
-                return events
-            for event in events:
-                stride = stride or isinstance(event, StrideTaken)
+        if events and isinstance(events[0], SampleRejected):
+            return events
         t, known_at = sample.t, sample.known_at
         known_at = t if known_at is None or known_at < t else known_at
-        view = tracker.view(sample, known_at, tuple(events) if events else (), spread=stride)
+        if tracker.seen_at is None or t > tracker.seen_at:
+            tracker.seen_at = t
         if not events:  # so it is with nearly all samples
-            for part in self.parts:
-                first += 1
-                if part.feeds and (said := part.feed(view)):
+            view = tracker.view(sample, known_at, (), False, None)
+            for part in self.sampled if sample.air_pressure is None else self.parts:
+                if said := part.feed(view):
                     self._take(said, events)
+                    self._flow(events, view, known_at, 1 + next(k for k, one in enumerate(self.parts) if one is part))
                     break
-        if events:
-            moved = self._flow(events, view, known_at, first)
+        else:
+            stride = any([isinstance(event, StrideTaken) for event in events])
+            other = self.feet.get(OTHER[foot])
+            view = tracker.view(sample, known_at, tuple(events), stride, None if other is None else other.seen_at)
+            moved = self._flow(events, view, known_at)
             if moved is not None and self.settings.poses and stride:
                 events.append(moved)
         if sample.pressure:
@@ -168,6 +175,7 @@ class WearerParts:
                 self._take(part.receive(moved), events)
             if finishing:
                 self._take(part.finish(known_at), events)
+        self._choose()
         if moved is None and self.settings.poses and any([isinstance(event, StrideTaken) for event in events]):
             moved = self._moved(known_at)
         return moved

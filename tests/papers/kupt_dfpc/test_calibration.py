@@ -13,6 +13,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
 from solepath.foot.pressure.insole import InsoleLoads
+from solepath.foot.settings import InsoleSettings
 from solepath.papers.kupt_dfpc.kinematics import forefoot_place
 from solepath.papers.kupt_dfpc.noise import pressure_noise
 from solepath.papers.kupt_dfpc.shoe import fit_shoe
@@ -78,7 +79,7 @@ def test_with_its_noise_taken_off_a_foot_in_the_air_carries_nothing() -> None:
         samples.append(Sample(t=sample.t, site=sample.site, pressure=tuple(pressure.tolist())))
     noise = pressure_noise(samples).insoles[Foot.LEFT].noise
     assert noise == pytest.approx([0.8 + 3 * 0.15] * 96, abs=0.12)
-    insole = InsoleLoads(noise=noise)
+    insole = InsoleLoads(InsoleSettings(noise=noise))
     insole.wear(cells)
     swings = walker.truth().feet[Foot.LEFT].steps[1:-1]
     for sample in samples:

@@ -107,7 +107,7 @@ class BothFeet(MeanOfFeet):
         said: list[Said] = []
         for event in view.events:
             if isinstance(event, StrideTaken):
-                said += self._stride(event, view.takes_shifts)
+                said += self._stride(event, view.after.takes_shifts)
         return said
 
     def reset(self, site: Site) -> None:

@@ -119,11 +119,16 @@ class MeanOfFeet(Track):
             back = this.absent
         elif t > this.t and other.t is not None:
             other.alone += t - this.t
-        this.t, this.alone, this.here = t, 0.0, view.world(view.position)
+        here = view.position
+        if view.north is not None:
+            (c, s), (x, y, z) = view.north, here
+            here = (c * x - s * y, s * x + c * y, z)
+        this.t, this.alone, this.here = t, 0.0, here
         if back:
             self._came_back(this, other)
-        if view.covariance is not None:  # there was a stride
-            xx, _, _, yy, _, zz = view.covariance
+        covariance = view.after.covariance
+        if covariance is not None:  # there was a stride
+            xx, _, _, yy, _, zz = covariance
             this.variance = (0.5 * (xx + yy), zz)
             if other.t is not None and other.alone < ABSENT:
                 self._stepped(is_left, this)

@@ -42,8 +42,8 @@ class GaitCycles(Part):
     left_followed: Followed = field(factory=Followed, init=False)
     right_followed: Followed = field(factory=Followed, init=False)
     means: GaitMeans = field(factory=GaitMeans, init=False)
-    waits: bool = field(default=False, init=False)
-    """A cycle waits for samples of the other foot."""
+    idle: bool = field(default=True, init=False)
+    """No cycle waits for samples of the other foot."""
     left_unsettled: float | None = field(default=None, init=False)
     right_unsettled: float | None = field(default=None, init=False)
     """Up to which time of a foot's samples its clock cannot be compared with the other's, s; None where it can."""
@@ -55,13 +55,16 @@ class GaitCycles(Part):
 
     def feed(self, view: FootView) -> Sequence[Said]:
         """A sample of a foot, and what came of it."""
-        is_left = view.foot is Foot.LEFT
-        followed = self.left_followed if is_left else self.right_followed
-        t = view.t
-        if followed.t is None or t > followed.t:
-            followed.t = t
-        if not view.events and not self.waits:
+        if self.idle and not view.events:
             return ()
+        is_left = view.foot is Foot.LEFT
+        followed, other = self.left_followed, self.right_followed
+        if not is_left:
+            followed, other = other, followed
+        if followed.t is None or view.t > followed.t:
+            followed.t = view.t
+        if view.events:
+            other.t = view.after.other_t
         followed.tracked = view.levelled
         this = self.left if is_left else self.right
         for event in view.events:
@@ -89,7 +92,7 @@ class GaitCycles(Part):
         """No more samples come: what waited."""
         for falls in (self.left, self.right):
             falls.settle()
-        self.waits = False
+        self.idle = True
         counts = (len(self.left.waiting), len(self.right.waiting))
         return [*self._measured(Foot.LEFT, now, counts[0]), *self._measured(Foot.RIGHT, now, counts[1])]
 
@@ -115,7 +118,7 @@ class GaitCycles(Part):
     def _release(self, known_at: float) -> Sequence[Said]:
         """The strides whose time both feet are past, or that waited long enough."""
         if not self.left.waiting and not self.right.waiting:
-            self.waits = False
+            self.idle = True
             return ()
         said: list[Said] = []
         left, right = self.left_followed.t, self.right_followed.t
@@ -129,7 +132,7 @@ class GaitCycles(Part):
                 ready += 1
             if ready:
                 said += self._measured(foot, known_at, ready)
-        self.waits = bool(self.left.waiting or self.right.waiting)
+        self.idle = not (self.left.waiting or self.right.waiting)
         return said
 
     def _measured(self, foot: Foot, known_at: float, count: int) -> list[Said]:

@@ -66,11 +66,11 @@ class Turns(Part):
 
     direction: Direction = field(factory=Direction, init=False)
     lain: dict[Foot, Lain] = field(factory=dict, init=False)
+    idle: bool = field(default=True, init=False)
+    """No turn is under way."""
 
     def feed(self, view: FootView) -> Sequence[Said]:
         """The turns that are over."""
-        if not view.events and self.direction.began is None:
-            return ()
         found: list[TurnProcess] = []
         known_at = view.t
         for event in view.events:
@@ -87,13 +87,14 @@ class Turns(Part):
             if turned is not None:
                 known_at = view.known_at
                 found.append(turned)
+        self.idle = self.direction.began is None
         return [made(turned, known_at) for turned in found if abs(turned.angle) > 0.5 * SLIGHT]
 
     def _flat(self, view: FootView, event: FootFlat) -> TurnProcess | None:
         """A foot that is flat without a stride may have pivoted."""
-        lay, now = self.lain.get(event.foot), view.stood
+        lay, now = self.lain.get(event.foot), view.after.stood
         self.lain[event.foot] = Lain(event.t, now)
-        stepped = view.covariance is not None and any(
+        stepped = view.after.covariance is not None and any(
             [isinstance(one, StrideTaken) and one.t == event.t for one in view.events]
         )
         if lay is None or stepped or event.t < lay.since:

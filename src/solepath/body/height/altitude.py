@@ -135,6 +135,7 @@ class Altitude(Part):
     """The filter, fed. Latency: none for the air; a ride is known after it."""
 
     feeds: ClassVar[bool] = True
+    idle = True
 
     settings: AltitudeSettings = AltitudeSettings()
     now: Heights = field(factory=Heights, init=False)

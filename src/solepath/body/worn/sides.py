@@ -133,7 +133,7 @@ class Sides:
                 _leave(side, is_left)
         if not judged:
             return False
-        layout = view.layout
+        layout = view.after.layout
         side.mirrored = layout is not None and layout.foot is not view.foot
         return self._agree()
 

@@ -10,7 +10,7 @@ from ...foot.view import FootView
 from ...types import Foot
 from ...types.attrs import define, field, frozen
 from ..part import LayoutTold, Notice, Part, Said
-from .sides import Sides
+from .sides import RARELY, Sides
 
 LEFT: Final = Foot.LEFT
 """Looked up once: a word of an enum costs as much as five multiplications."""
@@ -71,7 +71,10 @@ class Wear(Part):
         if not (events or this.said or other.missing):
             this.t, this.missing = t, 0
             if not self.swapped:
-                self.sides.keep(self.sides.left if is_left else self.sides.right, view)
+                side = self.sides.left if is_left else self.sides.right
+                kept = side.turned.t
+                if kept is None or not 0.0 <= t - kept < RARELY:  # else it would do nothing
+                    self.sides.keep(side, view)
             return ()
         found: list[Said] = []
         if this.said:
@@ -80,7 +83,7 @@ class Wear(Part):
             found.append(FootHeard(t=t, known_at=view.known_at, foot=view.foot, silent_for=silence))
         this.t = t
         this.missing = 0
-        if view.covariance is not None:  # there was a stride
+        if view.after.covariance is not None:  # there was a stride
             other.missing += 1
         if other.missing and other.t is not None and not other.said:
             if t < other.t:

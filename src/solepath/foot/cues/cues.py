@@ -43,17 +43,12 @@ class Cues(Protocol):
 
     # what cues may know or pay heed to; they need not
 
-    @property
-    def sagittal(self) -> float:
-        """Rate about the axis to the wearer's left in the last sample, positive toe down, rad/s; 0 while that axis is
-        not known."""
-        return 0.0
-
-    @property
-    def mark(self) -> Cue | None:
-        """CONTACT: of all samples so far the last is most likely that of heel-strike. CLEAR: the one before it is most
-        likely that of toe-off (Corrector.mark). None: neither."""
-        return None
+    sagittal: float = 0.0
+    """Rate about the axis to the wearer's left in the last sample, positive toe down, rad/s; 0 while that axis is not
+    known."""
+    mark: Cue | None = None
+    """CONTACT: of all samples so far the last is most likely that of heel-strike. CLEAR: the one before it is most
+    likely that of toe-off (Corrector.mark). None: neither."""
 
     def cleared(self, t: float) -> Seen:
         """The toe left the ground at `t`, in a gap, and the swing was under way when that ended."""

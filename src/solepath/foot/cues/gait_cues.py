@@ -26,23 +26,21 @@ class GaitCues(Cues):
     pressure: PressureCues = field(factory=PressureCues)
     touch: Touch = field(factory=Touch)
     """For insoles of few cells."""
+    sagittal: float = field(default=0.0, init=False)
+    """As in `Cues`."""
 
     def wear(self, layout: Layout) -> None:
         """The device said where its cells are."""
         self.touch.wear(layout)
-
-    @property
-    def sagittal(self) -> float:
-        """As in `Cues`."""
-        inertial = self.inertial
-        return 0.0 if inertial.axis is None else inertial.sagittal
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
         load: Load | None, stance: Stance,
     ) -> Sequence[Seen]:  # fmt: skip
         """As in `Cues`; at most one."""
-        seen = self.inertial.update(t, dt, acc, gyro, still, speed, phase)
+        inertial = self.inertial
+        seen = inertial.update(t, dt, acc, gyro, still, speed, phase)
+        self.sagittal = 0.0 if inertial.axis is None else inertial.sagittal
         if load is None and seen is None:
             return ()
         if load is not None:
@@ -56,7 +54,8 @@ class GaitCues(Cues):
                     pressed = Seen(Cue.CLEAR if airborne else Cue.CONTACT, t)
             if pressed is not None:
                 if pressed.cue is Cue.CLEAR:
-                    self.inertial.pushed_off(phase)
+                    inertial.pushed_off(phase)
+                    self.sagittal = 0.0 if inertial.axis is None else inertial.sagittal
                 return (pressed,)
             if seen is not None and seen.cue is not Cue.FLAT:
                 seen = self.pressure.dated(seen) if seen.cue is Cue.LIFT else None

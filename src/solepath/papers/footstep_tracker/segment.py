@@ -69,12 +69,16 @@ class FootAxes:
 
 def turned_to(rows: Sequence[Row], right: Vec3, forward: Vec3, up: Vec3) -> tuple[Row, ...]:
     """Rows of the sensor frame in the paper's axes, a_z with the paper's sign."""
-    found = []
-    for t, ax, ay, az, gx, gy, gz in rows:
-        a_x, a_y, a_z = (ax * x + ay * y + az * z for x, y, z in (right, forward, up))
-        g_x, g_y, g_z = (gx * x + gy * y + gz * z for x, y, z in (right, forward, up))
-        found.append((t, a_x, a_y, -a_z, g_x, g_y, g_z))
-    return tuple(found)
+    (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = right, forward, up
+    return tuple(
+        [
+            (
+                t, ax * xx + ay * xy + az * xz, ax * yx + ay * yy + az * yz, -(ax * zx + ay * zy + az * zz),
+                gx * xx + gy * xy + gz * xz, gx * yx + gy * yy + gz * yz, gx * zx + gy * zy + gz * zz,
+            )
+            for t, ax, ay, az, gx, gy, gz in rows
+        ]
+    )  # fmt: skip
 
 
 def with_offset(rows: Sequence[Row], scale: float) -> tuple[Row, ...]:

@@ -191,7 +191,7 @@ class StaticZones(Detector):
         k = 1.0 / self.count
         self.count = 0
         # to a tenth of a thousandth: a row of a snapshot is then half as long
-        ax, ay, az, gx, gy, gz = (round(k * value, 4) for value in self.sums[1:])
+        ax, ay, az, gx, gy, gz = [round(k * value, 4) for value in self.sums[1:]]
         self.rows.append((self.begun + k * self.sums[0], ax, ay, az, gx, gy, gz))
         return True
 

@@ -51,6 +51,8 @@ class CopCues(Cues):
 
     inertial: InertialCues = field(factory=InertialCues)
     touch: Touch = field(factory=Touch)
+    sagittal: float = field(default=0.0, init=False)
+    """As in `Cues`."""
     mark: Cue | None = field(default=None, init=False)
     """CLEAR: the sample before the last is the best candidate so far for toe-off. CONTACT: the last sample is that for
     heel-strike."""
@@ -76,10 +78,6 @@ class CopCues(Cues):
     flat: bool = field(default=False, init=False)
     """For an insole alone: both areas are loaded."""
 
-    @property
-    def sagittal(self) -> float:
-        return 0.0 if self.inertial.axis is None else self.inertial.sagittal
-
     def wear(self, layout: Layout) -> None:
         self.middle = centre(layout)
         self.touch.wear(layout)
@@ -90,6 +88,7 @@ class CopCues(Cues):
     ) -> Sequence[Seen]:  # fmt: skip
         self.mark = None
         seen = self.inertial.update(t, dt, acc, gyro, still, speed, phase)
+        self.sagittal = 0.0 if self.inertial.axis is None else self.inertial.sagittal
         if load is None and self.pressed_at is not None and t - self.pressed_at < STALE:
             return ()
         stationary = still and stance.hint is Phase.STATIONARY

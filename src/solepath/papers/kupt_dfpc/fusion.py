@@ -113,7 +113,8 @@ class DoubleFoot(Track):
 
     def feed(self, view: FootView) -> Sequence[Said]:
         strides = [event for event in view.events if isinstance(event, StrideTaken)] if view.events else []
-        middle = None if view.layout is None or not strides else centre(view.layout)
+        layout = view.after.layout
+        middle = None if layout is None or not strides else centre(layout)
         return [self.step(stride, middle) for stride in strides]
 
     def reset(self, site: Site) -> None:

@@ -198,7 +198,7 @@ class Modes(Track):
         """The cells of a foot: what they show of it, and whether they tell another mode."""
         foot, t, known_at, state = view.foot, view.t, view.known_at, self.signs.pressed(view.foot, cells)
         both_heard = OTHER[foot] in self.signs.shown
-        mode = self.recognition.pressed(foot, state, cells.values, view.layout, t, both_heard)
+        mode = self.recognition.pressed(foot, state, cells.values, cells.layout, t, both_heard)
         told: list[Event] = []
         if mode is not None:
             told.append(WalkingModeChanged(t=t, known_at=known_at, mode=mode, foot=foot))

@@ -108,7 +108,8 @@ class FootWindows:
         block.energy += x * x + y * y + z * z
         if gyro is not None:
             x, y, z = gyro
-            block.turning += min(FASTEST, x * x + y * y + z * z)
+            square = x * x + y * y + z * z
+            block.turning += square if square < FASTEST else FASTEST
             block.turns += 1
         return fresh
 
