@@ -133,10 +133,10 @@ def test_a_stride_waits_for_the_other_foots_samples_but_not_for_ever() -> None:
     gone(on, 4)
     on.told(L, 1.2, ToeOff(t=1.2, known_at=1.2, foot=L))
     on.told(L, 2.0, HeelStrike(t=2.0, known_at=2.0, foot=L))
-    assert not on.told(L, 2.1, FootFlat(t=2.1, known_at=2.1, foot=L)) and on.strides.waits
+    assert not on.told(L, 2.1, FootFlat(t=2.1, known_at=2.1, foot=L)) and not on.strides.idle
     assert not on.told(L, 2.4)
     (late,) = on.told(L, 2.5)
-    assert (late.t, late.known_at) == (2.0, 2.5) and not on.strides.waits
+    assert (late.t, late.known_at) == (2.0, 2.5) and on.strides.idle
 
 
 def test_a_clock_that_begins_anew_ends_the_cycle_under_way() -> None:
