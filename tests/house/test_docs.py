@@ -27,7 +27,9 @@ from solepath.cli.main import parser
 from solepath.emulate import Route, emulate
 from solepath.fleet import NumberedEvent, Sent, sent_line, told_row
 from solepath.foot.pressure.insole import InsoleLoads
+from solepath.foot.settings import CycleSettings
 from solepath.recipes import PARTS, part_class
+from solepath.saving import codec
 from solepath.show.output import STRIDE_COLUMNS, TRACK_COLUMNS
 from solepath.types import Foot, Site
 
@@ -151,11 +153,16 @@ def test_what_comes_out_of_a_wearer_of_a_fleet_is_counted():
     assert f" {len(events) / last:.0f} events/s, {rows / last / 1000:.0f} kB/s as rows" in PAGES["docs/fleet.md"]
 
 
-def test_annotations_tell_the_state_of_hot_code_from_its_settings(played):
+def test_a_plain_class_of_hot_code_is_saved_and_goes_on(played):
     _, names = played("docs/hot-code.md")
-    kinds = get_type_hints(names["Rest"], names)
-    assert list(kinds) == list(vars(names["Rest"](names["RestSettings"]())))
-    assert kinds.pop("settings") is names["RestSettings"] and kinds
+    kind = names["Rest"]
+    rest = kind(CycleSettings(share=0.4))
+    rest.began = 2.0
+    rest.span.add((0.0, 0.0, 9.8), (0.1, 0.0, 0.0))
+    again = codec.load(kind, codec.save(rest))
+    assert list(get_type_hints(kind, names)) == ["settings", "span", "began", "bias"]
+    for name in get_type_hints(kind, names):
+        assert getattr(again, name) == getattr(rest, name), name
 
 
 def test_the_loop_over_bluetooth_is_a_program(played):
