@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
+from hypothesis import settings
 
 from solepath import recipes
 
@@ -18,6 +19,10 @@ if TYPE_CHECKING:
     from browsers import Browser, Browsing
 
     from solepath.lab.evaluate.report import Result
+
+
+settings.register_profile("unhurried", deadline=None)  # how long a case takes is the machine's matter
+settings.load_profile("unhurried")
 
 
 @pytest.fixture(scope="session")

@@ -62,7 +62,7 @@ def walk() -> tuple[Sample, ...]:
 
 
 @given(st.lists(moments, max_size=60))
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 def test_whatever_the_samples_are_events_come_in_their_time_and_the_state_can_be_saved(told: list[tuple]) -> None:  # type: ignore[type-arg]
     wearing, t = Wearing(), 0.0
     for dt, foot, acc, gyro, pressure, again in told:
@@ -96,7 +96,7 @@ def test_a_clock_that_begins_anew_is_followed() -> None:
 
 
 @given(st.lists(st.floats(-5.0, 5.0), min_size=COUNT, max_size=COUNT))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_what_the_network_says_adds_up(features: list[float]) -> None:
     from math import exp, isclose
 
@@ -121,7 +121,7 @@ def test_a_model_goes_through_its_file_and_a_snapshot() -> None:
 
 
 @given(st.sampled_from([3.0, 5.6, 8.0]), st.floats(2.0, 10.0), st.sampled_from([4, 7, 11]))
-@settings(max_examples=5, deadline=None)
+@settings(max_examples=5)
 def test_at_the_end_nothing_is_left_open_and_what_is_final_is_likely(rate: float, amplitude: float, span: int) -> None:
     """One foot that moves and rests by turns, as no foot that was learnt from does."""
     session, events = Session(), list[Event]()

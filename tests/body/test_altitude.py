@@ -170,7 +170,7 @@ TOLD = st.tuples(
 
 
 @given(st.floats(-1e9, 1e9), st.lists(TOLD, max_size=40), st.integers(0, 40))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_what_the_filter_was_told_is_kept_to_a_hundredth_of_a_second_and_a_tenth_of_a_millimetre(
     start: float, told: list[Told], popped: int
 ) -> None:

@@ -171,7 +171,7 @@ PLACES = st.one_of(st.floats(-3.0, 3.0), st.sampled_from([1e30, -1e200, 1e308]))
 
 
 @given(st.lists(st.tuples(st.sampled_from(Foot), KINDS, TIMES, PLACES, st.booleans()), max_size=60))
-@settings(deadline=None, max_examples=60)
+@settings(max_examples=60)
 def test_whatever_the_feet_do_strides_are_sound_and_can_be_saved(
     does: list[tuple[Foot, type, float, float, bool]],
 ) -> None:

@@ -14,7 +14,7 @@ RATES = st.tuples(*[st.floats(-30.0, 30.0)] * 3)
 
 
 @given(st.floats(0.0, 1e6), st.lists(st.tuples(st.floats(0.015, HIDDEN), RATES), min_size=1, max_size=60))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_what_is_kept_of_the_turn_of_a_foot_is_its_integral(start: float, rates: list[tuple[float, Vec3]]) -> None:
     turned = RateIntegral()
     turned.begin(start)

@@ -253,7 +253,7 @@ def test_insoles_numbered_as_mirror_images_look_alike_when_exchanged_and_nothing
 
 
 @given(st.integers(0, 10_000))
-@settings(max_examples=5, deadline=None)
+@settings(max_examples=5)
 def test_a_session_saved_at_any_moment_goes_on_to_tell_the_same_and_to_the_same_place(cut: int) -> None:
     items = exchanged(without(LEFT, 6.0, 10.0))
     k = cut % len(items)

@@ -34,7 +34,7 @@ from solepath.emulate.routes.route import Route
 from solepath.events import LiveEvent
 from solepath.link.decoder import Decoder
 
-QUICK = settings(max_examples=2, deadline=None, phases=[Phase.generate])
+QUICK = settings(max_examples=2, phases=[Phase.generate])
 """A walk an example: few of them, and no shrinking."""
 
 

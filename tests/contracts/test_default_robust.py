@@ -127,7 +127,7 @@ def test_a_recorded_walk_of_a_clipping_gyroscope_comes_back_to_where_it_went(dat
 
 
 @given(begin=st.floats(4.0, 5.2))
-@settings(max_examples=4, deadline=None)
+@settings(max_examples=4)
 def test_a_foot_that_walks_from_the_first_sample_on_is_levelled_in_its_second_stance(begin: float) -> None:
     _, whole = tracked(walk())
     t = walk()[0].t + begin

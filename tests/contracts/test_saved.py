@@ -24,7 +24,7 @@ from solepath.saving.codec import checksum
 from solepath.session.state import VERSION
 
 SESSIONS = [name for name in NAMES if name.startswith("session")]
-QUICK = settings(max_examples=2, deadline=None, phases=[Phase.generate])
+QUICK = settings(max_examples=2, phases=[Phase.generate])
 """A walk an example: few of them, and no shrinking."""
 
 
@@ -181,7 +181,7 @@ _VALUES = st.one_of(
 
 @pytest.mark.parametrize("name", ["session, whole frames", "session, cc2650", "session, cc2541", "session, Graph"])
 @given(st.data(), _VALUES, st.sampled_from(["replace", "remove", "add"]))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_a_damaged_snapshot_is_refused_and_never_half_believed(
     name: str, data: st.DataObject, value: Any, how: str
 ) -> None:

@@ -52,7 +52,7 @@ def strict(events: list[Any]) -> None:
 
 @pytest.mark.parametrize("name", PACKET_NAMES)
 @given(st.data())
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=12)
 def test_any_bytes_anywhere_give_events_and_a_rejected_packet_changes_nothing(name: str, data: st.DataObject) -> None:
     machine = machines()[name]
     k, saved = data.draw(st.sampled_from(cuts(name)))
@@ -98,7 +98,7 @@ def certainly_bad(packet: Packet, kind: str, number: int, when: float) -> Packet
     return evolve(packet, channel=channel, data=data + bytes(number + 30))
 
 
-QUICK = settings(max_examples=2, deadline=None, phases=[Phase.generate])
+QUICK = settings(max_examples=2, phases=[Phase.generate])
 """A walk an example: few of them, and no shrinking."""
 SOME = {"min_size": 8, "max_size": 24}
 """The first example of hypothesis is the least: a walk with nothing between would be one for nothing."""
@@ -229,7 +229,7 @@ _SAMPLES = st.builds(
 
 @pytest.mark.parametrize("name", SAMPLE_NAMES)
 @given(st.sampled_from(range(CUTS)), st.lists(_SAMPLES, max_size=12))
-@settings(max_examples=15, deadline=None)
+@settings(max_examples=15)
 def test_any_samples_at_all_give_events(name: str, cut: int, fed: list[Sample]) -> None:
     machine = machines()[name]
     k, saved = cuts(name)[cut]

@@ -41,7 +41,7 @@ def all_steps(walker: Walker) -> list[tuple[float, Foot]]:
     return sorted((s.heel_strike, foot) for foot in Foot for s in walker.plan.strides[foot])
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(routes(), st.integers(0, 2**16))
 def test_feet_alternate_each_in_its_order_and_one_is_always_on_the_ground(route: Route, seed: int) -> None:
     walker = Walker(route, seed=seed)
@@ -54,7 +54,7 @@ def test_feet_alternate_each_in_its_order_and_one_is_always_on_the_ground(route:
         assert two.toe_off > one.heel_strike  # double support between them
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(routes(), st.integers(0, 2**16))
 def test_a_walk_ends_with_the_feet_together_at_the_end_of_the_route(route: Route, seed: int) -> None:
     steady = Wearer(width_variation=0.0, angle_variation=0.0)

@@ -36,7 +36,7 @@ def moved(car: CarRide, t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarr
     return position[:, 2], velocity[:, 2], acceleration[:, 2]
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(lifts)
 def test_whatever_its_limits_a_car_keeps_them_and_stops_at_its_floor(lift: Lift) -> None:
     car = ride(lift, 3.0, np.random.default_rng(1))
@@ -51,7 +51,7 @@ def test_whatever_its_limits_a_car_keeps_them_and_stops_at_its_floor(lift: Lift)
     assert np.all(np.sign(speed[np.abs(speed) > 1e-9]) == np.sign(lift.height))
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 @given(lifts)
 def test_the_acceleration_of_a_lift_integrates_to_its_height(lift: Lift) -> None:
     car = ride(lift, 0.0, np.random.default_rng(1))

@@ -4,7 +4,7 @@ from math import radians, sqrt
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath.emulate.routes.route import Route
@@ -190,7 +190,6 @@ values = st.floats(-10.0, 10.0)
 ends = st.tuples(values, values, values)
 
 
-@settings(deadline=None)
 @given(ends, ends, st.floats(0.05, 2.0))
 def test_a_join_has_the_value_velocity_and_acceleration_asked_for_at_both_ends(
     start: tuple[float, float, float], end: tuple[float, float, float], duration: float
@@ -201,7 +200,6 @@ def test_a_join_has_the_value_velocity_and_acceleration_asked_for_at_both_ends(
         assert found == pytest.approx(wanted, abs=1e-6, rel=1e-6)
 
 
-@settings(deadline=None)
 @given(st.lists(values, min_size=DEGREE + 1, max_size=DEGREE + 1), st.floats(0.0, 1.0), st.floats(0.0, 1.0))
 def test_a_part_of_a_curve_is_the_curve(factors: list[float], start: float, end: float) -> None:
     curve, s = np.array(factors), np.linspace(0.0, 1.0, 7)

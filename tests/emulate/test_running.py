@@ -90,7 +90,7 @@ def test_a_jogger_walks_runs_and_walks_without_a_halt(jogger: Walker) -> None:
     assert jogger.truth().pose(Foot.LEFT, jogger.duration).position[0, 0] == pytest.approx(40.0, abs=0.06)
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(st.floats(0.5, 20.0), st.floats(1.5, 4.5), st.booleans(), st.integers(0, 2**16))
 def test_whatever_is_run_the_events_of_a_foot_keep_their_order_and_it_ends_there(
     distance: float, speed: float, on: bool, seed: int

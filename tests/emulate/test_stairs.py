@@ -79,7 +79,7 @@ def test_a_foot_never_goes_into_a_tread_nor_through_an_edge(storey: Walker, foot
 flights = st.tuples(st.integers(1, 6), st.booleans(), st.floats(0.12, 0.2), st.floats(0.25, 0.36), st.floats(0.4, 0.7))
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(flights, st.sampled_from([Wearer(), *SUBJECTS]), st.integers(0, 2**16))
 def test_whoever_walks_whatever_flight_keeps_clear_of_its_edges_and_ends_level(
     flight: tuple[int, bool, float, float, float], wearer: Wearer, seed: int

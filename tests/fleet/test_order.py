@@ -53,7 +53,7 @@ def rows(count: int, ended: bool) -> list[Sent]:
     return [*ordered, Sent(WEARER, count, End())] if ended else ordered
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(
     late=st.lists(st.integers(0, 3), max_size=12),
     ended=st.booleans(),
@@ -81,7 +81,7 @@ ANY = st.one_of(
 )
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(arrived=st.lists(ANY, max_size=25), cuts=st.lists(st.integers(0, 25), max_size=6))
 def test_how_rows_are_cut_into_calls_changes_nothing_whatever_they_are(arrived: list[Sent], cuts: list[int]) -> None:
     state, told = stepped(NARROW, cut(arrived, cuts))
@@ -91,7 +91,7 @@ def test_how_rows_are_cut_into_calls_changes_nothing_whatever_they_are(arrived: 
     assert [one.number for one in told] == list(range(len(told)))
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(arrived=st.lists(st.builds(shown, st.integers(0, 40), st.integers(0, 3)), max_size=60))
 def test_no_row_is_used_twice_and_those_of_a_run_are_used_in_order(arrived: list[Sent]) -> None:
     keyed = NARROW.open(WEARER, None)
@@ -149,7 +149,7 @@ ROWS = st.builds(shown, st.integers(0, 9) | st.integers(0, MOST), st.integers(0,
 ENDS = st.builds(lambda number, of: Sent(WEARER, number, End(), of), st.integers(0, 9), st.integers(0, 3))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(before=st.lists(ROWS | ENDS, max_size=14), new=st.integers(0, 5) | st.integers(0, MOST))
 def test_whatever_came_before_a_new_run_is_heard_but_for_a_window_of_rows(before: list[Sent], new: int) -> None:
     before = [one for one in before if one.run != new]
@@ -158,7 +158,7 @@ def test_whatever_came_before_a_new_run_is_heard_but_for_a_window_of_rows(before
     assert len(heard) >= 17 and heard[-13:] == list(range(7, 20))
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(late=st.lists(st.integers(0, 3), min_size=20, max_size=20), change=st.integers(1, 15))
 def test_rows_that_the_next_run_overtakes_do_not_lead_back(late: list[int], change: int) -> None:
     ordered = [*run(0, change), *run(1, 20 - change)]

@@ -160,7 +160,7 @@ def test_a_part_that_cannot_be_written_is_named_and_leaves_nothing(tmp_path: Pat
 
 
 @given(st.lists(st.sampled_from(["write", "write many", "close", "count", "crash"]), max_size=15))
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=20)
 def test_however_often_it_crashes_each_event_is_there_once(steps: list[str]) -> None:
     """What the engine remembers is what a `close` gave, perhaps not the last: it was killed before it could."""
     all_told, at = told(60), 0

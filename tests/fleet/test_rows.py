@@ -71,7 +71,7 @@ def test_a_line_says_what_the_protocol_says(line: dict[str, Any]) -> None:
         assert (read.wearer, read.run, read.number) == (line["wearer"], line["run"], line["number"])
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(sent=SENT)
 def test_what_is_sent_is_read_again_from_its_row_and_from_its_line(sent: Sent) -> None:
     row = sent_row(sent)
@@ -80,13 +80,13 @@ def test_what_is_sent_is_read_again_from_its_row_and_from_its_line(sent: Sent) -
     assert all(value is None or type(value) is SENT_COLUMNS[name] for name, value in row.items())
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(row=st.one_of(ANYTHING, st.fixed_dictionaries({}, optional=dict.fromkeys(SENT_COLUMNS, ANYTHING))))
 def test_a_row_of_anything_is_read_or_is_unreadable(row: Any) -> None:
     assert isinstance(read_sent(row), Sent | Unreadable)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(sent=SENT, at=st.integers(0, 400), byte=st.integers(0, 255), end=st.integers(0, 400))
 def test_a_line_that_was_torn_or_damaged_is_read_or_is_unreadable(sent: Sent, at: int, byte: int, end: int) -> None:
     line = bytearray(sent_line(sent))

@@ -80,7 +80,7 @@ def test_every_version_up_to_the_newest_is_read_and_has_an_example() -> None:
     assert shown == set(READERS) == set(range(1, VERSION + 1))
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(state=st.one_of(st.binary(max_size=80), st.binary(max_size=60).map(lambda rest: halfway()[0][:41] + rest)))
 def test_any_bytes_give_a_fresh_start_and_never_an_exception(state: bytes) -> None:
     sent = [shown(HALF, 5), Unreadable(WEARER, "no row"), shown(HALF + 1, 5)]
@@ -91,7 +91,7 @@ def test_any_bytes_give_a_fresh_start_and_never_an_exception(state: bytes) -> No
     assert Fleet(window=0).step(WEARER, after, [shown(HALF + 2, 5)])[1][0].number == told[-1].number + 1
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(place=st.integers(0, 1 << 20), bit=st.integers(0, 7))
 def test_a_bit_that_fell_over_anywhere_is_noticed_and_no_identity_is_used_again(place: int, bit: int) -> None:
     state, before = halfway()

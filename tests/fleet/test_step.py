@@ -165,7 +165,7 @@ POISON = st.builds(
 )
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(poison=st.lists(POISON, max_size=40))
 def test_a_wearer_whose_bytes_are_anything_is_told_of_and_stays_small(poison: list[Sent]) -> None:
     state, told = FLEET.step(WEARER, None, poison)

@@ -63,7 +63,6 @@ def test_a_side_is_exact_for_all_finite_floats(p: tuple[float, ...]) -> None:
     assert side(*p) == (turn > 0) - (turn < 0)
 
 
-@settings(deadline=None)
 @given(walls_of, st.lists(lines, min_size=1, max_size=8))
 def test_a_move_crosses_when_it_touches_any_wall_exactly(walls: list[Line], moves: list[Line]) -> None:
     grid = Walls(walls)
@@ -141,7 +140,7 @@ def test_a_wall_across_the_largest_plan_is_in_the_cells_along_it_only() -> None:
     assert len(grid.near(0.0, 0.0, 5000.0, 5000.0, 13.0)) < 1300
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(walls_of, st.integers(64, 400))
 def test_outside_is_what_a_walk_over_the_lattice_reaches_without_touching_a_wall(walls: list[Line], most: int) -> None:
     level, solid = Level("0", "", 0, 0.0, tuple(Wall(start, end) for start, end in walls)), Walls(walls)

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 from floorplans import FILES, archive, plans
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath.floorplan.checks import warnings
@@ -232,7 +232,6 @@ def changed(draw: st.DrawFn, told: Any) -> Any:
     return whole["it"]
 
 
-@settings(deadline=None)
 @given(st.data(), st.sampled_from(["local", "wgs84", "level", "unit", "opening", "manifest"]))
 def test_the_house_with_anything_changed_is_a_plan_or_refused(data: st.DataObject, what: str) -> None:
     if what in ("local", "wgs84"):

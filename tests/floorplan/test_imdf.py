@@ -126,7 +126,7 @@ def test_a_unit_far_from_the_others_is_named() -> None:
         plan_of([unit("u", "room", [[[12.0, 48.15], [12.1, 48.15], [12.1, 48.2]]])])
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=25)
 @given(st.data())
 def test_the_order_and_the_sense_in_which_a_map_was_drawn_make_no_difference(data: st.DataObject) -> None:
     folder = sorted((FILES / "house-imdf").iterdir())

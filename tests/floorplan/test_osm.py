@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from xml.sax.saxutils import quoteattr
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath.floorplan.importers.earth import Tangent
@@ -207,7 +207,6 @@ grid = st.tuples(st.integers(0, 5), st.integers(0, 5)).map(lambda p: (float(p[0]
 members_of = st.lists(st.tuples(st.integers(1, 6), st.sampled_from(["outer", "inner", ""])), max_size=3)
 
 
-@settings(deadline=None)
 @given(st.lists(st.tuples(st.lists(grid, max_size=6), st.booleans(), tags), max_size=5),
        st.lists(st.tuples(grid, tags), max_size=4), st.lists(st.tuples(members_of, tags), max_size=2))  # fmt: skip
 def test_anything_drawn_with_any_tags_is_a_plan_or_refused(

@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 import pytest
 from commands import run
 from floorplans import FILES
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from recordings import recorded
 from walks import insoles
@@ -27,7 +27,6 @@ def named(level: str, lift: str) -> FloorPlan:
     return FloorPlan(level, (Level(level, lift, 0, 0.0, walls),), (one,))
 
 
-@settings(deadline=None)
 @given(any_text, any_text, any_text)
 def test_a_picture_is_xml_whatever_levels_lifts_and_recordings_are_called(level: str, lift: str, title: str) -> None:
     svg = ElementTree.tostring(PlanPicture(named(level, lift)).drawn(title), encoding="utf-8")

@@ -111,7 +111,7 @@ def test_a_plan_that_cannot_be_used_says_why_in_one_line(plan: FloorPlan, says: 
         IndexedPlan(plan)
 
 
-@settings(max_examples=12, deadline=None)
+@settings(max_examples=12)
 @given(plans())
 def test_plans_within_the_limits_can_be_used_and_remarked_upon(plan: FloorPlan) -> None:
     assert unusable(plan) is None

@@ -6,7 +6,7 @@ from math import atan2, pi, remainder
 from typing import Any
 
 from attrs import define
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from own import Quiet
 
@@ -35,7 +35,6 @@ SAMPLES = st.lists(st.tuples(WAITS, vectors(500.0), vectors(100.0)), min_size=1,
 ATTITUDES: st.SearchStrategy[Quat] = vectors(1.0).map(lambda v: normalise((1.0, *v)))
 
 
-@settings(deadline=None)
 @given(ATTITUDES, SAMPLES)
 def test_the_filter_integrates_as_the_strapdown_does(attitude: Quat, samples: list[tuple[float, Vec3, Vec3]]) -> None:
     filter_, plain = ErrorStateFilter(ErrorStateSettings(recover=False)), Strapdown()  # type: ignore[abstract]
@@ -48,7 +47,6 @@ def test_the_filter_integrates_as_the_strapdown_does(attitude: Quat, samples: li
             assert repr(getattr(filter_, name)) == repr(getattr(plain, name)), name
 
 
-@settings(deadline=None)
 @given(SAMPLES)
 def test_the_default_detector_sums_as_shoe_does(samples: list[tuple[float, Vec3, Vec3]]) -> None:
     cycle, shoe = Cycle(), ShoeDetector()
@@ -60,7 +58,6 @@ def test_the_default_detector_sums_as_shoe_does(samples: list[tuple[float, Vec3,
         assert cycle.shoe == shoe
 
 
-@settings(deadline=None)
 @given(SAMPLES)
 def test_rest_sums_as_a_span_of_samples_does(samples: list[tuple[float, Vec3, Vec3]]) -> None:
     rest, span = Rest(), SampleSpan()

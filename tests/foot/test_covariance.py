@@ -69,7 +69,7 @@ def test_the_velocity_update_is_the_kalman_update(seed: int) -> None:
 
 
 @given(st.integers(0, 2**32 - 1), st.floats(0.0, 1.0))
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 def test_a_height_known_from_elsewhere_leaves_a_covariance(seed: int, left: float) -> None:
     root = np.random.default_rng(seed).normal(size=(9, 9))
     p, d = root @ root.T, np.diag([1.0, 1.0, left**0.5, *[1.0] * 6])

@@ -121,7 +121,7 @@ def test_a_ladder_and_a_foot_that_is_put_up_keep_their_height() -> None:
     st.lists(st.tuples(*[st.floats(allow_nan=True, allow_infinity=True)] * 5), min_size=1, max_size=8),
     st.floats(-pi, pi),
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_whatever_is_judged_the_state_stays_finite(rows: list[tuple[float, ...]], tilt: float) -> None:
     level = LevelGround()
     for x, y, z, turn, variance in rows:

@@ -120,7 +120,7 @@ def turned(sample: Sample, mounting: tuple[float, float, float, float]) -> Sampl
 @example((0.0, 1.0, 0.0, 0.0))
 @example((0.0, 0.0, 1.0, 0.0))
 @example(normalise((1.0, 1.0, 0.0, 0.0)))
-@settings(max_examples=8, deadline=None)
+@settings(max_examples=8)
 def test_steps_are_the_same_however_the_sensor_is_turned(mounting: tuple[float, float, float, float]) -> None:
     plain = of(StrideTaken, told(fed()))
     other = of(StrideTaken, told(turned(sample, mounting) for sample in fed()))

@@ -152,7 +152,7 @@ def test_memory_does_not_grow() -> None:
     st.lists(st.tuples(st.integers(0, 200_000), st.floats(0.0, 30.0, allow_nan=False)), min_size=1, max_size=120),
     st.sampled_from([32768.0, 10.0, 1000.0]),
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_times_strictly_increase_whatever_arrives_when(moves: list[tuple[int, float]], rate: float) -> None:
     clock, ticks, arrival, newest = Clock(rate), 0, 0.0, -1.0
     for step, pause in moves:
@@ -250,7 +250,7 @@ def test_a_period_that_was_never_written_is_found(true: float, assumed: float) -
 
 
 @given(st.lists(st.floats(0.0, 20.0, allow_nan=False), max_size=150))
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_times_without_counters_strictly_increase(pauses: list[float]) -> None:
     stream, arrival, newest = periodic(0.1), 5.0, -1.0
     for pause in pauses:

@@ -113,7 +113,7 @@ _PACKETS = st.one_of(
 
 
 @given(st.lists(st.tuples(st.floats(-3.0, 60.0), _PACKETS), max_size=60), st.integers(0, 60))
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 def test_any_sequence_of_packets_keeps_order_and_survives_being_saved_at_any_cut(
     moves: list[tuple[float, tuple[str, bytes]]], cut: int
 ) -> None:

@@ -268,7 +268,7 @@ def test_a_limitation_is_said_once_and_a_wrong_range_is_suspected() -> None:
         st.tuples(st.sampled_from(["data", "more", "start"]), st.binary(max_size=14), st.floats(-1, 70)), max_size=30
     )
 )
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 def test_any_bytes_at_any_time_give_events_and_a_state_that_can_be_saved(name: str, sent: list[Any]) -> None:
     device, now, newest = toy(KIND[name]), 10.0, -inf
     for which, value, wait in sent:

@@ -108,7 +108,7 @@ def test_the_streams_never_dry_up_before_and_after_the_walk(device: Device, know
 
 
 @pytest.mark.parametrize(("device", "known"), DEVICES)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(st.lists(st.tuples(st.integers(0, 30), st.binary(max_size=4)), max_size=12))
 def test_whatever_is_written_is_obeyed_or_refused(
     device: Device, known: Profile, writes: list[tuple[int, bytes]]

@@ -108,7 +108,7 @@ def agree(events: list[Event], looks: list[int], scene: Scene | None = None) -> 
     return reader
 
 
-@settings(deadline=None, max_examples=8)
+@settings(max_examples=8)
 @given(st.data())
 def test_who_hears_what_changed_ends_with_what_who_comes_late_is_shown(data: st.DataObject) -> None:
     events = eventful()
@@ -116,7 +116,7 @@ def test_who_hears_what_changed_ends_with_what_who_comes_late_is_shown(data: st.
     agree(events, looks)
 
 
-@settings(deadline=None, max_examples=8)
+@settings(max_examples=8)
 @given(st.lists(st.integers(0, MOST_POINTS + 2 * RECENT), max_size=30))
 def test_a_long_track_is_thinned_alike_on_both_sides(looks: list[int]) -> None:
     agree(long_way(), looks)

@@ -18,7 +18,7 @@ from solepath.show.page.messages import CommandError, parse_command
 from solepath.show.page.server import offences
 
 
-@settings(deadline=None, max_examples=100)
+@settings(max_examples=100)
 @given(st.one_of(st.text(), st.dictionaries(
     st.sampled_from(["do", "value", "to"]),
     st.none() | st.booleans() | st.floats() | st.integers() | st.sampled_from(["play", "seek", "speed"]),
@@ -77,7 +77,7 @@ async def test_what_is_malformed_is_answered_with_a_close_and_one_line(
     assert [one.name for one in caplog.records] == [LOGGER]
 
 
-@settings(deadline=None, max_examples=12)
+@settings(max_examples=12)
 @given(st.lists(st.one_of(
     st.binary(max_size=200),
     st.builds(frame_of, st.integers(0, 15), st.binary(max_size=125)),

@@ -118,7 +118,7 @@ DOINGS = st.one_of(
 """A command, so many s on the wall, or a slice of so many items."""
 
 
-@settings(deadline=None, max_examples=10)
+@settings(max_examples=10)
 @given(doings=st.lists(DOINGS, max_size=8), end=TIMES)
 def test_what_is_shown_at_a_time_is_the_same_whatever_was_played_before(doings, end):
     one = player(spacing=0.7)  # a walk of four seconds has one moment otherwise
@@ -136,7 +136,7 @@ def test_what_is_shown_at_a_time_is_the_same_whatever_was_played_before(doings, 
     assert (shown(one), one.session.snapshot()) == straight(end)
 
 
-@settings(deadline=None, max_examples=5)
+@settings(max_examples=5)
 @given(doings=st.lists(DOINGS, max_size=6))
 def test_what_comes_of_a_recording_is_told_once_and_in_order_whatever_is_done_on_the_page(doings):
     told: list[tuple[Packet | Sample | None, list[Event]]] = []

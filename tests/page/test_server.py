@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 
 import pytest
 from aiohttp import WSCloseCode, WSMsgType
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from served import LOGGER, TOKEN, closed, handshake, raw, refused, reply, scene_of, sees, served
 from walks import insoles
@@ -214,7 +214,6 @@ async def test_a_name_that_somebody_else_could_point_here_is_no_host(host: str, 
         assert told.split(b" ")[1] == status
 
 
-@settings(deadline=None)
 @given(st.text())
 def test_any_host_is_told_or_refused(text: str) -> None:
     host = host_of(text)

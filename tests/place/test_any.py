@@ -82,7 +82,7 @@ STARTS = st.one_of(
 
 
 @pytest.mark.parametrize("method", METHODS)
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(start=STARTS, tellings=TELLINGS)
 def test_no_events_and_no_track_whatever_make_it_raise_and_what_it_tells_is_sound(method, start, tellings) -> None:  # type: ignore[no-untyped-def]
     part = method(ReadingsSettings(most=60))

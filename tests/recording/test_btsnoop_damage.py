@@ -50,7 +50,7 @@ def test_records_that_the_logger_cut_short_or_dropped_are_counted(tmp_path):
 
 
 @given(cut=st.integers(min_value=1, max_value=10_000))
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 def test_a_torn_tail_costs_one_record_and_is_reported(tmp_path_factory, cut):
     log = begin(Log())
     for frame in frames()[:20]:
@@ -127,7 +127,7 @@ SIZES = st.sampled_from([b"", b"\x00", b"\x01", b"\x02", b"\x07", b"\x15", b"\x1
 PDUS = st.builds(lambda *parts: b"".join(parts), OPCODES, SIZES, SIZES, st.binary(max_size=30)) | st.binary(max_size=30)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(
     changes=st.lists(st.tuples(st.integers(0, 10**6), st.integers(1, 255)), max_size=12),
     records=st.lists(

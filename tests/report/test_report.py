@@ -272,7 +272,7 @@ def test_on_a_floor_plan_the_track_is_drawn_on_it() -> None:
     assert "Levels where the wearer was not are left out." in page.text
 
 
-@settings(max_examples=40, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=40, suppress_health_check=list(HealthCheck))
 @given(events=st.lists(happenings.events(), max_size=10), seed=st.integers(0, 999), count=st.integers(0, 60))
 def test_any_events_in_any_order_make_a_page_without_a_number_that_is_none(
     events: list[Event], seed: int, count: int

@@ -19,7 +19,7 @@ from solepath.saving.schema import record_of
 from solepath.saving.streams import from_bytes, to_bytes
 from solepath.session.packed import HEADER
 
-FEW = settings(max_examples=40, deadline=None)
+FEW = settings(max_examples=40)
 
 
 @cache
@@ -74,7 +74,7 @@ def test_every_flipped_bit_is_noticed(data: st.DataObject) -> None:
 
 
 @given(st.data(), st.integers(1, 40), st.sampled_from(["flip", "cut", "insert", "zero", "fill"]))
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 def test_damage_behind_a_right_checksum_never_does_worse_than_be_refused(
     data: st.DataObject, length: int, how: str
 ) -> None:
@@ -163,7 +163,7 @@ _FLOATS = st.one_of(
 )
 @example([1.5, 1.5, 0.1, 0.1, 0.1, -0.0, 0.1], [-(2**63), 2**63, 2**53, -(2**53)], [], [], (0.0, 0.0))
 @example([], [2**53 - 1, 2**53 + 1, -(2**53) - 1], [], [], (0.0, 0.0))
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 def test_every_number_comes_back_to_the_bit(
     floats: list[float], ints: list[int], flags: list[bool], data: list[bytes], units: tuple[float, float]
 ) -> None:

@@ -17,9 +17,6 @@ from solepath.wire import cells, fragment, insole, insole_control, insole_info, 
 from solepath.wire.envelope import MAGIC
 from solepath.wire.error import WireError
 
-UNHURRIED = settings(deadline=None)
-"""A busy machine is no reason to fail."""
-
 CODECS = {name: (one.parse, one.build) for name, one in FORMATS.items()}
 
 
@@ -59,21 +56,19 @@ def read(name: str, data: bytes) -> None:
 
 
 @pytest.mark.parametrize("name", CODECS)
-@UNHURRIED
 @given(data=st.binary(max_size=600))
 def test_any_bytes_are_a_record_or_a_wire_error(name: str, data: bytes) -> None:
     read(name, data)
 
 
 @pytest.mark.parametrize("name", CODECS)
-@settings(UNHURRIED, max_examples=40)
+@settings(max_examples=40)
 @given(data=st.data())
 def test_any_damaged_packet_is_a_record_or_a_wire_error(name: str, data: st.DataObject) -> None:
     read(name, data.draw(damaged(SEEDS[name], resealed=False)))
 
 
 @pytest.mark.parametrize("name", ["insole-frame", "insole-info"])
-@UNHURRIED
 @given(data=st.data())
 def test_damage_under_a_right_crc_is_a_record_or_a_wire_error(name: str, data: st.DataObject) -> None:
     read(name, data.draw(damaged(SEEDS[name], resealed=True)))
@@ -129,7 +124,6 @@ def frames(draw: st.DrawFn) -> insole.InsoleFrame:
     )
 
 
-@UNHURRIED
 @given(frames(), st.integers(2, 600), st.integers(0, 6))
 def test_every_frame_that_is_cut_can_be_joined(frame: insole.InsoleFrame, payload: int, frame_id: int) -> None:
     data = insole.build_frame(frame)
@@ -145,7 +139,6 @@ def test_every_frame_that_is_cut_can_be_joined(frame: insole.InsoleFrame, payloa
     assert insole.parse_frame(data) == frame
 
 
-@UNHURRIED
 @given(frames(), st.integers(0, 10_000), st.integers(1, 255))
 def test_no_frame_survives_a_changed_byte(frame: insole.InsoleFrame, position: int, change: int) -> None:
     data = bytearray(insole.build_frame(frame))
@@ -154,7 +147,6 @@ def test_no_frame_survives_a_changed_byte(frame: insole.InsoleFrame, position: i
         insole.parse_frame(bytes(data))
 
 
-@UNHURRIED
 @given(frames(), st.integers(0, 10_000))
 def test_no_frame_is_read_from_a_part_of_it(frame: insole.InsoleFrame, length: int) -> None:
     data = insole.build_frame(frame)
@@ -208,7 +200,6 @@ RECORDS = {
 
 
 @pytest.mark.parametrize("name", RECORDS)
-@UNHURRIED
 @given(data=st.data())
 def test_every_record_is_read_as_it_was_written(name: str, data: st.DataObject) -> None:
     parse, build = CODECS[name]
@@ -216,7 +207,6 @@ def test_every_record_is_read_as_it_was_written(name: str, data: st.DataObject) 
     assert parse(build(record)) == record
 
 
-@UNHURRIED
 @given(st.lists(st.integers(0, 4095), max_size=260))
 def test_twelve_bit_values_are_unpacked_as_they_were_packed(values: list[int]) -> None:
     packed = cells.pack12(values)
@@ -224,7 +214,6 @@ def test_twelve_bit_values_are_unpacked_as_they_were_packed(values: list[int]) -
     assert cells.unpack12(packed, len(values)) == tuple(values)
 
 
-@UNHURRIED
 @given(st.lists(st.integers(0, 4095), min_size=1, max_size=130), st.data())
 def test_each_cell_lies_where_its_number_says(values: list[int], data: st.DataObject) -> None:
     number = data.draw(st.integers(0, len(values) - 1))

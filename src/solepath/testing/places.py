@@ -170,6 +170,7 @@ class AtWearer(OnAWalk):
     @part.setter
     def part(self, part: Any) -> None:
         self.wearer.parts[-1] = part
+        self.wearer.walks_on(None)
 
     def restart(self) -> None:
         for foot in self.wearer.feet:

@@ -59,7 +59,7 @@ def test_a_foot_that_lies_still_or_only_trembles_has_no_critical_times() -> None
     assert critical_times([]) is None
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(st.lists(st.tuples(*[st.floats(-600.0, 600.0)] * 3), max_size=30))
 def test_whatever_a_foot_does_its_critical_times_follow_each_other(values: list[tuple[float, float, float]]) -> None:
     drawn = [(0.02 * k, x, a, -G, g, 0.0, x) for k, (x, a, g) in enumerate(values)]
@@ -213,7 +213,7 @@ def test_every_stride_is_a_segment_at_any_rate(rate: float) -> None:
         assert one.rest == pytest.approx(1.0 + k, abs=0.08)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(
     st.lists(
         st.tuples(

@@ -271,7 +271,7 @@ def numbers(value: Any) -> list[float]:
 
 
 @given(st.lists(st.tuples(STEPS, st.one_of(st.none(), st.just(CENTRE))), max_size=30))
-@settings(deadline=None, max_examples=150)
+@settings(max_examples=150)
 def test_any_sequence_of_steps_gives_numbers_and_shares_between_zero_and_one(
     steps: list[tuple[StrideTaken, float | None]],
 ) -> None:

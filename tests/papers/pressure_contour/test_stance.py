@@ -8,7 +8,7 @@ from math import radians
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from walks import of, said
 
@@ -104,7 +104,6 @@ def test_a_motion_without_any_rest_ends_at_its_quietest_moment(slowest: float) -
 
 
 @given(st.lists(st.integers(0, 400), min_size=20, max_size=60))
-@settings(deadline=None)
 def test_no_motion_of_any_kind_lasts_longer_than_some_seconds(values: list[int]) -> None:
     cycle = [0.1 * value for value in values + values[::-1]]
     repeated = (cycle * (1000 // len(cycle) + 1))[:1000]

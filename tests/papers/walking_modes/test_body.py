@@ -160,7 +160,7 @@ SITES = st.sampled_from(list(Site))
 NUMBERS = st.floats() | st.sampled_from((0.0, 1.0, -9.8, 1e300))
 
 
-@settings(max_examples=30, deadline=None)
+@settings(max_examples=30)
 @given(
     st.lists(
         st.tuples(
