@@ -90,8 +90,8 @@ class Part(Protocol):
     feeds: ClassVar[bool] = False
     """It needs samples: `feed` is called."""
     idle: bool = False
-    """For the moment it needs no samples of which nothing came, but for those with air pressure. True for good, or a
-    field that changes with events only."""
+    """For the moment `feed` would do nothing with a sample of which nothing came and that has no air pressure, so it is
+    not called with it. True for good, or a field that changes in `receive`, in `reset` and in `feed`."""
     sites: ClassVar[tuple[Site, ...]] = ()
     """Sites above the ankle whose samples it needs: `feed_limb` is called."""
     follows: ClassVar[bool] = False

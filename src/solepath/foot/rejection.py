@@ -19,6 +19,7 @@ ABSURD_TIME = 1e11
 """s; a time beyond this (or before minus this) is no time."""
 
 LEAST_TOTAL, LEAST_TIME = -ABSURD_TOTAL, -ABSURD_TIME
+"""The other ends of these."""
 SURE_ACC, SURE_GYRO = ABSURD_ACC**2, ABSURD_GYRO**2
 """A vector whose square is less is sound, (m/s^2)^2 and (rad/s)^2: each axis is less then."""
 

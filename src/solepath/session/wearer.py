@@ -100,7 +100,8 @@ class WearerParts:
             tracker.seen_at = t
         if not events:  # so it is with nearly all samples
             view = tracker.view(sample, known_at, (), False, None)
-            for part in self.sampled if sample.air_pressure is None else self.parts:
+            air = sample.air_pressure is not None
+            for part in [part for part in self.parts if part.feeds] if air else self.sampled:
                 if said := part.feed(view):
                     self._take(said, events)
                     self._flow(events, view, known_at, 1 + next(k for k, one in enumerate(self.parts) if one is part))
@@ -142,6 +143,7 @@ class WearerParts:
         self.unsettled[site] = until
         for part in self.parts:
             part.receive(ClockUnsettled(site, until))
+        self._choose()
 
     def reset(self, site: Site) -> None:
         """Another device is worn there from now on."""
@@ -219,6 +221,7 @@ class WearerParts:
     def _reset_parts(self, site: Site) -> None:
         for part in self.parts:
             part.reset(site)
+        self._choose()
 
     @property
     def position(self) -> Position | None:

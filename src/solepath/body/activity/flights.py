@@ -29,7 +29,7 @@ from .steepness import LEAST_RISE, of_stairs
 LEAST_HEIGHT = 0.4
 """m: less than three risers."""
 PATIENCE = 3.0
-"""s."""
+"""A flight without another step up or down for so long is over, s."""
 EVEN = 0.08
 """Feet whose heights differ by less stand on one level, m."""
 HEARD_WITHIN = 4.0

@@ -110,6 +110,7 @@ class Turns(Part):
         """The clock of a site's samples restarts."""
         if site.foot is not None:
             self.direction.interrupt(site.foot)
+            self.idle = True
             self.lain.pop(site.foot, None)
 
 

@@ -73,7 +73,8 @@ class Wear(Part):
             if not self.swapped:
                 side = self.sides.left if is_left else self.sides.right
                 kept = side.turned.t
-                if kept is None or not 0.0 <= t - kept < RARELY:  # else it would do nothing
+                # with a rate so soon after another it would do nothing
+                if kept is None or not 0.0 <= t - kept < RARELY or view.sample.gyro is None:
                     self.sides.keep(side, view)
             return ()
         found: list[Said] = []

@@ -50,6 +50,7 @@ LONGEST = 1.5
 FASTEST = 4.0
 """No foot is faster than this on the mean of a stride, m/s."""
 UP = (0.0, 0.0, 1.0)
+"""Unit vector, navigation frame."""
 
 
 class Leap(NamedTuple):

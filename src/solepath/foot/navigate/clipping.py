@@ -33,9 +33,8 @@ FLAT = 0.25
 """s, as in m."""
 BULGE = 3.0
 """An end of a range is believed when a smooth maximum would rise by so many times what readings there differ by."""
-SPREAD = 1.0
-"""What m is wrong by, as a share of it; and as a share of what was seen meanwhile:"""
-FLOOR = 0.05
+SPREAD, FLOOR = 1.0, 0.05
+"""What m is wrong by, as a share of it, and as a share of what was seen meanwhile."""
 MOST = 1.0
 """No end of a range hides more, rad."""
 LONGEST = 0.5

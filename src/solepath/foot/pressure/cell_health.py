@@ -24,14 +24,12 @@ from .cells import CellSpan
 
 RARELY = 0.0795
 """Cells are looked at this often, s: a load under the toes lasts about 0.15 s."""
-FAST = 3.0
-"""A foot that turns faster than this walks, rad/s."""
-ONE_SWING = 0.7
-"""for this long at least it is the same swing, s."""
+FAST, ONE_SWING = 3.0, 0.7
+"""A foot that turns faster than this, rad/s, walks, and for so long, s, it is in the same swing."""
 SHORTEST, LONGEST = 3.0, 30.0
 """A window lasts this long, s."""
 SWINGS, PATIENCE = 4, 1.0
-"""Swings in a window, and for how long a cell, s, may show no number before it counts as missing."""
+"""So many swings end a window. A cell that shows no number for so long, s, is missing."""
 
 
 @define

@@ -20,7 +20,7 @@ from typing import Final
 from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import GRAVITY, IDENTITY, TIE, ZERO
-from ..settings import CycleSettings, StanceThreshold
+from ..settings import CycleSettings
 from .sensor_height import EMPTY, Lever
 from .shoe import SIGMA_ACC, SIGMA_GYRO, ShoeDetector
 from .stance import Detector, Load, Stance
@@ -28,7 +28,8 @@ from .stance import Detector, Load, Stance
 ACC_SQUARE = SIGMA_ACC**2
 GYRO_SQUARE = SIGMA_GYRO**2
 TWO_G = 2.0 * GRAVITY
-SHOE_WINDOW = StanceThreshold().window
+SHOE_WINDOW = 0.025
+"""How far back the statistic looks, s."""
 
 SWING: Final = Phase.SWING
 STATIONARY: Final = Phase.STATIONARY

@@ -43,12 +43,14 @@ STEP_ERROR, TURN_ERROR = 0.1, 0.05
 
 @frozen
 class ProjectionSettings:
-    """What `Projection` is set to. `toe_out`: phi of this foot, rad, outwards positive; `outwards`: 1 for a left foot,
-    -1 for a right one; phi of (1) is their product. `printed`: the equations as they are printed."""
+    """What `Projection` is set to; phi of (1) is the product of the first two."""
 
     toe_out: float = 0.0
+    """phi of this foot, rad, outwards positive."""
     outwards: float = 1.0
+    """1 for a left foot, -1 for a right one."""
     printed: bool = False
+    """The equations as they are printed."""
 
 
 @define

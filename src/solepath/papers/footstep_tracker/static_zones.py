@@ -83,15 +83,21 @@ class StaticRun:
 
 @frozen
 class StaticZonesSettings:
-    """What `StaticZones` is set to. `within`, `loosely`: of rest, on every axis, m/s^2. `length`, `brief`: s. `calm`:
-    rad/s an axis, what a foot that rolls on without a rest does not fall below for 0.1 s, and no swing does."""
+    """What `StaticZones` is set to."""
 
     within: float = 0.5
+    """Samples of a zone differ by no more on any axis, m/s^2,"""
     length: float = 0.25
+    """and last so long, s."""
     loosely: float = 1.0
+    """Or by no more than this, m/s^2, of a foot that hardly turns,"""
     brief: float = 0.075
+    """and last so long, s."""
     calm: float = 1.4
+    """Which is an axis' rate, rad/s, that a foot which rolls on without a rest does not fall below for 0.1 s, nor any
+    swing."""
     sigma: float = 0.01
+    """Noise of the zero velocity in a zone, m/s."""
 
 
 @define

@@ -52,7 +52,8 @@ LEAST_WAY = 1e-6
 LEAST_SPREAD = 1e-12
 """A path of the centre of pressure that varies less is constant but for rounding, m^2."""
 PATIENCE, ALIKE, AWAY = 1.0, 0.75, 3
-"""s, a share and steps: see above."""
+"""A step of the other foot that ended longer ago than this, s, is not used; of two steps of which one is shorter than
+this share of the other r is 0; a foot that took no step during so many of the other's is not chosen."""
 ABNORMAL = 1.0
 """m/s: about as much as the error indices of normal steps on recorded insoles."""
 

@@ -35,9 +35,10 @@ foot from standing."""
 FASTEST = 15.0
 """No foot is faster, m/s."""
 HIGHEST = 0.12
-"""m."""
+"""A step that comes down so much or more above or below where it stood is no level one, m."""
 DOUBTFUL, LATE = 0.04, 0.9
-"""m/s; of a foot that has moved for `LATE` s without a stance twice as much."""
+"""A stance whose evidence has a larger sigma than the first, m/s, is doubtful; of a foot that has moved for so many s
+without a stance, twice as large."""
 SLOW, DRIFTING, STRICT = 0.5, 1.0, 0.5
 """How fast a standing foot may seem, m/s, and how much more with each second since it last stood, m/s^2: a tilt that is
 off by 6 degrees makes as much. The share of that which doubtful evidence is believed up to."""
@@ -45,14 +46,15 @@ off by 6 degrees makes as much. The share of that which doubtful evidence is bel
 
 @frozen
 class ShoeSensingSettings(DedriftSettings):
-    """What `ShoeSensing` is set to. `kp`: 1/s; the paper has no figure. `eliminate`: take the height error of level
-    steps out."""
+    """What `ShoeSensing` is set to."""
 
     kp: float = 1.0
+    """How fast stance pulls the tilt upright, 1/s; the paper has no figure."""
     heed: float = 0.4
     """How much of the tilt that would explain the velocity left at the end of a motion is believed: joggers stand too
     shortly for the feedback. Not in the paper; 0 leaves it out."""
     eliminate: bool = True
+    """Take the height error of level steps out."""
     behind: float = 0.15
     """How late the detector may be, s: the window of `ShortTimeEnergy`. A stance that has ended may have done so that
     long ago, so what the samples since then gained counts as motion."""

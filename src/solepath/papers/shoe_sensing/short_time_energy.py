@@ -22,13 +22,16 @@ LONGEST = 0.1
 
 @frozen
 class EnergySettings:
-    """What `ShortTimeEnergy` is set to. `threshold`: E_T, g^2, summed over samples at 100 Hz. `window`: N of the
-    paper's samples, s. `shortest`: s. `sigma`: m/s."""
+    """What `ShortTimeEnergy` is set to."""
 
     threshold: float = 0.05
+    """E_T, g^2, summed over samples at 100 Hz."""
     window: float = 0.15
+    """N of the paper's samples, s."""
     shortest: float = 0.025
+    """A shorter stance is none, s."""
     sigma: float = 0.01
+    """Noise of the zero velocity of a stance, m/s."""
 
 
 @define

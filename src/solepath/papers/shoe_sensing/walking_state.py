@@ -19,7 +19,8 @@ from ...types.vector import TIE
 STANDS = 1.2
 """Longer than a foot of a slow walker stands, s."""
 LOST, SILENT = 5.0, 10.0
-"""s."""
+"""A wearer who moves without a step for so long is UNKNOWN, and feet whose times are further apart than that are not
+compared until one has said nothing for so long, s."""
 _OF_STEP = {0: Activity.WALKING, 1: Activity.STAIRS_UP, -1: Activity.STAIRS_DOWN}
 
 

@@ -11,16 +11,18 @@ from .mode import TH
 
 @frozen
 class ModesSettings:
-    """What `Modes` is set to, and all that it is made of. `compensation`: epsilon_P, None for methods I to III.
-    `weight`: of the wearer, N; None: it is learnt as the mean of what both feet bear. `th`: see mode.py."""
+    """What `Modes` is set to, and all that it is made of."""
 
     compensation: Compensation | None = None
+    """epsilon_P; None for methods I to III."""
     limbs: Limbs = Limbs()
     weight: float | None = None
+    """Of the wearer, N; None: it is learnt as the mean of what both feet bear."""
     heading: float | None = None
     """Where the wearer looks in the N-pose, in the world that the devices share, rad, if it is known beforehand, as on
     a floor that was surveyed; None: where the first step goes."""
     th: float = TH
+    """TH of mode.py."""
 
     @property
     def apart(self) -> float:

@@ -77,7 +77,6 @@ class Report:
     when: str = ""
     version: str = field(factory=_installed)
     observer: Observer = field(factory=Observer)
-    # state
     soles: dict[Foot, ReportSole] = field(factory=dict, init=False)
     strides: dict[Foot, Thinned[GaitCycleMeasured]] = field(factory=_of_both, init=False)
     prints: dict[Foot, Thinned[StrideTaken]] = field(factory=_of_both, init=False)

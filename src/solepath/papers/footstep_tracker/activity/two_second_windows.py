@@ -103,9 +103,10 @@ class LiftPulses:
 
 @frozen
 class TwoSecondSettings:
-    """What `TwoSecondWindows` is set to. `model`: what it was taught; None is what comes with this release."""
+    """What `TwoSecondWindows` is set to."""
 
     model: WindowModel | None = None
+    """What it was taught; None is what comes with this release."""
 
 
 @define

@@ -28,7 +28,6 @@ class FootScene:
     positions between two steps may still drift."""
 
     foot: Foot
-    # state
     heard: bool = field(default=False, init=False)
     phase: Phase | None = field(default=None, init=False)
     phases: Recent[tuple[float, str | None]] = field(factory=lambda: Recent(MOST_PHASES), init=False)

@@ -73,7 +73,6 @@ class Scene:
     playback: Playback | None = None
     newtons: tuple[Foot, ...] = ()
     observer: Observer = field(factory=Observer)
-    # state
     feet: dict[Foot, FootScene] = field(factory=lambda: {foot: FootScene(foot) for foot in Foot}, init=False)
     whereabouts: Whereabouts = field(factory=Whereabouts, init=False)
     measured: SceneMeasures = field(factory=SceneMeasures, init=False)

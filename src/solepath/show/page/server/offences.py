@@ -18,7 +18,6 @@ class Offences:
     """`tell` writes a line, or counts it where there were too many of late; the next line says how many."""
 
     logger: Logger
-    # state
     _left: float = field(default=float(AT_ONCE), init=False)
     _at: float = field(factory=monotonic, init=False)
     _unsaid: int = field(default=0, init=False)

@@ -1,0 +1,99 @@
+"""Which samples reach a part: those that it asks for."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import ClassVar
+
+import pytest
+from attrs import define, evolve, field
+
+from solepath import Foot, Sample, Session, Site, recipes
+from solepath.body.part import ClockUnsettled, Notice, Part, Said
+from solepath.body.worn.wear import Wear
+from solepath.emulate import Route, Walker
+from solepath.foot.view import FootView
+
+Wakener = Callable[[Session], None]
+WALKED = [*Walker(Route().stand(2.0).walk(6.0, 1.3).stop(1.0)).samples(Foot.LEFT, 100.0)]
+
+
+@define
+class Wakes(Part):
+    """Has nothing to do until a clock is unsettled, or restarts; then it counts samples of which nothing came."""
+
+    feeds: ClassVar[bool] = True
+    idle: bool = field(default=True, init=False)
+    quiet: int = field(default=0, init=False)
+
+    def receive(self, event: Notice) -> Sequence[Said]:
+        if isinstance(event, ClockUnsettled):
+            self.idle = False
+        return ()
+
+    def feed(self, view: FootView) -> Sequence[Said]:
+        if not self.idle:
+            self.quiet += not view.events
+        return ()
+
+    def reset(self, site: Site) -> None:
+        self.idle = False
+
+
+@define
+class Deaf(Part):
+    """Declares no need of samples."""
+
+    fed: int = field(default=0, init=False)
+
+    def feed(self, view: FootView) -> Sequence[Said]:
+        self.fed += 1
+        return ()
+
+
+def with_part(part: Part) -> Session:
+    return Session(evolve(recipes.DEFAULT, name="mine", parts=(*recipes.DEFAULT.parts, part)))
+
+
+def last(session: Session) -> Part:
+    return session._state.wearer.parts[-1]
+
+
+def unsettled(session: Session) -> None:
+    session._state.wearer.unsettle(Site.LEFT_FOOT, 3.0)
+
+
+def bound(session: Session) -> None:
+    session.bind(Site.LEFT_FOOT, "another")
+
+
+@pytest.mark.parametrize("wakes", [unsettled, bound])
+def test_a_part_that_is_idle_no_longer_is_fed_from_then_on_in_a_restored_session_too(wakes: Wakener) -> None:
+    session = with_part(Wakes())
+    session.feed(WALKED[:400])
+    assert last(session) == Wakes()
+    wakes(session)
+    again = Session.restore(session.snapshot(), parts=[Wakes])
+    for one in (session, again):
+        one.feed(WALKED[400:600])
+    assert last(session) == last(again) != Wakes()
+    assert last(session).quiet > 150
+
+
+def test_a_part_that_declares_no_need_of_samples_gets_none_of_a_barometer_either() -> None:
+    session = with_part(Deaf())
+    session.feed([evolve(sample, air_pressure=101325.0) for sample in WALKED])
+    assert last(session) == Deaf()
+
+
+def test_where_the_load_is_of_a_foot_without_accelerometer_is_looked_at_beside_its_rates() -> None:
+    """Cells and rates come as samples of their own."""
+    session = Session()
+    sides = next(part.sides for part in session._state.wearer.parts if isinstance(part, Wear))
+    looked = set()
+    for k in range(400):
+        t = 0.01 * k
+        session.feed(Sample(t=t, site=Site.LEFT_FOOT, gyro=(0.0, 0.1, 0.0)))
+        session.feed(Sample(t=t + 0.005, site=Site.LEFT_FOOT, pressure=(float(k % 50),) * 8))
+        looked.add(sides.left.seen_at)
+    assert len(looked) >= 60, "twenty times a second"
