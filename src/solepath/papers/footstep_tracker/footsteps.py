@@ -64,6 +64,8 @@ class Footsteps(Track):
     ways: dict[Foot, FootWay] = field(init=False)
     base: Flat = field(default=(0.0, 0.0), init=False)
     """Where the wearer was at the last restart."""
+    idle: bool = field(default=False, init=False)
+    """Both feet were heard."""
     restarts: int = field(default=0, init=False)
     """How often the feet were a metre apart."""
 
@@ -74,6 +76,7 @@ class Footsteps(Track):
         way = self.ways[view.foot]
         if not way.heard and view.sample.acc is not None and view.sample.gyro is not None:
             way.heard = True
+            self.idle = all([one.heard for one in self.ways.values()])
         return ()
 
     def receive(self, event: Notice) -> Sequence[Said]:

@@ -103,6 +103,7 @@ class DoubleFoot(Track):
     """
 
     feeds: ClassVar[bool] = True
+    idle = True
 
     paths: dict[Foot, CalibratedPath] = field(init=False)
     weighted: float = field(default=0.0, init=False)

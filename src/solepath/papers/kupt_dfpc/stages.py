@@ -6,12 +6,11 @@ flat, and a foot that was in the air for no more than a moment had not left the 
 
 from __future__ import annotations
 
-from enum import Enum
-
 from ...foot.phase import Cue, in_columns
+from ...types import Word
 
 
-class StepStage(Enum):
+class StepStage(Word):
     """How far a step is, as far as the cells tell."""
 
     STANDING = "standing"  # stationary
@@ -20,7 +19,7 @@ class StepStage(Enum):
     LANDING = "landing"  # on the ground again after a normal swing
 
 
-class CellCue(Enum):
+class CellCue(Word):
     """What the cells show."""
 
     STANDS = "stands"  # it lies still on the ground
