@@ -3,8 +3,6 @@ chooses is a constant beside what it is for."""
 
 from __future__ import annotations
 
-from functools import cached_property
-
 from ..calibration import Newtons
 from ..types.attrs import frozen
 
@@ -94,13 +92,6 @@ class ErrorStateSettings:
     """How fast gravity pulls the tilt upright while the evidence is certain, 1/s."""
     level: bool = True
     """Keep level walking level (level.py)."""
-
-    @cached_property
-    def squares(self) -> tuple[float, float, float, float, float]:
-        """Of `acc_noise`, `gyro_noise`, `in_motion`, `between` and `suspect`."""
-        noises = (self.acc_noise, self.gyro_noise, self.in_motion, self.between, self.suspect)
-        acc, gyro, share, between, suspect = [one * one for one in noises]
-        return acc, gyro, share, between, suspect
 
 
 @frozen

@@ -151,13 +151,14 @@ class ErrorStateFilter(Carried):
         # noise: the sensor's own, a share of the motion, and of what neighbouring samples differ by
         rx, ry, rz = gx - rx, gy - ry, gz - rz
         settings = self.settings
-        acc_noise, gyro_noise, share, unknown, suspect = settings.squares
-        unknown *= dt
+        share, unknown = settings.in_motion * settings.in_motion, settings.between * settings.between * dt
         self.acc_variance += (
-            acc_noise + share * (ax * ax + ay * ay + az * az) + unknown * (x * x + y * y + z * z)
+            settings.acc_noise * settings.acc_noise
+            + share * (ax * ax + ay * ay + az * az)
+            + unknown * (x * x + y * y + z * z)
         ) * dt
-        noise = gyro_noise + share * turning + unknown * (rx * rx + ry * ry + rz * rz)
-        if turning > suspect and not (turns.busy and settings.recover):
+        noise = settings.gyro_noise * settings.gyro_noise + share * turning + unknown * (rx * rx + ry * ry + rz * rz)
+        if turning > settings.suspect * settings.suspect and not (turns.busy and settings.recover):
             noise += settings.suspect_noise * settings.suspect_noise
         self.gyro_variance += noise * dt
         self.since += dt
