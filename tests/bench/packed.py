@@ -112,9 +112,6 @@ def show(name: str, moments: list[Any], load: Callable[[Any], Session], save: Ca
     print(f"{name:34}  " + "  ".join(cells), flush=True)
 
 
-# --- where the bytes are ----------------------------------------------------------------------------------------------
-
-
 class Account:
     """Bytes by field."""
 

@@ -47,9 +47,6 @@ SETTLED = 1.0
 """Minutes after which the page's memory is taken first."""
 
 
-# --- the process that is measured -------------------------------------------------------------------------------------
-
-
 async def serve(way: str, seconds: float) -> None:
     """Prints the page's address, waits for a line, feeds the session, prints the processor time in s."""
     packets = [packet for packet in walked(squares(int(seconds / ROUND) + 1)) if packet.t <= seconds]
@@ -80,9 +77,6 @@ def serving(way: str, seconds: float) -> Iterator[subprocess.Popen[str]]:
             yield process
         finally:
             process.kill()
-
-
-# --- who watches ------------------------------------------------------------------------------------------------------
 
 
 @define

@@ -36,9 +36,6 @@ def cross_matrix(v: Array) -> Array:
     return np.array([[0.0, -v[2], v[1]], [v[2], 0.0, -v[0]], [-v[1], v[0], 0.0]])
 
 
-# --- the usual way ----------------------------------------------------------------------------------------------------
-
-
 def quaternion_of(r: Array) -> Array:
     """(w, x, y, z) of the turn by |r| rad about r."""
     angle = np.linalg.norm(r)
@@ -126,9 +123,6 @@ class Usual:
         self.position = self.position + error[0:3]
         self.velocity = self.velocity + error[3:6]
         return product(quaternion_of(error[6:9]), attitude)
-
-
-# --- the same, tuned --------------------------------------------------------------------------------------------------
 
 
 def rotation(r: Array) -> Array:

@@ -82,9 +82,6 @@ def test_a_link_that_breaks_every_second_is_made_again_each_time(every, share):
     assert max(b.t - a.t for a, b in pairwise(beats)) < 1.5
 
 
-# --- scanning that fails ---
-
-
 def test_a_scan_that_fails_later_is_told_where_something_is_sought_and_is_begun_anew() -> None:
     errors: list[Exception | None] = [None, None, BleakDBusError("org.bluez.Error.NotReady", []), BleakError("odd")]
     backend = failing(MemoryRadio([strap(1, faults="3 * disconnect"), strap(2)]).backend, errors)

@@ -31,9 +31,6 @@ def channels(packets: list[Packet], *, but: str = "receiver/tick") -> list[str]:
     return [packet.channel for packet in packets if packet.channel != but]
 
 
-# --- how a device is set up ---
-
-
 def test_a_device_is_read_then_subscribed_then_written() -> None:
     bench = Bench(ROUTE, devices={LEFT: Insole(), RIGHT: Tag()}, seed=3)
     heard = asked(*bench.peripherals)
@@ -118,9 +115,6 @@ def test_what_a_device_does_not_have_to_be_set_is_told_and_passed_over() -> None
     packets = got(asked(device), Wanted(PELVIS, address(1), profile))
     assert troubles(packets) == ["strap/nothing is not there to be set: the device keeps to its own"]
     assert len(times(packets, "strap/beat")) > 4 * RATE
-
-
-# --- packets ---
 
 
 def test_every_packet_says_when_it_arrived_and_from_which_device() -> None:

@@ -78,9 +78,6 @@ def frames(packets: list[Packet]) -> list[Packet]:
     return [packet for packet in packets if packet.channel == "insole/frame"]
 
 
-# --- notifications ---
-
-
 @both
 @pytest.mark.parametrize(
     ("faults", "reasons", "rejected", "lost"),
@@ -117,9 +114,6 @@ def test_over_the_smallest_mtu_the_same_frames_come_in_fragments(tier: str) -> N
     assert len(common) > 200
     assert all(one[number] == other[number] for number in common)
     assert not of(PacketRejected, events(narrow)) and not of(PacketsLost, events(narrow))
-
-
-# --- links ---
 
 
 @both
@@ -163,9 +157,6 @@ def test_a_device_that_vanishes_for_a_minute_is_stale_then_looked_for_and_back_w
     assert stale.t == pytest.approx(5.0, abs=0.1)  # type: ignore[attr-defined]
     assert trouble.what.startswith(f"no device '{FOOT}' is heard")  # type: ignore[attr-defined]
     assert 64.0 < back.t < resumed.t < 67.0  # type: ignore[attr-defined]
-
-
-# --- streams ---
 
 
 @both
@@ -226,9 +217,6 @@ def test_a_device_that_wakes_on_motion_may_be_silent(tier: str) -> None:
     moved = [packet.t for packet in packets if packet.channel == "cc2650/movement"]
     assert moved and max(moved) < 30.0, "it did fall asleep"
     assert not of(StreamRestarted, found) and not of(StreamStale, found) and len(of(Connected, found)) == 1
-
-
-# --- names ---
 
 
 @both

@@ -43,9 +43,6 @@ def streams(packets: list[Packet], channel: str = "insole/frame") -> set[Site]:
     return {packet.site for packet in packets if packet.channel == channel}
 
 
-# --- found ---
-
-
 @pytest.mark.parametrize("which", ["F0:5E:00:00:00:02", "f0:5e:00:00:00:02", "solepath R"])
 def test_a_device_is_found_by_its_address_or_by_its_name(which: str) -> None:
     packets = got(feet(Insole()).peripherals, [Wanted(RIGHT, which)])
@@ -119,9 +116,6 @@ def test_a_device_that_does_not_say_where_it_is_worn_is_not_guessed_to_be_anywhe
     assert troubles(packets) == ["CC2650 SensorTag does not say where it is worn: name a site"]
 
 
-# --- two of one name ---
-
-
 TAGS = ("F0:5E:00:00:00:01", "F0:5E:00:00:00:02")
 AMBIGUOUS = f"2 devices answer to device 'CC2650 SensorTag' ({', '.join(TAGS)}): say which by its address"
 
@@ -177,9 +171,6 @@ def test_what_can_be_told_apart_is_none() -> None:
     Devices([Wanted(LEFT, "one"), Wanted(None, profile=INSOLE)])
 
 
-# --- strangers ---
-
-
 def test_a_device_of_a_kind_that_nobody_knows_is_told_and_left() -> None:
     packets = got((strap(),), [Wanted(PELVIS, address(1))], seconds=20.0)
     assert not connected(packets)
@@ -219,9 +210,6 @@ def test_a_device_that_seemed_unfit_is_tried_again_later() -> None:
     assert troubles(packets)[0] == "CC2650 SensorTag is no cc2650: it has no cc2650/movement"
 
 
-# --- nobody ---
-
-
 def test_after_its_patience_an_absent_device_is_complained_of_once() -> None:
     packets = got((), [Wanted(LEFT, "solepath L")], seconds=300.0, patience=7.0)
     [words] = troubles(packets)
@@ -242,9 +230,6 @@ def test_an_absent_device_never_delays_another() -> None:
     alone = first([Wanted(RIGHT, "F0:5E:00:00:00:02")])
     bench = feet(Insole())
     assert first([Wanted(LEFT, "F0:5E:00:00:00:01"), Wanted(RIGHT, "F0:5E:00:00:00:02")]) == alone < 1.0
-
-
-# --- scanning ---
 
 
 @virtually

@@ -22,8 +22,6 @@ from solepath.link.devices.insole import PROFILE as INSOLE
 from solepath.types import Packet
 from solepath.wire.receiver import parse_dropped
 
-# --- an app that is slow ---
-
 
 @cache
 def taken_late(capacity: int, wait: float) -> list[Packet]:
@@ -76,9 +74,6 @@ async def test_an_app_that_takes_a_packet_every_now_and_then_gets_them_in_order(
     assert device.log is not None
     assert len(numbers) + dropped == numbers[-1] + 1 - int.from_bytes(device.log[0].value[:4], "little")
     assert dropped > 50 and len(numbers) > 20
-
-
-# --- taking and leaving ---
 
 
 @virtually

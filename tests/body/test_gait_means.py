@@ -86,9 +86,6 @@ def gone(
     return found
 
 
-# --- cycles -----------------------------------------------------------------------------------------------------------
-
-
 def test_a_cycle_goes_from_contact_to_contact_and_the_other_foot_divides_it() -> None:
     found = gone(walked(L, R), 8)
     assert [(stride.foot, stride.t_start, stride.t) for stride in found[:2]] == [(L, 0.0, 1.0), (R, 0.5, 1.5)]
@@ -199,9 +196,6 @@ def test_whatever_the_feet_do_strides_are_sound_and_can_be_saved(
             assert not isinstance(value, float) or isfinite(value)
     parameters = on.strides.parameters
     assert parameters is None or (parameters.cadence or 0.0) > 0.0
-
-
-# --- means ------------------------------------------------------------------------------------------------------------
 
 
 @given(st.lists(st.floats(-10.0, 10.0), min_size=2, max_size=MEMORY))

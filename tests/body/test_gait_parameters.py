@@ -93,9 +93,6 @@ def errors(route: Route, name: str, cells: int = 0) -> list[float]:
     return found
 
 
-# --- every stride -----------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("name", "worst"),
     [
@@ -155,9 +152,6 @@ def test_stance_and_swing_are_the_cycle_and_shares_add_up() -> None:
         assert stride.double_support + stride.single_support == pytest.approx(stride.stance_time)
 
 
-# --- what cannot be told ----------------------------------------------------------------------------------------------
-
-
 def test_one_foot_alone_tells_nothing_of_what_is_between_the_feet() -> None:
     _, strides, gait = walked(LEVEL, 0, (Foot.RIGHT,))
     assert len(strides) >= 7
@@ -196,9 +190,6 @@ def test_without_a_frame_for_both_feet_nobody_knows_the_length_of_a_step() -> No
     _, strides, _ = walked(LEVEL, 0)
     assert {stride.foot for stride in strides} == set(Foot)
     assert all(stride.step_length is None and stride.step_width is None for stride in strides)
-
-
-# --- steady strides ---------------------------------------------------------------------------------------------------
 
 
 def cadence(route: Route) -> float:
@@ -256,9 +247,6 @@ def test_a_runner_is_in_the_air_where_a_walker_stands_on_both_feet() -> None:
     assert gait.both.double_support < 0.0
     for stride in steady:
         assert stride.single_support is not None and stride.single_support <= stride.stance_time + 1e-9
-
-
-# --- what people see --------------------------------------------------------------------------------------------------
 
 
 def test_gait_csv_has_a_line_for_each_stride_and_nothing_where_nothing_could_be_told(tmp_path: Path) -> None:

@@ -47,9 +47,6 @@ def said(kind: Any, items: tuple[Sample, ...], session: Session | None = None) -
     return of(kind, (Session() if session is None else session).feed(items))
 
 
-# --- a foot that falls silent ---
-
-
 def without(foot: Site, begin: float, end: float) -> tuple[Sample, ...]:
     return tuple(s for s in walk() if s.site is not foot or not begin <= s.t < end)
 
@@ -89,8 +86,6 @@ def test_while_the_wearer_stands_nobody_is_missed() -> None:
     standing = samples(Route().stand(8.0), cells=0, rate=50.0)
     assert said(FootSilent, tuple(s for s in standing if s.site is LEFT or s.t < 2.0)) == []
 
-
-# --- where the wearer is meanwhile ---
 
 FAR = Route().stand(1.5).walk(40.0, 1.2).stop(1.5)
 ROUND = Route().stand(1.5).walk(16.0, 1.2).turn(radians(90), radius=1.5).walk(22.0).stop(1.5)
@@ -171,9 +166,6 @@ def test_while_both_feet_are_heard_the_place_is_their_mean_to_the_last_digit(who
         assert where.covariance == tuple(sums)
 
 
-# --- left and right exchanged ---
-
-
 @pytest.mark.parametrize("seed", [1, 2])
 def test_exchanged_feet_are_told_once_within_ten_steps_of_each(seed: int) -> None:
     session = Session()
@@ -247,9 +239,6 @@ def test_insoles_numbered_as_mirror_images_look_alike_when_exchanged_and_nothing
     both, known = pressure_alone(numbered_alike=False)
     assert said(FeetSwapped, both, Session(calibration=known)) == []
     assert said(FeetSwapped, exchanged(both), Session(calibration=known)) == []
-
-
-# --- any input ---
 
 
 @given(st.integers(0, 10_000))

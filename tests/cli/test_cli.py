@@ -10,8 +10,6 @@ import pytest
 from commands import no_control_codes, rows_in, run, solepath
 from programs import TAKES, drawn, started
 
-# --- the command line itself ------------------------------------------------------------------------------------------
-
 
 def test_help_names_every_command_and_loads_nothing_heavy():
     code = (
@@ -28,9 +26,6 @@ def test_help_names_every_command_and_loads_nothing_heavy():
 def test_no_command_prints_the_help_and_the_version_is_told():
     assert "COMMAND" in solepath().stdout
     assert solepath("--version").stdout.startswith("solepath 0.")
-
-
-# --- demo -------------------------------------------------------------------------------------------------------------
 
 
 @pytest.fixture(scope="module")
@@ -81,9 +76,6 @@ def test_a_straight_demo_is_as_long_and_as_lossy_as_one_asks():
 def test_a_demo_of_nonsense_is_refused(option, value, complaint):
     done = run("demo", option, value)
     assert done.returncode == 2 and complaint in done.stderr
-
-
-# --- in a terminal ----------------------------------------------------------------------------------------------------
 
 
 def test_in_a_terminal_the_demo_is_drawn_as_it_goes_and_ends_with_the_same_table():

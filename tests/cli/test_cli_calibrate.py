@@ -40,9 +40,6 @@ def bare(folder) -> Path:
     return folder / "imu_only.npz"
 
 
-# --- what the other commands do with one ------------------------------------------------------------------------------
-
-
 def test_a_recipe_of_pressure_refuses_samples_without_any(bare):
     assert PRESSED
     for name in PRESSED:
@@ -80,8 +77,6 @@ def test_a_file_that_is_no_calibration_is_refused_in_one_line(packets, tmp_path)
     (tmp_path / "wrong.json").write_text("{")
     assert "wrong.json: is not JSON" in refused("track", packets, "--calibration", tmp_path / "wrong.json")
 
-
-# --- calibrate --------------------------------------------------------------------------------------------------------
 
 POSTURES = "pitch_deg,L_r_m,L_p2t_m\n" + "".join(
     f"{degrees},{0.07 + 0.0006 * degrees:.4f},{0.09 - 0.0006 * degrees:.4f}\n" for degrees in (0, 15, 30, 45, 60)
@@ -182,9 +177,6 @@ def test_every_kind_of_calibration_is_in_the_help():
     assert done.returncode == 0
     words = {line.split()[0] for line in done.stdout.splitlines() if line.strip()}
     assert words >= {"noise", "shoe", "square", "newton", "modes"}
-
-
-# --- what is no file, and nobody who reads ---------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("device", ["/dev/zero", "/dev/full"])

@@ -63,9 +63,6 @@ def test_another_programs_file_is_not_thrown_away(tmp_path: Path, monkeypatch: p
     assert another.read_text() == "half of a track"
 
 
-# --- runs that are ended, and where they write ---
-
-
 @pytest.fixture(scope="module")
 def long_recording(recording: Path) -> Path:
     """The same over and over: some seconds of computing."""

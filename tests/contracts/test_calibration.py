@@ -126,9 +126,6 @@ def test_only_a_calibration_is_one() -> None:
         Session(calibration="me.json")  # type: ignore[arg-type]
 
 
-# --- what cannot be ---
-
-
 def cells(*at: Cell, length: float = 0.26) -> Calibration:
     return insole(layout=Layout(2, Foot.LEFT, at, length))
 
@@ -221,8 +218,6 @@ def test_the_limits_are_those_of_the_protocol() -> None:
     assert {least for _, _, least, _, _ in limits} | {most for _, _, _, most, _ in limits} <= numbers
 
 
-# --- of another insole ---
-
 OTHERS = Calibration({foot: InsoleCalibration(layout=layout(35, foot), noise=(0.5,) * 35) for foot in Foot})
 
 
@@ -262,9 +257,6 @@ def test_cells_that_come_apart_from_the_inertial_samples_are_compared_too() -> N
     told = session.feed(sorted(apart, key=attrgetter("t")))
     assert [event for event in of(Limitation, told) if "no pressure" in event.what] == []
     assert of(StrideTaken, told) != []
-
-
-# --- files that are no calibrations ---
 
 
 def test_a_file_without_an_end_or_too_large_is_refused(tmp_path: Path) -> None:

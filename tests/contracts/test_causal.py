@@ -44,9 +44,6 @@ def fed_singly(name: str) -> tuple[Any, ...]:
     return tuple(event for events in told(name)[:-1] for event in events)
 
 
-# --- 3: causal --------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("name", NAMES)
 def test_nothing_is_known_before_it_was_or_after_the_item_that_settled_it(name: str) -> None:
     machine = machines()[name]
@@ -135,8 +132,6 @@ def test_live_position_comes_with_the_sample() -> None:
             assert not event.final
 
 
-# --- 4: cuts do not matter --------------------------------------------------------------------------------------------
-
 FAR = st.integers(0, 399).map(lambda k: 400 - k)
 """The first that hypothesis tries is 400: items one by one are what others are compared with."""
 
@@ -166,8 +161,6 @@ def test_packets_and_samples_may_come_mixed() -> None:
     assert told == [event for item in mixed for event in other.feed(item)]
     assert {step.foot.value for step in of(StrideTaken, told)} == {"left", "right"}
 
-
-# --- 9: plain records -------------------------------------------------------------------------------------------------
 
 PLAIN = (float, int, bool, str, type(None))
 

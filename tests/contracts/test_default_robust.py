@@ -76,9 +76,6 @@ def lengths(steps: Sequence[StrideTaken]) -> list[float]:
     return [step.length for step in steps]
 
 
-# --- ranges that end too early ----------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("told", [False, True])
 def test_strides_are_found_and_about_as_long_when_the_gyroscope_ends_at_250_degrees_per_second(told: bool) -> None:
     _, whole = tracked(walk())
@@ -123,9 +120,6 @@ def test_a_recorded_walk_of_a_clipping_gyroscope_comes_back_to_where_it_went(dat
     assert hypot(u - x, v - y, w - z) < 0.04 * way(steps)
 
 
-# --- switched on at the wrong moment ----------------------------------------------------------------------------------
-
-
 @given(begin=st.floats(4.0, 5.2))
 @settings(max_examples=4)
 def test_a_foot_that_walks_from_the_first_sample_on_is_levelled_in_its_second_stance(begin: float) -> None:
@@ -141,9 +135,6 @@ def test_the_time_of_day_changes_no_stride() -> None:
     _, usual = tracked(walk())
     _, late = tracked(evolve(sample, t=sample.t + 1.6e9) for sample in walk())
     assert lengths(late) == pytest.approx(lengths(usual), abs=1e-3)
-
-
-# --- cheap sensors ----------------------------------------------------------------------------------------------------
 
 
 def test_a_cheap_sensors_noise_bias_and_scale_cost_little() -> None:

@@ -49,9 +49,6 @@ def shown(session: Session, items: list[Sample]) -> list[FootPressed]:
     return of(FootPressed, session.feed(items))
 
 
-# --- who asks ---------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("kind", ["packets", "samples"])
 def test_nothing_else_is_said_to_those_who_ask_for_what_is_drawn(kind: str) -> None:
     fed = insoles().packets if kind == "packets" else samples()
@@ -69,9 +66,6 @@ def test_each_is_told_to_those_who_ask_for_it_only() -> None:
         assert {type(event).__name__ for event in of(LiveEvent, told)} == kinds
 
 
-# --- the wearer -------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("name", ["default", "kupt-dfpc", "walking-modes"])
 def test_after_every_step_it_is_told_where_the_wearer_is_then(name: str) -> None:
     session = Session(recipes.by_name(name), poses=True)
@@ -87,9 +81,6 @@ def test_after_every_step_it_is_told_where_the_wearer_is_then(name: str) -> None
             assert (event.t, event.position, event.covariance) == (here.t, here.position, here.covariance)
             assert event.known_at == max(packet.t, event.t) and not event.final
     assert steps > 5
-
-
-# --- the cells --------------------------------------------------------------------------------------------------------
 
 
 def test_every_sample_with_cells_is_shown_with_its_own_times() -> None:
@@ -167,9 +158,6 @@ def test_a_cell_without_a_number_is_shown_as_nothing_even_where_a_cubic_makes_so
     told = session.feed(frames(*[numberless] * 150))
     assert [(event.fault, event.cells) for event in of(CellsFailed, told)] == [(CellFault.MISSING, (1,))]
     assert {event.values for event in of(FootPressed, told)} == {(105.0, 0.0, 55.0, 155.0)}
-
-
-# --- the layout -------------------------------------------------------------------------------------------------------
 
 
 def layouts(events: list[Event]) -> list[tuple[Site, int]]:

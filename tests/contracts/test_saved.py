@@ -84,8 +84,6 @@ def test_a_snapshot_is_a_copy_and_saving_changes_nothing() -> None:
     assert json.dumps(saved) == text
 
 
-# --- in another process -----------------------------------------------------------------------------------------------
-
 CHILD = """
 import json, sys
 from solepath import Packet, Session, Site
@@ -139,9 +137,6 @@ def test_two_sessions_of_one_recipe_share_nothing(name: str) -> None:
     events = [event for item in some for event in one.feed(item)]
     assert [event for item in some for event in other.feed(item)] == events
     assert asdict(machine.begin().recipe) == asdict(one.recipe)
-
-
-# --- damaged ----------------------------------------------------------------------------------------------------------
 
 
 @cache

@@ -19,8 +19,6 @@ from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.walker import Walker
 
-# --- 2: time is data --------------------------------------------------------------------------------------------------
-
 
 def moved(item: Any, by: float) -> Any:
     """The same, `by` s later."""
@@ -90,8 +88,6 @@ def test_nothing_happens_by_advancing_what_is_fed_by_samples_alone() -> None:
     session.feed(samples())
     assert session.advance(1e6) == []
 
-
-# --- 8: true time steps -----------------------------------------------------------------------------------------------
 
 ROUTE = Route().stand(2.0).walk(16.0, 1.3).stop(2.0)
 

@@ -47,9 +47,6 @@ def strict(events: list[Any]) -> None:
         assert isfinite(event.t) and isfinite(event.known_at) and event.known_at >= event.t, event
 
 
-# --- packets ----------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("name", PACKET_NAMES)
 @given(st.data())
 @settings(max_examples=12)
@@ -144,9 +141,6 @@ def test_a_receiver_whose_clock_is_set_back_goes_on_finding_steps() -> None:
     settled = [event for event in again if isinstance(event, StrideTaken)]
     assert all(event.t < 0.0 and event.t_start < event.t_end for event in settled)
     assert len(json.dumps(session.snapshot())) < 1.2 * size
-
-
-# --- samples ----------------------------------------------------------------------------------------------------------
 
 
 def spoilt(sample: Sample, last: Sample) -> dict[str, tuple[Sample, Rejection]]:

@@ -55,8 +55,6 @@ def found_all(compared: Mapping[Foot, FootComparison], least: int) -> None:
         assert (one.steps_found, one.steps_invented) == (one.steps_true, 0), one.foot
 
 
-# --- 100 m with both insoles over a bad radio -------------------------------------------------------------------------
-
 AGAIN = pytest.mark.soak
 """The same once more, with other errors of the sensors or an easier radio."""
 SEEDS = [1, pytest.param(2, marks=AGAIN)]
@@ -91,8 +89,6 @@ def test_steps_with_lost_packets_in_them_say_that_they_are_degraded(seed: int) -
     clean = of(StrideTaken, heard(emulate(Route().stand(2.0).walk(8.0, 1.3).stop(1.0), radio=CLEAN, seed=seed))[0])
     assert clean and not any(step.degraded for step in clean)
 
-
-# --- other walks ------------------------------------------------------------------------------------------------------
 
 STRAIGHT = Route().stand(2.0)
 ROUTES = {
@@ -147,8 +143,6 @@ def test_who_stands_for_a_minute_takes_no_step(radio: Radio) -> None:
     assert of(StrideTaken | HeelStrike | FootFlat | HeelOff | ToeOff, told) == []
     assert all(one.steps_true == one.steps_invented == 0 for one in compared.values())
 
-
-# --- other devices ----------------------------------------------------------------------------------------------------
 
 THIRTY = Route().stand(3.0).walk(30.0, 1.2).stop(3.0)
 
@@ -211,9 +205,6 @@ def test_sensor_tags_know_when_the_foot_struck_and_left_the_ground(name: str) ->
         assert offsets[len(offsets) // 2] <= 0.060
 
 
-# --- a link that is cut again and again -------------------------------------------------------------------------------
-
-
 def cut(walk: EmulatedWalk, seed: int, share: float) -> list[Packet]:
     """What is left of a walk's packets when frames of either foot are missing for 0.1 to 0.6 s at random times,
     `share` times a second in all."""
@@ -254,8 +245,6 @@ def test_broken_cells_of_a_device_say_the_same_in_every_frame() -> None:
             c for k, c in enumerate(as_it_was.cells) if k not in (2, 9)
         ]
 
-
-# --- samples ----------------------------------------------------------------------------------------------------------
 
 DECODED = Route().stand(3.0).walk(15.0, 1.2).stop(3.0)
 

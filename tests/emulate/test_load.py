@@ -121,8 +121,6 @@ def test_a_layout_of_too_many_or_too_few_cells_is_refused() -> None:
             layout(count, Foot.LEFT)
 
 
-# --- bends ------------------------------------------------------------------------------------------------------------
-
 STRAIGHT = Route().stand(1.0).walk(6.0, 1.3).stop(1.0)
 
 

@@ -184,8 +184,6 @@ def test_heel_strike_brings_a_short_impact(straight: Walker) -> None:
     assert before[0] > 0.3 and before[2] < -0.1
 
 
-# --- the polynomials that motions are made of -------------------------------------------------------------------------
-
 values = st.floats(-10.0, 10.0)
 ends = st.tuples(values, values, values)
 

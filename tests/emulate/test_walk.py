@@ -205,8 +205,6 @@ def test_a_device_above_the_ankle_is_refused() -> None:
         emulate(SHORT, devices={Site.PELVIS: CC2650()})
 
 
-# --- the radio --------------------------------------------------------------------------------------------------------
-
 SENT = [Notification(0.01 * k, "insole/frame", bytes([k % 256]) * 20) for k in range(20000)]
 
 

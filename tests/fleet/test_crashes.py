@@ -63,8 +63,6 @@ def test_killed_at_any_moments_and_started_again_a_job_leaves_each_event_once(
     assert held(tmp_path / "told") == expected()
 
 
-# --- a full disk ------------------------------------------------------------------------------------------------------
-
 FULL = """
 mount -t tmpfs -o size=16m none disk || exit 77
 head -c $((16 * 1024 * 1024 - ROOM)) /dev/zero > disk/ballast

@@ -116,8 +116,6 @@ def test_what_was_given_up_long_ago_is_forgotten_but_nothing_is_used_twice() -> 
     assert late == [*[("rejected", 0, *one) for one in known], ("used", 0, 99, None)], "16 spans are remembered"
 
 
-# --- runs that do not grow --------------------------------------------------------------------------------------------
-
 AHEAD, NOW = 4_000_000_000_000, 1_790_000_000_000
 
 

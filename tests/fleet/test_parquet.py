@@ -181,8 +181,6 @@ def test_however_often_it_crashes_each_event_is_there_once(steps: list[str]) -> 
         assert by_identity(rows(Path(name))) == by_identity([told_row(one) for one in all_told])
 
 
-# --- beside what else is in the directory -----------------------------------------------------------------------------
-
 STRIKE = HeelStrike(t=0.1, known_at=0.12, foot=Foot.LEFT)
 
 

@@ -61,9 +61,6 @@ def test_a_state_that_holds_what_cannot_be_held_is_refused(held: list[tuple[int,
     assert FLEET.open(WEARER, after).state() == after
 
 
-# --- what is the caller's mistake -------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("state", ["spfl", 0.5, 10**30, 41, [115, 112], {}], ids=repr)
 def test_a_state_that_is_no_bytes_is_a_mistake_of_the_job_and_not_of_a_wearer(state: Any) -> None:
     """All wearers of the job would lose theirs: the job ends, and goes on when it is mended."""
@@ -92,9 +89,6 @@ def test_a_session_that_cannot_go_on_is_not_adopted_and_no_state_goes_on_from_a_
     _, (refused, *rest) = FLEET.step(WEARER, state, [shown(0)])
     assert isinstance(refused.event, StateRefused) and "finished" in refused.event.detail
     assert uses(rest) == [("used", 0, 0, None)]
-
-
-# --- moments, bounds, memory ------------------------------------------------------------------------------------------
 
 
 def test_the_clock_of_a_new_run_may_stand_before_that_of_the_last_and_what_is_told_does_not_go_back() -> None:

@@ -60,9 +60,6 @@ def stream(spark: Any, directory: Path, files: int = 1) -> Any:
     return spark.readStream.schema(SENT_SCHEMA).option("maxFilesPerTrigger", files).parquet(str(directory))
 
 
-# --- the events -------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("recipe", ["default", "kupt-dfpc"])
 def test_events_through_spark_are_those_of_a_session(spark, tmp_path, recipe):
     deliver(tmp_path / "sent", wearers=5, files=5)
@@ -128,9 +125,6 @@ def test_a_fleet_with_a_device_of_ones_own_is_made_where_it_is_used(spark, tmp_p
     said = Session(profiles=[BASE]).feed(packets)
     assert {"BatteryLevel", "PacketRejected"} <= {row["event"] for row in events}
     assert events == [told_row(NumberedEvent("w0", number, event)) for number, event in enumerate(said)]
-
-
-# --- what goes wrong --------------------------------------------------------------------------------------------------
 
 
 def anything(count: int) -> Iterator[Row]:

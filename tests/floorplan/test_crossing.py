@@ -116,9 +116,6 @@ def test_nobody_leaves_a_round_room_of_a_thousand_walls() -> None:
         assert not walls.crosses(0.0, 0.0, 9.8 * math.cos(heading), 9.8 * math.sin(heading))
 
 
-# --- the grid ---------------------------------------------------------------------------------------------------------
-
-
 @given(lines, st.lists(lines, max_size=3), st.floats(0.0, 3.0), st.integers(64, 3000))
 def test_walking_along_a_line_finds_all_cells_that_are_near_and_no_others(
     line: Line, others: list[Line], within: float, most: int
@@ -154,9 +151,6 @@ def test_outside_is_what_a_walk_over_the_lattice_reaches_without_touching_a_wall
                 reached.add(there)
                 now.append(there)
     assert sorted(found.outside) == sorted(every[at] for at in reached)
-
-
-# --- the whole plan ---------------------------------------------------------------------------------------------------
 
 
 def level(own: str, elevation: float, **more: object) -> Level:

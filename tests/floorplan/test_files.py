@@ -59,9 +59,6 @@ def test_a_file_that_does_not_fit_says_what_does_not(case: dict[str, Any], tmp_p
     assert str(caught.value) == f"{path}: {case['says']}"
 
 
-# --- written and read again -------------------------------------------------------------------------------------------
-
-
 @given(plans())
 def test_a_plan_written_and_read_again_is_equal(plan: FloorPlan) -> None:
     again = plan_of_bytes(text_of(plan).encode())
@@ -73,9 +70,6 @@ def test_a_file_is_written_and_read(tmp_path: Path) -> None:
     write_floorplan(tmp_path / "house.json", HOUSE)
     assert read_floorplan(tmp_path / "house.json") == HOUSE
     assert read_floorplan(str(tmp_path / "house.json")) == HOUSE
-
-
-# --- the profile ------------------------------------------------------------------------------------------------------
 
 
 def geojson(*more: dict[str, Any], **members: Any) -> bytes:
@@ -135,9 +129,6 @@ def test_levels_without_elevations_lie_a_storey_apart_and_nobody_may_rely_on_it(
         plan_of_bytes(data, storey=0.1)
 
 
-# --- archives and folders ---------------------------------------------------------------------------------------------
-
-
 def imdf_files() -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in sorted((FILES / "house-imdf").iterdir())}
 
@@ -184,8 +175,6 @@ def test_files_that_cannot_be_read_say_so(tmp_path: Path, monkeypatch: pytest.Mo
     with pytest.raises(FloorPlanError, match="too large for a floor plan$"):
         read_floorplan(FILES / "house.geojson")
 
-
-# --- any bytes --------------------------------------------------------------------------------------------------------
 
 json_values = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=5) | st.sampled_from(

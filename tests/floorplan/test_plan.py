@@ -148,9 +148,6 @@ def test_a_door_drawn_on_the_other_face_of_a_wall_is_no_gap() -> None:
             assert IndexedPlan(FloorPlan("", (level,))).inside(0, 5.0, 5.0)
 
 
-# --- doors ------------------------------------------------------------------------------------------------------------
-
-
 def cut(drawn: tuple[Wall, ...], *through: Door) -> tuple[Wall, ...]:
     return with_doors_cut(Level("0", "", 0, 0.0, drawn, through)).walls
 
@@ -195,8 +192,6 @@ def test_one_walks_through_the_middle_of_a_door_in_a_wall_of_any_direction(turn:
                     (at + wide + 0.01, at + wide > 10.0 - 0.01)):  # fmt: skip
         assert plan.crosses(0, *along(x, -0.4), *along(x, 0.4)) != free
 
-
-# --- what a program may have put into the records ---------------------------------------------------------------------
 
 HUGE = 10**400
 
@@ -259,9 +254,6 @@ def test_a_start_that_cannot_be_is_refused_by_the_session_in_one_line(start: Sta
     with pytest.raises(FloorPlanError) as refused:
         Session(floorplan=HOUSE, start=start)
     assert str(refused.value) == f"start: {says}"
-
-
-# --- how much of it ---------------------------------------------------------------------------------------------------
 
 
 def test_a_plan_has_no_more_levels_stops_walls_and_corners_than_are_good_for_a_session() -> None:

@@ -81,9 +81,6 @@ def shaky(t: float, cells: tuple[float, ...], which: int) -> tuple[float | None,
     return put(60.0 + (0.05 if int(t * 1000) % 3 else 0.0))(t, cells, which)
 
 
-# --- clean walks ---
-
-
 @pytest.mark.parametrize("cells", [8, *COUNTS])
 def test_nothing_is_said_of_cells_that_work(cells: int) -> None:
     for there in (True, False):
@@ -93,9 +90,6 @@ def test_nothing_is_said_of_cells_that_work(cells: int) -> None:
             if sample.site is LEFT and sample.pressure is not None:
                 assert health.update(sample.t, sample.t, sample.pressure, Phase.SWING, sample.gyro, shape) == []
                 assert health.usable(sample.pressure) is sample.pressure
-
-
-# --- each fault ---
 
 
 @pytest.mark.parametrize("cells", COUNTS)
@@ -155,9 +149,6 @@ def test_a_cell_that_loads_again_is_used_again() -> None:
     assert used[max(used)]
 
 
-# --- the number of cells ---
-
-
 @pytest.mark.parametrize("count", [0, 50, 95, 97])
 def test_another_number_of_cells_is_told_and_the_inertial_part_goes_on(count: int) -> None:
     told, rest = heard(96, lambda t, cells, which: (*cells, 1.0)[:count], since=10.0)
@@ -189,9 +180,6 @@ def test_without_a_layout_another_number_of_cells_is_another_insole_after_a_seco
     assert health.usable((1.0,) * 6) == (1.0,) * 6
 
 
-# --- the whole insole ---
-
-
 def test_an_insole_that_never_unloads_is_told_and_steps_are_taken_by_the_inertial_sensor() -> None:
     (told,), rest = heard(96, lambda t, cells, which: tuple([value + 40.0 for value in cells]))
     assert isinstance(told, InsoleNeverUnloads) and told.site is LEFT
@@ -215,9 +203,6 @@ def test_a_wearer_who_stands_on_one_spot_has_no_stuck_cells() -> None:
     cells = tuple([float(i % 7) for i in range(96)])
     still = (0.0, 0.0, 0.01)
     assert [e for k in range(3000) for e in health.update(k / 50, k / 50, cells, Phase.STATIONARY, still, shape)] == []
-
-
-# --- neighbours ---
 
 
 def grid(side: int) -> Layout:

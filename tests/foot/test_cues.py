@@ -126,8 +126,6 @@ def test_heading_grows_less_certain_with_time() -> None:
     assert session.position is not None and session.position.covariance[3] > foot.gait.way.yaw * 10.0**2 / 4
 
 
-# --- the middle of an impact ------------------------------------------------------------------------------------------
-
 LANDED, LASTS = 0.52, 0.03
 """When the ground's push of `felt` is half over, and how long it takes, s."""
 

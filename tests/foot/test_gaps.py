@@ -24,8 +24,6 @@ from solepath.saving import codec as machine
 from solepath.types import Quat, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO
 
-# --- before anything is known -----------------------------------------------------------------------------------------
-
 
 def test_before_any_whole_stride_a_moving_foot_leaves_nothing_to_go_by_and_a_still_one_has_stood() -> None:
     habit, at_rest = Habit(), ErrorStateFilter()
@@ -120,9 +118,6 @@ def test_a_stride_with_a_gap_or_round_a_corner_is_not_the_habit() -> None:
     assert len(habit.now) <= MOST_MOMENTS
 
 
-# --- what is possible -------------------------------------------------------------------------------------------------
-
-
 def test_a_stride_that_zero_velocity_had_to_put_right_is_not_the_habit() -> None:
     habit, up = Habit(), (0.0, 0.0, GRAVITY)
 
@@ -198,9 +193,6 @@ def test_however_many_gaps_there_are_no_stride_is_longer_or_higher_than_a_stride
         if step.degraded:
             assert step.length < 2.5 * longest
             assert abs(step.height_change) < 0.85
-
-
-# --- contracts --------------------------------------------------------------------------------------------------------
 
 
 holes = st.lists(st.tuples(st.floats(1.0, 13.0), st.floats(0.02, 1.5)), min_size=1, max_size=8)

@@ -31,8 +31,6 @@ def around(steps: tuple[StrideTaken, ...] | list[StrideTaken], t: float) -> Stri
     return found
 
 
-# --- a gap in a stride ------------------------------------------------------------------------------------------------
-
 GAPS = [
     pytest.param(-0.10, 0.20, (ToeOff,), id="toe-off"),
     pytest.param(-0.10, 0.45, (ToeOff,), id="toe-off and swing"),
@@ -157,9 +155,6 @@ def test_phases_that_nobody_saw_say_so_and_all_others_that_they_were_seen() -> N
                 assert event.inferred or not gap.t + 0.01 < event.t < end - 0.16
     assert hidden == {HeelStrike, FootFlat, HeelOff, ToeOff}
     assert not any(event.inferred for event in of(PHASES, heard(samples)[0]))
-
-
-# --- heading ----------------------------------------------------------------------------------------------------------
 
 
 def turned(told: list[Event]) -> float:

@@ -59,9 +59,6 @@ def judged(
     return found
 
 
-# --- judged one by one ------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("lean", [-0.03, -0.01, 0.0, 0.02, 0.03])
 def test_level_strides_are_level_whatever_lean_the_sensor_has(lean: float) -> None:
     assert abs(sum(judged(LevelGround(), [0.0] * 60, lean=lean))) < 0.12
@@ -129,8 +126,6 @@ def test_whatever_is_judged_the_state_stays_finite(rows: list[tuple[float, ...]]
     assert machine.load(LevelGround, machine.save(level)) == level
     assert abs(judged(level, [0.0])[0]) < 1.0
 
-
-# --- walked -----------------------------------------------------------------------------------------------------------
 
 TILTED = Mounting(position=ON_INSTEP.position, attitude=from_rotation_vector((0.5, -0.4, 2.0)))
 

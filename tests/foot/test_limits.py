@@ -104,8 +104,6 @@ def test_a_packet_that_cannot_be_used_does_not_set_the_clock_back() -> None:
     assert any(isinstance(event, ClockReset) for event in session.feed(late))
 
 
-# --- robust -----------------------------------------------------------------------------------------------------------
-
 QUATS = [
     (0.0, 0.0, 0.0, 0.0),
     (1e-200, 0.0, 0.0, 0.0),

@@ -111,9 +111,6 @@ def test_extremes_are_those_of_the_last_ten_seconds() -> None:
     assert len(extremes.lows) == 5
 
 
-# --- on a walk --------------------------------------------------------------------------------------------------------
-
-
 def test_an_insole_without_an_inertial_sensor_still_gives_the_phases() -> None:
     walker = Walker(Route().stand(1.0).walk(12.0, 1.3).stop(1.0), seed=2)
     shape = layout(96, Foot.LEFT)
@@ -155,9 +152,6 @@ def test_the_path_of_the_centre_of_pressure_runs_from_heel_to_toe() -> None:
         assert all(rising)
         assert all(0.0 < x < 0.285 and abs(y) < 0.05 for x, y in path)
     assert all(step.features.contact_load > 200.0 for step in told[2:-2])
-
-
-# --- which cells are the heel's ---------------------------------------------------------------------------------------
 
 
 @cache

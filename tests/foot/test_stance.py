@@ -139,8 +139,6 @@ def test_evidence_grows_softer_with_the_statistic_and_ends_at_the_gate() -> None
     assert sigmas == sorted(sigmas)
 
 
-# --- on a walk --------------------------------------------------------------------------------------------------------
-
 WALKER = Walker(Route().stand(1.0).walk(12.0, 1.3).stop(1.0), seed=2)
 
 
@@ -178,8 +176,6 @@ def test_in_mid_stance_there_is_evidence_and_in_mid_swing_there_is_little(detect
     assert swinging < 0.1
 
 
-# --- pressure ---------------------------------------------------------------------------------------------------------
-
 ACC_REST, GYRO_REST = (0.0, 0.0, GRAVITY), (0.0, 0.0, 0.0)
 
 
@@ -203,8 +199,6 @@ def test_noise_of_the_evidence_grows_with_the_turning_of_the_foot() -> None:
     arm = 0.15 * sqrt(0.06**2 + (0.5 * 0.15) ** 2)
     assert turning.sigma == pytest.approx(sqrt(0.01**2 + arm**2), rel=1e-6)
 
-
-# --- the height of the sensor -----------------------------------------------------------------------------------------
 
 DT = 0.005
 ASKEW = normalise((0.3, -0.5, 0.7, 0.4))

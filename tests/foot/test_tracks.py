@@ -60,9 +60,6 @@ def told(samples: Any, recipe: Recipe = DEFAULT, **options: Any) -> list[Any]:
     return session.feed(list(samples)) + session.finish()
 
 
-# --- correctors -------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("seed", [1, 2])
 @pytest.mark.parametrize("recipe", [EXACT, LINEAR], ids=lambda recipe: recipe.name)
 def test_both_correctors_track_a_walk_of_20_m(recipe: Recipe, seed: int) -> None:
@@ -102,8 +99,6 @@ def test_features_of_a_step_are_those_of_a_walk() -> None:
         assert step.features.contact_load is None and step.features.cop == ()
         assert step.t_start < step.t_toe_off < step.t_heel_strike <= step.t_end
 
-
-# --- mounting ---------------------------------------------------------------------------------------------------------
 
 _QUATS = (
     st.tuples(*[st.floats(-1.0, 1.0)] * 4).filter(lambda q: sum(v * v for v in q) > 0.05).map(lambda q: normalise(q))
@@ -152,8 +147,6 @@ def test_attitude_is_level_once_the_foot_has_rested() -> None:
     flat = multiply(session.feet[Foot.LEFT].attitude, conjugate(mounting))
     assert flat[1] == pytest.approx(0.0, abs=0.02) and flat[2] == pytest.approx(0.0, abs=0.02)
 
-
-# --- bias, scale, gaps, what is missing -------------------------------------------------------------------------------
 
 BIAS = (0.02, -0.03, 0.025)
 

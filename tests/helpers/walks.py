@@ -84,9 +84,6 @@ def said(items: Iterable[Item], recipe: Recipe = DEFAULT, **given: Any) -> list[
     return session.feed(items) + session.finish()
 
 
-# --- every machine ----------------------------------------------------------------------------------------------------
-
-
 @frozen
 class Machine:
     """Something that is fed, saved and restored. `items`: what a test feeds it, in order."""

@@ -90,9 +90,6 @@ def test_the_accuracy_that_is_quoted_is_what_evaluate_prints(evaluated: Evaluate
     nearly_the_same(below("accuracy"), accuracy_table(results).splitlines())
 
 
-# --- recorded insoles ---
-
-
 def f1(result: Result, kind: str) -> float:
     value = result.summaries[0].together[f"{kind}_f1"]
     assert value is not None

@@ -29,9 +29,6 @@ def turned(track: np.ndarray, yaw: float, x: float, y: float) -> np.ndarray:
     return track @ np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]) + [x, y, 0.0]
 
 
-# --- tracks -----------------------------------------------------------------------------------------------------------
-
-
 @given(truth=tracks, yaw=yaws, x=metres, y=metres)
 def test_a_track_that_is_only_turned_and_shifted_has_no_error(truth, yaw, x, y):
     error = track_error(turned(truth, yaw, x, y), truth)
@@ -78,9 +75,6 @@ def test_a_track_is_read_between_its_samples_and_held_outside_them():
     assert at.tolist() == [[0.0, 0.0, 0.0], [0.25, 0.5, 0.75], [1.0, 2.0, 3.0]]
 
 
-# --- events -----------------------------------------------------------------------------------------------------------
-
-
 def test_events_within_a_quarter_of_a_second_match_and_give_bias_and_spread():
     matching = match([1.0, 2.0, 3.0, 4.0], [1.0, 2.0625, 3.125, 4.5])
     # 4.5 is outside the labelled time (4.0 + 0.25), so it is neither right nor wrong, but 4.0 is missed
@@ -116,8 +110,6 @@ def test_matching_is_one_to_one_and_never_better_than_perfect(true, found):
     assert all(abs(offset) <= 0.25 for offset in matching.offsets)
     assert matching.f1 is None or 0.0 <= matching.f1 <= 1.0
 
-
-# --- strides ----------------------------------------------------------------------------------------------------------
 
 TIMES = np.array([1.0, 2.0, 3.0, 4.0])
 PLACES = np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.0], [2.0, 2.0]])
@@ -163,9 +155,6 @@ def test_a_heading_error_grows_along_the_survey():
     assert errors == pytest.approx([0.0, 0.0, 0.0, *(0.1 * n for n in range(1, 9))], abs=1e-9)
 
 
-# --- contact switches -------------------------------------------------------------------------------------------------
-
-
 def switch(*spans: tuple[float, float], height: float = 1000.0) -> tuple[np.ndarray, np.ndarray]:
     t = np.arange(0, 800) / 100.0
     counts = np.full(len(t), 50.0)
@@ -191,9 +180,6 @@ def test_spans_that_touch_are_joined():
     assert merged([(3.0, 4.0), (1.0, 2.0), (2.0, 2.5)]) == [(1.0, 2.5), (3.0, 4.0)]
 
 
-# --- over recordings --------------------------------------------------------------------------------------------------
-
-
 def test_figures_are_averaged_and_events_and_strides_are_pooled():
     scores = [
         Scored(
@@ -208,9 +194,6 @@ def test_figures_are_averaged_and_events_and_strides_are_pooled():
     assert summary.together["heel_strike_f1"] == 1.0 and summary.together["heel_strike_bias"] == 0.0
     assert summary.together["strides_found"] == 3 and summary.together["stride_error"] == pytest.approx(0.2)
     assert summarise(scores, "odd").mean == {"rms": 6.0}
-
-
-# --- legs and times ---------------------------------------------------------------------------------------------------
 
 
 def to_and_fro(*turns, pace=1.0):

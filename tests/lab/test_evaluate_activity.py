@@ -39,8 +39,6 @@ def ridden(begin, end, up):
     return LiftRidden(t=end, known_at=end, t_start=begin, up=up, height=None)
 
 
-# --- labelled samples -------------------------------------------------------------------------------------------------
-
 TIMES = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]
 TRUE = [STANDING, STANDING, STANDING, WALKING, WALKING, None, WALKING, RUNNING]
 
@@ -83,9 +81,6 @@ def test_scores_of_two_recordings_count_together(a, b):
     assert both.accuracy is None or 0.0 <= both.accuracy <= 1.0
 
 
-# --- lifts ------------------------------------------------------------------------------------------------------------
-
-
 def test_a_ride_is_found_by_one_in_its_direction_at_its_time():
     true = [(0.0, 5.0, STANDING), (5.0, 15.0, UP), (15.0, 20.0, STANDING), (20.0, 30.0, DOWN), (40.0, 50.0, UP)]
     # the first fits, the second goes the wrong way, the third comes too late by more than half of its own length
@@ -98,16 +93,10 @@ def test_two_rides_told_of_one_are_one_found_and_one_invented():
     assert (score.rides_true, score.rides_found, score.rides_invented) == (1, 1, 1)
 
 
-# --- windows ----------------------------------------------------------------------------------------------------------
-
-
 def test_windows_of_two_seconds_lie_within_one_activity():
     # 0-5 s: windows 0-2, 2-4; 5-9.9 s: 5-7, 7-9; their middles are 1, 3, 6 and 8 s
     score = windows([(0.0, 5.0, STANDING), (5.0, 9.9, WALKING)], timeline((0.0, STANDING), (6.5, WALKING)))
     assert score.samples == {(STANDING, STANDING): 2, (WALKING, STANDING): 1, (WALKING, WALKING): 1}
-
-
-# --- stairs -----------------------------------------------------------------------------------------------------------
 
 
 def test_shares_of_stairs_and_of_level_ways_by_hand():
@@ -120,9 +109,6 @@ def test_shares_of_stairs_and_of_level_ways_by_hand():
     assert stairs_figures(score) == {"stairs_called": 0.8, "stairs_direction": 0.6, "level_called": 0.1}
 
 
-# --- over recordings --------------------------------------------------------------------------------------------------
-
-
 def test_activities_are_pooled_over_recordings():
     scores = [
         Scored("a", activity=ActivityScore({(STANDING, STANDING): 1}, 1, 1, 0)),
@@ -133,9 +119,6 @@ def test_activities_are_pooled_over_recordings():
     assert (summary.together["rides_found"], summary.together["rides_invented"]) == (1, 2)
     assert summary.confusion == {"STANDING": {"STANDING": 1}, "WALKING": {"STANDING": 3}}
     assert summarise([Scored("c", {"rms": 1.0})], "all").confusion is None
-
-
-# --- folds ------------------------------------------------------------------------------------------------------------
 
 
 def test_every_wearer_is_in_one_fold():
@@ -160,9 +143,6 @@ def test_what_is_scored_on_a_wearer_was_taught_without_that_wearer(monkeypatch):
 
 def test_a_recipe_whose_part_learns_nothing_keeps_its_own():
     assert part_for(recipes.by_name("shoe-sensing"), {"subject": 1}, {}) is None
-
-
-# --- recorded ---------------------------------------------------------------------------------------------------------
 
 
 def test_every_wearer_of_the_recordings_has_a_fold(data_dir):

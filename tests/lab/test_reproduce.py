@@ -30,9 +30,6 @@ from solepath.lab.train import emulated
 FIVE = ["mean", "std", "q1", "median", "q3"]
 
 
-# --- statistics -------------------------------------------------------------------------------------------------------
-
-
 def test_the_five_statistics_of_five_walks_are_those_of_a_pencil():
     # deviations -2, -1, 0, 1, 2: squares 10, over n - 1 = 4; quartiles are the second and the fourth
     assert statistics([21.0, 18.0, 20.0, 19.0, 22.0]) == Statistics(20.0, 2.5**0.5, 19.0, 20.0, 21.0)
@@ -48,9 +45,6 @@ def test_work_is_done_in_its_order_and_told(capsys):
     assert list(each(abs, [-3, 2, -1], progress=lambda done, of: told.append((done, of)))) == [3, 2, 1]
     assert told == [(1, 3), (2, 3), (3, 3)]
     assert list(each(abs, [-3, 2, -1], processes=2)) == [3, 2, 1]
-
-
-# --- the papers -------------------------------------------------------------------------------------------------------
 
 
 def test_table_one_of_the_known_velocities_is_the_papers():
@@ -70,8 +64,6 @@ def test_table_four_of_the_walking_modes_has_two_axes_of_four_methods_at_four_co
     assert len(WALKING_MODES) == 32
     assert WALKING_MODES[corner_row("B", "IV", "y")] == Statistics(mean=-0.0208, std=0.0198, median=-0.0204)
 
-
-# --- what is made of it -----------------------------------------------------------------------------------------------
 
 TWO_ROWS = Reproduction(
     name="kupt-dfpc",
@@ -127,9 +119,6 @@ def test_boxes_and_floors_are_drawn_in_the_format_that_the_ending_names(tmp_path
     figures = pytest.importorskip("solepath.lab.tables.figures", exc_type=ImportError)
     figures.draw(TWO_ROWS, tmp_path / f"figure.{ending}")
     assert (tmp_path / f"figure.{ending}").read_bytes().startswith(begins)
-
-
-# --- the command ------------------------------------------------------------------------------------------------------
 
 
 LONGEST = "footstep-tracker"

@@ -165,9 +165,6 @@ def test_times_strictly_increase_whatever_arrives_when(moves: list[tuple[int, fl
         newest = t
 
 
-# --- two devices ------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("jitter", [0.005, 0.02, 0.05])
 @pytest.mark.parametrize("seed", range(1, 6))
 def test_two_clocks_without_doubt_agree_within_5_ms(seed: int, jitter: float) -> None:
@@ -198,9 +195,6 @@ def test_a_clock_is_in_doubt_for_5_s_and_while_a_late_beginning_is_slewed_away()
             clock.time(k * INTERVAL)
     assert good.doubt == pytest.approx(5.0, abs=2 * STEP)
     assert late.doubt is not None and 20.0 < late.doubt < 30.0  # 95 ms at 5 ms a second, and 5 s
-
-
-# --- streams without counters -----------------------------------------------------------------------------------------
 
 
 def slots(

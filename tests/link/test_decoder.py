@@ -22,9 +22,6 @@ from solepath.wire.insole import InsoleFrame, InsoleSample, build_frame
 CHANNELS = sorted({channel.name for profile in PROFILES for channel in profile.channels})
 
 
-# --- what is refused ----------------------------------------------------------------------------------------------
-
-
 def refused() -> dict[str, tuple[Packet, Rejection]]:
     good = insole_frame(5)
     flipped = good[:-4] + bytes([good[-4] ^ 1]) + good[-3:]
@@ -137,9 +134,6 @@ def test_any_sequence_of_packets_keeps_order_and_survives_being_saved_at_any_cut
                 newest = output.t
     assert len(json.dumps(machine.save(straight), allow_nan=False)) < 20_000
     straight.finish()
-
-
-# --- time ---------------------------------------------------------------------------------------------------------
 
 
 def test_one_wild_arrival_time_is_survived() -> None:

@@ -63,9 +63,6 @@ def test_what_no_receiver_says_is_rejected(channel: str) -> None:
     assert isinstance(event, PacketRejected) and event.reason is Rejection.UNKNOWN_CHANNEL
 
 
-# --- which device a site listens to ---
-
-
 def reasons(session: Session, *packets: Packet) -> list[Rejection | None]:
     """Why each was rejected, None where it was not."""
     found = []
@@ -117,9 +114,6 @@ def test_a_site_can_be_bound_to_a_new_device_in_mid_walk() -> None:
     session.bind(LEFT, "")
     [event] = session.feed(packet(0.8, "device/battery", CHARGED, "F0:03"))
     assert isinstance(event, BatteryLevel)
-
-
-# --- a new connection ---
 
 
 def test_an_insole_that_begins_anew_soon_after_its_start_is_not_taken_for_late() -> None:

@@ -43,9 +43,6 @@ def test_battery_is_a_fraction() -> None:
     assert battery == BatteryLevel(t=1.0, known_at=1.0, site=LEFT, level=0.83)
 
 
-# --- CC2541 -------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     ("firmware", "code", "expected"),
     [

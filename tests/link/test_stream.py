@@ -34,8 +34,6 @@ from solepath.link.known import kinds
 from solepath.recipes import part_class
 from solepath.saving import codec as machine
 
-# --- times ------------------------------------------------------------------------------------------------------------
-
 
 def test_the_axis_is_the_best_that_a_device_has() -> None:
     assert [driver.axis for driver in KIND.values()] == [
@@ -220,9 +218,6 @@ def test_an_insole_that_is_set_to_another_mode_goes_on_at_another_rate() -> None
     assert found[199] - found[198] == pytest.approx(1 / 104, abs=1e-4)
     assert found[-1] - found[-2] == pytest.approx(1 / 208, abs=1e-4)
     assert found[-1] == pytest.approx(5.0 + 4 * 199 / 208, abs=0.01)
-
-
-# --- what else a value says -------------------------------------------------------------------------------------------
 
 
 def test_what_is_no_sample_becomes_an_event_or_is_remembered() -> None:

@@ -95,9 +95,6 @@ def link(site: str, state: str) -> str:
     return f"document.getElementById('foot-{site}').dataset.link === '{state}'"
 
 
-# --- what is seen -----------------------------------------------------------------------------------------------------
-
-
 async def test_the_page_connects_and_names_what_it_shows(chromium: Browser) -> None:
     async with opened(chromium, fresh("Ward 3, corridor")) as (view, _):
         assert await view.text("title") == "Ward 3, corridor"
@@ -194,9 +191,6 @@ async def test_a_plan_shows_the_wearer_once_that_is_decided_and_gives_up_the_way
         assert await view.tab.evaluate(f"{seen}.since") == "4"
 
 
-# --- when something goes wrong ----------------------------------------------------------------------------------------
-
-
 async def test_a_lost_link_shows_and_recovers(chromium: Browser) -> None:
     """Emulated devices in real time; one of them is out of reach for 1.5 s."""
 
@@ -262,9 +256,6 @@ async def test_names_from_the_air_are_shown_as_text(chromium: Browser) -> None:
         assert await view.tab.evaluate(f"Math.max(...{ends})") <= PHONE
         assert await view.tab.locator("main img, main script, header img, header script").count() == 0
         assert await view.tab.title() != "broken"
-
-
-# --- as long as one likes ---------------------------------------------------------------------------------------------
 
 
 async def stays_as_large(chromium: Browser, walk: Iterable[Told], speeds: tuple[float, float] = (1.0, 1.0)) -> None:

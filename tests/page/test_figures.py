@@ -53,9 +53,6 @@ def changed(t: float, activity: Activity) -> ActivityChanged:
     return ActivityChanged(t=t, known_at=t, activity=activity, probability=None, revises=None, final=False)
 
 
-# --- what is not heard is not known ----------------------------------------------------------------------------------
-
-
 def test_what_the_wearer_does_is_not_known_while_no_foot_is_heard() -> None:
     scene = shown([moved(1.0), moved(1.0, RIGHT), changed(1.0, Activity.WALKING)])
     assert frame(scene)["activity"] == {"now": "WALKING", "since": 1.0, "last": None}
@@ -71,9 +68,6 @@ def test_a_lost_connection_ends_what_is_known_at_once() -> None:
     scene = shown([moved(1.0), changed(1.0, Activity.WALKING), Disconnected(t=1.2, known_at=1.2, site=Site.LEFT_FOOT)])
     assert frame(scene)["activity"]["last"] == "WALKING"
     assert frame(scene)["pace"] is None
-
-
-# --- how fast the wearer goes now ------------------------------------------------------------------------------------
 
 
 def test_the_pace_is_that_of_the_newest_strides() -> None:
@@ -95,9 +89,6 @@ def test_who_stands_or_is_not_heard_has_no_pace() -> None:
     assert frame(scene)["pace"] is None
     scene = shown([changed(7.9, Activity.STANDING)], until(8.0))
     assert frame(scene)["pace"] is None, "no stride came since"
-
-
-# --- where the colours end -------------------------------------------------------------------------------------------
 
 
 def pressed(t: float, foot: Foot, kilopascals: list[float]) -> FootPressed:
@@ -152,9 +143,6 @@ def test_cells_that_nobody_turns_into_newtons_end_in_counts() -> None:
     assert [*frame(scene)["scales"]] == ["counts"]
 
 
-# --- losses ----------------------------------------------------------------------------------------------------------
-
-
 def test_a_loss_is_that_of_the_last_ten_seconds() -> None:
     scene = Scene("a walk", "default")
 
@@ -174,9 +162,6 @@ def test_a_loss_is_that_of_the_last_ten_seconds() -> None:
     scene.tick(27.0)
     link = frame(scene)["links"]["left foot"]
     assert (link["state"], link["lost"], link["loss"]) == ("silent", 1000, None), "nothing comes"
-
-
-# --- gait ------------------------------------------------------------------------------------------------------------
 
 
 def strides(feet: tuple[Foot, ...], count: int, angles: tuple[float, float] = (0.1, -0.05)) -> list[GaitCycleMeasured]:
@@ -229,9 +214,6 @@ def test_feet_that_fly_have_no_share_of_less_than_nothing() -> None:
     (row,) = [row for row in gait_rows(parameters) if row.name == "initial_double_support"]
     assert row.both is not None and row.both < 0.0
     assert row.asymmetry is None and row.uneven == "-", "the right foot's is larger, and it would be told as the left's"
-
-
-# --- where on the plan -----------------------------------------------------------------------------------------------
 
 
 def test_a_place_is_decided_once_one_candidate_is_left() -> None:

@@ -81,9 +81,6 @@ async def focused(view: Window) -> str:
     return found
 
 
-# --- keys -------------------------------------------------------------------------------------------------------------
-
-
 async def test_the_space_bar_pauses_and_goes_on_and_the_arrows_seek(chromium: Browser) -> None:
     async with played(chromium) as (view, playback):
         for state, name in (("paused", "Play"), ("playing", "Pause"), ("paused", "Play")):
@@ -168,9 +165,6 @@ async def test_a_page_that_may_only_watch_pauses_nothing(chromium: Browser) -> N
         assert await view.tab.evaluate(CONNECTED)
 
 
-# --- a screen reader --------------------------------------------------------------------------------------------------
-
-
 async def test_a_screen_reader_finds_landmarks_pictures_in_words_and_a_table(chromium: Browser) -> None:
     async with opened(chromium, after(40.0)) as (view, _):
         await view.until("[...document.querySelectorAll('canvas')].every((one) => !one.ariaLabel.includes('yet'))")
@@ -187,9 +181,6 @@ async def test_a_screen_reader_finds_landmarks_pictures_in_words_and_a_table(chr
         assert "status" in roles
         nameless = [role for role, name in names if role in ("button", "slider", "combobox", "image") and not name]
         assert nameless == []
-
-
-# --- narrow, dark, magnified ------------------------------------------------------------------------------------------
 
 
 async def test_a_phone_has_nothing_to_scroll_sideways_light_and_dark(chromium: Browser) -> None:

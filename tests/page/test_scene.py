@@ -40,8 +40,6 @@ from solepath.show.tables.gait import gait_lines, gait_rows
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
 
-# --- it shows what the session says ----------------------------------------------------------------------------------
-
 
 def test_a_page_shows_where_the_feet_and_the_wearer_are() -> None:
     session, events = rough()
@@ -97,9 +95,6 @@ def test_both_feet_support_the_wearer_only_while_both_are_heard() -> None:
     assert told["support"] is None
     assert told["feet"]["right"]["phase"] is None
     assert told["feet"]["left"]["phase"] == "SWING"
-
-
-# --- whatever there is -----------------------------------------------------------------------------------------------
 
 
 def test_one_foot_alone_is_shown_alone() -> None:

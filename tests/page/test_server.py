@@ -23,8 +23,6 @@ from solepath.show.page.server.access import AccessDenied, PageAccess, host_of, 
 from solepath.show.page.server.connection import HEADERS
 from solepath.show.page.server.server import Page
 
-# --- what it sends ---------------------------------------------------------------------------------------------------
-
 
 async def test_a_watcher_sees_the_walk() -> None:
     session = Session(poses=True, pressures=True)
@@ -135,9 +133,6 @@ async def test_what_is_no_request_is_answered_with_the_headers_of_every_answer_a
             assert b"aiohttp" not in told and b"Python" not in told
             for name, value in HEADERS.items():
                 assert f"\r\n{name}: {value}\r\n".encode() in told
-
-
-# --- who may watch, and who may steer --------------------------------------------------------------------------------
 
 
 async def test_it_is_for_this_machine_unless_told_otherwise() -> None:

@@ -107,9 +107,6 @@ def test_the_summary_of_a_wearer_who_was_never_found_says_so() -> None:
     assert lines[1] == "from 3.0 s without a place: the plan is of another building"
 
 
-# --- commands ---
-
-
 @pytest.fixture(scope="module")
 def walk(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return recorded(tmp_path_factory.mktemp("walk") / "walk.jsonl", insoles(cells=12).packets)

@@ -34,8 +34,6 @@ from solepath.types import Foot
 from solepath.types.vector import GRAVITY
 from solepath.wire.fragment import split
 
-# --- which device, which channel, which site --------------------------------------------------------------------------
-
 
 def test_a_walk_in_two_insoles_gives_the_same_steps_as_the_walk_itself(tmp_path):
     walk = walks.insoles()
@@ -170,9 +168,6 @@ def test_a_handle_is_given_to_another_device_and_what_was_discovered_stays_with_
         "receiver/connected", "receiver/disconnected", "receiver/connected",
     ]  # fmt: skip
     assert reports == [f"1 value of {OTHER} left out: no discovery says what is 0x0012 (11 bytes)"]
-
-
-# --- logs that begin when all was said --------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("payload", [244, 20])

@@ -39,8 +39,6 @@ from solepath.recording.btsnoop.values import Value, ValueListener
 from solepath.types import Foot
 from solepath.wire.insole_info import build_info, parse_info
 
-# --- reading and writing ----------------------------------------------------------------------------------------------
-
 
 def test_a_long_value_is_read_whole_at_any_mtu(tmp_path):
     value = info()
@@ -104,8 +102,6 @@ def test_other_ways_to_discover_to_read_and_to_notify(tmp_path):
     ]
     assert reports == []
 
-
-# --- against tshark ---------------------------------------------------------------------------------------------------
 
 needs_tshark = pytest.mark.skipif(shutil.which("tshark") is None, reason="tshark is not installed (apt install tshark)")
 

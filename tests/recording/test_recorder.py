@@ -13,8 +13,6 @@ from recordings import PACKETS, recorded
 from solepath.recording import PacketWriter, RecordingError, began, read_header, read_packets
 from solepath.types import Packet
 
-# --- a recorder that dies ---------------------------------------------------------------------------------------------
-
 LIVE = """
 import os, sys, time
 from solepath.recording import PacketWriter
@@ -50,8 +48,6 @@ def test_a_recorder_killed_in_mid_walk_loses_at_most_the_packet_in_its_hand(tmp_
     assert [packet.data[0] for packet in packets] == [k % 256 for k in range(len(packets))], "none is missing within"
     assert diary.count(b"?") / 200 - packets[-1].t < 0.2
 
-
-# --- a disk that is full ----------------------------------------------------------------------------------------------
 
 FULL = """
 import resource, sys
@@ -104,9 +100,6 @@ def test_a_pipe_whose_reader_left_is_a_clear_error():
         for _ in range(2):
             with pytest.raises(RecordingError, match="the packet before that is safe"):
                 writer.write(PACKETS[1])
-
-
-# --- what o'clock it was ----------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize(

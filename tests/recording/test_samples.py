@@ -62,9 +62,6 @@ def refusal(path: Path, foot: Foot | None = None) -> tuple[list[Sample], str]:
     return samples, sentence
 
 
-# --- what is read ---------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("kind", ["npz", "csv"])
 def test_one_foot_is_the_right_one_unless_told_otherwise(tmp_path, kind):
     columns = still() | {"gt_pos": np.zeros((20, 3)), "activity": np.zeros(20)}
@@ -118,9 +115,6 @@ def test_every_recording_of_the_data_folder_is_read_to_its_end(data_dir):
             if not rows:
                 rows = sum(len(archive[k]) for k in archive.files if k.startswith("pressure"))
         assert len(load_samples(path)) == rows
-
-
-# --- what is refused at once: nothing in the file can be trusted ------------------------------------------------------
 
 
 def without(columns: dict[str, np.ndarray], *keys: str) -> dict[str, np.ndarray]:
@@ -233,9 +227,6 @@ def test_a_sheet_with_a_fault_of_the_whole_is_refused_in_one_sentence(tmp_path, 
     path.write_bytes(text.encode("latin-1"))
     samples, sentence = refusal(path)
     assert samples == [] and complaint in sentence
-
-
-# --- what is wrong from one row on: the rows before are used ----------------------------------------------------------
 
 
 @pytest.mark.parametrize("kind", ["npz", "csv"])

@@ -61,9 +61,6 @@ def captions(page: Node) -> list[str]:
     return [one.first("strong").text for one in page.all("figcaption")]
 
 
-# --- what it says -----------------------------------------------------------------------------------------------------
-
-
 def rows_of(page: Node) -> dict[str, list[str]]:
     """The gait table: a row's name -> its cells."""
     table = page.named("gait")
@@ -164,9 +161,6 @@ def test_a_long_name_hides_nothing_else() -> None:
     assert "left_foot WWW" in facts and "right_foot WWW" in facts and facts.count("motion and pressure") == 2
 
 
-# --- a file by itself -------------------------------------------------------------------------------------------------
-
-
 def test_the_file_leads_nowhere_and_runs_nothing(tmp_path: Path) -> None:
     path = tmp_path / "report.html"
     told(*walked()).write(path)
@@ -219,9 +213,6 @@ def test_a_screen_reader_finds_its_way() -> None:
     for table in page.all("table"):
         assert table.first("caption").text
         assert {one.attributes["scope"] for one in table.all("th")} == {"row", "col"}
-
-
-# --- whatever there is ------------------------------------------------------------------------------------------------
 
 
 def test_there_is_a_figure_for_what_there_is() -> None:

@@ -63,9 +63,6 @@ def test_times_are_told_in_the_unit_that_suits_them() -> None:
     assert [lasted(t) for t in (0.0, 59.6, 90.0, 3725.0)] == ["0.0 s", "1 min 0 s", "1 min 30 s", "1 h 2 min"]
 
 
-# --- the mean gait cycle ----------------------------------------------------------------------------------------------
-
-
 def figures(stance: float, phase: float | None) -> StrideFigures:
     def one(value: float) -> Figure:
         return Figure(value, None, 10)
@@ -97,9 +94,6 @@ def test_a_foot_that_comes_down_nobody_knows_when_is_not_drawn_beside_the_other(
     assert contacts(cycle(None, figures(0.7, None))) == {R: [(0.0, 0.7)]}
     only_right = contacts(cycle(figures(0.6, None), figures(0.6, 0.4)))
     assert only_right[R][-1][0] == pytest.approx(0.6)
-
-
-# --- soles ------------------------------------------------------------------------------------------------------------
 
 
 def stride(start: float, off: float, end: float, **other: object) -> GaitCycleMeasured:

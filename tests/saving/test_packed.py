@@ -42,9 +42,6 @@ def packed(name: str = "session, whole frames") -> bytes:
     return bytes(session.pack())
 
 
-# --- what it holds ----------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize(
     "device", [Insole(cells=48), Insole(cells=96), CC2650()], ids=["48 cells", "96 cells", "SensorTags"]
 )
@@ -103,9 +100,6 @@ def test_a_calibrated_session_of_every_recipe_goes_on_with_what_was_known(recipe
     assert exact(again) == exact(session)
 
 
-# --- what must be given again -----------------------------------------------------------------------------------------
-
-
 def test_a_session_is_not_unpacked_with_another_recipe_or_other_parts() -> None:
     with pytest.raises(SnapshotError, match="packed with the recipe 'default', and this is 'kupt'"):
         Session.unpack(packed(), recipes.by_name("kupt"))
@@ -126,9 +120,6 @@ def test_a_session_is_not_unpacked_with_another_recipe_or_other_parts() -> None:
     assert exact(Session.unpack(session.pack(), bare)) == exact(session)
     with pytest.raises(SnapshotError, match="packed with 5 parts, and this recipe has 6"):
         Session.unpack(session.pack())
-
-
-# --- detectors of an app's own ----------------------------------------------------------------------------------------
 
 
 OWN = evolve(recipes.DEFAULT, name="quiet", detector=Quiet())

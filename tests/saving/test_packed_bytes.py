@@ -31,9 +31,6 @@ def packed() -> bytes:
     return bytes(session.pack())
 
 
-# --- damaged and foreign ----------------------------------------------------------------------------------------------
-
-
 def refused_or_sound(data: bytes) -> None:
     """SnapshotError, or a session that can be packed again."""
     try:
@@ -141,8 +138,6 @@ class Worded:
 
     foot: Foot
 
-
-# --- numbers ----------------------------------------------------------------------------------------------------------
 
 _FLOATS = st.one_of(
     st.floats(allow_nan=False, allow_infinity=False),

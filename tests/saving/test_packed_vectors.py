@@ -29,9 +29,6 @@ FILE = json.loads((PROTOCOL / "snapshot" / "states.json").read_text("utf-8"))
 HEADER = struct.Struct("<4sHHII")
 
 
-# --- records of every kind --------------------------------------------------------------------------------------------
-
-
 class Hat(Protocol):
     """What a `Wardrobe` has on top."""
 
@@ -140,9 +137,6 @@ def test_the_first_state_of_the_file_is_what_is_packed_today() -> None:
     assert state["schema"] == described(record_of(Wardrobe, made=True))
 
 
-# --- sessions ---------------------------------------------------------------------------------------------------------
-
-
 @cache
 def printed() -> dict[str, Any]:
     """What the command says."""
@@ -190,9 +184,6 @@ def test_a_session_with_a_detector_of_the_apps_own_is_read_with_its_schema_besid
 @define
 class Mine(ShoeDetector):
     """A detector of an app's own."""
-
-
-# --- bodies -----------------------------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("body", FILE["bodies"], ids=lambda body: body["id"])

@@ -52,9 +52,6 @@ def frames(radio: Radio, **device: int) -> tuple[Packet, ...]:
     return emulate(SHORT, devices={LEFT: Insole(**device)}, radio=radio, seed=1).packets
 
 
-# --- packets ----------------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("batch", [1, 4])
 def test_loss_is_a_share_of_packets_not_of_samples(batch: int) -> None:
     link = observed(frames(Radio(loss=0.25), cells=8, batch=batch)).links[LEFT]
@@ -90,9 +87,6 @@ def test_packets_of_a_device_of_an_apps_own_are_lost_like_others() -> None:
     observer = Observer()
     observer.add(PacketsLost(t=1.0, known_at=1.0, site=LEFT, channel="strap/values", count=2))
     assert observer.links[LEFT].lost == 2
-
-
-# --- samples ----------------------------------------------------------------------------------------------------------
 
 
 def moved(t: float, known_at: float) -> FootMoved:
@@ -148,9 +142,6 @@ def test_of_a_sensor_that_is_on_no_foot_the_samples_are_counted_too() -> None:
     assert re.match(r"pelvis: ([6-9]|10|11) Hz", line)
 
 
-# --- time -------------------------------------------------------------------------------------------------------------
-
-
 def test_a_packet_that_is_rejected_is_no_sign_of_time_passing() -> None:
     session, observer = Session(poses=True), Observer()
     for t in (1.0, 1e9, inf, nan, 2.0):
@@ -181,9 +172,6 @@ def test_a_link_is_lost_until_samples_come_that_are_no_stragglers() -> None:
     assert link.state(1.2) == "lost"
     link.sampled(3.0, 3.0)
     assert (link.state(3.0), link.name, link.connections) == ("ok", "sole", 1)
-
-
-# --- what else --------------------------------------------------------------------------------------------------------
 
 
 def test_the_means_of_late_are_the_sessions() -> None:

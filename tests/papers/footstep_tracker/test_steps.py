@@ -30,8 +30,6 @@ def rows(dt: float, a_y: list[float], g_x: list[float]) -> list[Row]:
     return [(k * dt, 0.0, a, -G, g, 0.0, 0.0) for k, (a, g) in enumerate(zip(a_y, g_x, strict=True))]
 
 
-# --- algorithm 1 ------------------------------------------------------------------------------------------------------
-
 #        rest      heel rises         toe rises                 slap        rest
 A_Y = [0.0, 0.0, -0.6, -2.0, -6.0, 2.0, 6.0, -4.0, -12.0, -8.0, 4.0, -4.0, 0.0, 0.0]
 G_X = [0.0, 0.0, -1.0, -3.0, -4.0, 1.0, 4.0, 4.0, 3.0, 1.0, -1.0, -2.0, 0.0, 0.0]
@@ -68,9 +66,6 @@ def test_whatever_a_foot_does_its_critical_times_follow_each_other(values: list[
         assert times.uplift <= times.liftoff <= times.landing <= times.rest
         step_length(drawn, times)
         closed_step_length(drawn, times)
-
-
-# --- equations --------------------------------------------------------------------------------------------------------
 
 
 def test_gravity_alone_moves_no_step_however_the_foot_is_tilted() -> None:
@@ -156,9 +151,6 @@ def test_a_foot_that_turns_faster_than_its_gyroscope_can_tell_has_turned_further
     assert 0.5 * (2.0 - told) < known - told < 1.1 * (2.0 - told)
 
 
-# --- static zones -----------------------------------------------------------------------------------------------------
-
-
 def feed(zones: StaticZones, samples: list[tuple[float, Vec3, Vec3]]) -> list[Stance]:
     found = []
     last = samples[0][0]
@@ -240,9 +232,6 @@ def test_the_foot_s_axes_are_learnt_from_how_the_heel_rises() -> None:
     right, forward = zones.axes.axes((0.0, 0.0, 1.0)) or (ZERO, ZERO)
     assert right == pytest.approx((0.0, -1.0, 0.0), abs=0.1)
     assert forward == pytest.approx((1.0, 0.0, 0.0), abs=0.1)
-
-
-# --- from segments to steps and cues ----------------------------------------------------------------------------------
 
 
 def swung(turn: float = 0.0) -> StepSegment:

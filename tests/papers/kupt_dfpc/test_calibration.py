@@ -88,8 +88,6 @@ def test_with_its_noise_taken_off_a_foot_in_the_air_carries_nothing() -> None:
             assert sum(load.cells) < 3.0
 
 
-# --- the shoe ---------------------------------------------------------------------------------------------------------
-
 HEADER = "pitch_deg,L_r_m,L_p2t_m\n"
 
 

@@ -67,9 +67,6 @@ def told(rows: list[Row]) -> list[tuple[Cue, int, int]]:
     return [(one.cue, round(one.t / 0.01), k) for one, k in watch(rows)[0]]
 
 
-# --- equations (2) and (3) --------------------------------------------------------------------------------------------
-
-
 def test_the_centre_of_pressure_is_the_mean_of_places_weighted_by_pressure() -> None:
     # (2): (0.05 x 10 + 0.05 x 30 + 0.20 x 40) / 80 = 10 / 80; (3): (0.01 x 10 - 0.01 x 30 + 0.02 x 40) / 80 = 0.6 / 80
     cells = (Cell(0.05, 0.01), Cell(0.05, -0.01), Cell(0.20, 0.02))
@@ -79,9 +76,6 @@ def test_the_centre_of_pressure_is_the_mean_of_places_weighted_by_pressure() -> 
         insole.update(0.01 * k, (total, total, total))
     load = insole.update(0.04, (10.0, 30.0, 40.0))
     assert load is not None and load.centre == pytest.approx((0.125, 0.0075))
-
-
-# --- fig. 4 -----------------------------------------------------------------------------------------------------------
 
 
 def test_toe_off_is_the_sample_before_the_jump_to_the_foots_centre_and_told_with_the_first_of_swing() -> None:
@@ -161,9 +155,6 @@ def test_before_any_load_is_known_the_inertial_cues_speak() -> None:
     assert seen == [Cue.LIFT, Cue.CLEAR]
 
 
-# --- the table of stages ----------------------------------------------------------------------------------------------
-
-
 NEAR = dict(zip(StepStage, (Phase.STATIONARY, Phase.PUSH_OFF, Phase.SWING, Phase.LOADING), strict=True))
 """The phase that a foot is in, or will be said to have been in."""
 
@@ -189,8 +180,6 @@ def test_the_table_of_stages_has_none_too_many_and_can_be_printed() -> None:
     landing = "LANDING STANDING contact flat LANDING FLYING contact clear LANDING LANDING LANDING contact"
     assert rows[3].split() == landing.split()
 
-
-# --- insoles alone ----------------------------------------------------------------------------------------------------
 
 WALK = Route().stand(2.0).walk(12.0, 1.2).stop(1.5)
 

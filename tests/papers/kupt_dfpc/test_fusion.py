@@ -52,9 +52,6 @@ def walked(*steps: StrideTaken) -> tuple[DoubleFoot, list[StrideFused]]:
     return body, [body.step(one, CENTRE) for one in steps]
 
 
-# --- (9) --------------------------------------------------------------------------------------------------------------
-
-
 def test_similarity_is_the_correlation_of_equation_9_worked_by_hand() -> None:
     # x - mean: -1.5 -0.5 0.5 1.5; y - mean: -0.5 -1.5 1.5 0.5; sum of products 3, sums of squares 5 and 5
     assert correlation((1.0, 2.0, 3.0, 4.0), (2.0, 1.0, 4.0, 3.0)) == pytest.approx(3.0 / 5.0)
@@ -80,9 +77,6 @@ def test_the_centre_of_pressure_stays_at_the_foot_centre_while_the_foot_is_in_th
     assert set(found[ground + 1 :]) == {CENTRE}
     assert list(found[:ground]) == sorted(found[:ground])
     assert 0.09 <= found[0] < found[ground - 1] <= 0.22
-
-
-# --- (10), (11), (12) -------------------------------------------------------------------------------------------------
 
 
 def test_the_coefficient_is_equation_11_worked_by_hand() -> None:
@@ -126,9 +120,6 @@ def test_each_step_is_calibrated_by_the_step_before_it_as_the_other_foot_measure
     assert [one.stride_length for one in told] == pytest.approx([1.2, 1.3, 1.3])
 
 
-# --- what the paper leaves open ---------------------------------------------------------------------------------------
-
-
 def test_the_first_step_has_nothing_to_be_compared_with_and_keeps_its_length() -> None:
     _, (told,) = walked(step(LEFT, 2.0, 1.2))
     assert (told.stride_length, told.coefficient, told.similarity, told.chosen) == (1.2, 1.0, None, LEFT)
@@ -147,9 +138,6 @@ def test_an_abnormal_step_neither_is_calibrated_nor_calibrates() -> None:
     assert [one.stride_length for one in told] == [1.2, 2.0, 1.3]
     assert [one.error_index for one in told] == [0.1, None, 0.1]
     assert told[2].similarity is None
-
-
-# --- (13) -------------------------------------------------------------------------------------------------------------
 
 
 def test_the_choice_of_the_foot_is_the_sign_of_equation_13_worked_by_hand() -> None:
@@ -213,8 +201,6 @@ def test_a_walk_of_equal_steps_ends_where_it_ended_without_calibration() -> None
     assert {one.chosen for one in told} == {LEFT}
 
 
-# --- a whole walk ---
-
 WALK = Route().stand(1.5).walk(14.0, 1.25).stop(1.5)
 
 
@@ -246,8 +232,6 @@ def test_the_wearer_stands_at_the_end_of_the_chosen_path_and_within_its_covarian
     assert xx * yy > xy * xy
     assert abs(here.position[0] - 14.0) < 3.0 * xx**0.5
 
-
-# --- any input --------------------------------------------------------------------------------------------------------
 
 INDICES = st.one_of(st.none(), st.floats(0.0, 50.0), st.sampled_from([0.0, float("nan"), float("inf"), -1.0]))
 COPS = st.lists(st.tuples(st.floats(-0.1, 0.4), st.floats(-0.1, 0.1)), max_size=32)

@@ -72,9 +72,6 @@ def test_a_sensor_upside_down_is_levelled_too() -> None:
     assert rotate(posture((0.0, 0.0, -GRAVITY)), (0.0, 0.0, -GRAVITY))[2] == pytest.approx(GRAVITY)
 
 
-# --- Runge and Kutta --------------------------------------------------------------------------------------------------
-
-
 def test_one_step_of_a_constant_rate_has_four_terms_of_the_series() -> None:
     # half of 0.2 rad: k1 + 2 k2 + 2 k3 + k4 makes 1 - a^2/2 + a^4/24 and a - a^3/6
     a = 0.1

@@ -182,9 +182,6 @@ def test_a_step_higher_than_stairs_have_is_neither_upstairs_nor_downstairs(heigh
     assert not any(isinstance(event, FlightClimbed) for event in told)
 
 
-# --- recorded stairs --------------------------------------------------------------------------------------------------
-
-
 @pytest.mark.parametrize("path", ["xio_closed_walks/spiralStairs", "gaitmap_examples/stair_up"])
 def test_recorded_stairs_are_two_flights_upwards_with_a_landing_between(path: str, data_dir: Path) -> None:
     file = data_dir / f"{path}.npz"

@@ -27,8 +27,6 @@ from solepath.papers.walking_modes.newton import fit_gauge
 from solepath.recording.decoded import Recorded
 from solepath.types import SITE_OF_FOOT, Foot, WalkingMode
 
-# --- newtons ----------------------------------------------------------------------------------------------------------
-
 
 def cubic(counts: float) -> float:
     """A cell of 14 bits that gets stiffer: 0 N at 0, 200 N at 16000 counts."""
@@ -86,9 +84,6 @@ def test_a_table_that_is_none_is_refused(tmp_path: Path) -> None:
         fit_gauge(falling)
     with pytest.raises(CalibrationError, match="No such file"):
         fit_gauge(tmp_path / "nowhere.csv")
-
-
-# --- modes ------------------------------------------------------------------------------------------------------------
 
 
 def down(foot: Foot, t: float, x: float, y: float) -> TouchedDown:
