@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -69,14 +70,14 @@ def run(detector: Any, acc: Rows, gyro: Rows, dt: float = 0.01) -> list[Stance]:
 @pytest.mark.parametrize(
     ("detector", "formula", "length"),
     [
-        (ShoeDetector(StanceThreshold(0.035)), shoe, 4),
-        (ShoeDetector(StanceThreshold(0.025)), shoe, 3),
-        (AngularRate(StanceThreshold(0.035)), are, 4),
-        (AngularRate(StanceThreshold(0.025)), are, 3),
-        (MovingVariance(StanceThreshold(0.035)), mv, 4),
-        (MovingVariance(StanceThreshold(0.025)), mv, 3),
-        (Graph(StanceThreshold(4)), mbgtd, 4),
-        (Graph(StanceThreshold(3)), mbgtd, 3),
+        (ShoeDetector(evolve(ShoeDetector().settings, window=0.035)), shoe, 4),
+        (ShoeDetector(evolve(ShoeDetector().settings, window=0.025)), shoe, 3),
+        (AngularRate(evolve(AngularRate().settings, window=0.035)), are, 4),
+        (AngularRate(evolve(AngularRate().settings, window=0.025)), are, 3),
+        (MovingVariance(evolve(MovingVariance().settings, window=0.035)), mv, 4),
+        (MovingVariance(evolve(MovingVariance().settings, window=0.025)), mv, 3),
+        (Graph(evolve(Graph().settings, count=4)), mbgtd, 4),
+        (Graph(evolve(Graph().settings, count=3)), mbgtd, 3),
         (Cycle(), shoe, 3),
     ],
     ids=lambda value: type(value).__name__ if hasattr(value, "update") else None,

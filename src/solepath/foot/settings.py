@@ -48,18 +48,32 @@ class CycleSettings:
     """The velocity that the sensor ought to have is that of a foot that rolls (`lever`); otherwise zero."""
 
 
-@frozen
+@frozen(kw_only=True)
 class StanceThreshold:
-    """Of a detector with a fixed threshold."""
+    """Of a detector with a fixed threshold, in the unit of its own statistic: no two can do with the same."""
 
-    window: float = 0.025
-    """How far back it looks, s; `Graph` so many samples."""
-    base: float = 1e4
+    base: float
     """The statistic up to which the foot is at rest for certain."""
-    gate: float = 3.5e5
+    gate: float
     """The statistic from which on it is not."""
     sigma: float = 0.01
     """Noise of the zero velocity of a foot at rest, m/s."""
+
+
+@frozen(kw_only=True)
+class WindowThreshold(StanceThreshold):
+    """Of `ShoeDetector`, `AngularRate` and `MovingVariance`."""
+
+    window: float
+    """How far back it looks, s."""
+
+
+@frozen(kw_only=True)
+class CountThreshold(StanceThreshold):
+    """Of `Graph`."""
+
+    count: int
+    """So many samples it looks back over."""
 
 
 @frozen

@@ -65,10 +65,9 @@ def by_name(parts: Iterable[type]) -> Classes:
 
 def must_fit(state: SessionState, known: Kinds, plan: IndexedPlan | None) -> None:
     """SnapshotError where the state needs another floor plan than `plan`, or a device that is not `known`."""
-    if state.wearer.settings.plan != (None if plan is None else plan.fingerprint):
-        with_one = (
-            "with the floor plan that it had" if state.wearer.settings.plan is not None else "without a floor plan"
-        )
+    had = state.wearer.settings.plan
+    if had != (None if plan is None else plan.fingerprint):
+        with_one = "with the floor plan that it had" if had is not None else "without a floor plan"
         raise SnapshotError(f"a snapshot of a session is restored {with_one}")
     for decoder in state.decoders.values():
         if decoder.link is None:

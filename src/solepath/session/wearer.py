@@ -98,10 +98,9 @@ class WearerParts:
         known_at = t if known_at is None or known_at < t else known_at
         if tracker.seen_at is None or t > tracker.seen_at:
             tracker.seen_at = t
-        if not events:  # so it is with nearly all samples
+        if not events and sample.air_pressure is None:  # so it is with nearly all samples
             view = tracker.view(sample, known_at, (), False, None)
-            air = sample.air_pressure is not None
-            for part in [part for part in self.parts if part.feeds] if air else self.sampled:
+            for part in self.sampled:
                 if said := part.feed(view):
                     self._take(said, events)
                     self._flow(events, view, known_at, 1 + next(k for k, one in enumerate(self.parts) if one is part))

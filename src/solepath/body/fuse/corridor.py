@@ -23,10 +23,9 @@ MOST = 60
 """Strides of one block: more are no walk."""
 BLOCK_WAY = 5.0
 """Length of a block, m."""
-STRAIGHT = 0.1
-"""The strides of a block point into its direction, at the most so far off, rad;"""
-FOOT_TURN = 0.17
-"""nor does the foot itself turn further in one, rad."""
+STRAIGHT, FOOT_TURN = 0.1, 0.17
+"""No stride of a block points further off its direction than the first, rad, nor does the foot turn further in one than
+the second, rad."""
 SHORTEST_STRIDE = 0.3
 """A shorter stride is no walk, m."""
 PAUSE = 3.0

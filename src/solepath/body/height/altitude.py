@@ -26,7 +26,7 @@ from typing import ClassVar
 from ...events import LiftRidden, StrideTaken
 from ...foot.view import FootView
 from ...types import Foot, Site
-from ...types.attrs import define, evolve, field, frozen
+from ...types.attrs import define, evolve, field
 from ..part import HeightShift, Instead, Notice, Part, Said
 from .received import Heard, Told
 
@@ -120,16 +120,6 @@ class PendingReadings:
     """The newest that was used, m."""
 
 
-@frozen
-class AltitudeSettings:
-    """What `Altitude` is set to."""
-
-    air: bool = True
-    """Use the air pressure."""
-    lifts: bool = True
-    """Follow lifts."""
-
-
 @define
 class Altitude(Part):
     """The filter, fed. Latency: none for the air; a ride is known after it."""
@@ -137,7 +127,6 @@ class Altitude(Part):
     feeds: ClassVar[bool] = True
     idle = True
 
-    settings: AltitudeSettings = AltitudeSettings()
     now: Heights = field(factory=Heights, init=False)
     base: Heights = field(factory=Heights, init=False)
     """As it was before what is kept."""
@@ -157,7 +146,7 @@ class Altitude(Part):
         if pressure is None:
             return ()
         t, z = view.t, view.position[2]
-        if not (self.settings.air and 2e4 < pressure < 2e5 and abs(z) < FARTHEST):
+        if not (2e4 < pressure < 2e5 and abs(z) < FARTHEST):
             return ()
         which = LEFT if view.foot is Foot.LEFT else RIGHT
         side = self.sides[which]
@@ -178,7 +167,7 @@ class Altitude(Part):
         """A stride makes the correction less sure; a ride's height is what is made of it here."""
         if isinstance(event, StrideTaken):
             return self._stepped(event)
-        if self.settings.lifts and isinstance(event, LiftRidden):
+        if isinstance(event, LiftRidden):
             ridden = self._ridden(event)
             return [Instead(event, ridden), self._height()]
         return ()

@@ -10,7 +10,7 @@ from ...foot.view import FootView
 from ...types import Foot
 from ...types.attrs import define, field, frozen
 from ..part import LayoutTold, Notice, Part, Said
-from .sides import RARELY, Sides
+from .sides import Sides
 
 LEFT: Final = Foot.LEFT
 """Looked up once: a word of an enum costs as much as five multiplications."""
@@ -33,9 +33,9 @@ class WearSettings:
     """What `Wear` is set to."""
 
     steps: int = 3
-    """Of the other foot, for one to be silent;"""
+    """A foot is silent when the other has taken so many steps since its last sample."""
     seconds: float = 3.0
-    """and so long without a sample, s."""
+    """No foot is silent that was heard less than this ago, s."""
 
 
 @define
@@ -71,11 +71,7 @@ class Wear(Part):
         if not (events or this.said or other.missing):
             this.t, this.missing = t, 0
             if not self.swapped:
-                side = self.sides.left if is_left else self.sides.right
-                kept = side.turned.t
-                # with a rate so soon after another it would do nothing
-                if kept is None or not 0.0 <= t - kept < RARELY or view.sample.gyro is None:
-                    self.sides.keep(side, view)
+                self.sides.keep(self.sides.left if is_left else self.sides.right, view)
             return ()
         found: list[Said] = []
         if this.said:

@@ -129,17 +129,17 @@ class Clipping:
             axis.side = 0
 
     def update(
-        self, dt: float, now: Vec3, before: Vec3, earlier: Vec3, earlier_dt: float, told: bool
+        self, dt: float, now: Vec3, before: Vec3, earlier: Vec3, earlier_dt: float, saturated: bool
     ) -> tuple[Missed, ...]:
-        """One rate, rad/s, `dt` s after `before`, which was `earlier_dt` after `earlier`; `told`: the device says that
-        a sensor is at its end. Returns what turned out to have been missed."""
+        """One rate, rad/s, `dt` s after `before`, which was `earlier_dt` after `earlier`; `saturated`: the device says
+        that a sensor is at its end. Returns what turned out to have been missed."""
         found: tuple[Missed, ...] = ()
         busy = False
         for i in (0, 1, 2):
             axis, a = self.axes[i], now[i]
             if axis.side == 0:
                 if abs(a) > NEAR * self.largest and not axis.bottom * (1.0 - SAME) < a < axis.top * (1.0 - SAME):
-                    _enter(axis, dt, a, before[i], earlier[i], earlier_dt, told, self.limits.steepest)
+                    _enter(axis, dt, a, before[i], earlier[i], earlier_dt, saturated, self.limits.steepest)
                     if abs(a) > self.largest:
                         self._reach(min(abs(a), SPIKE * self.largest))
             else:
@@ -156,7 +156,14 @@ class Clipping:
 
 
 def _enter(
-    axis: GyroscopeAxis, dt: float, a: float, before: float, earlier: float, earlier_dt: float, told: bool, most: float
+    axis: GyroscopeAxis,
+    dt: float,
+    a: float,
+    before: float,
+    earlier: float,
+    earlier_dt: float,
+    saturated: bool,
+    most: float,
 ) -> None:
     sign = 1 if a > 0.0 else -1
     a, before, earlier = sign * a, sign * before, sign * earlier
@@ -164,9 +171,9 @@ def _enter(
     known = axis.ends_above if sign > 0 else axis.ends_below
     stands = a * (1.0 - SAME) <= before <= a * (1.0 + SAME)
     if a > end * (1.0 + SAME):
-        known = told  # it can say more than was thought
+        known = saturated  # it can say more than was thought
     end = max(end, min(a, SPIKE * end))
-    known = known or told
+    known = known or saturated
     if sign > 0:
         axis.top, axis.ends_above = end, known
     else:

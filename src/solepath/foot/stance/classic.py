@@ -19,7 +19,7 @@ from math import inf, sqrt
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import IDENTITY, ZERO
-from ..settings import StanceThreshold
+from ..settings import CountThreshold, WindowThreshold
 from .shoe import SIGMA_ACC, SIGMA_GYRO
 from .stance import Detector, Load, Stance, soften
 
@@ -28,7 +28,7 @@ from .stance import Detector, Load, Stance, soften
 class AngularRate(Detector):
     """ARE: angular rate energy. T = 1/W sum(|w|^2) / s_w^2."""
 
-    settings: StanceThreshold = StanceThreshold(0.025, 5e3, 1e5)
+    settings: WindowThreshold = WindowThreshold(window=0.025, base=5e3, gate=1e5)
     entries: deque[tuple[float, float]] = field(factory=deque, init=False)
     total: float = field(default=0.0, init=False)
 
@@ -50,7 +50,7 @@ class AngularRate(Detector):
 class MovingVariance(Detector):
     """MV: acceleration moving variance. T = 1/W sum(|a - a_mean|^2) / s_a^2."""
 
-    settings: StanceThreshold = StanceThreshold(0.05, 5e3, 5e4)
+    settings: WindowThreshold = WindowThreshold(window=0.05, base=5e3, gate=5e4)
     entries: deque[tuple[float, float, float, float]] = field(factory=deque, init=False)
     sums: tuple[float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0), init=False)
 
@@ -78,10 +78,10 @@ class Graph(Detector):
 
     For every pair of cuts a < b, counted from 0 as in published code, the distances |a_i - a_j| between the samples up
     to a and the samples from b on are summed and divided by (b - a) (W - b + 1); T is the largest of
-    these, in m/s^2. Its window is counted in samples. Costs O(W^2) a sample.
+    these, in m/s^2. Costs O(W^2) a sample.
     """
 
-    settings: StanceThreshold = StanceThreshold(5, 2.0, 8.0)
+    settings: CountThreshold = CountThreshold(count=5, base=2.0, gate=8.0)
     entries: deque[Vec3] = field(factory=deque, init=False)
 
     def update(
@@ -89,7 +89,7 @@ class Graph(Detector):
     ) -> Stance:
         entries = self.entries
         entries.append(acc)
-        while len(entries) > self.settings.window:
+        while len(entries) > self.settings.count:
             entries.popleft()
         w = len(entries)
         if w < 3:

@@ -10,7 +10,7 @@ from math import sqrt
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import GRAVITY, IDENTITY
-from ..settings import StanceThreshold
+from ..settings import WindowThreshold
 from .stance import Detector, Load, Stance, soften
 
 SIGMA_ACC = 0.01
@@ -23,7 +23,7 @@ SIGMA_GYRO = 0.1 * 3.141592653589793 / 180.0
 class ShoeDetector(Detector):
     """SHOE: stance hypothesis optimal estimation. T = 1/W sum(|a - g a_mean/|a_mean||^2/s_a^2 + |w|^2/s_w^2)."""
 
-    settings: StanceThreshold = StanceThreshold()
+    settings: WindowThreshold = WindowThreshold(window=0.025, base=1e4, gate=3.5e5)
     entries: deque[tuple[float, float, float, float, float, float]] = field(factory=deque, init=False)
     sums: tuple[float, float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0, 0.0), init=False)
 

@@ -86,16 +86,16 @@ class StaticZonesSettings:
     """What `StaticZones` is set to."""
 
     within: float = 0.5
-    """Samples of a zone differ by no more on any axis, m/s^2,"""
+    """Samples of a zone differ by no more than this on any axis, m/s^2."""
     length: float = 0.25
-    """and last so long, s."""
+    """A zone lasts at least so long, s."""
     loosely: float = 1.0
-    """Or by no more than this, m/s^2, of a foot that hardly turns,"""
+    """As `within`, of a zone in which the foot hardly turns (`calm`), m/s^2."""
     brief: float = 0.075
-    """and last so long, s."""
+    """As `length`, of such a zone, s."""
     calm: float = 1.4
-    """Which is an axis' rate, rad/s, that a foot which rolls on without a rest does not fall below for 0.1 s, nor any
-    swing."""
+    """A foot hardly turns below this rate on every axis, rad/s: one that rolls on without a rest is not below it for
+    0.1 s, nor is any swing."""
     sigma: float = 0.01
     """Noise of the zero velocity in a zone, m/s."""
 

@@ -34,12 +34,13 @@ from .stages import STAGES, CellCue, StepStage
 FARTHEST = 1e3
 """No centre of pressure jumps so far, m."""
 REST, LONGEST_LANDING = 0.1, 0.4
-"""s. For so long the centre of pressure rests at the foot's centre in a normal swing; a heel-strike is told after so
-long even when the foot is not stationary yet."""
+"""In a normal swing the centre of pressure rests at the foot's centre for the first of these times, s. A heel-strike is
+reported after the second, s, even when the foot is not stationary yet."""
 SHUFFLE_TIME = 0.25
 """How long a foot must be fast (InertialCues) to have left without ever being in the air, s."""
 AREA_ON, AREA_OFF = 0.05, 0.03
-"""For an insole alone: heel and forefoot above this share of the full load make a foot flat; one below that ends it."""
+"""Of an insole alone the foot is flat from when heel and forefoot are above the first of these shares of the full load
+until one of them is below the second."""
 STALE = 0.05
 """Samples without cells, where those come more slowly, are no matter for so long, s."""
 

@@ -55,7 +55,8 @@ PATIENCE, ALIKE, AWAY = 1.0, 0.75, 3
 """A step of the other foot that ended longer ago than this, s, is not used; of two steps of which one is shorter than
 this share of the other r is 0; a foot that took no step during so many of the other's is not chosen."""
 ABNORMAL = 1.0
-"""m/s: about as much as the error indices of normal steps on recorded insoles."""
+"""An abnormal step counts as so much worse than a normal one, m/s: about what the error indices of normal steps on
+recorded insoles come to."""
 
 
 @define

@@ -31,13 +31,16 @@ detector need not be certain: its zero velocity may have this sigma, m/s."""
 
 @frozen
 class KnownVelocitySettings:
-    """What `KnownVelocity` is set to. With both areas above a share `on` of the full load stationary begins; it ends
-    when one of them is below `off`. `sigma`: of a zero velocity, m/s; `rolling_sigma`: of a rolling shoe's, m/s."""
+    """What `KnownVelocity` is set to."""
 
     on: float = 0.05
+    """The foot is stationary once both areas carry more than this share of the full load."""
     off: float = 0.03
+    """It is so no longer once one of them carries less than this share."""
     sigma: float = 0.01
+    """Noise of a zero velocity, m/s."""
     rolling_sigma: float = 0.1
+    """Noise of the velocity of a rolling shoe, m/s."""
     shoe: ShoeGeometry | None = None
     """The wearer's, measured. Without it the default shoe in the insole's size."""
 

@@ -43,11 +43,12 @@ class MotionMoment:
 
 @frozen
 class SwingSettings(DedriftSettings):
-    """What `SwingDedrift` is set to. `slide`: how long after heel-strike the heel has not stopped sliding, s.
-    `vertical`: take the known velocity for heights too."""
+    """What `SwingDedrift` is set to."""
 
     slide: float = 0.02
+    """For so long after heel-strike the heel has not stopped sliding, s."""
     vertical: bool = False
+    """Take the known velocity for heights too."""
 
 
 @define

@@ -24,10 +24,11 @@ STANDS = 1.0
 
 @frozen
 class BiasZuptSettings(DedriftSettings):
-    """What `BiasZupt` is set to. `drift`: calibrated slope of the position, m/s (x, y), in the device's own world where
-    it tells its attitude, otherwise in the navigation frame."""
+    """What `BiasZupt` is set to."""
 
     drift: tuple[float, float] | None = None
+    """Calibrated slope of the position, m/s (x, y): in the device's own world where it has an attitude of its own,
+    otherwise in the navigation frame."""
     spread: bool = True
     """The velocity that a swing ends with was gathered evenly over it, so the position loses half of it times the time
     since the foot last stood. The paper speaks of resets alone. Without this a tilt of a quarter of a degree, which is

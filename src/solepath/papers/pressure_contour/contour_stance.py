@@ -22,25 +22,33 @@ RELEASE = 1.6
 HEEL_RISES = 0.4
 """While the heel rises a foot still turns slowly: so long after its stance no quietest moment is sought, s."""
 STANCE_DUE, LONGEST_MOTION = 1.0, 2.5
-"""s. Walking feet at a stroll move for up to 1 s between two stances."""
+"""A motion that lasts longer than the first of these times, s, has gone through a stance that was not seen, since feet
+that stroll move for up to 1 s; after the second, s, thresholds give way until it ends."""
 LONGEST_STANCE = 1.0
 """A foot that stands, or a heel that is loaded, for longer does not walk, and says nothing of the next stance, s."""
 LONGEST_GAP = 0.3
 """Samples farther apart do not tell what went on between, s."""
 HOLD, BLIND, STALE = 0.03, 0.1, 0.05
-"""s, of `ContourVelocity`."""
+"""A stance goes on while contours are fast for no longer than the first of these times, s. Once a heel has borne weight
+for the second, s, without contours at rest the gyroscope is asked. What a load says holds for the third, s."""
 
 
 @frozen
 class GyroscopeSettings:
-    """What `GyroscopeMagnitude` is set to. `below`, `first`, `ceiling`: rad/s. `lasting`: s. `sigma`: m/s."""
+    """What `GyroscopeMagnitude` is set to."""
 
     below: float = 0.25
+    """The threshold is never lower, rad/s."""
     first: float = 0.5
+    """The threshold until stances of walking were seen, rad/s."""
     ceiling: float = 1.5
+    """The threshold is never higher while stances are seen, rad/s."""
     margin: float = 1.8
+    """The wearer's own threshold, as a multiple of how quiet stances are at their quietest."""
     lasting: float = 0.03
+    """For so long the rate is below the threshold before the foot stands, s."""
     sigma: float = 0.01
+    """Noise of the zero velocity of a stance, m/s."""
 
 
 @define
@@ -129,14 +137,18 @@ class GyroscopeMagnitude(Detector):
 
 @frozen
 class ContourVelocitySettings:
-    """What `ContourVelocity` is set to. `threshold`: v_thrsh of (3), m/s, the paper's sensing bias; `leave`, `sigma`:
-    m/s. `loaded`: the heel carries at least this share of the wearer's full load."""
+    """What `ContourVelocity` is set to."""
 
     threshold: float = 0.004
+    """v_thrsh of (3), m/s: the paper's sensing bias."""
     margin: float = 1.5
+    """The wearer's own threshold, as a multiple of how slow the contours of stances are at their slowest."""
     leave: float = 0.020
+    """A stance ends where the contours are faster than this, m/s."""
     loaded: float = 0.12
+    """The heel is loaded when it carries at least this share of the wearer's full load."""
     sigma: float = 0.01
+    """Noise of the zero velocity of a stance, m/s."""
 
 
 @define

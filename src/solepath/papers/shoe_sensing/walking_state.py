@@ -18,9 +18,11 @@ from ...types.vector import TIE
 
 STANDS = 1.2
 """Longer than a foot of a slow walker stands, s."""
-LOST, SILENT = 5.0, 10.0
-"""A wearer who moves without a step for so long is UNKNOWN, and feet whose times are further apart than that are not
-compared until one has said nothing for so long, s."""
+WITHOUT_STEP = 5.0
+"""What a wearer does who moves for so long without a step is UNKNOWN, s."""
+CLOCKS_APART, SILENT = 5.0, 10.0
+"""Feet whose times are further apart than the first, s, are on different clocks; a foot without samples for the second,
+s, no longer keeps the other waiting."""
 _OF_STEP = {0: Activity.WALKING, 1: Activity.STAIRS_UP, -1: Activity.STAIRS_DOWN}
 
 
@@ -30,13 +32,13 @@ class AnglePerMetre(Doing):
 
     The paper tells three states and takes walking and jogging for one: a level step is WALKING, however fast. It has no
     word for who does not walk: feet that stand for `STANDS` s are STANDING since they came to stand, and feet that move
-    without a step for `LOST` s are UNKNOWN. What is told is final and knows no probabilities. Latency: the step's end,
-    for a state that began with its toe-off; `STANDS` for standing.
+    without a step for `WITHOUT_STEP` s are UNKNOWN. Every event is final, and has no probabilities. Latency: the step's
+    end, for a state that began with its toe-off; `STANDS` for standing.
 
     A step that gains more than stairs have (steepness.py) is an error of the track, and its angle means nothing: who
-    walked or climbed goes on doing so, who stood is UNKNOWN. When the clock of one foot begins anew, the other's goes
-    on and dates what is told; a foot whose times are elsewhere is left out until they come within `LOST` s of the
-    other's, or the other begins anew too, or says nothing for `SILENT` s.
+    walked or climbed goes on doing so, who stood is UNKNOWN. When the clock of one foot restarts, events have the times
+    of the other's. A foot more than `CLOCKS_APART` s away from the other is left out until it is nearer, the other's
+    clock restarts too, or the other has no samples for `SILENT` s.
     """
 
     feeds: ClassVar[bool] = True
@@ -91,7 +93,7 @@ class AnglePerMetre(Doing):
         if view.phase is not Phase.STATIONARY:
             if t > self.moved_at:
                 self.moved_at = t
-            if t - self.stepped_at > LOST and self.activity is not Activity.UNKNOWN:
+            if t - self.stepped_at > WITHOUT_STEP and self.activity is not Activity.UNKNOWN:
                 self._tell(Activity.UNKNOWN, self.stepped_at, known_at, told)
         elif t - self.moved_at >= STANDS - TIE:
             self.stepped_at = max(self.stepped_at, t)
@@ -107,7 +109,7 @@ class AnglePerMetre(Doing):
             for other in apart:
                 apart[other] = None
             return True
-        if clocks and abs(t - max(clocks.values())) > LOST:
+        if clocks and abs(t - max(clocks.values())) > CLOCKS_APART:
             waiting = apart[foot]
             if waiting is None:
                 apart[foot] = waiting = t
