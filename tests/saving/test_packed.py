@@ -146,3 +146,17 @@ def test_what_cannot_be_packed_says_so_when_it_is_to_be_packed() -> None:
         detector.since = value
         with pytest.raises(SnapshotError):
             session.pack()
+
+
+def test_a_second_state_is_unpacked_without_reading_annotations_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    machine = machines()["session, samples with pressure"]
+    session = machine.begin()
+    for item in machine.items[:100]:
+        session.feed(item)
+    first = machine.repacked(session)
+
+    def never(*_: Any, **__: Any) -> Any:
+        raise AssertionError("the annotations of a class were read again: that takes longer than the state")
+
+    monkeypatch.setattr("typing.get_type_hints", never)
+    assert machine.repacked(first).pack() == session.pack()

@@ -82,34 +82,42 @@ class _Kinds:
 
     def __init__(self, node: OpenNode) -> None:
         self.node, self.names = node, list(node.known)
-        self.kept: dict[type, tuple[int, bytes, Callable[..., None]]] = {}
+        self.kinds: dict[type, tuple[int, bytes, _Form]] = {}
+        """Of each class met so far: its number, what stands for it where it has none, and its writer and reader."""
+
+    def _kind(self, cls: type) -> tuple[int, bytes, _Form]:
+        known = self.kinds.get(cls)
+        if known is None:
+            record = record_in(self.node, cls)
+            if cls.__name__ in self.names:
+                known = self.names.index(cls.__name__), b"", _form(record)
+            else:
+                known = len(self.names), told_of(record).encode(), _form(record)
+            self.kinds[cls] = known
+        return known
 
     def write(self, o: Any, F: Any, N: Any, M: Any, B: Any) -> None:
         cls = type(o)
-        if cls not in self.kept:
+        if cls not in self.kinds:
             check_open(self.node, cls)
-            record = record_in(self.node, cls)
-            is_known = cls.__name__ in self.names
-            k, told = (self.names.index(cls.__name__), b"") if is_known else (len(self.names), told_of(record).encode())
-            self.kept[cls] = k, told, _form(record).write
-        k, told, write_it = self.kept[cls]
+        k, told, form = self._kind(cls)
         N.append(k)
         if told:
             N.append(len(told))
             B.append(told)
-        write_it(o, F, N, M, B)
+        form.write(o, F, N, M, B)
 
     def read(self, t: Any, f: Any, n: Any, m: Any, b: Any, F: Any, C: Classes) -> Any:
         """It must be of the class that stands there, where it is made again."""
         k = n()
-        told = b(n()).decode() if k == len(self.names) and self.node.others else ""
-        name = told.partition(" ")[0] if told else _word(self.names, k)
+        told = b(n()) if k == len(self.names) and self.node.others else b""
+        name = told.decode().partition(" ")[0] if told else _word(self.names, k)
         if self.node.made and name != type(t).__name__:
             raise SnapshotError(f"packed with {name}, and this recipe has {type(t).__name__}")
-        record = record_in(self.node, type(t) if self.node.made else class_in(self.node, name, C))
-        if told and told != told_of(record):
+        _, expected, form = self._kind(type(t) if self.node.made else class_in(self.node, name, C))
+        if told and told != expected:
             raise SnapshotError(f"packed with a part {name!r} that had other fields")
-        return _form(record).read(t, f, n, m, b, F, C)
+        return form.read(t, f, n, m, b, F, C)
 
 
 @lru_cache(maxsize=512)
