@@ -7,14 +7,14 @@ import asyncio
 import sys
 
 from solepath import Connected, Disconnected, LinkTrouble, Session, Site, StrideTaken
-from solepath.ble import NATIVE, Backend, BluetoothError, Devices, Wanted
+from solepath.ble import NATIVE, Backend, BluetoothError, DeviceConfig, Devices
 from solepath.emulate import Bench, Route
 from solepath.emulate.controllers import virtual_air
 
 
 async def listen(left: str, right: str, backend: Backend = NATIVE, seconds: float = 600.0) -> None:
     session = Session()
-    wanted = [Wanted(Site.LEFT_FOOT, left), Wanted(Site.RIGHT_FOOT, right)]
+    wanted = [DeviceConfig(Site.LEFT_FOOT, left), DeviceConfig(Site.RIGHT_FOOT, right)]
     end = asyncio.get_running_loop().time() + seconds
     async with Devices(wanted, backend=backend) as devices:
         async for packet in devices:

@@ -4,7 +4,7 @@
 
 The device is invented: 16 bytes for every sample, 100 a second, numbered with 15 bits, no clock. Beside this file lies
 own_device.json: bytes and what they say, worked out by hand, and checked here. Real devices that were declared like
-this are in solepath/link/devices. `ble.Wanted(site, profile=PROFILE)` and `Session(profiles=[DRIVER])` take it.
+this are in solepath/link/devices. `ble.DeviceConfig(site, profile=PROFILE)` and `Session(profiles=[DRIVER])` take it.
 """
 
 import json

@@ -25,8 +25,8 @@ FIGURES = {"steps": "steps", "cadence": "steps a minute", "length": "stride, m",
 
 
 async def sensors() -> AsyncIterator[Packet]:
-    from solepath.ble import Devices, Wanted
-    async with Devices([Wanted(None, profile=INSOLE), Wanted(None, profile=INSOLE)]) as devices:
+    from solepath.ble import DeviceConfig, Devices
+    async with Devices([DeviceConfig(None, profile=INSOLE), DeviceConfig(None, profile=INSOLE)]) as devices:
         async for packet in devices:
             yield packet
 

@@ -19,7 +19,7 @@ from .body.fuse.position import MeanOfFeet
 from .body.gait.cycles import GaitCycles
 from .body.gait.turns import Turns
 from .body.height.altitude import Altitude
-from .body.part import Doing, Part, Track
+from .body.part import ActivityPart, Part, TrackPart
 from .body.worn.wear import Wear
 from .foot.cues.cues import Cues
 from .foot.cues.gait_cues import GaitCues
@@ -32,7 +32,7 @@ from .types.attrs import evolve, field, frozen
 
 
 def usual(
-    track: Track | None = None, activity: Doing | None = None, altitude: Altitude | None = None
+    track: TrackPart | None = None, activity: ActivityPart | None = None, altitude: Altitude | None = None
 ) -> tuple[Part, ...]:
     """The body's parts in the order that most recipes have: how the sensors are worn, where the wearer is (`track`;
     MeanOfFeet where it is None), what the wearer does (`activity`; Activities), turns, lifts and the air pressure
@@ -84,7 +84,9 @@ class Recipe:
 DEFAULT = Recipe("default", Cycle(), ErrorStateFilter(), parts=usual(BothFeet(), altitude=Altitude()))
 """Stance judged within each gait cycle, nine-state error-state filter, both feet in one frame."""
 
-STRAIGHT_CORRIDORS = DEFAULT.exchanged(Track, BothFeet(BothFeetSettings(straight_corridors=True)), "straight-corridors")
+STRAIGHT_CORRIDORS = DEFAULT.exchanged(
+    TrackPart, BothFeet(BothFeetSettings(straight_corridors=True)), "straight-corridors"
+)
 """The same for a wearer who walks straight corridors: the heading is held to them."""
 
 RECIPES: dict[str, str] = {

@@ -20,7 +20,7 @@ sys.path.insert(0, str(Path(__file__).parents[1] / "helpers" / "radio"))
 from airs import TIERS, memory  # noqa: E402
 
 from solepath import FootMoved, Session  # noqa: E402
-from solepath.ble import Devices, Wanted  # noqa: E402
+from solepath.ble import DeviceConfig, Devices  # noqa: E402
 from solepath.emulate.devices.bench import Bench  # noqa: E402
 from solepath.emulate.routes.route import Route  # noqa: E402
 from solepath.link.devices.insole import PROFILE as INSOLE  # noqa: E402
@@ -66,7 +66,7 @@ async def adapted(made: Bench) -> tuple[float, int]:
     """The same of Devices, every packet taken."""
     async with (
         memory(made) as backend,
-        Devices([Wanted(None, profile=INSOLE), Wanted(None, profile=INSOLE)], backend=backend) as devices,
+        Devices([DeviceConfig(None, profile=INSOLE), DeviceConfig(None, profile=INSOLE)], backend=backend) as devices,
     ):
         loop = asyncio.get_running_loop()
         count, began, until = 0, 0.0, float("inf")
@@ -87,7 +87,7 @@ async def delays(tier: str) -> tuple[list[float], list[float]]:
     loop = asyncio.get_running_loop()
     async with (
         TIERS[tier](made) as backend,
-        Devices([Wanted(None, profile=INSOLE), Wanted(None, profile=INSOLE)], backend=backend) as devices,
+        Devices([DeviceConfig(None, profile=INSOLE), DeviceConfig(None, profile=INSOLE)], backend=backend) as devices,
     ):
         began = loop.time() + 1.0
         made.walk_from(began)

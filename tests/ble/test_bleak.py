@@ -14,7 +14,7 @@ from benches import LEFT, RIGHT
 from bleak.exc import BleakDBusError, BleakError
 from memory_radio import MemoryRadio
 
-from solepath.ble import Backend, Wanted
+from solepath.ble import Backend, DeviceConfig
 from solepath.emulate import Route
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.sensors.insole_device import Insole
@@ -59,7 +59,9 @@ def test_a_fault_of_bleak_in_one_foots_client_is_told_and_outlived_and_the_other
     devices = strap(1, faults="1 * disconnect"), strap(2)
     backend = raising(asked(*devices).backend, request_, error, at=address(1), until=3.0)
     with caplog.at_level(logging.ERROR, "solepath.ble"):
-        packets = received(backend, Wanted(LEFT, address(1), STRAP), Wanted(RIGHT, address(2), STRAP), seconds=14.0)
+        packets = received(
+            backend, DeviceConfig(LEFT, address(1), STRAP), DeviceConfig(RIGHT, address(2), STRAP), seconds=14.0
+        )
     beats = {site: [p.t for p in packets if p.site is site and p.channel == "strap/beat"] for site in (LEFT, RIGHT)}
     assert len(beats[RIGHT]) > 13 * RATE
     assert len(beats[LEFT]) > 5 * RATE and max(beats[LEFT]) > 13.0
@@ -78,7 +80,7 @@ def test_what_is_refused_beside_the_stream_under_any_name_is_told_with_its_chann
     for request in ("read_gatt_char", "start_notify"):
         bench = Bench(Route().stand(9.0), devices={LEFT: Insole(cells=8)})
         backend = raising(MemoryRadio(bench.peripherals).backend, request, error, where="device/battery")
-        packets = received(backend, Wanted(LEFT, bench[LEFT].address), seconds=8.0)
+        packets = received(backend, DeviceConfig(LEFT, bench[LEFT].address), seconds=8.0)
         if request == "read_gatt_char":
             [words] = troubles(packets)
             assert words.startswith("device/battery cannot be read: ")
@@ -96,7 +98,7 @@ def test_a_setting_that_is_refused_under_any_name_is_told_and_what_was_to_be_rea
         setup=(evolve(READ_AFTER.setup[0], channel="strap/beside"), *READ_AFTER.setup),
     )
     backend = raising(asked(strap()).backend, "write_gatt_char", REFUSALS[0], where="strap/page")
-    packets = received(backend, Wanted(PELVIS, address(1), profile), seconds=5.0)
+    packets = received(backend, DeviceConfig(PELVIS, address(1), profile), seconds=5.0)
     [words] = troubles(packets)
     assert words.startswith("strap/beside was not set to 0a: ")
     assert len([packet for packet in packets if packet.channel == "strap/beat"]) > 4 * RATE
@@ -105,7 +107,7 @@ def test_a_setting_that_is_refused_under_any_name_is_told_and_what_was_to_be_rea
 @pytest.mark.parametrize("error", REFUSALS, ids=["winrt", "bluez"])
 def test_a_stream_that_is_refused_is_no_connection(error: Exception) -> None:
     backend = raising(asked(strap()).backend, "start_notify", error, where="strap/beat", until=3.0)
-    packets = received(backend, Wanted(PELVIS, address(1), STRAP), seconds=12.0)
+    packets = received(backend, DeviceConfig(PELVIS, address(1), STRAP), seconds=12.0)
     assert len([packet for packet in packets if packet.channel == "receiver/connected"]) > 2
     assert [packet for packet in packets if packet.channel == "strap/beat"]
 
@@ -119,6 +121,6 @@ def test_an_insole_whose_info_nobody_understands_is_named_and_told_what_can_be_d
             found = await super().read_gatt_char(one, **more)
             return bytearray(len(found)) if one.obj.channel == "insole/info" else found  # type: ignore[no-any-return]
 
-    packets = received(Backend(Client, base.scanner), Wanted(LEFT, bench[LEFT].address), seconds=9.0)
+    packets = received(Backend(Client, base.scanner), DeviceConfig(LEFT, bench[LEFT].address), seconds=9.0)
     [words] = troubles(packets)
     assert words.startswith("the INFO record of solepath L cannot be read (") and "switch it off and on" in words

@@ -17,7 +17,7 @@ from bluez import Bluez
 from bus import DAEMON, message_bus
 
 from solepath import Connected, Disconnected, Session
-from solepath.ble import BluetoothError, Devices, Wanted, scan
+from solepath.ble import BluetoothError, DeviceConfig, Devices, scan
 from solepath.emulate import Route
 from solepath.emulate.devices.attributes import DRAIN
 from solepath.emulate.devices.bench import Bench
@@ -34,7 +34,7 @@ pytestmark = [
     pytest.mark.skipif(DAEMON is None, reason="dbus-daemon is not installed"),
 ]
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
-THE_LEFT = Wanted(None, "F0:5E:00:00:00:01")
+THE_LEFT = DeviceConfig(None, "F0:5E:00:00:00:01")
 TAKES = 30.0
 """s until a test gives up waiting."""
 BUS = "DBUS_SYSTEM_BUS_ADDRESS"
@@ -105,7 +105,7 @@ def test_every_frame_of_two_insoles_arrives_once_and_in_order(on_a_bus):
 
     async def main(address):
         async with Bluez(both.peripherals).serving(address) as bluez:
-            async with Devices([Wanted(None, "solepath R"), Wanted(None, "solepath L")]) as devices:
+            async with Devices([DeviceConfig(None, "solepath R"), DeviceConfig(None, "solepath L")]) as devices:
                 heard = await until(
                     devices, lambda heard: all(len(of(heard, "insole/frame", s)) > 150 for s in (LEFT, RIGHT))
                 )
@@ -129,7 +129,7 @@ def test_a_sensortag_obeys_its_setup(on_a_bus):
     tag = bench(left_foot=CC2650())
 
     async def main(address):
-        async with Bluez(tag.peripherals).serving(address), Devices([Wanted(LEFT, tag[LEFT].address)]) as devices:
+        async with Bluez(tag.peripherals).serving(address), Devices([DeviceConfig(LEFT, tag[LEFT].address)]) as devices:
             return await until(devices, lambda heard: len(of(heard, "cc2650/movement")) == 10)
 
     heard = on_a_bus(main)

@@ -16,7 +16,7 @@ from strap import Strap
 from virtual import now
 
 from solepath import Session
-from solepath.ble import Backend, Wanted
+from solepath.ble import Backend, DeviceConfig
 from solepath.emulate import Route
 from solepath.emulate.devices.attributes import AttError
 from solepath.emulate.devices.bench import Bench
@@ -28,7 +28,7 @@ from solepath.wire.fields import parse_text
 def test_a_device_that_left_before_it_was_connected_is_soon_looked_for_again():
     bench = Bench(Route().stand(5.0), faults=parse_faults("0.005 left_foot vanish 300"))
 
-    packets = received(MemoryRadio(bench.peripherals).backend, Wanted(None, "solepath L"), seconds=60.0)
+    packets = received(MemoryRadio(bench.peripherals).backend, DeviceConfig(None, "solepath L"), seconds=60.0)
     troubles = [(p.t, parse_text(p.data)) for p in packets if p.channel == "receiver/trouble"]
     (connecting, unanswered), (searching, unheard) = troubles
     assert unanswered.startswith("the device does not answer: bring it near") and connecting == pytest.approx(10.0)
@@ -86,7 +86,7 @@ def test_a_scan_that_fails_later_is_told_where_something_is_sought_and_is_begun_
     errors: list[Exception | None] = [None, None, BleakDBusError("org.bluez.Error.NotReady", []), BleakError("odd")]
     backend = failing(MemoryRadio([strap(1, faults="3 * disconnect"), strap(2)]).backend, errors)
 
-    packets = received(backend, ONE, Wanted(LEFT, address(2), STRAP), seconds=12.0)
+    packets = received(backend, ONE, DeviceConfig(LEFT, address(2), STRAP), seconds=12.0)
     assert [(packet.site, packet.data.decode()) for packet in packets if packet.channel == "receiver/trouble"] == [
         (PELVIS, "cannot look for devices: Bluetooth is off: turn it on"),
         (PELVIS, "cannot look for devices: odd"),

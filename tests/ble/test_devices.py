@@ -12,7 +12,7 @@ from benches import LEFT, RIGHT, ROUTE
 from strap import BATTERY, BEAT, CONTROL, HEART_RATE, LEVEL, Strap
 
 from solepath import BatteryLevel, LayoutKnown, PacketRejected, Session
-from solepath.ble import Wanted
+from solepath.ble import DeviceConfig
 from solepath.emulate.devices.attributes import Characteristic, Service
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.sensors.insole_device import Insole
@@ -23,7 +23,7 @@ from solepath.link.profile import Access, Write
 from solepath.types import Packet, Site
 
 
-def got(heard: Asked, *wanted: Wanted, seconds: float = 5.0, **more: Any) -> list[Packet]:
+def got(heard: Asked, *wanted: DeviceConfig, seconds: float = 5.0, **more: Any) -> list[Packet]:
     return received(heard.backend, *wanted, seconds=seconds, **more)
 
 
@@ -34,7 +34,7 @@ def channels(packets: list[Packet], *, but: str = "receiver/tick") -> list[str]:
 def test_a_device_is_read_then_subscribed_then_written() -> None:
     bench = Bench(ROUTE, devices={LEFT: Insole(), RIGHT: Tag()}, seed=3)
     heard = asked(*bench.peripherals)
-    got(heard, Wanted(LEFT, "F0:5E:00:00:00:01"), Wanted(RIGHT, "F0:5E:00:00:00:02"))
+    got(heard, DeviceConfig(LEFT, "F0:5E:00:00:00:01"), DeviceConfig(RIGHT, "F0:5E:00:00:00:02"))
     for device, profile in ((bench[LEFT], INSOLE), (bench[RIGHT], CC2650)):
         did = heard.of(device, "read", "subscribe", "write")
         notify = {channel.name for channel in profile.channels if channel.how is Access.NOTIFY}
@@ -48,7 +48,7 @@ def test_a_device_is_read_then_subscribed_then_written() -> None:
 def test_nothing_is_ever_read_that_is_subscribed(faults: str) -> None:
     device = strap(faults=faults)
     heard = asked(device)
-    got(heard, Wanted(PELVIS, address(1), READ_AFTER), seconds=12.0)
+    got(heard, DeviceConfig(PELVIS, address(1), READ_AFTER), seconds=12.0)
     subscribed: set[str] = set()
     for what, channel in heard.of(device, "connect", "read", "subscribe"):
         if what == "connect":
@@ -61,7 +61,7 @@ def test_nothing_is_ever_read_that_is_subscribed(faults: str) -> None:
 
 def test_what_was_read_and_written_comes_as_packets_before_the_stream() -> None:
     bench = Bench(ROUTE, devices={LEFT: Insole()}, seed=3)
-    packets = got(asked(*bench.peripherals), Wanted(LEFT, "F0:5E:00:00:00:01"))
+    packets = got(asked(*bench.peripherals), DeviceConfig(LEFT, "F0:5E:00:00:00:01"))
     expected = ["receiver/connected", *INSOLE.reads, "insole/control", "insole/frame"]
     assert channels(packets)[: len(expected)] == expected
     assert next(p.data for p in packets if p.channel == "insole/info") == bench[LEFT].value("insole/info", 0.0)
@@ -72,7 +72,7 @@ def test_what_was_read_and_written_comes_as_packets_before_the_stream() -> None:
 
 
 def test_what_is_to_be_read_after_a_write_comes_right_after_it() -> None:
-    packets = got(asked(strap()), Wanted(PELVIS, address(1), READ_AFTER))
+    packets = got(asked(strap()), DeviceConfig(PELVIS, address(1), READ_AFTER))
     order = [channel for channel in channels(packets) if channel != "strap/beat"]
     assert order[:4] == ["receiver/connected", "device/battery", "strap/control", "strap/page"]
 
@@ -112,7 +112,7 @@ def test_what_a_device_does_not_have_to_be_set_is_told_and_passed_over() -> None
     more = evolve(STRAP.channel("strap/control"), name="strap/nothing", characteristic=BATTERY)
     setup = (Write("strap/nothing", b"\x01"), *STRAP.setup)
     profile = evolve(READ_AFTER, channels=(*READ_AFTER.channels, more), setup=setup)
-    packets = got(asked(device), Wanted(PELVIS, address(1), profile))
+    packets = got(asked(device), DeviceConfig(PELVIS, address(1), profile))
     assert troubles(packets) == ["strap/nothing is not there to be set: the device keeps to its own"]
     assert len(times(packets, "strap/beat")) > 4 * RATE
 
@@ -140,7 +140,7 @@ def test_while_nothing_comes_time_is_told_to_pass_five_times_a_second() -> None:
 
 def test_seven_devices_stream_at_once_each_at_its_site() -> None:
     heard = asked(*(strap(n) for n in range(1, 8)))
-    wanted = [Wanted(site, address(n), STRAP) for n, site in enumerate(Site, 1)]
+    wanted = [DeviceConfig(site, address(n), STRAP) for n, site in enumerate(Site, 1)]
     packets = got(heard, *wanted)
     for n, site in enumerate(Site, 1):
         mine = [packet for packet in packets if packet.site is site and packet.channel == "strap/beat"]
@@ -152,9 +152,9 @@ def test_seven_devices_stream_at_once_each_at_its_site() -> None:
 
 def test_a_device_that_does_not_answer_never_delays_another() -> None:
     quick = strap(2)
-    alone = got(asked(quick), Wanted(LEFT, address(2), STRAP))
+    alone = got(asked(quick), DeviceConfig(LEFT, address(2), STRAP))
     hanging = strap(1, faults="0 * hang; 5 * hang; 9 * hang")
-    both = got(asked(hanging, strap(2)), ONE, Wanted(LEFT, address(2), STRAP))
+    both = got(asked(hanging, strap(2)), ONE, DeviceConfig(LEFT, address(2), STRAP))
     assert times(both, "receiver/trouble")
     mine = [packet for packet in both if packet.site is LEFT and packet.channel != "receiver/tick"]
     assert mine == [packet for packet in alone if packet.channel != "receiver/tick"]

@@ -16,7 +16,7 @@ from airs import bumble, in_virtual_time, others
 from attrs import define, field
 
 from solepath import Connected, Disconnected, FootMoved, PacketRejected, SampleGap, Session, StrideTaken
-from solepath.ble import Devices, Wanted
+from solepath.ble import DeviceConfig, Devices
 from solepath.emulate import Route, emulate
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import Fault, What
@@ -126,7 +126,7 @@ def walk(seed: int, cuts: int = 200) -> Walked:
         session = Session(poses=True)
         async with bumble(bench) as backend:
             before, walked.threads_before = others(), threading.active_count()
-            async with Devices([Wanted(None, profile=INSOLE)] * 2, backend=backend) as devices:
+            async with Devices([DeviceConfig(None, profile=INSOLE)] * 2, backend=backend) as devices:
                 async for packet in devices:
                     if packet.t > began + truth.duration:
                         break

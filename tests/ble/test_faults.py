@@ -26,7 +26,7 @@ from solepath import (
     StreamStale,
     StrideTaken,
 )
-from solepath.ble import Devices, Wanted
+from solepath.ble import DeviceConfig, Devices
 from solepath.emulate import Route
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import parse_faults
@@ -54,7 +54,7 @@ def heard(
     seconds: float,
     device: Device = SMALL,
     route: Route = STAND,
-    wanted: tuple[Wanted, ...] = (Wanted(LEFT, FOOT),),
+    wanted: tuple[DeviceConfig, ...] = (DeviceConfig(LEFT, FOOT),),
     sites: tuple[Site, ...] = (LEFT,),
 ) -> list[Packet]:
     bench = Bench(route, devices=dict.fromkeys(sites, device), seed=3, faults=parse_faults(faults))
@@ -211,7 +211,7 @@ WAKING = evolve(CC2650, setup=(CC2650.setup[0], Write("cc2650/movement-config", 
 def test_a_device_that_wakes_on_motion_may_be_silent(tier: str) -> None:
     """He stands for a while, walks, and stands: the tag sleeps 10 s after its last motion."""
     route = Route().stand(8.0).walk(5.0).stop(25.0)
-    wanted = (Wanted(LEFT, FOOT, WAKING),)
+    wanted = (DeviceConfig(LEFT, FOOT, WAKING),)
     packets = heard(tier, "", 36.0, device=Tag(), route=route, wanted=wanted)
     found = events(packets)
     moved = [packet.t for packet in packets if packet.channel == "cc2650/movement"]
@@ -221,7 +221,7 @@ def test_a_device_that_wakes_on_motion_may_be_silent(tier: str) -> None:
 
 @both
 def test_of_two_devices_with_one_name_an_app_is_told_both_addresses(tier: str) -> None:
-    wanted = (Wanted(LEFT, "CC2650 SensorTag"),)
+    wanted = (DeviceConfig(LEFT, "CC2650 SensorTag"),)
     found = events(heard(tier, "", 8.0, device=Tag(), wanted=wanted, sites=(LEFT, RIGHT)))
     [trouble] = of(LinkTrouble, found)
     assert FOOT in trouble.what and "F0:5E:00:00:00:02" in trouble.what
@@ -230,7 +230,7 @@ def test_of_two_devices_with_one_name_an_app_is_told_both_addresses(tier: str) -
 
 @both
 def test_two_feet_that_lose_their_links_at_once_both_come_back(tier: str) -> None:
-    wanted = (Wanted(None, profile=INSOLE),) * 2
+    wanted = (DeviceConfig(None, profile=INSOLE),) * 2
     found = events(heard(tier, "4 * disconnect", 7.0, wanted=wanted, sites=(LEFT, RIGHT)))
     for site in (LEFT, RIGHT):
         assert len([event for event in of(Connected, found) if event.site is site]) == 2

@@ -11,7 +11,7 @@ from bleak import BleakClient, BleakScanner
 from bleak.exc import BleakGATTProtocolError, BleakGATTProtocolErrorCode
 from virtual import virtually
 
-from solepath.ble import Backend, Devices, Wanted
+from solepath.ble import Backend, DeviceConfig, Devices
 from solepath.emulate import Route
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import parse_faults
@@ -49,7 +49,7 @@ def heard(tier: str, faults: str, pair: bool, seconds: float, kind: str = "insol
     async def listen() -> list[Packet]:
         worn = bench(faults, device)
         worn.walk_from(asyncio.get_running_loop().time())
-        wanted = [Wanted(LEFT, worn[LEFT].address, profile)]
+        wanted = [DeviceConfig(LEFT, worn[LEFT].address, profile)]
         async with TIERS[tier](worn) as backend, Devices(wanted, backend=backend, pair=pair) as devices:
             return await hear(devices, seconds)
 

@@ -15,7 +15,7 @@ import pytest
 from airs import hear
 
 from solepath import Disconnected, FootMoved, PacketRejected, Session
-from solepath.ble import Devices, Wanted, scan
+from solepath.ble import DeviceConfig, Devices, scan
 from solepath.link.catalogue import BY_NAME
 from solepath.show.links import streamed
 from solepath.types import Packet, Site
@@ -41,7 +41,7 @@ async def heard() -> list[Packet]:
     profile = BY_NAME[PROFILE] if PROFILE else found[0].profile
     assert profile is not None, "what this is its advertisement does not tell: SOLEPATH_RADIO_PROFILE=NAME"
     # an insole says itself whose it is
-    wanted = Wanted(None if profile.name == "insole" else Site.RIGHT_FOOT, ADDRESS, profile)
+    wanted = DeviceConfig(None if profile.name == "insole" else Site.RIGHT_FOOT, ADDRESS, profile)
     packets: list[Packet] = []
     async with Devices([wanted]) as devices:
         async with asyncio.timeout(PATIENCE):

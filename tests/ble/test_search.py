@@ -9,7 +9,7 @@ from benches import LEFT, RIGHT, ROUTE
 from memory_radio import MemoryRadio
 from virtual import now, virtually
 
-from solepath.ble import ConnectionState, Devices, Wanted, scan
+from solepath.ble import ConnectionState, DeviceConfig, Devices, scan
 from solepath.emulate.devices import cc2650
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import parse_faults
@@ -30,7 +30,9 @@ def feet(device: Device, faults: str = "") -> Bench:
     return Bench(ROUTE, devices={LEFT: device, RIGHT: device}, seed=3, faults=parse_faults(faults))
 
 
-def got(peripherals: tuple[Peripheral, ...], wanted: list[Wanted], seconds: float = 6.0, **more: float) -> list[Packet]:
+def got(
+    peripherals: tuple[Peripheral, ...], wanted: list[DeviceConfig], seconds: float = 6.0, **more: float
+) -> list[Packet]:
     return received(MemoryRadio(peripherals).backend, *wanted, seconds=seconds, **more)
 
 
@@ -45,7 +47,7 @@ def streams(packets: list[Packet], channel: str = "insole/frame") -> set[Site]:
 
 @pytest.mark.parametrize("which", ["F0:5E:00:00:00:02", "f0:5e:00:00:00:02", "solepath R"])
 def test_a_device_is_found_by_its_address_or_by_its_name(which: str) -> None:
-    packets = got(feet(Insole()).peripherals, [Wanted(RIGHT, which)])
+    packets = got(feet(Insole()).peripherals, [DeviceConfig(RIGHT, which)])
     assert connected(packets) == {RIGHT: "F0:5E:00:00:00:02"}
     assert streams(packets) == {RIGHT}
     assert not troubles(packets)
@@ -58,7 +60,7 @@ def test_a_device_is_found_by_its_address_or_by_its_name(which: str) -> None:
 def test_any_two_insoles_say_themselves_whose_foot_they_are_whichever_is_heard_first(turned: bool) -> None:
     bench = feet(Insole())
     peripherals = bench.peripherals[::-1] if turned else bench.peripherals
-    packets = got(peripherals, [Wanted(None, profile=INSOLE)] * 2)
+    packets = got(peripherals, [DeviceConfig(None, profile=INSOLE)] * 2)
     assert connected(packets) == {site: bench[site].address for site in (LEFT, RIGHT)}
     assert streams(packets) == {LEFT, RIGHT}
     assert not troubles(packets)
@@ -66,21 +68,21 @@ def test_any_two_insoles_say_themselves_whose_foot_they_are_whichever_is_heard_f
 
 def test_one_insole_of_either_foot_is_enough_for_who_wants_any() -> None:
     bench = feet(Insole())
-    packets = got((bench[RIGHT],), [Wanted(None, profile=INSOLE)])
+    packets = got((bench[RIGHT],), [DeviceConfig(None, profile=INSOLE)])
     assert connected(packets) == {RIGHT: bench[RIGHT].address}
-    packets = got((bench[LEFT],), [Wanted(None, "solepath L")])
+    packets = got((bench[LEFT],), [DeviceConfig(None, "solepath L")])
     assert connected(packets) == {LEFT: bench[LEFT].address}
 
 
 def test_a_left_insole_is_found_though_the_right_one_is_heard_first() -> None:
     bench = feet(Insole())
-    packets = got(bench.peripherals[::-1], [Wanted(LEFT, profile=INSOLE)])
+    packets = got(bench.peripherals[::-1], [DeviceConfig(LEFT, profile=INSOLE)])
     assert connected(packets) == {LEFT: bench[LEFT].address}
     assert troubles(packets) == ["solepath R is a right foot one: wanted at the left foot"]
 
 
 def test_the_insole_of_the_other_foot_is_refused_in_words() -> None:
-    packets = got(feet(Insole()).peripherals, [Wanted(RIGHT, "F0:5E:00:00:00:01")], seconds=30.0)
+    packets = got(feet(Insole()).peripherals, [DeviceConfig(RIGHT, "F0:5E:00:00:00:01")], seconds=30.0)
     assert not connected(packets)
     assert troubles(packets) == ["solepath L is a left foot one: wanted at the right foot"]
 
@@ -88,30 +90,30 @@ def test_the_insole_of_the_other_foot_is_refused_in_words() -> None:
 def test_two_insoles_of_one_foot_are_not_taken_for_a_pair() -> None:
     bench, spare = feet(Insole()), Bench(ROUTE, devices={LEFT: Insole()}, seed=4)[LEFT]
     spare.address = "F0:5E:00:00:00:09"
-    packets = got((bench[LEFT], spare), [Wanted(None, profile=INSOLE)] * 2)
+    packets = got((bench[LEFT], spare), [DeviceConfig(None, profile=INSOLE)] * 2)
     assert len(connected(packets)) == 1
     assert [words.partition(" is ")[2] for words in troubles(packets)] == ["one more for the left foot"]
-    packets = got((bench[LEFT], spare, bench[RIGHT]), [Wanted(None, profile=INSOLE)] * 2)
+    packets = got((bench[LEFT], spare, bench[RIGHT]), [DeviceConfig(None, profile=INSOLE)] * 2)
     assert connected(packets).keys() == {LEFT, RIGHT}
 
 
 def test_who_wants_any_does_not_take_what_another_named() -> None:
     bench = feet(Insole())
     for which in (bench[LEFT].address, "solepath L"):
-        packets = got(bench.peripherals, [Wanted(None, profile=INSOLE), Wanted(LEFT, which)])
+        packets = got(bench.peripherals, [DeviceConfig(None, profile=INSOLE), DeviceConfig(LEFT, which)])
         assert connected(packets) == {site: bench[site].address for site in (LEFT, RIGHT)}
 
 
 def test_who_wants_any_insole_gets_none_for_a_foot_that_another_is_wanted_at() -> None:
     bench = feet(Insole())
-    packets = got((bench[LEFT],), [Wanted(None, profile=INSOLE), Wanted(LEFT, "F0:00:00:00:00:77")])
+    packets = got((bench[LEFT],), [DeviceConfig(None, profile=INSOLE), DeviceConfig(LEFT, "F0:00:00:00:00:77")])
     assert not connected(packets)
     assert {packet.site for packet in packets} <= {LEFT, RIGHT}
     assert "solepath L is one more for the left foot" in troubles(packets)
 
 
 def test_a_device_that_does_not_say_where_it_is_worn_is_not_guessed_to_be_anywhere() -> None:
-    packets = got(feet(Tag()).peripherals, [Wanted(None, "F0:5E:00:00:00:01")])
+    packets = got(feet(Tag()).peripherals, [DeviceConfig(None, "F0:5E:00:00:00:01")])
     assert not connected(packets)
     assert troubles(packets) == ["CC2650 SensorTag does not say where it is worn: name a site"]
 
@@ -121,14 +123,14 @@ AMBIGUOUS = f"2 devices answer to device 'CC2650 SensorTag' ({', '.join(TAGS)}):
 
 
 def test_the_one_that_another_foot_named_by_its_address_is_not_confused_with_the_other() -> None:
-    packets = got(feet(Tag()).peripherals, [Wanted(LEFT, "CC2650 SensorTag"), Wanted(RIGHT, TAGS[0])])
+    packets = got(feet(Tag()).peripherals, [DeviceConfig(LEFT, "CC2650 SensorTag"), DeviceConfig(RIGHT, TAGS[0])])
     assert connected(packets) == {RIGHT: TAGS[0], LEFT: TAGS[1]}
     assert not troubles(packets)
 
 
 def test_when_one_of_the_two_is_named_otherwise_the_other_is_taken() -> None:
     bench = feet(Tag(), faults='8 right_foot name "Tag of the right"')
-    packets = got(bench.peripherals, [Wanted(LEFT, "CC2650 SensorTag")], seconds=15.0)
+    packets = got(bench.peripherals, [DeviceConfig(LEFT, "CC2650 SensorTag")], seconds=15.0)
     assert connected(packets) == {LEFT: TAGS[0]}
     assert troubles(packets) == [AMBIGUOUS]
     assert min(packet.t for packet in packets if packet.channel == "receiver/connected") > 8.0
@@ -136,13 +138,13 @@ def test_when_one_of_the_two_is_named_otherwise_the_other_is_taken() -> None:
 
 def test_when_one_of_the_two_is_not_heard_for_a_while_the_other_is_still_not_guessed_to_be_it() -> None:
     bench = feet(Tag(), faults="8 right_foot vanish 15")
-    packets = got(bench.peripherals, [Wanted(LEFT, "CC2650 SensorTag")], seconds=30.0)
+    packets = got(bench.peripherals, [DeviceConfig(LEFT, "CC2650 SensorTag")], seconds=30.0)
     assert not connected(packets)
 
 
 def test_when_one_of_the_two_is_switched_off_the_other_is_taken() -> None:
     bench = feet(Tag(), faults="8 right_foot vanish")
-    packets = got(bench.peripherals, [Wanted(LEFT, "CC2650 SensorTag")], seconds=60.0)
+    packets = got(bench.peripherals, [DeviceConfig(LEFT, "CC2650 SensorTag")], seconds=60.0)
     assert connected(packets) == {LEFT: TAGS[0]}
 
 
@@ -150,29 +152,29 @@ def test_when_one_of_the_two_is_switched_off_the_other_is_taken() -> None:
     "wanted",
     [
         [],
-        [Wanted(LEFT, "one"), Wanted(LEFT, "two")],
-        [Wanted(LEFT, TAGS[0]), Wanted(RIGHT, TAGS[0].lower())],
-        [Wanted(LEFT, "SensorTag"), Wanted(RIGHT, "SensorTag")],
-        [Wanted(LEFT, profile=CC2650), Wanted(RIGHT, profile=CC2650)],
-        [Wanted(None, profile=INSOLE)] * 3,
-        [Wanted(None, profile=INSOLE)] * 8,
-        [Wanted(LEFT, "one"), *[Wanted(None, profile=INSOLE)] * 2],
+        [DeviceConfig(LEFT, "one"), DeviceConfig(LEFT, "two")],
+        [DeviceConfig(LEFT, TAGS[0]), DeviceConfig(RIGHT, TAGS[0].lower())],
+        [DeviceConfig(LEFT, "SensorTag"), DeviceConfig(RIGHT, "SensorTag")],
+        [DeviceConfig(LEFT, profile=CC2650), DeviceConfig(RIGHT, profile=CC2650)],
+        [DeviceConfig(None, profile=INSOLE)] * 3,
+        [DeviceConfig(None, profile=INSOLE)] * 8,
+        [DeviceConfig(LEFT, "one"), *[DeviceConfig(None, profile=INSOLE)] * 2],
     ],
 )
-def test_what_cannot_be_told_apart_is_an_error_before_anything_is_done(wanted: list[Wanted]) -> None:
+def test_what_cannot_be_told_apart_is_an_error_before_anything_is_done(wanted: list[DeviceConfig]) -> None:
     with pytest.raises(ValueError):
         Devices(wanted)
 
 
 def test_what_can_be_told_apart_is_none() -> None:
-    Devices([Wanted(LEFT, profile=INSOLE), Wanted(RIGHT, profile=INSOLE)])
-    Devices([Wanted(LEFT, profile=CC2650), Wanted(RIGHT, profile=CC2541)])
-    Devices([Wanted(None, profile=INSOLE)] * 2)
-    Devices([Wanted(LEFT, "one"), Wanted(None, profile=INSOLE)])
+    Devices([DeviceConfig(LEFT, profile=INSOLE), DeviceConfig(RIGHT, profile=INSOLE)])
+    Devices([DeviceConfig(LEFT, profile=CC2650), DeviceConfig(RIGHT, profile=CC2541)])
+    Devices([DeviceConfig(None, profile=INSOLE)] * 2)
+    Devices([DeviceConfig(LEFT, "one"), DeviceConfig(None, profile=INSOLE)])
 
 
 def test_a_device_of_a_kind_that_nobody_knows_is_told_and_left() -> None:
-    packets = got((strap(),), [Wanted(PELVIS, address(1))], seconds=20.0)
+    packets = got((strap(),), [DeviceConfig(PELVIS, address(1))], seconds=20.0)
     assert not connected(packets)
     assert troubles(packets) == ["strap 1 is of no kind that is known here: say its profile"]
 
@@ -180,14 +182,14 @@ def test_a_device_of_a_kind_that_nobody_knows_is_told_and_left() -> None:
 @pytest.mark.parametrize("which", [address(1), "strap 1"])
 def test_a_device_of_another_kind_than_was_said_is_told_and_left(which: str) -> None:
     heard = asked(strap())
-    packets = received(heard.backend, Wanted(LEFT, which, CC2650), seconds=20.0)
+    packets = received(heard.backend, DeviceConfig(LEFT, which, CC2650), seconds=20.0)
     assert not connected(packets)
     assert troubles(packets) == ["strap 1 is no cc2650: it has no cc2650/movement"]
     assert {what for _, what, _ in heard.log} == {"connect", "disconnect"}
 
 
 def test_a_device_of_ones_own_kind_is_found_by_name_or_by_what_it_advertises() -> None:
-    for wanted in (Wanted(PELVIS, "strap 1", STRAP), Wanted(PELVIS, profile=STRAP)):
+    for wanted in (DeviceConfig(PELVIS, "strap 1", STRAP), DeviceConfig(PELVIS, profile=STRAP)):
         packets = got((strap(1),), [wanted])
         assert connected(packets) == {PELVIS: address(1)}
         assert streams(packets, "strap/beat") == {PELVIS}
@@ -205,13 +207,13 @@ def test_a_device_that_seemed_unfit_is_tried_again_later() -> None:
     late = bench[LEFT]
     late.__class__ = Late
     late.all = late.services  # type: ignore[attr-defined]
-    packets = got((late,), [Wanted(LEFT, "CC2650 SensorTag")], seconds=120.0)
+    packets = got((late,), [DeviceConfig(LEFT, "CC2650 SensorTag")], seconds=120.0)
     assert connected(packets) == {LEFT: late.address}
     assert troubles(packets)[0] == "CC2650 SensorTag is no cc2650: it has no cc2650/movement"
 
 
 def test_after_its_patience_an_absent_device_is_complained_of_once() -> None:
-    packets = got((), [Wanted(LEFT, "solepath L")], seconds=300.0, patience=7.0)
+    packets = got((), [DeviceConfig(LEFT, "solepath L")], seconds=300.0, patience=7.0)
     [words] = troubles(packets)
     assert words.startswith("no device 'solepath L' is heard: switch it on, bring it near")
     [said] = [packet for packet in packets if packet.channel == "receiver/trouble"]
@@ -222,20 +224,20 @@ def test_after_its_patience_an_absent_device_is_complained_of_once() -> None:
 def test_an_absent_device_never_delays_another() -> None:
     bench = feet(Insole())
 
-    def first(wanted: list[Wanted]) -> float:
+    def first(wanted: list[DeviceConfig]) -> float:
         packets = got((bench[RIGHT],), wanted)
         bench[RIGHT].disconnected(6.0)
         return min(packet.t for packet in packets if packet.channel == "insole/frame")
 
-    alone = first([Wanted(RIGHT, "F0:5E:00:00:00:02")])
+    alone = first([DeviceConfig(RIGHT, "F0:5E:00:00:00:02")])
     bench = feet(Insole())
-    assert first([Wanted(LEFT, "F0:5E:00:00:00:01"), Wanted(RIGHT, "F0:5E:00:00:00:02")]) == alone < 1.0
+    assert first([DeviceConfig(LEFT, "F0:5E:00:00:00:01"), DeviceConfig(RIGHT, "F0:5E:00:00:00:02")]) == alone < 1.0
 
 
 @virtually
 async def test_only_one_scanner_works_at_a_time_and_none_once_all_are_found() -> None:
     heard = asked(*(strap(number, faults=f"{4 + number} * disconnect") for number in range(1, 5)))
-    wanted = [Wanted(site, address(n), STRAP) for n, site in enumerate(list(Site)[:4], 1)]
+    wanted = [DeviceConfig(site, address(n), STRAP) for n, site in enumerate(list(Site)[:4], 1)]
     async with Devices(wanted, backend=heard.backend) as devices:
         await hear(devices, 3.0)
         assert {one.state for one in devices.connections} == {ConnectionState.LISTENING}

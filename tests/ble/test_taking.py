@@ -15,7 +15,7 @@ from bleak.exc import BleakError
 from memory_radio import MemoryRadio
 from virtual import now, virtually
 
-from solepath.ble import Backend, BluetoothError, ConnectionState, Devices, Wanted
+from solepath.ble import Backend, BluetoothError, ConnectionState, DeviceConfig, Devices
 from solepath.emulate import Route
 from solepath.emulate.devices.bench import Bench
 from solepath.link.devices.insole import PROFILE as INSOLE
@@ -29,7 +29,7 @@ def taken_late(capacity: int, wait: float) -> list[Packet]:
 
     async def main() -> list[Packet]:
         bench = Bench(Route().stand(25.0), seed=3)
-        wanted = [Wanted(peripheral.site, peripheral.address) for peripheral in bench.peripherals]
+        wanted = [DeviceConfig(peripheral.site, peripheral.address) for peripheral in bench.peripherals]
         async with Devices(wanted, backend=MemoryRadio(bench.peripherals).backend, capacity=capacity) as devices:
             await asyncio.sleep(wait)
             sent.extend(sum(p.sent.values()) for p in bench.peripherals)
@@ -79,7 +79,11 @@ async def test_an_app_that_takes_a_packet_every_now_and_then_gets_them_in_order(
 @virtually
 async def test_to_leave_disconnects_and_leaves_no_task_behind() -> None:
     devices = [strap(n) for n in (1, 2)]
-    wanted = [Wanted(LEFT, address(1), STRAP), Wanted(RIGHT, address(2), STRAP), Wanted(PELVIS, "absent", STRAP)]
+    wanted = [
+        DeviceConfig(LEFT, address(1), STRAP),
+        DeviceConfig(RIGHT, address(2), STRAP),
+        DeviceConfig(PELVIS, "absent", STRAP),
+    ]
     async with Devices(wanted, backend=MemoryRadio(devices).backend) as heard:
         await hear(heard, 3.0)
         assert all(device.is_connected for device in devices)
@@ -139,7 +143,7 @@ async def test_who_gives_up_waiting_loses_no_packet() -> None:
 
 @virtually
 async def test_a_fault_of_the_program_itself_is_raised_to_whoever_takes_packets() -> None:
-    class Faulty(Wanted):
+    class Faulty(DeviceConfig):
         def fits(self, *given: Any) -> bool:
             return True
 

@@ -20,7 +20,7 @@ from memory_radio import MemoryRadio
 from strap import Strap
 from virtual import virtually
 
-from solepath.ble import Backend, BluetoothError, Devices, Wanted, scan
+from solepath.ble import Backend, BluetoothError, DeviceConfig, Devices, scan
 from solepath.ble.trouble import sentence
 from solepath.emulate.devices.attributes import Outgoing
 from solepath.link.devices.cc2650 import PROFILE as CC2650
@@ -56,7 +56,7 @@ def without_bluetooth(error: Exception) -> Backend:
 @virtually
 async def test_to_enter_or_to_scan_without_bluetooth_is_an_error_that_says_what_to_do(error: Exception) -> None:
     with pytest.raises(BluetoothError) as entered:
-        async with Devices([Wanted(PELVIS, "any")], backend=without_bluetooth(error)):
+        async with Devices([DeviceConfig(PELVIS, "any")], backend=without_bluetooth(error)):
             pass
     one = str(entered.value)
     assert entered.value.__cause__ is error
@@ -108,7 +108,7 @@ class Fleeting(Strap):
 
 def test_a_device_that_fails_again_and_again_is_tried_less_and_less_often_and_never_given_up() -> None:
     device = Fleeting()
-    packets = received(asked(device).backend, Wanted(PELVIS, address(1), CC2650), seconds=120.0)
+    packets = received(asked(device).backend, DeviceConfig(PELVIS, address(1), CC2650), seconds=120.0)
     pauses = device.pauses()
     assert pauses[0] < 0.6
     assert pauses[:5] == sorted(pauses[:5])

@@ -12,7 +12,7 @@ from attrs import evolve
 from walks import said
 
 from solepath import Event, FootFlat, HeelOff, HeelStrike, PacketRejected, PacketsLost, SampleGap, StrideTaken, ToeOff
-from solepath.ble import Devices, Wanted
+from solepath.ble import DeviceConfig, Devices
 from solepath.emulate import Route, emulate
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.sensors import sensortags
@@ -36,7 +36,7 @@ LASTS = {MINUTE: 60.0, SOME: 15.0, LITTLE: 4.0}
 
 
 def heard(
-    bench: Bench, wanted: Sequence[Wanted], seconds: float, interval: float | None = None
+    bench: Bench, wanted: Sequence[DeviceConfig], seconds: float, interval: float | None = None
 ) -> tuple[list[Packet], float]:
     """What arrives from the beginning of the search until the walk has lasted so long; and when it began.
 
@@ -73,7 +73,7 @@ def test_a_walk_of_two_insoles_arrives_whole_and_in_order_and_means_the_same_as_
     bench = Bench(route, mtu=mtu)
     duration = bench.truth().duration
     assert duration > LASTS[route]
-    packets, began = heard(bench, [Wanted(None, profile=INSOLE)] * 2, duration)
+    packets, began = heard(bench, [DeviceConfig(None, profile=INSOLE)] * 2, duration)
     arrived = whole(packets)
 
     # the walk's own frames, as they leave the device without any link
@@ -118,7 +118,7 @@ def test_insoles_whose_links_wait_for_connection_events_give_the_same_steps_at_t
     found: list[list[Event]] = []
     for waits in (None, interval):
         bench = Bench(TAGGED)
-        packets, began = heard(bench, [Wanted(None, profile=INSOLE)] * 2, bench.truth().duration, waits)
+        packets, began = heard(bench, [DeviceConfig(None, profile=INSOLE)] * 2, bench.truth().duration, waits)
         frames = [packet.t for packet in packets if packet.site is FEET[0] and packet.channel == "insole/frame"]
         apart = [b - a for a, b in pairwise(frames) if b > a]
         if waits is not None:  # they came in threes, as they do from a radio
@@ -153,7 +153,7 @@ def test_sensortags_give_the_steps_of_a_walk_end_to_end(
     true = found = invented = 0
     for seed in seeds:
         bench = Bench(TAGGED, devices=dict.fromkeys(FEET, device), seed=seed)
-        wanted = [Wanted(worn.site, worn.address, profile) for worn in bench.peripherals]
+        wanted = [DeviceConfig(worn.site, worn.address, profile) for worn in bench.peripherals]
         packets, began = heard(bench, wanted, bench.truth().duration, interval)
         shifted = [evolve(packet, t=packet.t - began) for packet in packets]
         gathering = Gathering()

@@ -89,7 +89,7 @@ def test_a_clock_that_begins_anew_is_followed() -> None:
     for sample in walk():
         wearing.feed(Sample(t=sample.t + 1000.0, site=sample.site, acc=sample.acc, gyro=sample.gyro))
     for foot, tracker in wearing.feet.items():
-        tracker.interrupt()
+        tracker.reset()
         wearing.part.reset(SITE_OF_FOOT[foot])
     told = [event for sample in walk() for event in wearing.feed(sample)]
     assert told and all(event.t < 100.0 for event in told)

@@ -15,7 +15,7 @@ from walks import samples
 from solepath import Foot, LiftRidden, Sample, Session, Site, StrideTaken, recipes
 from solepath.body.height.altitude import LEFT, MOVE, RIGHT, SCALE, STANDARD, UNKNOWN, Altitude
 from solepath.body.height.received import Heard, Told
-from solepath.body.part import HeightShift, Instead
+from solepath.body.part import HeightShift, Replacement
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.walk import SampledWalk, sampled
@@ -154,13 +154,13 @@ def test_without_air_what_no_lift_rides_has_no_height(height: float | None, last
     for k in range(strides):
         altitude.receive(evolve(step, t_start=101.0 + k, t_end=102.0 + k, t=102.0 + k))
     told = ride(height, lasted)
-    assert altitude.receive(told) == [Instead(told, evolve(told, height=None)), HeightShift(0.0, 0.0)]
+    assert altitude.receive(told) == [Replacement(told, evolve(told, height=None)), HeightShift(0.0, 0.0)]
 
 
 def test_a_lift_that_stands_feet_in_it_is_believed_without_air() -> None:
     altitude = Altitude()
     instead, height = altitude.receive(ride(6.0, 8.0))
-    assert instead == Instead(ride(6.0, 8.0), ride(6.0, 8.0))
+    assert instead == Replacement(ride(6.0, 8.0), ride(6.0, 8.0))
     assert isinstance(height, HeightShift) and height.above == 6.0
 
 

@@ -14,7 +14,7 @@ from solepath.body.fuse.agreement import HEADING, RATE, STATES, Agreement, X, Y
 from solepath.body.fuse.both_feet import BothFeet, BothFeetSettings
 from solepath.body.fuse.corridor import Corridor
 from solepath.body.fuse.position import MeanOfFeet
-from solepath.body.part import Track
+from solepath.body.part import TrackPart
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
 from solepath.emulate.wearers.walker import Walker
@@ -38,7 +38,7 @@ def _samples(seed: int) -> tuple[Sample, ...]:
 @cache
 def _walked(part: str) -> tuple[Session, list[Event]]:
     body = {"both": BothFeet(), "mean": MeanOfFeet(), "apart": BothFeet(BothFeetSettings(feedback=False))}[part]
-    session = Session(recipes.DEFAULT.exchanged(Track, body))
+    session = Session(recipes.DEFAULT.exchanged(TrackPart, body))
     events = [event for sample in _samples(102) for event in session.feed(sample)]
     return session, events
 
@@ -118,7 +118,7 @@ def test_without_feedback_the_feet_go_their_own_ways() -> None:
 
 
 def test_a_foot_alone_is_where_its_own_track_has_it() -> None:
-    session, other = Session(), Session(recipes.DEFAULT.exchanged(Track, MeanOfFeet()))
+    session, other = Session(), Session(recipes.DEFAULT.exchanged(TrackPart, MeanOfFeet()))
     for sample in walks.samples(cells=0):
         if sample.site.foot is Foot.LEFT:
             assert session.feed(sample) == other.feed(sample)

@@ -9,7 +9,7 @@ import pytest
 from attrs import define, evolve, field
 
 from solepath import Foot, Sample, Session, Site, recipes
-from solepath.body.part import ClockUnsettled, Notice, Part, Said
+from solepath.body.part import ClockUnsettled, Part, PartInput, PartOutput
 from solepath.body.worn.wear import Wear
 from solepath.emulate import Route, Walker
 from solepath.foot.view import FootView
@@ -22,16 +22,16 @@ WALKED = [*Walker(Route().stand(2.0).walk(6.0, 1.3).stop(1.0)).samples(Foot.LEFT
 class Wakes(Part):
     """Has nothing to do until a clock is unsettled, or restarts; then it counts samples of which nothing came."""
 
-    feeds: ClassVar[bool] = True
+    needs_samples: ClassVar[bool] = True
     idle: bool = field(default=True, init=False)
     quiet: int = field(default=0, init=False)
 
-    def receive(self, event: Notice) -> Sequence[Said]:
+    def receive(self, event: PartInput) -> Sequence[PartOutput]:
         if isinstance(event, ClockUnsettled):
             self.idle = False
         return ()
 
-    def feed(self, view: FootView) -> Sequence[Said]:
+    def feed(self, view: FootView) -> Sequence[PartOutput]:
         if not self.idle:
             self.quiet += not view.events
         return ()
@@ -46,7 +46,7 @@ class Deaf(Part):
 
     fed: int = field(default=0, init=False)
 
-    def feed(self, view: FootView) -> Sequence[Said]:
+    def feed(self, view: FootView) -> Sequence[PartOutput]:
         self.fed += 1
         return ()
 

@@ -16,20 +16,20 @@ from walks import LEFT, RIGHT, SHORT, of, samples
 
 from solepath import Recipe, Session, recipes
 from solepath.body.fuse.position import MeanOfFeet
-from solepath.body.part import Track
+from solepath.body.part import TrackPart
 from solepath.body.worn.sides import Average
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.walker import Walker
-from solepath.events import FeetSwapped, FootHeard, FootSilent, StrideTaken
+from solepath.events import FeetSwapped, FootResumed, FootSilent, StrideTaken
 from solepath.saving import codec as machine
 from solepath.types import Foot, Sample, Site
 
 WALK = Route().stand(1.5).walk(16.0, 1.2).turn(radians(90), radius=1.5).walk(6.0).stop(1.0)
 OTHER = {LEFT: RIGHT, RIGHT: LEFT}
-MEAN = recipes.DEFAULT.exchanged(Track, MeanOfFeet())
+MEAN = recipes.DEFAULT.exchanged(TrackPart, MeanOfFeet())
 """The feet's own tracks, and their mean."""
 
 
@@ -53,8 +53,8 @@ def without(foot: Site, begin: float, end: float) -> tuple[Sample, ...]:
 
 @pytest.mark.parametrize("foot", [LEFT, RIGHT])
 def test_a_foot_that_gives_no_samples_while_the_other_walks_on_is_silent_until_it_is_heard(foot: Site) -> None:
-    told = said(FootSilent | FootHeard, without(foot, 6.0, 12.0))
-    assert [type(event) for event in told] == [FootSilent, FootHeard]
+    told = said(FootSilent | FootResumed, without(foot, 6.0, 12.0))
+    assert [type(event) for event in told] == [FootSilent, FootResumed]
     silent, heard = told
     assert {event.foot for event in told} == {foot.foot}
     assert 8.9 < silent.t < 11.0
@@ -78,8 +78,8 @@ def test_the_foot_that_is_left_takes_its_steps_as_before() -> None:
 
 
 def test_a_short_silence_and_a_foot_that_was_never_heard_are_not_told() -> None:
-    assert said(FootSilent | FootHeard, without(RIGHT, 6.0, 8.0)) == []
-    assert said(FootSilent | FootHeard, tuple(s for s in walk() if s.site is LEFT)) == []
+    assert said(FootSilent | FootResumed, without(RIGHT, 6.0, 8.0)) == []
+    assert said(FootSilent | FootResumed, tuple(s for s in walk() if s.site is LEFT)) == []
 
 
 def test_while_the_wearer_stands_nobody_is_missed() -> None:
@@ -251,7 +251,7 @@ def test_a_session_saved_at_any_moment_goes_on_to_tell_the_same_and_to_the_same_
     session = Session.restore(json.loads(json.dumps(session.snapshot(), allow_nan=False)))
     told += session.feed(items[k:])
     assert told == straight.feed(items) and session.position == straight.position
-    assert len(of(FeetSwapped | FootSilent | FootHeard, told)) >= 3
+    assert len(of(FeetSwapped | FootSilent | FootResumed, told)) >= 3
 
 
 @given(st.lists(st.floats(-10.0, 10.0), min_size=1, max_size=60), st.floats(-5.0, 5.0))

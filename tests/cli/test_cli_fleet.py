@@ -27,7 +27,7 @@ from solepath.cli.fleet_table import of_kills, of_worth
 from solepath.events import HeelStrike
 from solepath.fleet import NumberedEvent
 from solepath.fleet.demo.child import _told
-from solepath.fleet.demo.compare import Torn, differences, files, holes, of_sessions, read_told, remarked
+from solepath.fleet.demo.compare import Torn, differences, files, holes, of_sessions, read_events, remarked
 from solepath.fleet.demo.kills import Cost, Kill, Outcome, compared, draw
 from solepath.fleet.demo.stage import Engine
 from solepath.fleet.demo.wearers import Wearers
@@ -64,7 +64,7 @@ def test_a_fleet_that_is_killed_tells_what_one_tells_that_is_not(kept: Kept) -> 
     assert (rows["wearers"], rows["kills"], rows["of them with the same events"]) == ("12", "2", "2")
     figures = json.loads(out.with_suffix(".json").read_text())
     assert figures["ratio"] > 0.0 and len(figures["kills"]) == 2 and figures["runs"][0]["equal"]
-    assert figures["engine"]["events"] == int(rows["events"]) == read_told(out / "told").num_rows > 100
+    assert figures["engine"]["events"] == int(rows["events"]) == read_events(out / "told").num_rows > 100
 
 
 def test_kills_hit_reading_and_wearers_go_on_from_states_that_were_read_back(kept: Kept) -> None:
@@ -82,7 +82,7 @@ def test_a_fleet_that_does_not_say_what_it_refused_or_what_is_missing_is_found_o
     missing, late = expected["w00005"]
     assert (missing.event, late.event, late.why) == ("NumbersMissing", "SentRejected", "late")
     assert {remark.run is None for remark in expected["w00003"]} == {True, False}
-    told = read_told(kept[1] / "told")
+    told = read_events(kept[1] / "told")
     assert remarked(expected, told) == []
     for event in ("SentRejected", "NumbersMissing"):
         silent = told.filter(pyarrow.compute.not_equal(told["event"], event))
@@ -105,7 +105,7 @@ def test_one_event_less_in_one_part_is_named_and_the_status_is_1(
     parquet = pytest.importorskip("pyarrow.parquet")
     runs = kept[1] / "runs"
     told = shutil.copytree(runs / "killed-1" / "told", tmp_path / "told")
-    expected = read_told(runs / "uninterrupted" / "told")
+    expected = read_events(runs / "uninterrupted" / "told")
     assert compared(expected, told) == []
     part = parquet.read_table(files(told)[0])
     lost = part.slice(0, 1).to_pylist()[0]
@@ -119,12 +119,12 @@ def test_one_event_less_in_one_part_is_named_and_the_status_is_1(
 
 def test_a_part_that_is_damaged_is_named(kept: Kept, tmp_path: Path) -> None:
     told = shutil.copytree(kept[1] / "told", tmp_path / "told")
-    expected, part = read_told(told), files(told)[0]
+    expected, part = read_events(told), files(told)[0]
     part.write_bytes(part.read_bytes()[:-40])
     (found,) = compared(expected, told)
     assert str(part) in found and "cannot be read" in found
     with pytest.raises(Torn):
-        read_told(told)
+        read_events(told)
 
 
 def heel_strike(wearer: str, number: int, t: float = 1.0) -> NumberedEvent:
@@ -140,19 +140,19 @@ def write(directory: Path, *told: NumberedEvent) -> Path:
 
 def test_events_that_are_told_twice_or_otherwise_or_are_not_numbered_on_are_differences(tmp_path: Path) -> None:
     one, other = heel_strike("anna", 0), heel_strike("anna", 1)
-    expected = read_told(write(tmp_path / "expected", one, other))
-    assert differences(expected, read_told(write(tmp_path / "order", other, one))) == []
-    twice = read_told(write(tmp_path / "twice", one, one, other))
+    expected = read_events(write(tmp_path / "expected", one, other))
+    assert differences(expected, read_events(write(tmp_path / "order", other, one))) == []
+    twice = read_events(write(tmp_path / "twice", one, one, other))
     assert differences(expected, twice) == ["anna, event 0 (HeelStrike at 1.0 s) is there twice"]
-    later = read_told(write(tmp_path / "later", one, heel_strike("anna", 1, 2.0)))
+    later = read_events(write(tmp_path / "later", one, heel_strike("anna", 1, 2.0)))
     assert differences(expected, later) == [
         "anna, event 1 (HeelStrike at 1.0 s) is missing",
         "anna, event 1 (HeelStrike at 2.0 s) is there, and should not be",
     ]
-    hole = read_told(write(tmp_path / "hole", one, heel_strike("anna", 2)))
+    hole = read_events(write(tmp_path / "hole", one, heel_strike("anna", 2)))
     assert holes(expected) == [] and holes(hole) == ["anna has 2 events numbered from 0 to 2"]
     assert differences(expected, of_sessions(hole)) == []
-    assert differences(expected, read_told(tmp_path / "nowhere"))[-1].endswith("is missing")
+    assert differences(expected, read_events(tmp_path / "nowhere"))[-1].endswith("is missing")
 
 
 @given(st.integers(1, 40), st.floats(0.1, 10.0), st.floats(0.1, 100.0), st.integers(1, 3), st.randoms())

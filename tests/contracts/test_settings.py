@@ -12,7 +12,7 @@ from walks import RECIPES, gone, machines, packets, samples
 
 from solepath import Calibration, Foot, Recipe, Session, recipes
 from solepath.body.fuse.both_feet import BothFeet, BothFeetSettings
-from solepath.body.part import Track
+from solepath.body.part import TrackPart
 from solepath.calibration import InsoleCalibration, Newtons
 from solepath.emulate.sensors.insoles import layout
 from solepath.recipes import own
@@ -73,13 +73,13 @@ def test_a_calibration_that_does_not_fit_the_insoles_is_left_out_not_changed() -
     assert {type(event).__name__ for event in told} - {type(event).__name__ for event in usual} == {"Limitation"}
     assert session.position == plain.position
     for foot, tracker in session.feet.items():
-        assert tracker.sole.insole.tells_newtons
+        assert tracker.sole.insole.in_newtons
         assert tracker.sole.insole.tare == plain.feet[foot].sole.insole.tare
 
 
 def test_sessions_of_one_recipe_hold_one_copy_of_it_and_of_a_recipe_that_was_changed_another() -> None:
     body = BothFeet()
-    mine = recipes.DEFAULT.exchanged(Track, body, "mine")
+    mine = recipes.DEFAULT.exchanged(TrackPart, body, "mine")
     held = own(mine)
     assert held is own(mine) is own(evolve(mine)) and held is not mine
     assert held == mine

@@ -13,7 +13,7 @@ from walks import samples
 
 from solepath import Calibration, Foot, Session, recipes
 from solepath.body.fuse.both_feet import BothFeet, BothFeetSettings
-from solepath.body.part import Track
+from solepath.body.part import TrackPart
 from solepath.calibration import InsoleCalibration
 from solepath.emulate.sensors.insoles import layout
 from solepath.recipes import own
@@ -28,7 +28,7 @@ def test_sessions_are_begun_in_many_threads_at_once() -> None:
         try:
             for i in range(25):
                 mine = BothFeet(BothFeetSettings(reach=1.0 + 0.001 * (1000 * k + i)))
-                Session(recipes.DEFAULT.exchanged(Track, mine))
+                Session(recipes.DEFAULT.exchanged(TrackPart, mine))
         except Exception as error:
             failed.append(error)
 
@@ -102,7 +102,7 @@ def test_recipes_are_told_apart_by_all_that_a_part_holds_and_what_no_copy_is_lik
 
 def test_minus_zero_in_a_recipe_or_in_a_calibration_stays_what_it_is() -> None:
     for zero in (0.0, -0.0):
-        recipe = recipes.DEFAULT.exchanged(Track, BothFeet(BothFeetSettings(reach=zero)))
+        recipe = recipes.DEFAULT.exchanged(TrackPart, BothFeet(BothFeetSettings(reach=zero)))
         known = Calibration(toe_out={Foot.LEFT: zero}, drift={Foot.LEFT: (zero, 0.0)})
         session = Session(recipe, calibration=known)
         again = Session.unpack(session.pack(), recipe)

@@ -23,7 +23,7 @@ from bytewax.recovery import RecoveryConfig, init_db_dir
 from bytewax.testing import TestingSink, TestingSource, cluster_main, run_main
 from sites import RECIPES, mixed, site
 
-from solepath.fleet import End, Fleet, Keyed, NumberedEvent, Refusal, Sent, StateRefused, Tick, Unreadable
+from solepath.fleet import End, Fleet, Keyed, NumberedEvent, Sent, SentRejection, StateRejected, Tick, Unreadable
 from solepath.fleet.bytewax import gait, purge
 from solepath.session import Session
 from solepath.types import Packet, Site
@@ -160,7 +160,7 @@ def test_what_no_phone_can_have_sent_is_told_and_stalls_nobody_else() -> None:
     found = by_wearer(told)
     said = found.pop("poison")
     assert found == events
-    assert [event.reason for event in said[:7]] == [Refusal.NOT_SENT] * 6 + [Refusal.UNREADABLE]
+    assert [event.reason for event in said[:7]] == [SentRejection.NOT_SENT] * 6 + [SentRejection.UNREADABLE]
     assert len(said) >= 300
 
 
@@ -190,6 +190,6 @@ def test_states_that_cannot_go_on_are_told_and_begin_afresh_and_the_others_go_on
     found = by_wearer(one for one in told if one[0] != "whole")
     assert found["late"] == events["late"]
     refused, *rest = found["limping"][len(before["limping"]) :]
-    assert isinstance(refused, StateRefused) and "version 254" in refused.detail
+    assert isinstance(refused, StateRejected) and "version 254" in refused.detail
     assert rest == Session().feed(one.what for wearer, one in sent[half:] if wearer == "limping")
-    assert isinstance(whole[0].event, StateRefused) and whole[0].number >= len(before["whole"])
+    assert isinstance(whole[0].event, StateRejected) and whole[0].number >= len(before["whole"])

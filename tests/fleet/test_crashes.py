@@ -20,7 +20,7 @@ pytest.importorskip("bytewax", reason="bytewax is not installed: it has no wheel
 from pyarrow import parquet
 from sites import site
 
-from solepath.fleet import NumberedEvent, sent_line, told_row
+from solepath.fleet import NumberedEvent, event_row, sent_line
 
 JOB = [sys.executable, str(HELPERS / "fleet" / "fleet_job.py")]
 QUIET = {**os.environ, "RUST_BACKTRACE": "0"}
@@ -41,7 +41,7 @@ def sent(tmp_path: Path) -> Path:
 def expected() -> list[dict[str, Any]]:
     """Rows of a session fed by hand for every wearer."""
     each = sorted(site()[1].items())
-    return [told_row(NumberedEvent(wearer, n, event)) for wearer, events in each for n, event in enumerate(events)]
+    return [event_row(NumberedEvent(wearer, n, event)) for wearer, events in each for n, event in enumerate(events)]
 
 
 def held(directory: Path) -> list[dict[str, Any]]:

@@ -19,7 +19,7 @@ pytest.importorskip("pyarrow", reason="pyarrow is not installed (extra: bytewax)
 from pyarrow import parquet
 
 from solepath.events import ActivityChanged, HeelStrike
-from solepath.fleet import TOLD_COLUMNS, NumberedEvent, StateRefused, told_row
+from solepath.fleet import EVENT_COLUMNS, NumberedEvent, StateRejected, event_row
 from solepath.fleet.parquet import GROUPS, PartFiles
 from solepath.types import Activity, Foot
 
@@ -33,7 +33,7 @@ def told(count: int, wearers: int = 3) -> list[NumberedEvent]:
     events = [
         HeelStrike(t=0.1, known_at=0.12, foot=Foot.LEFT),
         ActivityChanged(t=0.1 + 0.2, known_at=0.5, activity=Activity.WALKING, probability=0.9),
-        StateRefused(t=0.0, known_at=0.0, detail='wearer "7" \x00 \N{FOOTPRINTS} \ud800'),
+        StateRejected(t=0.0, known_at=0.0, detail='wearer "7" \x00 \N{FOOTPRINTS} \ud800'),
     ]
     return [NumberedEvent(f"w{n % wearers}", n // wearers, events[n % len(events)]) for n in range(count)]
 
@@ -69,9 +69,9 @@ def test_a_part_holds_the_rows_of_its_events_wearer_by_wearer(tmp_path: Path) ->
     assert names(tmp_path) == []
     assert parts.close() == (parts.run, 1)
     assert names(tmp_path) == [FIRST]
-    assert rows(tmp_path) == by_identity([told_row(one) for one in told(20)])
+    assert rows(tmp_path) == by_identity([event_row(one) for one in told(20)])
     table = parquet.read_table(file(tmp_path))
-    assert table.column_names == list(TOLD_COLUMNS)
+    assert table.column_names == list(EVENT_COLUMNS)
     assert [str(kind) for kind in table.schema.types] == [
         "string", "int64", "string", "double", "double", "bool", "string", "string",
     ]  # fmt: skip
@@ -83,7 +83,7 @@ def test_a_part_that_grows_too_long_is_closed_by_itself(tmp_path: Path) -> None:
     assert names(tmp_path) == [FIRST]
     assert parts.close() == (parts.run, 2)
     assert parquet.ParquetFile(file(tmp_path)).num_row_groups == GROUPS
-    assert by_identity(rows(tmp_path)) == by_identity([told_row(one) for one in told(2 * GROUPS + 1)])
+    assert by_identity(rows(tmp_path)) == by_identity([event_row(one) for one in told(2 * GROUPS + 1)])
 
 
 def test_parts_from_the_resumed_number_on_are_removed_and_no_other_file_is(tmp_path: Path) -> None:
@@ -105,7 +105,7 @@ def test_who_remembers_nothing_sets_the_parts_of_a_run_before_aside_and_says_so(
 ) -> None:
     for count in (1, 2, 3):
         put(PartFiles(tmp_path), told(count))
-        assert rows(tmp_path) == by_identity([told_row(one) for one in told(count)])
+        assert rows(tmp_path) == by_identity([event_row(one) for one in told(count)])
     assert names(tmp_path) == [f".{FIRST}.replaced"] * 2 + [FIRST]
     kept = [parquet.ParquetFile(path).metadata.num_rows for path in sorted(tmp_path.iterdir())]
     assert kept == [1, 2, 3]
@@ -119,12 +119,12 @@ def test_who_forgot_once_what_was_remembered_has_it_all_back_with_the_next_start
     parts, all_told = PartFiles(tmp_path), told(4)
     known = [put(parts, [one]) for one in all_told[:3]]
     put(PartFiles(tmp_path), all_told[:1])
-    assert rows(tmp_path) == [told_row(all_told[0])]
+    assert rows(tmp_path) == [event_row(all_told[0])]
     caplog.clear()
     parts = PartFiles(tmp_path, "0", (known[0][0], 2))
-    assert rows(tmp_path) == [told_row(one) for one in all_told[:2]]
+    assert rows(tmp_path) == [event_row(one) for one in all_told[:2]]
     put(parts, all_told[2:])
-    assert by_identity(rows(tmp_path)) == by_identity([told_row(one) for one in all_told])
+    assert by_identity(rows(tmp_path)) == by_identity([event_row(one) for one in all_told])
     assert caplog.messages == [
         f"{tmp_path}: an earlier run goes on, and its parts are back (2); those of another are hidden (1)"
     ]
@@ -156,7 +156,7 @@ def test_a_part_that_cannot_be_written_is_named_and_leaves_nothing(tmp_path: Pat
     assert refused.value.filename == str(tmp_path / f"part-0-{parts.run}-00000001.parquet")
     assert names(tmp_path) == [FIRST]
     put(PartFiles(tmp_path, "0", number), told(20)[1:])
-    assert by_identity(rows(tmp_path)) == by_identity([told_row(one) for one in told(20)])
+    assert by_identity(rows(tmp_path)) == by_identity([event_row(one) for one in told(20)])
 
 
 @given(st.lists(st.sampled_from(["write", "write many", "close", "count", "crash"]), max_size=15))
@@ -178,7 +178,7 @@ def test_however_often_it_crashes_each_event_is_there_once(steps: list[str]) -> 
                 number = parts.close()
                 counts = (number, at) if step == "count" else counts
         put(parts, all_told[at:])
-        assert by_identity(rows(Path(name))) == by_identity([told_row(one) for one in all_told])
+        assert by_identity(rows(Path(name))) == by_identity([event_row(one) for one in all_told])
 
 
 STRIKE = HeelStrike(t=0.1, known_at=0.12, foot=Foot.LEFT)
@@ -248,4 +248,4 @@ def test_a_wearer_of_any_name_ends_no_job(tmp_path: Path, wearer: str, name: str
     told: list[Any] = [NumberedEvent(wearer, 0, STRIKE), NumberedEvent("w", 0, STRIKE)]
     put(PartFiles(tmp_path), told)
     assert listed(tmp_path) == sorted([(name, 0), ("w", 0)])
-    assert told_row(told[0])["wearer"] == name
+    assert event_row(told[0])["wearer"] == name

@@ -22,7 +22,7 @@ from walks import ROUGH, insoles, said
 
 from solepath import recipes
 from solepath.emulate.radio import CLEAN
-from solepath.fleet import End, Fleet, NumberedEvent, Once, Sent, sent_line, told_row
+from solepath.fleet import End, Fleet, NumberedEvent, Once, Sent, event_row, sent_line
 
 if TYPE_CHECKING:
     from brokers import Broker, Message, Topics
@@ -53,7 +53,7 @@ def sent_by(wearer: str) -> tuple[Sent, ...]:
 def sessions_tell(wearer: str, recipe: str) -> list[dict[str, Any]]:
     """Rows of what a session of his own says."""
     events = said([sent.what for sent in sent_by(wearer)[:-1]], recipes.by_name(recipe))
-    return [told_row(NumberedEvent(wearer, number, event)) for number, event in enumerate(events)]
+    return [event_row(NumberedEvent(wearer, number, event)) for number, event in enumerate(events)]
 
 
 def messages(wearers: tuple[str, ...] = WEARERS, lines: int = 5) -> list[tuple[bytes, bytes]]:

@@ -13,7 +13,7 @@ from fleets import WEARER, shown, uses, walked
 from here import PROTOCOL
 
 from solepath import SnapshotError, recipes
-from solepath.fleet import End, Fleet, NumbersMissing, Sent, SentRejected, StateRefused, Tick, Unreadable
+from solepath.fleet import End, Fleet, NumbersMissing, Sent, SentRejected, StateRejected, Tick, Unreadable
 from solepath.fleet.step.order import HELD
 from solepath.fleet.step.sent import LONGEST_DATA, MOST
 from solepath.fleet.step.state import Identity, OtherState, read_rest, write_state
@@ -28,7 +28,7 @@ FLEET = Fleet()
 def test_where_only_the_session_cannot_go_on_what_is_held_does(vector: dict[str, Any]) -> None:
     after, (told,) = FLEET.step(WEARER, bytes.fromhex(vector["hex"]), [])
     rest, expected = read_rest(after), vector["kept"]
-    assert isinstance(told.event, StateRefused) and told.number == vector["identity"]["told"]
+    assert isinstance(told.event, StateRejected) and told.number == vector["identity"]["told"]
     assert (rest.ended, rest.session) == (expected["ended"], None)
     assert [[span.run, span.first, span.end] for span in rest.left.spans] == expected["spans"]
     assert [list(place) for place in rest.held] == expected["held"]
@@ -38,7 +38,7 @@ def test_rows_that_were_held_when_a_session_was_lost_are_used_in_their_turn() ->
     state, told = Fleet(window=4).step(WEARER, None, [*walked().sent[:100], shown(102), shown(103)])
     damaged = state[:-1] + bytes([state[-1] ^ 1])
     _, (refused, *rest) = Fleet(window=4).step(WEARER, damaged, [shown(100), shown(101)])
-    assert isinstance(refused.event, StateRefused) and refused.number == len(told)
+    assert isinstance(refused.event, StateRejected) and refused.number == len(told)
     assert uses(rest) == [("used", 0, number, None) for number in (100, 101, 102, 103)]
 
 
@@ -56,7 +56,7 @@ def test_a_state_that_holds_what_cannot_be_held_is_refused(held: list[tuple[int,
     assert read_rest(write_state(identity, IN_ORDER)) == IN_ORDER
     state = write_state(identity, OtherState(held={place: Tick(1.0) for place in held}))
     after, told = Fleet(window=0).step(WEARER, state, [shown(305, 6), shown(306, 6)])
-    assert isinstance(told[0].event, StateRefused)
+    assert isinstance(told[0].event, StateRejected)
     assert uses(told[1:]) == [("missing", 6, 299, 6), ("used", 6, 305, None), ("used", 6, 306, None)]
     assert FLEET.open(WEARER, after).state() == after
 
@@ -87,7 +87,7 @@ def test_a_session_that_cannot_go_on_is_not_adopted_and_no_state_goes_on_from_a_
             FLEET.adopt(snapshot)
     state = write_state(Identity(-1, 0, 0, 1.0), OtherState(session=finished().pack()))
     _, (refused, *rest) = FLEET.step(WEARER, state, [shown(0)])
-    assert isinstance(refused.event, StateRefused) and "finished" in refused.event.detail
+    assert isinstance(refused.event, StateRejected) and "finished" in refused.event.detail
     assert uses(rest) == [("used", 0, 0, None)]
 
 

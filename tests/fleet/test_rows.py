@@ -16,22 +16,22 @@ from hypothesis import strategies as st
 
 from solepath.events import HeelStrike, PacketRejected, Rejection
 from solepath.fleet import (
+    EVENT_COLUMNS,
     SENT_COLUMNS,
-    TOLD_COLUMNS,
     End,
     Fleet,
     FleetEvent,
     NumberedEvent,
     NumbersMissing,
-    Refusal,
     Sent,
+    SentRejection,
     Tick,
     Unreadable,
+    event_row,
     read_line,
     read_sent,
     sent_line,
     sent_row,
-    told_row,
 )
 from solepath.fleet.step.sent import LONGEST_DATA, LONGEST_NAME, MOST
 from solepath.types import Foot, Packet, Site
@@ -117,8 +117,8 @@ def test_tables_may_bring_bytes_and_numbers_of_their_own_kinds() -> None:
 
 def test_an_event_is_a_row_with_its_identity_its_times_its_foot_and_the_rest_as_json() -> None:
     told = NumberedEvent("w", 7, HeelStrike(t=1.5, known_at=1.75, foot=Foot.LEFT))
-    row = told_row(told)
-    assert row.keys() == TOLD_COLUMNS.keys()
+    row = event_row(told)
+    assert row.keys() == EVENT_COLUMNS.keys()
     rest = json.loads(row.pop("fields"))
     assert row == {
         "wearer": "w", "number": 7, "event": "HeelStrike", "t": 1.5, "known_at": 1.75, "final": True, "foot": "left",
@@ -127,10 +127,10 @@ def test_an_event_is_a_row_with_its_identity_its_times_its_foot_and_the_rest_as_
 
 
 def test_an_event_without_a_foot_or_with_a_time_that_is_none_is_a_row_too() -> None:
-    missing = told_row(NumberedEvent("w", 0, NumbersMissing(t=0.0, known_at=0.0, run=0, first=3, count=4)))
+    missing = event_row(NumberedEvent("w", 0, NumbersMissing(t=0.0, known_at=0.0, run=0, first=3, count=4)))
     assert missing["foot"] is None and json.loads(missing["fields"]) == {"run": 0, "first": 3, "count": 4}
     lost = PacketRejected(t=nan, known_at=1.0, site=Site.PELVIS, channel="\ud83d", reason=Rejection.NOT_FINITE)
-    row = told_row(NumberedEvent("w", 1, lost))
+    row = event_row(NumberedEvent("w", 1, lost))
     assert row["t"] is None and json.loads(row["fields"])["channel"] == "\ud83d"
 
 
@@ -138,8 +138,8 @@ def test_every_event_of_a_walk_is_a_row_of_the_columns() -> None:
     _, told = Fleet(poses=True, pressures=True).step("w", None, walked().sent[:300])
     assert len(told) > 300
     for one in told:
-        row = told_row(one)
-        assert all(value is None or type(value) is TOLD_COLUMNS[name] for name, value in row.items()), one
+        row = event_row(one)
+        assert all(value is None or type(value) is EVENT_COLUMNS[name] for name, value in row.items()), one
 
 
 def test_the_protocol_names_all_that_a_fleet_tells() -> None:
@@ -148,5 +148,5 @@ def test_the_protocol_names_all_that_a_fleet_tells() -> None:
         own = {field.name for field in attrs.fields(kind)} - {"t", "known_at", "final"}
         (line,) = [line for line in page.splitlines() if line.startswith(f"| `{kind.__name__}` |")]
         assert own == set(re.findall(r"`(\w+)`", line.split("|")[2]))
-    assert all(f"`{reason.value}`" in page for reason in Refusal)
+    assert all(f"`{reason.value}`" in page for reason in SentRejection)
     assert all(f"| `{name}` |" in page for name in SENT_COLUMNS)

@@ -20,7 +20,7 @@ from here import HELPERS
 from sparks import CONF, MASTER, Row, deliver, expected, in_order, needed, of_sessions, put, sent, told
 from toys import BASE
 
-from solepath.fleet import TOLD_COLUMNS, Fleet, NumberedEvent, Sent, sent_line, sent_row, told_row
+from solepath.fleet import EVENT_COLUMNS, Fleet, NumberedEvent, Sent, event_row, sent_line, sent_row
 from solepath.recipes import by_name
 from solepath.session import Session
 from solepath.types import Packet, Site
@@ -65,7 +65,7 @@ def test_events_through_spark_are_those_of_a_session(spark, tmp_path, recipe):
     deliver(tmp_path / "sent", wearers=5, files=5)
     events = run(stream(spark, tmp_path / "sent"), tmp_path, Fleet(by_name(recipe)))
     assert events == expected(5, recipe)
-    assert list(events[0]) == list(TOLD_COLUMNS)
+    assert list(events[0]) == list(EVENT_COLUMNS)
     assert {"StrideTaken", "HeelStrike"} <= {row["event"] for row in events}
 
 
@@ -124,7 +124,7 @@ def test_a_fleet_with_a_device_of_ones_own_is_made_where_it_is_used(spark, tmp_p
     events = run(stream(spark, tmp_path / "sent"), tmp_path, of_toys)
     said = Session(profiles=[BASE]).feed(packets)
     assert {"BatteryLevel", "PacketRejected"} <= {row["event"] for row in events}
-    assert events == [told_row(NumberedEvent("w0", number, event)) for number, event in enumerate(said)]
+    assert events == [event_row(NumberedEvent("w0", number, event)) for number, event in enumerate(said)]
 
 
 def anything(count: int) -> Iterator[Row]:
@@ -181,7 +181,7 @@ def test_a_state_that_cannot_go_on_is_told_and_its_wearer_begins_afresh(spark, t
     for wearer in range(3):
         first = sent(wearer, wearer)[:400]
         states[f"w{wearer}"], events = fleet.step(f"w{wearer}", None, first)
-        before[f"w{wearer}"] = [told_row(one) for one in events]
+        before[f"w{wearer}"] = [event_row(one) for one in events]
     head = states["w1"][:4] + bytes([250]) + states["w1"][5:37]
     states["w1"] = head + crc32(head).to_bytes(4, "little") + states["w1"][41:]
     states["w2"] = b"nothing that anybody wrote"
@@ -194,7 +194,7 @@ def test_a_state_that_cannot_go_on_is_told_and_its_wearer_begins_afresh(spark, t
     assert before["w0"] + of["w0"] == [row for row in expected(1) if row["wearer"] == "w0"]
     for wearer, reason in (("w1", "version 250"), ("w2", "")):
         first, *rest = of[wearer]
-        assert first["event"] == "StateRefused" and reason in first["fields"]
+        assert first["event"] == "StateRejected" and reason in first["fields"]
         assert {"StrideTaken", "HeelStrike"} <= {row["event"] for row in rest}
         assert first["number"] >= len(before[wearer]), "no identity is used twice"
 

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 
 from solepath import recipes
 from solepath.emulate.routes.building import BUILDING
-from solepath.fleet import End, Fleet, Sent, StateRefused, Tick, Unreadable
+from solepath.fleet import End, Fleet, Sent, StateRejected, Tick, Unreadable
 from solepath.fleet.step.keyed import first_number
 from solepath.fleet.step.order import RejectedItem
 from solepath.fleet.step.state import READERS, VERSION, Identity, read_identity, read_rest, write_state
@@ -60,7 +60,7 @@ def test_a_state_says_what_the_protocol_says(vector: dict[str, Any]) -> None:
         known = vector["identity"]
         assert identity == (None if known is None else Identity(**known))
         (first, *_) = FLEET.step(WEARER, state, [shown(300, 7)])[1]
-        assert isinstance(first.event, StateRefused)
+        assert isinstance(first.event, StateRejected)
         assert first.number == (first_number(7, 300) if known is None else known["told"])
         return
     fields = vector["fields"]
@@ -85,7 +85,7 @@ def test_every_version_up_to_the_newest_is_read_and_has_an_example() -> None:
 def test_any_bytes_give_a_fresh_start_and_never_an_exception(state: bytes) -> None:
     sent = [shown(HALF, 5), Unreadable(WEARER, "no row"), shown(HALF + 1, 5)]
     after, told = Fleet(window=0).step(WEARER, state, sent)
-    assert isinstance(told[0].event, StateRefused)
+    assert isinstance(told[0].event, StateRejected)
     assert [one.number for one in told] == list(range(told[0].number, told[0].number + len(told)))
     assert [what for what, *_ in uses(told[1:])][-3:] == ["used", "rejected", "used"]
     assert Fleet(window=0).step(WEARER, after, [shown(HALF + 2, 5)])[1][0].number == told[-1].number + 1
@@ -98,7 +98,7 @@ def test_a_bit_that_fell_over_anywhere_is_noticed_and_no_identity_is_used_again(
     damaged = bytearray(state)
     damaged[place % len(state)] ^= 1 << bit
     _, told = FLEET.step(WEARER, bytes(damaged), walked().sent[HALF : HALF + 5])
-    assert isinstance(told[0].event, StateRefused)
+    assert isinstance(told[0].event, StateRejected)
     assert told[0].number >= before
 
 
@@ -110,7 +110,7 @@ def test_a_state_that_was_refused_is_told_once_and_not_before_it_is_needed() -> 
     assert [one.number for one in keyed.feed([])] == [before]
     assert keyed.feed([]) == []
     after, told = FLEET.step(WEARER, torn, [])
-    assert after == keyed.state() and isinstance(told[0].event, StateRefused)
+    assert after == keyed.state() and isinstance(told[0].event, StateRejected)
     assert FLEET.step(WEARER, after, []) == (after, [])
 
 
@@ -120,7 +120,7 @@ def test_where_nothing_can_be_read_the_first_number_waits_for_a_row_that_has_one
     assert keyed.state() == b"not a state"
     told = keyed.feed([shown(12, 1_763_800_000_000)])
     assert told[0].number == 64 * (1_763_800_000_000 + 13)
-    assert isinstance(told[0].event, StateRefused)
+    assert isinstance(told[0].event, StateRejected)
     assert uses(told[1:]) == [("missing", 1_763_800_000_000, 0, 12), ("used", 1_763_800_000_000, 12, None)]
 
 
@@ -128,7 +128,7 @@ def test_a_session_of_another_recipe_or_of_a_building_is_refused_and_the_numbers
     state, before = halfway()
     for fleet in (Fleet(recipes.by_name("kupt-dfpc")), Fleet(evolve(DEFAULT, name="mine")), Fleet(floorplan=BUILDING)):
         after, told = fleet.step(WEARER, state, walked().sent[HALF : HALF + 50])
-        assert isinstance(told[0].event, StateRefused) and told[0].event.detail
+        assert isinstance(told[0].event, StateRejected) and told[0].event.detail
         assert [one.number for one in told] == list(range(before, before + len(told)))
         assert told[0].event.t == read_identity(state).known
         assert fleet.step(WEARER, after, walked().sent[HALF + 50 : HALF + 150])[1], "and the wearer is followed again"

@@ -15,9 +15,9 @@ from walks import of
 from solepath import Event, Foot, Session, StrideTaken
 from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
-from solepath.foot.gaps.gap import NoLeap, leap
+from solepath.foot.gaps.gap import NoInfill, find_infill
 from solepath.foot.gaps.moment import corrected, moments
-from solepath.foot.gaps.template import MOST_MOMENTS, OLD, Habit
+from solepath.foot.gaps.template import MOST_MOMENTS, OLD, StrideTemplate
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.tracker import FootTracker
 from solepath.saving import codec as machine
@@ -26,13 +26,13 @@ from solepath.types.vector import GRAVITY, IDENTITY, ZERO
 
 
 def test_before_any_whole_stride_a_moving_foot_leaves_nothing_to_go_by_and_a_still_one_has_stood() -> None:
-    habit, at_rest = Habit(), ErrorStateFilter()
+    template, at_rest = StrideTemplate(), ErrorStateFilter()
     at_rest.start(IDENTITY, 0.02)
     up: Vec3 = (0.0, 0.0, GRAVITY)
-    assert leap(habit, at_rest, 1.0, 1.2, up, ZERO) is NoLeap.STOOD
-    assert leap(habit, at_rest, 1.0, 1.2, up, (0.0, 4.0, 0.0)) is NoLeap.UNKNOWN
-    habit.lift(0.9)
-    assert leap(habit, at_rest, 1.0, 1.2, up, ZERO) is NoLeap.UNKNOWN
+    assert find_infill(template, at_rest, 1.0, 1.2, up, ZERO) is NoInfill.STOOD
+    assert find_infill(template, at_rest, 1.0, 1.2, up, (0.0, 4.0, 0.0)) is NoInfill.UNKNOWN
+    template.lift(0.9)
+    assert find_infill(template, at_rest, 1.0, 1.2, up, ZERO) is NoInfill.UNKNOWN
 
 
 def test_a_gap_in_the_first_stride_is_bridged_by_a_straight_line() -> None:
@@ -53,84 +53,86 @@ def test_a_gap_in_the_first_stride_is_bridged_by_a_straight_line() -> None:
     k = tracker.rest.scale
     by_line.predict(dt, (x * k, y * k, z * k), (gyro[0] - bx, gyro[1] - by, gyro[2] - bz))
     tracker.feed(after)
-    assert tracker.gait.habit.last is None
+    assert tracker.gait.template.last is None
     assert tracker.corrector.position == by_line.position
     assert tracker.corrector.attitude == by_line.attitude
 
 
 def test_a_stride_is_remembered_as_it_was_wherever_on_earth_it_was() -> None:
-    habit, far = Habit(), 1e7
-    habit.lift(1e9)
+    template, far = StrideTemplate(), 1e7
+    template.lift(1e9)
     for k in range(8):
         t = 0.032 * k
         velocity, position = (1.0, 0.1 * k, 0.0), (far + t, -far, 0.0)
-        habit.keep(1e9 + t, IDENTITY, velocity, position, (0.0, 3.0, 4.0), (0.0, -5.0, 0.25))
-    rows = moments(habit.now)
+        template.keep(1e9 + t, IDENTITY, velocity, position, (0.0, 3.0, 4.0), (0.0, -5.0, 0.25))
+    rows = moments(template.now)
     assert [one.since for one in rows] == pytest.approx([0.032 * k for k in range(8)], abs=1e-6)
     assert rows[7].velocity == pytest.approx((1.0, 0.7, 0.0))
     assert rows[7].position == pytest.approx((0.224, 0.0, 0.0), abs=1e-7)
     assert rows[7].rate == (0.0, -5.0, 0.25) and rows[7].force == 5.0 and rows[7].attitude == IDENTITY
-    assert corrected(habit.now) == pytest.approx(0.35 * 0.224, abs=1e-6)  # it went so far to the left, and is not there
-    habit.keep(1e9 + 1.0, IDENTITY, (1e300, 0.0, 0.0), (far, far, 0.0), (0.0, 3.0, 4.0), ZERO)
-    assert habit.now == [] and habit.lifted is None
+    assert corrected(template.now) == pytest.approx(
+        0.35 * 0.224, abs=1e-6
+    )  # it went so far to the left, and is not there
+    template.keep(1e9 + 1.0, IDENTITY, (1e300, 0.0, 0.0), (far, far, 0.0), (0.0, 3.0, 4.0), ZERO)
+    assert template.now == [] and template.lifted is None
 
 
 def test_a_toe_off_or_heel_strike_at_one_of_the_moments_that_are_remembered_is_at_that_moment() -> None:
     """At 10 samples a second they often are, and rounding must not decide whether a gap has hidden them."""
     for start in range(100):
-        habit, lifted = Habit(), 0.1 * start
-        habit.lift(lifted)
+        template, lifted = StrideTemplate(), 0.1 * start
+        template.lift(lifted)
         times = [lifted + 0.1 * k for k in range(10)]
         for t in times:
-            habit.keep(t, IDENTITY, ZERO, ZERO, (0.0, 0.0, GRAVITY), ZERO)
-        habit.flat(lifted + 1.0, times[2], times[7], 0.0, ZERO, 0.1)
-        assert habit.last is not None
-        kept = moments(habit.last.rows)
-        assert (kept[2].since, kept[7].since) == (habit.last.toe_off, habit.last.heel_strike)
+            template.keep(t, IDENTITY, ZERO, ZERO, (0.0, 0.0, GRAVITY), ZERO)
+        template.flat(lifted + 1.0, times[2], times[7], 0.0, ZERO, 0.1)
+        assert template.last is not None
+        kept = moments(template.last.rows)
+        assert (kept[2].since, kept[7].since) == (template.last.toe_off, template.last.heel_strike)
 
 
 def test_a_stride_with_a_gap_or_round_a_corner_is_not_the_habit() -> None:
     pose: tuple[Quat, Vec3, Vec3] = (IDENTITY, ZERO, ZERO)
     up: Vec3 = (0.0, 0.0, GRAVITY)
 
-    def stride(habit: Habit, t: float, turn: float, duration: float = 0.7, unseen: float = 0.0) -> None:
-        habit.lift(t)
+    def stride(template: StrideTemplate, t: float, turn: float, duration: float = 0.7, unseen: float = 0.0) -> None:
+        template.lift(t)
         for k in range(int(duration / 0.01)):
-            if t + 0.01 * k >= habit.due:
-                habit.keep(t + 0.01 * k, *pose, up, ZERO)
+            if t + 0.01 * k >= template.due:
+                template.keep(t + 0.01 * k, *pose, up, ZERO)
         if unseen:
-            habit.guess(t, unseen)
-        habit.flat(t + duration, t + 0.2, t + 0.6, turn, (1.3, 0.0, 0.0), 0.01)
+            template.guess(t, unseen)
+        template.flat(t + duration, t + 0.2, t + 0.6, turn, (1.3, 0.0, 0.0), 0.01)
 
-    habit = Habit()
-    stride(habit, 1.0, 0.0)
-    kept = habit.last
+    template = StrideTemplate()
+    stride(template, 1.0, 0.0)
+    kept = template.last
     assert kept is not None and kept.lasted < 0.7
     assert (kept.toe_off, kept.heel_strike) == pytest.approx((0.2, 0.6))
-    stride(habit, 2.0, 0.0, unseen=0.2)
-    assert habit.last is kept
-    stride(habit, 3.0, 0.5)
-    assert habit.last is kept
+    stride(template, 2.0, 0.0, unseen=0.2)
+    assert template.last is kept
+    stride(template, 3.0, 0.5)
+    assert template.last is kept
     for k in range(OLD):
-        stride(habit, 4.0 + k, 0.5)
-    assert habit.last is not kept  # who does nothing but turn has turning for a habit
-    stride(habit, 40.0, 0.0, duration=3.0)  # too slow to be kept whole, and memory is bounded
-    assert len(habit.now) <= MOST_MOMENTS
+        stride(template, 4.0 + k, 0.5)
+    assert template.last is not kept  # who does nothing but turn has turning for a habit
+    stride(template, 40.0, 0.0, duration=3.0)  # too slow to be kept whole, and memory is bounded
+    assert len(template.now) <= MOST_MOMENTS
 
 
 def test_a_stride_that_zero_velocity_had_to_put_right_is_not_the_habit() -> None:
-    habit, up = Habit(), (0.0, 0.0, GRAVITY)
+    template, up = StrideTemplate(), (0.0, 0.0, GRAVITY)
 
     def stride(t: float, speed: float) -> None:
-        habit.lift(t)
+        template.lift(t)
         for k in range(20):
-            habit.keep(t + 0.035 * k, IDENTITY, (speed, 0.0, 0.0), (2.0 * 0.035 * k, 0.0, 0.0), up, ZERO)
-        habit.flat(t + 0.7, t + 0.2, t + 0.6, 0.0, (1.33, 0.0, 0.0), 0.01)
+            template.keep(t + 0.035 * k, IDENTITY, (speed, 0.0, 0.0), (2.0 * 0.035 * k, 0.0, 0.0), up, ZERO)
+        template.flat(t + 0.7, t + 0.2, t + 0.6, 0.0, (1.33, 0.0, 0.0), 0.01)
 
     stride(1.0, -5.0)
-    assert habit.last is None
+    assert template.last is None
     stride(2.0, 2.0)
-    assert habit.last is not None
+    assert template.last is not None
 
 
 @pytest.mark.parametrize("way", [(3.3, 0.0, 0.0), (1.3, 0.0, 1.18), (1.3, 0.5, -1.18), (-40.0, 9.0, 7.0)])
@@ -138,20 +140,20 @@ def test_a_stride_that_zero_velocity_had_to_put_right_is_not_the_habit() -> None
 def test_a_stride_with_a_gap_goes_hardly_further_than_those_before_and_no_higher_than_two_stairs(
     way: Vec3, filled: bool
 ) -> None:
-    habit, up = Habit(), (0.0, 0.0, GRAVITY)
+    template, up = StrideTemplate(), (0.0, 0.0, GRAVITY)
     for n in range(2):
-        habit.lift(1.2 * n + 0.4)
+        template.lift(1.2 * n + 0.4)
         for k in range(20):
-            habit.keep(habit.due, IDENTITY, (2.0, 0.0, 0.0), (2.0 * 0.032 * k, 0.0, 0.0), up, ZERO)
+            template.keep(template.due, IDENTITY, (2.0, 0.0, 0.0), (2.0 * 0.032 * k, 0.0, 0.0), up, ZERO)
         t = 1.2 * (n + 1)
-        habit.flat(t, t - 0.5, t - 0.1, 0.0, (1.3, 0.0, 0.0), 0.01)
-    assert habit.last is not None
-    habit.lift(2.8)
+        template.flat(t, t - 0.5, t - 0.1, 0.0, (1.3, 0.0, 0.0), 0.01)
+    assert template.last is not None
+    template.lift(2.8)
     if filled:
-        habit.guess(2.8, 0.3)
+        template.guess(2.8, 0.3)
     else:
-        habit.cross()
-    mended = habit.flat(3.6, 3.1, 3.5, 0.0, way, 0.01)
+        template.cross()
+    mended = template.flat(3.6, 3.1, 3.5, 0.0, way, 0.01)
     assert mended is not None
     assert hypot(mended.way[0], mended.way[1]) <= 1.25 * 1.3 * 1.2
     assert abs(mended.way[2]) <= 0.5
@@ -171,9 +173,9 @@ def test_in_a_gap_no_foot_goes_faster_than_feet_go_and_a_long_one_is_not_filled(
         x, y, z = tracker.corrector.position
         tracker.corrector.velocity = (speed, 0.0, -speed)
         dt = after.t - before[-1].t
-        found = leap(tracker.gait.habit, tracker.corrector, before[-1].t, after.t, after.acc, after.gyro)
-        assert (duration > 1.5) == (found is NoLeap.UNKNOWN) or speed == 60.0
-        if not isinstance(found, NoLeap):
+        found = find_infill(tracker.gait.template, tracker.corrector, before[-1].t, after.t, after.acc, after.gyro)
+        assert (duration > 1.5) == (found is NoInfill.UNKNOWN) or speed == 60.0
+        if not isinstance(found, NoInfill):
             u, v, w = found.position
             assert hypot(u - x, v - y, w - z) <= 4.0 * dt + 1e-9
             assert hypot(*found.velocity) < 9.0

@@ -206,9 +206,9 @@ def test_a_turn_that_was_seen_is_not_taken_back_with_that_of_a_gap() -> None:
     line = StraightOn()
     for _ in range(3):
         line.footfall(0.0, 0.0, 0.0, 0.0)
-    assert line.mend(0.09, 1.0, 0.0) < -0.05
+    assert line.repair(0.09, 1.0, 0.0) < -0.05
     line.footfall(0.09, 0.0, 0.0, 0.0)
-    assert line.mend(0.09, 1.0, 0.0) == 0.0
+    assert line.repair(0.09, 1.0, 0.0) == 0.0
 
 
 def test_who_goes_straight_on_keeps_the_heading_through_a_gap_in_every_stride() -> None:
@@ -221,10 +221,10 @@ def test_who_goes_straight_on_keeps_the_heading_through_a_gap_in_every_stride() 
 def test_the_further_a_footfall_turned_the_less_of_it_is_taken_for_the_gaps_doing() -> None:
     line = StraightOn()
     for _ in range(3):
-        assert line.mend(0.1, 1.0, 0.0) == 0.0  # nothing is known of where this wearer is heading
+        assert line.repair(0.1, 1.0, 0.0) == 0.0  # nothing is known of where this wearer is heading
         line.footfall(0.0, 0.0, 0.0, 0.0)
-    taken_back = [-line.mend(turn, 1.0, 0.0) / turn for turn in (0.02, 0.1, 0.2, 0.4, 0.8)]
+    taken_back = [-line.repair(turn, 1.0, 0.0) / turn for turn in (0.02, 0.1, 0.2, 0.4, 0.8)]
     assert taken_back[0] > 0.8
     assert all(a > b for a, b in pairwise(taken_back))
     assert taken_back[-1] < 0.01
-    assert line.mend(0.1, 0.0, 0.0) == 0.0
+    assert line.repair(0.1, 0.0, 0.0) == 0.0

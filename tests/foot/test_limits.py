@@ -27,7 +27,7 @@ from solepath import (
     recipes,
 )
 from solepath.body.fuse.position import MeanOfFeet
-from solepath.body.part import Track
+from solepath.body.part import TrackPart
 from solepath.emulate import CC2650, Route, emulate
 from solepath.emulate.sensors.insoles import layout
 from solepath.foot.pressure.guess import LayoutGuess
@@ -74,7 +74,7 @@ def test_who_was_heard_first_does_not_matter_to_a_snapshot() -> None:
 @pytest.mark.parametrize("first", [Route().stand(2).turn(radians(90)), Route().stand(2).turn(radians(90), radius=2.0)])
 def test_final_steps_are_all_seen_from_one_frame(first: Route, seed: int) -> None:
     walk = emulate(first.walk(6, 1.2).stop(2), seed=seed)
-    session = Session(recipes.DEFAULT.exchanged(Track, MeanOfFeet()))  # no foot is moved by the other
+    session = Session(recipes.DEFAULT.exchanged(TrackPart, MeanOfFeet()))  # no foot is moved by the other
     steps = [event for event in session.feed(walk.packets) if isinstance(event, StrideTaken)]
     for foot in Foot:
         own = [step for step in steps if step.foot is foot]
@@ -151,7 +151,7 @@ def test_an_area_that_never_carries_anything_tells_nothing() -> None:
     sole = layout(24, Foot.LEFT)
     dead = {k for k, cell in enumerate(sole.cells) if cell.x < 0.33 * sole.length}
     insole = InsoleLoads()
-    insole.wear(sole)
+    insole.set_layout(sole)
     loads = []
     for sample in samples():
         if sample.site is Site.LEFT_FOOT and sample.pressure:

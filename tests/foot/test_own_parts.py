@@ -49,7 +49,7 @@ def test_a_clock_that_begins_anew_leaves_a_detector_of_ones_own_with_its_setting
     session.feed(WALKED[:50])
     tracker = session.feet[Foot.LEFT]
     assert tracker.detector != evolve(OWN.detector, limit=0.7)
-    tracker.interrupt()
+    tracker.reset()
     assert tracker.detector == evolve(OWN.detector, limit=0.7)
 
 

@@ -26,7 +26,7 @@ from solepath.types import Phase
 def worn(*frames: tuple[float, ...]) -> InsoleLoads:
     """An insole that has been through some frames at 100 Hz."""
     insole = InsoleLoads()
-    insole.wear(SOLE)
+    insole.set_layout(SOLE)
     for k, cells in enumerate(frames):
         insole.update(0.01 * k, cells)
     return insole

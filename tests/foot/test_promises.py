@@ -13,9 +13,9 @@ from attrs import define, evolve, field
 from own import CELLS, WALKED, ByMotion, Quiet, Resets
 
 from solepath import recipes
-from solepath.body.part import LayoutTold, Notice, Part, Said
+from solepath.body.part import LayoutReported, Part, PartInput, PartOutput
 from solepath.events import WearerMoved
-from solepath.foot.cues.cues import Seen
+from solepath.foot.cues.cues import SeenCue
 from solepath.foot.stance.stance import Stance
 from solepath.foot.view import FootView
 from solepath.recipes import NAMES, by_name
@@ -158,15 +158,15 @@ class Leaving(Resets):
 
 @define
 class Foretelling(ByMotion):
-    def update(self, t: float, *rest: Any) -> Sequence[Seen]:
-        return [Seen(one.cue, t + 1.0) for one in ByMotion.update(self, t, *rest)]
+    def update(self, t: float, *rest: Any) -> Sequence[SeenCue]:
+        return [SeenCue(one.cue, t + 1.0) for one in ByMotion.update(self, t, *rest)]
 
 
 @define
 class Listing(ByMotion):
     seen: list[float] = field(factory=list, init=False)
 
-    def update(self, t: float, *rest: Any) -> Sequence[Seen]:
+    def update(self, t: float, *rest: Any) -> Sequence[SeenCue]:
         self.seen.append(t)
         return ByMotion.update(self, t, *rest)
 
@@ -234,16 +234,16 @@ class Lasting(Part):
     count: int = 0
     newest: float | None = field(default=None, init=False)
 
-    def receive(self, event: Notice) -> Sequence[Said]:
+    def receive(self, event: PartInput) -> Sequence[PartOutput]:
         self.count += 1
         return ()
 
 
 @define
 class Foreseeing(Part):
-    feeds: ClassVar[bool] = True
+    needs_samples: ClassVar[bool] = True
 
-    def feed(self, view: FootView) -> Sequence[Said]:
+    def feed(self, view: FootView) -> Sequence[PartOutput]:
         return [WearerMoved(t=view.t + 1.0, known_at=view.t, position=ZERO, covariance=(0.0,) * 6)]
 
 
@@ -253,12 +253,12 @@ class Lingering(Part):
 
     cells: int = field(default=0, init=False)
 
-    def receive(self, event: Notice) -> Sequence[Said]:
-        if isinstance(event, LayoutTold):
+    def receive(self, event: PartInput) -> Sequence[PartOutput]:
+        if isinstance(event, LayoutReported):
             self.cells = len(event.layout.cells)
         return ()
 
-    def finish(self, now: float) -> Sequence[Said]:
+    def finish(self, now: float) -> Sequence[PartOutput]:
         return [WearerMoved(t=now + self.cells, known_at=now, position=ZERO, covariance=(0.0,) * 6)]
 
 

@@ -18,7 +18,7 @@ from solepath.foot.settings import CycleSettings, StanceThreshold
 from solepath.foot.stance.classic import AngularRate, Graph, MovingVariance
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.stance.pressure import MaximumPressure, TwoArea
-from solepath.foot.stance.sensor_height import GUESS, HIGHEST, LOWEST, Lever
+from solepath.foot.stance.sensor_height import GUESS, HIGHEST, LOWEST, SensorHeight
 from solepath.foot.stance.shoe import ShoeDetector
 from solepath.foot.stance.stance import Load, Stance, soften
 from solepath.types import Foot, Phase, Vec3
@@ -152,7 +152,7 @@ def shares(detector: Any) -> tuple[float, float]:
     from solepath.foot.pressure.insole import InsoleLoads
 
     insole, found = InsoleLoads(), []
-    insole.wear(layout(96, Foot.LEFT))
+    insole.set_layout(layout(96, Foot.LEFT))
     for sample in fed:
         load = insole.update(sample.t, sample.pressure)
         said = detector.update(sample.t, 0.01, sample.acc, sample.gyro, load)
@@ -206,7 +206,7 @@ ASKEW = normalise((0.3, -0.5, 0.7, 0.4))
 """Foot to sensor."""
 
 
-def roll(lever: Lever, height: float, tilt: float = 0.0, amount: float = 0.25) -> None:
+def roll(sensor_height: SensorHeight, height: float, tilt: float = 0.0, amount: float = 0.25) -> None:
     """One stance of 0.3 s: the foot rolls forward faster and faster about a point of the ground, the sensor `height` m
     above it; the attitude is believed `tilt` rad off."""
     for k in range(60):
@@ -223,34 +223,34 @@ def roll(lever: Lever, height: float, tilt: float = 0.0, amount: float = 0.25) -
             w * a - x * b - y * c - z * d, w * b + x * a + y * d - z * c,
             w * c - x * d + y * a + z * b, w * d + x * c - y * b + z * a,
         )  # fmt: skip
-        lever.roll(DT, sensor, gyro, believed)
-    lever.lift()
+        sensor_height.roll(DT, sensor, gyro, believed)
+    sensor_height.lift()
 
 
 @pytest.mark.parametrize("height", [0.0, 0.02, 0.08, 0.12])
 @pytest.mark.parametrize("tilt", [0.0, 0.02])
 def test_a_few_stances_tell_how_high_the_sensor_is(height: float, tilt: float) -> None:
-    lever = Lever()
+    sensor_height = SensorHeight()
     for _ in range(5):
-        roll(lever, height, tilt)
-    assert lever.height == pytest.approx(height, abs=0.006)
+        roll(sensor_height, height, tilt)
+    assert sensor_height.height == pytest.approx(height, abs=0.006)
 
 
 def test_a_foot_that_only_stands_leaves_the_height_as_it_was() -> None:
-    lever = Lever()
+    sensor_height = SensorHeight()
     for k in range(1000):
-        lever.roll(0.01, (0.01 * (k % 3), 0.0, GRAVITY), (1e-4 * (k % 2), 0.0, 0.0), IDENTITY)
-    lever.lift()
-    assert lever.height == pytest.approx(GUESS, abs=1e-3)
+        sensor_height.roll(0.01, (0.01 * (k % 3), 0.0, GRAVITY), (1e-4 * (k % 2), 0.0, 0.0), IDENTITY)
+    sensor_height.lift()
+    assert sensor_height.height == pytest.approx(GUESS, abs=1e-3)
 
 
 def test_a_sensor_that_is_moved_is_followed() -> None:
-    lever = Lever()
+    sensor_height = SensorHeight()
     for _ in range(30):
-        roll(lever, 0.09)
+        roll(sensor_height, 0.09)
     for _ in range(60):
-        roll(lever, 0.02)
-    assert lever.height == pytest.approx(0.02, abs=0.006)
+        roll(sensor_height, 0.02)
+    assert sensor_height.height == pytest.approx(0.02, abs=0.006)
 
 
 def test_a_rolling_foot_moves_forward_and_the_evidence_says_so() -> None:
@@ -258,7 +258,7 @@ def test_a_rolling_foot_moves_forward_and_the_evidence_says_so() -> None:
     still = cycle.update(0.0, 0.0, (0.0, 0.0, GRAVITY), (0.0, 0.0, 0.0), None)
     rolling = cycle.update(0.03, 0.03, (0.0, 0.0, GRAVITY), (0.0, 0.1, 0.0), None)
     assert still.v_ref == (0.0, 0.0, 0.0)
-    assert rolling.v_ref == pytest.approx((0.1 * cycle.lever.height, 0.0, 0.0))
+    assert rolling.v_ref == pytest.approx((0.1 * cycle.sensor_height.height, 0.0, 0.0))
     without = Cycle(CycleSettings(rolls=False))
     assert without.update(0.0, 0.0, (0.0, 0.0, GRAVITY), (0.0, 0.1, 0.0), None).v_ref == (0.0, 0.0, 0.0)
 
@@ -268,8 +268,8 @@ numbers = st.floats(-20.0, 20.0)
 
 @given(st.lists(st.tuples(st.floats(0.0, 0.25), *[numbers] * 6), min_size=1, max_size=60))
 def test_whatever_is_measured_the_height_stays_that_of_a_sensor_on_a_foot(rows: list[tuple[float, ...]]) -> None:
-    lever = Lever()
+    sensor_height = SensorHeight()
     for dt, ax, ay, az, wx, wy, wz in rows:
-        lever.roll(dt, (ax, ay, az), (wx, wy, wz), IDENTITY)
-    lever.lift()
-    assert LOWEST <= lever.height <= HIGHEST
+        sensor_height.roll(dt, (ax, ay, az), (wx, wy, wz), IDENTITY)
+    sensor_height.lift()
+    assert LOWEST <= sensor_height.height <= HIGHEST

@@ -11,7 +11,7 @@ from solepath import Foot, Phase
 from solepath.calibration import Calibration
 from solepath.emulate import Route, Walker
 from solepath.emulate.sensors.insoles import layout
-from solepath.foot.cues.cues import Cues, Seen
+from solepath.foot.cues.cues import Cues, SeenCue
 from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.phase import Cue
 from solepath.foot.stance.stance import Detector, Load, Stance
@@ -70,18 +70,18 @@ class ByMotion(Cues):
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
         load: Load | None, stance: Stance,
-    ) -> Sequence[Seen]:  # fmt: skip
+    ) -> Sequence[SeenCue]:  # fmt: skip
         if still:
             self.stood = t
-            return (Seen(Cue.CONTACT, t), Seen(Cue.FLAT, t)) if phase is not Phase.STATIONARY else ()
+            return (SeenCue(Cue.CONTACT, t), SeenCue(Cue.FLAT, t)) if phase is not Phase.STATIONARY else ()
         if phase is Phase.STATIONARY:
-            return (Seen(Cue.LIFT, t),)
-        return (Seen(Cue.CLEAR, t),) if speed > self.fast and phase is not Phase.SWING else ()
+            return (SeenCue(Cue.LIFT, t),)
+        return (SeenCue(Cue.CLEAR, t),) if speed > self.fast and phase is not Phase.SWING else ()
 
-    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[Seen]:
-        return (Seen(Cue.CLEAR if load.airborne else Cue.CONTACT, t),)
+    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
+        return (SeenCue(Cue.CLEAR if load.airborne else Cue.CONTACT, t),)
 
-    def wear(self, layout: Layout) -> None:
+    def set_layout(self, layout: Layout) -> None:
         self.cells = len(layout.cells)
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> ByMotion:

@@ -25,7 +25,7 @@ from solepath import LiftRidden, Session
 from solepath import emulate as sim
 from solepath.cli.main import parser
 from solepath.emulate import Route, emulate
-from solepath.fleet import NumberedEvent, Sent, sent_line, told_row
+from solepath.fleet import NumberedEvent, Sent, event_row, sent_line
 from solepath.foot.pressure.insole import InsoleLoads
 from solepath.foot.settings import CycleSettings
 from solepath.recipes import PARTS, part_class
@@ -148,7 +148,7 @@ def test_what_comes_out_of_a_wearer_of_a_fleet_is_counted():
     events = session.feed(packets) + session.finish()
     last = packets[-1].t - packets[0].t
     rows = sum(
-        len(json.dumps(told_row(NumberedEvent("w-00017", number, event)))) for number, event in enumerate(events)
+        len(json.dumps(event_row(NumberedEvent("w-00017", number, event)))) for number, event in enumerate(events)
     )
     assert f" {len(events) / last:.0f} events/s, {rows / last / 1000:.0f} kB/s as rows" in PAGES["docs/fleet.md"]
 

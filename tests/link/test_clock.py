@@ -179,7 +179,7 @@ def test_two_clocks_without_doubt_agree_within_5_ms(seed: int, jitter: float) ->
             newest[n] = max(newest[n], true + jitter * random.random(), late if k < 10 else 0.0)
             clock.observe(k * INTERVAL, newest[n])
             t = clock.time(k * INTERVAL)
-            if clock.doubt is not None and clock.doubt < t:
+            if clock.unsettled_until is not None and clock.unsettled_until < t:
                 errors.append(t - true)
         if len(errors) == 2:
             apart.append(abs(errors[0] - errors[1]))
@@ -193,8 +193,8 @@ def test_a_clock_is_in_doubt_for_5_s_and_while_a_late_beginning_is_slewed_away()
         for clock, arrival in ((good, k * STEP), (late, max(k * STEP, 0.1))):
             clock.observe(k * INTERVAL, arrival)
             clock.time(k * INTERVAL)
-    assert good.doubt == pytest.approx(5.0, abs=2 * STEP)
-    assert late.doubt is not None and 20.0 < late.doubt < 30.0  # 95 ms at 5 ms a second, and 5 s
+    assert good.unsettled_until == pytest.approx(5.0, abs=2 * STEP)
+    assert late.unsettled_until is not None and 20.0 < late.unsettled_until < 30.0  # 95 ms at 5 ms a second, and 5 s
 
 
 def slots(

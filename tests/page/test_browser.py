@@ -15,7 +15,7 @@ from browsers import PATIENCE, UNREACHABLE, Browser, Browsing, Window, window
 from shown import CONNECTED, Told, after, again, between, fresh, meanwhile, opened, show, square, squares, walked
 
 from solepath import Connected, LinkTrouble, Placed, Session, WearerMoved
-from solepath.ble import Devices, Wanted
+from solepath.ble import DeviceConfig, Devices
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import parse_faults
 from solepath.emulate.routes.building import BUILDING
@@ -199,7 +199,7 @@ async def test_a_lost_link_shows_and_recovers(chromium: Browser) -> None:
     devices = dict.fromkeys((LEFT, RIGHT), Insole(cells=16))
     bench = Bench(Route().stand(30.0), devices=devices, faults=faults)
     bench.prepare()
-    wanted = [Wanted(one.site, one.address) for one in bench.peripherals]
+    wanted = [DeviceConfig(one.site, one.address) for one in bench.peripherals]
     async with (
         opened(chromium, scene) as (view, _),
         memory(bench) as backend,

@@ -14,7 +14,7 @@ from solepath import (
     CellsFailed,
     Connected,
     Foot,
-    FootHeard,
+    FootResumed,
     FootSilent,
     Site,
     StreamStale,
@@ -48,7 +48,7 @@ def test_a_low_battery_is_said_once() -> None:
 def test_a_silence_that_the_link_told_is_not_told_again_of_the_foot() -> None:
     stale = StreamStale(t=1.0, known_at=2.0, site=Site.LEFT_FOOT, silent_for=1.0)
     silent = FootSilent(t=1.0, known_at=2.5, foot=Foot.LEFT, silent_for=1.5)
-    heard = FootHeard(t=3.0, known_at=3.0, foot=Foot.LEFT, silent_for=2.0)
+    heard = FootResumed(t=3.0, known_at=3.0, foot=Foot.LEFT, silent_for=2.0)
     assert len(shown([moved(0.5), stale, silent]).log.lines.items) == 1
     assert len(shown([moved(1.9), moved(2.5), silent, heard]).log.lines.items) == 2
 

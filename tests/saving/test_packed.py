@@ -17,7 +17,7 @@ from walks import LEFT, RIGHT, ROUGH, SHORT, machines, packets, samples
 
 from solepath import Calibration, Foot, Recipe, Session, SnapshotError, recipes
 from solepath.body.height.altitude import Altitude
-from solepath.body.part import Track
+from solepath.body.part import TrackPart
 from solepath.calibration import InsoleCalibration, Limbs, Newtons, ShoeGeometry
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.sensors.insoles import layout
@@ -105,7 +105,7 @@ def test_a_session_is_not_unpacked_with_another_recipe_or_other_parts() -> None:
         Session.unpack(packed(), recipes.by_name("kupt"))
     for other, what in (
         (evolve(recipes.DEFAULT, detector=ShoeDetector()), "packed with Cycle, and this recipe has Shoe"),
-        (recipes.DEFAULT.exchanged(Track, DoubleFoot()), "packed with BothFeet, and this recipe has DoubleFoot"),
+        (recipes.DEFAULT.exchanged(TrackPart, DoubleFoot()), "packed with BothFeet, and this recipe has DoubleFoot"),
         (recipes.DEFAULT.exchanged(Altitude, None), "packed with 6 parts, and this recipe has 5"),
         (OWN, "packed with the recipe 'default', and this is 'quiet'"),
         (evolve(OWN, name="default"), "packed with Cycle, and this recipe has Quiet"),

@@ -9,7 +9,7 @@ from solepath.events import (
     CellFault,
     CellsFailed,
     FeetSwapped,
-    FootHeard,
+    FootResumed,
     FootSilent,
     HeelStrike,
     InsoleNeverUnloads,
@@ -134,7 +134,7 @@ def test_what_is_wrong_with_how_it_is_worn_is_told_once():
     observer.add(InsoleNeverUnloads(t=1.0, known_at=1.0, site=Site.RIGHT_FOOT, seconds=5.0))
     observer.add(FeetSwapped(t=1.0, known_at=1.0))
     observer.add(FootSilent(t=1.0, known_at=1.0, foot=Foot.RIGHT, silent_for=2.0))
-    observer.add(FootHeard(t=3.0, known_at=3.0, foot=Foot.RIGHT, silent_for=4.0))
+    observer.add(FootResumed(t=3.0, known_at=3.0, foot=Foot.RIGHT, silent_for=4.0))
     assert worn(observer) == [
         "left foot: cells 3, 11 dead, left out",
         "left foot: 40 cells dead, left out",

@@ -5,7 +5,7 @@ from .connection import Connection, ConnectionState
 from .devices import Devices
 from .record import record
 from .trouble import BluetoothError
-from .wanted import Wanted
+from .wanted import DeviceConfig
 
 __all__ = [
     "NATIVE",
@@ -15,7 +15,7 @@ __all__ = [
     "Devices",
     "Found",
     "ConnectionState",
-    "Wanted",
+    "DeviceConfig",
     "record",
     "scan",
 ]

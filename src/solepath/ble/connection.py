@@ -16,12 +16,12 @@ from ..types import Site
 from ..wire.receiver import LONGEST_NAME, build_connected
 from ..wire.receiver import ConnectionFrame as Made
 from .air import WEAKEST, Backend, Found, Scanner
-from .inbox import Voice, shortened
+from .inbox import Emitter, shortened
 from .listening import Listening
 from .search import FORGET, Search
 from .setup import INFO, Unfit, ask_info, lacking, site_in
 from .trouble import FAILURES, NO_ANSWER, calling, sentence
-from .wanted import Wanted
+from .wanted import DeviceConfig
 
 ATTEMPTS = 2
 """Times that a device which just advertised is tried to connect to, before it is looked for again."""
@@ -55,15 +55,15 @@ class Connection:
     """One wanted device, as `Devices` has it; for an app to look at: `wanted`, `site`, `state`, `signal`, and `address`
     and `name`, "" as long as they are not known. None of it raises; troubles become packets, and LinkTrouble of those.
 
-    `run` is a task of its own, so no device waits for another. What it learns it says with its `voice`. `pair`: pair
+    `run` is a task of its own, so no device waits for another. What it learns it says with its `emitter`. `pair`: pair
     when connected. `patience`: s until a device that is not heard is complained of.
     `siblings`: all connections of the same owner, this one too; no two use one device or stand at one site.
     """
 
-    wanted: Wanted
+    wanted: DeviceConfig
     backend: Backend
     air: Scanner
-    voice: Voice
+    emitter: Emitter
     siblings: Sequence[Connection]
     pair: bool
     patience: float
@@ -85,18 +85,18 @@ class Connection:
     @property
     def site(self) -> Site:
         """Where packets are said to come from; provisional while a device that says its site was not asked."""
-        return self.voice.site
+        return self.emitter.site
 
     @property
     def address(self) -> str:
         """Of the device, once it is known which it is; from then on no other will do."""
-        return self.voice.address
+        return self.emitter.address
 
     async def run(self) -> None:
         """For ever."""
         pause, self._lacking_since = PAUSE, _now()
         while True:
-            since, complain = self._lacking_since, self.voice.complain
+            since, complain = self._lacking_since, self.emitter.complain
             search = Search(self.air, self.wanted, self.address, self._barred, self.patience, since, complain)
             found = await search.run()
             self._trying, self.signal = found.address, found.signal if found.signal > WEAKEST else None
@@ -105,9 +105,9 @@ class Connection:
                 await self._use(found)
             except Unfit as error:
                 self._unfit[found.address] = _now()
-                self.voice.complain(str(error))
+                self.emitter.complain(str(error))
             except FAILURES as error:
-                self.voice.complain(sentence(error))
+                self.emitter.complain(sentence(error))
             finally:
                 steady = self._streamed and self.state is ConnectionState.LISTENING and _now() - self._since >= STEADY
                 self._trying, self.state = "", ConnectionState.SEEKING
@@ -144,15 +144,15 @@ class Connection:
                 raise Unfit(f"{name} is no {profile.name}: it has no {lacks}")
             info = await ask_info(client, profile)
             self._settle(None if info is None else site_in(info, name), found, name)
-            listening = Listening(client, profile, self.voice, gone, {} if info is None else {INFO: info})
-            self.voice.say("receiver/connected", build_connected(Made(shortened(name, LONGEST_NAME), self.signal)))
+            listening = Listening(client, profile, self.emitter, gone, {} if info is None else {INFO: info})
+            self.emitter.say("receiver/connected", build_connected(Made(shortened(name, LONGEST_NAME), self.signal)))
             try:
                 await listening.set_up()
                 self.state, self._since = ConnectionState.LISTENING, _now()
                 await listening.run()
             finally:
                 listening.closed, self._streamed = True, listening.streamed
-                self.voice.say("receiver/disconnected")
+                self.emitter.say("receiver/disconnected")
         finally:
             with suppress(*FAILURES):
                 async with calling(PARTING):
@@ -162,7 +162,7 @@ class Connection:
         """`gone` is set when the connection is lost. FAILURES."""
         loop = asyncio.get_running_loop()
         late = max(self._lacking_since + self.patience, _now() + min(FORGET, self.patience))
-        telling = loop.call_at(late, self.voice.complain, NO_ANSWER)
+        telling = loop.call_at(late, self.emitter.complain, NO_ANSWER)
         try:
             async with calling(CONNECTING):
                 client = await establish_connection(
@@ -193,8 +193,8 @@ class Connection:
         if any(one.address or one.wanted.site is not None for one in there):
             raise Unfit(f"{name} is one more for the {_place(site)}")
         for one in there:  # provisional places are exchanged
-            one.voice.site = self.site
-        self.voice.site, self.voice.address, self.name = site, found.address, found.name
+            one.emitter.site = self.site
+        self.emitter.site, self.emitter.address, self.name = site, found.address, found.name
 
 
 def _now() -> float:

@@ -1,6 +1,6 @@
 """Devices: what an app holds to hear real sensors.
 
-async with Devices([Wanted(Site.LEFT_FOOT, "F0:F1:F2:F3:F4:F5")]) as devices:
+async with Devices([DeviceConfig(Site.LEFT_FOOT, "F0:F1:F2:F3:F4:F5")]) as devices:
     async for packet in devices:
         for event in session.feed(packet): ...
 """
@@ -13,9 +13,9 @@ from collections.abc import AsyncIterator, Iterable
 from ..types import Packet, Site
 from .air import NATIVE, Backend, Scanner, scanner
 from .connection import Connection, ConnectionState
-from .inbox import Inbox, Voice
+from .inbox import Emitter, Inbox
 from .trouble import FAILURES, BluetoothError, sentence
-from .wanted import Wanted, check
+from .wanted import DeviceConfig, check
 
 TICK = 0.2
 """s without a packet after which there is one that says so."""
@@ -43,7 +43,7 @@ class Devices:
 
     def __init__(
         self,
-        wanted: Iterable[Wanted],
+        wanted: Iterable[DeviceConfig],
         *,
         backend: Backend = NATIVE,
         capacity: int = 4000,
@@ -67,8 +67,8 @@ class Devices:
         self._fault: asyncio.Task[None] | None = None
         free = [site for site in Site if site not in {one.site for one in wanted}]
         for one in wanted:
-            voice = Voice(self._inbox, free.pop(0) if one.site is None else one.site)
-            self._connections.append(Connection(one, backend, self._air, voice, self._connections, pair, patience))
+            emitter = Emitter(self._inbox, free.pop(0) if one.site is None else one.site)
+            self._connections.append(Connection(one, backend, self._air, emitter, self._connections, pair, patience))
         self._inbox.on_arrival = self._wake
 
     @property
@@ -156,4 +156,4 @@ class Devices:
     def _complain(self, what: str) -> None:
         for connection in self._connections:
             if connection.state is ConnectionState.SEEKING:
-                connection.voice.complain(what)
+                connection.emitter.complain(what)

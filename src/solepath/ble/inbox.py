@@ -94,7 +94,7 @@ class Inbox:
 
 
 @define(eq=False)
-class Voice:
+class Emitter:
     """Speaks into `inbox`, at once and by the loop's clock, for the device `address` ("" while none is known) at
     `site`."""
 

@@ -14,7 +14,7 @@ from ..link.decoder import Decoder
 from ..link.profile import Profile
 from ..types import Packet, Site
 from ..wire.fields import build_text
-from .inbox import Voice
+from .inbox import Emitter
 from .setup import read, subscribe, write_setup
 from .watchdog import Remedy, Watchdog
 
@@ -31,7 +31,7 @@ class Listening:
 
     client: BleakClient
     profile: Profile
-    voice: Voice
+    emitter: Emitter
     gone: asyncio.Event
     known: dict[str, bytes] = field(factory=dict)
     streamed: bool = field(default=False, init=False)
@@ -42,12 +42,12 @@ class Listening:
         """Read, then subscribe (a value read after that would come twice on BlueZ), then write. FAILURES."""
         for name in self.profile.reads:
             if name in self.known:
-                self.voice.say(name, self.known[name])
+                self.emitter.say(name, self.known[name])
                 continue
-            await read(self.client, self.profile.channel(name), self.voice)
-        await subscribe(self.client, self.profile, self._hearer, self.voice)
-        written = await write_setup(self.client, self.profile, self.voice)
-        streams = () if may_be_silent(self.voice.site, written) else self.profile.streams
+            await read(self.client, self.profile.channel(name), self.emitter)
+        await subscribe(self.client, self.profile, self._hearer, self.emitter)
+        written = await write_setup(self.client, self.profile, self.emitter)
+        streams = () if may_be_silent(self.emitter.site, written) else self.profile.streams
         self._watchdog = Watchdog(streams, self.profile.stale_after, asyncio.get_running_loop().time())
 
     async def run(self) -> None:
@@ -62,10 +62,10 @@ class Listening:
             if frozen is None:
                 continue
             channel, remedy = frozen
-            self.voice.say("receiver/restarted", build_text(channel))
+            self.emitter.say("receiver/restarted", build_text(channel))
             if remedy is Remedy.RECONNECT:
                 return
-            await write_setup(self.client, self.profile, self.voice)
+            await write_setup(self.client, self.profile, self.emitter)
 
     def _hearer(self, channel: str) -> Callable[[BleakGATTCharacteristic, bytearray], None]:
         streams = channel in self.profile.streams
@@ -73,7 +73,7 @@ class Listening:
         def heard(_: BleakGATTCharacteristic, data: bytearray) -> None:
             if not self.closed:
                 self.streamed = self.streamed or streams
-                self._watchdog.heard(channel, self.voice.pass_on(channel, bytes(data)))
+                self._watchdog.heard(channel, self.emitter.pass_on(channel, bytes(data)))
 
         return heard
 

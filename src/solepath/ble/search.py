@@ -9,7 +9,7 @@ from contextlib import suppress
 from attrs import define, field
 
 from .air import Found, Scanner
-from .wanted import Wanted, says_its_site
+from .wanted import DeviceConfig, says_its_site
 
 SETTLE = 1.0
 """s of listening before the one device that answers to a name is taken for the only one."""
@@ -28,7 +28,7 @@ class Search:
     """
 
     air: Scanner
-    wanted: Wanted
+    wanted: DeviceConfig
     address: str
     barred: Callable[[Found], bool]
     patience: float

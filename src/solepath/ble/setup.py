@@ -13,7 +13,7 @@ from ..link.profile import Access, Channel, Profile
 from ..types import SITE_OF_FOOT, Packet, Site
 from ..wire.error import WireError
 from ..wire.insole_info import parse_info
-from .inbox import Voice
+from .inbox import Emitter
 from .trouble import calling, sentence
 from .wanted import says_its_site
 
@@ -78,7 +78,7 @@ def refused(error: BleakError, client: BleakClient) -> bool:
 
 
 @asynccontextmanager
-async def asking(client: BleakClient, voice: Voice, failure: str) -> AsyncIterator[None]:
+async def asking(client: BleakClient, emitter: Emitter, failure: str) -> AsyncIterator[None]:
     """The context of one request to a device. A refusal is reported, as `failure` and the reason, and the setup goes
     on; anything else that goes wrong is raised (FAILURES)."""
     try:
@@ -87,29 +87,29 @@ async def asking(client: BleakClient, voice: Voice, failure: str) -> AsyncIterat
     except BleakError as error:
         if not refused(error, client):
             raise
-        voice.complain(f"{failure}: {sentence(error)}")
+        emitter.complain(f"{failure}: {sentence(error)}")
 
 
-async def read(client: BleakClient, channel: Channel, voice: Voice) -> None:
+async def read(client: BleakClient, channel: Channel, emitter: Emitter) -> None:
     """Say what the channel holds, where the device has it and tells."""
     one = characteristic(client, channel)
     if one is not None:
-        async with asking(client, voice, f"{channel.name} cannot be read"):
-            voice.say(channel.name, bytes(await client.read_gatt_char(one)))
+        async with asking(client, emitter, f"{channel.name} cannot be read"):
+            emitter.say(channel.name, bytes(await client.read_gatt_char(one)))
 
 
-async def subscribe(client: BleakClient, profile: Profile, hearer: Callable[[str], Hearer], voice: Voice) -> None:
+async def subscribe(client: BleakClient, profile: Profile, hearer: Callable[[str], Hearer], emitter: Emitter) -> None:
     """Let `hearer`'s callbacks hear whatever the device can say. What it refuses beside its streams is told and passed
     over."""
     for channel in profile.channels:
         if channel.how is not Access.NOTIFY or (one := speaking(client, channel)) is None:
             continue
         failure = f"{channel.name} cannot be subscribed"
-        async with calling(ANSWER) if channel.name in profile.streams else asking(client, voice, failure):
+        async with calling(ANSWER) if channel.name in profile.streams else asking(client, emitter, failure):
             await client.start_notify(one, hearer(channel.name))
 
 
-async def write_setup(client: BleakClient, profile: Profile, voice: Voice) -> list[Packet]:
+async def write_setup(client: BleakClient, profile: Profile, emitter: Emitter) -> list[Packet]:
     """Make the writes of the profile; what was written, as it was said.
 
     What the device does not have (old SensorTags have no periods) or refuses is told and passed over: a stream that
@@ -119,14 +119,14 @@ async def write_setup(client: BleakClient, profile: Profile, voice: Voice) -> li
     for write in profile.setup:
         one = characteristic(client, profile.channel(write.channel))
         if one is None:
-            voice.complain(f"{write.channel} is not there to be set: the device keeps to its own")
+            emitter.complain(f"{write.channel} is not there to be set: the device keeps to its own")
             continue
         said: Packet | None = None
-        async with asking(client, voice, f"{write.channel} was not set to {write.value.hex()}"):
+        async with asking(client, emitter, f"{write.channel} was not set to {write.value.hex()}"):
             await client.write_gatt_char(one, write.value)  # with a response, where it gives one
-            said = voice.say(write.channel, write.value)
+            said = emitter.say(write.channel, write.value)
         if said is not None:
             written.append(said)
             for name in write.then_read:
-                await read(client, profile.channel(name), voice)
+                await read(client, profile.channel(name), emitter)
     return written

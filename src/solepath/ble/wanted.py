@@ -12,7 +12,7 @@ from ..types import SITE_OF_FOOT, Site
 
 
 @frozen
-class Wanted:
+class DeviceConfig:
     """One device that is looked for. `site`: where it is worn; None for an insole, which says itself whose it is.
 
     `which`: its address, or its name when no other device nearby has it; "" for any one of its kind. `profile`: its
@@ -56,7 +56,7 @@ def says_its_site(profile: Profile | None) -> bool:
     return profile is not None and "insole/info" in profile.reads
 
 
-def check(wanted: Sequence[Wanted]) -> None:
+def check(wanted: Sequence[DeviceConfig]) -> None:
     """ValueError when there is none, when two are to be at one site, or when nothing tells two apart."""
     if not wanted:
         raise ValueError("no device is wanted")

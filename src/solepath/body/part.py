@@ -2,7 +2,7 @@
 
 A recipe has its parts as a tuple. What a foot or a link says reaches them in that order, and what a part says reaches
 those after it, also at the end of a session. Nothing is written back into a foot: a correction is a value that a part
-returns (`Shift`, `HeightShift`, `Instead`), and the wearer applies it.
+returns (`Shift`, `HeightShift`, `Replacement`), and the wearer applies it.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class HeightShift:
 
 
 @frozen
-class Instead:
+class Replacement:
     """`by` takes the place of `event`, which a part before this one has said of the same sample."""
 
     event: Event
@@ -54,7 +54,7 @@ class ClockUnsettled:
 
 
 @frozen
-class LayoutTold:
+class LayoutReported:
     """The device at a site says itself where its cells are, and with it whose foot it is on; a calibration does not."""
 
     site: Site
@@ -70,31 +70,31 @@ class Position:
     covariance: Covariance3
 
 
-Said = Happening | Shift | HeightShift | Instead
+PartOutput = Happening | Shift | HeightShift | Replacement
 """What a part may say: events, an app's own too, and corrections."""
-Notice = Event | ClockUnsettled | LayoutTold
-LEADS = (StrideTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
-"""After these it is said where the wearer is, to the parts that follow it (`Part.follows`)."""
+PartInput = Event | ClockUnsettled | LayoutReported
+MOVEMENTS = (StrideTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
+"""After these it is said where the wearer is, to the parts that follow it (`Part.needs_position`)."""
 
 
 class Part(Protocol):
     """A part of the body that does nothing. Derive from it, as a plain record (`@define`), and say what you do.
 
-    Of each sample of a foot a part first gets its view, if it declares `feeds`, then every event of it: the foot's, and
-    those of the parts before. Times are s. Nothing here may raise, whatever comes, keep more the longer it is fed, or
-    read a clock or random numbers.
+    Of each sample of a foot a part first gets its view, if it declares `needs_samples`, then every event of it: the
+    foot's, and those of the parts before. Times are s. Nothing here may raise, whatever comes, keep more the longer it
+    is fed, or read a clock or random numbers.
     """
 
     __slots__ = ()
 
-    feeds: ClassVar[bool] = False
+    needs_samples: ClassVar[bool] = False
     """It needs samples: `feed` is called."""
     idle: bool = False
     """For the moment `feed` would do nothing with a sample of which nothing came and that has no air pressure, so it is
     not called with it. True for good, or a field that changes in `receive`, in `reset` and in `feed`."""
     sites: ClassVar[tuple[Site, ...]] = ()
     """Sites above the ankle whose samples it needs: `feed_limb` is called."""
-    follows: ClassVar[bool] = False
+    needs_position: ClassVar[bool] = False
     """It needs to know where the wearer is (WearerMoved) after a stride, a turn, a ride or a flight."""
 
     def calibrated(self, calibration: Calibration) -> Self:
@@ -106,19 +106,19 @@ class Part(Protocol):
         `receive` import nothing and open nothing."""
         return
 
-    def receive(self, event: Notice) -> Sequence[Said]:
+    def receive(self, event: PartInput) -> Sequence[PartOutput]:
         """Something was said. What follows from it."""
         return ()
 
-    def feed(self, view: FootView) -> Sequence[Said]:
+    def feed(self, view: FootView) -> Sequence[PartOutput]:
         """A foot has used a sample. What follows from it."""
         return ()
 
-    def feed_limb(self, sample: Sample) -> Sequence[Said]:
+    def feed_limb(self, sample: Sample) -> Sequence[PartOutput]:
         """A sample of one of `sites`. What follows from it."""
         return ()
 
-    def finish(self, now: float) -> Sequence[Said]:
+    def finish(self, now: float) -> Sequence[PartOutput]:
         """No more comes, and it is `now`: what was held back."""
         return ()
 
@@ -127,7 +127,7 @@ class Part(Protocol):
         return
 
 
-class Track(Part):
+class TrackPart(Part):
     """The part that says where the wearer is. A recipe has one, and one only."""
 
     __slots__ = ()
@@ -137,7 +137,7 @@ class Track(Part):
         """Where the wearer is, of where the feet are that were heard of; None before any sample."""
 
 
-class Doing(Part):
+class ActivityPart(Part):
     """The part that says what the wearer does. A recipe has one, and one only."""
 
     __slots__ = ()

@@ -33,11 +33,11 @@ from .link import (
 )
 from .live import FootMoved, FootPressed, WearerMoved
 from .place import Candidate, Placed, PlaceLost
-from .wear import CellFault, CellsFailed, FeetSwapped, FootHeard, FootSilent, InsoleNeverUnloads
+from .wear import CellFault, CellsFailed, FeetSwapped, FootResumed, FootSilent, InsoleNeverUnloads
 
 __all__ = [
     "ActivityChanged", "ActivityEvent", "BatteryLevel", "BodyEvent", "Candidate", "CellFault", "CellsFailed",
-    "ClockReset", "Connected", "Disconnected", "Event", "FeetSwapped", "FlightClimbed", "FootFlat", "FootHeard",
+    "ClockReset", "Connected", "Disconnected", "Event", "FeetSwapped", "FlightClimbed", "FootFlat", "FootResumed",
     "FootMoved", "FootPressed", "FootSilent", "GaitEvent", "HeelOff", "HeelStrike", "InsoleNeverUnloads",
     "KeysChanged", "LayoutKnown", "LiftRidden", "Limitation", "LinkEvent", "LinkTrouble", "LiveEvent",
     "PacketRejected", "PacketsDropped", "PacketsLost", "PlaceEvent", "PlaceLost", "Placed", "Rejection",
@@ -69,7 +69,7 @@ LinkEvent = (
 BodyEvent = GaitCycleMeasured | StrideFused | TouchedDown | WalkingModeChanged
 ActivityEvent = ActivityChanged | LiftRidden | FlightClimbed | TurnMade
 PlaceEvent = Placed | PlaceLost
-WearEvent = CellsFailed | InsoleNeverUnloads | FeetSwapped | FootSilent | FootHeard
+WearEvent = CellsFailed | InsoleNeverUnloads | FeetSwapped | FootSilent | FootResumed
 LiveEvent = FootMoved | FootPressed | WearerMoved
 """Only for those who ask, at every sample or step: what is drawn, and not kept."""
 Event = GaitEvent | LinkEvent | BodyEvent | ActivityEvent | PlaceEvent | WearEvent | LiveEvent

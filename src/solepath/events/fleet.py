@@ -12,7 +12,7 @@ from ..types.attrs import frozen
 from .happening import Happening
 
 
-class Refusal(Enum):
+class SentRejection(Enum):
     """Why something that was sent is not used."""
 
     UNREADABLE = "unreadable"
@@ -29,7 +29,7 @@ class Refusal(Enum):
 
 
 @frozen(kw_only=True)
-class StateRefused(Happening):
+class StateRejected(Happening):
     """The state of a wearer cannot go on: it is damaged, of a release to come, of another recipe or floor plan. A fresh
     session follows. Known with the first thing that is sent after it."""
 
@@ -53,7 +53,7 @@ class SentRejected(Happening):
     """Something that was sent is not used; it changed nothing. Known in its turn, or as soon as it comes where it has
     none. What a packet's own format forbids is a PacketRejected."""
 
-    reason: Refusal
+    reason: SentRejection
     run: int | None = None
     """Of the phone; None where that cannot be read."""
     number: int | None = None
@@ -72,5 +72,5 @@ class WearerFailed(Happening):
     detail: str
 
 
-FleetEvent = StateRefused | NumbersMissing | SentRejected | WearerFailed
+FleetEvent = StateRejected | NumbersMissing | SentRejected | WearerFailed
 """All of them."""

@@ -60,7 +60,7 @@ class FootSilent(Happening):
 
 
 @frozen(kw_only=True)
-class FootHeard(Happening):
+class FootResumed(Happening):
     """Samples of this foot came again after FootSilent. Known with the first of them, which `t` is."""
 
     foot: Foot

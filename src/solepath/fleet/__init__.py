@@ -6,26 +6,26 @@
 protocol/fleet.md says what a phone sends, in what order it is used, and what a state holds.
 """
 
-from ..events.fleet import FleetEvent, NumbersMissing, Refusal, SentRejected, StateRefused, WearerFailed
+from ..events.fleet import FleetEvent, NumbersMissing, SentRejected, SentRejection, StateRejected, WearerFailed
 from .fleet import Fleet
-from .rows import SENT_COLUMNS, TOLD_COLUMNS, read_line, read_sent, sent_line, sent_row, told_row
+from .rows import EVENT_COLUMNS, SENT_COLUMNS, event_row, read_line, read_sent, sent_line, sent_row
 from .step.keyed import Keyed
 from .step.once import Once
 from .step.sent import End, NumberedEvent, Sent, Tick, Unreadable
 
 __all__ = [
     "SENT_COLUMNS",
-    "TOLD_COLUMNS",
+    "EVENT_COLUMNS",
     "End",
     "Fleet",
     "FleetEvent",
     "Keyed",
     "NumbersMissing",
     "Once",
-    "Refusal",
+    "SentRejection",
     "Sent",
     "SentRejected",
-    "StateRefused",
+    "StateRejected",
     "Tick",
     "NumberedEvent",
     "Unreadable",
@@ -34,5 +34,5 @@ __all__ = [
     "read_sent",
     "sent_line",
     "sent_row",
-    "told_row",
+    "event_row",
 ]

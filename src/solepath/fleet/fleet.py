@@ -68,7 +68,7 @@ class Fleet:
         own can be saved at any moment. One that cannot, since it holds an infinity just then, costs its wearer the
         session (WearerFailed) where a state is taken at that moment, and nothing where none is.
 
-        It never raises, whatever phones sent; a state that cannot be used gives StateRefused and a fresh start.
+        It never raises, whatever phones sent; a state that cannot be used gives StateRejected and a fresh start.
         TypeError, since the job itself is wrong, for a state that is neither bytes nor None and for a `sent` that
         cannot be gone through. MemoryError where memory runs out.
         """

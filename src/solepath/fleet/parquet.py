@@ -29,12 +29,12 @@ import pyarrow as pa
 from attrs import define, field
 from pyarrow import parquet
 
-from .rows import TOLD_COLUMNS, told_row
+from .rows import EVENT_COLUMNS, event_row
 from .step.sent import NumberedEvent
 
 _ARROW = {str: pa.string(), int: pa.int64(), float: pa.float64(), bool: pa.bool_()}
-SCHEMA = pa.schema([(name, _ARROW[kind]) for name, kind in TOLD_COLUMNS.items()])
-"""Columns of the files, in the order of TOLD_COLUMNS."""
+SCHEMA = pa.schema([(name, _ARROW[kind]) for name, kind in EVENT_COLUMNS.items()])
+"""Columns of the files, in the order of EVENT_COLUMNS."""
 REPEATED = ["wearer", "event", "foot", "final"]
 """Columns that are worth a dictionary."""
 GROUP = 1 << 15
@@ -123,7 +123,7 @@ class PartFiles:
     def write(self, told: Iterable[NumberedEvent]) -> None:
         """Gather events for the part that is open."""
         for one in told:
-            self._rows.append(told_row(one))
+            self._rows.append(event_row(one))
             if len(self._rows) >= self.group:
                 self._flush()
                 if self._groups >= GROUPS:

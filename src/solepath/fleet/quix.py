@@ -19,9 +19,9 @@ from quixstreams import State, message_context
 from quixstreams.dataframe import StreamingDataFrame
 from quixstreams.models.serializers.simple_types import BytesDeserializer
 
-from ..events.fleet import Refusal, SentRejected
+from ..events.fleet import SentRejected, SentRejection
 from .fleet import Fleet
-from .rows import read_line, told_row
+from .rows import event_row, read_line
 from .step.keyed import Keyed
 from .step.sent import LONGEST_NAME, NumberedEvent, Sent, Unreadable
 
@@ -30,11 +30,13 @@ MOST_LINES = 4096
 UNKEYED = "unkeyed/"
 """With the number of the partition behind it: who is told of messages whose key is no wearer's name. The number of such
 an event is the message's offset."""
-_NO_KEY = SentRejected(t=0.0, known_at=0.0, reason=Refusal.UNREADABLE, detail="a message whose key is no wearer's name")
+_NO_KEY = SentRejected(
+    t=0.0, known_at=0.0, reason=SentRejection.UNREADABLE, detail="a message whose key is no wearer's name"
+)
 
 
 def gait(frame: StreamingDataFrame, fleet: Fleet, keep: int = 256) -> StreamingDataFrame:
-    """What the sessions of a fleet tell of what phones sent: of every event a message of its own, a `told_row`.
+    """What the sessions of a fleet tell of what phones sent: of every event a message of its own, a `event_row`.
 
     `frame`: of a topic of bytes whose key is the wearer's name in UTF-8, 1 to 256 characters. A message holds one line
     of `sent_line` or several, whole: the more, the less it costs. What cannot be read, or has no such key, is an event
@@ -62,10 +64,10 @@ class _Sessions:
         wearer = _wearer(key)
         if wearer is None:  # nor has it a state, whose key in the changelog would be this one, however long
             at = message_context()
-            return [told_row(NumberedEvent(f"{UNKEYED}{at.partition}", at.offset, _NO_KEY))]
+            return [event_row(NumberedEvent(f"{UNKEYED}{at.partition}", at.offset, _NO_KEY))]
         told, now = self._step(wearer, state.get_bytes("state"), _sent(wearer, value))
         state.set_bytes("state", now)
-        return [told_row(one) for one in told]
+        return [event_row(one) for one in told]
 
     def _step(
         self, wearer: str, before: bytes | None, sent: list[Sent | Unreadable]

@@ -17,11 +17,11 @@ SENT_COLUMNS: Mapping[str, type] = {
     "wearer": str, "run": int, "number": int, "t": float, "site": str, "channel": str, "data": bytes, "device": str,
 }  # fmt: skip
 """Columns of `sent_row` and of what is in them; t, site, data and device may be None."""
-TOLD_COLUMNS: Mapping[str, type] = {
+EVENT_COLUMNS: Mapping[str, type] = {
     "wearer": str, "number": int, "event": str, "t": float, "known_at": float, "final": bool, "foot": str,
     "fields": str,
 }  # fmt: skip
-"""Columns of `told_row` and of what is in them; t, known_at and foot may be None."""
+"""Columns of `event_row` and of what is in them; t, known_at and foot may be None."""
 
 _SITES = {site.value: site for site in Site}
 LONGEST_LINE = 65_536
@@ -174,8 +174,8 @@ _ENCODER = json.JSONEncoder(allow_nan=False, separators=(",", ":"))
 _FIELDS = json.JSONEncoder(allow_nan=False)
 
 
-def told_row(told: NumberedEvent) -> dict[str, Any]:
-    """The row of an event, with the columns of TOLD_COLUMNS. `fields`: what else the event has, as JSON, in the words
+def event_row(told: NumberedEvent) -> dict[str, Any]:
+    """The row of an event, with the columns of EVENT_COLUMNS. `fields`: what else the event has, as JSON, in the words
     of events.jsonl. Half a character in the wearer's name is written `\\ud800`: a table holds UTF-8."""
     record, wearer = told.event.to_dict(), told.wearer
     if not wearer.isascii():

@@ -1,6 +1,6 @@
 """A fleet on Spark Structured Streaming: `transformWithState` keeps the state of each wearer, moves it and recovers it.
 
-    told = gait(rows, Fleet())            # streaming DataFrames: of SENT_SCHEMA in, of TOLD_SCHEMA out
+    told = gait(rows, Fleet())            # streaming DataFrames: of SENT_SCHEMA in, of EVENT_SCHEMA out
     told.writeStream.format("parquet").option("checkpointLocation", checkpoint).start(directory)
 
 Needs the extra `spark`, Java 17, and a session that was configured with STORE. examples/spark_gait.py is a whole job.
@@ -21,7 +21,7 @@ from pyspark.sql import Column, DataFrame, Row
 from pyspark.sql import functions as f
 from pyspark.sql.streaming.stateful_processor import StatefulProcessor, StatefulProcessorHandle, TimerValues
 
-from . import SENT_COLUMNS, TOLD_COLUMNS, Fleet, Sent, Unreadable, read_line, read_sent, told_row
+from . import EVENT_COLUMNS, SENT_COLUMNS, Fleet, Sent, Unreadable, event_row, read_line, read_sent
 
 _ROCKS = "org.apache.spark.sql.execution.streaming.state.RocksDBStateStoreProvider"
 STORE = {"spark.sql.streaming.stateStore.providerClass": _ROCKS}
@@ -35,12 +35,12 @@ def _ddl(columns: Mapping[str, type]) -> str:
     return ", ".join(f"{name} {kinds[kind]}" for name, kind in columns.items())
 
 
-SENT_SCHEMA, TOLD_SCHEMA = _ddl(SENT_COLUMNS), _ddl(TOLD_COLUMNS)
+SENT_SCHEMA, EVENT_SCHEMA = _ddl(SENT_COLUMNS), _ddl(EVENT_COLUMNS)
 """Rows of solepath.fleet as Spark writes a schema."""
 
 
 def gait(rows: DataFrame, fleet: Fleet | Callable[[], Fleet], states: DataFrame | None = None) -> DataFrame:
-    """What the sessions of a fleet tell (TOLD_SCHEMA) of what phones sent, in any order that the fleet's window covers.
+    """Events (EVENT_SCHEMA) of a fleet's sessions, fed what phones sent in any order that the fleet's window covers.
 
     `rows`: of SENT_SCHEMA; or messages as Kafka has them, `key` the wearer's name and `value` lines of `sent_line`: the
     more lines in one, the less they cost. What cannot be read is told, without a wearer under the name "".
@@ -55,7 +55,7 @@ def gait(rows: DataFrame, fleet: Fleet | Callable[[], Fleet], states: DataFrame 
         rows = rows.select(_text("wearer").alias("key"), *columns)
     keyed = rows.fillna("", ["key"]).groupBy("key")
     begin = None if states is None else states.groupBy("wearer")
-    return keyed.transformWithState(GaitProcessor(fleet), TOLD_SCHEMA, "Append", timeMode="None", initialState=begin)
+    return keyed.transformWithState(GaitProcessor(fleet), EVENT_SCHEMA, "Append", timeMode="None", initialState=begin)
 
 
 def _text(name: str) -> Column:
@@ -82,7 +82,7 @@ class GaitProcessor(StatefulProcessor):
         sent = sorted(chain.from_iterable(map(_read, rows)), key=_place)
         state, told = self._step(key[0], None if known is None else bytes(known[0]), sent)
         self._state.update((state,))
-        return (Row(**told_row(one)) for one in told)
+        return (Row(**event_row(one)) for one in told)
 
 
 def _read(row: Row) -> list[Sent | Unreadable]:

@@ -161,7 +161,7 @@ class Rest:
     last: Vec3 = field(default=ZERO, init=False)
     """The last raw acc, m/s^2."""
 
-    def interrupt(self) -> None:
+    def reset(self) -> None:
         """Times begin anew: the span under way is given up, what was learnt stays."""
         self.span = SampleSpan()
         self.span_start = None

@@ -6,9 +6,9 @@ from ..events import Event
 from ..types import Foot, Phase, Vec3
 from ..types.attrs import define, field
 from ..types.vector import ZERO, from_yaw, heading_turned, multiply, sub
-from .cues.cues import Cues, Seen
-from .gaps.gap import Leap
-from .gaps.template import Habit
+from .cues.cues import Cues, SeenCue
+from .gaps.gap import Infill
+from .gaps.template import StrideTemplate
 from .navigate.corrector import Corrector
 from .phase import BEGINS, PHASES, Cue
 from .stride import SHORTEST_STRIDE, StepBuilder, StretchChain
@@ -23,7 +23,7 @@ class Gait:
     phase: Phase = field(default=Phase.STATIONARY, init=False)
     began: float | None = field(default=None, init=False)
     """When the phase did, s."""
-    habit: Habit = field(factory=Habit, init=False)
+    template: StrideTemplate = field(factory=StrideTemplate, init=False)
     step: StepBuilder = field(init=False)
     way: StretchChain = field(factory=StretchChain, init=False)
     """In the navigation frame, up to `anchored`."""
@@ -41,11 +41,11 @@ class Gait:
         way = self.way.extended(sub(corrector.position, self.anchored), corrector.covariance())
         return self.world.covariance(way.position)
 
-    def interrupt(self) -> None:
+    def reset(self) -> None:
         """Times begin anew; what the foot did between is unknown."""
         self.began = None
         self.step.spoil(None)
-        self.habit.interrupt()
+        self.template.reset()
 
     def shift(self, yaw: float, by: Vec3) -> Vec3:
         """The foot, which is flat, is turned by `yaw` rad and moved `by` m, world frame; the same move in the
@@ -63,7 +63,7 @@ class Gait:
         return (x, y, z)
 
     def see(
-        self, seen: Seen, known_at: float, corrector: Corrector | None, interval: float, inferred: bool = False
+        self, seen: SeenCue, known_at: float, corrector: Corrector | None, interval: float, inferred: bool = False
     ) -> list[Event]:
         """What follows from a cue. `corrector`: None as long as nobody knows which way is up; `interval`: the usual
         one between samples, s; `inferred`: nobody saw it."""
@@ -81,37 +81,39 @@ class Gait:
         elif phase is Phase.LOADING:
             self.step.struck(t, interval)
         elif phase is Phase.PUSH_OFF and corrector is not None:
-            self.habit.lift(t)
+            self.template.lift(t)
             self._anchor(corrector)
         elif phase is Phase.STATIONARY and corrector is not None:
             events += self._flat(t, known_at, corrector, interval)
         return events
 
-    def leapt(self, leap: Leap, cues: Cues, known_at: float, corrector: Corrector, interval: float) -> list[Event]:
+    def apply_infill(
+        self, infill: Infill, cues: Cues, known_at: float, corrector: Corrector, interval: float
+    ) -> list[Event]:
         """The phases that a gap has hidden."""
-        self.habit.guess(leap.lifted, leap.lasted)
-        hidden: list[Seen] = []
+        self.template.guess(infill.lifted, infill.lasted)
+        hidden: list[SeenCue] = []
         phase = self.phase
         if phase is Phase.STATIONARY:
-            hidden.append(Seen(Cue.LIFT, leap.lifted))
+            hidden.append(SeenCue(Cue.LIFT, infill.lifted))
             phase = Phase.PUSH_OFF
-        if leap.cleared is not None and phase is not Phase.SWING and self.step.t_toe_off is None:
-            hidden.append(cues.cleared(leap.cleared))
+        if infill.cleared is not None and phase is not Phase.SWING and self.step.t_toe_off is None:
+            hidden.append(cues.cleared(infill.cleared))
             phase = Phase.SWING
-        if leap.struck is not None and phase is Phase.SWING:
-            hidden.append(Seen(Cue.CONTACT, leap.struck))
-        if leap.landed is not None:
-            hidden.append(Seen(Cue.FLAT, leap.landed))
+        if infill.struck is not None and phase is Phase.SWING:
+            hidden.append(SeenCue(Cue.CONTACT, infill.struck))
+        if infill.landed is not None:
+            hidden.append(SeenCue(Cue.FLAT, infill.landed))
         return [event for seen in hidden for event in self.see(seen, known_at, corrector, interval, inferred=True)]
 
     def _flat(self, t: float, known_at: float, corrector: Corrector, interval: float) -> list[Event]:
         step, world = self.step, self.world
         turn = heading_turned(step.attitude, corrector.attitude)
         way = sub(corrector.position, step.start)
-        mended = self.habit.flat(t, step.t_toe_off, step.t_heel_strike, turn, way, interval)
-        if mended is not None:
-            (x, y, z), (dx, dy, dz) = step.start, mended.way
-            corrector.mend(mended.turn, (x + dx, y + dy, z + dz))
+        repair = self.template.flat(t, step.t_toe_off, step.t_heel_strike, turn, way, interval)
+        if repair is not None:
+            (x, y, z), (dx, dy, dz) = step.start, repair.way
+            corrector.repair(repair.turn, (x + dx, y + dy, z + dz))
         rise = corrector.position[2] - step.start[2]
         corrector.flat(step.start, turn)
         position, attitude = corrector.position, corrector.attitude

@@ -26,10 +26,10 @@ SURE_ACC, SURE_GYRO = ABSURD_ACC**2, ABSURD_GYRO**2
 SHORTEST_QUAT = 1e-12
 """Square of the least length of an attitude."""
 
-Refusal = tuple[Rejection, str]
+RejectionReason = tuple[Rejection, str]
 
 
-def refusal(sample: Sample, newest: float | None) -> Refusal | None:
+def rejection_reason(sample: Sample, newest: float | None) -> RejectionReason | None:
     """Why `sample` cannot be used after one of `newest` s; None when it can."""
     t, known_at = sample.t, sample.known_at
     if (
@@ -64,13 +64,13 @@ def refusal(sample: Sample, newest: float | None) -> Refusal | None:
     return None
 
 
-def _wrong_order(t: float, newest: float) -> Refusal:
+def _wrong_order(t: float, newest: float) -> RejectionReason:
     if t == newest:
         return Rejection.DUPLICATE, f"a second sample for {t:.6g} s"
     return Rejection.TIME_BACKWARDS, f"{newest - t:.6g} s before the sample before"
 
 
-def _wrong_vector(name: str, vector: Vec3 | None, limit: float) -> Refusal | None:
+def _wrong_vector(name: str, vector: Vec3 | None, limit: float) -> RejectionReason | None:
     worst = next((value for value in vector or () if not -limit < value < limit), None)
     if worst is None:
         return None
@@ -100,7 +100,7 @@ def with_sound_attitude(sample: Sample) -> Sample:
     return evolve(sample, quat=normalise(sample.quat))
 
 
-def wrong_time(sample: Sample) -> Refusal | None:
+def wrong_time(sample: Sample) -> RejectionReason | None:
     """Why the times of a sample are none, whatever came before it."""
     for t in (sample.t, sample.known_at):
         if t is not None and not -ABSURD_TIME <= t <= ABSURD_TIME:
@@ -110,8 +110,8 @@ def wrong_time(sample: Sample) -> Refusal | None:
     return None
 
 
-def rejected(sample: Sample, why: Refusal, newest: float | None) -> SampleRejected:
-    """The event, with sound times; `newest` as in `refusal`."""
+def rejected(sample: Sample, why: RejectionReason, newest: float | None) -> SampleRejected:
+    """The event, with sound times; `newest` as in `rejection_reason`."""
     reason, detail = why
     t, known_at = sample.t, sample.known_at
     if not -ABSURD_TIME <= t <= ABSURD_TIME:

@@ -45,7 +45,7 @@ class CycleSettings:
     """Length of one of the four spans over which the extremes are kept, s; together they are a stride of any walker but
     a slow one."""
     rolls: bool = True
-    """The velocity that the sensor ought to have is that of a foot that rolls (`lever`); otherwise zero."""
+    """The velocity that the sensor ought to have is that of a foot that rolls (`sensor_height`); otherwise zero."""
 
 
 @frozen(kw_only=True)
@@ -96,7 +96,7 @@ class ErrorStateSettings:
     calibration), rad/s."""
     suspect_noise: float = 0.2
     """Noise of such a rate, rad/s/sqrt(Hz)."""
-    refuse: float = 12.0
+    innovation_gate: float = 12.0
     """Largest normalised innovation squared: of chi-square with three degrees of freedom, 99.3 % are below."""
     patience: float = 2.0
     """After refusing everything for this long the filter is lost, s."""

@@ -14,7 +14,7 @@ from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..types.attrs import define, evolve, field
 from ..types.vector import ZERO
 from .attitude import Levelling, Rest, suspected
-from .cues.cues import Cues, Seen
+from .cues.cues import Cues, SeenCue
 from .cues.gait_cues import GaitCues
 from .gait import Gait
 from .gaps.crossing import cross
@@ -23,7 +23,7 @@ from .limits import WITHOUT, Limits
 from .navigate.corrector import LONGEST_BRIDGE, Corrector
 from .pressure.insole import InsoleLoads
 from .pressure.sole import Sole
-from .rejection import refusal, rejected
+from .rejection import rejected, rejection_reason
 from .rhythm import Rhythm
 from .settings import FootSettings
 from .stance.stance import Detector, Load
@@ -64,7 +64,7 @@ class FootTracker:
     rest: Rest = field(factory=Rest, init=False)
     gait: Gait = field(init=False)
     limits: Limits = field(init=False)
-    scale_said: bool = field(default=False, init=False)
+    scale_reported: bool = field(default=False, init=False)
     """That acc does not read 1 g at rest has been said, or is another's to say."""
 
     def __attrs_post_init__(self) -> None:
@@ -138,40 +138,40 @@ class FootTracker:
         if move is not None:
             move(yaw, self.gait.shift(yaw, by))
 
-    def wear(self, layout: Layout) -> None:
+    def set_layout(self, layout: Layout) -> None:
         """The device said where its pressure cells are."""
-        self.sole.wear(layout, self.limits)
-        self._wear_parts(layout)
+        self.sole.set_layout(layout, self.limits)
+        self._set_layouts(layout)
 
-    def _wear_parts(self, layout: Layout) -> None:
-        self.sole.worn = False
-        self.detector.wear(layout)
-        self.cues.wear(layout)
+    def _set_layouts(self, layout: Layout) -> None:
+        self.sole.layout_changed = False
+        self.detector.set_layout(layout)
+        self.cues.set_layout(layout)
         self.limits.later(self.detector.lacking)
 
-    def interrupt(self) -> None:
+    def reset(self) -> None:
         """The clock of the samples begins anew, before or after the old one; what the foot did between is unknown."""
         if self.t is not None and self.levelled:
             self.corrector.bridge(inf)
         self.t = self.moved_at = self.pressed_at = self.seen_at = self.limits.since = self.load = None
         self.limits.odd_since = None
-        self.gait.interrupt()
+        self.gait.reset()
         # Windows over the old times would wait for the new ones to catch up. What was learnt stays.
         detector: Any = self.detector
         self.detector = evolve(detector)
-        self.cues.anew()
+        self.cues.restart()
         if self.sole.insole.layout is not None:
-            self._wear_parts(self.sole.insole.layout)
+            self._set_layouts(self.sole.insole.layout)
         self.levelling = Levelling()
-        self.sole.interrupt()
-        self.rest.interrupt()
+        self.sole.reset()
+        self.rest.reset()
 
     def feed(self, sample: Sample) -> list[Event]:
         """One sample of this foot. A sample that cannot be used changes nothing and is named in an event."""
         t, acc, gyro = sample.t, sample.acc, sample.gyro
         whole = acc is not None and gyro is not None
         last = self.moved_at if whole else self.pressed_at
-        why_not = refusal(sample, last)
+        why_not = rejection_reason(sample, last)
         if why_not is not None:
             return [rejected(sample, why_not, last)]
         known_at = t if sample.known_at is None else max(t, sample.known_at)
@@ -187,8 +187,8 @@ class FootTracker:
         sole, load = self.sole, None
         if sample.pressure or sole.pressed:
             load = sole.press(sample, known_at, self.gait.phase, self.limits, events)
-            if sole.worn and sole.insole.layout is not None:
-                self._wear_parts(sole.insole.layout)
+            if sole.layout_changed and sole.insole.layout is not None:
+                self._set_layouts(sole.insole.layout)
         if load is not None:
             gait = self.gait
             if gait.phase is not SWING and gait.step.t_toe_off is None:
@@ -211,7 +211,7 @@ class FootTracker:
             if load is None and self.load is not None:
                 load, self.load = self.load, None
             if sample.quat is not None:
-                self.corrector.told(sample.quat)
+                self.corrector.use_attitude(sample.quat)
             self._inertial(t, dt, known_at, acc, gyro, sample.saturated, load, events)
             return events
         lacking = "accelerometer" if acc is None else "gyroscope"
@@ -239,9 +239,9 @@ class FootTracker:
     ) -> None:  # fmt: skip
         rest, corrector, gait = self.rest, self.corrector, self.gait
         if rest.update(t, acc, gyro):
-            suspect = None if self.scale_said else suspected(t, known_at, SITE_OF_FOOT[self.foot], rest.magnitude)
+            suspect = None if self.scale_reported else suspected(t, known_at, SITE_OF_FOOT[self.foot], rest.magnitude)
             if suspect is not None:
-                self.scale_said = True
+                self.scale_reported = True
                 events.append(suspect)
             self.detector.scaled(rest.scale)
         k, (bx, by, bz) = rest.scale, rest.bias
@@ -268,9 +268,9 @@ class FootTracker:
         seen = cues.update(t, dt, acc, gyro, believed and speed < STILL, speed, gait.phase, load, stance)
         if cues.mark is not None:
             corrector.mark(t, cues.mark)
-        habit, position = gait.habit, corrector.position
-        if habit.lifted is not None and t >= habit.due:
-            habit.keep(t, corrector.attitude, corrector.velocity, position, acc, gyro)
+        template, position = gait.template, corrector.position
+        if template.lifted is not None and t >= template.due:
+            template.keep(t, corrector.attitude, corrector.velocity, position, acc, gyro)
         gait.step.moved(t, dt, position[2], speed, cues.sagittal)
         if seen:
             for one in seen:
@@ -284,6 +284,6 @@ class FootTracker:
         p, v = self.position, self.velocity
         events.append(FootMoved(t=t, known_at=known_at, foot=self.foot, position=p, velocity=v, phase=self.phase))
 
-    def _see(self, seen: Seen, known_at: float, events: list[Event]) -> None:
+    def _see(self, seen: SeenCue, known_at: float, events: list[Event]) -> None:
         corrector = self.corrector if self.levelled else None
         events += self.gait.see(seen, known_at, corrector, self.rhythm.usual or 0.0)

@@ -77,7 +77,7 @@ class Clock:
     """The newest time assigned, s."""
     away: float = 0.0
     """Device seconds of the newest time that was further than WITHIN from the line, or the first."""
-    doubt: float | None = None
+    unsettled_until: float | None = None
     """The newest time assigned while the clock was not settled, s; until then it is not to be compared with others."""
     floor: float | None = None
     """The first time assigned is not before this: a fit that follows another keeps the order of times."""
@@ -143,7 +143,7 @@ class Clock:
         if self.last_x is None or not -WITHIN <= fitted - t <= WITHIN:
             self.away = x
         if x - self.away < SETTLED_FOR:
-            self.doubt = t
+            self.unsettled_until = t
         self.last_x, self.last_t = x, t
         return t
 
@@ -172,8 +172,12 @@ class Clock:
         # lie close to any line, hence `free`. A drift no larger than its doubt stays near nominal, a device 4 % off
         # is believed within about two seconds.
         free = len(xs) - 4
-        doubt = 4.0 * (sum(heights) / len(heights) - min(heights)) / span * (1.0 + 8.0 / free) if free > 0 else 0.0
-        drift *= drift * drift / (drift * drift + doubt * doubt) if free > 0 and drift != 0.0 else 0.0
+        unsettled_until = (
+            4.0 * (sum(heights) / len(heights) - min(heights)) / span * (1.0 + 8.0 / free) if free > 0 else 0.0
+        )
+        drift *= (
+            drift * drift / (drift * drift + unsettled_until * unsettled_until) if free > 0 and drift != 0.0 else 0.0
+        )
         heights = [r - drift * x for x, r in zip(xs, rs, strict=True)]
         self.drift, self.offset = drift, min(heights)
 

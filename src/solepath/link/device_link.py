@@ -22,7 +22,7 @@ class DeviceLink(Protocol):
         """Whether the device may send nothing for long."""
 
     @property
-    def doubt(self) -> float | None:
+    def unsettled_until(self) -> float | None:
         """The times of samples up to this one, s, cannot be compared with another device's; None where all can."""
 
     def flush(self, known_at: float) -> Output:

@@ -77,10 +77,10 @@ class StreamLink(DeviceLink):
     """The limitation was said."""
 
     @property
-    def doubt(self) -> float | None:
+    def unsettled_until(self) -> float | None:
         """The newest time that is not to be compared with those of other devices (clock.py), s."""
         clock = self.run.clock if self.periodic is None else self.periodic.clock
-        return None if clock is None else clock.doubt
+        return None if clock is None else clock.unsettled_until
 
     def feed(self, channel: str, data: bytes, arrival: float, driver: Driver) -> Output:
         reading = check(driver.read(channel, data, self.known))

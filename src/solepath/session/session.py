@@ -163,7 +163,7 @@ class Session:
         if state.now is None or packet.t > state.now:
             state.now = packet.t
         if decoder.link is not None:
-            until = decoder.link.doubt
+            until = decoder.link.unsettled_until
             if until != state.wearer.unsettled.get(site):
                 state.wearer.unsettle(site, until)
         self._take(site, items, events)

@@ -6,7 +6,18 @@ from collections.abc import Iterable, Sequence
 from copy import deepcopy
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ..body.part import LEADS, ClockUnsettled, HeightShift, Instead, LayoutTold, Part, Position, Said, Shift, Track
+from ..body.part import (
+    MOVEMENTS,
+    ClockUnsettled,
+    HeightShift,
+    LayoutReported,
+    Part,
+    PartOutput,
+    Position,
+    Replacement,
+    Shift,
+    TrackPart,
+)
 from ..calibration import Calibration
 from ..events import ClockReset, Event, LayoutKnown, Limitation, SampleRejected, StrideTaken, WearerMoved
 from ..foot.pressure.sole import Sole
@@ -74,7 +85,7 @@ class WearerParts:
         self._choose()
 
     def _choose(self) -> None:
-        self.sampled = tuple([part for part in self.parts if part.feeds and not part.idle])
+        self.sampled = tuple([part for part in self.parts if part.needs_samples and not part.idle])
 
     def feed(self, sample: Sample, scale_is_said: bool) -> list[Event]:
         """A sample of any site. `scale_is_said`: by its link, which knows the range, so the foot need not."""
@@ -86,7 +97,7 @@ class WearerParts:
         known = self.feet.get(foot)
         tracker = self._tracker(foot) if known is None else known
         if scale_is_said:
-            tracker.scale_said = True
+            tracker.scale_reported = True
         events = tracker.feed(sample)
         if tracker.t is None:  # it could not be used: nothing is known of this foot yet
             return events
@@ -127,12 +138,12 @@ class WearerParts:
         foot = site.foot
         if foot is not None and isinstance(event, LayoutKnown):
             tracker = self._tracker(foot)
-            tracker.wear(event.layout)
+            tracker.set_layout(event.layout)
             self._keep(tracker)
             for part in self.parts:
-                part.receive(LayoutTold(site, event.layout))
+                part.receive(LayoutReported(site, event.layout))
         elif foot is not None and isinstance(event, ClockReset):
-            self._tracker(foot).interrupt()
+            self._tracker(foot).reset()
         events = [event]
         self._flow(events, None, event.known_at)
         return events
@@ -148,7 +159,7 @@ class WearerParts:
         """Another device is worn there from now on."""
         self._reset_parts(site)
         if site.foot is not None and site.foot in self.feet:
-            self.feet[site.foot].interrupt()
+            self.feet[site.foot].reset()
 
     def finish(self, now: float) -> list[Event]:
         """No more samples come: what the parts held back, which those after them hear of. `now`: s."""
@@ -164,15 +175,15 @@ class WearerParts:
         moved = None
         for part in self.parts[first:]:
             heard = tuple(events)
-            if part.follows and moved is None and any([isinstance(event, LEADS) for event in heard]):
+            if part.needs_position and moved is None and any([isinstance(event, MOVEMENTS) for event in heard]):
                 moved = self._moved(known_at)
-            if view is not None and part.feeds and (said := part.feed(view)):
+            if view is not None and part.needs_samples and (said := part.feed(view)):
                 self._take(said, events)
             if type(part).receive is not Part.receive:
                 for event in heard:
                     if said := part.receive(event):
                         self._take(said, events)
-            if moved is not None and part.follows:
+            if moved is not None and part.needs_position:
                 self._take(part.receive(moved), events)
             if finishing:
                 self._take(part.finish(known_at), events)
@@ -181,14 +192,14 @@ class WearerParts:
             moved = self._moved(known_at)
         return moved
 
-    def _take(self, said: Sequence[Said], events: list[Any]) -> None:
+    def _take(self, said: Sequence[PartOutput], events: list[Any]) -> None:
         """What a part said: events, an app's own too, are added to those of the sample, corrections are applied."""
         for one in said:
             if isinstance(one, Shift):
                 self.feet[one.foot].shift(one.yaw, one.by)
             elif isinstance(one, HeightShift):
                 self.height = (one.above, one.variance)
-            elif isinstance(one, Instead):
+            elif isinstance(one, Replacement):
                 events[:] = [one.by if event is one.event else event for event in events]
             else:
                 events.append(one)
@@ -226,7 +237,7 @@ class WearerParts:
     def position(self) -> Position | None:
         """As the recipe's track has it, at the height that its parts find; None before any sample."""
         poses = {foot: pose for foot, tracker in self.feet.items() if (pose := tracker.pose) is not None}
-        track = next((part for part in self.parts if isinstance(part, Track)), None)
+        track = next((part for part in self.parts if isinstance(part, TrackPart)), None)
         found = None if track is None else track.position(poses)
         above, variance = self.height
         if found is None or (above == 0.0 and variance == 0.0):

@@ -112,7 +112,7 @@ class InFoot(OnAWalk):
         setattr(self.tracker, self.name, part)
 
     def restart(self) -> None:
-        self.tracker.interrupt()
+        self.tracker.reset()
 
     def feed(self, sample: Sample) -> Any:
         tracker, self.t = self.tracker, sample.t
@@ -187,7 +187,7 @@ class AtWearer(OnAWalk):
         """What is no event of this moment."""
         for event in events:
             if not isinstance(event, Happening):
-                yield f"what a part says are events, a Shift, a HeightShift or an Instead, not a {type(event).__name__}"
+                yield f"a part returns events, a Shift, a HeightShift or a Replacement, not a {type(event).__name__}"
             elif not (isfinite(event.t) and event.t <= event.known_at):
                 yield f"an event was when it was known or earlier, not a {type(event).__name__} of {event.t} s"
 
@@ -197,8 +197,8 @@ def placed(part: Any, foot: Foot, layout: Layout | None) -> ByItself | InFoot | 
     if Detector in kinds:
         insole = InsoleLoads()
         if layout is not None:
-            insole.wear(layout)
-            part.wear(layout)
+            insole.set_layout(layout)
+            part.set_layout(layout)
         return ByItself(part, insole)
     place: InFoot
     if Corrector in kinds:
@@ -215,7 +215,7 @@ def placed(part: Any, foot: Foot, layout: Layout | None) -> ByItself | InFoot | 
     else:
         raise TypeError(f"{type(part).__name__} extends neither Detector nor Corrector nor Cues nor Part")
     if layout is not None:
-        place.tracker.wear(layout)
+        place.tracker.set_layout(layout)
     return place
 
 

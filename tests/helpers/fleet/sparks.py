@@ -16,7 +16,7 @@ import pytest
 from walks import insoles, said
 
 from solepath.emulate.routes.route import Route
-from solepath.fleet import End, NumberedEvent, Sent, sent_row, told_row
+from solepath.fleet import End, NumberedEvent, Sent, event_row, sent_row
 from solepath.fleet.spark_files import committed
 from solepath.recipes import DEFAULT, by_name
 
@@ -72,7 +72,7 @@ def sent(wearer: int, walk: int) -> list[Sent]:
 def says(walk: int, recipe: str) -> tuple[Row, ...]:
     """Rows of what a bare session says of the same walk."""
     events = said(insoles(ROUTE, seed=walk, cells=48).packets, by_name(recipe))
-    return tuple(told_row(NumberedEvent("", number, event)) for number, event in enumerate(events))
+    return tuple(event_row(NumberedEvent("", number, event)) for number, event in enumerate(events))
 
 
 def expected(wearers: int, recipe: str = DEFAULT.name) -> list[Row]:

@@ -12,7 +12,7 @@ import looptime
 from attrs import evolve
 from memory_radio import MemoryRadio
 
-from solepath.ble import Backend, Devices, Wanted
+from solepath.ble import Backend, DeviceConfig, Devices
 from solepath.emulate.controllers.server import virtual_air
 from solepath.emulate.devices.bench import Bench
 from solepath.link.devices.reassembly import Reassembly
@@ -54,7 +54,7 @@ async def hear(devices: Devices, seconds: float) -> list[Packet]:
     return heard
 
 
-def received(backend: Backend, *wanted: Wanted, seconds: float, **more: Any) -> list[Packet]:
+def received(backend: Backend, *wanted: DeviceConfig, seconds: float, **more: Any) -> list[Packet]:
     """What an app gets that wants these, in so many seconds of virtual time; it leaves nothing running."""
 
     async def main() -> list[Packet]:

@@ -10,7 +10,7 @@ from bleak.backends.scanner import BaseBleakScanner
 from memory_radio import MemoryRadio
 from strap import BATTERY, BEAT, CONTROL, HEART_RATE, LEVEL, LOG, PAGE, Strap
 
-from solepath.ble import Backend, Wanted
+from solepath.ble import Backend, DeviceConfig
 from solepath.emulate.devices.faults import parse_faults
 from solepath.emulate.devices.peripheral import Peripheral
 from solepath.link.profile import Access, Channel, Profile, Write
@@ -107,7 +107,7 @@ def asked(*devices: Peripheral) -> Asked:
 
 
 PELVIS = Site.PELVIS
-ONE = Wanted(PELVIS, address(1), STRAP)
+ONE = DeviceConfig(PELVIS, address(1), STRAP)
 
 
 def times(packets: list[Packet], channel: str) -> list[float]:

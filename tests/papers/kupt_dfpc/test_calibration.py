@@ -80,7 +80,7 @@ def test_with_its_noise_taken_off_a_foot_in_the_air_carries_nothing() -> None:
     noise = pressure_noise(samples).insoles[Foot.LEFT].noise
     assert noise == pytest.approx([0.8 + 3 * 0.15] * 96, abs=0.12)
     insole = InsoleLoads(InsoleSettings(noise=noise))
-    insole.wear(cells)
+    insole.set_layout(cells)
     swings = walker.truth().feet[Foot.LEFT].steps[1:-1]
     for sample in samples:
         load = insole.update(sample.t, sample.pressure or ())

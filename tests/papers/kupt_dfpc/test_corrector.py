@@ -144,12 +144,12 @@ def test_a_motion_longer_than_any_stride_ends_where_the_foot_is_quiet() -> None:
 
 def test_a_shoe_that_nobody_measured_is_as_long_as_its_insole() -> None:
     known = detector()
-    known.wear(Layout(2, Foot.LEFT, (Cell(0.03, 0.0), Cell(0.2, 0.0)), 0.228))
+    known.set_layout(Layout(2, Foot.LEFT, (Cell(0.03, 0.0), Cell(0.2, 0.0)), 0.228))
     stances = said(known, (AIR, -0.35), (HEEL, -0.33), (HEEL, -0.30))
     # 22.8 cm are four fifths of 28.5: (4) with L_r = 0.100: P_z at 0.315 rad = 0.0310 + 0.0276, times 3 rad/s
     assert stances[2].v_ref[0] == pytest.approx(3.0 * 0.0586, rel=0.01)
     known = KnownVelocity().calibrated(Foot.LEFT, Calibration(shoe=ShoeGeometry(height=0.04)))
-    known.wear(Layout(2, Foot.LEFT, (Cell(0.03, 0.0), Cell(0.2, 0.0)), 0.228))
+    known.set_layout(Layout(2, Foot.LEFT, (Cell(0.03, 0.0), Cell(0.2, 0.0)), 0.228))
     assert known.worn == ShoeGeometry(height=0.04)
 
 

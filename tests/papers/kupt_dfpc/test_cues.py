@@ -10,7 +10,7 @@ import pytest
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
-from solepath.foot.cues.cues import Seen
+from solepath.foot.cues.cues import SeenCue
 from solepath.foot.cues.touch import Touch
 from solepath.foot.phase import PHASES, Cue
 from solepath.foot.pressure.insole import InsoleLoads
@@ -37,7 +37,7 @@ LANDING: list[Row] = [(0.05, False), (0.06, False), (0.08, False)]
 def believed() -> CopCues:
     """One that stands and whose cells were right in the last swing."""
     cues = CopCues(touch=Touch())
-    cues.wear(FOUR)
+    cues.set_layout(FOUR)
     cues.touch.known, cues.touch.blind = True, False
     cues.stage = StepStage.STANDING
     return cues
@@ -45,10 +45,10 @@ def believed() -> CopCues:
 
 def watch(
     rows: list[Row], cues: CopCues | None = None, speed: float = 0.0
-) -> tuple[list[tuple[Seen, int]], list[Cue | None]]:
+) -> tuple[list[tuple[SeenCue, int]], list[Cue | None]]:
     """What was seen, each with the number of the sample at which it was told, and the marks; 100 Hz."""
     cues = cues or believed()
-    seen: list[tuple[Seen, int]] = []
+    seen: list[tuple[SeenCue, int]] = []
     marks: list[Cue | None] = []
     phase = Phase.STATIONARY
     gyro: Vec3 = (0.0, 0.5, 0.0)
@@ -71,7 +71,7 @@ def test_the_centre_of_pressure_is_the_mean_of_places_weighted_by_pressure() -> 
     # (2): (0.05 x 10 + 0.05 x 30 + 0.20 x 40) / 80 = 10 / 80; (3): (0.01 x 10 - 0.01 x 30 + 0.02 x 40) / 80 = 0.6 / 80
     cells = (Cell(0.05, 0.01), Cell(0.05, -0.01), Cell(0.20, 0.02))
     insole = InsoleLoads()
-    insole.wear(Layout(3, Foot.LEFT, cells, 0.26))
+    insole.set_layout(Layout(3, Foot.LEFT, cells, 0.26))
     for k, total in enumerate((0.0, 90.0, 0.0, 90.0)):
         insole.update(0.01 * k, (total, total, total))
     load = insole.update(0.04, (10.0, 30.0, 40.0))
@@ -184,13 +184,13 @@ def test_the_table_of_stages_has_none_too_many_and_can_be_printed() -> None:
 WALK = Route().stand(2.0).walk(12.0, 1.2).stop(1.5)
 
 
-def alone(cells: Layout, walker: Walker) -> list[Seen]:
+def alone(cells: Layout, walker: Walker) -> list[SeenCue]:
     """The cues of an insole without an inertial sensor."""
     foot = cells.foot
     insole, cues = InsoleLoads(), CopCues()
-    insole.wear(cells)
-    cues.wear(cells)
-    seen: list[Seen] = []
+    insole.set_layout(cells)
+    cues.set_layout(cells)
+    seen: list[SeenCue] = []
     phase = Phase.STATIONARY
     for sample in walker.samples(foot, 100.0, layout=cells):
         load = insole.update(sample.t, sample.pressure or ())
@@ -227,7 +227,7 @@ def test_insoles_alone_tell_heel_strike_and_toe_off_with_few_cells_as_with_many(
 def test_a_valley_in_mid_stance_is_no_swing_on_an_insole_of_two_cells() -> None:
     """Between heel and forefoot the load lies on neither cell."""
     touch = Touch()
-    touch.wear(few(2, Foot.LEFT))
+    touch.set_layout(few(2, Foot.LEFT))
     stride = [(0.0, 1.0)] * 20 + [(0.02, 0.02)] * 8 + [(1.0, 0.0)] * 20 + [(0.0, 0.0)] * 40
     airborne = []
     for k, cells in enumerate(stride * 3):

@@ -166,7 +166,7 @@ def test_when_the_clock_begins_anew_the_next_steps_are_found() -> None:
     late = [evolve(sample, t=sample.t + 1000.0) for sample in walk]
     session = Session(recipes.by_name("kupt"), calibration=LAYOUTS)
     first = steps(session.feed(late))
-    session.feet[Foot.LEFT].interrupt()
+    session.feet[Foot.LEFT].reset()
     again = steps(session.feed(walk))
     # where the first step began is a matter of the old clock
     assert [step.length for step in again] == pytest.approx([step.length for step in first[1:]], abs=0.05)

@@ -117,8 +117,8 @@ def evidence(detector: ContourVelocity, device: Insole) -> tuple[list[float], li
     for packet in walked(device).packets:
         for item in decoder.feed(packet):
             if isinstance(item, LayoutKnown):
-                cells.wear(item.layout)
-                detector.wear(item.layout)
+                cells.set_layout(item.layout)
+                detector.set_layout(item.layout)
             elif isinstance(item, Sample) and item.acc is not None and item.gyro is not None:
                 load = cells.update(item.t, item.pressure or ())
                 detector.update(item.t, 0.01, item.acc, item.gyro, load)
@@ -174,7 +174,7 @@ RESTS = heel(0.8, cells=pressed())
 def worn() -> ContourVelocity:
     """One that knows where the cells are."""
     detector = ContourVelocity()
-    detector.wear(CELLS)
+    detector.set_layout(CELLS)
     return detector
 
 

@@ -34,7 +34,7 @@ def cone(where: Layout, x: float, y: float, part: float = 1.0) -> list[float]:
 
 
 def moved(contours: Contours, where: Layout, first: list[float], second: list[float]) -> tuple[float, float]:
-    assert contours.wear(where) is None
+    assert contours.set_layout(where) is None
     assert contours.cells == list(range(len(where.cells)))
     assert contours.velocity(1.0, first) is None, "one look shows no movement"
     velocity = contours.velocity(1.0 + STEP, second)
@@ -94,7 +94,7 @@ def test_levels_that_follow_the_load_need_no_scale() -> None:
 
 def test_fixed_pressures_ask_for_newtons() -> None:
     contours = Contours(ContourSettings(pascals=FIGURE_4))
-    contours.wear(grid(scale=None))
+    contours.set_layout(grid(scale=None))
     assert not contours.absolute and contours.levels == contours.settings.shares
 
 
@@ -108,7 +108,7 @@ def test_half_a_contour_is_followed_where_the_other_half_lies_beyond_the_cells()
 @pytest.mark.parametrize("again", [1.2, -98.0], ids=["too long after", "of a clock that begins anew"])
 def test_looks_that_are_not_to_be_compared_are_not_and_the_next_one_is(again: float) -> None:
     where, contours = grid(), Contours()
-    contours.wear(where)
+    contours.set_layout(where)
     contours.velocity(1.0, cone(where, 0.046, 0.0))
     assert contours.velocity(again, cone(where, 0.046, 0.0)) is None
     assert contours.velocity(again + STEP, cone(where, 0.046, 0.0)) == pytest.approx((0.0, 0.0))
@@ -117,13 +117,13 @@ def test_looks_that_are_not_to_be_compared_are_not_and_the_next_one_is(again: fl
 @pytest.mark.parametrize("foot", list(Foot))
 def test_insoles_of_many_layouts_and_the_array_under_the_heel_have_contours(foot: Foot) -> None:
     for cells in (*(layout(count, foot) for count in (24, 35, 96, 99)), heel_array(foot)):
-        assert Contours().wear(cells) is None
+        assert Contours().set_layout(cells) is None
 
 
 def test_too_few_cells_under_the_heel_have_none() -> None:
     cells = tuple(Cell(x, 0.01 * k) for k, x in enumerate((0.02, 0.04, 0.06, 0.20, 0.22)))
     contours = Contours()
-    assert contours.wear(Layout(1, Foot.LEFT, cells, LENGTH)) == (
+    assert contours.set_layout(Layout(1, Foot.LEFT, cells, LENGTH)) == (
         "3 pressure cells under the heel have no contour, 4 are the fewest"
     )
     assert contours.velocity(0.0, []) is None
@@ -131,7 +131,7 @@ def test_too_few_cells_under_the_heel_have_none() -> None:
 
 def test_cells_in_a_row_surround_nothing() -> None:
     cells = tuple(Cell(0.01 * k, 0.0) for k in range(1, 9))
-    assert "do not surround" in str(Contours().wear(Layout(1, Foot.LEFT, cells, LENGTH)))
+    assert "do not surround" in str(Contours().set_layout(Layout(1, Foot.LEFT, cells, LENGTH)))
 
 
 numbers = st.floats(-1e9, 1e9, allow_nan=False)
@@ -141,7 +141,7 @@ places = st.tuples(st.floats(-0.1, 0.4), st.floats(-0.1, 0.1), st.sampled_from([
 @given(st.lists(places, max_size=14), st.data())
 def test_no_cells_and_no_loads_are_too_odd(where: list[tuple[float, float, float]], data: st.DataObject) -> None:
     contours = Contours()
-    contours.wear(Layout(1, Foot.LEFT, tuple(Cell(*place) for place in where), LENGTH, 1.0))
+    contours.set_layout(Layout(1, Foot.LEFT, tuple(Cell(*place) for place in where), LENGTH, 1.0))
     for t in (0.0, 0.05, 0.05, 0.1, 0.01):
         loads = data.draw(st.lists(numbers, min_size=len(contours.cells), max_size=len(contours.cells)))
         found = contours.velocity(t, loads)

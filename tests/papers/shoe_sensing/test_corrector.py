@@ -182,7 +182,7 @@ def test_a_gap_forgets_the_motion_and_where_the_foot_stood_is_mended() -> None:
     go(one, [(5.0, 0.0, 0.0)] * 30, MOVES)
     assert one.bridge(3.0) == 0.0
     assert one.velocity == ZERO
-    one.mend(0.0, (2.0, 0.0, 0.5))
+    one.repair(0.0, (2.0, 0.0, 0.5))
     stride(one, 1.0, 0.02)
     assert one.position == pytest.approx((3.0, 0.0, 0.5), abs=0.01)
 

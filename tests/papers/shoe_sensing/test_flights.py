@@ -124,7 +124,7 @@ def test_a_clock_that_begins_anew_gives_up_the_flight() -> None:
     flights = Flights()
     for k in range(6):
         flights.stepped(step(FEET[k % 2], 1000.0 + k, 2 * RISER), 1)
-    flights.interrupt()
+    flights.reset()
     assert flights.waited(2.0, 2.0) == []
     assert flights.stepped(step(Foot.LEFT, 3.0, 0.0), 0) == []
 

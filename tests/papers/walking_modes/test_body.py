@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from walks import of
 
-from solepath.body.part import Track
+from solepath.body.part import TrackPart
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.laps import MARK_SPEED, marked
 from solepath.emulate.routes.route import Route
@@ -32,7 +32,7 @@ from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
 LAYOUTS = {SITE_OF_FOOT[foot]: layout(99, foot) for foot in Foot}
 KNOWN = Calibration(insoles={foot: InsoleCalibration(layout=layout(99, foot)) for foot in Foot})
 AROUND = Route().stand(2.0).walk(4.0, MARK_SPEED).turn(pi / 2, 2.0).walk(3.0).stop(1.0)
-III = WALKING_MODES.exchanged(Track, Modes())
+III = WALKING_MODES.exchanged(TrackPart, Modes())
 LOOKS_AHEAD = ModesSettings(heading=0.0)
 
 
@@ -49,13 +49,13 @@ def suit(route: Route = AROUND, north: float = 0.0, seed: int = 101) -> tuple[Sa
 
 @cache
 def told(heading: float | None = None, north: float = 0.0) -> list[Event]:
-    session = Session(III.exchanged(Track, Modes(settings=ModesSettings(heading=heading))), calibration=KNOWN)
+    session = Session(III.exchanged(TrackPart, Modes(settings=ModesSettings(heading=heading))), calibration=KNOWN)
     return [*session.feed(suit(north=north)), *session.finish()]
 
 
 def off(modes: Modes, samples: Sequence[Sample]) -> tuple[tuple[float, float], Covariance3]:
     """How far from the end of the way the wearer is said to be in the end, m, and with which covariance."""
-    session = Session(III.exchanged(Track, modes), calibration=KNOWN)
+    session = Session(III.exchanged(TrackPart, modes), calibration=KNOWN)
     session.feed(samples)
     position, end = session.position, walker().route.end
     assert position is not None
@@ -127,7 +127,7 @@ def test_who_stands_is_told_to_stand() -> None:
 def test_the_compensation_of_the_mode_is_added_along_the_way() -> None:
     straight = {foot: {WalkingMode.STRAIGHT: (0.02, 0.0)} for foot in Foot}
     compensated = Modes(settings=evolve(LOOKS_AHEAD, compensation=straight))
-    session = Session(III.exchanged(Track, compensated), calibration=KNOWN)
+    session = Session(III.exchanged(TrackPart, compensated), calibration=KNOWN)
     downs = of(TouchedDown, session.feed(suit()))
     ahead = [down for down in downs if down.mode is WalkingMode.STRAIGHT and down.t < 6.0]
     assert ahead and all(down.compensation[0] == pytest.approx(0.02, abs=0.002) for down in ahead[:-1])
@@ -151,7 +151,7 @@ def test_sensors_without_attitudes_are_taken_upright_by_gravity() -> None:
 
 
 def test_a_sensor_that_falls_silent_leaves_the_feet_to_their_own_tracks() -> None:
-    session = Session(III.exchanged(Track, Modes(settings=LOOKS_AHEAD)), calibration=KNOWN)
+    session = Session(III.exchanged(TrackPart, Modes(settings=LOOKS_AHEAD)), calibration=KNOWN)
     events = session.feed([s for s in suit() if s.site is not Site.LEFT_SHANK or s.t < 5.0])
     assert len(of(TouchedDown, events)) == sum(len(strides) for strides in walker().plan.strides.values())
 

@@ -12,7 +12,7 @@ from attrs import evolve
 from walks import both_feet, of
 
 from solepath.body.fuse.position import MeanOfFeet
-from solepath.body.part import Track
+from solepath.body.part import TrackPart
 from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
@@ -28,7 +28,7 @@ LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 LAYOUTS = {SITE_OF_FOOT[foot]: layout(96, foot) for foot in Foot}
 KNOWN = Calibration(insoles={foot: InsoleCalibration(layout=layout(96, foot)) for foot in Foot})
 FAR = 25.0
-TRACKS = DEFAULT.exchanged(Track, MeanOfFeet())
+TRACKS = DEFAULT.exchanged(TrackPart, MeanOfFeet())
 """The feet's own tracks, and their mean."""
 RECIPES = ("walking-modes", "touchdown-height", "touchdown-acceleration", "touchdown-pressure")
 

@@ -183,7 +183,7 @@ def test_a_sensor_that_began_anew_is_used_again_in_its_new_world_once_it_stood_s
     chain = LowerLimbs(WORN)
     stood(chain, MOUNTED)
     world = from_yaw(2.0)
-    chain.interrupt(Site.LEFT_THIGH)
+    chain.reset(Site.LEFT_THIGH)
     chain.told(Site.LEFT_THIGH, 0.62, multiply(world, MOUNTED[Site.LEFT_THIGH]))
     assert not chain.current(0.62)
     assert "left thigh began anew" in chain.why_not(0.62, SEGMENTS)

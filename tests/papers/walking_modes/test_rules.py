@@ -109,7 +109,7 @@ def test_coarse_insoles_have_every_region_though_some_share_cells() -> None:
 
 def test_a_contact_tells_each_region_as_a_multiple_of_the_mean_cell() -> None:
     insole, contact = layout(99, LEFT), Contact()
-    contact.wear(insole)
+    contact.set_layout(insole)
     contact.begin(0.0)
     cells = [1.0] * 99
     for k in regions(insole)["R1"]:
@@ -138,7 +138,7 @@ def test_a_slow_bend_leaves_less_of_a_mark_and_counts_for_more() -> None:
 @given(st.lists(st.lists(st.floats(-1e3, 1e5), min_size=99, max_size=99), max_size=4), st.floats(0.0, 5.0))
 def test_whatever_the_cells_bear_a_contact_ends_in_a_mode_or_in_none(rows: list[list[float]], step: float) -> None:
     contact = Contact()
-    contact.wear(layout(99, LEFT))
+    contact.set_layout(layout(99, LEFT))
     contact.begin(0.0)
     for row in rows:
         contact.add(tuple(row), sum(row))
@@ -168,7 +168,7 @@ BLIND = {
 def test_cells_that_do_not_tell_left_from_right_have_no_regions_and_tell_no_mode(how: str) -> None:
     assert regions(BLIND[how]) == {}
     contact = Contact()
-    contact.wear(BLIND[how])
+    contact.set_layout(BLIND[how])
     contact.begin(0.0)
     cells = (1.0,) * len(BLIND[how].cells)
     contact.add(cells, sum(cells))
@@ -177,9 +177,9 @@ def test_cells_that_do_not_tell_left_from_right_have_no_regions_and_tell_no_mode
 
 def test_another_layout_of_as_many_cells_has_regions_of_its_own() -> None:
     contact = Contact()
-    contact.wear(layout(96, LEFT))
+    contact.set_layout(layout(96, LEFT))
     before = contact.where
-    contact.wear(shifted(layout(96, LEFT)))
+    contact.set_layout(shifted(layout(96, LEFT)))
     assert contact.where == regions(shifted(layout(96, LEFT))) != before
 
 

@@ -22,7 +22,7 @@ from ...foot.view import FootView
 from ...types import Activity, Foot, Site
 from ...types.attrs import define, field, frozen
 from ...types.vector import TIE, ZERO
-from ..part import Doing, Said
+from ..part import ActivityPart, PartOutput
 from .air import NOTHING, PressureHeight
 from .features import BLOCK, REACH
 from .flights import Flights
@@ -58,10 +58,10 @@ class ActivitiesSettings:
 
 
 @define
-class Activities(Doing):
+class Activities(ActivityPart):
     """Says what the wearer does, and tells flights of stairs and rides in a lift."""
 
-    feeds: ClassVar[bool] = True
+    needs_samples: ClassVar[bool] = True
 
     settings: ActivitiesSettings = ActivitiesSettings()
     activity: Activity = field(default=Activity.UNKNOWN, init=False)
@@ -91,13 +91,13 @@ class Activities(Doing):
         """The clock of the samples of a site restarts: what is under way there is forgotten."""
         if site.foot is None:
             return
-        (self.left if site.foot is LEFT else self.right).anew()
-        self.flights.interrupt()
+        (self.left if site.foot is LEFT else self.right).restart()
+        self.flights.reset()
         self.steps.clear()
         if self.left.index is None and self.right.index is None:
-            self._anew()
+            self._restart()
 
-    def feed(self, view: FootView) -> Sequence[Said]:
+    def feed(self, view: FootView) -> Sequence[PartOutput]:
         """A sample of a foot, a barometer's too, and what came of it."""
         sample = view.sample
         acc, t, origin = sample.acc, sample.t, self.origin
@@ -107,7 +107,7 @@ class Activities(Doing):
                 return ()
             self.origin = origin = t
         since = (t - origin + TIE) / BLOCK
-        told: Sequence[Said] = ()
+        told: Sequence[PartOutput] = ()
         if sample.air_pressure is not None and side.index is not None:
             self.air.add(view.foot, floor(since), sample.air_pressure)
         if acc is not None:
@@ -125,7 +125,7 @@ class Activities(Doing):
                         self.steps.popleft()
         return told
 
-    def finish(self, now: float) -> Sequence[Said]:
+    def finish(self, now: float) -> Sequence[PartOutput]:
         """Nothing more comes: what was told so far is final, and so is what is said of the last second."""
         told: list[Event] = []
         sides = [side for side in (self.left, self.right) if side.index is not None]
@@ -180,7 +180,7 @@ class Activities(Doing):
     def _time(self, index: int) -> float:
         return (0.0 if self.origin is None else self.origin) + index * BLOCK
 
-    def _anew(self) -> None:
+    def _restart(self) -> None:
         self.origin = None
         self.next = 0
         self.air = PressureHeight()

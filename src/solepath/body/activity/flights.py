@@ -64,7 +64,7 @@ class Flights:
     """What each foot's last stride rose, when that was a level one, m."""
     stepped_at: dict[Foot, float] = field(factory=dict, init=False)
 
-    def interrupt(self) -> None:
+    def reset(self) -> None:
         """The clock begins anew: the flight under way is given up."""
         self.way = 0
         self.stood, self.before, self.stepped_at = {}, {}, {}

@@ -166,7 +166,7 @@ class FootBlocks:
         if len(self.steps) > STEPS:
             self.steps.popleft()
 
-    def anew(self) -> None:
+    def restart(self) -> None:
         """Times begin anew."""
         self.index = None
         self.acc_bins = [0] * BINS

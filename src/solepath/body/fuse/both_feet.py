@@ -23,7 +23,7 @@ from ...foot.view import FootPose, FootView
 from ...types import Foot, Site, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import ZERO, sub
-from ..part import Position, Said, Shift
+from ..part import PartOutput, Position, Shift
 from .agreement import HEADING, RATE, STATES, WIDTH, Agreement, Term, X, Y
 from .corridor import Corridor
 from .facing import Askew, Facing, FacingStride, lay_alongside
@@ -91,7 +91,7 @@ class BothFeet(MeanOfFeet):
     bases: list[tuple[float, Vec3]] = field(factory=lambda: [(0.0, ZERO), (0.0, ZERO)], init=False)
     """Turn and offset at which the tracks were placed; what has come since is the feet's own to take."""
 
-    def feed(self, view: FootView) -> Sequence[Said]:
+    def feed(self, view: FootView) -> Sequence[PartOutput]:
         """As for `MeanOfFeet`; at a step, what it says of both."""
         waited = self.left.waits or self.right.waits
         MeanOfFeet.feed(self, view)
@@ -104,7 +104,7 @@ class BothFeet(MeanOfFeet):
         if waited:
             self.agreement.beside(0 if self.newest is Foot.LEFT else 1, *BESIDE)
             self._placed_anew()
-        said: list[Said] = []
+        said: list[PartOutput] = []
         for event in view.events:
             if isinstance(event, StrideTaken):
                 said += self._stride(event, view.after.takes_shifts)
@@ -115,7 +115,7 @@ class BothFeet(MeanOfFeet):
         MeanOfFeet.reset(self, site)
         if site.foot is not None:
             self.strides[0 if site.foot is Foot.LEFT else 1] = None
-            self.corridor.interrupt()
+            self.corridor.reset()
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
         """None before any sample. Of two feet the covariance is that of their mean at the newest step."""
@@ -140,7 +140,7 @@ class BothFeet(MeanOfFeet):
     def _placed_anew(self) -> None:
         self.bases = [(placed.turn, placed.offset) for placed in (self.left, self.right)]
 
-    def _stride(self, taken: StrideTaken, takes_shifts: bool) -> Sequence[Said]:
+    def _stride(self, taken: StrideTaken, takes_shifts: bool) -> Sequence[PartOutput]:
         index = 0 if taken.foot is Foot.LEFT else 1
         this = self.left if index == 0 else self.right
         numbers = (*taken.position, *taken.displacement, *taken.covariance)
@@ -275,7 +275,7 @@ class BothFeet(MeanOfFeet):
         self._take(found)
         self.agreement.turned_alike(rate, self.corridor.drift[2])
 
-    def _hand_back(self, index: int, foot: Foot, takes_shifts: bool) -> Sequence[Said]:
+    def _hand_back(self, index: int, foot: Foot, takes_shifts: bool) -> Sequence[PartOutput]:
         """The foot is to take what was found since the tracks were placed."""
         this = self.left if index == 0 else self.right
         stride = self.strides[index]

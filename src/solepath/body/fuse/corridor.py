@@ -90,7 +90,7 @@ class Corridor:
         self.begins, self.ends, self.headings = [None, None], [None, None], []
         self.heading = None
 
-    def interrupt(self) -> None:
+    def reset(self) -> None:
         """Times begin anew."""
         self.end()
         self.newest = self.known = None

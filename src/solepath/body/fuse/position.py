@@ -17,7 +17,7 @@ from ...foot.view import FootPose, FootView
 from ...types import Foot, Site, Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO, sub, turned
-from ..part import Position, Said, Track
+from ..part import PartOutput, Position, TrackPart
 
 LEFT: Final = Foot.LEFT
 """Looked up once: a word of an enum costs as much as five multiplications."""
@@ -87,14 +87,14 @@ class PlacedTrack:
 
 
 @define
-class MeanOfFeet(Track):
+class MeanOfFeet(TrackPart):
     """The mean of the feet that are heard, each in the world frame of its own first heading.
 
     Of feet that were set beside one another the covariance is that of the one which was heard all along: the errors
     that they had by then are the same.
     """
 
-    feeds: ClassVar[bool] = True
+    needs_samples: ClassVar[bool] = True
 
     left: PlacedTrack = field(factory=PlacedTrack, init=False)
     right: PlacedTrack = field(factory=PlacedTrack, init=False)
@@ -104,7 +104,7 @@ class MeanOfFeet(Track):
     """While a foot waits, after the newest steps of both: whether the left one took it, where the waiting foot's own
     track has it, and where the other is."""
 
-    def feed(self, view: FootView) -> Sequence[Said]:
+    def feed(self, view: FootView) -> Sequence[PartOutput]:
         """Nothing follows, but it is seen who is absent and who has come back."""
         t, is_left = view.t, view.foot is LEFT
         if view.sample.acc is None or view.sample.gyro is None:

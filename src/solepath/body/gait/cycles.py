@@ -12,7 +12,7 @@ from ...events import FootFlat, HeelOff, HeelStrike, SampleGap, StrideTaken, Toe
 from ...foot.view import FootView
 from ...types import SITE_OF_FOOT, Foot, Site
 from ...types.attrs import define, field
-from ..part import ClockUnsettled, Notice, Part, Said
+from ..part import ClockUnsettled, Part, PartInput, PartOutput
 from .footfalls import Footfalls
 from .means import GaitMeans, GaitParameters
 from .measuring import measured
@@ -35,7 +35,7 @@ class Followed:
 class GaitCycles(Part):
     """Events of both feet in, GaitCycleMeasured out; what it adds up is in `means`."""
 
-    feeds: ClassVar[bool] = True
+    needs_samples: ClassVar[bool] = True
 
     left: Footfalls = field(factory=Footfalls, init=False)
     right: Footfalls = field(factory=Footfalls, init=False)
@@ -53,7 +53,7 @@ class GaitCycles(Part):
         """The running means of walking or running, whichever the newest steady stride was; None before any."""
         return self.means.parameters
 
-    def feed(self, view: FootView) -> Sequence[Said]:
+    def feed(self, view: FootView) -> Sequence[PartOutput]:
         """A sample of a foot, and what came of it."""
         if self.idle and not view.events:
             return ()
@@ -88,7 +88,7 @@ class GaitCycles(Part):
             this.settle()
         return self._release(view.known_at)
 
-    def finish(self, now: float) -> Sequence[Said]:
+    def finish(self, now: float) -> Sequence[PartOutput]:
         """No more samples come: what waited."""
         for falls in (self.left, self.right):
             falls.settle()
@@ -96,7 +96,7 @@ class GaitCycles(Part):
         counts = (len(self.left.waiting), len(self.right.waiting))
         return [*self._measured(Foot.LEFT, now, counts[0]), *self._measured(Foot.RIGHT, now, counts[1])]
 
-    def receive(self, event: Notice) -> Sequence[Said]:
+    def receive(self, event: PartInput) -> Sequence[PartOutput]:
         """Whether the times of a site's samples can be compared with the other foot's."""
         if isinstance(event, ClockUnsettled):
             if event.site.foot is Foot.LEFT:
@@ -109,18 +109,18 @@ class GaitCycles(Part):
         """The clock of a site's samples restarts: what is under way there has no length, and the other foot's times
         cannot be compared with it any more."""
         if site.foot is not None:
-            self.means.interrupt(site.foot)
+            self.means.reset(site.foot)
             if site.foot is Foot.LEFT:
                 self.left, self.left_followed.t = Footfalls(count=self.left.count), None
             else:
                 self.right, self.right_followed.t = Footfalls(count=self.right.count), None
 
-    def _release(self, known_at: float) -> Sequence[Said]:
+    def _release(self, known_at: float) -> Sequence[PartOutput]:
         """The strides whose time both feet are past, or that waited long enough."""
         if not self.left.waiting and not self.right.waiting:
             self.idle = True
             return ()
-        said: list[Said] = []
+        said: list[PartOutput] = []
         left, right = self.left_followed.t, self.right_followed.t
         for foot, falls, own, other in ((Foot.LEFT, self.left, left, right), (Foot.RIGHT, self.right, right, left)):
             ready = 0
@@ -135,14 +135,14 @@ class GaitCycles(Part):
         self.idle = not (self.left.waiting or self.right.waiting)
         return said
 
-    def _measured(self, foot: Foot, known_at: float, count: int) -> list[Said]:
+    def _measured(self, foot: Foot, known_at: float, count: int) -> list[PartOutput]:
         """The first `count` of the cycles that wait."""
         is_left = foot is Foot.LEFT
         falls, other = (self.left, self.right) if is_left else (self.right, self.left)
         cycles, falls.waiting = falls.waiting[:count], falls.waiting[count:]
         tracked = self.left_followed.tracked if is_left else self.right_followed.tracked
         unsettled = (self.left_unsettled, self.right_unsettled)
-        said: list[Said] = []
+        said: list[PartOutput] = []
         for cycle in cycles:
             falls.count += 1
             compared = not any([until is not None and until > cycle.start for until in unsettled])

@@ -126,7 +126,7 @@ class Direction:
         """The turn under way, which nobody will go on with."""
         return None if self.began is None else self._over()
 
-    def interrupt(self, foot: Foot) -> None:
+    def reset(self, foot: Foot) -> None:
         """The clock of a foot begins anew: a turn under way has no length, and is forgotten."""
         self.began = self.told = None
         (self.left if foot is Foot.LEFT else self.right).stepped = None

@@ -226,7 +226,7 @@ class GaitMeans:
             self.running = running = before.running
             (self.run if running else self.walked).add(before, memory)
 
-    def interrupt(self, foot: Foot) -> None:
+    def reset(self, foot: Foot) -> None:
         """Nothing that comes follows what came."""
         if foot is Foot.LEFT:
             self.left = None

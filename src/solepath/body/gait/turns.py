@@ -19,7 +19,7 @@ from ...foot.view import FootView
 from ...types import Foot, Quat, Site, Turn
 from ...types.attrs import define, field
 from ...types.vector import heading_turned
-from ..part import Part, Said
+from ..part import Part, PartOutput
 from .direction import Direction, TurnProcess
 
 SLIGHT = 0.61
@@ -62,14 +62,14 @@ class Lain:
 class Turns(Part):
     """What the wearer's steps turned, and what the feet did between them. Latency: as `Direction` has it."""
 
-    feeds: ClassVar[bool] = True
+    needs_samples: ClassVar[bool] = True
 
     direction: Direction = field(factory=Direction, init=False)
     lain: dict[Foot, Lain] = field(factory=dict, init=False)
     idle: bool = field(default=True, init=False)
     """No turn is under way."""
 
-    def feed(self, view: FootView) -> Sequence[Said]:
+    def feed(self, view: FootView) -> Sequence[PartOutput]:
         """The turns that are over."""
         found: list[TurnProcess] = []
         known_at = view.t
@@ -101,7 +101,7 @@ class Turns(Part):
             return None
         return self.direction.pivot(event.foot, lay.since, event.t, heading_turned(lay.attitude, now))
 
-    def finish(self, now: float) -> Sequence[Said]:
+    def finish(self, now: float) -> Sequence[PartOutput]:
         """Nobody steps any more: the turn under way, if any, is over."""
         turned = self.direction.finish()
         return [] if turned is None or abs(turned.angle) <= 0.5 * SLIGHT else [made(turned, now)]
@@ -109,7 +109,7 @@ class Turns(Part):
     def reset(self, site: Site) -> None:
         """The clock of a site's samples restarts."""
         if site.foot is not None:
-            self.direction.interrupt(site.foot)
+            self.direction.reset(site.foot)
             self.idle = True
             self.lain.pop(site.foot, None)
 

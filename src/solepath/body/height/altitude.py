@@ -27,7 +27,7 @@ from ...events import LiftRidden, StrideTaken
 from ...foot.view import FootView
 from ...types import Foot, Site
 from ...types.attrs import define, evolve, field
-from ..part import HeightShift, Instead, Notice, Part, Said
+from ..part import HeightShift, Part, PartInput, PartOutput, Replacement
 from .received import Heard, Told
 
 SCALE = 8578.0
@@ -124,7 +124,7 @@ class PendingReadings:
 class Altitude(Part):
     """The filter, fed. Latency: none for the air; a ride is known after it."""
 
-    feeds: ClassVar[bool] = True
+    needs_samples: ClassVar[bool] = True
     idle = True
 
     now: Heights = field(factory=Heights, init=False)
@@ -140,7 +140,7 @@ class Altitude(Part):
     strides: deque[tuple[float, float]] = field(factory=deque, init=False)
     """Begin and end of the newest, in whole hundredths of a second."""
 
-    def feed(self, view: FootView) -> Sequence[Said]:
+    def feed(self, view: FootView) -> Sequence[PartOutput]:
         """A foot's barometer may have been read."""
         pressure = view.sample.air_pressure
         if pressure is None:
@@ -163,13 +163,13 @@ class Altitude(Part):
         side.since, side.total, side.count, side.last = t, 0.0, 0, height
         return self._keep((t, which, height, self.noise))
 
-    def receive(self, event: Notice) -> Sequence[Said]:
+    def receive(self, event: PartInput) -> Sequence[PartOutput]:
         """A stride makes the correction less sure; a ride's height is what is made of it here."""
         if isinstance(event, StrideTaken):
             return self._stepped(event)
         if isinstance(event, LiftRidden):
             ridden = self._ridden(event)
-            return [Instead(event, ridden), self._height()]
+            return [Replacement(event, ridden), self._height()]
         return ()
 
     def _height(self) -> HeightShift:
@@ -186,7 +186,7 @@ class Altitude(Part):
         self.kept.clear()
         self.strides.clear()
 
-    def _stepped(self, step: StrideTaken) -> Sequence[Said]:
+    def _stepped(self, step: StrideTaken) -> Sequence[PartOutput]:
         self.strides.append((float(round(100.0 * step.t_start)), float(round(100.0 * step.t_end))))
         if step.length < STRODE:
             self.strides.pop()
@@ -234,7 +234,7 @@ class Altitude(Part):
         walked = sum([start > began and end < ended for start, end in self.strides])
         return walked < 2 and abs(height) >= SHORTEST and SLOWEST <= abs(height) / lasted <= FASTEST
 
-    def _keep(self, one: Told) -> Sequence[Said]:
+    def _keep(self, one: Told) -> Sequence[PartOutput]:
         kept = self.kept
         while (oldest := kept.oldest) is not None and (one[0] - oldest > KEPT or kept.count >= 8.0 * KEPT):
             self._use(self.base, kept.pop())

@@ -17,7 +17,7 @@ from ...events import Event, Placed, PlaceLost, StrideTaken, TurnMade, WearerMov
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Start
 from ...types.attrs import NOT_SAVED, define, field
-from ..part import LEADS, Notice, Said
+from ..part import MOVEMENTS, PartInput, PartOutput
 from .arrivals import fan, nowhere
 from .crowd import AGREED, Row, believed, effective, rounded
 from .levels import FARTHEST, FEW, ROUGH, Levels
@@ -45,7 +45,7 @@ its own with each step: floors are often alike, and then no wall ever decides.""
 class Placing(Levels):
     """What both methods do alike: they start, change level, end and tell. How they extend the track is their own."""
 
-    follows: ClassVar[bool] = True
+    needs_position: ClassVar[bool] = True
 
     plan: IndexedPlan | None = field(default=None, init=False, eq=False, repr=False, metadata=NOT_SAVED)
     """Where the wearer is; whoever makes or restores a session sets it, since it is not saved."""
@@ -75,9 +75,9 @@ class Placing(Levels):
             raise ValueError(f"a start's place, heading and spread are numbers, not {numbers}")
         self.start = start
 
-    def receive(self, event: Notice) -> Sequence[Said]:
+    def receive(self, event: PartInput) -> Sequence[PartOutput]:
         """What leads somewhere waits until it is known where the wearer is after it."""
-        if isinstance(event, LEADS):
+        if isinstance(event, MOVEMENTS):
             self.waiting.append(event)
         elif isinstance(event, WearerMoved) and self.plan is not None:
             events, self.waiting = self.waiting, []

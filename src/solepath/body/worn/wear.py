@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import ClassVar, Final
 
-from ...events import FeetSwapped, FootHeard, FootSilent
+from ...events import FeetSwapped, FootResumed, FootSilent
 from ...foot.view import FootView
 from ...types import Foot
 from ...types.attrs import define, field, frozen
-from ..part import LayoutTold, Notice, Part, Said
+from ..part import LayoutReported, Part, PartInput, PartOutput
 from .sides import Sides
 
 LEFT: Final = Foot.LEFT
@@ -43,12 +43,12 @@ class Wear(Part):
     """Hears every sample of both feet.
 
     A foot that was heard before is silent when the other has taken `steps` steps and `seconds` since its last sample:
-    FootSilent, and FootHeard with the sample that ends it. While nobody walks nothing is said, and nothing of a foot
+    FootSilent, and FootResumed with the sample that ends it. While nobody walks nothing is said, and nothing of a foot
     that was never heard: a recording may be of one foot. Recipes of two feet go on with the one that is left.
     FeetSwapped is said once, as `Sides` sees it.
     """
 
-    feeds: ClassVar[bool] = True
+    needs_samples: ClassVar[bool] = True
 
     settings: WearSettings = WearSettings()
     sides: Sides = field(factory=Sides, init=False)
@@ -57,13 +57,13 @@ class Wear(Part):
     swapped: bool = field(default=False, init=False)
     """That has been said."""
 
-    def receive(self, event: Notice) -> Sequence[Said]:
+    def receive(self, event: PartInput) -> Sequence[PartOutput]:
         """The device on a foot may have said where its cells are."""
-        if isinstance(event, LayoutTold) and event.site.foot is not None:
+        if isinstance(event, LayoutReported) and event.site.foot is not None:
             self.sides.told(event.site.foot, event.layout)
         return ()
 
-    def feed(self, view: FootView) -> Sequence[Said]:
+    def feed(self, view: FootView) -> Sequence[PartOutput]:
         """A foot was heard."""
         t, events = view.t, view.events
         is_left = view.foot is LEFT
@@ -73,11 +73,11 @@ class Wear(Part):
             if not self.swapped:
                 self.sides.keep(self.sides.left if is_left else self.sides.right, view)
             return ()
-        found: list[Said] = []
+        found: list[PartOutput] = []
         if this.said:
             this.said = False
             silence = 0.0 if this.t is None else max(0.0, t - this.t)
-            found.append(FootHeard(t=t, known_at=view.known_at, foot=view.foot, silent_for=silence))
+            found.append(FootResumed(t=t, known_at=view.known_at, foot=view.foot, silent_for=silence))
         this.t = t
         this.missing = 0
         if view.after.covariance is not None:  # there was a stride

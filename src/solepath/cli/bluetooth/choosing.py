@@ -9,7 +9,7 @@ from ...types import Site
 from ..common.failure import Failure, attended, need, note, positive
 
 if TYPE_CHECKING:
-    from ...ble import Found, Wanted
+    from ...ble import DeviceConfig, Found
 
 LISTENED = 4.0
 """s for which devices are looked for when none was named."""
@@ -53,9 +53,9 @@ def add_duration(command: argparse.ArgumentParser, unattended: float) -> None:
     )
 
 
-def wanted(options: argparse.Namespace) -> list[Wanted]:
+def wanted(options: argparse.Namespace) -> list[DeviceConfig]:
     """The devices that were named; none when none was. Failure for a site or profile that there is not."""
-    from ...ble import Wanted
+    from ...ble import DeviceConfig
     from ...ble.wanted import check
     from ...link.catalogue import BY_NAME
 
@@ -69,7 +69,7 @@ def wanted(options: argparse.Namespace) -> list[Wanted]:
     if options.profile is not None and options.profile not in BY_NAME:
         raise Failure(f"there is no profile {options.profile!r}; there are: {', '.join(BY_NAME)}")
     profile = BY_NAME.get(options.profile)
-    devices = [Wanted(site, which, profile) for site, which in named if which]
+    devices = [DeviceConfig(site, which, profile) for site, which in named if which]
     try:
         if devices:
             check(devices)
@@ -78,11 +78,11 @@ def wanted(options: argparse.Namespace) -> list[Wanted]:
     return devices
 
 
-def chosen(found: list[Found], kind: str | None) -> list[Wanted]:
+def chosen(found: list[Found], kind: str | None) -> list[DeviceConfig]:
     """What to listen to when no device was named: two insoles, who say their feet, as soon as one is heard; or the one
     other device, on the right foot as in `track`. `kind`: the profile that was named. Failure where that is not
     clear."""
-    from ...ble import Wanted
+    from ...ble import DeviceConfig
     from ...link.catalogue import BY_NAME
     from ...link.devices.insole import PROFILE as INSOLE
 
@@ -92,10 +92,10 @@ def chosen(found: list[Found], kind: str | None) -> list[Wanted]:
     else:
         known = [one for one in found if one.profile is not None]
     if any(one.profile is INSOLE for one in known):
-        return [Wanted(None, profile=INSOLE), Wanted(None, profile=INSOLE)]
+        return [DeviceConfig(None, profile=INSOLE), DeviceConfig(None, profile=INSOLE)]
     if len(known) == 1:
         note(f"{known[0].name}: taken for the right foot's (--left {known[0].address} says otherwise)")
-        return [Wanted(Site.RIGHT_FOOT, known[0].address, told or known[0].profile)]
+        return [DeviceConfig(Site.RIGHT_FOOT, known[0].address, told or known[0].profile)]
     if not known and told is not None:
         raise Failure(f"no {told.name} is heard: switch it on, or say which device it is with --left and --right")
     if not known:

@@ -31,7 +31,7 @@ def files(directory: Path) -> list[Path]:
     return sorted(directory.glob("[!._]*.parquet"))
 
 
-def read_told(directory: Path) -> pa.Table:
+def read_events(directory: Path) -> pa.Table:
     """All events of a directory, in an order that does not depend on who wrote which when. Torn."""
     tables = [SCHEMA.empty_table()]
     for path in files(directory):
@@ -43,7 +43,7 @@ def read_told(directory: Path) -> pa.Table:
 
 
 def differences(expected: pa.Table, found: pa.Table) -> list[str]:
-    """What differs between two tables of `read_told`, the first few of it, a sentence each; [] for the same events,
+    """What differs between two tables of `read_events`, the first few of it, a sentence each; [] for the same events,
     each as often."""
     if expected.equals(found):
         return []

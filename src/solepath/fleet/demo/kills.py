@@ -14,7 +14,7 @@ from typing import Any
 import pyarrow as pa
 from attrs import evolve, frozen
 
-from .compare import Torn, differences, read_told
+from .compare import Torn, differences, read_events
 from .run import LOOK, EngineRun
 
 STARTING = 5
@@ -115,7 +115,7 @@ def play(begin: Callable[[], EngineRun], kills: list[Kill], expected: pa.Table) 
 def compared(expected: pa.Table, told: Path) -> list[str]:
     """How the events in a directory differ from those that were expected: a sentence each."""
     try:
-        return differences(expected, read_told(told))
+        return differences(expected, read_events(told))
     except Torn as torn:
         return [str(torn)]
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from attrs import frozen
 
-from ...events.fleet import Refusal
+from ...events.fleet import SentRejection
 from ...link.decoder import Decoder
 from ...link.known import kinds
 from ...types import Packet, Sample, Site
@@ -81,7 +81,7 @@ def gap(packets: Sequence[Packet], every: float, rng: Random) -> Sending | None:
     at = next(place for place, (number, _) in enumerate(placed) if number >= end + TOO_LATE)
     late = rng.randrange(first, end)
     placed.insert(at, (late, heard[late]))
-    remarks = (Remark("NumbersMissing", 0, first, LOST), Remark("SentRejected", 0, late, Refusal.LATE.value))
+    remarks = (Remark("NumbersMissing", 0, first, LOST), Remark("SentRejected", 0, late, SentRejection.LATE.value))
     items = [(0, number, what) for number, what in placed]
     return Sending(_bundles(items, every), tuple([*heard[:first], *heard[end:]]), remarks)
 
@@ -95,7 +95,7 @@ def poison(packets: Sequence[Packet], every: float, rng: Random) -> Sending:
             row = _no_row(packet, number, rng)
             numbered = row["number"] == number  # others have no place in the order
             run, place = (0, number) if numbered else (None, None)
-            remarks.append(Remark("SentRejected", run, place, Refusal.UNREADABLE.value))
+            remarks.append(Remark("SentRejected", run, place, SentRejection.UNREADABLE.value))
             number += numbered
             items.append((0, number, row))
             continue

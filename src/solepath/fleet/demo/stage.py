@@ -16,7 +16,7 @@ from typing import Any
 
 from attrs import define, field, frozen
 
-from .compare import differences, files, holes, of_sessions, read_told, remarked
+from .compare import differences, files, holes, of_sessions, read_events, remarked
 from .kills import Outcome, draw, play
 from .run import Children, EngineRun, start
 from .wearers import DemoPlan, Wearers, prepare
@@ -127,7 +127,7 @@ class DemoStage:
             cpu=sum(r["cpu"] for r in reports),
             empty=_sum(reports, "empty"),
             full=_sum(reports, "full"),
-            events=len(read_told(self.told)),
+            events=len(read_events(self.told)),
             files=len(files(self.told)),
         )
         return self.engine
@@ -156,7 +156,7 @@ class DemoStage:
     def compare(self) -> list[str]:
         """How the uninterrupted run differs from the sessions alone, and from what a fleet is to say beside: a sentence
         each."""
-        engine, sessions = read_told(self.told), read_told(self.at / "sessions" / "told")
+        engine, sessions = read_events(self.told), read_events(self.at / "sessions" / "told")
         expected = {wearer.name: wearer.remarks() for wearer in Wearers.read(self.at).all}
         return [*differences(sessions, of_sessions(engine)), *remarked(expected, engine), *holes(engine)]
 
@@ -164,7 +164,7 @@ class DemoStage:
         """So many kills, each followed by a restart, and each run compared with the uninterrupted one at its end.
         `keep`: leave what the runs wrote."""
         engine = self.engine or self.uninterrupted()
-        expected = read_told(self.told)
+        expected = read_events(self.told)
         starting = engine.whole - engine.seconds
         planned = draw(kills, starting, engine.seconds, self.plan.parts, Random(f"kills {self.plan.seed}"))
         for number, of_run in enumerate(planned, 1):

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable
 from typing import TypeVar
 
 from ...events import Event
-from ...events.fleet import FleetEvent, NumbersMissing, Refusal, SentRejected, StateRefused, WearerFailed
+from ...events.fleet import FleetEvent, NumbersMissing, SentRejected, SentRejection, StateRejected, WearerFailed
 from ...saving.codec import SnapshotError
 from ...session import Session
 from ...types import Packet
@@ -15,7 +15,7 @@ from .sent import LONGEST_DETAIL, MOST, End, NumberedEvent, Sent, Tick, Unreadab
 from .sessions import Sessions
 from .state import Identity, OtherState, StateError, read_identity, read_rest, write_state
 
-_Kind = TypeVar("_Kind", NumbersMissing, SentRejected, StateRefused, WearerFailed)
+_Kind = TypeVar("_Kind", NumbersMissing, SentRejected, StateRejected, WearerFailed)
 
 
 class Keyed:
@@ -33,7 +33,7 @@ class Keyed:
         self._order = Order(sessions.window)
         self._session: Session | None = None
         self._told, self._known = 0, 0.0
-        self._pending: tuple[type[StateRefused | WearerFailed], str] | None = None
+        self._pending: tuple[type[StateRejected | WearerFailed], str] | None = None
         """What is to be told before anything else."""
         self._opened: bytes | None = None
         """The state that brought that, until it is told."""
@@ -84,7 +84,7 @@ class Keyed:
     def _open(self, state: bytes) -> None:
         identity = read_identity(state)
         if identity is None:
-            self._pending, self._opened = (StateRefused, "nothing of the state can be read"), state
+            self._pending, self._opened = (StateRejected, "nothing of the state can be read"), state
             self._numbered = False
             return
         window, self._told, self._known = self._sessions.window, identity.told, identity.known
@@ -98,7 +98,7 @@ class Keyed:
             elif rest.session is not None:
                 self._session = self._sessions.unpack(rest.session)
         except (StateError, SnapshotError) as error:
-            self._pending = (StateRefused, str(error)[:LONGEST_DETAIL])
+            self._pending = (StateRejected, str(error)[:LONGEST_DETAIL])
         except MemoryError:
             raise
         except Exception as error:  # of a part of the app's own
@@ -134,7 +134,11 @@ class Keyed:
         if isinstance(item, Sent):
             run, number, what = item.run, item.number, sound(item.what)
         elif isinstance(item, Unreadable) and item.number is not None:
-            run, number, what = item.run, item.number, RejectedItem(Refusal.UNREADABLE, item.what[:LONGEST_DETAIL])
+            run, number, what = (
+                item.run,
+                item.number,
+                RejectedItem(SentRejection.UNREADABLE, item.what[:LONGEST_DETAIL]),
+            )
         else:
             return
         if not self._numbered:
@@ -155,7 +159,7 @@ class Keyed:
             if _counts(item.number) and _counts(item.run) and isinstance(item.what, str):
                 return None
             detail = item.what if isinstance(item.what, str) else "a row that cannot be read"
-            return self._event(SentRejected, reason=Refusal.UNREADABLE, detail=detail[:LONGEST_DETAIL])
+            return self._event(SentRejected, reason=SentRejection.UNREADABLE, detail=detail[:LONGEST_DETAIL])
         if not isinstance(item, Sent):
             detail = f"a {type(item).__name__}, not a Sent"
         elif not isinstance(item.wearer, str) or item.wearer != self._wearer:
@@ -164,7 +168,7 @@ class Keyed:
             detail = "run and number are whole numbers from 0 to 2**53 - 1"
         else:
             return None
-        return self._event(SentRejected, reason=Refusal.NOT_SENT, detail=detail[:LONGEST_DETAIL])
+        return self._event(SentRejected, reason=SentRejection.NOT_SENT, detail=detail[:LONGEST_DETAIL])
 
     def _use(self, what: Packet | Tick | End, told: list[NumberedEvent]) -> None:
         """What is in its turn goes to the session."""

@@ -13,7 +13,7 @@ from math import inf
 
 from attrs import define, field, frozen
 
-from ...events.fleet import Refusal
+from ...events.fleet import SentRejection
 from ...types import Packet, Site
 from .left import Left, NumberSpan, Strays
 from .sent import LATEST, LONGEST_DATA, LONGEST_DETAIL, LONGEST_NAME, MOST, End, Tick
@@ -26,7 +26,7 @@ HELD = 65_536
 class RejectedItem:
     """What stands in the place of what cannot be used."""
 
-    reason: Refusal
+    reason: SentRejection
     detail: str = ""
     count: int = 1
     """So many of its run, this one among them; those between are not told."""
@@ -70,9 +70,9 @@ class Order:
         """What passes now that this came. `run` and `number`: 0 to MOST."""
         if run == self.run:
             if number < self.next:
-                return self._stray(run, number, Refusal.LATE) if self.left.was_given_up(run, number) else []
+                return self._stray(run, number, SentRejection.LATE) if self.left.was_given_up(run, number) else []
             if self.ended:
-                return self._stray(run, number, Refusal.AFTER_END)
+                return self._stray(run, number, SentRejection.AFTER_END)
         elif run < self.run or self.left.was_left(run):
             return self._take_of_another(run, number, what)
         if (run, number) not in self.held:
@@ -88,10 +88,10 @@ class Order:
         if left.was_used(run, number):
             return []
         if not left.may_go_on(run, number):
-            return self._stray(run, number, Refusal.LATE)
+            return self._stray(run, number, SentRejection.LATE)
         if strays.with_this(run, number) > self.window:
             return self._go_over(run, number, what)
-        passed = self._stray(run, number, Refusal.LATE)
+        passed = self._stray(run, number, SentRejection.LATE)
         strays.straight, strays.number = strays.with_this(run, number), max(number, strays.number)
         return passed
 
@@ -104,7 +104,7 @@ class Order:
         self._pass(number, what, passed)
         return passed
 
-    def _stray(self, run: int, number: int, reason: Refusal) -> Passed:
+    def _stray(self, run: int, number: int, reason: SentRejection) -> Passed:
         """What cannot be used, and is told now and then."""
         return [(run, number, RejectedItem(reason, count=self.strays.count))] if self.strays.add(run) else []
 
@@ -115,7 +115,7 @@ class Order:
             run, number = self._waiting[0]
             if run == self.run and self.ended:
                 self._pop()
-                passed += self._stray(run, number, Refusal.AFTER_END)
+                passed += self._stray(run, number, SentRejection.AFTER_END)
                 continue
             in_turn = number == self.next if run == self.run else number == 0
             if waits and not in_turn and len(self._waiting) <= self.window and self._size <= HELD:
@@ -170,10 +170,12 @@ def sound(what: object) -> What:
     if isinstance(what, Tick):
         t = _number(what.t)
         if t is None:
-            return RejectedItem(Refusal.MALFORMED, "a Tick without a time")
-        return Tick(t) if -LATEST <= t <= LATEST else RejectedItem(Refusal.NOT_FINITE, f"a Tick at {t:g} s")
+            return RejectedItem(SentRejection.MALFORMED, "a Tick without a time")
+        return Tick(t) if -LATEST <= t <= LATEST else RejectedItem(SentRejection.NOT_FINITE, f"a Tick at {t:g} s")
     return (
-        End() if isinstance(what, End) else RejectedItem(Refusal.MALFORMED, f"a {type(what).__name__}"[:LONGEST_DETAIL])
+        End()
+        if isinstance(what, End)
+        else RejectedItem(SentRejection.MALFORMED, f"a {type(what).__name__}"[:LONGEST_DETAIL])
     )
 
 
@@ -183,16 +185,16 @@ def _mended(packet: Packet) -> What:
     if isinstance(data, bytearray | memoryview):
         data = bytes(data)
     if t is None or not isinstance(data, bytes) or not isinstance(packet.site, Site):
-        return RejectedItem(Refusal.MALFORMED, "a packet holds a time, a Site and bytes")
+        return RejectedItem(SentRejection.MALFORMED, "a packet holds a time, a Site and bytes")
     if not isinstance(packet.channel, str) or not isinstance(packet.device, str):
-        return RejectedItem(Refusal.MALFORMED, "a packet names its channel and its device")
+        return RejectedItem(SentRejection.MALFORMED, "a packet names its channel and its device")
     for name, size, most in (
         ("data", len(data), LONGEST_DATA),
         ("channel", len(packet.channel), LONGEST_NAME),
         ("device", len(packet.device), LONGEST_NAME),
     ):
         if size > most:
-            return RejectedItem(Refusal.OVERSIZED, f"{name} of {size}; {most} are the most")
+            return RejectedItem(SentRejection.OVERSIZED, f"{name} of {size}; {most} are the most")
     return Packet(t, packet.site, str(packet.channel), bytes(data), str(packet.device))
 
 

@@ -67,7 +67,7 @@ class Unreadable:
 @frozen
 class NumberedEvent:
     """An event of a wearer. (wearer, number) is its identity: who gets it twice has it twice. Numbers begin at 0 and
-    have no holes, but behind a StateRefused (protocol/fleet.md)."""
+    have no holes, but behind a StateRejected (protocol/fleet.md)."""
 
     wearer: str
     number: int

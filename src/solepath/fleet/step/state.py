@@ -15,7 +15,7 @@ from struct import error as StructError
 
 from attrs import define, field, frozen
 
-from ...events.fleet import Refusal
+from ...events.fleet import SentRejection
 from ...types import Packet, Site
 from .left import Left, NumberSpan, Strays
 from .order import RejectedItem, What
@@ -165,7 +165,7 @@ def _read_what(data: _StateReader) -> What:
     if kind == _END:
         return End()
     if kind == _REFUSED:
-        return RejectedItem(Refusal(data.text()), data.text())
+        return RejectedItem(SentRejection(data.text()), data.text())
     raise StateError("the state was damaged")
 
 

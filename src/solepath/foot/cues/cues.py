@@ -11,7 +11,7 @@ from ..phase import Cue
 from ..stance.stance import Load, Stance
 
 
-class Seen(NamedTuple):
+class SeenCue(NamedTuple):
     """A cue and when it happened."""
 
     cue: Cue
@@ -34,11 +34,11 @@ class Cues(Protocol):
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
         load: Load | None, stance: Stance,
-    ) -> Sequence[Seen]:  # fmt: skip
+    ) -> Sequence[SeenCue]:  # fmt: skip
         """One corrected sample: `acc` in m/s^2, `gyro` in rad/s without bias, `still`: the evidence of zero velocity
         was believed, `speed` in m/s, `phase` before it. What was seen, in order."""
 
-    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[Seen]:
+    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
         """The same for an insole without an inertial sensor."""
 
     # what cues may know or pay heed to; they need not
@@ -50,19 +50,19 @@ class Cues(Protocol):
     """CONTACT: of all samples so far the last is most likely that of heel-strike. CLEAR: the one before it is most
     likely that of toe-off (Corrector.mark). None: neither."""
 
-    def cleared(self, t: float) -> Seen:
+    def cleared(self, t: float) -> SeenCue:
         """The toe left the ground at `t`, in a gap, and the swing was under way when that ended."""
-        return Seen(Cue.CLEAR, t)
+        return SeenCue(Cue.CLEAR, t)
 
-    def interrupt(self) -> None:
+    def reset(self) -> None:
         """There was a gap: what lasts must be seen to last."""
         return
 
-    def anew(self) -> None:
+    def restart(self) -> None:
         """Times begin anew: what was learnt stays, what lasted does not."""
         return
 
-    def wear(self, layout: Layout) -> None:
+    def set_layout(self, layout: Layout) -> None:
         """Where the cells are; told once that is known, and again when it changes."""
         return
 

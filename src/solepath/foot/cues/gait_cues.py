@@ -12,7 +12,7 @@ from ...types import Layout, Phase, Vec3
 from ...types.attrs import define, evolve, field
 from ..phase import Cue
 from ..stance.stance import Load, Stance
-from .cues import Cues, Seen
+from .cues import Cues, SeenCue
 from .inertial import InertialCues
 from .pressure import PressureCues
 from .touch import FEW, Touch
@@ -29,14 +29,14 @@ class GaitCues(Cues):
     sagittal: float = field(default=0.0, init=False)
     """As in `Cues`."""
 
-    def wear(self, layout: Layout) -> None:
+    def set_layout(self, layout: Layout) -> None:
         """The device said where its cells are."""
-        self.touch.wear(layout)
+        self.touch.set_layout(layout)
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
         load: Load | None, stance: Stance,
-    ) -> Sequence[Seen]:  # fmt: skip
+    ) -> Sequence[SeenCue]:  # fmt: skip
         """As in `Cues`; at most one."""
         inertial = self.inertial
         seen = inertial.update(t, dt, acc, gyro, still, speed, phase)
@@ -51,7 +51,7 @@ class GaitCues(Cues):
                     return () if seen is None else (seen,)
                 pressed = None
                 if airborne is not (phase is Phase.SWING):
-                    pressed = Seen(Cue.CLEAR if airborne else Cue.CONTACT, t)
+                    pressed = SeenCue(Cue.CLEAR if airborne else Cue.CONTACT, t)
             if pressed is not None:
                 if pressed.cue is Cue.CLEAR:
                     inertial.pushed_off(phase)
@@ -61,21 +61,21 @@ class GaitCues(Cues):
                 seen = self.pressure.dated(seen) if seen.cue is Cue.LIFT else None
         return () if seen is None else (seen,)
 
-    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[Seen]:
+    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
         """As in `Cues`: heel and forefoot say what stillness would have said."""
         seen = self.pressure.update(t, dt, load, phase) or self.pressure.areas(t, load, phase)
         return () if seen is None else (seen,)
 
-    def cleared(self, t: float) -> Seen:
+    def cleared(self, t: float) -> SeenCue:
         """As in `Cues`."""
         return self.inertial.cleared(t)
 
-    def interrupt(self) -> None:
+    def reset(self) -> None:
         """As in `Cues`."""
-        self.inertial.interrupt()
+        self.inertial.reset()
 
-    def anew(self) -> None:
+    def restart(self) -> None:
         """As in `Cues`."""
-        self.inertial = self.inertial.anew()
+        self.inertial = self.inertial.restart()
         self.pressure = evolve(self.pressure)
-        self.touch = self.touch.anew()
+        self.touch = self.touch.restart()

@@ -20,7 +20,7 @@ from ...types import Phase, Vec3
 from ...types.attrs import define, evolve, field
 from ...types.vector import TIE, ZERO
 from ..phase import Cue
-from .cues import Seen
+from .cues import SeenCue
 from .impact import Impact
 
 SWING: Final = Phase.SWING
@@ -107,7 +107,7 @@ class InertialCues:
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase
-    ) -> Seen | None:
+    ) -> SeenCue | None:
         """`acc` in m/s^2, `gyro` in rad/s without bias, `still`: the evidence of zero velocity was believed, `speed` in
         m/s."""
         before, axis = self.sagittal, self.axis
@@ -140,7 +140,7 @@ class InertialCues:
             self.calm = t
         if self.still_since is not None:
             if phase is not STATIONARY and t - self.still_since >= SETTLE - TIE:
-                return Seen(Cue.FLAT, self.still_since - LOOKBACK)
+                return SeenCue(Cue.FLAT, self.still_since - LOOKBACK)
             return None
         x, y, z = self.turned
         self.turned = (x + gx * dt, y + gy * dt, z + gz * dt)
@@ -148,11 +148,11 @@ class InertialCues:
             if now > self.peak:
                 self.peak = now
             if self.moving_since is not None and t - self.moving_since >= SETTLE - TIE:
-                return Seen(Cue.LIFT, self.moving_since if self.calm is None else min(self.calm, self.moving_since))
+                return SeenCue(Cue.LIFT, self.moving_since if self.calm is None else min(self.calm, self.moving_since))
             return None
         return self._in_push_off(t, dt, before, now, phase)
 
-    def _in_push_off(self, t: float, dt: float, before: float, now: float, phase: Phase) -> Seen | None:
+    def _in_push_off(self, t: float, dt: float, before: float, now: float, phase: Phase) -> SeenCue | None:
         if now > self.peak:
             self.peak = now
         limit = PAST_PEAK * self.peak
@@ -165,7 +165,9 @@ class InertialCues:
             return self._clear(self.fast_since)
         return None
 
-    def _in_swing(self, t: float, dt: float, speed: float, before: float, now: float, was: Vec3 | None) -> Seen | None:
+    def _in_swing(
+        self, t: float, dt: float, speed: float, before: float, now: float, was: Vec3 | None
+    ) -> SeenCue | None:
         if now < self.trough:
             self.trough = now
         impact = self.impact
@@ -189,34 +191,34 @@ class InertialCues:
             return self._landed(impact.jolted)
         return None
 
-    def _landed(self, t: float) -> Seen:
+    def _landed(self, t: float) -> SeenCue:
         self.peak = 0.0
         self.turned = ZERO
         self.struck = self.fast_since = None
-        return Seen(Cue.CONTACT, t)
+        return SeenCue(Cue.CONTACT, t)
 
-    def interrupt(self) -> None:
+    def reset(self) -> None:
         """What lasts must be seen to last: a gap counts neither as stillness nor as speed."""
         self.still_since = self.fast_since = None
 
-    def anew(self) -> InertialCues:
+    def restart(self) -> InertialCues:
         """For times that begin anew: the axis is kept."""
         fresh = evolve(self)
         fresh.axis = self.axis
         return fresh
 
-    def cleared(self, t: float) -> Seen:
+    def cleared(self, t: float) -> SeenCue:
         """The toe left the ground at `t`, in a gap, and the swing was under way when that ended."""
         seen = self._clear(t)
         self.trough = -IN_SWING * LEAST_HUMP
         return seen
 
-    def _clear(self, t: float) -> Seen:
+    def _clear(self, t: float) -> SeenCue:
         self.toe_off = t
         self.impact.begin(t)
         self.struck = None
         self.trough = self.peak = 0.0
-        return Seen(Cue.CLEAR, t)
+        return SeenCue(Cue.CLEAR, t)
 
     def pushed_off(self, phase: Phase) -> None:
         """The load says that the toe has left the ground, in `phase`: how the foot has turned shows the axis all the

@@ -11,7 +11,7 @@ from ...types import Phase
 from ...types.attrs import define, field
 from ..phase import Cue
 from ..stance.stance import Load
-from .cues import Seen
+from .cues import SeenCue
 
 SWING: Final = Phase.SWING
 STATIONARY: Final = Phase.STATIONARY
@@ -38,33 +38,33 @@ class PressureCues:
     heel_loaded: float | None = field(default=None, init=False)
     """When the heel was last seen to carry load, s."""
 
-    def update(self, t: float, dt: float, load: Load, phase: Phase) -> Seen | None:
+    def update(self, t: float, dt: float, load: Load, phase: Phase) -> SeenCue | None:
         before, now = self.before, load.total
         self.before = now
         if load.heel is not None and load.heel > AREA_OFF:
             self.heel_loaded = t
         if phase is SWING:
-            return Seen(Cue.CONTACT, _crossing(t, dt, before, now, CONTACT_LOAD)) if now > CONTACT_LOAD else None
+            return SeenCue(Cue.CONTACT, _crossing(t, dt, before, now, CONTACT_LOAD)) if now > CONTACT_LOAD else None
         if now < CLEAR_LOAD:
-            return Seen(Cue.CLEAR, _crossing(t, dt, before, now, CLEAR_LOAD))
+            return SeenCue(Cue.CLEAR, _crossing(t, dt, before, now, CLEAR_LOAD))
         return None
 
-    def dated(self, lift: Seen) -> Seen:
+    def dated(self, lift: SeenCue) -> SeenCue:
         """The inertial sensor saw the heel lift; the cells know when it did, if the heel has any."""
         if self.heel_loaded is None or not 0.0 <= lift.t - self.heel_loaded < RECENT:
             return lift
-        return Seen(lift.cue, self.heel_loaded)
+        return SeenCue(lift.cue, self.heel_loaded)
 
-    def areas(self, t: float, load: Load, phase: Phase) -> Seen | None:
+    def areas(self, t: float, load: Load, phase: Phase) -> SeenCue | None:
         """For an insole without an inertial sensor: heel and forefoot say what stillness would have said."""
         if load.heel is None or load.forefoot is None:
             return None
         if phase is LOADING and load.heel > AREA_OFF and load.forefoot > AREA_ON:
-            return Seen(Cue.FLAT, t)
+            return SeenCue(Cue.FLAT, t)
         if phase is STATIONARY and load.heel < AREA_OFF and load.forefoot > AREA_ON:
-            return Seen(Cue.LIFT, t)
+            return SeenCue(Cue.LIFT, t)
         if phase is PUSH_OFF and load.heel > AREA_ON and load.forefoot > AREA_ON:
-            return Seen(Cue.FLAT, t)
+            return SeenCue(Cue.FLAT, t)
         return None
 
 

@@ -62,12 +62,12 @@ class Touch:
     landed: float = field(default=0.0, init=False)
     """When that was, s."""
 
-    def wear(self, layout: Layout) -> None:
+    def set_layout(self, layout: Layout) -> None:
         """The device said where its cells are."""
         middle = centre(layout)
         self.ahead = [] if middle is None else [cell.x > middle for cell in layout.cells]
 
-    def anew(self) -> Touch:
+    def restart(self) -> Touch:
         """For times that begin anew: where the cells are is kept, what they showed is not."""
         fresh = evolve(self)
         fresh.ahead = self.ahead

@@ -7,7 +7,7 @@ from ...types import Vec3
 from ..cues.cues import Cues
 from ..gait import Gait
 from ..navigate.corrector import LONGEST_BRIDGE, Corrector
-from .gap import NoLeap, leap
+from .gap import NoInfill, find_infill
 
 
 def cross(
@@ -26,23 +26,23 @@ def cross(
     `interval`: the usual one between samples, s. Adds the phases that the gap has hidden to `events`; returns how long
     to integrate over, s.
     """
-    habit = gait.habit
+    template = gait.template
     dt = t - last
     acc, gyro = seen
-    found = leap(habit, corrector, last, t, acc, gyro)
-    if found is NoLeap.UNKNOWN:
-        habit.cross()
+    found = find_infill(template, corrector, last, t, acc, gyro)
+    if found is NoInfill.UNKNOWN:
+        template.cross()
         if dt > LONGEST_BRIDGE:
-            habit.interrupt()
+            template.reset()
         return corrector.bridge(dt)
     for _ in range(2):  # within a second a foot may land, stand, and leave again
-        if isinstance(found, NoLeap):
+        if isinstance(found, NoInfill):
             break
-        cues.interrupt()
-        corrector.leap(t - last, found.attitude, found.velocity, found.position)
-        events += gait.leapt(found, cues, known_at, corrector, interval)
+        cues.reset()
+        corrector.infill(t - last, found.attitude, found.velocity, found.position)
+        events += gait.apply_infill(found, cues, known_at, corrector, interval)
         if found.landed is None:
             break
         last = found.landed
-        found = leap(habit, corrector, last, t, acc, gyro)
+        found = find_infill(template, corrector, last, t, acc, gyro)
     return 0.0

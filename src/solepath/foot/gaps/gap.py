@@ -24,8 +24,8 @@ from ...types.vector import (
     turned,
 )
 from ..navigate.corrector import LONGEST_BRIDGE, Corrector
-from .moment import StrideMoment, TemplateStride, at, length, limited, moments
-from .template import Habit
+from .moment import RecordedStride, StrideMoment, at, length, limited, moments
+from .template import StrideTemplate
 
 SHORTEST = 0.06
 """Gaps shorter than this are bridged by a straight line, s."""
@@ -53,7 +53,7 @@ UP = (0.0, 0.0, 1.0)
 """Unit vector, navigation frame."""
 
 
-class Leap(NamedTuple):
+class Infill(NamedTuple):
     """Where the foot is after a gap, and what it went through in it."""
 
     attitude: Quat
@@ -70,42 +70,44 @@ class Leap(NamedTuple):
     """When the foot was flat again, if it was, s."""
 
 
-class NoLeap(Enum):
+class NoInfill(Enum):
     """Why a foot is where it was before the gap, as far as is known."""
 
     STOOD = "it stood all the time"
     UNKNOWN = "there is nothing to go by"
 
 
-def leap(habit: Habit, corrector: Corrector, a: float, b: float, acc: Vec3, gyro: Vec3) -> Leap | NoLeap:
+def find_infill(
+    template: StrideTemplate, corrector: Corrector, a: float, b: float, acc: Vec3, gyro: Vec3
+) -> Infill | NoInfill:
     """What the foot did from `a` to `b`, s. The corrector is at `a`; `acc` and `gyro` are those at `b`, without bias.
-    Changes nothing: `Habit.guess` and `Corrector.leap` take the answer."""
+    Changes nothing: `StrideTemplate.guess` and `Corrector.infill` take the answer."""
     x, y, z = acc
     force = hypot(x, y, z)
     x, y, z = gyro
     still = (x * x + y * y + z * z) / 0.25 + (force - GRAVITY) ** 2 / 2.0
-    stride = habit.last
+    stride = template.last
     if stride is None or b - a > LONGEST:
-        return NoLeap.STOOD if habit.lifted is None and still < 8.0 else NoLeap.UNKNOWN
+        return NoInfill.STOOD if template.lifted is None and still < 8.0 else NoInfill.UNKNOWN
     last = moments(stride.rows)
     whole = last[-1].since
-    if habit.lifted is None:
+    if template.lifted is None:
         unlike = 0.0
         start, usual, most = 0.0, 2.0 * REACH / 3.0, b - a
         # by cadence the heel rose then
-        expected = b - a if habit.stood_since is None else b - habit.stood_since - habit.stance
-        if habit.stood_since is not None and expected - (b - a) > 3.0 * usual:
+        expected = b - a if template.stood_since is None else b - template.stood_since - template.stance
+        if template.stood_since is not None and expected - (b - a) > 3.0 * usual:
             expected, usual = 0.0, b - a  # who has stood for longer than that has halted, and may go on at any time
         best = still + min(12.0, max(0.0, expected / usual) ** 2)
     else:
-        start, unlike = _like(last, corrector, a - habit.lifted)
+        start, unlike = _like(last, corrector, a - template.lifted)
         usual, expected, best = USUAL, start + b - a, 1e12
         most = expected + REACH
     end: StrideMoment | None = None
     for moment in last:
         if moment.since > most:
             break
-        if habit.lifted is not None and moment.since < expected - REACH:
+        if template.lifted is not None and moment.since < expected - REACH:
             continue
         x, y, z = sub(gyro, moment.rate)
         far = (x * x + y * y + z * z) / RATE_SIGMA**2 + ((force - moment.force) / FORCE_SIGMA) ** 2
@@ -114,15 +116,15 @@ def leap(habit: Habit, corrector: Corrector, a: float, b: float, acc: Vec3, gyro
             best, end = far, moment
     if most >= whole:
         early = max(0.0, whole - expected)
-        if still + (early / usual) ** 2 < best or (habit.lifted is not None and expected > whole + REACH):
+        if still + (early / usual) ** 2 < best or (template.lifted is not None and expected > whole + REACH):
             end = last[-1]
     if end is not None and end is not last[-1]:
         unlike = max(unlike, best)
-    if habit.lifted is not None and unlike > UNLIKE and b - a <= LONGEST_BRIDGE:
-        return NoLeap.UNKNOWN  # this is another kind of stride, such as a turn on the spot
+    if template.lifted is not None and unlike > UNLIKE and b - a <= LONGEST_BRIDGE:
+        return NoInfill.UNKNOWN  # this is another kind of stride, such as a turn on the spot
     if end is None:
-        return NoLeap.STOOD if habit.lifted is None and best < 20.0 else NoLeap.UNKNOWN
-    return _to(habit, stride, last, corrector, start, end, a, b, gyro)
+        return NoInfill.STOOD if template.lifted is None and best < 20.0 else NoInfill.UNKNOWN
+    return _to(template, stride, last, corrector, start, end, a, b, gyro)
 
 
 def _like(last: list[StrideMoment], corrector: Corrector, since: float) -> tuple[float, float]:
@@ -146,8 +148,8 @@ def _like(last: list[StrideMoment], corrector: Corrector, since: float) -> tuple
 
 
 def _to(
-    habit: Habit,
-    stride: TemplateStride,
+    template: StrideTemplate,
+    stride: RecordedStride,
     last: list[StrideMoment],
     corrector: Corrector,
     start: float,
@@ -155,9 +157,9 @@ def _to(
     a: float,
     b: float,
     gyro: Vec3,
-) -> Leap:
+) -> Infill:
     """From `start`, s after the heel's rise in the last stride, to this moment of it; `last`: all of them."""
-    attitude, rate, moving = corrector.attitude, corrector.rate, habit.lifted is not None
+    attitude, rate, moving = corrector.attitude, corrector.rate, template.lifted is not None
     first = at(last, start)
     landed = end is last[-1]
     dt = max(end.since - first.since, 1e-6)
@@ -180,18 +182,18 @@ def _to(
     x, y, z = corrector.position
     wx, wy, wz = limited((px + k * ex, py + k * ey, pz + k * ez), FASTEST * (b - a))
     here = (x + wx, y + wy, z + wz)
-    lifted = _lifted(habit, landed, start, end, a, b)
+    lifted = _lifted(template, landed, start, end, a, b)
     # none of it before the gap: it would have been seen
     cleared = max(a, lifted + stride.toe_off) if end.since >= stride.toe_off else None
     struck = max(a, lifted + stride.heel_strike) if end.since >= stride.heel_strike else None
-    return Leap(now, speed, here, dt, lifted, cleared, struck, max(a, lifted + end.since) if landed else None)
+    return Infill(now, speed, here, dt, lifted, cleared, struck, max(a, lifted + end.since) if landed else None)
 
 
-def _lifted(habit: Habit, landed: bool, start: float, end: StrideMoment, a: float, b: float) -> float:
+def _lifted(template: StrideTemplate, landed: bool, start: float, end: StrideMoment, a: float, b: float) -> float:
     """When the heel rose, s."""
     if not landed:
         return b - end.since
-    if habit.lifted is not None:
+    if template.lifted is not None:
         return min(a - start, b - end.since)
-    by_cadence = b - end.since if habit.stood_since is None else habit.stood_since + habit.stance
+    by_cadence = b - end.since if template.stood_since is None else template.stood_since + template.stance
     return max(a, min(by_cadence, b - end.since))

@@ -33,7 +33,7 @@ class StrideMoment:
 
 
 @define
-class TemplateStride:
+class RecordedStride:
     """A stride that was seen whole."""
 
     rows: list[MomentRow]

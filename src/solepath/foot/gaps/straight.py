@@ -35,7 +35,7 @@ class StraightOn:
     footfalls: int = field(default=0, init=False)
     """So many in this heading, up to 3."""
 
-    def mend(self, turn: float, unsure: float, sparse: float) -> float:
+    def repair(self, turn: float, unsure: float, sparse: float) -> float:
         """The foot is flat, turned by `turn` (rad) since it was so last; what to add to that most likely, rad.
 
         `unsure`, 0 to 1: how much of the stride was not seen. `sparse`, s: the time between samples where few make a
@@ -48,10 +48,10 @@ class StraightOn:
         doubt = GAP_TURN * min(2.0, unsure + 200.0 * sparse * sparse)
         return -off * share(off * off, doubt, FOOTFALL_SIGMA, pi, 1)
 
-    def footfall(self, turn: float, mended: float, unsure: float, sparse: float) -> None:
-        """The foot is flat, turned by `turn` and `mended`, rad; the others as above."""
-        off = self.heading + turn + mended
-        self.yaw = (self.yaw + (turn + mended) + pi) % (2.0 * pi) - pi
+    def footfall(self, turn: float, repair: float, unsure: float, sparse: float) -> None:
+        """The foot is flat, turned by `turn` and `repair`, rad; the others as above."""
+        off = self.heading + turn + repair
+        self.yaw = (self.yaw + (turn + repair) + pi) % (2.0 * pi) - pi
         # what was seen whole and is further off than footfalls are is the wearer's doing, and so may the next be
         bend = BEND if unsure > 0.0 or sparse > 0.0 else SEEN_BEND
         if abs(off) > bend * (1.0 + sparse / 0.1):

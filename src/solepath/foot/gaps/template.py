@@ -13,11 +13,11 @@ from typing import NamedTuple
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO, single, sub, turned
-from .moment import SINGLES, MomentRow, TemplateStride, corrected, limited
+from .moment import SINGLES, MomentRow, RecordedStride, corrected, limited
 from .straight import StraightOn, share
 
 
-class Mended(NamedTuple):
+class StrideRepair(NamedTuple):
     """What a stride with a gap in it most likely was."""
 
     turn: float
@@ -44,13 +44,13 @@ steps of stairs, m."""
 
 
 @define
-class Habit:
+class StrideTemplate:
     """The last stride that was seen whole, from the heel's rise to foot-flat, and the heading kept since.
 
     Costs nothing but a comparison between the moments that are kept, MOST_MOMENTS of two strides.
     """
 
-    last: TemplateStride | None = field(default=None, init=False)
+    last: RecordedStride | None = field(default=None, init=False)
     age: int = field(default=1000, init=False)
     """Strides since `last`."""
     now: list[MomentRow] = field(factory=list, init=False)
@@ -91,7 +91,7 @@ class Habit:
         """A gap was bridged by a straight line."""
         self.crossed = True
 
-    def interrupt(self) -> None:
+    def reset(self) -> None:
         """Nobody knows what the foot does now."""
         self.lifted = self.stood_since = None
         self.now = []
@@ -123,7 +123,7 @@ class Habit:
 
     def flat(
         self, t: float, toe_off: float | None, heel_strike: float | None, turn: float, way: Vec3, interval: float
-    ) -> Mended | None:
+    ) -> StrideRepair | None:
         """The foot is flat again, turned by `turn` (rad) and `way` (m) off since it was so last.
 
         `interval`, s, is the usual one between samples: where few make a swing, every stride is half gaps.
@@ -141,32 +141,32 @@ class Habit:
         self.stood_since = t
         sparse = interval if interval > DENSE else 0.0
         unsure = min(1.0, guessed / 0.3)
-        yaw, mended = 0.0, None
+        yaw, repair = 0.0, None
         if toe_off is not None and guessed + sparse > 0.0:
-            yaw = straight_on.mend(turn, unsure, sparse)
+            yaw = straight_on.repair(turn, unsure, sparse)
             x, y, z = turned(way, 0.5 * yaw)
             if self.last is not None:
                 dx, dy, dz = sub(turned(self.last.way, middle + 0.5 * yaw), (x, y, z))
                 k = share(dx * dx + dy * dy + dz * dz, GAP_WAY * unsure, WAY_SIGMA, 3.0, 2)
                 x, y, z = x + k * dx, y + k * dy, z + k * dz
-            mended = Mended(yaw, (x, y, z))
+            repair = StrideRepair(yaw, (x, y, z))
         if toe_off is not None and lasted is not None and (guessed > 0.0 or crossed):
-            mended = self._bounded(Mended(0.0, way) if mended is None else mended, lasted)
+            repair = self._bounded(StrideRepair(0.0, way) if repair is None else repair, lasted)
         straight_on.footfall(turn, yaw, unsure, sparse)
-        return mended
+        return repair
 
-    def _bounded(self, mended: Mended, lasted: float) -> Mended:
+    def _bounded(self, repair: StrideRepair, lasted: float) -> StrideRepair:
         """Within what is possible for a stride that took so long, s."""
         if self.last is None:
-            return mended
+            return repair
         # two strides are one when a gap that was not filled hid the foot-flat between them
         k = max(1.0, min(2.0, lasted / (self.last.lasted + self.stance)))
-        x, y, z = mended.way
+        x, y, z = repair.way
         x, y, _ = limited((x, y, 0.0), k * ROOM * self.longest)
-        return Mended(mended.turn, (x, y, max(-k * HIGHEST, min(z, k * HIGHEST))))
+        return StrideRepair(repair.turn, (x, y, max(-k * HIGHEST, min(z, k * HIGHEST))))
 
     def _learn(self, t: float, toe_off: float | None, heel_strike: float | None, turn: float, way: Vec3) -> None:
-        """Keep the stride that ends at `t` if it was seen whole; `way` as in `TemplateStride`."""
+        """Keep the stride that ends at `t` if it was seen whole; `way` as in `RecordedStride`."""
         self.age = min(self.age + 1, 1000)
         if self.lifted is None or toe_off is None or self.guessed > 0.0 or self.crossed:
             return
@@ -179,5 +179,5 @@ class Habit:
         if abs(turn) < CORNER or self.age > OLD:
             struck = t if heel_strike is None else heel_strike
             # rounded as the moments are, at one of which they may have been
-            self.last = TemplateStride(self.now, single(toe_off - self.lifted), single(struck - self.lifted), way)
+            self.last = RecordedStride(self.now, single(toe_off - self.lifted), single(struck - self.lifted), way)
             self.age = 0

@@ -106,7 +106,7 @@ class Clipping:
     """The largest reading of any axis."""
     watch: float = field(init=False)
     """Square of what is measured from which on an axis may be at its end."""
-    busy: bool = field(default=False, init=False)
+    clipping: bool = field(default=False, init=False)
     """An axis is beyond its range, or was a sample ago."""
 
     def __attrs_post_init__(self) -> None:
@@ -122,9 +122,9 @@ class Clipping:
             if not axis.ends_below:
                 axis.bottom = min(-self.limits.least, FADES * axis.bottom)
 
-    def interrupt(self) -> None:
+    def reset(self) -> None:
         """There was a gap: what was missed before it is not known."""
-        self.busy = False
+        self.clipping = False
         for axis in self.axes:
             axis.side = 0
 
@@ -134,7 +134,7 @@ class Clipping:
         """One rate, rad/s, `dt` s after `before`, which was `earlier_dt` after `earlier`; `saturated`: the device says
         that a sensor is at its end. Returns what turned out to have been missed."""
         found: tuple[Missed, ...] = ()
-        busy = False
+        clipping = False
         for i in (0, 1, 2):
             axis, a = self.axes[i], now[i]
             if axis.side == 0:
@@ -146,8 +146,8 @@ class Clipping:
                 missed = _follow(axis, i, dt, a, self.limits.steepest)
                 if missed is not None and abs(missed.angle) > self.limits.trifle:
                     found = (*found, missed)
-            busy = busy or axis.side != 0
-        self.busy = busy
+            clipping = clipping or axis.side != 0
+        self.clipping = clipping
         return found
 
     def _reach(self, rate: float) -> None:

@@ -44,10 +44,10 @@ class Corrector(Protocol):
         """`dt` s without samples lie before the next one: trust the motion accordingly less. Returns how long to
         integrate over: all of it, or 0 after `LONGEST_BRIDGE`, when the foot is taken up where it was."""
 
-    def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
+    def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
         """`dt` s without samples lie before the next one, and this is where the foot is taken to be by its habit."""
 
-    def mend(self, yaw: float, position: Vec3) -> None:
+    def repair(self, yaw: float, position: Vec3) -> None:
         """A gap has spoilt the stride that ends here: turn the attitude by `yaw` rad, and take `position`, m."""
 
     def anchor(self) -> tuple[float, ...]:
@@ -65,7 +65,7 @@ class Corrector(Protocol):
         where no velocity but zero is known."""
         return None
 
-    def told(self, attitude: Quat) -> None:
+    def use_attitude(self, attitude: Quat) -> None:
         """The device says its own attitude at the sample that comes next: sensor to a world of its own, z up."""
         return
 

@@ -71,7 +71,7 @@ class LinearDedrift(Strapdown):
         self.swing = 0.0
         return 0.0
 
-    def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
+    def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
         self.length += sqrt(sum(v * v for v in sub(position, self.position)))
         self.swing += dt
         self.lasted += dt

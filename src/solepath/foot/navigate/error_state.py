@@ -23,7 +23,7 @@ from .clipping import Missed
 from .corrector import LONGEST_BRIDGE
 from .covariance import HEIGHT, believed_height, update
 from .level import UNEVEN, LevelGround
-from .propagated import Carried
+from .propagated import PropagatedCovariance
 from .recovery import Recovery
 from .strapdown import WIDEST_SERIES
 
@@ -41,7 +41,7 @@ SETTLED_INTERVAL = 0.0385
 """What they are spaced by then, s: every fourth sample at 100 Hz. What they correct has hardly grown in between; with
 5, 20 and 40 ms the ARMSE2d of `pyshoe_vicon` was 0.0503, 0.0500 and 0.0496 m."""
 
-NONE_REFUSED = 1e12
+NONE_GATED = 1e12
 """Larger than any statistic."""
 AS_QUIET = 3.0
 """A lost filter takes evidence whose statistic is at most so many times the least that it refused."""
@@ -52,7 +52,7 @@ LASTING_TILT = 0.1
 
 
 @define
-class ErrorStateFilter(Carried):
+class ErrorStateFilter(PropagatedCovariance):
     """Strapdown navigation corrected by stance evidence, weighted by what the motion so far makes likely.
 
     Frame, units and latency as in `Corrector`: live position and velocity with every sample, corrected with the sample
@@ -67,7 +67,7 @@ class ErrorStateFilter(Carried):
     """What keeps level walking level."""
     accepted: float | None = field(default=None, init=False)
     """When evidence was last accepted, s."""
-    quietest: float = field(default=NONE_REFUSED, init=False)
+    quietest: float = field(default=NONE_GATED, init=False)
     """The least statistic that was refused since."""
     quiet_since: float | None = field(default=None, init=False)
     """Since when there has been evidence without a break, s."""
@@ -75,9 +75,9 @@ class ErrorStateFilter(Carried):
     """What the sensors miss at the ends of their ranges."""
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
-        Carried.start(self, attitude, tilt_sigma)
+        PropagatedCovariance.start(self, attitude, tilt_sigma)
         self.accepted = self.quiet_since = None
-        self.quietest = NONE_REFUSED
+        self.quietest = NONE_GATED
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
         """As in `Corrector`: `Strapdown.integrate` and the noise that it adds, in one stroke, for a call of it would be
@@ -89,13 +89,13 @@ class ErrorStateFilter(Carried):
         turning = gx * gx + gy * gy + gz * gz
         # what the sensors may miss at the ends of their ranges
         recovery = self.recovery
-        turns, blows = recovery.turns, recovery.blows
+        turns, impacts = recovery.turns, recovery.impacts
         missed = lost = None
         if (
             turning > turns.watch
-            or fx * fx + fy * fy + fz * fz > blows.watch
-            or turns.busy
-            or blows.busy
+            or fx * fx + fy * fy + fz * fz > impacts.watch
+            or turns.clipping
+            or impacts.clipping
             or recovery.swing.rows
         ):
             missed, lost = recovery.watch(dt, acc, gyro, rate, attitude, saturated)
@@ -158,7 +158,7 @@ class ErrorStateFilter(Carried):
             + unknown * (x * x + y * y + z * z)
         ) * dt
         noise = settings.gyro_noise * settings.gyro_noise + share * turning + unknown * (rx * rx + ry * ry + rz * rz)
-        if turning > settings.suspect * settings.suspect and not (turns.busy and settings.recover):
+        if turning > settings.suspect * settings.suspect and not (turns.clipping and settings.recover):
             noise += settings.suspect_noise * settings.suspect_noise
         self.gyro_variance += noise * dt
         self.since += dt
@@ -168,7 +168,7 @@ class ErrorStateFilter(Carried):
 
     def _make_up(self, missed: tuple[Missed, ...] | None, lost: tuple[Missed, ...] | None) -> None:
         """What gyroscope and accelerometer turned out to have missed."""
-        self._carry()
+        self._propagate()
         state = (self.attitude, self.velocity, self.position, self.uncertainty)
         if missed:
             state = self.recovery.turned(missed, state)
@@ -185,22 +185,22 @@ class ErrorStateFilter(Carried):
         if self.quiet_since is None:
             self.quiet_since = t
         if self.since < (SHORTEST_INTERVAL if t - self.quiet_since < SETTLED - TIE else SETTLED_INTERVAL):
-            return self.accepted is not None and self.quietest >= NONE_REFUSED  # as the sample before was judged
+            return self.accepted is not None and self.quietest >= NONE_GATED  # as the sample before was judged
         settings = self.settings
         share = settings.tilt_rate * min(self.since, SETTLED_INTERVAL)
         r = sigma * sigma * REFERENCE_INTERVAL / self.since
-        self._carry()
+        self._propagate()
         certain = stance.hint is STATIONARY
         if self.accepted is None:
             self.accepted = t
         rx, ry, rz = stance.v_ref
         vx, vy, vz = self.velocity
         if not certain and t - self.accepted > settings.patience - TIE and stance.statistic <= AS_QUIET * self.quietest:
-            self._doubt(velocity=LOST_SPEED, tilt=LOST_TILT)
+            self._inflate(velocity=LOST_SPEED, tilt=LOST_TILT)
         elif min(t - self.quiet_since, t - self.accepted) > settings.lasting - TIE:
             # not even a foot that is carried is quiet for so long: it stands, and the velocity is what is wrong
-            self._doubt(velocity=abs(vx - rx) + abs(vy - ry) + abs(vz - rz), tilt=LASTING_TILT)
-        outcome = update(self.uncertainty, rx - vx, ry - vy, rz - vz, r, inf if certain else settings.refuse)
+            self._inflate(velocity=abs(vx - rx) + abs(vy - ry) + abs(vz - rz), tilt=LASTING_TILT)
+        outcome = update(self.uncertainty, rx - vx, ry - vy, rz - vz, r, inf if certain else settings.innovation_gate)
         if outcome is None:
             self.quietest = min(self.quietest, stance.statistic)
             return False
@@ -208,24 +208,24 @@ class ErrorStateFilter(Carried):
         tx, ty = self._off_plumb(share) if certain else (0.0, 0.0)
         self._inject(error, tx, ty)
         self.accepted = t
-        self.quietest = NONE_REFUSED
+        self.quietest = NONE_GATED
         return True
 
     def bridge(self, dt: float) -> float:
         if dt > LONGEST_BRIDGE:
-            self.recovery.interrupt()
+            self.recovery.reset()
         if dt == inf:  # times begin anew
             self.accepted = self.quiet_since = None
-        return Carried.bridge(self, dt)
+        return PropagatedCovariance.bridge(self, dt)
 
-    def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
-        self.recovery.interrupt()
-        Carried.leap(self, dt, attitude, velocity, position)
+    def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
+        self.recovery.reset()
+        PropagatedCovariance.infill(self, dt, attitude, velocity, position)
 
     def flat(self, start: Vec3, turn: float) -> None:
         if not self.settings.level:
             return
-        self._carry()
+        self._propagate()
         (x, y, z), (sx, sy, sz) = self.position, start
         variance = self.uncertainty[HEIGHT]
         height, level = self.level.judge((x - sx, y - sy, z - sz), turn, variance, self.attitude)
@@ -237,7 +237,7 @@ class ErrorStateFilter(Carried):
 
     def anchor(self) -> tuple[float, ...]:
         self.recovery.stepped()
-        return Carried.anchor(self)
+        return PropagatedCovariance.anchor(self)
 
     def _off_plumb(self, share: float) -> tuple[float, float]:
         """Tilt aiding: this share of the turn, f x up / g, that would make the measured force point up, rad.

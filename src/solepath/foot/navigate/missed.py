@@ -54,7 +54,7 @@ class Swing:
         (x, y, z), (u, v, w) = gyro, before
         self.rows.append((dt, (0.5 * (x + u), 0.5 * (y + v), 0.5 * (z + w)), acc))
 
-    def anew(self, missed: Missed, angle: float) -> Gone:
+    def reintegrated(self, missed: Missed, angle: float) -> Gone:
         """The rows once more, from rest at zero, with `angle` more about the axis that missed it."""
         end = sum([row[0] for row in self.rows]) - missed.ago
         t, shape, total = missed.lasted - end, [], 0.0

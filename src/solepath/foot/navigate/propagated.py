@@ -43,21 +43,21 @@ GAP_PACE, GAP_LONGEST = 1.5, 2.0
 """In such a gap a foot may have gone on at so many m/s, for so many s at the most, or have stopped."""
 GAP_RISE = 0.04
 """The variance of its height as a share of that of its place: a fifth as far up or down as along the ground."""
-LEAP_PLACE = 0.0025
+INFILL_PLACE = 0.0025
 """Variance of a place taken by habit, m^2 an axis: 5 cm, for two strides differ by some per cent."""
 HEADING_DRIFT = 0.004
 """Growth of the heading error, rad/sqrt(s): half a degree in the first four seconds, two in a minute. Process noise
 of yaw is not it: that noise is there to keep tilt correctable, and over a step it cancels."""
-LEAP_VELOCITY = 0.3
+INFILL_VELOCITY = 0.3
 """What the velocity after a stride that was taken by habit may be off by, m/s."""
-LEAP_TILT = 0.1
+INFILL_TILT = 0.1
 """What the tilt may be off by then, rad."""
-LEAP_YAW = 0.06
+INFILL_YAW = 0.06
 """What the heading may be off by then, rad."""
 
 
 @define
-class Carried(Strapdown):
+class PropagatedCovariance(Strapdown):
     """The state, its covariance as it was `since` s ago, and where the state was then."""
 
     uncertainty: Covariance = field(default=(0.0,) * 45, init=False)
@@ -89,10 +89,10 @@ class Carried(Strapdown):
             self.acc_variance += BRIDGED_ACC * dt
             self.gyro_variance += BRIDGED_GYRO * dt
             return dt
-        self._carry()
+        self._propagate()
         self.velocity = self.start_velocity = ZERO
         self.force = self.rate = None
-        self._doubt(velocity=GAP_SPEED, tilt=GAP_TILT)
+        self._inflate(velocity=GAP_SPEED, tilt=GAP_TILT)
         far = GAP_PACE * min(dt, GAP_LONGEST)
         covariance = list(self.uncertainty)
         covariance[PLACE_X] += far * far
@@ -101,32 +101,32 @@ class Carried(Strapdown):
         self.uncertainty = tuple(covariance)
         return 0.0
 
-    def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
-        self._carry()
+    def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
+        self._propagate()
         self.stretch += dt
         self.attitude, self.velocity, self.position = attitude, velocity, position
         self.force = self.rate = None
         self._here()
-        self._doubt(velocity=LEAP_VELOCITY, tilt=LEAP_TILT)
+        self._inflate(velocity=INFILL_VELOCITY, tilt=INFILL_TILT)
         covariance = list(self.uncertainty)
         for i in (PLACE_X, PLACE_Y, HEIGHT):
-            covariance[i] += LEAP_PLACE
-        covariance[YAW] += LEAP_YAW * LEAP_YAW
+            covariance[i] += INFILL_PLACE
+        covariance[YAW] += INFILL_YAW * INFILL_YAW
         self.uncertainty = tuple(covariance)
 
-    def mend(self, yaw: float, position: Vec3) -> None:
-        self._carry()
-        Strapdown.mend(self, yaw, position)
+    def repair(self, yaw: float, position: Vec3) -> None:
+        self._propagate()
+        Strapdown.repair(self, yaw, position)
         self._here()
 
     def shift(self, yaw: float, by: Vec3) -> None:
         """Turn everything by `yaw` rad about the foot and move it `by` m, navigation frame: nothing has happened."""
-        self._carry()
+        self._propagate()
         self.turn_about(yaw, by)
         self._here()
 
     def anchor(self) -> tuple[float, ...]:
-        self._carry()
+        self._propagate()
         stretch = self.covariance()
         self.stretch = 0.0
         covariance = list(self.uncertainty)
@@ -137,10 +137,10 @@ class Carried(Strapdown):
         return stretch
 
     def covariance(self) -> tuple[float, ...]:
-        covariance = self._carried() if self.since > 0.0 else self.uncertainty
+        covariance = self._propagated() if self.since > 0.0 else self.uncertainty
         return (*covariance[:6], HEADING_DRIFT * HEADING_DRIFT * self.stretch)
 
-    def _carried(self) -> Covariance:
+    def _propagated(self) -> Covariance:
         """The covariance as it is now."""
         t = self.since
         vx, vy, vz = self.velocity
@@ -153,9 +153,9 @@ class Carried(Strapdown):
         q = self.acc_variance
         return propagate(self.uncertainty, t, s, d, q * t * t / 3.0, q * t / 2.0, q, self.gyro_variance)
 
-    def _carry(self) -> None:
+    def _propagate(self) -> None:
         if self.since > 0.0:
-            self.uncertainty = self._carried()
+            self.uncertainty = self._propagated()
             self._here()
 
     def _here(self) -> None:
@@ -163,7 +163,7 @@ class Carried(Strapdown):
         self.start_velocity = self.velocity
         self.start_position = self.position
 
-    def _doubt(self, velocity: float, tilt: float) -> None:
+    def _inflate(self, velocity: float, tilt: float) -> None:
         """Add these standard deviations, m/s and rad, to what is known."""
         covariance = list(self.uncertainty)
         for i in (VELOCITY_X, VELOCITY_Y, VELOCITY_Z):

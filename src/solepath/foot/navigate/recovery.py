@@ -22,7 +22,7 @@ class Recovery:
 
     turns: Clipping = field(factory=Clipping, init=False)
     """The gyroscope."""
-    blows: Clipping = field(factory=lambda: Clipping(ACCELEROMETER), init=False)
+    impacts: Clipping = field(factory=lambda: Clipping(ACCELEROMETER), init=False)
     """The accelerometer; and its last two readings, m/s^2:"""
     felt: Vec3 = field(default=ZERO, init=False)
     felt_before: Vec3 = field(default=ZERO, init=False)
@@ -38,35 +38,35 @@ class Recovery:
         turn out to have missed, as soon as they are within their ranges again."""
         x, y, z = gyro
         turns, missed = self.turns, None
-        if turns.busy or x * x + y * y + z * z > turns.watch:
+        if turns.clipping or x * x + y * y + z * z > turns.watch:
             missed = turns.update(dt, gyro, before, self.earlier, self.earlier_dt, saturated)
             self.swing.keep(dt, gyro, before, acc, attitude)
         elif self.swing.rows:
             self.swing.rows = []
         x, y, z = acc
-        blows, lost = self.blows, None
-        if blows.busy or x * x + y * y + z * z > blows.watch:
-            lost = blows.update(dt, acc, self.felt, self.felt_before, self.earlier_dt, saturated)
+        impacts, lost = self.impacts, None
+        if impacts.clipping or x * x + y * y + z * z > impacts.watch:
+            lost = impacts.update(dt, acc, self.felt, self.felt_before, self.earlier_dt, saturated)
         self.felt_before, self.felt = self.felt, acc
         self.earlier, self.earlier_dt = before, dt
         return missed, lost
 
-    def interrupt(self) -> None:
+    def reset(self) -> None:
         """There was a gap."""
-        self.turns.interrupt()
-        self.blows.interrupt()
+        self.turns.reset()
+        self.impacts.reset()
         self.swing.rows = []
 
     def stepped(self) -> None:
         """A step is over."""
         self.turns.stepped()
-        self.blows.stepped()
+        self.impacts.stepped()
 
     def turned(self, missed: tuple[Missed, ...], state: State) -> State:
         """The state as it is with the turn that the gyroscope missed, and the doubt."""
         attitude, (vx, vy, vz), (x, y, z), covariance = state
         for one in missed:
-            seen, likely, more = (self.swing.anew(one, angle) for angle in (0.0, one.angle, one.angle + NUDGE))
+            seen, likely, more = (self.swing.reintegrated(one, angle) for angle in (0.0, one.angle, one.angle + NUDGE))
             (px, py, pz), (ux, uy, uz), turn = apart(seen, likely)
             x, y, z = x + px, y + py, z + pz
             vx, vy, vz = vx + ux, vy + uy, vz + uz

@@ -30,7 +30,7 @@ class Strapdown(Corrector):
     rate: Vec3 | None = field(default=None, init=False)
     """Angular rate of the last sample, sensor frame, rad/s."""
 
-    def mend(self, yaw: float, position: Vec3) -> None:
+    def repair(self, yaw: float, position: Vec3) -> None:
         """As in `Corrector`."""
         self.attitude = normalise(multiply(from_yaw(yaw), self.attitude))
         self.position = position

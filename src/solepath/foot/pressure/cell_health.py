@@ -69,7 +69,7 @@ class CellHealth:
     unmoved: int = field(default=0, init=False)
     """The same in which no cell showed anything."""
 
-    def interrupt(self) -> None:
+    def reset(self) -> None:
         """Times begin anew: windows do too. What has failed stays failed."""
         self.looked = self.began = self.swing = None
         self.span, self.swung, self.numberless, self.odd = CellSpan(), 0, [], None
@@ -155,7 +155,7 @@ class CellHealth:
         """Another insole."""
         self.count, self.odd_said = count, False
         self.failed, self.suspects, self.out, self.lively = {}, {}, [], []
-        self.interrupt()
+        self.reset()
 
     def _watch_numbers(self, t: float, known_at: float, cells: tuple[float, ...], events: list[Event]) -> None:
         since = dict(self.numberless)

@@ -69,7 +69,7 @@ class InsoleLoads:
 
     settings: InsoleSettings = InsoleSettings()
     layout: Layout | None = field(default=None, init=False)
-    tells_newtons: bool = field(default=False, init=False)
+    in_newtons: bool = field(default=False, init=False)
     """The device does, so `newtons` are not used."""
     cells: tuple[float, ...] = field(default=(), init=False)
     """Values of the sample that is being used, noise taken off; () once it was."""
@@ -94,7 +94,7 @@ class InsoleLoads:
         newtons, noise = known.newtons or self.settings.newtons, known.noise or self.settings.noise
         return evolve(self, settings=evolve(self.settings, newtons=newtons, noise=noise))
 
-    def wear(self, layout: Layout) -> None:
+    def set_layout(self, layout: Layout) -> None:
         """The device said where its cells are."""
         self.layout = layout
         settings = self.settings
@@ -104,14 +104,14 @@ class InsoleLoads:
             self.tare = [0.0] * len(layout.cells)
         self.forefoot_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x > forefoot_begins])
 
-    def interrupt(self) -> None:
+    def reset(self) -> None:
         """Times begin anew: the extremes are kept, but their spans end here."""
         self.total.ends = self.heel.ends = self.forefoot.ends = None
 
     def update(self, t: float, cells: tuple[float, ...]) -> Load | None:
         """The load as shares of the wearer's full load, or None while that is not known."""
         settings = self.settings
-        if settings.newtons is not None and not self.tells_newtons:
+        if settings.newtons is not None and not self.in_newtons:
             cells = in_newtons(settings.newtons, cells)
         if len(settings.noise) == len(cells):
             pairs = zip(cells, settings.noise, strict=True)

@@ -32,14 +32,14 @@ class Sole:
     """The calibration's layout, until a sample with as many cells has come."""
     compared: bool = field(default=False, init=False)
     """What the calibration says of the cells is of as many as there are, or is not used."""
-    worn: bool = field(default=False, init=False)
+    layout_changed: bool = field(default=False, init=False)
     """There is another layout than before, of which the other parts have not been told."""
 
     def __attrs_post_init__(self) -> None:
         self.health = CellHealth(SITE_OF_FOOT[self.foot])
         self.guess = LayoutGuess(self.foot)
 
-    def wear(self, layout: Layout, limits: Limits) -> None:
+    def set_layout(self, layout: Layout, limits: Limits) -> None:
         """The device said where its cells are."""
         self.guessed, self.supposed = False, None
         self._lay_out(layout, limits)
@@ -48,10 +48,10 @@ class Sole:
         """A calibration says where the cells are: it is believed if samples have as many."""
         self.supposed = layout
 
-    def interrupt(self) -> None:
+    def reset(self) -> None:
         """Times begin anew."""
-        self.insole.interrupt()
-        self.health.interrupt()
+        self.insole.reset()
+        self.health.reset()
 
     def press(self, sample: Sample, known_at: float, phase: Phase, limits: Limits, events: list[Event]) -> Load | None:
         """One sample of a foot in this phase; None while the load is not known, or without cells that could be used."""
@@ -98,7 +98,7 @@ class Sole:
         """A sample has `count` cells: whether the calibration is of this insole."""
         layout, noise = self.supposed, self.insole.settings.noise
         if layout is not None and len(layout.cells) == count:
-            self.wear(layout, limits)
+            self.set_layout(layout, limits)
             events.append(LayoutKnown(t=t, known_at=known_at, site=SITE_OF_FOOT[self.foot], layout=layout))
             layout = None
         odd = layout is not None or (bool(noise) and len(noise) != count)
@@ -107,18 +107,18 @@ class Sole:
             self.supposed = None
 
     def _lay_out(self, layout: Layout, limits: Limits) -> None:
-        self.insole.wear(layout)
+        self.insole.set_layout(layout)
         insole = self.insole
         if (
             insole.settings.newtons is not None
-            and not insole.tells_newtons
+            and not insole.in_newtons
             and layout.scale is not None
             and not self.guessed
         ):
-            insole.tells_newtons = True
+            insole.in_newtons = True
             what = f"the {self.foot.value} insole tells newtons itself: the calibration's cubic is not used"
             limits.later(what)
-        self.worn = True
+        self.layout_changed = True
 
     def _guess_layout(self, t: float, known_at: float, load: Load, limits: Limits, events: list[Event]) -> None:
         layout = self.guess.update(t, self.insole.above_tare(load.cells), load.total)

@@ -21,7 +21,7 @@ from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import GRAVITY, IDENTITY, TIE, ZERO
 from ..settings import CycleSettings
-from .sensor_height import EMPTY, Lever
+from .sensor_height import EMPTY, SensorHeight
 from .shoe import SIGMA_ACC, SIGMA_GYRO, ShoeDetector
 from .stance import Detector, Load, Stance
 
@@ -50,7 +50,7 @@ class Cycle(Detector):
     """
 
     settings: CycleSettings = CycleSettings()
-    lever: Lever = field(factory=Lever, init=False)
+    sensor_height: SensorHeight = field(factory=SensorHeight, init=False)
     shoe: ShoeDetector = field(factory=ShoeDetector, init=False)
     bucket_end: float | None = field(default=None, init=False)
     lows: tuple[float, float, float] = field(default=(NO_LOW, NO_LOW, NO_LOW), init=False)
@@ -97,14 +97,14 @@ class Cycle(Detector):
         elif statistic > self.high:
             self.high = statistic
         if load is not None and load.airborne:
-            self.lever.lift()
+            self.sensor_height.lift()
             return told(Stance, (ZERO, inf, statistic, SWING, None))
         settings = self.settings
         if statistic < settings.floor:
             hint = STATIONARY if statistic < settings.certain else None
         elif statistic > settings.ceiling or statistic > self._threshold():
-            if self.lever.sums is not EMPTY:
-                self.lever.lift()
+            if self.sensor_height.sums is not EMPTY:
+                self.sensor_height.lift()
             return told(Stance, (ZERO, inf, statistic, None, None))
         else:
             hint = None
@@ -116,7 +116,7 @@ class Cycle(Detector):
         )
         if not settings.rolls:
             return told(Stance, (ZERO, sqrt(variance), statistic, hint, None))
-        vx, vy = self.lever.roll(dt, acc, gyro, attitude)
+        vx, vy = self.sensor_height.roll(dt, acc, gyro, attitude)
         return told(Stance, ((vx, vy, 0.0), sqrt(variance), statistic, hint, None))
 
     def _threshold(self) -> float:

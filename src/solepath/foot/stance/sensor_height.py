@@ -34,7 +34,7 @@ LOWEST, HIGHEST = -0.03, 0.2
 
 
 @define
-class Lever:
+class SensorHeight:
     """Height of the sensor above the point over which the foot rolls, m. Latency: the next stance."""
 
     height: float = field(default=GUESS, init=False)

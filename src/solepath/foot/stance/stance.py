@@ -77,7 +77,7 @@ class Detector(Protocol):
         """What it must do without, a sentence that becomes a Limitation; read when it was told of a layout."""
         return None
 
-    def wear(self, layout: Layout) -> None:
+    def set_layout(self, layout: Layout) -> None:
         """Where the cells are; told once that is known, and again when it changes."""
         return
 

@@ -13,7 +13,7 @@ from attrs import evolve, frozen
 
 from ...body.fuse.position import MeanOfFeet
 from ...body.height.altitude import Altitude
-from ...body.part import Track
+from ...body.part import TrackPart
 from ...foot.navigate.error_state import ErrorStateFilter
 from ...foot.settings import CycleSettings, ErrorStateSettings
 from ...foot.stance.cycle import Cycle
@@ -39,13 +39,13 @@ WITHOUT: dict[str, Recipe] = {
     "evidence of one noise, whatever the motion": _cycle(arm=0.0, arm2=0.0, off_gravity=0.0, off_gravity2=0.0),
     "zero velocity, no rolling foot": _cycle(rolls=False),
     "no extra noise of a foot that is braked": _cycle(off_gravity2=0.0),
-    "no refusal of unlikely evidence": _filter(refuse=NEVER),
+    "no refusal of unlikely evidence": _filter(innovation_gate=NEVER),
     "no recovery of what was refused": _filter(patience=NEVER, lasting=NEVER),
     "no level, slope or stair": _filter(level=False),
     "no tilt aiding": _filter(tilt_rate=0.0),
     "no noise of what lies between samples": _filter(between=0.0),
     "no recovery of a clipped gyroscope": _filter(recover=False),
-    "each foot by itself": DEFAULT.exchanged(Track, MeanOfFeet()),
+    "each foot by itself": DEFAULT.exchanged(TrackPart, MeanOfFeet()),
     "no heights of lifts and of the air": DEFAULT.exchanged(Altitude, None),
 }
 """By what is missing."""

@@ -13,7 +13,7 @@ from typing import Any
 from attrs import frozen
 
 from ...body.activity.activities import Activities, ActivitiesSettings
-from ...body.part import Doing
+from ...body.part import ActivityPart
 from ...papers.footstep_tracker.activity.two_second_windows import TwoSecondSettings, TwoSecondWindows
 from ...recipes import Recipe
 from ...recording import RecordingError
@@ -33,7 +33,7 @@ class Learner:
     """What there is to learn from in the data directory."""
     features: Callable[[Any], Any]
     """Of a source; runs in another process, so a function of a module. RecordingError when it cannot be read."""
-    teach: Callable[[Sequence[Any]], Doing]
+    teach: Callable[[Sequence[Any]], ActivityPart]
 
 
 WEARERS = frozenset().union(*FOLDS)
@@ -92,13 +92,13 @@ def lessons(folder: Path, recipes: Sequence[Recipe]) -> list[Lesson]:
     return [Lesson(kind, source, subject) for kind in kinds for source, subject in LEARNERS[kind].sources(folder)]
 
 
-Taught = dict[tuple[type, int], Doing]
+Taught = dict[tuple[type, int], ActivityPart]
 """By kind of part and the number of the fold that it was not taught on."""
 
 
 def kind_of(recipe: Recipe) -> type | None:
     """The kind of the recipe's activity part, where it learns."""
-    kind = type(next(part for part in recipe.parts if isinstance(part, Doing)))
+    kind = type(next(part for part in recipe.parts if isinstance(part, ActivityPart)))
     return kind if kind in LEARNERS else None
 
 
@@ -114,7 +114,7 @@ def taught(lessons: Sequence[Lesson], features: Sequence[Any]) -> Taught:
     return found
 
 
-def part_for(recipe: Recipe, meta: Meta, parts: Taught) -> Doing | None:
+def part_for(recipe: Recipe, meta: Meta, parts: Taught) -> ActivityPart | None:
     """The part that was taught without this recording's wearer; None where the recipe's learns nothing."""
     kind = kind_of(recipe)
     return None if kind is None else parts[kind, fold_of(meta["subject"])]

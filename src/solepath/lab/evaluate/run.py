@@ -14,7 +14,7 @@ import attrs
 import numpy as np
 from attrs import frozen
 
-from ...body.part import Doing
+from ...body.part import ActivityPart
 from ...calibration import Calibration, merged
 from ...events import Event
 from ...recipes import Recipe
@@ -35,7 +35,7 @@ class RunSettings:
 
     recipe: Recipe
     calibration: Calibration = Calibration()
-    activity: Doing | None = None
+    activity: ActivityPart | None = None
 
 
 @frozen(eq=False)
@@ -72,7 +72,7 @@ def run(
     `poses`: the live position at every sample is asked for. `body`: and that of the wearer.
     """
     known = how.calibration if calibration is None else merged(how.calibration, calibration)
-    recipe = how.recipe if how.activity is None else how.recipe.exchanged(Doing, how.activity)
+    recipe = how.recipe if how.activity is None else how.recipe.exchanged(ActivityPart, how.activity)
     session = Session(recipe, calibration=known, poses=poses)
     recording = load_samples(path)
     samples = list(recording)

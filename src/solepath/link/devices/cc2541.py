@@ -174,9 +174,9 @@ class Cc2541Link(DeviceLink):
         return not (self.acc_on or self.gyro_on)
 
     @property
-    def doubt(self) -> float | None:
+    def unsettled_until(self) -> float | None:
         """The newest time that is not to be compared with those of other devices (clock.py), s."""
-        return self.acc.clock.doubt if self.acc.clock.last_x is not None else self.gyro.clock.doubt
+        return self.acc.clock.unsettled_until if self.acc.clock.last_x is not None else self.gyro.clock.unsettled_until
 
     def feed(self, channel: str, data: bytes, arrival: float) -> Output:
         sent = parse_whole(FORMATS[channel], data)

@@ -93,9 +93,9 @@ class InsoleLink(DeviceLink):
     rest: RestCheck = field(factory=lambda: RestCheck(ASSUMED_ACC))
 
     @property
-    def doubt(self) -> float | None:
+    def unsettled_until(self) -> float | None:
         """The newest time that is not to be compared with those of other devices (clock.py), s."""
-        return None if self.run.clock is None else self.run.clock.doubt
+        return None if self.run.clock is None else self.run.clock.unsettled_until
 
     def feed(self, channel: str, data: bytes, arrival: float) -> Output:
         if channel == "insole/frame":

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...foot.cues.cues import Cues, Seen
+from ...foot.cues.cues import Cues, SeenCue
 from ...foot.cues.pressure import PressureCues
 from ...foot.phase import TO_COME, Cue
 from ...foot.stance.stance import Load, Stance
@@ -27,20 +27,20 @@ class CriticalCues(Cues):
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
         load: Load | None, stance: Stance,
-    ) -> Sequence[Seen]:  # fmt: skip
+    ) -> Sequence[SeenCue]:  # fmt: skip
         """As in `Cues`: uplift, liftoff, landing and rest of the segment that ends here."""
         segment = stance.detail
         if not isinstance(segment, StepSegment) or segment.times is None:
             if still and phase is not Phase.STATIONARY:
-                return (Seen(Cue.FLAT, t),)
+                return (SeenCue(Cue.FLAT, t),)
             return ()
         times = segment.times
         when = {Cue.LIFT: times.uplift, Cue.CLEAR: times.liftoff, Cue.CONTACT: times.landing, Cue.FLAT: times.rest}
-        return [Seen(cue, when[cue]) for cue in TO_COME[phase]]
+        return [SeenCue(cue, when[cue]) for cue in TO_COME[phase]]
 
-    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[Seen]:
+    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
         seen = self.pressure.update(t, dt, load, phase) or self.pressure.areas(t, load, phase)
         return () if seen is None else (seen,)
 
-    def anew(self) -> None:
+    def restart(self) -> None:
         self.pressure = PressureCues()

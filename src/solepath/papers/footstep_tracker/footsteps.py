@@ -17,7 +17,7 @@ from collections.abc import Mapping, Sequence
 from math import cos, hypot, pi, sin
 from typing import ClassVar
 
-from ...body.part import Notice, Position, Said, Track
+from ...body.part import PartInput, PartOutput, Position, TrackPart
 from ...events import StrideTaken
 from ...foot.view import FootPose, FootView
 from ...types import OTHER, Foot, Vec3
@@ -55,11 +55,11 @@ class FootWay:
 
 
 @define
-class Footsteps(Track):
+class Footsteps(TrackPart):
     """Where the wearer is by the steps of both feet; between them it goes on with half of what the track of either foot
     has moved since its last step. World frame, height 0. Latency: none beyond the steps' own."""
 
-    feeds: ClassVar[bool] = True
+    needs_samples: ClassVar[bool] = True
 
     ways: dict[Foot, FootWay] = field(init=False)
     base: Flat = field(default=(0.0, 0.0), init=False)
@@ -72,14 +72,14 @@ class Footsteps(Track):
     def __attrs_post_init__(self) -> None:
         self.ways = {foot: FootWay() for foot in Foot}
 
-    def feed(self, view: FootView) -> Sequence[Said]:
+    def feed(self, view: FootView) -> Sequence[PartOutput]:
         way = self.ways[view.foot]
         if not way.heard and view.sample.acc is not None and view.sample.gyro is not None:
             way.heard = True
             self.idle = all([one.heard for one in self.ways.values()])
         return ()
 
-    def receive(self, event: Notice) -> Sequence[Said]:
+    def receive(self, event: PartInput) -> Sequence[PartOutput]:
         if isinstance(event, StrideTaken):
             self.step(event)
         return ()

@@ -161,7 +161,7 @@ class Projection(Strapdown):
         k = FURTHEST / max(FURTHEST, hypot(x - x0, y - y0))
         return x0 + k * (x - x0), y0 + k * (y - y0)
 
-    def mend(self, yaw: float, position: Vec3) -> None:
+    def repair(self, yaw: float, position: Vec3) -> None:
         """As in `Corrector`, of a step that lost samples; the others are told by their own equations alone."""
 
     def bridge(self, dt: float) -> float:
@@ -172,7 +172,7 @@ class Projection(Strapdown):
         self.length += 1.0
         return 0.0
 
-    def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
+    def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
         self.attitude, self.velocity, self.position = attitude, velocity, position
         self.force = self.rate = None
         self.moving += dt

@@ -20,7 +20,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from ...foot.cues.cues import Cues, Seen
+from ...foot.cues.cues import Cues, SeenCue
 from ...foot.cues.inertial import SHUFFLE_SPEED, InertialCues
 from ...foot.cues.touch import Touch
 from ...foot.phase import Cue
@@ -79,14 +79,14 @@ class CopCues(Cues):
     flat: bool = field(default=False, init=False)
     """For an insole alone: both areas are loaded."""
 
-    def wear(self, layout: Layout) -> None:
+    def set_layout(self, layout: Layout) -> None:
         self.middle = centre(layout)
-        self.touch.wear(layout)
+        self.touch.set_layout(layout)
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
         load: Load | None, stance: Stance,
-    ) -> Sequence[Seen]:  # fmt: skip
+    ) -> Sequence[SeenCue]:  # fmt: skip
         self.mark = None
         seen = self.inertial.update(t, dt, acc, gyro, still, speed, phase)
         self.sagittal = 0.0 if self.inertial.axis is None else self.inertial.sagittal
@@ -103,12 +103,12 @@ class CopCues(Cues):
             if self.fast_since is None:
                 self.fast_since = t
             elif t - self.fast_since >= SHUFFLE_TIME - TIE:
-                found.append(Seen(Cue.CLEAR, self.fast_since))
+                found.append(SeenCue(Cue.CLEAR, self.fast_since))
         else:
             self.fast_since = None
         return found
 
-    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[Seen]:
+    def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
         """As in `Cues`: both areas loaded say what the detector would have said. Without a layout there are no areas;
         a heel-strike is then told at once, and nothing of the sole lying flat."""
         if load.heel is None or load.forefoot is None:
@@ -120,26 +120,26 @@ class CopCues(Cues):
         self.flat = min(load.heel, load.forefoot) >= (AREA_OFF if self.flat else AREA_ON)
         return self._step(t, self.flat, self.touch.update(t, load), load)
 
-    def _begin(self, t: float, airborne: bool, phase: Phase) -> list[Seen]:
+    def _begin(self, t: float, airborne: bool, phase: Phase) -> list[SeenCue]:
         """The cells are believed from here on, in a swing or at its end."""
         if airborne:
             left = self.touch.moving_since
             self.stage = StepStage.FLYING
             self.airborne_since = t - REST
-            return [] if phase is Phase.SWING else [Seen(Cue.CLEAR, t if left is None else left)]
+            return [] if phase is Phase.SWING else [SeenCue(Cue.CLEAR, t if left is None else left)]
         if phase is Phase.SWING:
             self._enter(StepStage.LANDING, t)
             self.jump, self.moment = FARTHEST, t  # it was the first of its load that was seen: told, but no mark
         return []
 
-    def _step(self, t: float, stationary: bool, airborne: bool, load: Load) -> list[Seen]:
+    def _step(self, t: float, stationary: bool, airborne: bool, load: Load) -> list[SeenCue]:
         was, before = self.cop, self.pressed_at
         self.pressed_at = t
         on_ground = was if load.centre is None else load.centre[0]
         now = self.middle if airborne else on_ground
         self.cop = now
         jump = 0.0 if was is None or now is None else abs(now - was)
-        found: list[Seen] = []
+        found: list[SeenCue] = []
         for cue in self._cell_cues(t, stationary, airborne):
             stage, reported = STAGES[self.stage][cue]
             found += self._dated(reported, t)
@@ -180,9 +180,9 @@ class CopCues(Cues):
         elif self.stage is StepStage.LANDING and not self.told:
             self.jump, self.moment, self.mark = jump, t, Cue.CONTACT
 
-    def _dated(self, cues: Sequence[Cue], t: float) -> list[Seen]:
+    def _dated(self, cues: Sequence[Cue], t: float) -> list[SeenCue]:
         """The cues with their times."""
-        found: list[Seen] = []
+        found: list[SeenCue] = []
         for cue in cues:
             at: float | None = t
             if cue is Cue.CONTACT:
@@ -193,7 +193,7 @@ class CopCues(Cues):
                 if at is None:
                     at = self.airborne_since if landing else t
             if at is not None:
-                found.append(Seen(cue, at))
+                found.append(SeenCue(cue, at))
         return found
 
     def _enter(self, stage: StepStage, t: float) -> None:
@@ -209,18 +209,18 @@ class CopCues(Cues):
             self._enter(StepStage.LEAVING, t)
         self.pressed_at = self.cop = self.loaded_at = None
 
-    def cleared(self, t: float) -> Seen:
+    def cleared(self, t: float) -> SeenCue:
         return self.inertial.cleared(t)
 
-    def interrupt(self) -> None:
-        self.inertial.interrupt()
+    def reset(self) -> None:
+        self.inertial.reset()
         self.fast_since = None
         if self.pressed_at is not None:
             self._forget(self.pressed_at)
 
-    def anew(self) -> None:
-        self.inertial = self.inertial.anew()
-        self.touch = self.touch.anew()
+    def restart(self) -> None:
+        self.inertial = self.inertial.restart()
+        self.touch = self.touch.restart()
         self._enter(StepStage.LEAVING, 0.0)
         self.cop = self.pressed_at = self.loaded_at = self.fast_since = self.mark = None
         self.flat = False

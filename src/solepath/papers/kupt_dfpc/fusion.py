@@ -33,7 +33,7 @@ from collections.abc import Mapping, Sequence
 from math import isfinite, sqrt
 from typing import ClassVar
 
-from ...body.part import Position, Said, Track
+from ...body.part import PartOutput, Position, TrackPart
 from ...events import StrideFused, StrideTaken
 from ...foot.pressure.cells import centre
 from ...foot.view import FootPose, FootView
@@ -93,7 +93,7 @@ class CalibratedPath:
 
 
 @define
-class DoubleFoot(Track):
+class DoubleFoot(TrackPart):
     """Both feet's steps in, one `StrideFused` for each out. Latency: none beyond the step's own; the choice of (13) is
     made anew after every step and is final for it. O(1) memory.
 
@@ -103,7 +103,7 @@ class DoubleFoot(Track):
     what calibration has moved the path by: either may be right.
     """
 
-    feeds: ClassVar[bool] = True
+    needs_samples: ClassVar[bool] = True
     idle = True
 
     paths: dict[Foot, CalibratedPath] = field(init=False)
@@ -114,7 +114,7 @@ class DoubleFoot(Track):
     def __attrs_post_init__(self) -> None:
         self.paths = {foot: CalibratedPath() for foot in Foot}
 
-    def feed(self, view: FootView) -> Sequence[Said]:
+    def feed(self, view: FootView) -> Sequence[PartOutput]:
         strides = [event for event in view.events if isinstance(event, StrideTaken)] if view.events else []
         layout = view.after.layout
         middle = None if layout is None or not strides else centre(layout)

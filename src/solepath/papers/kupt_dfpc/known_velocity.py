@@ -78,8 +78,8 @@ class KnownVelocity(Detector):
         shoe = calibration.shoe
         return self if shoe is None else evolve(self, settings=evolve(self.settings, shoe=shoe))
 
-    def wear(self, layout: Layout) -> None:
-        self.touch.wear(layout)
+    def set_layout(self, layout: Layout) -> None:
+        self.touch.set_layout(layout)
         self.default = shoe_for(layout.length)
 
     @property

@@ -260,10 +260,10 @@ class SwingDedrift(LinearDedrift):
         self.moved = True
         return over
 
-    def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
+    def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
         if self.stood:
             self._begin()
-        LinearDedrift.leap(self, dt, attitude, velocity, position)
+        LinearDedrift.infill(self, dt, attitude, velocity, position)
         x, y, z = position
         u, v, w = self.base
         self.raw_velocity = velocity

@@ -73,7 +73,7 @@ class BiasZupt(LinearDedrift):
         self.turned = None
         self.stood = self.step = 0.0
 
-    def told(self, attitude: Quat) -> None:
+    def use_attitude(self, attitude: Quat) -> None:
         self.given = attitude
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
@@ -119,8 +119,8 @@ class BiasZupt(LinearDedrift):
             self.turned = self.given = None
         return LinearDedrift.bridge(self, dt)
 
-    def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
-        LinearDedrift.leap(self, dt, attitude, velocity, position)
+    def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
+        LinearDedrift.infill(self, dt, attitude, velocity, position)
         self.stood = 0.0
 
     def covariance(self) -> tuple[float, ...]:

@@ -92,7 +92,7 @@ class Contours:
     past: deque[tuple[float, tuple[float, ...]]] = field(factory=deque, init=False)
     """Time and radii, level by level and ray by ray, from `INTERVAL` ago until now."""
 
-    def wear(self, layout: Layout) -> str | None:
+    def set_layout(self, layout: Layout) -> str | None:
         """Where the cells are. Returns what is wrong with them for this purpose, if anything."""
         self.past.clear()
         self.cells, self.points, self.rays = [], [], []
@@ -114,7 +114,7 @@ class Contours:
             return "the pressure cells under the heel do not surround a centre: they have no contour"
         return None
 
-    def interrupt(self) -> None:
+    def reset(self) -> None:
         """Times begin anew."""
         self.past.clear()
 

@@ -202,8 +202,8 @@ class ContourVelocity(Detector):
     speed: float = field(default=0.0, init=False)
     """and the statistic."""
 
-    def wear(self, layout: Layout) -> None:
-        why = self.contours.wear(layout)
+    def set_layout(self, layout: Layout) -> None:
+        why = self.contours.set_layout(layout)
         self.lacking = None if why is None else f"{why}; the gyroscope says when the foot stands"
         self.count = len(layout.cells)
         self.tare = [0.0] * len(self.contours.cells)
@@ -263,7 +263,7 @@ class ContourVelocity(Detector):
         if self.seen is not None and self.slowest is not None and t - self.down < LONGEST_STANCE:
             self.levels = (*self.levels[1 - KEPT :], self.slowest)
         self.still, self.seen, self.slowest = False, None, None
-        self.contours.interrupt()
+        self.contours.reset()
 
     def _tare(self, cells: tuple[float, ...]) -> None:
         self.tared = min(self.tared + 1, TARE_SAMPLES)

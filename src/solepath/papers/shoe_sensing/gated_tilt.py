@@ -279,13 +279,13 @@ class ShoeSensing(LinearDedrift):
         self._forget()
         return LinearDedrift.bridge(self, dt)
 
-    def leap(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
+    def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
         self._forget()
         self.still = False
-        LinearDedrift.leap(self, dt, attitude, velocity, position)
+        LinearDedrift.infill(self, dt, attitude, velocity, position)
 
-    def mend(self, yaw: float, position: Vec3) -> None:
-        LinearDedrift.mend(self, yaw, position)
+    def repair(self, yaw: float, position: Vec3) -> None:
+        LinearDedrift.repair(self, yaw, position)
         self.stood = self.before = position
         self._forget()
 

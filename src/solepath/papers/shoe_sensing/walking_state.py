@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from ...body.activity.flights import Flights
 from ...body.activity.steepness import of_stairs, steepness
-from ...body.part import Doing, Said
+from ...body.part import ActivityPart, PartOutput
 from ...events import ActivityChanged, Event, StrideTaken
 from ...foot.view import FootView
 from ...types import Activity, Foot, Phase, Site
@@ -27,7 +27,7 @@ _OF_STEP = {0: Activity.WALKING, 1: Activity.STAIRS_UP, -1: Activity.STAIRS_DOWN
 
 
 @define
-class AnglePerMetre(Doing):
+class AnglePerMetre(ActivityPart):
     """Each step of each foot is level, upstairs or downstairs by its own angle per metre; flights are counted.
 
     The paper tells three states and takes walking and jogging for one: a level step is WALKING, however fast. It has no
@@ -41,7 +41,7 @@ class AnglePerMetre(Doing):
     clock restarts too, or the other has no samples for `SILENT` s.
     """
 
-    feeds: ClassVar[bool] = True
+    needs_samples: ClassVar[bool] = True
 
     activity: Activity = field(default=Activity.UNKNOWN, init=False)
     flights: Flights = field(factory=Flights, init=False)
@@ -61,14 +61,14 @@ class AnglePerMetre(Doing):
         foot = site.foot
         if foot is None:
             return
-        self.flights.interrupt()
+        self.flights.reset()
         self.clocks.pop(foot, None)
         self.apart[foot] = None
 
-    def finish(self, now: float) -> Sequence[Said]:
+    def finish(self, now: float) -> Sequence[PartOutput]:
         return self.flights.finish(now)
 
-    def feed(self, view: FootView) -> Sequence[Said]:
+    def feed(self, view: FootView) -> Sequence[PartOutput]:
         t = view.t
         if view.moved_at != t or not view.levelled:
             return ()
@@ -118,7 +118,7 @@ class AnglePerMetre(Doing):
             for other in clocks:
                 apart[other] = None
             clocks.clear()
-            self.flights.interrupt()
+            self.flights.reset()
         if not clocks:
             self.moved_at = self.stepped_at = None
             if self.since is not None and t < self.since:

@@ -151,7 +151,7 @@ class Contact:
     newest: float = field(default=0.0, init=False)
     """Load on the whole insole, newest sample, unit of the samples."""
 
-    def wear(self, layout: Layout | None) -> None:
+    def set_layout(self, layout: Layout | None) -> None:
         """The insole's layout, as far as it is known; nothing is told without one."""
         if layout is None or layout is self.layout:
             return

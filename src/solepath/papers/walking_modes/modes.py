@@ -28,7 +28,7 @@ from copy import deepcopy
 from math import atan2, hypot
 from typing import ClassVar
 
-from ...body.part import Position, Said, Track
+from ...body.part import PartOutput, Position, TrackPart
 from ...calibration import Calibration
 from ...events import Event, Limitation, TouchedDown, WalkingModeChanged
 from ...foot.rejection import rejected
@@ -62,10 +62,10 @@ SCALE_SIGMA, HEADING_SIGMA = 0.02, 0.03
 
 
 @define
-class Modes(Track):
+class Modes(TrackPart):
     """The wearer's track by touchdowns."""
 
-    feeds: ClassVar[bool] = True
+    needs_samples: ClassVar[bool] = True
     sites: ClassVar[tuple[Site, ...]] = ABOVE
 
     touchdown: AnyTouchdown = field(factory=PressureTouchdown)
@@ -101,7 +101,7 @@ class Modes(Track):
         limbs, weight = calibration.limbs or settings.limbs, calibration.weight or settings.weight
         return evolve(self, settings=evolve(settings, limbs=limbs, weight=weight, compensation=compensation))
 
-    def feed_limb(self, sample: Sample) -> Sequence[Said]:
+    def feed_limb(self, sample: Sample) -> Sequence[PartOutput]:
         """A sample of pelvis, thigh or shank: its attitude, or acceleration and angular velocity."""
         t = sample.t
         wrong = self.above.take(sample, self.places.chain)
@@ -110,11 +110,11 @@ class Modes(Track):
         return self._awaited(t, t if sample.known_at is None else max(t, sample.known_at))
 
     def reset(self, site: Site) -> None:
-        self.places.chain.interrupt(site)
+        self.places.chain.reset(site)
         self.places.tracks.reset(site)
-        self.above.interrupt(site)
+        self.above.reset(site)
 
-    def feed(self, view: FootView) -> Sequence[Said]:
+    def feed(self, view: FootView) -> Sequence[PartOutput]:
         """A sample of a foot: who carries, what has come down, and what the contact that ended tells."""
         foot, t, known_at, sample = view.foot, view.t, view.known_at, view.sample
         self.above.passed(t)

@@ -58,7 +58,7 @@ class Recognition:
         sole = self.soles[foot]
         contact = sole.contact
         sole.in_newtons = state.full is None
-        contact.wear(layout)
+        contact.set_layout(layout)
         total = sum(cells)
         pressed = self.pressing.one(state, sole.pressed)
         both = total + self.soles[OTHER[foot]].contact.newest

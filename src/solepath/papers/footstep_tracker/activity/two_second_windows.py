@@ -36,7 +36,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import ClassVar
 
-from ....body.part import Doing, Said
+from ....body.part import ActivityPart, PartOutput
 from ....events import ActivityChanged, Event, LiftRidden
 from ....foot.view import FootView
 from ....types import Activity, Foot, Site
@@ -110,10 +110,10 @@ class TwoSecondSettings:
 
 
 @define
-class TwoSecondWindows(Doing):
+class TwoSecondWindows(ActivityPart):
     """The activity part of footstep-tracker."""
 
-    feeds: ClassVar[bool] = True
+    needs_samples: ClassVar[bool] = True
 
     settings: TwoSecondSettings = TwoSecondSettings()
     activity: Activity = field(default=Activity.UNKNOWN, init=False)
@@ -144,7 +144,7 @@ class TwoSecondWindows(Doing):
             self.activity = Activity.UNKNOWN
             self.feet, self.standing = {}, {}
 
-    def feed(self, view: FootView) -> Sequence[Said]:
+    def feed(self, view: FootView) -> Sequence[PartOutput]:
         acc, t = view.sample.acc, view.t
         if acc is None:
             return ()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ....events import Rejection
-from ....foot.rejection import Refusal, refusal
+from ....foot.rejection import RejectionReason, rejection_reason
 from ....types import Sample, Site
 from ....types.attrs import define, field
 from .inclination import Inclination
@@ -30,10 +30,10 @@ class Above:
         if self.newest is None or t > self.newest:
             self.newest = t
 
-    def take(self, sample: Sample, chain: LowerLimbs) -> Refusal | None:
+    def take(self, sample: Sample, chain: LowerLimbs) -> RejectionReason | None:
         """One sample; why it cannot be used, None when it could."""
         site, t = sample.site, sample.t
-        wrong = refusal(sample, self.times.get(site))
+        wrong = rejection_reason(sample, self.times.get(site))
         if wrong is None and self.newest is not None and t - self.newest > AHEAD:
             before = self.strange.get(site)
             self.strange[site] = t
@@ -55,7 +55,7 @@ class Above:
                 chain.told_own(site, t, attitude, leaning.heading)
         return None
 
-    def interrupt(self, site: Site) -> None:
+    def reset(self, site: Site) -> None:
         """The clock of a site begins anew, and with it perhaps what is newest."""
         self.times.pop(site, None)
         self.strange.pop(site, None)

@@ -108,7 +108,7 @@ class LowerLimbs:
             segment.own, segment.heading = True, heading
             self.told(site, t, quat)
 
-    def interrupt(self, site: Site) -> None:
+    def reset(self, site: Site) -> None:
         """The clock of a sensor begins anew. If it tells its attitude, its world may be another from now on."""
         segment = self.segments[site]
         segment.t = segment.earlier = segment.quiet_since = None

@@ -33,7 +33,7 @@ class ScenePace:
         follows = bool(before) and before[-1].t == stride.t_start
         self.strides[stride.foot] = (*(before[1 - STRIDES :] if follows else ()), stride)
 
-    def interrupt(self, foot: Foot) -> None:
+    def reset(self, foot: Foot) -> None:
         """Nothing that comes follows what came."""
         self.strides.pop(foot, None)
 

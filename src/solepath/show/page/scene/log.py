@@ -16,7 +16,7 @@ from ....events import (
     Event,
     FeetSwapped,
     FlightClimbed,
-    FootHeard,
+    FootResumed,
     FootSilent,
     InsoleNeverUnloads,
     LiftRidden,
@@ -121,7 +121,7 @@ def _wear(event: Event) -> tuple[str, str] | None:
             return "wear", "the insoles may be swapped: what comes as the left foot looks like a right one"
         case FootSilent(foot=foot):
             return "wear", f"{foot} foot: nothing comes while the other foot walks on"
-        case FootHeard(foot=foot, silent_for=seconds):
+        case FootResumed(foot=foot, silent_for=seconds):
             return "wear", f"{foot} foot: heard again after {seconds:.1f} s"
         case _:
             return None

@@ -157,7 +157,7 @@ class Scene:
 
     def _reset(self, event: ClockReset) -> None:
         if event.site.foot is not None:
-            self.pace.interrupt(event.site.foot)
+            self.pace.reset(event.site.foot)
 
     def _placed(self, event: Placed) -> None:
         level = self.whereabouts.found(event)
