@@ -57,7 +57,7 @@ def test_the_parts_of_the_page_work_together_and_go_on_from_a_snapshot() -> None
     session = page["session"]
     assert isinstance(session, Session)
     parts = session._state.wearer.parts
-    parts[-1].gone = {foot: 99.0 for foot in solepath.Foot}  # type: ignore[attr-defined]
+    parts[-1].distance = {foot: 99.0 for foot in solepath.Foot}  # type: ignore[attr-defined]
     events = session.feed(samples(cells=0))
     assert len([event for event in events if isinstance(event, StrideTaken)]) > 4
     assert [type(event).__name__ for event in events].count("HundredMetres") == 2

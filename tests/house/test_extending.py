@@ -45,7 +45,7 @@ def test_a_device_that_is_declared_in_forty_lines_gives_steps_and_tells_a_lost_p
 def test_a_detector_of_ones_own_keeps_its_promises_and_is_restored_with_the_session() -> None:
     first, last = told(DETECTOR)
     assert first == "broken promises: []"
-    assert last.startswith(f"{steps(10)} steps, Quiet(limit=0.7")
+    assert last.startswith(f"{steps(10)} strides, LowRate(limit=0.7")
 
 
 def test_a_corrector_and_cues_of_ones_own_keep_their_promises_and_find_the_walk() -> None:

@@ -1,0 +1,136 @@
+"""Identifiers hold no private words (docs/words.txt), and every public docstring is a sentence that stands alone."""
+
+from __future__ import annotations
+
+import ast
+import io
+import re
+import tokenize
+from collections.abc import Iterator
+from keyword import iskeyword
+from pathlib import Path
+
+import pytest
+from here import DOCS, EXAMPLES, ROOT, TESTS
+
+SRC = ROOT / "src" / "solepath"
+LEANING = frozenset(
+    ["and", "but", "how", "of", "or", "so", "what", "when", "where", "whether", "which", "who", "whose", "why"]
+)
+"""A docstring that starts so leans on what stands before it, or names nothing."""
+SHORTEST = 3
+"""Words in the shortest docstring."""
+
+
+def private_words() -> tuple[frozenset[str], frozenset[str]]:
+    """The words that stay out, and the identifiers that may hold them."""
+    words: set[str] = set()
+    standard: set[str] = set()
+    for line in (DOCS / "words.txt").read_text(encoding="utf-8").splitlines():
+        if line and not line.startswith("#"):
+            family, _, rest = line.partition(":")
+            words.update(family.split())
+            standard.update(rest.partition(";")[2].split())
+    return frozenset(words), frozenset(standard)
+
+
+PRIVATE, STANDARD = private_words()
+
+
+def words_of(identifier: str) -> list[str]:
+    """The words of a snake_case or CamelCase name."""
+    return [word.lower() for word in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", identifier)]
+
+
+def python(top: Path) -> list[Path]:
+    return [path for path in sorted(top.rglob("*.py")) if "__pycache__" not in path.parts]
+
+
+def identifiers(path: Path) -> set[str]:
+    text = io.StringIO(path.read_text(encoding="utf-8"))
+    names = {token.string for token in tokenize.generate_tokens(text.readline) if token.type == tokenize.NAME}
+    return {name for name in names if not iskeyword(name)}
+
+
+@pytest.mark.parametrize("top", [SRC, EXAMPLES, TESTS], ids=lambda top: top.name)
+def test_no_identifier_holds_a_private_word(top: Path) -> None:
+    found = {
+        path.relative_to(ROOT).as_posix(): held
+        for path in python(top)
+        if (held := sorted(n for n in identifiers(path) - STANDARD if not PRIVATE.isdisjoint(words_of(n))))
+    }
+    assert found == {}, "docs/words.txt says what to say instead"
+
+
+def test_a_private_word_is_found_in_any_form_of_a_name() -> None:
+    assert {"told", "habit"} <= PRIVATE
+    for name in ("told", "is_told", "ToldLayout", "HABIT", "_habit_of"):
+        assert not PRIVATE.isdisjoint(words_of(name)), name
+    assert PRIVATE.isdisjoint(words_of("inhabited_toldness"))
+
+
+def docstrings(path: Path) -> Iterator[tuple[int, str]]:
+    """Line and text of each public docstring: of the module, of classes and functions, and of fields and constants."""
+    module = ast.parse(path.read_text(encoding="utf-8"))
+    text = ast.get_docstring(module)
+    if text is not None:
+        yield 1, text
+    yield from _within(module.body)
+
+
+def _within(body: list[ast.stmt]) -> Iterator[tuple[int, str]]:
+    for before, statement in zip([None, *body], body, strict=False):
+        if isinstance(statement, ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+            if statement.name.startswith("_"):
+                continue
+            text = ast.get_docstring(statement)
+            if text is not None:
+                yield statement.lineno, text
+            if isinstance(statement, ast.ClassDef):
+                yield from _within(statement.body)
+        elif isinstance(statement, ast.Expr) and isinstance(statement.value, ast.Constant):
+            named = before.target if isinstance(before, ast.AnnAssign) else None
+            if isinstance(before, ast.Assign):
+                named = before.targets[0]
+            public = named is not None and not getattr(named, "id", "").startswith("_")
+            if public and isinstance(statement.value.value, str):
+                yield statement.lineno, statement.value.value
+
+
+def fault(text: str) -> str | None:
+    """What is wrong with a docstring; None for a sound one."""
+    first = text.strip().split("\n\n")[0].strip()
+    words = first.split()
+    if len(words) < SHORTEST:
+        return "is no sentence"
+    if not (first[0].isupper() or first[0].isdigit() or first[0] in "`'\"(|") and not first.startswith("solepath"):
+        return "starts in the middle"
+    if words[0].strip("`'\",.:;").lower() in LEANING:
+        return f"starts with {words[0]}"
+    if text.rstrip()[-1] in ",:;":
+        return "runs on"
+    if not first.endswith((".", ".)", '."', ":")):
+        return "does not end"
+    return None
+
+
+def test_every_public_docstring_is_a_sentence_that_stands_alone() -> None:
+    found = [
+        f"{path.relative_to(ROOT).as_posix()}:{line}: {problem}: {text.strip().splitlines()[0]}"
+        for path in python(SRC)
+        for line, text in docstrings(path)
+        if (problem := fault(text)) is not None
+    ]
+    assert not found, "\n".join(found)
+
+
+@pytest.mark.parametrize(
+    "text", ["Of them.", "and", "downwards, negative,", "Whether it stands.", "s of standing", "A number", "m; x to toe."]
+)
+def test_what_leans_on_its_neighbours_is_no_sentence(text: str) -> None:
+    assert fault(text) is not None
+
+
+@pytest.mark.parametrize("text", ["Duration of the stride, s.", "Return it whole.\n\nLatency: none.", "`t` in s of it."])
+def test_a_phrase_with_its_noun_is_enough(text: str) -> None:
+    assert fault(text) is None
