@@ -1,0 +1,211 @@
+"""The main figures with each number of the default recipe at half and at twice its value.
+
+    python -m solepath.lab.evaluate.sensitivity DIR [--processes N] [--only NAME]
+
+prints the table of docs/settings.md as Markdown. DIR holds recorded data with a reference. The numbers are the settings
+of the detector (`CycleSettings`) and the filter (`ErrorStateSettings`) and the constants of the inertial cues. It takes
+about 45 minutes on two processors.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import inspect
+import os
+from collections.abc import Iterator, Sequence
+from itertools import islice
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+import attrs
+from attrs import evolve, frozen
+
+from ...calibration import Calibration
+from ...foot import settings
+from ...foot.cues import inertial
+from ...foot.navigate.error_state import ErrorStateFilter
+from ...foot.settings import CycleSettings, ErrorStateSettings
+from ...foot.stance.cycle import Cycle
+from ...recipes import DEFAULT, Recipe
+from ..measures.score import Scored
+from ..processes import each
+from .ablation import COLUMNS, Column
+from .jobs import EvaluationJob, find, recordings
+from .report import Result
+from .run import RunSettings
+
+FACTORS = (0.5, 2.0)
+FIGURES = ("pyshoe ARMSE2d", "gumushane position", "strides", "xio end", "ipol legs", "HS F1", "TO F1", "gaitmap HS")
+"""Titles of the columns of the ablation that are shown."""
+SHOWN = (
+    *(column for column in COLUMNS if column.title in FIGURES),
+    Column("ipol HS", "ipol_10m_uturn", "heel_strike_bias", "ms", pooled=True),
+    Column("ipol TO", "ipol_10m_uturn", "toe_off_bias", "ms", pooled=True),
+)
+"""The columns of the table."""
+PARTS: dict[str, tuple[Any, Any]] = {
+    "detector": (CycleSettings, Cycle),
+    "corrector": (ErrorStateSettings, ErrorStateFilter),
+}
+"""Settings and class of the parts of the default recipe, by the field of the recipe."""
+FLAT = 0.005
+"""A relative change, or one of F1, below this is shown as none."""
+HALF_MS = 0.5
+"""A change of an offset below this is shown as none, ms."""
+
+
+@frozen
+class Number:
+    """One number of the default recipe."""
+
+    name: str
+    value: float
+    meaning: str
+    """First sentence of its docstring, with its unit."""
+    part: str
+    """Field of the recipe that has it: "detector", "corrector" or "cues"."""
+
+    def at(self, factor: float) -> tuple[Recipe, dict[str, float]]:
+        """Return the default recipe with this number times `factor`, and the constants to change for it."""
+        value = factor * self.value
+        name = f"{self.name} x {factor:g}"
+        if self.part not in PARTS:
+            return evolve(DEFAULT, name=name), {self.name: value}
+        made, cls = PARTS[self.part]
+        change: dict[str, Any] = {self.part: cls(made(**{self.name: value}))}
+        return evolve(DEFAULT, name=name, **change), {}
+
+
+def _meanings(module: ModuleType, cls: type | None = None) -> dict[str, str]:
+    """The docstrings of the constants of a module, or of the fields of one of its classes."""
+    body: Sequence[ast.stmt] = ast.parse(inspect.getsource(module)).body
+    if cls is not None:
+        (body,) = [node.body for node in body if isinstance(node, ast.ClassDef) and node.name == cls.__name__]
+    found: dict[str, str] = {}
+    for before, node in zip(body, body[1:], strict=False):
+        target = before.targets[0] if isinstance(before, ast.Assign) else getattr(before, "target", None)
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(target, ast.Name):
+            found[target.id] = " ".join(str(node.value.value).split("\n\n")[0].split())
+    return found
+
+
+def numbers() -> list[Number]:
+    """Return the numbers of the default detector, filter and inertial cues, in the order of their definition."""
+    found: list[Number] = []
+    for part, (made, _) in PARTS.items():
+        meanings = _meanings(settings, made)
+        default = made()
+        for field in attrs.fields(made):
+            value = getattr(default, field.name)
+            if isinstance(value, float):
+                found.append(Number(field.name, value, meanings.get(field.name, ""), part))
+    meanings = _meanings(inertial)
+    for name, value in vars(inertial).items():
+        if name in meanings and name.isupper() and isinstance(value, float | int):
+            found.append(Number(name, value, meanings[name], "cues"))
+    return found
+
+
+@frozen
+class SensitivityJob:
+    """One recording with one number changed."""
+
+    job: EvaluationJob
+    constants: dict[str, float]
+
+    def run(self) -> Scored | str:
+        """Score the recording with the constants changed in this process meanwhile."""
+        kept = {name: getattr(inertial, name) for name in self.constants}
+        for name, value in self.constants.items():
+            setattr(inertial, name, type(kept[name])(value))
+        try:
+            return self.job.run()
+        finally:
+            for name, value in kept.items():
+                setattr(inertial, name, value)
+
+
+def columns(names: Sequence[str] = ()) -> list[Column]:
+    """Return the columns of the table, of all data sets or of those named."""
+    return [column for column in SHOWN if not names or column.data_set in names]
+
+
+def evaluate(
+    folder: Path, chosen: Sequence[Number], names: Sequence[str], processes: int
+) -> Iterator[tuple[Number | None, float, list[float | None]]]:
+    """Yield number, factor and figures: first the default's, with None for the number; then those of each number."""
+    shown = columns(names)
+    data_sets = [(one, recordings(folder, one)) for one in find(folder, sorted({column.data_set for column in shown}))]
+    variants: list[tuple[Number | None, float]] = [(None, 1.0), *((one, k) for one in chosen for k in FACTORS)]
+    jobs: list[SensitivityJob] = []
+    for number, factor in variants:
+        recipe, constants = (DEFAULT, {}) if number is None else number.at(factor)
+        how = RunSettings(recipe, Calibration(), None)
+        jobs += [
+            SensitivityJob(EvaluationJob(data_set.score, how, path, meta), constants)
+            for data_set, part in data_sets
+            for path, meta in part
+        ]
+    outcomes = each(SensitivityJob.run, jobs, processes=processes)
+    for number, factor in variants:
+        results = []
+        for data_set, part in data_sets:
+            done = list(islice(outcomes, len(part)))
+            scores = tuple([one for one in done if isinstance(one, Scored)])
+            results.append(Result(data_set, "", scores, ()))
+        yield number, factor, [column.of(results, "") for column in shown]
+
+
+SCALES = {"": 1.0, "m": 1.0, "%": 100.0, "ms": 1000.0}
+"""Factor of each unit of a column; results are in SI units."""
+
+
+def _change(column: Column, value: float | None, default: float | None) -> str:
+    """A figure against the default's: relative for errors, absolute for F1 and offsets."""
+    if value is None or default is None:
+        return "-"
+    off = SCALES[column.unit] * (value - default)
+    if column.unit == "ms":
+        return "0" if abs(off) < HALF_MS else f"{off:+.0f} ms"
+    if not column.unit:
+        return "0" if abs(off) < FLAT else f"{off:+.2f}"
+    relative = value / default - 1.0 if default else 0.0
+    return "0" if abs(relative) < FLAT else f"{100.0 * relative:+.0f} %"
+
+
+def table(rows: Iterator[tuple[Number | None, float, list[float | None]]], shown: Sequence[Column]) -> Iterator[str]:
+    """Yield the lines of the Markdown table: for each number what half and double of it change."""
+    _, _, default = next(rows)
+    yield f"| number | default | meaning | {' | '.join(column.title for column in shown)} |"
+    yield "|" + "---|" * (3 + len(shown))
+    cells = " | ".join(
+        "-" if value is None else f"{SCALES[column.unit] * value:.3g} {column.unit}".strip()
+        for column, value in zip(shown, default, strict=True)
+    )
+    yield f"| (default recipe) |  |  | {cells} |"
+    for (number, _, half), (_, _, double) in zip(rows, rows, strict=True):
+        assert number is not None
+        both = [
+            f"{_change(column, a, base)} / {_change(column, b, base)}"
+            for column, a, b, base in zip(shown, half, double, default, strict=True)
+        ]
+        yield f"| {number.part} `{number.name}` | {number.value:g} | {number.meaning} | {' | '.join(both)} |"
+
+
+def main() -> None:
+    """Print the table."""
+    options = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    options.add_argument("dir", metavar="DIR", type=Path)
+    options.add_argument("--only", metavar="NAME", action="append", default=[], help="only this data set")
+    options.add_argument("--number", metavar="NAME", action="append", default=[], help="only this number")
+    options.add_argument("--processes", metavar="N", type=int, default=os.cpu_count() or 1)
+    chosen = options.parse_args()
+    selected = [one for one in numbers() if not chosen.number or one.name in chosen.number]
+    for line in table(evaluate(chosen.dir, selected, chosen.only, chosen.processes), columns(chosen.only)):
+        print(line, flush=True)
+
+
+if __name__ == "__main__":
+    main()
