@@ -17,7 +17,7 @@ from solepath.foot.settings import ErrorStateSettings
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.stance.shoe import ShoeDetector
 from solepath.foot.stance.stance import Stance
-from solepath.foot.stride import StepBuilder
+from solepath.foot.stride import StrideBuilder
 from solepath.foot.tracker import FootTracker
 from solepath.types import Foot, Quat, Sample, Site, Vec3
 from solepath.types.vector import conjugate, heading_turned, multiply, normalise, rotate, rotate_back, single
@@ -76,11 +76,11 @@ def test_turns_that_are_written_out_are_those_of_the_quaternions(before: Quat, a
 
 @given(st.lists(st.floats(-50.0, 50.0), min_size=1, max_size=60))
 def test_pitches_are_kept_as_singles(rates: list[float]) -> None:
-    step, pitch = StepBuilder(Foot.LEFT), 0.0
+    stride, pitch = StrideBuilder(Foot.LEFT), 0.0
     for k, rate in enumerate(rates):
-        step.moved(0.01 * k, 0.01, 0.0, 0.0, rate)
+        stride.add_motion(0.01 * k, 0.01, 0.0, 0.0, rate)
         pitch += rate * 0.01
-        assert step.pitches[step.slot - 1] == single(pitch)
+        assert stride.pitches[stride.slot - 1] == single(pitch)
 
 
 @given(st.floats(0.8, 1.25), vectors(0.1), vectors(499.0), vectors(99.0))
@@ -98,4 +98,4 @@ def test_a_gap_is_crossed_with_the_scale_and_bias_of_any_other_sample(
     tracker = FootTracker(Foot.LEFT, Sees(), ErrorStateFilter())
     tracker.rest.scale, tracker.rest.bias = scale, bias
     tracker.feed(Sample(0.0, Site.LEFT_FOOT, acc, gyro))
-    assert seen == [tracker.rest.calibrated(acc, gyro)]
+    assert seen == [tracker.rest.calibrate(acc, gyro)]

@@ -143,7 +143,7 @@ def test_a_cell_that_loads_again_is_used_again() -> None:
             continue
         cells = sample.pressure if sample.t > 13.0 else put(60.0)(sample.t, sample.pressure, which)
         health.update(sample.t, sample.t, cells, Phase.SWING, sample.gyro, shape)
-        used[sample.t] = which not in health.out
+        used[sample.t] = which not in health.excluded
     assert used[min(used)]
     assert not used[12.5]
     assert used[max(used)]

@@ -122,8 +122,8 @@ def test_heading_grows_less_certain_with_time() -> None:
     session.feed(samples)
     foot = session.feet[Foot.LEFT]
     lasted = samples[-1].t - 2.0  # what comes before the first heel-off is one stretch, and so is what is under way
-    assert foot.gait.way.yaw == pytest.approx(HEADING_DRIFT**2 * lasted, rel=0.4)
-    assert session.position is not None and session.position.covariance[3] > foot.gait.way.yaw * 10.0**2 / 4
+    assert foot.gait.path.yaw == pytest.approx(HEADING_DRIFT**2 * lasted, rel=0.4)
+    assert session.position is not None and session.position.covariance[3] > foot.gait.path.yaw * 10.0**2 / 4
 
 
 LANDED, LASTS = 0.52, 0.03
@@ -133,7 +133,7 @@ LANDED, LASTS = 0.52, 0.03
 def felt(rate: float, mounting: Quat = (1.0, 0.0, 0.0, 0.0)) -> Impact:
     """A swing of 0.6 s at 2 m/s that ends in a push of 40 m/s^2 upwards, as the sensor in this mounting has it."""
     impact = Impact()
-    impact.begin(0.0)
+    impact.start_swing(0.0)
     was: Vec3 | None = None
     for k in range(int(0.6 * rate)):
         t = k / rate
@@ -141,7 +141,7 @@ def felt(rate: float, mounting: Quat = (1.0, 0.0, 0.0, 0.0)) -> Impact:
         push = 40.0 * sin(pi * share) if 0.0 < share < 1.0 else 0.0
         acc = rotate(mounting, (3.0 * sin(5.0 * t), 0.0, GRAVITY + push))
         if was is not None:
-            impact.feel(t, 1.0 / rate, was, acc, 2.0, t > LANDED - LASTS)
+            impact.add_sample(t, 1.0 / rate, was, acc, 2.0, t > LANDED - LASTS)
         was = acc
     return impact
 
@@ -158,20 +158,20 @@ def test_how_the_sensor_is_mounted_does_not_matter(turn: Vec3) -> None:
 
 def test_the_jolt_of_leaving_the_ground_is_not_that_of_landing() -> None:
     impact = Impact()
-    impact.begin(0.0)
+    impact.start_swing(0.0)
     for k in range(1, 60):
         pushed, landed = 90.0 if k == 5 else 0.0, 20.0 if k == 50 else 0.0
-        impact.feel(0.01 * k, 0.01, ZERO, (pushed, 0.0, landed), 1.0, False)
-        assert (impact.hardest > 0.0) is (k >= 50)
-    assert impact.jolted == pytest.approx(0.495)
+        impact.add_sample(0.01 * k, 0.01, ZERO, (pushed, 0.0, landed), 1.0, False)
+        assert (impact.peak_shock > 0.0) is (k >= 50)
+    assert impact.peak_shock_at == pytest.approx(0.495)
 
 
 @given(st.lists(st.tuples(st.floats(0.0, 1e6), *[st.floats(-1e300, 1e300)] * 3), max_size=20))
 def test_no_force_and_no_time_step_makes_it_forget_how_to_count(told: list[tuple[float, float, float, float]]) -> None:
     impact, t, was = Impact(), 0.0, (0.0, 0.0, GRAVITY)
-    impact.begin(t)
+    impact.start_swing(t)
     for dt, x, y, z in told:
         t += dt
-        impact.feel(t, dt, was, (x, y, z), 1.0, False)
+        impact.add_sample(t, dt, was, (x, y, z), 1.0, False)
         was = (x, y, z)
         assert 0.0 <= impact.middle <= t and 0.0 <= impact.shock < 1e300

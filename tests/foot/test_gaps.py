@@ -16,7 +16,7 @@ from solepath import Event, Foot, Session, StrideTaken
 from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
 from solepath.foot.gaps.gap import NoInfill, find_infill
-from solepath.foot.gaps.moment import corrected, moments
+from solepath.foot.gaps.moment import correction_distance, moments
 from solepath.foot.gaps.template import MOST_MOMENTS, OLD, StrideTemplate
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.tracker import FootTracker
@@ -31,7 +31,7 @@ def test_before_any_whole_stride_a_moving_foot_leaves_nothing_to_go_by_and_a_sti
     up: Vec3 = (0.0, 0.0, GRAVITY)
     assert find_infill(template, at_rest, 1.0, 1.2, up, ZERO) is NoInfill.STOOD
     assert find_infill(template, at_rest, 1.0, 1.2, up, (0.0, 4.0, 0.0)) is NoInfill.UNKNOWN
-    template.lift(0.9)
+    template.start_stride(0.9)
     assert find_infill(template, at_rest, 1.0, 1.2, up, ZERO) is NoInfill.UNKNOWN
 
 
@@ -60,32 +60,32 @@ def test_a_gap_in_the_first_stride_is_bridged_by_a_straight_line() -> None:
 
 def test_a_stride_is_remembered_as_it_was_wherever_on_earth_it_was() -> None:
     template, far = StrideTemplate(), 1e7
-    template.lift(1e9)
+    template.start_stride(1e9)
     for k in range(8):
         t = 0.032 * k
         velocity, position = (1.0, 0.1 * k, 0.0), (far + t, -far, 0.0)
-        template.keep(1e9 + t, IDENTITY, velocity, position, (0.0, 3.0, 4.0), (0.0, -5.0, 0.25))
-    rows = moments(template.now)
+        template.add_moment(1e9 + t, IDENTITY, velocity, position, (0.0, 3.0, 4.0), (0.0, -5.0, 0.25))
+    rows = moments(template.rows)
     assert [one.since for one in rows] == pytest.approx([0.032 * k for k in range(8)], abs=1e-6)
     assert rows[7].velocity == pytest.approx((1.0, 0.7, 0.0))
     assert rows[7].position == pytest.approx((0.224, 0.0, 0.0), abs=1e-7)
     assert rows[7].rate == (0.0, -5.0, 0.25) and rows[7].force == 5.0 and rows[7].attitude == IDENTITY
-    assert corrected(template.now) == pytest.approx(
+    assert correction_distance(template.rows) == pytest.approx(
         0.35 * 0.224, abs=1e-6
     )  # it went so far to the left, and is not there
-    template.keep(1e9 + 1.0, IDENTITY, (1e300, 0.0, 0.0), (far, far, 0.0), (0.0, 3.0, 4.0), ZERO)
-    assert template.now == [] and template.lifted is None
+    template.add_moment(1e9 + 1.0, IDENTITY, (1e300, 0.0, 0.0), (far, far, 0.0), (0.0, 3.0, 4.0), ZERO)
+    assert template.rows == [] and template.t_heel_off is None
 
 
 def test_a_toe_off_or_heel_strike_at_one_of_the_moments_that_are_remembered_is_at_that_moment() -> None:
     """At 10 samples a second they often are, and rounding must not decide whether a gap has hidden them."""
     for start in range(100):
-        template, lifted = StrideTemplate(), 0.1 * start
-        template.lift(lifted)
-        times = [lifted + 0.1 * k for k in range(10)]
+        template, t_heel_off = StrideTemplate(), 0.1 * start
+        template.start_stride(t_heel_off)
+        times = [t_heel_off + 0.1 * k for k in range(10)]
         for t in times:
-            template.keep(t, IDENTITY, ZERO, ZERO, (0.0, 0.0, GRAVITY), ZERO)
-        template.flat(lifted + 1.0, times[2], times[7], 0.0, ZERO, 0.1)
+            template.add_moment(t, IDENTITY, ZERO, ZERO, (0.0, 0.0, GRAVITY), ZERO)
+        template.end_stride(t_heel_off + 1.0, times[2], times[7], 0.0, ZERO, 0.1)
         assert template.last is not None
         kept = moments(template.last.rows)
         assert (kept[2].since, kept[7].since) == (template.last.toe_off, template.last.heel_strike)
@@ -96,18 +96,18 @@ def test_a_stride_with_a_gap_or_round_a_corner_is_not_the_habit() -> None:
     up: Vec3 = (0.0, 0.0, GRAVITY)
 
     def stride(template: StrideTemplate, t: float, turn: float, duration: float = 0.7, unseen: float = 0.0) -> None:
-        template.lift(t)
+        template.start_stride(t)
         for k in range(int(duration / 0.01)):
             if t + 0.01 * k >= template.due:
-                template.keep(t + 0.01 * k, *pose, up, ZERO)
+                template.add_moment(t + 0.01 * k, *pose, up, ZERO)
         if unseen:
-            template.guess(t, unseen)
-        template.flat(t + duration, t + 0.2, t + 0.6, turn, (1.3, 0.0, 0.0), 0.01)
+            template.add_infill(t, unseen)
+        template.end_stride(t + duration, t + 0.2, t + 0.6, turn, (1.3, 0.0, 0.0), 0.01)
 
     template = StrideTemplate()
     stride(template, 1.0, 0.0)
     kept = template.last
-    assert kept is not None and kept.lasted < 0.7
+    assert kept is not None and kept.duration < 0.7
     assert (kept.toe_off, kept.heel_strike) == pytest.approx((0.2, 0.6))
     stride(template, 2.0, 0.0, unseen=0.2)
     assert template.last is kept
@@ -117,17 +117,17 @@ def test_a_stride_with_a_gap_or_round_a_corner_is_not_the_habit() -> None:
         stride(template, 4.0 + k, 0.5)
     assert template.last is not kept  # who does nothing but turn has turning for a habit
     stride(template, 40.0, 0.0, duration=3.0)  # too slow to be kept whole, and memory is bounded
-    assert len(template.now) <= MOST_MOMENTS
+    assert len(template.rows) <= MOST_MOMENTS
 
 
 def test_a_stride_that_zero_velocity_had_to_put_right_is_not_the_habit() -> None:
     template, up = StrideTemplate(), (0.0, 0.0, GRAVITY)
 
     def stride(t: float, speed: float) -> None:
-        template.lift(t)
+        template.start_stride(t)
         for k in range(20):
-            template.keep(t + 0.035 * k, IDENTITY, (speed, 0.0, 0.0), (2.0 * 0.035 * k, 0.0, 0.0), up, ZERO)
-        template.flat(t + 0.7, t + 0.2, t + 0.6, 0.0, (1.33, 0.0, 0.0), 0.01)
+            template.add_moment(t + 0.035 * k, IDENTITY, (speed, 0.0, 0.0), (2.0 * 0.035 * k, 0.0, 0.0), up, ZERO)
+        template.end_stride(t + 0.7, t + 0.2, t + 0.6, 0.0, (1.33, 0.0, 0.0), 0.01)
 
     stride(1.0, -5.0)
     assert template.last is None
@@ -135,28 +135,28 @@ def test_a_stride_that_zero_velocity_had_to_put_right_is_not_the_habit() -> None
     assert template.last is not None
 
 
-@pytest.mark.parametrize("way", [(3.3, 0.0, 0.0), (1.3, 0.0, 1.18), (1.3, 0.5, -1.18), (-40.0, 9.0, 7.0)])
+@pytest.mark.parametrize("displacement", [(3.3, 0.0, 0.0), (1.3, 0.0, 1.18), (1.3, 0.5, -1.18), (-40.0, 9.0, 7.0)])
 @pytest.mark.parametrize("filled", [True, False])
 def test_a_stride_with_a_gap_goes_hardly_further_than_those_before_and_no_higher_than_two_stairs(
-    way: Vec3, filled: bool
+    displacement: Vec3, filled: bool
 ) -> None:
     template, up = StrideTemplate(), (0.0, 0.0, GRAVITY)
     for n in range(2):
-        template.lift(1.2 * n + 0.4)
+        template.start_stride(1.2 * n + 0.4)
         for k in range(20):
-            template.keep(template.due, IDENTITY, (2.0, 0.0, 0.0), (2.0 * 0.032 * k, 0.0, 0.0), up, ZERO)
+            template.add_moment(template.due, IDENTITY, (2.0, 0.0, 0.0), (2.0 * 0.032 * k, 0.0, 0.0), up, ZERO)
         t = 1.2 * (n + 1)
-        template.flat(t, t - 0.5, t - 0.1, 0.0, (1.3, 0.0, 0.0), 0.01)
+        template.end_stride(t, t - 0.5, t - 0.1, 0.0, (1.3, 0.0, 0.0), 0.01)
     assert template.last is not None
-    template.lift(2.8)
+    template.start_stride(2.8)
     if filled:
-        template.guess(2.8, 0.3)
+        template.add_infill(2.8, 0.3)
     else:
-        template.cross()
-    mended = template.flat(3.6, 3.1, 3.5, 0.0, way, 0.01)
+        template.mark_bridged()
+    mended = template.end_stride(3.6, 3.1, 3.5, 0.0, displacement, 0.01)
     assert mended is not None
-    assert hypot(mended.way[0], mended.way[1]) <= 1.25 * 1.3 * 1.2
-    assert abs(mended.way[2]) <= 0.5
+    assert hypot(mended.displacement[0], mended.displacement[1]) <= 1.25 * 1.3 * 1.2
+    assert abs(mended.displacement[2]) <= 0.5
 
 
 @pytest.mark.parametrize("duration", [0.15, 0.3, 0.6, 1.2, 2.0])

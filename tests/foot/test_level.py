@@ -44,24 +44,24 @@ def judged(
     level: LevelGround,
     heights: list[float],
     grade: float = 0.0,
-    lean: float = 0.01,
+    rise_bias: float = 0.01,
     length: float = LENGTH,
     seed: int = 0,
 ) -> list[float]:
     """What `level` says of steps that rise by `heights` m, on ground that slopes by `grade`, with a sensor that makes
-    `lean` of every metre and errs by a centimetre."""
+    `rise_bias` of every metre and errs by a centimetre."""
     rng = np.random.default_rng(seed)
     found = []
     for height in heights:
-        z = height + lean * length + 0.01 * rng.standard_normal()
+        z = height + rise_bias * length + 0.01 * rng.standard_normal()
         attitude = pitched(grade + 0.01 * rng.standard_normal())
         found.append(level.judge((length, 0.0, z), 0.0, SPREAD * SPREAD, attitude)[0])
     return found
 
 
-@pytest.mark.parametrize("lean", [-0.03, -0.01, 0.0, 0.02, 0.03])
-def test_level_strides_are_level_whatever_lean_the_sensor_has(lean: float) -> None:
-    assert abs(sum(judged(LevelGround(), [0.0] * 60, lean=lean))) < 0.12
+@pytest.mark.parametrize("rise_bias", [-0.03, -0.01, 0.0, 0.02, 0.03])
+def test_level_strides_are_level_whatever_lean_the_sensor_has(rise_bias: float) -> None:
+    assert abs(sum(judged(LevelGround(), [0.0] * 60, rise_bias=rise_bias))) < 0.12
 
 
 @pytest.mark.parametrize("grade", [0.05, -0.05, 0.08, -0.12])
@@ -88,7 +88,7 @@ def test_a_single_kerb_keeps_its_height(kerb: float) -> None:
 def test_stairs_keep_their_height_and_the_landing_between_them_is_level(riser: float) -> None:
     level = LevelGround()
     judged(level, [0.0] * 6)
-    first = judged(level, [riser] + [2.0 * riser] * 5, lean=0.0, length=0.6, seed=4)
+    first = judged(level, [riser] + [2.0 * riser] * 5, rise_bias=0.0, length=0.6, seed=4)
     landing = judged(level, [0.0] * 3, length=0.9, seed=5)
     assert sum(first) == pytest.approx(11 * riser, rel=0.06)
     assert max(abs(height) for height in landing) < 0.03
@@ -102,16 +102,16 @@ def test_a_stride_of_which_the_filter_is_unsure_must_rise_by_more_to_be_no_level
 
 def test_who_sets_out_on_a_ramp_walks_on_the_level_again_some_strides_after_it() -> None:
     level = LevelGround()
-    judged(level, [0.05 * LENGTH] * 9, grade=0.05, lean=0.0)
-    judged(level, [0.0] * 6, lean=0.0, seed=1)
-    assert abs(sum(judged(level, [0.0] * 20, lean=0.0, seed=2))) < 0.08
+    judged(level, [0.05 * LENGTH] * 9, grade=0.05, rise_bias=0.0)
+    judged(level, [0.0] * 6, rise_bias=0.0, seed=1)
+    assert abs(sum(judged(level, [0.0] * 20, rise_bias=0.0, seed=2))) < 0.08
 
 
 def test_a_ladder_and_a_foot_that_is_put_up_keep_their_height() -> None:
     """They go up without going along, which no level step does."""
     level = LevelGround()
     judged(level, [0.0] * 5)
-    assert sum(judged(level, [0.3] * 6, lean=0.0, length=0.05)) == pytest.approx(1.8, rel=0.05)
+    assert sum(judged(level, [0.3] * 6, rise_bias=0.0, length=0.05)) == pytest.approx(1.8, rel=0.05)
 
 
 @given(

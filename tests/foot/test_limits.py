@@ -30,8 +30,8 @@ from solepath.body.fuse.position import MeanOfFeet
 from solepath.body.part import TrackPart
 from solepath.emulate import CC2650, Route, emulate
 from solepath.emulate.sensors.insoles import layout
-from solepath.foot.pressure.guess import LayoutGuess
 from solepath.foot.pressure.insole import InsoleLoads
+from solepath.foot.pressure.layout_guess import LayoutGuess
 
 LEFT = Site.LEFT_FOOT
 

@@ -8,7 +8,7 @@ import pytest
 from walks import SHORT, insoles
 
 from solepath import Foot, FootFlat, HeelOff, HeelStrike, Phase, Session, Support, ToeOff
-from solepath.foot.phase import BEGINS, PHASES, SUPPORT, Cue, describe
+from solepath.foot.phase import EVENT_OF_PHASE, PHASES, SUPPORT, Cue, describe
 
 
 def test_every_phase_knows_what_to_make_of_every_cue_and_of_nothing_else() -> None:
@@ -47,7 +47,7 @@ def test_each_phase_begins_with_its_event() -> None:
         Phase.STATIONARY: FootFlat,
         Phase.PUSH_OFF: HeelOff,
         Phase.SWING: ToeOff,
-    } == BEGINS
+    } == EVENT_OF_PHASE
 
 
 @pytest.mark.parametrize(("left", "right"), list(product(Phase, Phase)))

@@ -13,33 +13,33 @@ from ..types import Quat, Site, Vec3
 from ..types.attrs import define, field
 from ..types.vector import GRAVITY, TIE, ZERO, levelling
 
-COARSEST = 0.7
+COARSEST_COUNT = 0.7
 """No accelerometer's count is worth more (8 bits for +-8 g are 0.61), m/s^2."""
-EQUAL = 1e-6
+SAME_READING = 1e-6
 """Readings that differ by less are the same count, m/s^2."""
 TILT_AT_REST, TILT_IN_STANCE, TILT_AT_ANY_TIME = 0.02, 0.06, 0.2
 """Standard deviation of a tilt by how quiet the foot was that it was found on, rad; chosen by hand, not swept."""
-LOUDEST_LEVEL = 1e12
+ABOVE_ANY_MOTION = 1e12
 """Louder than any moment, (m/s^2)^2."""
-REMEMBERED = 20
+REST_MEMORY = 20
 """So many spans of rest count, ten seconds of it: the bias wanders."""
 LEAST_SCALE, LARGEST_SCALE = 0.8, 1.25
 """Beyond a fifth it is a wrong range, not a scale error: cheap accelerometers do read 1.1 g."""
-YOUNG, LIFT = 4, 0.02
+SCALE_KNOWN_AFTER, ELEVATOR_SHARE = 4, 0.02
 """After so many spans of rest the scale is known, and a change by a larger share is a lift starting or stopping."""
-SUSPECT = 0.15
+SUSPECT_SHARE = 0.15
 """An accelerometer that is further from 1 g at rest than by this share is to be looked at."""
 LEVEL_SPAN, REST_SPAN = 0.25, 0.5
 """Lengths of the spans in which a foot is looked at for its first attitude, and for what is learnt at rest, s."""
-QUIET_ACC = 0.6
+LEVEL_ACC = 0.6
 """Standard deviation of acc that still counts as quiet, m/s^2; eight-bit accelerometers flicker by 0.3."""
-QUIET_GYRO = 0.1
+LEVEL_GYRO = 0.1
 """The same of the angular rate, rad/s; its mean says nothing yet, since cheap gyroscopes are off by 0.3 at rest."""
-MOMENT, LONGEST_STRIDE, LEVEL_PATIENCE = 0.06, 1.3, 3.0
+SHORT_SPAN, LONGEST_STRIDE, LEVEL_PATIENCE = 0.06, 1.3, 3.0
 """Of a foot that walks already: the length of a moment, that of any stride, and when any attitude will do, s."""
-ALIKE = 4.0
+MOTION_RATIO = 4.0
 """How much louder than the quietest moment, in squares, another may be."""
-TURNING = 0.3
+RATE_PER_ACC = 0.3
 """What turns the foot at this rate, rad/s, is as loud as 1 m/s^2."""
 STILL_ACC = 0.35
 """Largest standard deviation of acc at rest, m/s^2, that of its counts aside."""
@@ -97,49 +97,49 @@ class Levelling:
     """
 
     span: SampleSpan = field(factory=SampleSpan, init=False)
-    short: SampleSpan = field(factory=SampleSpan, init=False)
-    short_start: float = field(default=0.0, init=False)
-    quietest: float = field(default=LOUDEST_LEVEL, init=False)
+    short_span: SampleSpan = field(factory=SampleSpan, init=False)
+    short_span_start: float = field(default=0.0, init=False)
+    least_motion: float = field(default=ABOVE_ANY_MOTION, init=False)
     """(m/s^2)^2."""
     span_start: float = field(default=0.0, init=False)
-    begun: float | None = field(default=None, init=False)
+    started_at: float | None = field(default=None, init=False)
 
     def update(self, t: float, acc: Vec3, gyro: Vec3) -> tuple[Quat, float] | None:
         """(attitude, standard deviation of its tilt in rad) once it is known."""
-        if self.begun is None:
-            self.begun = self.span_start = self.short_start = t
+        if self.started_at is None:
+            self.started_at = self.span_start = self.short_span_start = t
         self.span.add(acc, gyro)
-        walking = self._walking(t, acc, gyro, self.begun)
+        walking = self._walking(t, acc, gyro, self.started_at)
         if walking is not None:
             return walking
         if t - self.span_start < LEVEL_SPAN - TIE or self.span.count < 3:
             return None
         mean_acc, _ = self.span.means()
         acc_variance, gyro_variance = self.span.variances()
-        quiet = acc_variance < QUIET_ACC**2 and gyro_variance < QUIET_GYRO**2
+        still = acc_variance < LEVEL_ACC**2 and gyro_variance < LEVEL_GYRO**2
         self.span = SampleSpan()
         self.span_start = t
-        if quiet:
+        if still:
             return levelling(mean_acc), TILT_AT_REST
-        if t - self.begun >= LEVEL_PATIENCE - TIE:
+        if t - self.started_at >= LEVEL_PATIENCE - TIE:
             return levelling(mean_acc), TILT_AT_ANY_TIME
         return None
 
-    def _walking(self, t: float, acc: Vec3, gyro: Vec3, begun: float) -> tuple[Quat, float] | None:
+    def _walking(self, t: float, acc: Vec3, gyro: Vec3, started_at: float) -> tuple[Quat, float] | None:
         """As `update`, of a foot that never stands for a quarter of a second."""
-        short = self.short
-        short.add(acc, gyro)
-        if t - self.short_start < MOMENT - TIE or short.count < 2:
+        short_span = self.short_span
+        short_span.add(acc, gyro)
+        if t - self.short_span_start < SHORT_SPAN - TIE or short_span.count < 2:
             return None
-        (ax, ay, az), (gx, gy, gz) = short.means()
-        acc_variance, gyro_variance = short.variances()
+        (ax, ay, az), (gx, gy, gz) = short_span.means()
+        acc_variance, gyro_variance = short_span.variances()
         off = (ax * ax + ay * ay + az * az) ** 0.5 - GRAVITY
         rate = gx * gx + gy * gy + gz * gz + gyro_variance
-        loud = acc_variance + off * off + rate / (TURNING * TURNING)
-        self.short = SampleSpan()
-        self.short_start = t
-        stands = t - begun >= LONGEST_STRIDE - TIE and loud <= ALIKE * self.quietest
-        self.quietest = min(self.quietest, loud)
+        motion = acc_variance + off * off + rate / (RATE_PER_ACC * RATE_PER_ACC)
+        self.short_span = SampleSpan()
+        self.short_span_start = t
+        stands = t - started_at >= LONGEST_STRIDE - TIE and motion <= MOTION_RATIO * self.least_motion
+        self.least_motion = min(self.least_motion, motion)
         return (levelling((ax, ay, az)), TILT_IN_STANCE) if stands else None
 
 
@@ -156,7 +156,7 @@ class Rest:
     count: int = field(default=0, init=False)
     magnitude: float | None = field(default=None, init=False)
     """|acc| of the last rest, m/s^2."""
-    grain: float = field(default=COARSEST, init=False)
+    grain: float = field(default=COARSEST_COUNT, init=False)
     """What one count of the accelerometer is worth, m/s^2: the least by which two readings were seen to differ."""
     last: Vec3 = field(default=ZERO, init=False)
     """The last raw acc, m/s^2."""
@@ -166,7 +166,7 @@ class Rest:
         self.span = SampleSpan()
         self.span_start = None
 
-    def calibrated(self, acc: Vec3, gyro: Vec3) -> tuple[Vec3, Vec3]:
+    def calibrate(self, acc: Vec3, gyro: Vec3) -> tuple[Vec3, Vec3]:
         """What the sensor said without its scale and bias, m/s^2 and rad/s."""
         k, (bx, by, bz) = self.scale, self.bias
         return (acc[0] * k, acc[1] * k, acc[2] * k), (gyro[0] - bx, gyro[1] - by, gyro[2] - bz)
@@ -193,11 +193,11 @@ class Rest:
         y -= ly
         z -= lz
         finest = self.grain
-        if -finest < x < finest and not -EQUAL <= x <= EQUAL:
+        if -finest < x < finest and not -SAME_READING <= x <= SAME_READING:
             self.grain = finest = x if x > 0.0 else -x
-        if -finest < y < finest and not -EQUAL <= y <= EQUAL:
+        if -finest < y < finest and not -SAME_READING <= y <= SAME_READING:
             self.grain = finest = y if y > 0.0 else -y
-        if -finest < z < finest and not -EQUAL <= z <= EQUAL:
+        if -finest < z < finest and not -SAME_READING <= z <= SAME_READING:
             self.grain = z if z > 0.0 else -z
         if t - self.span_start < REST_SPAN - TIE or span.count < 4:
             return False
@@ -213,8 +213,8 @@ class Rest:
             return False
         self.magnitude = (ax * ax + ay * ay + az * az) ** 0.5
         scale = GRAVITY / self.magnitude if self.magnitude > 0.0 else 0.0
-        spans = min(self.count + 1, REMEMBERED)
-        if LEAST_SCALE < scale < LARGEST_SCALE and (self.count < YOUNG or abs(scale / self.scale - 1.0) < LIFT):
+        spans = min(self.count + 1, REST_MEMORY)
+        if LEAST_SCALE < scale < LARGEST_SCALE and (self.count < SCALE_KNOWN_AFTER or abs(scale / self.scale - 1.0) < ELEVATOR_SHARE):
             self.scale += (scale - self.scale) / spans
         weight = 1.0 / spans
         x, y, z = self.bias
@@ -223,9 +223,9 @@ class Rest:
         return True
 
 
-def suspected(t: float, known_at: float, site: Site, magnitude: float | None) -> ScaleSuspect | None:
+def check_scale(t: float, known_at: float, site: Site, magnitude: float | None) -> ScaleSuspect | None:
     """What to say of an accelerometer that reads `magnitude` at rest, m/s^2: nothing as long as that is about 1 g."""
-    if magnitude is None or 1.0 - SUSPECT < magnitude / GRAVITY < 1.0 + SUSPECT:
+    if magnitude is None or 1.0 - SUSPECT_SHARE < magnitude / GRAVITY < 1.0 + SUSPECT_SHARE:
         return None
     ratio = GRAVITY / magnitude if magnitude > 0.0 else inf
     suggestion = f"multiply acc by {ratio:.3g}" if isfinite(ratio) else "acc reads nothing at all"

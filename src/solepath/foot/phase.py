@@ -57,7 +57,7 @@ TO_COME: dict[Phase, tuple[Cue, ...]] = {
 }
 """The cues of a whole step that are still to come."""
 
-BEGINS: dict[Phase, type[HeelStrike] | type[FootFlat] | type[HeelOff] | type[ToeOff]] = {
+EVENT_OF_PHASE: dict[Phase, type[HeelStrike] | type[FootFlat] | type[HeelOff] | type[ToeOff]] = {
     Phase.LOADING: HeelStrike,
     Phase.STATIONARY: FootFlat,
     Phase.PUSH_OFF: HeelOff,

@@ -20,7 +20,7 @@ ABSURD_TIME = 1e11
 
 LEAST_TOTAL, LEAST_TIME = -ABSURD_TOTAL, -ABSURD_TIME
 """The other ends of these."""
-SURE_ACC, SURE_GYRO = ABSURD_ACC**2, ABSURD_GYRO**2
+SOUND_ACC_SQUARE, SOUND_GYRO_SQUARE = ABSURD_ACC**2, ABSURD_GYRO**2
 """A vector whose square is less is sound, (m/s^2)^2 and (rad/s)^2: each axis is less then."""
 
 SHORTEST_QUAT = 1e-12
@@ -39,17 +39,17 @@ def rejection_reason(sample: Sample, newest: float | None) -> RejectionReason | 
     ):
         return wrong_time(sample) or _wrong_order(t, t if newest is None else newest)
     acc, gyro = sample.acc, sample.gyro
-    sure = True
+    sound = True
     try:
         if acc is not None:
             x, y, z = acc
-            sure = x * x + y * y + z * z < SURE_ACC
-        if gyro is not None and sure:
+            sound = x * x + y * y + z * z < SOUND_ACC_SQUARE
+        if gyro is not None and sound:
             x, y, z = gyro
-            sure = x * x + y * y + z * z < SURE_GYRO
+            sound = x * x + y * y + z * z < SOUND_GYRO_SQUARE
     except OverflowError:  # an int may be too large for a float
-        sure = False
-    if not sure and (wrong := _wrong_vector("acc", acc, ABSURD_ACC) or _wrong_vector("gyro", gyro, ABSURD_GYRO)):
+        sound = False
+    if not sound and (wrong := _wrong_vector("acc", acc, ABSURD_ACC) or _wrong_vector("gyro", gyro, ABSURD_GYRO)):
         return wrong
     if sample.pressure:
         try:
@@ -59,7 +59,7 @@ def rejection_reason(sample: Sample, newest: float | None) -> RejectionReason | 
         if not LEAST_TOTAL < total < ABSURD_TOTAL:
             total = _total_of_numbers(sample.pressure)
             if not LEAST_TOTAL < total < ABSURD_TOTAL:
-                much = "hundreds of digits" if abs(total) == inf else f"{_shown(total)} in all"
+                much = "hundreds of digits" if abs(total) == inf else f"{_format_number(total)} in all"
                 return Rejection.ABSURD, f"pressure of {much}"
     return None
 
@@ -76,7 +76,7 @@ def _wrong_vector(name: str, vector: Vec3 | None, limit: float) -> RejectionReas
         return None
     if worst != worst or abs(worst) == inf:
         return Rejection.NOT_FINITE, f"{name} is not a number"
-    return Rejection.ABSURD, f"{name} of {_shown(worst)}"
+    return Rejection.ABSURD, f"{name} of {_format_number(worst)}"
 
 
 def _total_of_numbers(cells: tuple[float, ...]) -> float:
@@ -106,7 +106,7 @@ def wrong_time(sample: Sample) -> RejectionReason | None:
         if t is not None and not -ABSURD_TIME <= t <= ABSURD_TIME:
             if t != t or abs(t) == inf:
                 return Rejection.NOT_FINITE, "time is not a number"
-            return Rejection.ABSURD, f"time of {_shown(t)} s"
+            return Rejection.ABSURD, f"time of {_format_number(t)} s"
     return None
 
 
@@ -121,7 +121,7 @@ def rejected(sample: Sample, why: RejectionReason, newest: float | None) -> Samp
     return SampleRejected(t=t, known_at=known_at, site=sample.site, reason=reason, detail=detail)
 
 
-def _shown(value: float) -> str:
+def _format_number(value: float) -> str:
     """A number for people; an int may be too large even for that."""
     try:
         return f"{value:.4g}"

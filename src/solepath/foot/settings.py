@@ -25,7 +25,7 @@ class CycleSettings:
     """Where the threshold lies between the log of the lowest and of the highest statistic, 0 to 1."""
     floor: float = 2e4
     """The threshold is never below this statistic, which a standing foot shows."""
-    quietest: float = 3e3
+    least_statistic: float = 3e3
     """A lower statistic counts as this one: after standing, the next stance is not as still as standing was."""
     ceiling: float = 6e6
     """The threshold is never above this statistic, which a runner's stance comes to."""
@@ -41,7 +41,7 @@ class CycleSettings:
     """Velocity noise for each m/s^2 off gravity, s."""
     off_gravity2: float = 0.02
     """Velocity noise for each (m/s^2)^2 off gravity, s^3/m: a foot that is braked before it lands may turn no more."""
-    bucket: float = 0.4
+    span_duration: float = 0.4
     """Length of one of the four spans over which the extremes are kept, s; together they are a stride of any walker but
     a slow one."""
     rolls: bool = True
@@ -90,7 +90,7 @@ class ErrorStateSettings:
     """What two neighbouring samples differ by and the straight line between them cannot know, as a share of it. Small
     at 400 Hz; at 20 Hz, where a heel-strike falls between two samples, all that there is."""
     recover: bool = True
-    """Make up for the turn that a gyroscope at the end of its range missed (clipping.py, missed.py)."""
+    """Make up for the turn that a gyroscope at the end of its range missed (clipping.py, reintegration.py)."""
     suspect: float = 8.5
     """Rates beyond this may be clipped though no end of a range is seen (axes that were turned since, by a
     calibration), rad/s."""
@@ -112,9 +112,9 @@ class ErrorStateSettings:
 class InsoleSettings:
     """Of `InsoleLoads`."""
 
-    heel_ends: float = 0.33
+    heel_end: float = 0.33
     """Cells behind this share of the insole's length are the heel's area."""
-    forefoot_begins: float = 0.55
+    forefoot_start: float = 0.55
     """Cells in front of this share are the forefoot's area."""
     newtons: Newtons | None = None
     noise: tuple[float, ...] = ()

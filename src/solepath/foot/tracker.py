@@ -13,13 +13,13 @@ from ..events import Event, FootMoved, SampleGap
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..types.attrs import define, evolve, field
 from ..types.vector import ZERO
-from .attitude import Levelling, Rest, suspected
+from .attitude import Levelling, Rest, check_scale
 from .cues.cues import Cues, SeenCue
 from .cues.gait_cues import GaitCues
 from .gait import Gait
-from .gaps.crossing import cross
+from .gaps.crossing import cross_gap
 from .gaps.gap import SHORTEST
-from .limits import WITHOUT, Limits
+from .limitations import LACKING_TIME, Limitations
 from .navigate.corrector import LONGEST_BRIDGE, Corrector
 from .pressure.insole import InsoleLoads
 from .pressure.sole import Sole
@@ -52,7 +52,7 @@ class FootTracker:
     """The newest sample, s."""
     moved_at: float | None = field(default=None, init=False)
     """The newest sample with both acc and gyro, s."""
-    pressed_at: float | None = field(default=None, init=False)
+    partial_at: float | None = field(default=None, init=False)
     """The newest sample that lacked one of them, s."""
     seen_at: float | None = field(default=None, init=False)
     """The newest sample after which the body had a view, s."""
@@ -63,16 +63,16 @@ class FootTracker:
     levelled: bool = field(default=False, init=False)
     rest: Rest = field(factory=Rest, init=False)
     gait: Gait = field(init=False)
-    limits: Limits = field(init=False)
+    limitations: Limitations = field(init=False)
     scale_reported: bool = field(default=False, init=False)
     """That acc does not read 1 g at rest has been said, or is another's to say."""
 
     def __attrs_post_init__(self) -> None:
         self.gait = Gait(self.foot)
-        self.limits = Limits(self.foot)
+        self.limitations = Limitations(self.foot)
 
     @sole.default
-    def _bare(self) -> Sole:
+    def _default_sole(self) -> Sole:
         return Sole(self.foot, InsoleLoads(), self.settings)
 
     @property
@@ -116,7 +116,7 @@ class FootTracker:
             takes_shifts, covariance = (
                 (hasattr(corrector, "shift"), gait.covariance(corrector)) if spread else (False, None)
             )
-            after = AfterEvents(gait.step.attitude, self.sole.insole.layout, other, takes_shifts, covariance)
+            after = AfterEvents(gait.stride.attitude, self.sole.insole.layout, other, takes_shifts, covariance)
         if cells:
             insole = self.sole.insole
             layout = insole.layout
@@ -140,21 +140,21 @@ class FootTracker:
 
     def set_layout(self, layout: Layout) -> None:
         """The device said where its pressure cells are."""
-        self.sole.set_layout(layout, self.limits)
+        self.sole.set_layout(layout, self.limitations)
         self._set_layouts(layout)
 
     def _set_layouts(self, layout: Layout) -> None:
         self.sole.layout_changed = False
         self.detector.set_layout(layout)
         self.cues.set_layout(layout)
-        self.limits.later(self.detector.lacking)
+        self.limitations.queue(self.detector.lacking)
 
     def reset(self) -> None:
         """The clock of the samples begins anew, before or after the old one; what the foot did between is unknown."""
         if self.t is not None and self.levelled:
             self.corrector.bridge(inf)
-        self.t = self.moved_at = self.pressed_at = self.seen_at = self.limits.since = self.load = None
-        self.limits.odd_since = None
+        self.t = self.moved_at = self.partial_at = self.seen_at = self.limitations.lacking_since = self.load = None
+        self.limitations.mismatch_since = None
         self.gait.reset()
         # Windows over the old times would wait for the new ones to catch up. What was learnt stays.
         detector: Any = self.detector
@@ -170,7 +170,7 @@ class FootTracker:
         """One sample of this foot. A sample that cannot be used changes nothing and is named in an event."""
         t, acc, gyro = sample.t, sample.acc, sample.gyro
         whole = acc is not None and gyro is not None
-        last = self.moved_at if whole else self.pressed_at
+        last = self.moved_at if whole else self.partial_at
         why_not = rejection_reason(sample, last)
         if why_not is not None:
             return [rejected(sample, why_not, last)]
@@ -178,28 +178,28 @@ class FootTracker:
         if acc is None and gyro is None and not sample.pressure:
             return []  # a barometer's or magnetometer's: not a matter of the foot
         events: list[Event] = []
-        if self.limits.waiting:
-            self.limits.flush(t, known_at, events)
+        if self.limitations.pending:
+            self.limitations.flush(t, known_at, events)
         if self.t is None or t > self.t:
             self.t = t
         if sample.saturated:
-            self.gait.step.spoil(t)
+            self.gait.stride.mark_degraded(t)
         sole, load = self.sole, None
         if sample.pressure or sole.pressed:
-            load = sole.press(sample, known_at, self.gait.phase, self.limits, events)
+            load = sole.press(sample, known_at, self.gait.phase, self.limitations, events)
             if sole.layout_changed and sole.insole.layout is not None:
                 self._set_layouts(sole.insole.layout)
         if load is not None:
             gait = self.gait
-            if gait.phase is not SWING and gait.step.t_toe_off is None:
-                gait.step.loaded(sole.insole.sum, load.centre)
+            if gait.phase is not SWING and gait.stride.t_toe_off is None:
+                gait.stride.add_load(sole.insole.sum, load.centre)
         elif self.settings.needs_pressure and not sole.pressed:
             what = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
-            self.limits.lacks(what, t, known_at, events)
+            self.limitations.report_lacking(what, t, known_at, events)
             return events
         if not whole:
-            self.pressed_at = t
-            if self.moved_at is not None and t - self.moved_at < WITHOUT:
+            self.partial_at = t
+            if self.moved_at is not None and t - self.moved_at < LACKING_TIME:
                 self.load = load  # cells and inertial sensor come apart; the next inertial sample takes the load along
                 return events
         dt = 0.0 if last is None else t - last
@@ -207,7 +207,7 @@ class FootTracker:
             dt = self._gap(last, t, known_at, sample, events)
         if acc is not None and gyro is not None:
             self.moved_at = t
-            self.limits.since = None
+            self.limitations.lacking_since = None
             if load is None and self.load is not None:
                 load, self.load = self.load, None
             if sample.quat is not None:
@@ -216,22 +216,22 @@ class FootTracker:
             return events
         lacking = "accelerometer" if acc is None else "gyroscope"
         what = f"no {lacking} on the {self.foot.value} foot: no steps and no track from it"
-        self.limits.lacks(what, t, known_at, events)
+        self.limitations.report_lacking(what, t, known_at, events)
         if load is not None:
             for seen in self.cues.alone(t, dt, load, self.phase):
-                self._see(seen, known_at, events)
+                self._apply_cue(seen, known_at, events)
         return events
 
     def _gap(self, last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
         """Name a gap between two samples; returns the time to integrate over, s."""
         events.append(SampleGap(t=last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=t - last))
-        self.gait.step.spoil(t)
+        self.gait.stride.mark_degraded(t)
         if not self.levelled:
             return t - last
         if t - last <= SHORTEST or sample.acc is None or sample.gyro is None:
             return self.corrector.bridge(t - last)
-        seen = self.rest.calibrated(sample.acc, sample.gyro)
-        return cross(self.gait, self.corrector, self.cues, last, t, known_at, seen, self.rhythm.usual or 0.0, events)
+        seen = self.rest.calibrate(sample.acc, sample.gyro)
+        return cross_gap(self.gait, self.corrector, self.cues, last, t, known_at, seen, self.rhythm.usual or 0.0, events)
 
     def _inertial(
         self, t: float, dt: float, known_at: float, acc: Vec3, gyro: Vec3, saturated: bool,
@@ -239,7 +239,7 @@ class FootTracker:
     ) -> None:  # fmt: skip
         rest, corrector, gait = self.rest, self.corrector, self.gait
         if rest.update(t, acc, gyro):
-            suspect = None if self.scale_reported else suspected(t, known_at, SITE_OF_FOOT[self.foot], rest.magnitude)
+            suspect = None if self.scale_reported else check_scale(t, known_at, SITE_OF_FOOT[self.foot], rest.magnitude)
             if suspect is not None:
                 self.scale_reported = True
                 events.append(suspect)
@@ -257,33 +257,33 @@ class FootTracker:
             if first is not None:
                 corrector.start(*first)
                 self.levelled = True
-                gait.step.begin(t, ZERO, corrector.attitude)
+                gait.stride.start_stride(t, ZERO, corrector.attitude)
             if self.settings.poses:
-                self._say_where(t, known_at, events)
+                self._report_motion(t, known_at, events)
             return
-        believed = corrector.correct(t, stance)
+        accepted = corrector.correct(t, stance)
         vx, vy, vz = corrector.velocity
         speed = sqrt(vx * vx + vy * vy + vz * vz)
         cues = self.cues
-        seen = cues.update(t, dt, acc, gyro, believed and speed < STILL, speed, gait.phase, load, stance)
+        seen = cues.update(t, dt, acc, gyro, accepted and speed < STILL, speed, gait.phase, load, stance)
         if cues.mark is not None:
             corrector.mark(t, cues.mark)
         template, position = gait.template, corrector.position
-        if template.lifted is not None and t >= template.due:
-            template.keep(t, corrector.attitude, corrector.velocity, position, acc, gyro)
-        gait.step.moved(t, dt, position[2], speed, cues.sagittal)
+        if template.t_heel_off is not None and t >= template.due:
+            template.add_moment(t, corrector.attitude, corrector.velocity, position, acc, gyro)
+        gait.stride.add_motion(t, dt, position[2], speed, cues.sagittal)
         if seen:
             for one in seen:
-                self._see(one, known_at, events)
-        elif not gait.headed:
-            gait.world.find(position)
+                self._apply_cue(one, known_at, events)
+        elif not gait.heading_settled:
+            gait.world.find_heading(position)
         if self.settings.poses:
-            self._say_where(t, known_at, events)
+            self._report_motion(t, known_at, events)
 
-    def _say_where(self, t: float, known_at: float, events: list[Event]) -> None:
+    def _report_motion(self, t: float, known_at: float, events: list[Event]) -> None:
         p, v = self.position, self.velocity
         events.append(FootMoved(t=t, known_at=known_at, foot=self.foot, position=p, velocity=v, phase=self.phase))
 
-    def _see(self, seen: SeenCue, known_at: float, events: list[Event]) -> None:
+    def _apply_cue(self, seen: SeenCue, known_at: float, events: list[Event]) -> None:
         corrector = self.corrector if self.levelled else None
-        events += self.gait.see(seen, known_at, corrector, self.rhythm.usual or 0.0)
+        events += self.gait.apply_cue(seen, known_at, corrector, self.rhythm.usual or 0.0)

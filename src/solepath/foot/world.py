@@ -2,7 +2,7 @@
 
 Navigation begins before anybody knows where the wearer will go, in a frame with an arbitrary heading. The first
 heading is that of the first step; from when the foot has moved a little until that step is over it is the direction in
-which the foot has come so far. What was reported before lies within `FIRST_WAY` of the origin and was not final.
+which the foot has come so far. What was reported before lies within `FIRST_HEADING_DISTANCE` of the origin and was not final.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from ..types import Quat, Vec3
 from ..types.attrs import define, field
 from ..types.vector import from_yaw, multiply
 
-FIRST_WAY = 0.15
+FIRST_HEADING_DISTANCE = 0.15
 """The foot tells a heading when it is this far from where it first stood, m."""
 
 Covariance3 = tuple[float, float, float, float, float, float]
@@ -27,7 +27,7 @@ class World:
     north: tuple[float, float] | None = field(default=None, init=False)
     """cos and sin of the turn; None until the first heading is known."""
 
-    def find(self, position: Vec3, least: float = FIRST_WAY) -> bool:
+    def find_heading(self, position: Vec3, least: float = FIRST_HEADING_DISTANCE) -> bool:
         """Take the direction of `position` (navigation frame, m) as the first heading if it is far enough."""
         x, y, _ = position
         if hypot(x, y) < max(least, 1e-6):

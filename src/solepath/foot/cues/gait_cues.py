@@ -47,23 +47,23 @@ class GaitCues(Cues):
             pressed = self.pressure.update(t, dt, load, phase)
             if len(load.cells) <= FEW:
                 airborne = self.touch.update(t, load, still)
-                if not self.touch.known:
+                if not self.touch.trusted:
                     return () if seen is None else (seen,)
                 pressed = None
                 if airborne is not (phase is Phase.SWING):
                     pressed = SeenCue(Cue.CLEAR if airborne else Cue.CONTACT, t)
             if pressed is not None:
                 if pressed.cue is Cue.CLEAR:
-                    inertial.pushed_off(phase)
+                    inertial.apply_toe_off(phase)
                     self.sagittal = 0.0 if inertial.axis is None else inertial.sagittal
                 return (pressed,)
             if seen is not None and seen.cue is not Cue.FLAT:
-                seen = self.pressure.dated(seen) if seen.cue is Cue.LIFT else None
+                seen = self.pressure.date_lift(seen) if seen.cue is Cue.LIFT else None
         return () if seen is None else (seen,)
 
     def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
         """As in `Cues`: heel and forefoot say what stillness would have said."""
-        seen = self.pressure.update(t, dt, load, phase) or self.pressure.areas(t, load, phase)
+        seen = self.pressure.update(t, dt, load, phase) or self.pressure.update_areas(t, load, phase)
         return () if seen is None else (seen,)
 
     def cleared(self, t: float) -> SeenCue:

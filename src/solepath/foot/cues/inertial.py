@@ -31,13 +31,13 @@ LOADING: Final = Phase.LOADING
 
 LEAST_TURN = 0.25
 """A foot that has turned by less than this was not pushing off, rad."""
-ALIKE = 0.5
+SAME_AXIS = 0.5
 """Cosine of 60 degrees: axes that are further apart are not the same."""
 MISFITS = 3
 """Push-offs in a row about another axis after which that one is believed."""
-NEWEST = 0.2
+AXIS_GAIN = 0.2
 """Share of the newest push-off in the axis."""
-IN_SWING = 2.0
+GAP_TROUGH = 2.0
 """A swing that a gap has hidden was under way when its hump was taken to be so many times the least one."""
 SETTLE = 0.009
 """Stillness, or its loss, must last this long, s."""
@@ -45,22 +45,22 @@ LEAST_PUSH = 1.5
 """A push-off's peak rate is at least this, rad/s."""
 PAST_PEAK = 0.5
 """Toe-off is where the rate has fallen to this share of its peak."""
-LEAST_HUMP = 1.0
+LEAST_TROUGH = 1.0
 """The swing's negative hump is at least this, rad/s."""
-SLAP = 1.0
+LANDING_RATE = 1.0
 """The heel lands about when the rate comes up through this, as the ground turns the sole down, rad/s."""
-HEAR_OUT = 0.04
+IMPACT_SETTLES = 0.04
 """Then the impact is heard out until its middle is this long ago, s: heel-strike is to be known within 60 ms."""
 LONGEST_IMPACT = 0.1
 """An impact is heard out for no longer than this, s."""
-LEAST_JOLT = 1e4
+LEAST_SHOCK = 1e4
 """A foot that has lost its speed has landed if the impact's squared jerk came to this, m^2/s^5: 600 m/s^3 for
 30 ms. Muscles that swing a leg reach half of that jerk, the ground some thousands."""
 SHORTEST_SWING = 0.1
 """No heel-strike sooner than this after toe-off, s."""
 SHUFFLE_SPEED = 0.35
 """A foot that moves this fast for SHUFFLE_TIME is in swing, however it got there, m/s."""
-REACH = 0.2
+SPEED_PER_RATE = 0.2
 """That speed is higher by this for each rad/s, m: no sensor is further from the toes, which a foot rolls over."""
 SHUFFLE_TIME = 0.15
 """For so long a foot must be so fast to be in swing, s."""
@@ -74,12 +74,12 @@ ROLLING = 0.12
 
 @define
 class InertialCues:
-    """Latency: toe-off one sample; heel-strike HEAR_OUT, or when the foot is still where no impact shows; foot-flat
+    """Latency: toe-off one sample; heel-strike IMPACT_SETTLES, or when the foot is still where no impact shows; foot-flat
     and heel-off SETTLE."""
 
     still_since: float | None = field(default=None, init=False)
     """Since when the evidence of zero velocity has been believed, s; None while it is not."""
-    calm: float | None = field(default=None, init=False)
+    not_turning_at: float | None = field(default=None, init=False)
     """The last moment of this stance at which the foot did not turn, s."""
     moving_since: float | None = field(default=None, init=False)
     """Since when it has not been believed, s."""
@@ -95,9 +95,9 @@ class InertialCues:
     """The highest sagittal rate of this push-off, rad/s."""
     trough: float = field(default=0.0, init=False)
     """The lowest sagittal rate of this swing, rad/s."""
-    toe_off: float | None = field(default=None, init=False)
+    swing_start: float | None = field(default=None, init=False)
     """When the last swing began, s."""
-    struck: float | None = field(default=None, init=False)
+    landing_at: float | None = field(default=None, init=False)
     """When the rate came up after the swing, s, until heel-strike is told."""
     force: Vec3 | None = field(default=None, init=False)
     """Specific force of the last sample, m/s^2."""
@@ -118,7 +118,7 @@ class InertialCues:
             x, y, z = axis
             now = x * gx + y * gy + z * gz
         self.sagittal = now
-        was, self.force = self.force, acc
+        previous_force, self.force = self.force, acc
         if still:
             self.moving_since = self.fast_since = None
             if self.still_since is None:
@@ -129,15 +129,15 @@ class InertialCues:
                 self.moving_since = t
                 self.turned = ZERO
                 self.peak = 0.0
-            if speed < SHUFFLE_SPEED + REACH * (now if now > 0.0 else -now):
+            if speed < SHUFFLE_SPEED + SPEED_PER_RATE * (now if now > 0.0 else -now):
                 self.fast_since = None
             elif self.fast_since is None:
                 self.fast_since = t
         if phase is SWING:
-            self.calm = None
-            return self._in_swing(t, dt, speed, before, now, was)
-        if now < ROLLING and (still or self.calm is None):
-            self.calm = t
+            self.not_turning_at = None
+            return self._in_swing(t, dt, speed, before, now, previous_force)
+        if now < ROLLING and (still or self.not_turning_at is None):
+            self.not_turning_at = t
         if self.still_since is not None:
             if phase is not STATIONARY and t - self.still_since >= SETTLE - TIE:
                 return SeenCue(Cue.FLAT, self.still_since - LOOKBACK)
@@ -148,7 +148,7 @@ class InertialCues:
             if now > self.peak:
                 self.peak = now
             if self.moving_since is not None and t - self.moving_since >= SETTLE - TIE:
-                return SeenCue(Cue.LIFT, self.moving_since if self.calm is None else min(self.calm, self.moving_since))
+                return SeenCue(Cue.LIFT, self.moving_since if self.not_turning_at is None else min(self.not_turning_at, self.moving_since))
             return None
         return self._in_push_off(t, dt, before, now, phase)
 
@@ -159,42 +159,42 @@ class InertialCues:
         if phase is PUSH_OFF and self.peak > LEAST_PUSH and now < limit and self._learn_axis():
             # between the last two samples, where a straight line meets the limit
             share = (before - limit) / (before - now) if before > limit > now else 1.0
-            return self._clear(t - dt * (1.0 - share))
+            return self._report_clear(t - dt * (1.0 - share))
         patience = LOADING_TIME if phase is LOADING else SHUFFLE_TIME
         if self.fast_since is not None and t - self.fast_since >= patience - TIE:
-            return self._clear(self.fast_since)
+            return self._report_clear(self.fast_since)
         return None
 
     def _in_swing(
-        self, t: float, dt: float, speed: float, before: float, now: float, was: Vec3 | None
+        self, t: float, dt: float, speed: float, before: float, now: float, previous_force: Vec3 | None
     ) -> SeenCue | None:
         if now < self.trough:
             self.trough = now
         impact = self.impact
-        struck = self.struck
+        landing_at = self.landing_at
         force = self.force
-        if was is not None and force is not None:
-            impact.feel(t, dt, was, force, speed, struck is not None)
-        if struck is not None:
-            middle = max(struck, impact.middle)
-            over = t - middle >= HEAR_OUT - TIE or t - struck >= LONGEST_IMPACT - TIE
-            return self._landed(middle) if over or self.still_since is not None else None
+        if previous_force is not None and force is not None:
+            impact.add_sample(t, dt, previous_force, force, speed, landing_at is not None)
+        if landing_at is not None:
+            middle = max(landing_at, impact.middle)
+            over = t - middle >= IMPACT_SETTLES - TIE or t - landing_at >= LONGEST_IMPACT - TIE
+            return self._report_contact(middle) if over or self.still_since is not None else None
         if self.still_since is not None:
             if t - self.still_since >= SETTLE - TIE:
-                return self._landed(impact.jolted if impact.hardest > 0.0 else self.still_since - LOOKBACK)
+                return self._report_contact(impact.peak_shock_at if impact.peak_shock > 0.0 else self.still_since - LOOKBACK)
             return None
-        if self.toe_off is not None and t - self.toe_off < SHORTEST_SWING - TIE:
+        if self.swing_start is not None and t - self.swing_start < SHORTEST_SWING - TIE:
             return None
-        if before < SLAP <= now and self.trough < -LEAST_HUMP and self.axis is not None:
-            self.struck = t - dt * (now - SLAP) / (now - before)
-        elif speed < SHUFFLE_SPEED and impact.hardest > LEAST_JOLT and t - impact.jolted >= HEAR_OUT - TIE:
-            return self._landed(impact.jolted)
+        if before < LANDING_RATE <= now and self.trough < -LEAST_TROUGH and self.axis is not None:
+            self.landing_at = t - dt * (now - LANDING_RATE) / (now - before)
+        elif speed < SHUFFLE_SPEED and impact.peak_shock > LEAST_SHOCK and t - impact.peak_shock_at >= IMPACT_SETTLES - TIE:
+            return self._report_contact(impact.peak_shock_at)
         return None
 
-    def _landed(self, t: float) -> SeenCue:
+    def _report_contact(self, t: float) -> SeenCue:
         self.peak = 0.0
         self.turned = ZERO
-        self.struck = self.fast_since = None
+        self.landing_at = self.fast_since = None
         return SeenCue(Cue.CONTACT, t)
 
     def reset(self) -> None:
@@ -209,18 +209,18 @@ class InertialCues:
 
     def cleared(self, t: float) -> SeenCue:
         """The toe left the ground at `t`, in a gap, and the swing was under way when that ended."""
-        seen = self._clear(t)
-        self.trough = -IN_SWING * LEAST_HUMP
+        seen = self._report_clear(t)
+        self.trough = -GAP_TROUGH * LEAST_TROUGH
         return seen
 
-    def _clear(self, t: float) -> SeenCue:
-        self.toe_off = t
-        self.impact.begin(t)
-        self.struck = None
+    def _report_clear(self, t: float) -> SeenCue:
+        self.swing_start = t
+        self.impact.start_swing(t)
+        self.landing_at = None
         self.trough = self.peak = 0.0
         return SeenCue(Cue.CLEAR, t)
 
-    def pushed_off(self, phase: Phase) -> None:
+    def apply_toe_off(self, phase: Phase) -> None:
         """The load says that the toe has left the ground, in `phase`: how the foot has turned shows the axis all the
         same."""
         if phase is PUSH_OFF and self.peak > LEAST_PUSH:
@@ -237,14 +237,14 @@ class InertialCues:
             self.axis = (x, y, z)
             return True
         u, v, w = self.axis
-        if u * x + v * y + w * z < ALIKE:
+        if u * x + v * y + w * z < SAME_AXIS:
             # turned about another axis: not how this wearer pushes off, unless it keeps on doing so
             self.misfits += 1
             if self.misfits < MISFITS:
                 return False
             u, v, w = x, y, z
         self.misfits = 0
-        u, v, w = u + NEWEST * (x - u), v + NEWEST * (y - v), w + NEWEST * (z - w)
+        u, v, w = u + AXIS_GAIN * (x - u), v + AXIS_GAIN * (y - v), w + AXIS_GAIN * (z - w)
         k = 1.0 / sqrt(u * u + v * v + w * w)
         self.axis = (u * k, v * k, w * k)
         return True

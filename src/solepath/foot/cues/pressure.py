@@ -49,13 +49,13 @@ class PressureCues:
             return SeenCue(Cue.CLEAR, _crossing(t, dt, before, now, CLEAR_LOAD))
         return None
 
-    def dated(self, lift: SeenCue) -> SeenCue:
+    def date_lift(self, lift: SeenCue) -> SeenCue:
         """The inertial sensor saw the heel lift; the cells know when it did, if the heel has any."""
         if self.heel_loaded is None or not 0.0 <= lift.t - self.heel_loaded < RECENT:
             return lift
         return SeenCue(lift.cue, self.heel_loaded)
 
-    def areas(self, t: float, load: Load, phase: Phase) -> SeenCue | None:
+    def update_areas(self, t: float, load: Load, phase: Phase) -> SeenCue | None:
         """For an insole without an inertial sensor: heel and forefoot say what stillness would have said."""
         if load.heel is None or load.forefoot is None:
             return None

@@ -10,7 +10,7 @@ from ..navigate.corrector import LONGEST_BRIDGE, Corrector
 from .gap import NoInfill, find_infill
 
 
-def cross(
+def cross_gap(
     gait: Gait,
     corrector: Corrector,
     cues: Cues,
@@ -31,7 +31,7 @@ def cross(
     acc, gyro = seen
     found = find_infill(template, corrector, last, t, acc, gyro)
     if found is NoInfill.UNKNOWN:
-        template.cross()
+        template.mark_bridged()
         if dt > LONGEST_BRIDGE:
             template.reset()
         return corrector.bridge(dt)
@@ -41,8 +41,8 @@ def cross(
         cues.reset()
         corrector.infill(t - last, found.attitude, found.velocity, found.position)
         events += gait.apply_infill(found, cues, known_at, corrector, interval)
-        if found.landed is None:
+        if found.t_foot_flat is None:
             break
-        last = found.landed
+        last = found.t_foot_flat
         found = find_infill(template, corrector, last, t, acc, gyro)
     return 0.0

@@ -41,11 +41,11 @@ class RecordedStride:
     toe_off: float
     """s after the heel's rise."""
     heel_strike: float
-    way: Vec3
+    displacement: Vec3
     """From foot-flat to foot-flat, m; x along the mean of both headings."""
 
     @property
-    def lasted(self) -> float:
+    def duration(self) -> float:
         """The last moment, s after the heel's rise."""
         return self.rows[-1][0]
 
@@ -68,17 +68,17 @@ def at(moments: list[StrideMoment], since: float) -> StrideMoment:
             k = (since - before.since) / (moment.since - before.since)
             return StrideMoment(
                 since,
-                normalise(_mixed(before.attitude, moment.attitude, k)),
-                _between(before.velocity, moment.velocity, k),
-                _between(before.position, moment.position, k),
-                _between(before.rate, moment.rate, k),
+                normalise(_mix_attitudes(before.attitude, moment.attitude, k)),
+                _interpolate(before.velocity, moment.velocity, k),
+                _interpolate(before.position, moment.position, k),
+                _interpolate(before.rate, moment.rate, k),
                 before.force + k * (moment.force - before.force),
             )
         before = moment
     return before
 
 
-def corrected(rows: list[MomentRow]) -> float:
+def correction_distance(rows: list[MomentRow]) -> float:
     """How far zero velocity moved the foot in a stride when it came down, m: what the velocities do not tell."""
     first, last = rows[0], rows[-1]
     before, ax, ay, az = first[0], *first[5:8]
@@ -94,17 +94,17 @@ def length(v: Vec3) -> float:
     return hypot(v[0], v[1], v[2])
 
 
-def limited(v: Vec3, most: float) -> Vec3:
+def limit_length(v: Vec3, most: float) -> Vec3:
     """In the same direction, no longer than `most`."""
     far = length(v)
     return v if far <= most else (v[0] * most / far, v[1] * most / far, v[2] * most / far)
 
 
-def _between(a: Vec3, b: Vec3, k: float) -> Vec3:
+def _interpolate(a: Vec3, b: Vec3, k: float) -> Vec3:
     return (a[0] + k * (b[0] - a[0]), a[1] + k * (b[1] - a[1]), a[2] + k * (b[2] - a[2]))
 
 
-def _mixed(p: Quat, q: Quat, k: float) -> Quat:
+def _mix_attitudes(p: Quat, q: Quat, k: float) -> Quat:
     if p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3] < 0.0:
         q = (-q[0], -q[1], -q[2], -q[3])
     w, x, y, z = (a + k * (b - a) for a, b in zip(p, q, strict=True))

@@ -17,7 +17,7 @@ FOOTFALL_SIGMA = 0.025
 """What the heading of one footfall differs by from those before, of who walks straight on, rad."""
 HEADING_MEMORY = 0.3
 """Weight of the newest footfall in the heading that is kept."""
-BEND, SEEN_BEND = 0.12, 0.0625
+NEW_HEADING, SEEN_NEW_HEADING = 0.12, 0.0625
 """A footfall turned further than this begins another heading, rad, and one that was seen whole further than the
 other."""
 GAP_TURN = 0.08
@@ -45,15 +45,15 @@ class StraightOn:
             return 0.0
         off = self.heading + turn
         # between two samples a straight line errs by the square of the time
-        doubt = GAP_TURN * min(2.0, unsure + 200.0 * sparse * sparse)
-        return -off * share(off * off, doubt, FOOTFALL_SIGMA, pi, 1)
+        heading_sigma = GAP_TURN * min(2.0, unsure + 200.0 * sparse * sparse)
+        return -off * share(off * off, heading_sigma, FOOTFALL_SIGMA, pi, 1)
 
     def footfall(self, turn: float, repair: float, unsure: float, sparse: float) -> None:
         """The foot is flat, turned by `turn` and `repair`, rad; the others as above."""
         off = self.heading + turn + repair
         self.yaw = (self.yaw + (turn + repair) + pi) % (2.0 * pi) - pi
         # what was seen whole and is further off than footfalls are is the wearer's doing, and so may the next be
-        bend = BEND if unsure > 0.0 or sparse > 0.0 else SEEN_BEND
+        bend = NEW_HEADING if unsure > 0.0 or sparse > 0.0 else SEEN_NEW_HEADING
         if abs(off) > bend * (1.0 + sparse / 0.1):
             self.heading, self.footfalls = 0.0, 1
         else:

@@ -8,7 +8,7 @@ longer it lasts and the less alike its ends are, the flatter is what a foot real
 
     m = D^2 sqrt(rise fall) / (6 (1 + D / FLAT))
 
-is taken: on recorded feet, cut off at 250 degrees/s, a third of m off as a rule. missed.py says what follows. Where
+is taken: on recorded feet, cut off at 250 degrees/s, a third of m off as a rule. reintegration.py says what follows. Where
 the range ends is learnt: an axis that stands at its largest reading for D seconds is at its end, unless that is no more
 than what a smooth maximum does. Between ends as steep as those, it would rise by D sqrt(rise fall) / 4.
 """
@@ -21,15 +21,15 @@ from typing import NamedTuple
 from ...types import Vec3
 from ...types.attrs import define, field, frozen
 
-SAME = 0.025
+SAME_READING = 0.025
 """Readings at the end of a range differ by less than this share of it: calibrations mix the axes, and a bias is off."""
-NEAR = 0.85
+NEAR_END = 0.85
 """The ends of the axes' ranges are alike: none is nearer than this share of the largest rate."""
-SPIKE = 1.5
+MOST_GROWTH = 1.5
 """No reading is believed to be more than so many times the largest before it."""
-FADES = 0.97
+FADE = 0.97
 """What is left, a step later, of the largest rate, so that what was broken is forgotten."""
-FLAT = 0.25
+FLATTENING = 0.25
 """s, as in m."""
 BULGE = 3.0
 """An end of a range is believed when a smooth maximum would rise by so many times what readings there differ by."""
@@ -48,9 +48,9 @@ class SensorLimits:
 
     least: float
     """No range ends below this, rad/s or m/s^2."""
-    steepest: float
+    largest_slope: float
     """What a foot does changes no faster, but when it strikes, rad/s^2 or m/s^3."""
-    trifle: float
+    negligible: float
     """Less than this that was missed is nothing, rad or m/s: what a smooth maximum comes to."""
 
 
@@ -58,14 +58,14 @@ GYROSCOPE = SensorLimits(2.0, 400.0, 0.004)
 ACCELEROMETER = SensorLimits(15.0, 4000.0, 0.03)
 
 
-class Missed(NamedTuple):
+class ClippedPeak(NamedTuple):
     """What one axis did not see."""
 
     axis: int
-    angle: float
+    integral: float
     """About the sensor's axis, rad; of an accelerometer, along it, m/s."""
     sigma: float
-    lasted: float
+    duration: float
     """How long it was beyond the range, s;"""
     ago: float
     """and how long before the last sample it came back to it, s."""
@@ -75,19 +75,19 @@ class Missed(NamedTuple):
 
 
 @define
-class GyroscopeAxis:
+class ClippedAxis:
     """One axis of the gyroscope."""
 
     top: float
     """The largest reading seen, and the least, rad/s or m/s^2."""
     bottom: float
-    ends_above: bool = False
+    top_known: bool = False
     """It cannot say more than `top`;"""
-    ends_below: bool = False
+    bottom_known: bool = False
     """nor less than `bottom`."""
     side: int = 0
     """1: above the range now, -1: below it, 0: within."""
-    lasted: float = 0.0
+    duration: float = 0.0
     """From when it left the range to the last sample beyond it, s."""
     rise: float = 0.0
     """How steeply it left, rad/s^2."""
@@ -101,26 +101,26 @@ class Clipping:
     """Three axes. Latency: what was missed is known two samples after the range is entered again."""
 
     limits: SensorLimits = GYROSCOPE
-    axes: list[GyroscopeAxis] = field(init=False)
+    axes: list[ClippedAxis] = field(init=False)
     largest: float = field(init=False)
     """The largest reading of any axis."""
-    watch: float = field(init=False)
+    watch_square: float = field(init=False)
     """Square of what is measured from which on an axis may be at its end."""
     clipping: bool = field(default=False, init=False)
     """An axis is beyond its range, or was a sample ago."""
 
     def __attrs_post_init__(self) -> None:
-        self.axes = [GyroscopeAxis(self.limits.least, -self.limits.least) for _ in range(3)]
-        self._reach(self.limits.least)
+        self.axes = [ClippedAxis(self.limits.least, -self.limits.least) for _ in range(3)]
+        self._set_largest(self.limits.least)
 
-    def stepped(self) -> None:
+    def end_stride(self) -> None:
         """A step ended."""
-        self._reach(FADES * self.largest)
+        self._set_largest(FADE * self.largest)
         for axis in self.axes:
-            if not axis.ends_above:
-                axis.top = max(self.limits.least, FADES * axis.top)
-            if not axis.ends_below:
-                axis.bottom = min(-self.limits.least, FADES * axis.bottom)
+            if not axis.top_known:
+                axis.top = max(self.limits.least, FADE * axis.top)
+            if not axis.bottom_known:
+                axis.bottom = min(-self.limits.least, FADE * axis.bottom)
 
     def reset(self) -> None:
         """There was a gap: what was missed before it is not known."""
@@ -130,100 +130,100 @@ class Clipping:
 
     def update(
         self, dt: float, now: Vec3, before: Vec3, earlier: Vec3, earlier_dt: float, saturated: bool
-    ) -> tuple[Missed, ...]:
+    ) -> tuple[ClippedPeak, ...]:
         """One rate, rad/s, `dt` s after `before`, which was `earlier_dt` after `earlier`; `saturated`: the device says
         that a sensor is at its end. Returns what turned out to have been missed."""
-        found: tuple[Missed, ...] = ()
+        found: tuple[ClippedPeak, ...] = ()
         clipping = False
         for i in (0, 1, 2):
             axis, a = self.axes[i], now[i]
             if axis.side == 0:
-                if abs(a) > NEAR * self.largest and not axis.bottom * (1.0 - SAME) < a < axis.top * (1.0 - SAME):
-                    _enter(axis, dt, a, before[i], earlier[i], earlier_dt, saturated, self.limits.steepest)
+                if abs(a) > NEAR_END * self.largest and not axis.bottom * (1.0 - SAME_READING) < a < axis.top * (1.0 - SAME_READING):
+                    _enter_clipping(axis, dt, a, before[i], earlier[i], earlier_dt, saturated, self.limits.largest_slope)
                     if abs(a) > self.largest:
-                        self._reach(min(abs(a), SPIKE * self.largest))
+                        self._set_largest(min(abs(a), MOST_GROWTH * self.largest))
             else:
-                missed = _follow(axis, i, dt, a, self.limits.steepest)
-                if missed is not None and abs(missed.angle) > self.limits.trifle:
-                    found = (*found, missed)
+                peak = _follow_clipping(axis, i, dt, a, self.limits.largest_slope)
+                if peak is not None and abs(peak.integral) > self.limits.negligible:
+                    found = (*found, peak)
             clipping = clipping or axis.side != 0
         self.clipping = clipping
         return found
 
-    def _reach(self, rate: float) -> None:
+    def _set_largest(self, rate: float) -> None:
         self.largest = max(self.limits.least, rate)
-        self.watch = NEAR * NEAR * self.largest * self.largest
+        self.watch_square = NEAR_END * NEAR_END * self.largest * self.largest
 
 
-def _enter(
-    axis: GyroscopeAxis,
+def _enter_clipping(
+    axis: ClippedAxis,
     dt: float,
     a: float,
     before: float,
     earlier: float,
     earlier_dt: float,
     saturated: bool,
-    most: float,
+    largest_slope: float,
 ) -> None:
     sign = 1 if a > 0.0 else -1
     a, before, earlier = sign * a, sign * before, sign * earlier
     end = axis.top if sign > 0 else -axis.bottom
-    known = axis.ends_above if sign > 0 else axis.ends_below
-    stands = a * (1.0 - SAME) <= before <= a * (1.0 + SAME)
-    if a > end * (1.0 + SAME):
+    known = axis.top_known if sign > 0 else axis.bottom_known
+    stands = a * (1.0 - SAME_READING) <= before <= a * (1.0 + SAME_READING)
+    if a > end * (1.0 + SAME_READING):
         known = saturated  # it can say more than was thought
-    end = max(end, min(a, SPIKE * end))
+    end = max(end, min(a, MOST_GROWTH * end))
     known = known or saturated
     if sign > 0:
-        axis.top, axis.ends_above = end, known
+        axis.top, axis.top_known = end, known
     else:
-        axis.bottom, axis.ends_below = -end, known
+        axis.bottom, axis.bottom_known = -end, known
     if not (known or stands):
         return
     axis.side, axis.after, axis.after_dt = sign, None, 0.0
-    axis.rise = _slope(before - earlier, earlier_dt, most)
+    axis.rise = _slope(before - earlier, earlier_dt, largest_slope)
     if stands:
-        axis.lasted = dt
+        axis.duration = dt
     else:
-        axis.rise = max(_slope(a - before, dt, most), axis.rise)
-        axis.lasted = max(0.0, dt - (a - before) / axis.rise)
+        axis.rise = max(_slope(a - before, dt, largest_slope), axis.rise)
+        axis.duration = max(0.0, dt - (a - before) / axis.rise)
 
 
-def _follow(axis: GyroscopeAxis, i: int, dt: float, a: float, most: float) -> Missed | None:
+def _follow_clipping(axis: ClippedAxis, i: int, dt: float, a: float, largest_slope: float) -> ClippedPeak | None:
     sign = axis.side
     a *= sign
     end = axis.top if sign > 0 else -axis.bottom
-    if a > end * (1.0 + SAME):  # it was not the end
+    if a > end * (1.0 + SAME_READING):  # it was not the end
         if sign > 0:
-            axis.top, axis.ends_above = min(a, SPIKE * end), False
+            axis.top, axis.top_known = min(a, MOST_GROWTH * end), False
         else:
-            axis.bottom, axis.ends_below = -min(a, SPIKE * end), False
+            axis.bottom, axis.bottom_known = -min(a, MOST_GROWTH * end), False
         axis.side = 0
         return None
-    if a >= end * (1.0 - SAME):
-        axis.lasted += dt + axis.after_dt
+    if a >= end * (1.0 - SAME_READING):
+        axis.duration += dt + axis.after_dt
         axis.after, axis.after_dt = None, 0.0
-        if axis.lasted > LONGEST:
+        if axis.duration > LONGEST:
             axis.side = 0
         return None
     if axis.after is None:
         axis.after, axis.after_dt = a, dt
         return None
-    fall = max(_slope(end - axis.after, axis.after_dt, most), _slope(axis.after - a, dt, most))
-    if not (axis.ends_above if sign > 0 else axis.ends_below):
-        if axis.lasted * sqrt(axis.rise * fall) < 4.0 * BULGE * SAME * end:
+    fall = max(_slope(end - axis.after, axis.after_dt, largest_slope), _slope(axis.after - a, dt, largest_slope))
+    if not (axis.top_known if sign > 0 else axis.bottom_known):
+        if axis.duration * sqrt(axis.rise * fall) < 4.0 * BULGE * SAME_READING * end:
             axis.side, axis.after, axis.after_dt = 0, None, 0.0
             return None
         if sign > 0:
-            axis.ends_above = True
+            axis.top_known = True
         else:
-            axis.ends_below = True
+            axis.bottom_known = True
     tail = min((end - axis.after) / fall, axis.after_dt)
-    lasted = axis.lasted + axis.after_dt - tail
-    angle = min(lasted * lasted * sqrt(axis.rise * fall) / (6.0 * (1.0 + lasted / FLAT)), MOST)
+    duration = axis.duration + axis.after_dt - tail
+    integral = min(duration * duration * sqrt(axis.rise * fall) / (6.0 * (1.0 + duration / FLATTENING)), MOST)
     axis.side, axis.after, axis.after_dt = 0, None, 0.0
-    return Missed(i, sign * angle, SPREAD * angle + FLOOR * end * lasted, lasted, dt + tail, axis.rise, fall)
+    return ClippedPeak(i, sign * integral, SPREAD * integral + FLOOR * end * duration, duration, dt + tail, axis.rise, fall)
 
 
-def _slope(more: float, dt: float, most: float) -> float:
-    return min(max(more / dt, 1.0), most) if dt > 0.0 else 1.0
+def _slope(more: float, dt: float, largest_slope: float) -> float:
+    return min(max(more / dt, 1.0), largest_slope) if dt > 0.0 else 1.0

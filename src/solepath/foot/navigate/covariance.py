@@ -261,7 +261,7 @@ def update(
     )
 
 
-def believed_height(covariance: Covariance, left: float) -> Covariance:
+def constrain_height(covariance: Covariance, left: float) -> Covariance:
     """The height is known from elsewhere, with `left` (0 to 1) of its variance: P <- D P D, D = diag(1, 1, d, 1, ...)
     with d^2 = `left`. What else is uncertain stays so, and has less to do with the height."""
     d = sqrt(left)

@@ -19,9 +19,9 @@ from ...types.attrs import define, field
 from ...types.vector import GRAVITY, TIE
 from ..settings import ErrorStateSettings
 from ..stance.stance import Stance
-from .clipping import Missed
+from .clipping import ClippedPeak
 from .corrector import LONGEST_BRIDGE
-from .covariance import HEIGHT, believed_height, update
+from .covariance import HEIGHT, constrain_height, update
 from .level import UNEVEN, LevelGround
 from .propagated import PropagatedCovariance
 from .recovery import Recovery
@@ -43,7 +43,7 @@ SETTLED_INTERVAL = 0.0385
 
 NONE_GATED = 1e12
 """Larger than any statistic."""
-AS_QUIET = 3.0
+LOST_STATISTIC_RATIO = 3.0
 """A lost filter takes evidence whose statistic is at most so many times the least that it refused."""
 LOST_SPEED, LOST_TILT = 0.3, 0.03
 """What the velocity of a lost filter may be off by besides, m/s, and its tilt, rad."""
@@ -67,41 +67,41 @@ class ErrorStateFilter(PropagatedCovariance):
     """What keeps level walking level."""
     accepted: float | None = field(default=None, init=False)
     """When evidence was last accepted, s."""
-    quietest: float = field(default=NONE_GATED, init=False)
+    least_gated: float = field(default=NONE_GATED, init=False)
     """The least statistic that was refused since."""
-    quiet_since: float | None = field(default=None, init=False)
+    evidence_since: float | None = field(default=None, init=False)
     """Since when there has been evidence without a break, s."""
     recovery: Recovery = field(factory=Recovery, init=False)
     """What the sensors miss at the ends of their ranges."""
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         PropagatedCovariance.start(self, attitude, tilt_sigma)
-        self.accepted = self.quiet_since = None
-        self.quietest = NONE_GATED
+        self.accepted = self.evidence_since = None
+        self.least_gated = NONE_GATED
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
         """As in `Corrector`: `Strapdown.integrate` and the noise that it adds, in one stroke, for a call of it would be
         5 % of this (tests/foot/test_alike.py holds both equal)."""
         gx, gy, gz = gyro
         fx, fy, fz = acc
-        rate, was, attitude = self.rate or gyro, self.force, self.attitude
+        rate, previous_force, attitude = self.rate or gyro, self.force, self.attitude
         rx, ry, rz = rate
         turning = gx * gx + gy * gy + gz * gz
         # what the sensors may miss at the ends of their ranges
         recovery = self.recovery
         turns, impacts = recovery.turns, recovery.impacts
-        missed = lost = None
+        peaks = acc_peaks = None
         if (
-            turning > turns.watch
-            or fx * fx + fy * fy + fz * fz > impacts.watch
+            turning > turns.watch_square
+            or fx * fx + fy * fy + fz * fz > impacts.watch_square
             or turns.clipping
             or impacts.clipping
             or recovery.swing.rows
         ):
-            missed, lost = recovery.watch(dt, acc, gyro, rate, attitude, saturated)
+            peaks, acc_peaks = recovery.watch(dt, acc, gyro, rate, attitude, saturated)
         else:  # far from them: what `watch` keeps
-            recovery.felt_before, recovery.felt = recovery.felt, acc
-            recovery.earlier, recovery.earlier_dt = rate, dt
+            recovery.earlier_acc, recovery.last_acc = recovery.last_acc, acc
+            recovery.earlier_rate, recovery.earlier_dt = rate, dt
         # half the turn by the mean rate, and its sin and cos by their series
         k = 0.25 * dt
         hx, hy, hz = k * (gx + rx), k * (gy + ry), k * (gz + rz)
@@ -136,10 +136,10 @@ class ErrorStateFilter(PropagatedCovariance):
         fz = fz + w * tz + x * ty - y * tx
         self.rate, self.force = gyro, (fx, fy, fz)
         # trapezoidal rule: a = (f + f before) / 2 - g, v <- v + a dt, p <- p + (v + v before) dt / 2
-        if was is None:
+        if previous_force is None:
             ax, ay, az, x, y, z = fx, fy, fz - GRAVITY, fx, fy, fz
         else:
-            px, py, pz = was
+            px, py, pz = previous_force
             ax, ay, az = 0.5 * (fx + px), 0.5 * (fy + py), 0.5 * (fz + pz) - GRAVITY
             x, y, z = fx - px, fy - py, fz - pz
         vx, vy, vz = self.velocity
@@ -163,29 +163,29 @@ class ErrorStateFilter(PropagatedCovariance):
         self.gyro_variance += noise * dt
         self.since += dt
         self.stretch += dt
-        if (missed or lost) and settings.recover:
-            self._make_up(missed, lost)
+        if (peaks or acc_peaks) and settings.recover:
+            self._add_peaks(peaks, acc_peaks)
 
-    def _make_up(self, missed: tuple[Missed, ...] | None, lost: tuple[Missed, ...] | None) -> None:
+    def _add_peaks(self, peaks: tuple[ClippedPeak, ...] | None, acc_peaks: tuple[ClippedPeak, ...] | None) -> None:
         """What gyroscope and accelerometer turned out to have missed."""
         self._propagate()
         state = (self.attitude, self.velocity, self.position, self.uncertainty)
-        if missed:
-            state = self.recovery.turned(missed, state)
-        if lost:
-            state = self.recovery.struck(lost, state)
+        if peaks:
+            state = self.recovery.add_turns(peaks, state)
+        if acc_peaks:
+            state = self.recovery.add_velocities(acc_peaks, state)
         self.attitude, self.velocity, self.position, self.uncertainty = state
-        self._here()
+        self._mark_start()
 
     def correct(self, t: float, stance: Stance) -> bool:
         sigma = stance.sigma
         if sigma == inf:
-            self.quiet_since = None
+            self.evidence_since = None
             return False
-        if self.quiet_since is None:
-            self.quiet_since = t
-        if self.since < (SHORTEST_INTERVAL if t - self.quiet_since < SETTLED - TIE else SETTLED_INTERVAL):
-            return self.accepted is not None and self.quietest >= NONE_GATED  # as the sample before was judged
+        if self.evidence_since is None:
+            self.evidence_since = t
+        if self.since < (SHORTEST_INTERVAL if t - self.evidence_since < SETTLED - TIE else SETTLED_INTERVAL):
+            return self.accepted is not None and self.least_gated >= NONE_GATED  # as the sample before was judged
         settings = self.settings
         share = settings.tilt_rate * min(self.since, SETTLED_INTERVAL)
         r = sigma * sigma * REFERENCE_INTERVAL / self.since
@@ -195,27 +195,27 @@ class ErrorStateFilter(PropagatedCovariance):
             self.accepted = t
         rx, ry, rz = stance.v_ref
         vx, vy, vz = self.velocity
-        if not certain and t - self.accepted > settings.patience - TIE and stance.statistic <= AS_QUIET * self.quietest:
+        if not certain and t - self.accepted > settings.patience - TIE and stance.statistic <= LOST_STATISTIC_RATIO * self.least_gated:
             self._inflate(velocity=LOST_SPEED, tilt=LOST_TILT)
-        elif min(t - self.quiet_since, t - self.accepted) > settings.lasting - TIE:
+        elif min(t - self.evidence_since, t - self.accepted) > settings.lasting - TIE:
             # not even a foot that is carried is quiet for so long: it stands, and the velocity is what is wrong
             self._inflate(velocity=abs(vx - rx) + abs(vy - ry) + abs(vz - rz), tilt=LASTING_TILT)
         outcome = update(self.uncertainty, rx - vx, ry - vy, rz - vz, r, inf if certain else settings.innovation_gate)
         if outcome is None:
-            self.quietest = min(self.quietest, stance.statistic)
+            self.least_gated = min(self.least_gated, stance.statistic)
             return False
         self.uncertainty, error = outcome
-        tx, ty = self._off_plumb(share) if certain else (0.0, 0.0)
+        tx, ty = self._tilt_correction(share) if certain else (0.0, 0.0)
         self._inject(error, tx, ty)
         self.accepted = t
-        self.quietest = NONE_GATED
+        self.least_gated = NONE_GATED
         return True
 
     def bridge(self, dt: float) -> float:
         if dt > LONGEST_BRIDGE:
             self.recovery.reset()
         if dt == inf:  # times begin anew
-            self.accepted = self.quiet_since = None
+            self.accepted = self.evidence_since = None
         return PropagatedCovariance.bridge(self, dt)
 
     def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
@@ -233,13 +233,13 @@ class ErrorStateFilter(PropagatedCovariance):
         self.position = self.start_position = (x, y, sz + height)
         least = UNEVEN * UNEVEN
         if variance > least:
-            self.uncertainty = believed_height(self.uncertainty, 1.0 - level * (1.0 - least / variance))
+            self.uncertainty = constrain_height(self.uncertainty, 1.0 - level * (1.0 - least / variance))
 
     def anchor(self) -> tuple[float, ...]:
-        self.recovery.stepped()
+        self.recovery.end_stride()
         return PropagatedCovariance.anchor(self)
 
-    def _off_plumb(self, share: float) -> tuple[float, float]:
+    def _tilt_correction(self, share: float) -> tuple[float, float]:
         """Tilt aiding: this share of the turn, f x up / g, that would make the measured force point up, rad.
 
         Outside the covariance on purpose: a foot that stands is loaded and trembles, and the lag of this pull, half a

@@ -106,7 +106,7 @@ class PropagatedCovariance(Strapdown):
         self.stretch += dt
         self.attitude, self.velocity, self.position = attitude, velocity, position
         self.force = self.rate = None
-        self._here()
+        self._mark_start()
         self._inflate(velocity=INFILL_VELOCITY, tilt=INFILL_TILT)
         covariance = list(self.uncertainty)
         for i in (PLACE_X, PLACE_Y, HEIGHT):
@@ -117,13 +117,13 @@ class PropagatedCovariance(Strapdown):
     def repair(self, yaw: float, position: Vec3) -> None:
         self._propagate()
         Strapdown.repair(self, yaw, position)
-        self._here()
+        self._mark_start()
 
     def shift(self, yaw: float, by: Vec3) -> None:
         """Turn everything by `yaw` rad about the foot and move it `by` m, navigation frame: nothing has happened."""
         self._propagate()
         self.turn_about(yaw, by)
-        self._here()
+        self._mark_start()
 
     def anchor(self) -> tuple[float, ...]:
         self._propagate()
@@ -156,9 +156,9 @@ class PropagatedCovariance(Strapdown):
     def _propagate(self) -> None:
         if self.since > 0.0:
             self.uncertainty = self._propagated()
-            self._here()
+            self._mark_start()
 
-    def _here(self) -> None:
+    def _mark_start(self) -> None:
         self.since = self.acc_variance = self.gyro_variance = 0.0
         self.start_velocity = self.velocity
         self.start_position = self.position

@@ -25,18 +25,18 @@ CONSTANT = 0.0025
 """One that varies by less shows one value, and perhaps a count beside it."""
 RAISED = 0.1
 """This share of the most lively one's variation above the others in the air is not the air."""
-USED_TO = 3
+LIVELY_WINDOWS = 3
 """A cell that was lively in so many windows in a row is expected to be,"""
-USED_TO_ALONE = 8
+LIVELY_WINDOWS_ALONE = 8
 """where nobody knows which cells are next to it."""
 FEW = 4
 FULL = 0.99
 """From this share of its range a cell is at the end of it."""
-HELD = 0.3
+STAYS_LOADED = 0.3
 """An insole in newtons does not unload when it never shows less than this share of its highest load;"""
-HELD_IN_COUNTS = 0.9
+STAYS_LOADED_IN_COUNTS = 0.9
 """one whose zero is not known, this share."""
-UNMOVED = 0.01
+NO_VARIATION = 0.01
 """Of the highest value: if no cell varies by more, none shows anything."""
 
 
@@ -55,10 +55,10 @@ class CellWindow:
     """What any of them showed."""
 
     @classmethod
-    def of(cls, span: CellSpan, out: list[int]) -> CellWindow:
-        """`out`: the cells that failed."""
+    def from_span(cls, span: CellSpan, excluded: list[int]) -> CellWindow:
+        """`excluded`: the cells that failed."""
         ranges = [high - low for low, high in zip(span.lows, span.highs, strict=True)]
-        working = [i for i in range(len(ranges)) if i not in out]
+        working = [i for i in range(len(ranges)) if i not in excluded]
         liveliest = max([ranges[i] for i in working], default=0.0)
         highest = max([span.highs[i] for i in working], default=0.0)
         return cls(span.lows, ranges, working, liveliest, highest)
@@ -66,14 +66,14 @@ class CellWindow:
     @property
     def moves(self) -> bool:
         """Some cell shows something."""
-        return self.liveliest > UNMOVED * self.highest and self.liveliest > 0.0
+        return self.liveliest > NO_VARIATION * self.highest and self.liveliest > 0.0
 
     def lively(self) -> list[bool]:
         """Of every cell, whether it loads and unloads."""
         return [r > LIVELY * self.liveliest for r in self.ranges]
 
-    def faults(self, layout: Layout | None, used_to: list[int]) -> dict[CellFault, list[int]]:
-        """What the window says of the working cells. `used_to`: in how many windows in a row before it each cell was
+    def faults(self, layout: Layout | None, lively_windows: list[int]) -> dict[CellFault, list[int]]:
+        """What the window says of the working cells. `lively_windows`: in how many windows in a row before it each cell was
         lively, [] before any."""
         lows, ranges, liveliest = self.lows, self.ranges, self.liveliest
         air = sorted([lows[i] for i in self.working])[len(self.working) // 2]
@@ -88,22 +88,22 @@ class CellWindow:
                 if ranges[i] > CONSTANT * liveliest:
                     continue
                 fault = CellFault.STUCK
-            elif self._ought_to_load(i, layout, used_to[i] if used_to else 0):
+            elif self._should_load(i, layout, lively_windows[i] if lively_windows else 0):
                 fault = CellFault.DEAD
             else:
                 continue
             faults.setdefault(fault, []).append(i)
         return faults
 
-    def _ought_to_load(self, i: int, layout: Layout | None, used_to: int) -> bool:
+    def _should_load(self, i: int, layout: Layout | None, lively_windows: int) -> bool:
         if layout is None:
-            return len(self.ranges) <= FEW or used_to >= USED_TO_ALONE
+            return len(self.ranges) <= FEW or lively_windows >= LIVELY_WINDOWS_ALONE
         all_around, some = enclosed(layout, spacing(layout), i, self.lively())
-        return all_around or (used_to >= USED_TO and some)
+        return all_around or (lively_windows >= LIVELY_WINDOWS and some)
 
 
 def unloads(span: CellSpan, layout: Layout | None) -> bool:
     """The insole bears much less at some time in the window than at others, or nothing at all."""
     in_newtons = layout is not None and layout.scale is not None
-    share = HELD if in_newtons else HELD_IN_COUNTS
+    share = STAYS_LOADED if in_newtons else STAYS_LOADED_IN_COUNTS
     return not (span.high > 0.0 and span.low > share * span.high)

@@ -8,9 +8,9 @@ from math import atan2, hypot, pi
 from ...types import Layout
 from ...types.attrs import define, field
 
-AROUND = 1.7
+NEIGHBOUR_DISTANCE = 1.7
 """Neighbours are within this many times the usual distance between cells."""
-OPEN = 2.6
+WIDEST_OPENING = 2.6
 """A cell with a wider gap between its neighbours lies at their rim, rad."""
 
 
@@ -23,9 +23,9 @@ class CellSpan:
     low: float = 0.0
     high: float = 0.0
 
-    def add(self, cells: tuple[float, ...], out: list[int]) -> None:
-        """One sample more; `out` are not part of the sum."""
-        total = sum(cells) - sum([cells[i] for i in out])
+    def add(self, cells: tuple[float, ...], excluded: list[int]) -> None:
+        """One sample more; `excluded` are not part of the sum."""
+        total = sum(cells) - sum([cells[i] for i in excluded])
         if not self.lows:
             self.lows, self.highs = list(cells), list(cells)
             self.low = self.high = total
@@ -54,7 +54,7 @@ def enclosed(layout: Layout, between: float, i: int, loading: list[bool]) -> tup
     angles, others = [], 0
     for j, cell in enumerate(layout.cells):
         dx, dy = cell.x - here.x, cell.y - here.y
-        if j == i or hypot(dx, dy) > AROUND * between:
+        if j == i or hypot(dx, dy) > NEIGHBOUR_DISTANCE * between:
             continue
         if loading[j]:
             angles.append(atan2(dy, dx))
@@ -67,7 +67,7 @@ def enclosed(layout: Layout, between: float, i: int, loading: list[bool]) -> tup
     angles.sort()
     gaps = [b - a for a, b in zip(angles, angles[1:], strict=False)]
     widest = max([*gaps, angles[0] + 2.0 * pi - angles[-1]])
-    return widest < OPEN, True
+    return widest < WIDEST_OPENING, True
 
 
 def centre(layout: Layout) -> float | None:

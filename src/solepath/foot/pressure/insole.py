@@ -27,7 +27,7 @@ AIRBORNE = 0.02
 """Below this share of the full load the foot is in the air."""
 LEAST_LOAD = 0.05
 """Below this share of the full load the centre of pressure is noise."""
-ALIVE = 0.05
+LEAST_AREA_RANGE = 0.05
 """An area whose load varies by less than this share of the full load is no area."""
 
 
@@ -84,8 +84,8 @@ class InsoleLoads:
     tare: list[float] = field(factory=list, init=False)
     """Each cell in the air, unit of the samples."""
     tare_total: float = field(default=0.0, init=False)
-    unloaded: bool = field(default=False, init=False)
-    risen: bool = field(default=False, init=False)
+    was_airborne: bool = field(default=False, init=False)
+    load_risen: bool = field(default=False, init=False)
     """The load has come up again from its lowest."""
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> InsoleLoads:
@@ -98,11 +98,11 @@ class InsoleLoads:
         """The device said where its cells are."""
         self.layout = layout
         settings = self.settings
-        heel_ends, forefoot_begins = settings.heel_ends * layout.length, settings.forefoot_begins * layout.length
-        self.heel_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x < heel_ends])
+        heel_end, forefoot_start = settings.heel_end * layout.length, settings.forefoot_start * layout.length
+        self.heel_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x < heel_end])
         if len(self.tare) != len(layout.cells):
             self.tare = [0.0] * len(layout.cells)
-        self.forefoot_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x > forefoot_begins])
+        self.forefoot_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x > forefoot_start])
 
     def reset(self) -> None:
         """Times begin anew: the extremes are kept, but their spans end here."""
@@ -130,23 +130,23 @@ class InsoleLoads:
         low, high = self.total.low, self.total.high
         reach = high - low
         if reach <= CONTRAST * high or reach <= 0.0:
-            self.risen = False
+            self.load_risen = False
             return None
-        if not self.risen:
-            self.risen = total - low > CONTRAST * high
-            if not self.risen:
+        if not self.load_risen:
+            self.load_risen = total - low > CONTRAST * high
+            if not self.load_risen:
                 return None
         share = (total - low) / reach
         airborne = share < AIRBORNE
-        if airborne and (not self.unloaded or total < self.tare_total):  # the toe has hardly left yet at first
+        if airborne and (not self.was_airborne or total < self.tare_total):  # the toe has hardly left yet at first
             self.tare = list(cells)
             self.tare_total = total
-        self.unloaded = airborne
+        self.was_airborne = airborne
         # an area that never carries anything is dead, or there is none: nothing can be told by it
         if heel is not None:
-            heel = heel / reach if self.heel.high - self.heel.low > ALIVE * reach else None
+            heel = heel / reach if self.heel.high - self.heel.low > LEAST_AREA_RANGE * reach else None
         if forefoot is not None:
-            forefoot = forefoot / reach if self.forefoot.high - self.forefoot.low > ALIVE * reach else None
+            forefoot = forefoot / reach if self.forefoot.high - self.forefoot.low > LEAST_AREA_RANGE * reach else None
         highest = largest / self.highest if self.highest > 0.0 else 0.0
         centre = None if airborne else self.centre_of_pressure(cells)
         return Load(share, heel, forefoot, highest, airborne, cells, centre)

@@ -35,7 +35,7 @@ SWING: Final = Phase.SWING
 STATIONARY: Final = Phase.STATIONARY
 """Looked up once: a word of an enum costs as much as five multiplications."""
 
-told = tuple.__new__
+make_stance = tuple.__new__
 """A Stance of its five fields, in half the time that its own constructor takes."""
 
 NO_LOW = 1e12
@@ -52,7 +52,7 @@ class Cycle(Detector):
     settings: CycleSettings = CycleSettings()
     sensor_height: SensorHeight = field(factory=SensorHeight, init=False)
     shoe: ShoeDetector = field(factory=ShoeDetector, init=False)
-    bucket_end: float | None = field(default=None, init=False)
+    span_end: float | None = field(default=None, init=False)
     lows: tuple[float, float, float] = field(default=(NO_LOW, NO_LOW, NO_LOW), init=False)
     highs: tuple[float, float, float] = field(default=(0.0, 0.0, 0.0), init=False)
     low: float = field(default=NO_LOW, init=False)
@@ -90,22 +90,22 @@ class Cycle(Detector):
         force, rate = (force / n if force > 0.0 else 0.0), (sw / n if sw > 0.0 else 0.0)
         statistic = force / ACC_SQUARE + rate / GYRO_SQUARE
         # the extremes of the last cycle
-        if self.bucket_end is None or t >= self.bucket_end - TIE:
-            self._next(t, statistic)
+        if self.span_end is None or t >= self.span_end - TIE:
+            self._start_span(t, statistic)
         elif statistic < self.low:
             self.low = statistic
         elif statistic > self.high:
             self.high = statistic
         if load is not None and load.airborne:
             self.sensor_height.lift()
-            return told(Stance, (ZERO, inf, statistic, SWING, None))
+            return make_stance(Stance, (ZERO, inf, statistic, SWING, None))
         settings = self.settings
         if statistic < settings.floor:
             hint = STATIONARY if statistic < settings.certain else None
         elif statistic > settings.ceiling or statistic > self._threshold():
             if self.sensor_height.sums is not EMPTY:
                 self.sensor_height.lift()
-            return told(Stance, (ZERO, inf, statistic, None, None))
+            return make_stance(Stance, (ZERO, inf, statistic, None, None))
         else:
             hint = None
         variance = (
@@ -115,29 +115,29 @@ class Cycle(Detector):
             * force
         )
         if not settings.rolls:
-            return told(Stance, (ZERO, sqrt(variance), statistic, hint, None))
+            return make_stance(Stance, (ZERO, sqrt(variance), statistic, hint, None))
         vx, vy = self.sensor_height.roll(dt, acc, gyro, attitude)
-        return told(Stance, ((vx, vy, 0.0), sqrt(variance), statistic, hint, None))
+        return make_stance(Stance, ((vx, vy, 0.0), sqrt(variance), statistic, hint, None))
 
     def _threshold(self) -> float:
-        low, high, quietest = self.low, self.high, self.settings.quietest
+        low, high, least_statistic = self.low, self.high, self.settings.least_statistic
         if self.past_low < low:
             low = self.past_low
-        if low < quietest:
-            low = quietest
+        if low < least_statistic:
+            low = least_statistic
         if self.past_high > high:
             high = self.past_high
-        if high < quietest:
-            high = quietest
+        if high < least_statistic:
+            high = least_statistic
         share = self.settings.share
         return exp((1.0 - share) * log(low) + share * log(high))
 
-    def _next(self, t: float, statistic: float) -> None:
+    def _start_span(self, t: float, statistic: float) -> None:
         """A span begins."""
-        if self.bucket_end is not None:
+        if self.span_end is not None:
             self.lows = (self.lows[1], self.lows[2], self.low)
             self.highs = (self.highs[1], self.highs[2], self.high)
             self.past_low = min(self.lows)
             self.past_high = max(self.highs)
-        self.bucket_end = t + self.settings.bucket
+        self.span_end = t + self.settings.span_duration
         self.low = self.high = statistic

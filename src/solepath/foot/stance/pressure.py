@@ -12,7 +12,7 @@ from ...types.attrs import define
 from ...types.vector import IDENTITY, ZERO
 from .stance import Detector, Load, Stance
 
-_SILENT = Stance(ZERO, inf, 0.0, None)
+NO_EVIDENCE = Stance(ZERO, inf, 0.0, None)
 
 
 @define
@@ -31,7 +31,7 @@ class TwoArea(Detector):
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
         if load is None or load.heel is None or load.forefoot is None:
-            return _SILENT
+            return NO_EVIDENCE
         statistic = min(load.heel, load.forefoot)
         if statistic >= self.on:
             return Stance(ZERO, self.sigma, statistic, Phase.STATIONARY)
@@ -54,7 +54,7 @@ class MaximumPressure(Detector):
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
         if load is None:
-            return _SILENT
+            return NO_EVIDENCE
         if load.highest > self.threshold and not load.airborne:
             return Stance(ZERO, self.sigma, load.highest, None)
         return Stance(ZERO, inf, load.highest, Phase.SWING if load.airborne else None)

@@ -32,9 +32,9 @@ class LayoutGuess:
     """Feed it every sample until it answers. Costs two additions a cell, and nothing more once it has answered."""
 
     foot: Foot
-    began: float | None = field(default=None, init=False)
+    stance_start: float | None = field(default=None, init=False)
     """When the stance did, s; None while the foot is in the air."""
-    flown: bool = field(default=False, init=False)
+    was_airborne: bool = field(default=False, init=False)
     """The foot was in the air before this stance, so its beginning was seen."""
     loads: list[float] = field(factory=list, init=False)
     moments: list[float] = field(factory=list, init=False)
@@ -42,33 +42,33 @@ class LayoutGuess:
     weights: list[float] = field(factory=list, init=False)
     middles: list[float] = field(factory=list, init=False)
     """Over all stances, by cell: load, and load times where in the stance it came, 0 to 1."""
-    seen: int = field(default=0, init=False)
+    stances: int = field(default=0, init=False)
 
     def update(self, t: float, cells: tuple[float, ...], share: float) -> Layout | None:
         """One sample: the cells above what they show in the air, and their total as a share of the full load."""
-        if self.began is None:
+        if self.stance_start is None:
             if share > ON:
-                self.began = t
+                self.stance_start = t
                 self.loads = list(cells)
                 self.moments = [0.0] * len(cells)
             else:
-                self.flown = True
+                self.was_airborne = True
             return None
-        since = t - self.began
+        since = t - self.stance_start
         if share >= OFF and since < LONGEST and len(cells) == len(self.loads):
             self.loads = list(map(add, self.loads, cells))
             self.moments = [moment + since * cell for moment, cell in zip(self.moments, cells, strict=True)]
             return None
-        whole, self.began = self.flown, None
-        self.flown = share < OFF
+        whole, self.stance_start = self.was_airborne, None
+        self.was_airborne = share < OFF
         if not whole or not SHORTEST <= since < LONGEST:
             return None
         if len(self.weights) != len(self.loads):
-            self.weights, self.middles, self.seen = [0.0] * len(self.loads), [0.0] * len(self.loads), 0
+            self.weights, self.middles, self.stances = [0.0] * len(self.loads), [0.0] * len(self.loads), 0
         self.weights = list(map(add, self.weights, self.loads))
         self.middles = [m + moment / since for m, moment in zip(self.middles, self.moments, strict=True)]
-        self.seen += 1
-        return self._layout() if self.seen >= STANCES else None
+        self.stances += 1
+        return self._layout() if self.stances >= STANCES else None
 
     def _layout(self) -> Layout | None:
         most = max(self.weights)
