@@ -1,4 +1,4 @@
-"""From cues to phases and from phases to steps: what one foot is doing, and where it came down."""
+"""Phases and strides of one foot, from its cues and its navigation."""
 
 from __future__ import annotations
 
@@ -17,42 +17,43 @@ from .world import Covariance3, World
 
 @define
 class Gait:
-    """The phases of one foot and the steps that they make, each an event as soon as its cue is seen."""
+    """The phases of one foot and its strides; each becomes an event as soon as its cue is seen."""
 
     foot: Foot
     phase: Phase = field(default=Phase.STATIONARY, init=False)
     phase_start: float | None = field(default=None, init=False)
-    """When the phase did, s."""
+    """Start of the current phase, s; None before the first change of phase or after a restart of times."""
     template: StrideTemplate = field(factory=StrideTemplate, init=False)
     stride: StrideBuilder = field(init=False)
     path: PathCovariance = field(factory=PathCovariance, init=False)
-    """In the navigation frame, up to `anchor_position`."""
+    """Covariance of the path up to the last anchor, navigation frame."""
     anchor_position: Vec3 = field(default=ZERO, init=False)
     """Position of the last anchor, navigation frame, m."""
     world: World = field(factory=World, init=False)
     heading_settled: bool = field(default=False, init=False)
-    """The world's heading is settled."""
+    """The heading of the world frame is final."""
 
     def __attrs_post_init__(self) -> None:
         self.stride = StrideBuilder(self.foot)
 
     def covariance(self, corrector: Corrector) -> Covariance3:
-        """Of the live position, world frame, m^2."""
+        """Return the covariance of the live position, world frame, m^2."""
         path = self.path.extended(sub(corrector.position, self.anchor_position), corrector.covariance())
         return self.world.covariance(path.position)
 
     def reset(self) -> None:
-        """Times begin anew; what the foot did between is unknown."""
+        """Discard what depends on unbroken samples, because times restart."""
         self.phase_start = None
         self.stride.mark_degraded(None)
         self.template.reset()
 
     def shift(self, yaw: float, by: Vec3) -> Vec3:
-        """The foot, which is flat, is turned by `yaw` rad and moved `by` m, world frame; the same move in the
-        navigation frame is returned, for the corrector."""
+        """Turn the foot, which is flat, by `yaw` rad and move it by `by` m, world frame.
+
+        Returns the same move in the navigation frame, m, for the corrector."""
         x, y, z = by
         if self.world.north is not None:
-            c, s = self.world.north  # the turn from the navigation frame to the world frame, undone
+            c, s = self.world.north  # inverse of the rotation from navigation to world frame
             x, y = c * x + s * y, c * y - s * x
         stride = self.stride
         px, py, pz = stride.start
@@ -65,13 +66,15 @@ class Gait:
     def apply_cue(
         self, seen: SeenCue, known_at: float, corrector: Corrector | None, interval: float, inferred: bool = False
     ) -> list[Event]:
-        """What follows from a cue. `corrector`: None as long as nobody knows which way is up; `interval`: the usual
-        one between samples, s; `inferred`: nobody saw it."""
+        """Return the events that follow from a cue.
+
+        `corrector` is None as long as the foot is not levelled. `interval` is the usual interval between samples, s.
+        `inferred` marks a cue that no sample showed."""
         phase = PHASES[self.phase][seen.cue]
         if phase is self.phase:
             return []
         self.phase = phase
-        # cues look back by different spans; phases follow each other all the same
+        # cues look back by different times, but phases must not go back in time
         t = seen.t if self.phase_start is None else max(seen.t, self.phase_start)
         self.phase_start = t
         known_at = max(known_at, t)
@@ -90,7 +93,7 @@ class Gait:
     def apply_infill(
         self, infill: Infill, cues: Cues, known_at: float, corrector: Corrector, interval: float
     ) -> list[Event]:
-        """The phases that a gap has hidden."""
+        """Return the events of the phases that a gap has hidden."""
         self.template.add_infill(infill.t_heel_off, infill.duration)
         hidden: list[SeenCue] = []
         phase = self.phase
@@ -104,9 +107,12 @@ class Gait:
             hidden.append(SeenCue(Cue.CONTACT, infill.t_heel_strike))
         if infill.t_foot_flat is not None:
             hidden.append(SeenCue(Cue.FLAT, infill.t_foot_flat))
-        return [event for seen in hidden for event in self.apply_cue(seen, known_at, corrector, interval, inferred=True)]
+        return [
+            event for seen in hidden for event in self.apply_cue(seen, known_at, corrector, interval, inferred=True)
+        ]
 
     def _flat(self, t: float, known_at: float, corrector: Corrector, interval: float) -> list[Event]:
+        """End the stride at foot-flat and start the next one."""
         stride, world = self.stride, self.world
         turn = heading_turned(stride.attitude, corrector.attitude)
         path = sub(corrector.position, stride.start)
@@ -118,19 +124,20 @@ class Gait:
         corrector.flat(stride.start, turn)
         position, attitude = corrector.position, corrector.attitude
         if not self.heading_settled and stride.t_toe_off is not None:
-            # the first step fixes the heading; until then it was the direction in which the foot set out
+            # the first stride fixes the heading; before it, the heading is the direction from the origin to the foot
             self.heading_settled = world.find_heading(position, SHORTEST_STRIDE)
         taken = stride.finish(
             t, known_at, position, attitude, corrector.covariance(), world, error_index=corrector.error_index, rise=rise
         )
         if taken is not None:
-            # a final step is never seen from another frame again, even when it was too short to give a direction
+            # a reported stride is final, so its frame must not change, even if it was too short to give a direction
             self.heading_settled = True
             world.settle()
         stride.start_stride(t, position, attitude)
         return [] if taken is None else [taken]
 
     def _anchor(self, corrector: Corrector) -> None:
+        """Add the stretch since the last anchor to the path."""
         position = corrector.position
         stretch = corrector.anchor()
         self.path = self.path.extended(sub(position, self.anchor_position), stretch)

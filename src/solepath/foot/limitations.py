@@ -1,4 +1,4 @@
-"""What one foot must do without: each is said once."""
+"""Limitations of one foot: data that a foot lacks, each reported once."""
 
 from __future__ import annotations
 
@@ -7,42 +7,44 @@ from ..types import SITE_OF_FOOT, Foot, Layout
 from ..types.attrs import define, field
 
 LACKING_TIME = 1.0
-"""For this long samples may lack something before the foot is said to have none, s."""
+"""Time for which samples lack data before this is reported, s."""
 MISMATCH_TIME = 0.5
-"""For this long samples may have another number of cells than the calibration before it is of another insole, s."""
+"""Time for which the number of cells differs from the calibration before the insole counts as another one, s."""
 
 
 @define
 class Limitations:
-    """Sentences that were said, and that wait for a sample to be said with."""
+    """The limitations that were reported, and those that wait for the next sample."""
 
     foot: Foot
     reported: list[str] = field(factory=list, init=False)
+    """Sentences that were reported."""
     pending: list[str] = field(factory=list, init=False)
+    """Sentences that the next sample reports."""
     lacking_since: float | None = field(default=None, init=False)
-    """Since when samples lack something, s."""
+    """Time since which samples lack data, s; None when they do not."""
     mismatch_since: float | None = field(default=None, init=False)
-    """Since when samples have another number of cells than the calibration says, s."""
+    """Time since which the number of cells differs from the calibration, s; None before that."""
 
     def queue(self, what: str | None) -> None:
-        """To be said with the next sample; None is nothing."""
+        """Report `what` with the next sample; None is ignored."""
         if what is not None and what not in self.reported and what not in self.pending:
             self.pending.append(what)
 
     def flush(self, t: float, known_at: float, events: list[Event]) -> None:
-        """A sample came: say what waits."""
+        """Report the pending sentences with the sample at `t`, s."""
         for what in self.pending:
             self.report(what, t, known_at, events)
         self.pending = []
 
     def report(self, what: str, t: float, known_at: float, events: list[Event]) -> None:
-        """Now, unless it was said before."""
+        """Append a `Limitation` to `events`, unless `what` was reported before."""
         if what not in self.reported:
             self.reported.append(what)
             events.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[self.foot], what=what))
 
     def report_lacking(self, what: str, t: float, known_at: float, events: list[Event]) -> None:
-        """This sample lacks something, as those before it did; it is said when that has lasted."""
+        """Report `what` once samples have lacked it for `LACKING_TIME`; call for each such sample."""
         if self.lacking_since is None:
             self.lacking_since = t
         if t - self.lacking_since >= LACKING_TIME:
@@ -57,8 +59,10 @@ class Limitations:
         known_at: float,
         events: list[Event],
     ) -> bool:
-        """This sample has `count` cells, and what the calibration says of them, layout or noise, is of another number;
-        True when that has lasted: it is said and not to be used."""
+        """Return whether a mismatch between calibration and number of cells has lasted for `MISMATCH_TIME`.
+
+        Call for each sample whose `count` cells do not match `layout` or `noise` of the calibration. When the result is
+        True, the mismatch is reported and this part of the calibration must not be used."""
         if self.mismatch_since is None or t < self.mismatch_since:
             self.mismatch_since = t
         if t - self.mismatch_since < MISMATCH_TIME:

@@ -148,7 +148,10 @@ class InertialCues:
             if now > self.peak:
                 self.peak = now
             if self.moving_since is not None and t - self.moving_since >= SETTLE - TIE:
-                return SeenCue(Cue.LIFT, self.moving_since if self.not_turning_at is None else min(self.not_turning_at, self.moving_since))
+                return SeenCue(
+                    Cue.LIFT,
+                    self.moving_since if self.not_turning_at is None else min(self.not_turning_at, self.moving_since),
+                )
             return None
         return self._in_push_off(t, dt, before, now, phase)
 
@@ -181,13 +184,19 @@ class InertialCues:
             return self._report_contact(middle) if over or self.still_since is not None else None
         if self.still_since is not None:
             if t - self.still_since >= SETTLE - TIE:
-                return self._report_contact(impact.peak_shock_at if impact.peak_shock > 0.0 else self.still_since - LOOKBACK)
+                return self._report_contact(
+                    impact.peak_shock_at if impact.peak_shock > 0.0 else self.still_since - LOOKBACK
+                )
             return None
         if self.swing_start is not None and t - self.swing_start < SHORTEST_SWING - TIE:
             return None
         if before < LANDING_RATE <= now and self.trough < -LEAST_TROUGH and self.axis is not None:
             self.landing_at = t - dt * (now - LANDING_RATE) / (now - before)
-        elif speed < SHUFFLE_SPEED and impact.peak_shock > LEAST_SHOCK and t - impact.peak_shock_at >= IMPACT_SETTLES - TIE:
+        elif (
+            speed < SHUFFLE_SPEED
+            and impact.peak_shock > LEAST_SHOCK
+            and t - impact.peak_shock_at >= IMPACT_SETTLES - TIE
+        ):
             return self._report_contact(impact.peak_shock_at)
         return None
 

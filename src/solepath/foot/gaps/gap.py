@@ -186,10 +186,21 @@ def _build_infill(
     # none of it before the gap: it would have been seen
     t_toe_off = max(a, t_heel_off + stride.toe_off) if end.since >= stride.toe_off else None
     t_heel_strike = max(a, t_heel_off + stride.heel_strike) if end.since >= stride.heel_strike else None
-    return Infill(now, speed, here, dt, t_heel_off, t_toe_off, t_heel_strike, max(a, t_heel_off + end.since) if t_foot_flat else None)
+    return Infill(
+        now,
+        speed,
+        here,
+        dt,
+        t_heel_off,
+        t_toe_off,
+        t_heel_strike,
+        max(a, t_heel_off + end.since) if t_foot_flat else None,
+    )
 
 
-def _time_of_heel_off(template: StrideTemplate, t_foot_flat: bool, start: float, end: StrideMoment, a: float, b: float) -> float:
+def _time_of_heel_off(
+    template: StrideTemplate, t_foot_flat: bool, start: float, end: StrideMoment, a: float, b: float
+) -> float:
     """When the heel rose, s."""
     if not t_foot_flat:
         return b - end.since

@@ -122,7 +122,13 @@ class StrideTemplate:
             self.t_heel_off = None
 
     def end_stride(
-        self, t: float, toe_off: float | None, heel_strike: float | None, turn: float, displacement: Vec3, interval: float
+        self,
+        t: float,
+        toe_off: float | None,
+        heel_strike: float | None,
+        turn: float,
+        displacement: Vec3,
+        interval: float,
     ) -> StrideRepair | None:
         """The foot is flat again, turned by `turn` (rad) and `displacement` (m) off since it was so last.
 
@@ -165,7 +171,9 @@ class StrideTemplate:
         x, y, _ = limit_length((x, y, 0.0), k * ROOM * self.longest)
         return StrideRepair(repair.turn, (x, y, max(-k * HIGHEST, min(z, k * HIGHEST))))
 
-    def _learn(self, t: float, toe_off: float | None, heel_strike: float | None, turn: float, displacement: Vec3) -> None:
+    def _learn(
+        self, t: float, toe_off: float | None, heel_strike: float | None, turn: float, displacement: Vec3
+    ) -> None:
         """Keep the stride that ends at `t` if it was seen whole; `displacement` as in `RecordedStride`."""
         self.age = min(self.age + 1, 1000)
         if self.t_heel_off is None or toe_off is None or self.infilled > 0.0 or self.bridged:
@@ -179,5 +187,7 @@ class StrideTemplate:
         if abs(turn) < CORNER or self.age > OLD:
             t_heel_strike = t if heel_strike is None else heel_strike
             # rounded as the moments are, at one of which they may have been
-            self.last = RecordedStride(self.rows, single(toe_off - self.t_heel_off), single(t_heel_strike - self.t_heel_off), displacement)
+            self.last = RecordedStride(
+                self.rows, single(toe_off - self.t_heel_off), single(t_heel_strike - self.t_heel_off), displacement
+            )
             self.age = 0

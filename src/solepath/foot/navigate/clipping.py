@@ -138,8 +138,12 @@ class Clipping:
         for i in (0, 1, 2):
             axis, a = self.axes[i], now[i]
             if axis.side == 0:
-                if abs(a) > NEAR_END * self.largest and not axis.bottom * (1.0 - SAME_READING) < a < axis.top * (1.0 - SAME_READING):
-                    _enter_clipping(axis, dt, a, before[i], earlier[i], earlier_dt, saturated, self.limits.largest_slope)
+                if abs(a) > NEAR_END * self.largest and not axis.bottom * (1.0 - SAME_READING) < a < axis.top * (
+                    1.0 - SAME_READING
+                ):
+                    _enter_clipping(
+                        axis, dt, a, before[i], earlier[i], earlier_dt, saturated, self.limits.largest_slope
+                    )
                     if abs(a) > self.largest:
                         self._set_largest(min(abs(a), MOST_GROWTH * self.largest))
             else:
@@ -222,7 +226,9 @@ def _follow_clipping(axis: ClippedAxis, i: int, dt: float, a: float, largest_slo
     duration = axis.duration + axis.after_dt - tail
     integral = min(duration * duration * sqrt(axis.rise * fall) / (6.0 * (1.0 + duration / FLATTENING)), MOST)
     axis.side, axis.after, axis.after_dt = 0, None, 0.0
-    return ClippedPeak(i, sign * integral, SPREAD * integral + FLOOR * end * duration, duration, dt + tail, axis.rise, fall)
+    return ClippedPeak(
+        i, sign * integral, SPREAD * integral + FLOOR * end * duration, duration, dt + tail, axis.rise, fall
+    )
 
 
 def _slope(more: float, dt: float, largest_slope: float) -> float:

@@ -195,7 +195,11 @@ class ErrorStateFilter(PropagatedCovariance):
             self.accepted = t
         rx, ry, rz = stance.v_ref
         vx, vy, vz = self.velocity
-        if not certain and t - self.accepted > settings.patience - TIE and stance.statistic <= LOST_STATISTIC_RATIO * self.least_gated:
+        if (
+            not certain
+            and t - self.accepted > settings.patience - TIE
+            and stance.statistic <= LOST_STATISTIC_RATIO * self.least_gated
+        ):
             self._inflate(velocity=LOST_SPEED, tilt=LOST_TILT)
         elif min(t - self.evidence_since, t - self.accepted) > settings.lasting - TIE:
             # not even a foot that is carried is quiet for so long: it stands, and the velocity is what is wrong

@@ -164,7 +164,9 @@ class LevelGround:
         self.scale_weight = min(self.scale_weight + level, MEMORY)
         self.scale += level / self.scale_weight * (min(height * height / max(variance, 1e-6), 2.0) - self.scale)
         if self.upright_weight > 0.5:
-            self.pitch_variance += level / (self.upright_weight + 4.0) * (min(pitch * pitch, 0.01) - self.pitch_variance)
+            self.pitch_variance += (
+                level / (self.upright_weight + 4.0) * (min(pitch * pitch, 0.01) - self.pitch_variance)
+            )
         self.upright_weight = min(self.upright_weight + level, MEMORY)
         if self.upright_weight > 0.0:
             k = level / self.upright_weight

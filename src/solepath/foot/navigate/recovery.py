@@ -66,7 +66,9 @@ class Recovery:
         """The state as it is with the turn that the gyroscope missed, and the doubt."""
         attitude, (vx, vy, vz), (x, y, z), covariance = state
         for one in peaks:
-            seen, likely, more = (self.swing.reintegrate(one, integral) for integral in (0.0, one.integral, one.integral + NUDGE))
+            seen, likely, more = (
+                self.swing.reintegrate(one, integral) for integral in (0.0, one.integral, one.integral + NUDGE)
+            )
             (px, py, pz), (ux, uy, uz), turn = difference(seen, likely)
             x, y, z = x + px, y + py, z + pz
             vx, vy, vz = vx + ux, vy + uy, vz + uz

@@ -178,7 +178,9 @@ class CellHealth:
         self.swing_start = t
         return True
 
-    def _judge(self, t: float, known_at: float, window_start: float, layout: Layout | None, events: list[Event]) -> None:
+    def _judge(
+        self, t: float, known_at: float, window_start: float, layout: Layout | None, events: list[Event]
+    ) -> None:
         span = self.span
         if not span.lows:
             return
@@ -200,7 +202,9 @@ class CellHealth:
         self.suspects = faults
         self._update_lively(window)
 
-    def _count_constant(self, t: float, known_at: float, window_start: float, window: CellWindow, events: list[Event]) -> None:
+    def _count_constant(
+        self, t: float, known_at: float, window_start: float, window: CellWindow, events: list[Event]
+    ) -> None:
         working = window.working
         if window.highest > 0.0:
             self._count_loaded(t, known_at, window_start, events)

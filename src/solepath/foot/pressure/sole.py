@@ -53,7 +53,9 @@ class Sole:
         self.insole.reset()
         self.health.reset()
 
-    def press(self, sample: Sample, known_at: float, phase: Phase, limitations: Limitations, events: list[Event]) -> Load | None:
+    def press(
+        self, sample: Sample, known_at: float, phase: Phase, limitations: Limitations, events: list[Event]
+    ) -> Load | None:
         """One sample of a foot in this phase; None while the load is not known, or without cells that could be used."""
         t, pressure = sample.t, sample.pressure or ()
         if pressure and not self.count_checked:
@@ -94,7 +96,9 @@ class Sole:
                 centre = (sum(map(mul, layout.xs, values)) / force, sum(map(mul, layout.ys, values)) / force)
         return FootPressed(t=t, known_at=known_at, foot=self.foot, values=values, force=force, centre=centre)
 
-    def _check_count(self, count: int, t: float, known_at: float, limitations: Limitations, events: list[Event]) -> None:
+    def _check_count(
+        self, count: int, t: float, known_at: float, limitations: Limitations, events: list[Event]
+    ) -> None:
         """A sample has `count` cells: whether the calibration is of this insole."""
         layout, noise = self.calibrated_layout, self.insole.settings.noise
         if layout is not None and len(layout.cells) == count:
@@ -120,7 +124,9 @@ class Sole:
             limitations.queue(what)
         self.layout_changed = True
 
-    def _guess_layout(self, t: float, known_at: float, load: Load, limitations: Limitations, events: list[Event]) -> None:
+    def _guess_layout(
+        self, t: float, known_at: float, load: Load, limitations: Limitations, events: list[Event]
+    ) -> None:
         layout = self.guess.update(t, self.insole.above_tare(load.cells), load.total)
         if layout is not None:
             what = f"nobody says where the cells of the {self.foot.value} insole are: learnt from how steps load them"
