@@ -1,8 +1,7 @@
-"""What a foot did while nobody saw it: a gap in the samples is filled with the same part of the last whole stride.
+"""Infill of a gap in the samples: the same part of the last whole stride stands in for it.
 
-Which part that is, is told by how long the foot had been moving before the gap and by what it does after it; what
-turned otherwise than then, before and after, turned otherwise in between.
-"""
+The time for which the foot had moved before the gap, and its motion after the gap, tell which part this is. If the foot
+turned differently from the template before and after the gap, it is taken to have done so in the gap."""
 
 from __future__ import annotations
 
@@ -28,50 +27,58 @@ from .moment import RecordedStride, StrideMoment, at, length, limit_length, mome
 from .template import StrideTemplate
 
 SHORTEST = 0.06
-"""Gaps shorter than this are bridged by a straight line, s."""
+"""Shortest gap that is filled, s; shorter ones are bridged by a straight line."""
 MOST_SHIFT = 0.12
-"""So far ahead or behind of the last stride a later one may be, s; and how far it is as a rule:"""
+"""Largest time by which a stride is ahead of or behind the last one, s."""
 SHIFT_SIGMA = 0.03
+"""Standard deviation of the time by which a stride is ahead of or behind the last one, s."""
 RATE_SIGMA = 1.0
-"""What the same moment of two strides differs by, rad/s and m/s^2."""
+"""Standard deviation of the difference in rate between two strides at the same moment, rad/s."""
 FORCE_SIGMA = 4.0
+"""Standard deviation of the difference in specific force between two strides at the same moment, m/s^2."""
 TILT_SIGMA = 0.1
-"""The same of where up is, as a unit vector in the sensor frame, and of the speed, m/s."""
+"""Standard deviation of the difference in the up direction (unit vector, sensor frame) between two strides."""
 SPEED_SIGMA = 0.3
+"""Standard deviation of the difference in speed between two strides at the same moment, m/s."""
 PERSISTENCE = 0.5
-"""How much of what the velocity was off before a gap it still is after it."""
+"""Share of the velocity difference before a gap that remains after it."""
 MOST_VELOCITY_OFF = 1.0
-"""What a velocity is off beyond this is not the wearer's doing, m/s."""
+"""Largest velocity difference that the wearer can cause, m/s."""
 LEAST_LIKE = 60.0
-"""When the foot, before or after a gap, is more unlike the last stride than this (a sum of squares of the standard
-deviations above), a straight line is the better guess as long as there is one."""
+"""Largest mismatch between foot and template, as a sum of squares of the standard deviations above.
+
+With a larger mismatch before or after a gap, a straight line is the better estimate if the gap is short enough."""
 LONGEST = 1.5
-"""A gap longer than this is not filled: habit tells one stride, not how many, s."""
+"""Longest gap that is filled, s: the template tells one stride, not how many."""
 FASTEST = 4.0
-"""No foot is faster than this on the mean of a stride, m/s."""
+"""Largest mean speed of a foot in a stride, m/s."""
 UP = (0.0, 0.0, 1.0)
-"""Unit vector, navigation frame."""
+"""Up as a unit vector, navigation frame."""
 
 
 class Infill(NamedTuple):
-    """Where the foot is after a gap, and what it went through in it."""
+    """The state of the foot after a gap, and the gait events in it."""
 
     attitude: Quat
+    """Attitude after the gap, sensor to navigation frame."""
     velocity: Vec3
+    """Velocity after the gap, navigation frame, m/s."""
     position: Vec3
+    """Position after the gap, navigation frame, m."""
     duration: float
-    """How much of the last stride stands in for the gap, s."""
+    """Duration of the part of the template that stands in for the gap, s."""
     t_heel_off: float
-    """When the heel rose, s."""
+    """Time of heel-off, s."""
     t_toe_off: float | None
-    """When the toe left the ground and when the heel struck it, if that had happened by now, s."""
+    """Time of toe-off, s; None if it is still to come."""
     t_heel_strike: float | None
+    """Time of heel-strike, s; None if it is still to come."""
     t_foot_flat: float | None
-    """When the foot was flat again, if it was, s."""
+    """Time of foot-flat, s; None if it is still to come."""
 
 
 class NoInfill(Enum):
-    """Why a foot is where it was before the gap, as far as is known."""
+    """Reasons why a gap gets no infill."""
 
     STOOD = "it stood all the time"
     UNKNOWN = "there is nothing to go by"
@@ -80,8 +87,10 @@ class NoInfill(Enum):
 def find_infill(
     template: StrideTemplate, corrector: Corrector, a: float, b: float, acc: Vec3, gyro: Vec3
 ) -> Infill | NoInfill:
-    """What the foot did from `a` to `b`, s. The corrector is at `a`; `acc` and `gyro` are those at `b`, without bias.
-    Changes nothing: `StrideTemplate.guess` and `Corrector.infill` take the answer."""
+    """Return the infill of a gap from `a` to `b`, s, or the reason why there is none.
+
+    The state of the corrector is that at `a`; `acc` and `gyro` are those at `b`, without bias. The function changes
+    nothing: `StrideTemplate.add_infill` and `Corrector.infill` apply the result."""
     x, y, z = acc
     force = hypot(x, y, z)
     x, y, z = gyro
@@ -94,10 +103,10 @@ def find_infill(
     if template.t_heel_off is None:
         unlike = 0.0
         start, usual, most = 0.0, 2.0 * MOST_SHIFT / 3.0, b - a
-        # by cadence the heel rose then
+        # duration since the heel-off that the cadence predicts
         expected = b - a if template.flat_since is None else b - template.flat_since - template.stance
         if template.flat_since is not None and expected - (b - a) > 3.0 * usual:
-            expected, usual = 0.0, b - a  # who has stood for longer than that has halted, and may go on at any time
+            expected, usual = 0.0, b - a  # after a longer stance the wearer has halted, and may go on at any time
         best = still + min(12.0, max(0.0, expected / usual) ** 2)
     else:
         start, unlike = _match_moment(last, corrector, a - template.t_heel_off)
@@ -121,15 +130,16 @@ def find_infill(
     if end is not None and end is not last[-1]:
         unlike = max(unlike, best)
     if template.t_heel_off is not None and unlike > LEAST_LIKE and b - a <= LONGEST_BRIDGE:
-        return NoInfill.UNKNOWN  # this is another kind of stride, such as a turn on the spot
+        return NoInfill.UNKNOWN  # another kind of stride, such as a turn on the spot
     if end is None:
         return NoInfill.STOOD if template.t_heel_off is None and best < 20.0 else NoInfill.UNKNOWN
     return _build_infill(template, stride, last, corrector, start, end, a, b, gyro)
 
 
 def _match_moment(last: list[StrideMoment], corrector: Corrector, since: float) -> tuple[float, float]:
-    """The moment of the last stride, near `since` s after the heel's rise, at which the foot was most like this; and
-    how much unlike it was then, as a sum of squares of standard deviations."""
+    """Return the time after heel-off at which the template is most like the foot now, and the mismatch.
+
+    Only moments near `since` s after heel-off count. The mismatch is a sum of squares of standard deviations."""
     rate = corrector.rate
     if rate is None:
         return since, 0.0
@@ -158,17 +168,16 @@ def _build_infill(
     b: float,
     gyro: Vec3,
 ) -> Infill:
-    """From `start`, s after the heel's rise in the last stride, to this moment of it; `last`: all of them."""
+    """Return the infill from `start`, s after heel-off in the template, to the moment `end`; `last` is all of it."""
     attitude, rate, moving = corrector.attitude, corrector.rate, template.t_heel_off is not None
     first = at(last, start)
     t_foot_flat = end is last[-1]
     dt = max(end.since - first.since, 1e-6)
-    # tilt as it was then, for where the foot is on its way tells it better than what the last sample does; heading
-    # as it is now
+    # tilt of the template, because the phase of the stride tells it better than the last sample; current heading
     yaw = heading_turned(first.attitude, attitude)
     now = multiply(from_yaw(yaw), end.attitude)
     if rate is not None:
-        # what it turned otherwise than in the last stride before the gap and after it, it did in between
+        # the difference in rate from the template before and after the gap is taken to last through the gap
         before = rotate(attitude, sub(rate, first.rate))[2] if moving else 0.0
         after = 0.0 if t_foot_flat else rotate(now, sub(gyro, end.rate))[2]
         now = multiply(from_yaw(0.5 * min(dt, b - a) * (before + after)), now)
@@ -183,7 +192,7 @@ def _build_infill(
     wx, wy, wz = limit_length((px + k * ex, py + k * ey, pz + k * ez), FASTEST * (b - a))
     here = (x + wx, y + wy, z + wz)
     t_heel_off = _time_of_heel_off(template, t_foot_flat, start, end, a, b)
-    # none of it before the gap: it would have been seen
+    # not before the gap, because samples would have shown it
     t_toe_off = max(a, t_heel_off + stride.toe_off) if end.since >= stride.toe_off else None
     t_heel_strike = max(a, t_heel_off + stride.heel_strike) if end.since >= stride.heel_strike else None
     return Infill(
@@ -201,7 +210,7 @@ def _build_infill(
 def _time_of_heel_off(
     template: StrideTemplate, t_foot_flat: bool, start: float, end: StrideMoment, a: float, b: float
 ) -> float:
-    """When the heel rose, s."""
+    """Return the time of heel-off, s."""
     if not t_foot_flat:
         return b - end.since
     if template.t_heel_off is not None:

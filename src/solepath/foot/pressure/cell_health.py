@@ -1,17 +1,16 @@
-"""Whether the pressure cells of one insole work, and what to use of them when some do not.
+"""Detection of failed pressure cells of one insole, and the values that can still be used.
 
-Cells are judged over windows of walking, SWINGS swings of the foot each; two windows in a row must say the same.
+Cells are judged over windows of walking with SWINGS swings of the foot; two windows in a row must agree.
 
-- DEAD, STUCK, SATURATED: what it shows in a window says so (cell_window.py).
-- MISSING: no number comes from it, or samples do not have as many cells as the insole, for PATIENCE.
+- DEAD, STUCK, SATURATED: one window shows the fault (cell_window.py).
+- MISSING: for PATIENCE, the cell gives no number, or samples do not have as many cells as the insole.
 
-Without swings nothing is judged but MISSING.
+Without swings only MISSING is judged.
 
-Failed cells read 0 from then on (`usable`), so that load, areas and centre of pressure go on without them. A cell that
-loads again for two windows is used again; that is not said, but if it fails once more that is. Samples with the wrong
-number of cells have no pressure that anyone could use; their inertial part is used. Without a layout another number of
-cells is taken for another insole after PATIENCE.
-"""
+`usable` returns 0 for failed cells, so load, areas and centre of pressure work without them. A cell that loads again in
+two windows is used again. This is not reported, but another failure of it is. The pressure of samples with a wrong
+number of cells is not used; their inertial part is. Without a layout, another number of cells means another insole
+after PATIENCE."""
 
 from __future__ import annotations
 
@@ -23,54 +22,62 @@ from .cell_window import LIVELY_WINDOWS_ALONE, CellWindow, unloads
 from .cells import CellSpan
 
 CHECK_INTERVAL = 0.0795
-"""Cells are looked at this often, s: a load under the toes lasts about 0.15 s."""
+"""Interval at which the cells are checked, s; a load under the toes lasts about 0.15 s."""
 SWING_RATE, ONE_SWING = 3.0, 0.7
-"""A foot that turns faster than this, rad/s, walks, and for so long, s, it is in the same swing."""
+"""Smallest rate of a foot that walks, rad/s, and time for which it is then in the same swing, s."""
 SHORTEST, LONGEST = 3.0, 30.0
-"""A window lasts this long, s."""
+"""Shortest and longest duration of a window, s."""
 SWINGS, PATIENCE = 4, 1.0
-"""So many swings end a window. A cell that shows no number for so long, s, is missing."""
+"""Number of swings that end a window, and time without a number after which a cell is missing, s."""
 
 
 @define
 class CellHealth:
-    """The cells of one insole. `update` with every sample, in the order of their time, and take what `usable` leaves of
-    it. Costs a sum a sample, and 12 times a second the lowest and highest of each cell."""
+    """The health of the cells of one insole.
+
+    Call `update` with every sample in order of time, then use the cells that `usable` returns. A sample costs one sum,
+    and 12 times a second the extremes of each cell."""
 
     site: Site
     count: int = field(default=0, init=False)
-    """How many cells there are; 0 before any."""
+    """Number of cells; 0 before any."""
     span: CellSpan = field(factory=CellSpan, init=False)
+    """Extremes of the cells in the current window."""
     checked_at: float | None = field(default=None, init=False)
-    """When the cells were last looked at, s."""
+    """Time of the last check of the cells, s."""
     window_start: float | None = field(default=None, init=False)
-    """When this window did, s."""
+    """Start of the current window, s."""
     swings: int = field(default=0, init=False)
-    """Swings in it."""
+    """Number of swings in the current window."""
     swing_start: float | None = field(default=None, init=False)
-    """When the last one began, s."""
+    """Start of the last swing, s."""
     airborne: bool = field(default=False, init=False)
+    """The foot was in the air in the last sample without a rate."""
     suspects: dict[CellFault, list[int]] = field(factory=dict, init=False)
-    """What the last window said."""
+    """Faults that the last window showed, each with its cells."""
     failed: dict[CellFault, list[int]] = field(factory=dict, init=False)
+    """Faults that are reported, each with its cells."""
     excluded: list[int] = field(factory=list, init=False)
     """All failed cells."""
     lively_windows: list[int] = field(factory=list, init=False)
-    """In how many windows in a row each cell was."""
+    """Number of windows in a row in which each cell was lively."""
     not_numbers: list[tuple[int, float]] = field(factory=list, init=False)
-    """Cells without a number now, and since when, s."""
+    """Cells that give no number now, each with the time since which, s."""
     wrong_count: int | None = field(default=None, init=False)
-    """The wrong number of cells that samples have now."""
+    """Number of cells of the current samples if it is wrong; None otherwise."""
     wrong_count_since: float = field(default=0.0, init=False)
+    """Time since which the number of cells is wrong, s."""
     wrong_count_reported: bool = field(default=False, init=False)
+    """The wrong number of cells was reported."""
     loaded_windows: int = field(default=0, init=False)
-    """Windows in a row in which the insole did not unload."""
+    """Number of windows in a row in which the insole did not unload."""
     loaded_since: float = field(default=0.0, init=False)
+    """Start of the first of these windows, s."""
     constant_windows: int = field(default=0, init=False)
-    """The same in which no cell showed anything."""
+    """Number of windows in a row in which no cell showed any load."""
 
     def reset(self) -> None:
-        """Times begin anew: windows do too. What has failed stays failed."""
+        """Discard the current window, because times restart; failed cells stay failed."""
         self.checked_at = self.window_start = self.swing_start = None
         self.span, self.swings, self.not_numbers, self.wrong_count = CellSpan(), 0, [], None
 
@@ -83,8 +90,10 @@ class CellHealth:
         gyro: Vec3 | None = None,
         layout: Layout | None = None,
     ) -> list[Event]:
-        """The cells of a sample taken at `t` s, not seen to in any way, () where it has none (inertial sensor and cells
-        may come apart); `phase` of the foot, `gyro` in rad/s; `layout` that the device or a calibration told."""
+        """Return the events of one sample at `t`, s, with raw `cells`.
+
+        `cells` is () for a sample without cells, because the inertial sensor and the cells may send separately. `phase`
+        is that of the foot, `gyro` is in rad/s, and `layout` comes from the device or a calibration."""
         events: list[Event] = []
         if layout is not None and self.count != len(layout.cells):
             self._set_count(len(layout.cells))
@@ -114,8 +123,9 @@ class CellHealth:
         return events
 
     def usable(self, cells: tuple[float, ...]) -> tuple[float, ...]:
-        """The cells of the sample just fed with 0 for those that failed or are no numbers; () when there is nothing in
-        it that could be used."""
+        """Return the cells of the sample of the last `update`, with 0 for those that failed or are no numbers.
+
+        Returns () when no cell can be used."""
         if len(cells) != self.count:
             return ()
         if not self.not_numbers:
@@ -131,7 +141,7 @@ class CellHealth:
         return tuple(left)
 
     def _accept_count(self, t: float, known_at: float, count: int, layout: Layout | None, events: list[Event]) -> bool:
-        """Samples have another number of cells; True when that is right from now on."""
+        """Return whether another number of cells, `count`, is valid from now on."""
         if self.count == 0:
             if count == 0:
                 return False
@@ -152,7 +162,7 @@ class CellHealth:
         return False
 
     def _set_count(self, count: int) -> None:
-        """Another insole."""
+        """Restart for another insole of `count` cells."""
         self.count, self.wrong_count_reported = count, False
         self.failed, self.suspects, self.excluded, self.lively_windows = {}, {}, [], []
         self.reset()
@@ -169,7 +179,7 @@ class CellHealth:
             self._report(t, known_at, CellFault.MISSING, new, events)
 
     def _swing_starts(self, t: float, phase: Phase, unseen: bool) -> bool:
-        """A swing has begun: the foot turns fast, or, where that is `unseen`, is in the air."""
+        """Return whether a swing starts: the foot turns fast, or is in the air if its rate is `unseen`."""
         if unseen:
             before, self.airborne = self.airborne, phase is Phase.SWING
             return self.airborne and not before
@@ -224,12 +234,12 @@ class CellHealth:
             events.append(InsoleNeverUnloads(t=t, known_at=known_at, site=self.site, seconds=seconds))
 
     def _update_lively(self, window: CellWindow) -> None:
-        """Which cells were lively; those that had failed and are, twice in a row, are used again."""
+        """Count the lively windows of each cell; use failed cells again after two in a row."""
         if len(self.lively_windows) != self.count:
             self.lively_windows = [0] * self.count
         suspected = {i for cells in self.suspects.values() for i in cells}
         for i, lively in enumerate(window.lively()):
-            if i not in suspected:  # of those, what they used to do is why they are suspected
+            if i not in suspected:  # a suspected cell keeps its count, because the count is why it is suspected
                 self.lively_windows[i] = min(self.lively_windows[i] + 1, LIVELY_WINDOWS_ALONE) if lively else 0
         for fault, cells in self.failed.items():
             if fault is not CellFault.MISSING:

@@ -1,8 +1,7 @@
-"""Where the cells of an insole are, when nobody says: from the order in which a stance loads them.
+"""Estimation of an unknown layout of pressure cells from the order in which a stance loads them.
 
-The heel's cells carry the beginning of every stance and the toes' its end, so the middle of a cell's load within the
-stance grows from heel to toe. Where it lies from left to right the signal does not tell.
-"""
+The cells of the heel bear the start of each stance and those of the toes its end. So the mean time of a cell's load
+within the stance grows from heel to toe. The signal does not show where a cell lies from left to right."""
 
 from __future__ import annotations
 
@@ -12,40 +11,47 @@ from ...types import Cell, Foot, Layout
 from ...types.attrs import define, field
 
 LENGTH = 0.26
-"""Of an insole that says nothing, m: a size 42."""
+"""Length of an insole of unknown size, m: size 42."""
 REAR, FRONT = 0.1, 0.9
-"""Where the cells that are loaded first and last are put, as shares of the length."""
+"""Positions of the first and the last loaded cell, as shares of the length."""
 UNNAMED = 0
-"""Number of a layout that was guessed."""
+"""Number of an estimated layout."""
 STANCES = 2
-"""So many stances must have been seen whole."""
+"""Number of complete stances that an estimate needs."""
 ON, OFF = 0.10, 0.05
-"""Shares of the full load at which a stance begins and ends."""
+"""Loads at which a stance starts and ends, as shares of the full load."""
 SHORTEST, LONGEST = 0.25, 2.0
-"""Contacts outside this are no stances of walking, s."""
+"""Shortest and longest stance of walking, s."""
 LEAST_LOAD = 0.02
-"""A cell with less than this share of the most loaded cell's load is not placed: it stays in the middle."""
+"""Smallest load of a cell that is placed, as a share of the most loaded cell's; others stay in the middle."""
 
 
 @define
 class LayoutGuess:
-    """Feed it every sample until it answers. Costs two additions a cell, and nothing more once it has answered."""
+    """Estimates the layout of an insole from its samples.
+
+    Call `update` with every sample until it returns a layout. A sample costs two additions a cell."""
 
     foot: Foot
     stance_start: float | None = field(default=None, init=False)
-    """When the stance did, s; None while the foot is in the air."""
+    """Start of the current stance, s; None while the foot is in the air."""
     was_airborne: bool = field(default=False, init=False)
-    """The foot was in the air before this stance, so its beginning was seen."""
+    """The foot was in the air before this stance, so the start of the stance is known."""
     loads: list[float] = field(factory=list, init=False)
+    """Sum of the load of each cell over this stance."""
     moments: list[float] = field(factory=list, init=False)
-    """Over this stance, by cell: sums of the load, and of load times time since contact."""
+    """Sum of load times time since contact of each cell over this stance."""
     weights: list[float] = field(factory=list, init=False)
+    """Sum of the load of each cell over all stances."""
     middles: list[float] = field(factory=list, init=False)
-    """Over all stances, by cell: load, and load times where in the stance it came, 0 to 1."""
+    """Sum of load times relative time in the stance (0 to 1) of each cell over all stances."""
     stances: int = field(default=0, init=False)
+    """Number of complete stances so far."""
 
     def update(self, t: float, cells: tuple[float, ...], share: float) -> Layout | None:
-        """One sample: the cells above what they show in the air, and their total as a share of the full load."""
+        """Add one sample; return the layout once it is known.
+
+        `cells` are the cells above their values in the air, `share` is their total as a share of the full load."""
         if self.stance_start is None:
             if share > ON:
                 self.stance_start = t

@@ -1,4 +1,4 @@
-"""The cells under one foot: where they are, which of them work, and what load they make."""
+"""Pressure cells under one foot: layout, failed cells and load."""
 
 from __future__ import annotations
 
@@ -17,46 +17,50 @@ from .layout_guess import LayoutGuess
 
 @define
 class Sole:
-    """Cells that failed are left out. Where nobody says where the cells are, it is learnt if the recipe needs them."""
+    """The pressure cells of one foot.
+
+    Failed cells are not used. If the layout is unknown and the recipe needs pressure, the layout is estimated."""
 
     foot: Foot
     insole: InsoleLoads
     settings: FootSettings = FootSettings()
     pressed: bool = field(default=False, init=False)
-    """Cells were heard of."""
+    """A sample with usable cells has come."""
     health: CellHealth = field(init=False)
     guess: LayoutGuess = field(init=False)
     guessed: bool = field(default=False, init=False)
-    """The layout is a guess."""
+    """The layout is an estimate."""
     calibrated_layout: Layout | None = field(default=None, init=False)
-    """The calibration's layout, until a sample with as many cells has come."""
+    """Layout of the calibration, until a sample has as many cells; None otherwise."""
     count_checked: bool = field(default=False, init=False)
-    """What the calibration says of the cells is of as many as there are, or is not used."""
+    """The calibration matches the number of cells, or is not used."""
     layout_changed: bool = field(default=False, init=False)
-    """There is another layout than before, of which the other parts have not been told."""
+    """The layout has changed since the other parts of the foot received it."""
 
     def __attrs_post_init__(self) -> None:
         self.health = CellHealth(SITE_OF_FOOT[self.foot])
         self.guess = LayoutGuess(self.foot)
 
     def set_layout(self, layout: Layout, limitations: Limitations) -> None:
-        """The device said where its cells are."""
+        """Set the layout that the device has sent."""
         self.guessed, self.calibrated_layout = False, None
         self._apply_layout(layout, limitations)
 
     def suppose(self, layout: Layout) -> None:
-        """A calibration says where the cells are: it is believed if samples have as many."""
+        """Set the layout of a calibration; it is used if samples have as many cells."""
         self.calibrated_layout = layout
 
     def reset(self) -> None:
-        """Times begin anew."""
+        """Discard what depends on unbroken samples, because times restart."""
         self.insole.reset()
         self.health.reset()
 
     def press(
         self, sample: Sample, known_at: float, phase: Phase, limitations: Limitations, events: list[Event]
     ) -> Load | None:
-        """One sample of a foot in this phase; None while the load is not known, or without cells that could be used."""
+        """Return the load of one sample; None while it is unknown, or if no cell can be used.
+
+        `phase` is the phase of the foot."""
         t, pressure = sample.t, sample.pressure or ()
         if pressure and not self.count_checked:
             self._check_count(len(pressure), t, known_at, limitations, events)
@@ -72,25 +76,25 @@ class Sole:
         self.pressed = True
         layout = self.insole.layout
         if self.guessed and layout is not None and len(layout.cells) != len(cells):
-            self._forget_layout()  # it was of another insole
+            self._forget_layout()  # the estimate was made for another insole
         load = self.insole.update(t, cells)
         if self.settings.needs_pressure and self.insole.layout is None and load is not None:
             self._guess_layout(t, known_at, load, limitations, events)
         return load
 
     def pressed_by(self, t: float, known_at: float, pressure: tuple[float, ...]) -> FootPressed | None:
-        """What the cells of the sample that was just pressed show; None when there was nothing that could be used."""
+        """Return the pressure event of the sample of the last `press`; None if no cell could be used."""
         insole, health = self.insole, self.health
         if not health.usable(pressure):
             return None
         values = insole.above_tare(insole.cells)
-        if health.excluded or health.not_numbers:  # a cubic may make something of their 0
+        if health.excluded or health.not_numbers:  # a cubic may map their 0 to another value
             silent = {*health.excluded, *[i for i, _ in health.not_numbers]}
             values = tuple([0.0 if i in silent else value for i, value in enumerate(values)])
         force = sum(values)
         centre, layout = None, insole.layout
         if layout is not None and not self.guessed and len(values) == len(layout.cells):
-            # a foot in the air for long has a small reach of loads; its cells are less than what they have carried
+            # after a long time in the air the range of loads is small, so the highest cell value is a limit as well
             least = LEAST_LOAD * max(insole.total.high - insole.total.low, insole.highest)
             if force > least:
                 centre = (sum(map(mul, layout.xs, values)) / force, sum(map(mul, layout.ys, values)) / force)
@@ -99,7 +103,7 @@ class Sole:
     def _check_count(
         self, count: int, t: float, known_at: float, limitations: Limitations, events: list[Event]
     ) -> None:
-        """A sample has `count` cells: whether the calibration is of this insole."""
+        """Check whether the calibration matches the `count` cells of a sample."""
         layout, noise = self.calibrated_layout, self.insole.settings.noise
         if layout is not None and len(layout.cells) == count:
             self.set_layout(layout, limitations)
