@@ -1,14 +1,13 @@
-"""When the ground stopped a foot.
+"""Time of the impact with which the ground stops a foot.
 
-That a foot has landed shows in how it turns, or in the speed that is gone; when it did, in the jerk. The ground stops
-it within some hundredths of a second, and heel-strike is the middle of that: the mean time weighted by the squared
+The turn of the foot, or the loss of its speed, shows that it has landed. The jerk shows when. The ground stops the foot
+within some hundredths of a second, and heel-strike is the middle of this time: the mean time weighted by the squared
 jerk, j = d acc / dt,
 
     t_HS = sum t |j|^2 dt / sum |j|^2 dt.
 
-It needs no threshold on the force, holds at any mounting and rate, and does not come early where a sole is turned down
-well before it bears weight.
-"""
+This needs no threshold on the force, works for any mounting and rate, and does not come early if the sole turns down
+well before it bears weight."""
 
 from __future__ import annotations
 
@@ -16,37 +15,40 @@ from ...types import Vec3
 from ...types.attrs import define, field
 
 MOST_SHOCK = 1e12
-"""A jolt weighs no more than this, m^2/s^5."""
+"""Largest squared jerk times interval of one sample, m^2/s^5."""
 SHOCK_MEMORY = 0.02
-"""What is older than about this is no part of it, s."""
+"""Duration of the memory of the shock, s."""
 AFTER_TOE_OFF = 0.1
-"""A jolt nearer than this to toe-off is that of leaving the ground, s."""
+"""Shortest time from toe-off to an impact of landing, s; an earlier one is that of leaving the ground."""
 
 
 @define
 class Impact:
-    """One swing's, and what ends it. Feed it every sample of the swing."""
+    """The impact that ends one swing. Call `add_sample` for every sample of the swing."""
 
     swing_start: float | None = field(default=None, init=False)
-    """When the swing did, s; None: before anybody looked."""
+    """Start of the swing, s; None before any."""
     shock: float = field(default=0.0, init=False)
-    """Squared jerk of the last moments, summed over time, m^2/s^5."""
+    """Integral of the recent squared jerk over time, m^2/s^5."""
     middle: float = field(default=0.0, init=False)
-    """Its mean time, s."""
+    """Mean time of the shock, s."""
     peak_speed: float = field(default=0.0, init=False)
-    """Speed of the swing, m/s."""
+    """Largest speed of the swing, m/s."""
     peak_shock: float = field(default=0.0, init=False)
-    """The largest shock since it was that fast, m^2/s^5."""
+    """Largest shock since the time of the largest speed, m^2/s^5."""
     peak_shock_at: float = field(default=0.0, init=False)
-    """When that was, s."""
+    """Mean time of the largest shock, s."""
 
     def start_swing(self, t: float) -> None:
-        """The toe left the ground at `t`, s."""
+        """Start a swing at toe-off at `t`, s."""
         self.swing_start = self.middle = t
         self.shock = self.peak_speed = self.peak_shock = 0.0
 
     def add_sample(self, t: float, dt: float, previous_acc: Vec3, acc: Vec3, speed: float, landing: bool) -> None:
-        """Specific force before (`previous_acc`) and now, m/s^2; `speed` in m/s; `landing`: nothing is forgotten any more."""
+        """Add one sample of the swing.
+
+        `previous_acc` and `acc` are the specific force before and now, m/s^2, `speed` is in m/s. While `landing` is
+        True the shock does not decay."""
         if speed > self.peak_speed:
             self.peak_speed = speed
             self.peak_shock = 0.0

@@ -1,16 +1,15 @@
-"""Stance evidence judged within each gait cycle, the default.
+"""Stance evidence relative to each gait cycle; the default detector.
 
-No single threshold serves a stroll and a run: between a stroll's stance and its swing the SHOE statistic goes from 10^3
-to 10^7, in a run from 10^5 to 10^8. So what is still is judged against the wearer's own last cycle: in logarithms, the
-threshold lies a fixed share of the way from the quietest to the loudest moment of the last 1.2 to 1.6 s. The noise of
-the evidence comes from the motion itself: a foot that turns at w about a point of the sole r away moves the sensor at
-r w. What of that is known, the height of the sensor above the sole (sensor_height.py), is the velocity that it ought to
-have; what is not is noise, and the steeper second term keeps early and late stance from outvoting mid-stance.
+No single threshold suits a stroll and a run: from stance to swing, the SHOE statistic goes from 10^3 to 10^7 in a
+stroll, and from 10^5 to 10^8 in a run. So stillness is judged relative to the wearer's own last cycle: in logarithms,
+the threshold lies at a fixed share between the lowest and the highest statistic of the last 1.2 to 1.6 s. The noise of
+the evidence follows from the motion: a foot that turns at w about a point of the sole at distance r moves the sensor at
+r w. The known part of this, from the height of the sensor above the sole (sensor_height.py), is the reference velocity.
+The unknown part is noise. Its steeper second term keeps early and late stance from outvoting mid-stance.
 
-The settings (settings.py) were chosen by hand on the recordings of docs/accuracy.md and not swept. What the whole of a
-term is worth stands there in the table of the default without one of its parts: one threshold for all, evidence of one
-noise, zero velocity of a foot that does not roll, no extra noise of a foot that is braked.
-"""
+The settings (settings.py) were chosen by hand on the recordings of docs/accuracy.md and not swept. The table of the
+default without one of its parts in that document gives the effect of whole terms: one threshold for all, evidence of
+one noise, zero velocity for a foot that rolls, no extra noise for a foot that brakes."""
 
 from __future__ import annotations
 
@@ -29,41 +28,48 @@ ACC_SQUARE = SIGMA_ACC**2
 GYRO_SQUARE = SIGMA_GYRO**2
 TWO_G = 2.0 * GRAVITY
 SHOE_WINDOW = 0.025
-"""How far back the statistic looks, s."""
+"""Duration of the window of the statistic, s."""
 
 SWING: Final = Phase.SWING
+"""Local name of `Phase.SWING`, because one look-up in the enum costs as much as five multiplications."""
 STATIONARY: Final = Phase.STATIONARY
-"""Looked up once: a word of an enum costs as much as five multiplications."""
+"""Local name of `Phase.STATIONARY`, because one look-up in the enum costs as much as five multiplications."""
 
 make_stance = tuple.__new__
-"""A Stance of its five fields, in half the time that its own constructor takes."""
+"""Constructor of a Stance from its five fields, which takes half the time of the class's own."""
 
 NO_LOW = 1e12
-"""Above any statistic."""
+"""Upper bound of any statistic."""
 
 
 @define
 class Cycle(Detector):
-    """SHOE's statistic against a threshold learnt from the last cycle, with noise from the motion. Latency: 25 ms.
+    """Compares the SHOE statistic with a threshold from the last cycle, with noise from the motion.
 
-    Statistics have no unit: SHOE divides each mean square by that of the sensor's noise (shoe.py).
-    """
+    Latency: 25 ms. The statistic has no unit: SHOE divides each mean square by that of the sensor's noise (shoe.py)."""
 
     settings: CycleSettings = CycleSettings()
     sensor_height: SensorHeight = field(factory=SensorHeight, init=False)
     shoe: ShoeDetector = field(factory=ShoeDetector, init=False)
     span_end: float | None = field(default=None, init=False)
+    """End of the current span, s; None before any."""
     lows: tuple[float, float, float] = field(default=(NO_LOW, NO_LOW, NO_LOW), init=False)
+    """Lowest statistic of each of the last three spans."""
     highs: tuple[float, float, float] = field(default=(0.0, 0.0, 0.0), init=False)
+    """Highest statistic of each of the last three spans."""
     low: float = field(default=NO_LOW, init=False)
+    """Lowest statistic of the current span."""
     high: float = field(default=0.0, init=False)
+    """Highest statistic of the current span."""
     past_low: float = field(default=NO_LOW, init=False)
+    """Lowest statistic of the last three spans together."""
     past_high: float = field(default=0.0, init=False)
+    """Highest statistic of the last three spans together."""
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
-        # SHOE's sums, as ShoeDetector.parts: a call would be 4 % of this (tests/foot/test_alike.py holds both equal)
+        # the sums of ShoeDetector.parts: a call would cost 4 % of this (tests/foot/test_alike.py checks both are equal)
         ax, ay, az = acc
         wx, wy, wz = gyro
         a2, w2 = ax * ax + ay * ay + az * az, wx * wx + wy * wy + wz * wz
@@ -133,7 +139,7 @@ class Cycle(Detector):
         return exp((1.0 - share) * log(low) + share * log(high))
 
     def _start_span(self, t: float, statistic: float) -> None:
-        """A span begins."""
+        """Start the next span."""
         if self.span_end is not None:
             self.lows = (self.lows[1], self.lows[2], self.low)
             self.highs = (self.highs[1], self.highs[2], self.high)
