@@ -1,7 +1,7 @@
-"""Both sensors of a foot watched at the ends of their ranges, and what they missed put into a filter's state.
+"""Recovery of the clipped peaks of both sensors of a foot, for the state of a filter.
 
-clipping.py says what was missed, reintegration.py what follows from it; this keeps the samples that both need.
-"""
+clipping.py detects clipped peaks, reintegration.py gives their effect; this module stores the samples that both
+need."""
 
 from __future__ import annotations
 
@@ -18,24 +18,28 @@ State = tuple[Quat, Vec3, Vec3, Covariance]
 
 @define
 class Recovery:
-    """Fed every sample before it is integrated. A plain record."""
+    """The clipping of both sensors of one foot. Call `watch` for every sample before it is integrated."""
 
     turns: Clipping = field(factory=Clipping, init=False)
-    """The gyroscope."""
+    """Clipping of the gyroscope."""
     impacts: Clipping = field(factory=lambda: Clipping(ACCELEROMETER), init=False)
-    """The accelerometer; and its last two readings, m/s^2:"""
+    """Clipping of the accelerometer."""
     last_acc: Vec3 = field(default=ZERO, init=False)
+    """Last acc, sensor frame, m/s^2."""
     earlier_acc: Vec3 = field(default=ZERO, init=False)
+    """Acc before the last one, sensor frame, m/s^2."""
     swing: SwingSamples = field(factory=SwingSamples, init=False)
     earlier_rate: Vec3 = field(default=ZERO, init=False)
-    """The rate before the last one, rad/s, and how long before it, s:"""
+    """Rate before the last one, sensor frame, rad/s."""
     earlier_dt: float = field(default=0.0, init=False)
+    """Time between the last two samples, s."""
 
     def watch(
         self, dt: float, acc: Vec3, gyro: Vec3, before: Vec3, attitude: Quat, saturated: bool
     ) -> tuple[tuple[ClippedPeak, ...] | None, tuple[ClippedPeak, ...] | None]:
-        """A sample; `before` and `attitude`: rate and attitude before it. What the gyroscope and the accelerometer
-        turn out to have missed, as soon as they are within their ranges again."""
+        """Return the clipped peaks of gyroscope and accelerometer that one sample completes.
+
+        `before` and `attitude` are the rate and the attitude before the sample."""
         x, y, z = gyro
         turns, peaks = self.turns, None
         if turns.clipping or x * x + y * y + z * z > turns.watch_square:
@@ -52,18 +56,18 @@ class Recovery:
         return peaks, acc_peaks
 
     def reset(self) -> None:
-        """There was a gap."""
+        """Discard clipped peaks after a gap."""
         self.turns.reset()
         self.impacts.reset()
         self.swing.rows = []
 
     def end_stride(self) -> None:
-        """A step is over."""
+        """Let the largest readings decay at the end of a stride."""
         self.turns.end_stride()
         self.impacts.end_stride()
 
     def add_turns(self, peaks: tuple[ClippedPeak, ...], state: State) -> State:
-        """The state as it is with the turn that the gyroscope missed, and the doubt."""
+        """Return the state with the clipped peaks of the gyroscope, and with their covariance."""
         attitude, (vx, vy, vz), (x, y, z), covariance = state
         for one in peaks:
             seen, likely, more = (
@@ -78,7 +82,7 @@ class Recovery:
 
     @staticmethod
     def add_velocities(acc_peaks: tuple[ClippedPeak, ...], state: State) -> State:
-        """The same of the velocity that the accelerometer missed."""
+        """Return the state with the clipped peaks of the accelerometer, and with their covariance."""
         attitude, (vx, vy, vz), (x, y, z), covariance = state
         for one in acc_peaks:
             i, j, k = (1.0 if axis == one.axis else 0.0 for axis in (0, 1, 2))

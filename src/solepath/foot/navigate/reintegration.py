@@ -1,13 +1,12 @@
-"""What follows from what a sensor at the end of its range missed (clipping.py): the state with it, and the doubt.
+"""Correction of the state by a clipped peak of the gyroscope (clipping.py), with its covariance.
 
-A turn that is missed, tenths of a radian, tilts all that comes after it. Its axis is the sensor's own, so the samples
-since are integrated anew with the rate higher by the cubic that holds m. Once more with a little more of it tells by
-how much attitude, velocity and position err when m does: one unknown of a known direction b,
+A clipped turn of tenths of a radian tilts all that follows. Its axis is that of the sensor, so the samples since are
+integrated again, with the rate raised by the cubic with integral m. A third integration with a slightly larger m gives
+the effect of an error of m on attitude, velocity and position. This is one unknown in a known direction b,
 
     P <- P + sigma^2 b b',  b = d(p, v, theta) / dm
 
-and how large it is the zero velocity of the next stance tells.
-"""
+and the zero velocity of the next stance tells its size."""
 
 from __future__ import annotations
 
@@ -21,20 +20,23 @@ from .clipping import ClippedPeak
 from .covariance import Covariance
 
 ROWS = 64
-"""So many samples are kept at the most; when there are more, pairs become one."""
+"""Largest number of stored samples; when there are more, pairs are joined."""
 NUDGE = 0.05
-"""By how much more than m that is told, rad."""
+"""Change of m for the numerical derivative, rad."""
 
 Row = tuple[float, Vec3, Vec3]
-"""How long, s, and the mean rate (rad/s) and specific force (m/s^2) meanwhile, sensor frame."""
+"""Duration, s, and the mean rate (rad/s) and specific force (m/s^2) during it, sensor frame."""
 
 
 class IntegratedMotion(NamedTuple):
-    """Where an integration went."""
+    """The end state of an integration that starts at rest at zero."""
 
     attitude: Quat
+    """Attitude, sensor to navigation frame."""
     velocity: Vec3
+    """Change of velocity, navigation frame, m/s."""
     position: Vec3
+    """Change of position, navigation frame, m."""
 
 
 @define
@@ -42,11 +44,12 @@ class SwingSamples:
     """The samples since the gyroscope came near the end of its range."""
 
     rows: list[Row] = field(factory=list, init=False)
+    """Samples in order of time."""
     start_attitude: Quat = field(default=IDENTITY, init=False)
-    """Attitude before them."""
+    """Attitude before the first row, sensor to navigation frame."""
 
     def add_sample(self, dt: float, gyro: Vec3, before: Vec3, acc: Vec3, attitude: Quat) -> None:
-        """A sample to integrate anew; `attitude`: before it."""
+        """Add one sample; `before` and `attitude` are the rate and the attitude before it."""
         if not self.rows:
             self.start_attitude = attitude
         elif len(self.rows) >= ROWS:
@@ -55,7 +58,7 @@ class SwingSamples:
         self.rows.append((dt, (0.5 * (x + u), 0.5 * (y + v), 0.5 * (z + w)), acc))
 
     def reintegrate(self, peak: ClippedPeak, angle: float) -> IntegratedMotion:
-        """The rows once more, from rest at zero, with `angle` more about the axis that missed it."""
+        """Return the end state of the rows with `angle` rad more about the axis that was clipped."""
         end = sum([row[0] for row in self.rows]) - peak.ago
         t, shape, total = peak.duration - end, [], 0.0
         for dt, _, _ in self.rows:
@@ -102,7 +105,7 @@ def _join(a: Row, b: Row) -> Row:
 
 
 def difference(a: IntegratedMotion, b: IntegratedMotion) -> tuple[Vec3, Vec3, Vec3]:
-    """Position (m), velocity (m/s) and turn in the world frame (rad) by which `b` differs from `a`."""
+    """Return position (m), velocity (m/s) and turn (world frame, rad) by which `b` differs from `a`."""
     (ax, ay, az), (bx, by, bz) = a.position, b.position
     (ux, uy, uz), (vx, vy, vz) = a.velocity, b.velocity
     w, x, y, z = multiply(b.attitude, conjugate(a.attitude))
@@ -114,7 +117,7 @@ def difference(a: IntegratedMotion, b: IntegratedMotion) -> tuple[Vec3, Vec3, Ve
 
 
 def add_error(covariance: Covariance, p: Vec3, v: Vec3, turn: Vec3, sigma: float) -> Covariance:
-    """P + sigma^2 b b' with b = (p, v, turn): an error of one unknown size and a known direction."""
+    """Return P + sigma^2 b b' with b = (p, v, turn), for an error in a known direction."""
     k = sigma * sigma
     grown: list[float] = []
     i = 0
