@@ -25,7 +25,7 @@ from solepath.types import Quat, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO
 
 
-def test_before_any_whole_stride_a_moving_foot_leaves_nothing_to_go_by_and_a_still_one_has_stood() -> None:
+def test_without_a_template_a_moving_foot_gets_no_infill_and_a_still_one_has_stood() -> None:
     template, at_rest = StrideTemplate(), ErrorStateFilter()
     at_rest.start(IDENTITY, 0.02)
     up: Vec3 = (0.0, 0.0, GRAVITY)
@@ -58,7 +58,7 @@ def test_a_gap_in_the_first_stride_is_bridged_by_a_straight_line() -> None:
     assert tracker.corrector.attitude == by_line.attitude
 
 
-def test_a_stride_is_remembered_as_it_was_wherever_on_earth_it_was() -> None:
+def test_a_stride_is_stored_exactly_at_any_time_and_position() -> None:
     template, far = StrideTemplate(), 1e7
     template.start_stride(1e9)
     for k in range(8):
@@ -77,7 +77,7 @@ def test_a_stride_is_remembered_as_it_was_wherever_on_earth_it_was() -> None:
     assert template.rows == [] and template.t_heel_off is None
 
 
-def test_a_toe_off_or_heel_strike_at_one_of_the_moments_that_are_remembered_is_at_that_moment() -> None:
+def test_a_toe_off_or_heel_strike_at_a_stored_moment_has_the_time_of_that_moment() -> None:
     """At 10 samples a second they often are, and rounding must not decide whether a gap has hidden them."""
     for start in range(100):
         template, t_heel_off = StrideTemplate(), 0.1 * start
@@ -91,7 +91,7 @@ def test_a_toe_off_or_heel_strike_at_one_of_the_moments_that_are_remembered_is_a
         assert (kept[2].since, kept[7].since) == (template.last.toe_off, template.last.heel_strike)
 
 
-def test_a_stride_with_a_gap_or_round_a_corner_is_not_the_habit() -> None:
+def test_a_stride_with_a_gap_or_round_a_corner_is_no_template() -> None:
     pose: tuple[Quat, Vec3, Vec3] = (IDENTITY, ZERO, ZERO)
     up: Vec3 = (0.0, 0.0, GRAVITY)
 
@@ -120,7 +120,7 @@ def test_a_stride_with_a_gap_or_round_a_corner_is_not_the_habit() -> None:
     assert len(template.rows) <= MOST_MOMENTS
 
 
-def test_a_stride_that_zero_velocity_had_to_put_right_is_not_the_habit() -> None:
+def test_a_stride_with_a_large_zero_velocity_correction_is_no_template() -> None:
     template, up = StrideTemplate(), (0.0, 0.0, GRAVITY)
 
     def stride(t: float, speed: float) -> None:
@@ -153,14 +153,14 @@ def test_a_stride_with_a_gap_goes_hardly_further_than_those_before_and_no_higher
         template.add_infill(2.8, 0.3)
     else:
         template.mark_bridged()
-    mended = template.end_stride(3.6, 3.1, 3.5, 0.0, displacement, 0.01)
-    assert mended is not None
-    assert hypot(mended.displacement[0], mended.displacement[1]) <= 1.25 * 1.3 * 1.2
-    assert abs(mended.displacement[2]) <= 0.5
+    repair = template.end_stride(3.6, 3.1, 3.5, 0.0, displacement, 0.01)
+    assert repair is not None
+    assert hypot(repair.displacement[0], repair.displacement[1]) <= 1.25 * 1.3 * 1.2
+    assert abs(repair.displacement[2]) <= 0.5
 
 
 @pytest.mark.parametrize("duration", [0.15, 0.3, 0.6, 1.2, 2.0])
-def test_in_a_gap_no_foot_goes_faster_than_feet_go_and_a_long_one_is_not_filled(duration: float) -> None:
+def test_infill_limits_the_speed_of_a_foot_and_long_gaps_get_none(duration: float) -> None:
     samples, steps = walked()
     tracker = FootTracker(Foot.LEFT, Session().recipe.detector, ErrorStateFilter())
     a = steps[4].t_toe_off + 0.1
@@ -189,9 +189,9 @@ def test_however_many_gaps_there_are_no_stride_is_longer_or_higher_than_a_stride
     while t < 50.0:
         holes.append((t, t + random.choice([0.1, 0.2, 0.4, 0.7, 1.0])))
         t += random.uniform(0.3, 4.0)
-    told, _ = heard(without(tuple(walker.samples(Foot.LEFT, rate)), *holes))
+    events, _ = heard(without(tuple(walker.samples(Foot.LEFT, rate)), *holes))
     longest = max(step.length for step in walker.truth().steps(Foot.LEFT))
-    for step in of(StrideTaken, told):
+    for step in of(StrideTaken, events):
         if step.degraded:
             assert step.length < 2.5 * longest
             assert abs(step.height_change) < 0.85
@@ -208,15 +208,15 @@ def test_whatever_the_gaps_phases_follow_each_other_in_time_and_none_is_known_be
     samples, _ = walked()
     left = without(samples, *((a, a + duration) for a, duration in holes))
     session = Session()
-    told: list[Event] = []
+    events: list[Event] = []
     for sample in left:
         new = session.feed(sample)
         assert all(event.known_at >= event.t and event.known_at >= sample.t for event in new)
-        told += new
-    phases = of(PHASES, told)
+        events += new
+    phases = of(PHASES, events)
     assert all(a.t <= b.t for a, b in pairwise(phases))
     assert all(type(a) is not type(b) for a, b in pairwise(phases))
-    taken = of(StrideTaken, told)
+    taken = of(StrideTaken, events)
     assert all(a.t_end <= b.t_start for a, b in pairwise(taken))
     for step in taken:
         assert step.t_start <= step.t_toe_off <= step.t_end

@@ -27,7 +27,7 @@ from solepath.saving import codec as machine
 from solepath.types import Quat
 from solepath.types.vector import IDENTITY, from_rotation_vector, multiply, normalise
 
-UNGATED = evolve(DEFAULT, corrector=ErrorStateFilter(ErrorStateSettings(level=False)))
+UNCORRECTED = evolve(DEFAULT, corrector=ErrorStateFilter(ErrorStateSettings(level=False)))
 LENGTH = 1.35
 """m: a stride."""
 SPREAD = 0.02
@@ -60,7 +60,7 @@ def judged(
 
 
 @pytest.mark.parametrize("rise_bias", [-0.03, -0.01, 0.0, 0.02, 0.03])
-def test_level_strides_are_level_whatever_lean_the_sensor_has(rise_bias: float) -> None:
+def test_level_strides_are_level_for_any_rise_bias(rise_bias: float) -> None:
     assert abs(sum(judged(LevelGround(), [0.0] * 60, rise_bias=rise_bias))) < 0.12
 
 
@@ -100,7 +100,7 @@ def test_a_stride_of_which_the_filter_is_unsure_must_rise_by_more_to_be_no_level
     assert unsure.judge((LENGTH, 0.0, 0.13), 0.0, 0.2**2, IDENTITY)[0] < 0.03
 
 
-def test_who_sets_out_on_a_ramp_walks_on_the_level_again_some_strides_after_it() -> None:
+def test_a_walk_that_starts_on_a_ramp_is_level_again_some_strides_after_it() -> None:
     level = LevelGround()
     judged(level, [0.05 * LENGTH] * 9, grade=0.05, rise_bias=0.0)
     judged(level, [0.0] * 6, rise_bias=0.0, seed=1)
@@ -153,15 +153,15 @@ def steps_of(samples: tuple[Sample, ...], recipe: Recipe = DEFAULT) -> list[Stri
 
 @pytest.mark.parametrize("part", [LSM6DSOX, MPU6050], ids=lambda part: part.name)
 @pytest.mark.parametrize("mounting", [IN_SOLE, TILTED], ids=["in the sole", "askew on the instep"])
-def test_a_level_walk_ends_as_high_as_it_began(part: Imu, mounting: Mounting) -> None:
+def test_a_level_walk_ends_at_the_height_of_its_start(part: Imu, mounting: Mounting) -> None:
     samples = walked(0.0, mounting, part)
     assert abs(steps_of(samples)[-1].position[2]) < 0.05
     assert steps_of(samples)[-1].features.rise is not None
 
 
-def test_an_ungated_height_is_told_beside_the_one_that_is_believed() -> None:
+def test_the_uncorrected_height_is_reported_beside_the_corrected_one() -> None:
     samples = walked(0.0, IN_SOLE, MPU6050)
-    for gated, ungated in zip(steps_of(samples), steps_of(samples, UNGATED), strict=True):
+    for gated, ungated in zip(steps_of(samples), steps_of(samples, UNCORRECTED), strict=True):
         assert ungated.features.rise == ungated.height_change
         assert gated.features.rise == pytest.approx(ungated.height_change, abs=0.02)
         assert gated.displacement[:2] == pytest.approx(ungated.displacement[:2], abs=1e-6)
@@ -187,7 +187,7 @@ def test_a_sensor_on_a_ramp_measures_what_it_does() -> None:
     assert ramp.ground(np.array([-50.0, 50.0]))[0] == pytest.approx([0.0, ramp.height], abs=1e-9)
 
 
-def test_four_floors_of_stairs_up_and_down_end_where_they_began() -> None:
+def test_four_floors_of_stairs_up_and_down_end_at_the_height_of_their_start() -> None:
     route = Route().stand(2.0).walk(6.0)
     for up in (True, False):
         for _ in range(4):

@@ -41,7 +41,7 @@ def test_a_foot_in_the_air_can_only_land() -> None:
     assert PHASES[Phase.SWING][Cue.LIFT] is Phase.SWING
 
 
-def test_each_phase_begins_with_its_event() -> None:
+def test_each_phase_starts_with_its_event() -> None:
     assert {
         Phase.LOADING: HeelStrike,
         Phase.STATIONARY: FootFlat,

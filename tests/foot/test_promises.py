@@ -117,10 +117,10 @@ class Drifting(Resets):
 @define
 class Flat(Resets):
     def correct(self, t: float, stance: Stance) -> bool:
-        believed = Resets.correct(self, t, stance)
+        accepted = Resets.correct(self, t, stance)
         if t > 1e5:
             self.position = (0.0, 0.0, inf)
-        return believed
+        return accepted
 
 
 @define

@@ -192,7 +192,7 @@ class FootTracker:
             self.gait.stride.mark_degraded(t)
         sole, load = self.sole, None
         if sample.pressure or sole.pressed:
-            load = sole.press(sample, known_at, self.gait.phase, self.limitations, events)
+            load = sole.add_sample(sample, known_at, self.gait.phase, self.limitations, events)
             if sole.layout_changed and sole.insole.layout is not None:
                 self._set_layouts(sole.insole.layout)
         if load is not None:

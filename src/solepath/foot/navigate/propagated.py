@@ -140,7 +140,7 @@ class PropagatedCovariance(Strapdown):
         stretch = self.covariance()
         self.stretch = 0.0
         covariance = list(self.uncertainty)
-        # position and yaw are exact by definition after an anchor, so their covariances are 0: pp, pv, pt and all of yaw
+        # position and yaw are exact by definition after an anchor, so their covariance is 0: pp, pv, pt and all of yaw
         for i in (*range(24), 32, 35, 38, 41, 43, 44):
             covariance[i] = 0.0
         self.uncertainty = tuple(covariance)

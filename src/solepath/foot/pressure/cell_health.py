@@ -171,9 +171,9 @@ class CellHealth:
         since = dict(self.not_numbers)
         self.not_numbers = [(i, since.get(i, t)) for i, value in enumerate(cells) if not _is_number(value)]
         known = self.failed.get(CellFault.MISSING, [])
-        gone = [i for i, window_start in self.not_numbers if t - window_start >= PATIENCE or i in known]
-        new = tuple([i for i in gone if i not in known])
-        self.failed[CellFault.MISSING] = gone
+        missing = [i for i, start in self.not_numbers if t - start >= PATIENCE or i in known]
+        new = tuple([i for i in missing if i not in known])
+        self.failed[CellFault.MISSING] = missing
         self.excluded = self._all_failed()
         if new:
             self._report(t, known_at, CellFault.MISSING, new, events)

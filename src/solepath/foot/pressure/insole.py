@@ -151,9 +151,8 @@ class InsoleLoads:
                 return None
         share = (total - low) / reach
         airborne = share < AIRBORNE
-        if airborne and (
-            not self.was_airborne or total < self.tare_total
-        ):  # at first the toe has hardly left the ground
+        # at first the toe has hardly left the ground, so a lower total replaces the tare
+        if airborne and (not self.was_airborne or total < self.tare_total):
             self.tare = list(cells)
             self.tare_total = total
         self.was_airborne = airborne

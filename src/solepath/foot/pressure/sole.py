@@ -46,7 +46,7 @@ class Sole:
         self.guessed, self.calibrated_layout = False, None
         self._apply_layout(layout, limitations)
 
-    def suppose(self, layout: Layout) -> None:
+    def set_calibrated_layout(self, layout: Layout) -> None:
         """Set the layout of a calibration; it is used if samples have as many cells."""
         self.calibrated_layout = layout
 
@@ -55,7 +55,7 @@ class Sole:
         self.insole.reset()
         self.health.reset()
 
-    def press(
+    def add_sample(
         self, sample: Sample, known_at: float, phase: Phase, limitations: Limitations, events: list[Event]
     ) -> Load | None:
         """Return the load of one sample; None while it is unknown, or if no cell can be used.
@@ -82,8 +82,8 @@ class Sole:
             self._guess_layout(t, known_at, load, limitations, events)
         return load
 
-    def pressed_by(self, t: float, known_at: float, pressure: tuple[float, ...]) -> FootPressed | None:
-        """Return the pressure event of the sample of the last `press`; None if no cell could be used."""
+    def make_event(self, t: float, known_at: float, pressure: tuple[float, ...]) -> FootPressed | None:
+        """Return the pressure event of the sample of the last `add_sample`; None if no cell could be used."""
         insole, health = self.insole, self.health
         if not health.usable(pressure):
             return None

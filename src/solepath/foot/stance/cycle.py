@@ -103,14 +103,14 @@ class Cycle(Detector):
         elif statistic > self.high:
             self.high = statistic
         if load is not None and load.airborne:
-            self.sensor_height.lift()
+            self.sensor_height.end_stance()
             return make_stance(Stance, (ZERO, inf, statistic, SWING, None))
         settings = self.settings
         if statistic < settings.floor:
             hint = STATIONARY if statistic < settings.certain else None
         elif statistic > settings.ceiling or statistic > self._threshold():
             if self.sensor_height.sums is not EMPTY:
-                self.sensor_height.lift()
+                self.sensor_height.end_stance()
             return make_stance(Stance, (ZERO, inf, statistic, None, None))
         else:
             hint = None

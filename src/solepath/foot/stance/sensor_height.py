@@ -71,10 +71,10 @@ class SensorHeight:
             sux + ux, suy + uy, stux + t * ux, stuy + t * uy, scx + cx, scy + cy, stcx + t * cx, stcy + t * cy,
         )  # fmt: skip
         if t > LONGEST + TIE:
-            self.lift()
+            self.end_stance()
         return self.height * cx, self.height * cy
 
-    def lift(self) -> None:
+    def end_stance(self) -> None:
         """End the stance and update the height from it."""
         n, t, _, _, _, _, st, stt, scc, suc, sux, suy, stux, stuy, scx, scy, stcx, stcy = self.sums
         self.sums = EMPTY
