@@ -1,4 +1,4 @@
-"""What is written twice, since a call would cost too much at sample rate, does the same to the bit."""
+"""Code that exists twice, because a call is too expensive at sample rate, gives the same results to the bit."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ from solepath.types.vector import conjugate, heading_turned, multiply, normalise
 
 
 def vectors(most: float) -> st.SearchStrategy[Vec3]:
-    """Of any size up to that, and as often small ones."""
+    """Return a strategy for vectors of any size up to `most`, and as often small ones."""
     axis = st.floats(-most, most) | st.floats(-1.0, 1.0)
     return st.tuples(axis, axis, axis)
 
 
 WAITS = st.sampled_from([0.0025, 0.01, 0.05]) | st.floats(1e-6, 0.25)
 SAMPLES = st.lists(st.tuples(WAITS, vectors(500.0), vectors(100.0)), min_size=1, max_size=40)
-"""(dt in s, acc in m/s^2, gyro in rad/s): as large as a session lets in."""
+"""Samples (dt in s, acc in m/s^2, gyro in rad/s) as large as a session accepts."""
 ATTITUDES: st.SearchStrategy[Quat] = vectors(1.0).map(lambda v: normalise((1.0, *v)))
 
 

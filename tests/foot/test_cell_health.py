@@ -1,4 +1,4 @@
-"""Pressure cells that fail: told, left out, and the walk goes on."""
+"""Failed pressure cells are reported and not used, and the walk goes on."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from solepath.types import Cell, Foot, Layout, Phase, Sample
 WALK = Route().stand(1.5).walk(30.0, 1.3).stop(1.0)
 COUNTS = (24, 35, 96, 99)
 Fault = Callable[[float, tuple[float, ...], int], tuple[float | None, ...]]
-"""(t, cells, which one fails) -> cells."""
+"""Function of time, cells and the index of the failing cell that returns the changed cells."""
 
 
 @cache
 def walk(cells: int = 96) -> tuple[Sample, ...]:
-    """About 26 s, of samples at 50 Hz that are clipped as a device clips them."""
+    """Return a walk of about 26 s at 50 Hz, with cells clipped like those of a device."""
     return tuple(
         evolve(s, pressure=tuple([min(value, FULL_SCALE) for value in s.pressure]))
         for s in samples(WALK, cells=cells, rate=50.0)
@@ -40,7 +40,7 @@ def known(cells: int = 96) -> Calibration:
 
 
 def among_loading_cells(cells: int) -> int:
-    """A cell of the forefoot with cells that load on all its sides."""
+    """Return a cell of the forefoot with loading cells on all its sides."""
     there = layout(cells, Foot.LEFT)
     pressed = [s.pressure for s in walk(cells) if s.site is LEFT and s.pressure is not None]
     most = [max(values) for values in zip(*pressed, strict=True)]
@@ -50,7 +50,7 @@ def among_loading_cells(cells: int) -> int:
 
 
 def run_walk(cells: int, fault: Fault | None = None, since: float = -inf) -> tuple[list[Event], list[Event]]:
-    """A walk in which a cell of the left insole fails: what is said of cells, and what the session says of the rest."""
+    """Return the events about cells, and all others, of a walk in which a cell of the left insole fails."""
     session, which = Session(calibration=known(cells)), among_loading_cells(cells)
     cell_events: list[Event] = []
     for sample in walk(cells):
@@ -63,7 +63,7 @@ def run_walk(cells: int, fault: Fault | None = None, since: float = -inf) -> tup
 
 @cache
 def clean(cells: int = 96) -> list[StrideTaken]:
-    """The steps of the same walk when nothing fails."""
+    """Return the strides of the same walk without a fault."""
     cell_events, rest = run_walk(cells)
     assert cell_events == []
     return of(StrideTaken, rest)
@@ -77,7 +77,7 @@ def put(value: float | None) -> Fault:
 
 
 def shaky(t: float, cells: tuple[float, ...], which: int) -> tuple[float | None, ...]:
-    """A value and, now and then, the count beside it."""
+    """Return a constant value and, now and then, the neighbouring count."""
     return put(60.0 + (0.05 if int(t * 1000) % 3 else 0.0))(t, cells, which)
 
 

@@ -1,4 +1,4 @@
-"""The straight-line covariance code does what the matrices say."""
+"""The straight-line covariance code gives the same results as the matrix form."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ BLOCKS = [(0, 0), (0, 3), (0, 6), (3, 3), (3, 6), (6, 6)]
 
 
 def places() -> list[tuple[int, int]]:
-    """The matrix indices of a Covariance's numbers, in order."""
+    """Return the matrix indices of the numbers of a Covariance, in order."""
     return [
         (row + i, column + j) for row, column in BLOCKS for i in range(3) for j in range(3) if row != column or j >= i
     ]

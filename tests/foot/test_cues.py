@@ -1,4 +1,4 @@
-"""The inertial cues: when a foot strikes, lies flat and leaves the ground; and the middle of an impact."""
+"""Inertial cues: times of heel-strike, foot-flat and toe-off, and the middle of an impact."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def test_heel_strike_is_where_the_ground_stops_the_foot_at_any_rate(rate: float)
     seen = [event.t for event in of(HeelStrike, Session().feed(samples))]
     true = walker.truth().feet[Foot.LEFT].heel_strikes
     assert len(seen) == len(true)
-    # between two samples nobody knows more
+    # the time between two samples is the limit
     assert abs(median(a - b for a, b in zip(seen, true, strict=True))) < 0.015 + 0.5 / rate
 
 
@@ -74,8 +74,9 @@ def test_heel_strike_stays_where_it_is_when_the_accelerometer_clips_at_2_g() -> 
 
 
 def after_standing(speed: float, rate: float) -> list[Cue]:
-    """What is seen of a foot that stood, and whose heel then rises for 0.6 s: the sensor's speed in m/s, the foot's
-    rate in rad/s."""
+    """Return the cues of a foot that stands, and whose heel then rises for 0.6 s.
+
+    `speed` is that of the sensor, m/s, `rate` that of the foot, rad/s."""
     cues = InertialCues()
     phase, seen = Phase.STATIONARY, []
     for k in range(160):
@@ -121,17 +122,17 @@ def test_heading_grows_less_certain_with_time() -> None:
     session = Session()
     session.feed(samples)
     foot = session.feet[Foot.LEFT]
-    lasted = samples[-1].t - 2.0  # what comes before the first heel-off is one stretch, and so is what is under way
+    lasted = samples[-1].t - 2.0  # without the stretch before the first heel-off and the current one
     assert foot.gait.path.yaw == pytest.approx(HEADING_DRIFT**2 * lasted, rel=0.4)
     assert session.position is not None and session.position.covariance[3] > foot.gait.path.yaw * 10.0**2 / 4
 
 
 LANDED, LASTS = 0.52, 0.03
-"""When the ground's push of `simulate_push` is half over, and how long it takes, s."""
+"""Middle and duration of the push of the ground in `simulate_push`, s."""
 
 
 def simulate_push(rate: float, mounting: Quat = (1.0, 0.0, 0.0, 0.0)) -> Impact:
-    """A swing of 0.6 s at 2 m/s that ends in a push of 40 m/s^2 upwards, as the sensor in this mounting has it."""
+    """Return the impact of a swing of 0.6 s at 2 m/s that ends in a push of 40 m/s^2 upwards, for this mounting."""
     impact = Impact()
     impact.start_swing(0.0)
     previous_acc: Vec3 | None = None

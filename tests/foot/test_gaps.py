@@ -1,4 +1,4 @@
-"""What fills a gap: the habit of whole strides, a straight line before there is one, never more than can be."""
+"""Infill of gaps: stride template, straight line before there is one, and limits of both."""
 
 from __future__ import annotations
 
@@ -72,13 +72,13 @@ def test_a_stride_is_stored_exactly_at_any_time_and_position() -> None:
     assert rows[7].rate == (0.0, -5.0, 0.25) and rows[7].force == 5.0 and rows[7].attitude == IDENTITY
     assert correction_distance(template.rows) == pytest.approx(
         0.35 * 0.224, abs=1e-6
-    )  # it went so far to the left, and is not there
+    )  # the velocity to the left did not move the foot
     template.add_moment(1e9 + 1.0, IDENTITY, (1e300, 0.0, 0.0), (far, far, 0.0), (0.0, 3.0, 4.0), ZERO)
     assert template.rows == [] and template.t_heel_off is None
 
 
 def test_a_toe_off_or_heel_strike_at_a_stored_moment_has_the_time_of_that_moment() -> None:
-    """At 10 samples a second they often are, and rounding must not decide whether a gap has hidden them."""
+    """At 10 samples a second this is common, and rounding must not decide whether a gap has hidden them."""
     for start in range(100):
         template, t_heel_off = StrideTemplate(), 0.1 * start
         template.start_stride(t_heel_off)
@@ -115,8 +115,8 @@ def test_a_stride_with_a_gap_or_round_a_corner_is_no_template() -> None:
     assert template.last is kept
     for k in range(OLD):
         stride(template, 4.0 + k, 0.5)
-    assert template.last is not kept  # who does nothing but turn has turning for a habit
-    stride(template, 40.0, 0.0, duration=3.0)  # too slow to be kept whole, and memory is bounded
+    assert template.last is not kept  # after many turns a turn becomes the template
+    stride(template, 40.0, 0.0, duration=3.0)  # too slow to be stored as a whole, and memory is bounded
     assert len(template.rows) <= MOST_MOMENTS
 
 

@@ -1,4 +1,4 @@
-"""Gaps in the samples of one foot: what it is used to doing stands in for what nobody saw."""
+"""Gaps in the samples of one foot: the stride template stands in for them."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ SHARP = {
 
 
 def around(steps: tuple[StrideTaken, ...] | list[StrideTaken], t: float) -> StrideTaken:
-    """The step that was under way at `t`, s."""
+    """Return the stride that includes `t`, s."""
     (found,) = (step for step in steps if step.t_start < t <= step.t_end)
     return found
 
@@ -39,7 +39,7 @@ GAPS = [
     pytest.param(0.10, 0.38, (HeelStrike,), id="swing and heel-strike"),
     pytest.param(-0.06, 0.58, (ToeOff, HeelStrike), id="all of the swing"),
 ]
-"""From when after toe-off, how long, s, and what happened in between."""
+"""Start of the gap after toe-off, s, its duration, s, and the events in it."""
 
 
 @pytest.mark.parametrize(("after", "duration", "hidden"), GAPS)
@@ -83,7 +83,7 @@ def test_every_stride_that_a_gap_touches_is_degraded(duration: float) -> None:
         for step in of(StrideTaken, events):
             within = min(gap.t + gap.duration, step.t_end) - max(gap.t, step.t_start)
             assert step.degraded or within <= 0.0101
-            assert not step.degraded or within > -0.1  # what a cue looks back by
+            assert not step.degraded or within > -0.1  # the longest time by which a cue looks back
             seen.add(step.degraded)
     assert seen == {False, True}
 
@@ -104,7 +104,7 @@ def test_a_foot_that_stands_through_a_gap_goes_nowhere() -> None:
     samples, steps = walked()
     last = steps[-1].t_end
     straight, uncut = heard(samples)
-    # who has stood for longer than between two strides has halted, and takes none in a long gap either
+    # a wearer who stands for longer than between two strides has halted, and takes no stride in a long gap
     for a, b in ((0.8, 1.4), (last + 0.2, last + 0.5), (last + 0.8, last + 1.8)):
         events, session = heard(without(samples, (a, b)))
         assert of(SampleGap, events)
@@ -126,7 +126,7 @@ def test_a_gap_over_whole_strides_adds_no_strides(duration: float) -> None:
 
 
 def test_a_gap_is_neither_stillness_nor_speed() -> None:
-    """Both must last to be believed, and what was not seen does not count."""
+    """Both must last for some time, and a gap does not count for it."""
     samples, steps = walked()
     for number in range(2, len(steps) - 1):
         for share in (0.05, 0.3, 0.5, 0.7, 0.9):
@@ -156,12 +156,12 @@ def test_only_phases_without_samples_are_inferred() -> None:
 
 
 def turned(events: list[Event]) -> float:
-    """Over all steps, rad."""
+    """Return the sum of the heading changes of all strides, rad."""
     return float(sum(step.heading_change for step in of(StrideTaken, events)))
 
 
 def gapped(samples: tuple[Sample, ...], steps: tuple[TrueStep, ...], duration: float, every: int) -> list[Sample]:
-    """A gap in every so many-th swing from the fourth on, at another part of it each time."""
+    """Return the samples with a gap in each `every`-th swing from the fourth on, each in another part of it."""
     gaps = []
     for k, step in enumerate(steps):
         if k >= 3 and k % every == 0:
@@ -192,7 +192,7 @@ def test_a_sharp_turn_is_hardly_straightened_by_gaps(name: str, duration: float,
 
 @pytest.mark.parametrize("seed", [6, 7])
 def test_a_turn_on_the_spot_is_no_straight_walk_in_a_short_gap(seed: int) -> None:
-    """Nothing of the last stride is like it, so a straight line is the better guess."""
+    """No part of the last stride is like it, so a straight line is the better estimate."""
     route = Route().stand(2.0).walk(5.0, 1.2).stop(1.0).turn(radians(180)).walk(5.0).stop()
     samples, steps = walked(route, seed)
     events, _ = heard(gapped(samples, steps, 0.12, 2))
@@ -219,7 +219,7 @@ def test_a_straight_walk_keeps_its_heading_with_a_gap_in_every_stride() -> None:
 def test_the_larger_the_turn_of_a_footfall_the_less_of_it_is_repaired() -> None:
     line = StraightOn()
     for _ in range(3):
-        assert line.repair(0.1, 1.0, 0.0) == 0.0  # nothing is known of where this wearer is heading
+        assert line.repair(0.1, 1.0, 0.0) == 0.0  # the heading of this wearer is unknown
         line.footfall(0.0, 0.0, 0.0, 0.0)
     taken_back = [-line.repair(turn, 1.0, 0.0) / turn for turn in (0.02, 0.1, 0.2, 0.4, 0.8)]
     assert taken_back[0] > 0.8

@@ -1,4 +1,4 @@
-"""Whether a step was level: level walks stay level, and slopes, kerbs and stairs keep their height."""
+"""Level walks stay level, and slopes, kerbs and stairs keep their height."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ from solepath.types.vector import IDENTITY, from_rotation_vector, multiply, norm
 
 UNCORRECTED = evolve(DEFAULT, corrector=ErrorStateFilter(ErrorStateSettings(level=False)))
 LENGTH = 1.35
-"""m: a stride."""
+"""Length of a stride, m."""
 SPREAD = 0.02
-"""m: what the filter expects a stride's height to err by."""
+"""Standard deviation of a stride's height in the filter, m."""
 
 
 def pitched(angle: float, heading: float = 0.0, mounted: Quat = IDENTITY) -> Quat:
-    """A foot that heads there, toe up by `angle`; rad."""
+    """Return the attitude of a foot with this heading, toe up by `angle`; rad."""
     ahead = from_rotation_vector((0.0, -angle, 0.0))
     return normalise(multiply(from_rotation_vector((0.0, 0.0, heading)), multiply(ahead, mounted)))
 
@@ -48,8 +48,9 @@ def judged(
     length: float = LENGTH,
     seed: int = 0,
 ) -> list[float]:
-    """What `level` says of steps that rise by `heights` m, on ground that slopes by `grade`, with a sensor that makes
-    `rise_bias` of every metre and errs by a centimetre."""
+    """Return the heights that `level` estimates for strides that rise by `heights`, m.
+
+    The ground slopes by `grade`; the sensor adds `rise_bias` for each metre and errs by a centimetre."""
     rng = np.random.default_rng(seed)
     found = []
     for height in heights:
@@ -108,7 +109,7 @@ def test_a_walk_that_starts_on_a_ramp_is_level_again_some_strides_after_it() -> 
 
 
 def test_a_ladder_and_a_foot_that_is_put_up_keep_their_height() -> None:
-    """They go up without going along, which no level step does."""
+    """They rise without a horizontal displacement, which no level stride does."""
     level = LevelGround()
     judged(level, [0.0] * 5)
     assert sum(judged(level, [0.3] * 6, rise_bias=0.0, length=0.05)) == pytest.approx(1.8, rel=0.05)
@@ -182,7 +183,7 @@ def test_a_sensor_on_a_ramp_measures_what_it_does() -> None:
     angle = np.arctan(ramp.ground(level.position[:, 0])[1])
     turned = np.gradient(angle, t)
     assert float(np.max(angle)) == pytest.approx(0.0997, abs=1e-3)
-    # a level attitude turned toe up: what the rates differ by is that turn, about the world's y
+    # the rates differ by the turn toe up, about y of the world
     assert np.linalg.norm(on.rate - level.rate, axis=1)[5:-5] == pytest.approx(np.abs(turned)[5:-5], abs=2e-2)
     assert ramp.ground(np.array([-50.0, 50.0]))[0] == pytest.approx([0.0, ramp.height], abs=1e-9)
 

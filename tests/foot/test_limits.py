@@ -1,4 +1,4 @@
-"""Input that contradicts itself or comes to an edge: large steps, odd numbers, dead areas, gaps."""
+"""Contradictory and extreme input: large intervals, extreme numbers, dead areas, gaps."""
 
 from __future__ import annotations
 
@@ -81,7 +81,7 @@ def test_final_strides_are_all_in_one_frame(first: Route, seed: int) -> None:
         assert len(own) >= 5
         for before, after in zip(own, own[1:], strict=False):
             (x, y, _), (u, v, _), (dx, dy, _) = after.position, before.position, after.displacement
-            assert hypot(x - u - dx, y - v - dy) < 0.06  # what the foot shifts while it stands
+            assert hypot(x - u - dx, y - v - dy) < 0.06  # shift of a standing foot
 
 
 def test_a_session_has_its_own_copy_of_the_recipe() -> None:

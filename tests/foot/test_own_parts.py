@@ -1,4 +1,4 @@
-"""A detector, a corrector and cues of an app's own: in a recipe and in a snapshot."""
+"""An app's own detector, corrector and cues in a recipe and in a snapshot."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def test_classes_that_are_no_parts_or_share_a_name_are_rejected() -> None:
 
 @define
 class Usual(Quiet):
-    """Beside what was usual lately, by windows that forget by themselves."""
+    """A detector with bounded windows of recent rates."""
 
     rates: deque[float] = field(factory=lambda: deque(maxlen=8), init=False)
     by_kind: dict[str, deque[float]] = field(factory=dict, init=False)

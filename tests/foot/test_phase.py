@@ -1,4 +1,4 @@
-"""The phases of a foot and the support of a body: tables that can be read."""
+"""Tables of the phases of a foot and of the support of a body."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Loads of the cells: tare, share of the wearer's own, centre of pressure; and heel and forefoot told apart."""
+"""Loads of the cells: tare, share of the full load, centre of pressure; and the estimated layout."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from solepath.types import Phase
 
 
 def worn(*frames: tuple[float, ...]) -> InsoleLoads:
-    """An insole that has been through some frames at 100 Hz."""
+    """Return an insole after some frames at 100 Hz."""
     insole = InsoleLoads()
     insole.set_layout(SOLE)
     for k, cells in enumerate(frames):
@@ -33,7 +33,7 @@ def worn(*frames: tuple[float, ...]) -> InsoleLoads:
 
 
 STEP = (above(100, 100, 50, 150), above(0, 0, 0, 200), TARE, above(30, 30, 0, 0), above(100, 100, 50, 150))
-"""On the whole sole (400), on the forefoot, in the air, on the heel, on the whole sole again."""
+"""Loads on the whole sole (400), on the forefoot, in the air, on the heel, on the whole sole again."""
 
 
 def test_nothing_is_known_until_the_load_has_fallen_and_risen_again() -> None:
@@ -43,7 +43,7 @@ def test_nothing_is_known_until_the_load_has_fallen_and_risen_again() -> None:
 
 
 def test_a_load_that_only_falls_is_not_a_foot_in_the_air() -> None:
-    """Weight goes over to the other foot before the first step: the least load so far is still a load."""
+    """The weight moves to the other foot before the first step: the lowest load is then still a load."""
     insole = worn()
     for k in range(60):
         share = 1.0 - 0.01 * k
@@ -158,7 +158,7 @@ def test_the_path_of_the_centre_of_pressure_runs_from_heel_to_toe() -> None:
 
 @cache
 def guessed(cells: int) -> Layout | None:
-    """What is made of the left insole of a short walk that does not say where its cells are."""
+    """Return the estimated layout of the left insole of a short walk whose layout is unknown."""
     insole, guess = InsoleLoads(), LayoutGuess(Foot.LEFT)
     for sample in samples(cells=cells):
         if sample.site.foot is Foot.LEFT and sample.pressure:
@@ -176,7 +176,7 @@ def test_heel_and_forefoot_are_distinguished_after_two_stances() -> None:
         placed = 0
         for cell, learnt in zip(true.cells, found.cells, strict=True):
             if learnt.x == 0.5 * found.length:
-                continue  # it never carries load
+                continue  # it never bears load
             if cell.x < 0.25 * true.length:
                 assert learnt.x < 0.45 * found.length, cell
             if cell.x > 0.75 * true.length:

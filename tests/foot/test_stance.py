@@ -1,4 +1,4 @@
-"""Stance evidence of every detector, and how high the sensor sits above the sole."""
+"""Stance evidence of every detector, and the height of the sensor above the sole."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from solepath.types import Foot, Phase, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, conjugate, normalise, rotate
 
 SIGMA_ACC, SIGMA_GYRO = 0.01, 0.1 * pi / 180.0
-"""Skog et al.: the noise levels that the statistics are scaled by, m/s^2 and rad/s."""
+"""Noise levels that scale the statistics, m/s^2 and rad/s (Skog et al.)."""
 
 Rows = list[tuple[float, float, float]]
 
@@ -50,8 +50,7 @@ def mv(acc: Rows, gyro: Rows) -> float:
 
 
 def mbgtd(acc: Rows, gyro: Rows) -> float:
-    """The largest, over pairs of cuts a < b, of sum over i <= a, j >= b of |a_i - a_j| / ((b - a) (W - b + 1)); counted
-    from 0."""
+    """T = max over cuts a < b of sum over i <= a, j >= b of |a_i - a_j| / ((b - a) (W - b + 1)), counted from 0."""
     v, w = np.array(acc), len(acc)
     distances = np.linalg.norm(v[:, None] - v[None, :], axis=2)
     return max(
@@ -102,7 +101,7 @@ def test_running_sums_are_the_direct_computation_after_ten_thousand_samples(
     detector: Any, formula: Any, length: int
 ) -> None:
     rng = np.random.default_rng(5)
-    # a wild ride of ten thousand samples, then rest: what the sums gathered must not show in the quiet
+    # ten thousand samples of strong motion, then rest: rounding errors of the sums must not show at rest
     in_motion = rng.normal(0.0, 1.0, (10_000, 3)) * rng.choice([1.0, 300.0], (10_000, 1))
     acc = [tuple(row) for row in (in_motion + [0.0, 0.0, GRAVITY]).tolist()]
     gyro = [tuple(row) for row in (in_motion * 0.1).tolist()]
@@ -144,7 +143,7 @@ WALKER = Walker(Route().stand(1.0).walk(12.0, 1.3).stop(1.0), seed=2)
 
 
 def shares(detector: Any) -> tuple[float, float]:
-    """How often a detector has evidence of stillness in mid-stance, and in mid-swing."""
+    """Return the shares of samples with evidence of stillness in mid-stance, and in mid-swing."""
     fed = WALKER.samples(Foot.LEFT, 100.0, layout=layout(96, Foot.LEFT))
     truth = WALKER.truth().feet[Foot.LEFT]
     stance = [(flat + 0.02, off - 0.02) for flat, off in zip(truth.foot_flats, truth.heel_offs[1:], strict=False)]
@@ -203,12 +202,14 @@ def test_noise_of_the_evidence_grows_with_the_turning_of_the_foot() -> None:
 
 DT = 0.005
 SKEWED = normalise((0.3, -0.5, 0.7, 0.4))
-"""Foot to sensor."""
+"""Attitude, foot to sensor frame."""
 
 
 def roll(sensor_height: SensorHeight, height: float, tilt: float = 0.0, amount: float = 0.25) -> None:
-    """One stance of 0.3 s: the foot rolls forward faster and faster about a point of the ground, the sensor `height` m
-    above it; the attitude is believed `tilt` rad off."""
+    """Add one stance of 0.3 s to `sensor_height`.
+
+    The foot rolls forward faster and faster about a point of the ground, with the sensor `height` m above it. The
+    estimated attitude is `tilt` rad off."""
     for k in range(60):
         t = k * DT
         pitch, rate, faster = amount * (t / 0.3) ** 3, amount * 3 * t**2 / 0.3**3, amount * 6 * t / 0.3**3

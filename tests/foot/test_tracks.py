@@ -1,4 +1,4 @@
-"""One foot navigated: whatever the mounting, with bias, gaps and sensors that are not all there."""
+"""Navigation of one foot: any mounting, bias, gaps and absent sensors."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ _QUATS = (
 
 
 def turned(sample: Sample, mounting: tuple[float, float, float, float]) -> Sample:
-    """The same foot with the sensor turned within the shoe."""
+    """Return the sample of a sensor that is turned within the shoe."""
     back = conjugate(mounting)
     return evolve(sample, acc=rotate(back, sample.acc), gyro=rotate(back, sample.gyro))
 
@@ -222,7 +222,7 @@ def test_after_a_gap_the_walk_goes_on(recipe: Recipe, length: float) -> None:
     assert len(after) >= 4
     for step, truth in after[1:]:
         assert not step.degraded
-        # linear dedrift has only the pull of gravity to right the tilt that the gap cost
+        # linear dedrift corrects the tilt error of the gap only by gravity
         assert step.length == pytest.approx(truth.length, abs=0.06 if recipe is EXACT else 0.10)
 
 
@@ -254,7 +254,7 @@ def test_a_foot_without_one_of_its_sensors_has_no_track_and_one_limitation(lacki
     events = run_session(evolve(sample, **{lacking: None}) for sample in fed()[:500])
     (reported,) = of(Limitation, events)
     assert {"acc": "accelerometer", "gyro": "gyroscope"}[lacking] in reported.what
-    # what the wearer does, an accelerometer tells by itself
+    # an accelerometer alone gives the activity
     assert all(isinstance(event, ActivityChanged) for event in events if event is not reported)
 
 
