@@ -1,6 +1,7 @@
 """Settings of the parts of a foot, which a recipe, a calibration or a researcher chooses.
 
-A number that nobody chooses is a constant in the module that uses it."""
+A number that nobody chooses is a constant in the module that uses it.
+"""
 
 from __future__ import annotations
 
@@ -60,7 +61,8 @@ class CycleSettings:
 class StanceThreshold:
     """The settings of a detector with a fixed threshold, in the unit of its own statistic.
 
-    Each detector needs its own values."""
+    Each detector needs its own values.
+    """
 
     base: float
     """Statistic up to which the foot is certainly at rest."""

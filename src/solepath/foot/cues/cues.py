@@ -28,7 +28,8 @@ class Cues(Protocol):
     Cues are an attrs class (`@define`) with fields that can be saved. They report the past, never the future. They read
     no clock and no random numbers, have a constant cost for each sample, use bounded memory, and never raise. Samples
     are finite, but otherwise have any size (up to 500 m/s^2, 100 rad/s) and any distance in time. The table in phase.py
-    gives the phase that follows from a cue; a cue that changes no phase has no effect."""
+    gives the phase that follows from a cue; a cue that changes no phase has no effect.
+    """
 
     __slots__ = ()
 

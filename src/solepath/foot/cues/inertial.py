@@ -1,14 +1,15 @@
 """Cues from the inertial sensor, with hysteresis and debounce.
 
 `InertialCues` uses stillness and the sagittal angular rate, which is the rate about the axis to the wearer's left:
-positive is toe down. During a step this rate rises as the heel lifts, has a peak of several rad/s at push-off, is
+positive is toe down. During a stride this rate rises as the heel lifts, has a peak of several rad/s at push-off, is
 negative for a long time while the leg swings, and returns through zero as the heel lands. Toe-off is where the rate has
 fallen to half its peak, which is the steepest place of its fall. Such landmarks are common in gait analysis (Sabatini
 et al., IEEE Trans. Biomed. Eng. 52, 2005; Mariani et al., Gait & Posture 37, 2013). The ground may stop the foot later
 than the return through zero, or earlier: heel-strike is the middle of the impact (impact.py).
 
 Numbers without source were chosen by hand on the recordings of docs/accuracy.md and not swept; those of heel-strike and
-toe-off on the recordings that contain such events."""
+toe-off on the recordings that contain such events.
+"""
 
 from __future__ import annotations
 
@@ -84,7 +85,8 @@ class InertialCues:
     """Detects gait events from the inertial sensor.
 
     Latency: toe-off one sample; heel-strike IMPACT_SETTLES, or until the foot is still if no impact is found; foot-flat
-    and heel-off SETTLE."""
+    and heel-off SETTLE.
+    """
 
     still_since: float | None = field(default=None, init=False)
     """Time since which zero velocity evidence is accepted, s; None while it is not."""

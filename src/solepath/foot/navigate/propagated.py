@@ -1,7 +1,8 @@
 """Strapdown navigation with covariance, which is propagated over any interval at once.
 
 Between two uses of the covariance only the noise is summed up, so a sample costs no more than its integration
-(covariance.py)."""
+(covariance.py).
+"""
 
 from __future__ import annotations
 
@@ -52,7 +53,7 @@ INFILL_PLACE = 0.0025
 HEADING_DRIFT = 0.004
 """Growth of the heading error, rad/sqrt(s): half a degree in the first four seconds, two in a minute.
 
-It is not the process noise of yaw, which keeps the tilt correctable and cancels over a step."""
+It is not the process noise of yaw, which keeps the tilt correctable and cancels over a stride."""
 INFILL_VELOCITY = 0.3
 """Standard deviation of the velocity after infill, m/s."""
 INFILL_TILT = 0.1

@@ -10,7 +10,8 @@ horizontal, with a slope of u for the tilt, which is not known exactly. Then
 
     u(t) = h c(t) + a + b t
 
-is fitted by least squares to each stance. h is pooled over the stances, with less weight for older ones."""
+is fitted by least squares to each stance. h is pooled over the stances, with less weight for older ones.
+"""
 
 from __future__ import annotations
 

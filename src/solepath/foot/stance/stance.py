@@ -2,7 +2,8 @@
 
 A stance detector never answers yes or no. For every sample it returns the velocity that the sensor should have now and
 how far to trust it (`Stance`). All detectors have the same signature, so detectors and the correctors that use them can
-be combined freely."""
+be combined freely.
+"""
 
 from __future__ import annotations
 
@@ -66,7 +67,8 @@ class Detector(Protocol):
     restart of the device, the session continues with `evolve(detector)`: fields with `init=False` get their initial
     values, settings and other arguments of `__init__` stay. A detector reads no clock and no random numbers, has a
     constant cost for each sample, uses bounded memory, and never raises. Samples are finite, but otherwise have any
-    size (up to 500 m/s^2, 100 rad/s) and any distance in time."""
+    size (up to 500 m/s^2, 100 rad/s) and any distance in time.
+    """
 
     __slots__ = ()
 
