@@ -1,4 +1,4 @@
-"""What is written twice, since a call would cost too much at sample rate, does the same to the bit."""
+"""Code that exists twice, because a call is too expensive at sample rate, gives the same results to the bit."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ from solepath.foot.settings import ErrorStateSettings
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.stance.shoe import ShoeDetector
 from solepath.foot.stance.stance import Stance
-from solepath.foot.stride import StepBuilder
+from solepath.foot.stride import StrideBuilder
 from solepath.foot.tracker import FootTracker
 from solepath.types import Foot, Quat, Sample, Site, Vec3
 from solepath.types.vector import conjugate, heading_turned, multiply, normalise, rotate, rotate_back, single
 
 
 def vectors(most: float) -> st.SearchStrategy[Vec3]:
-    """Of any size up to that, and as often small ones."""
+    """Return a strategy for vectors of any size up to `most`, and as often small ones."""
     axis = st.floats(-most, most) | st.floats(-1.0, 1.0)
     return st.tuples(axis, axis, axis)
 
 
 WAITS = st.sampled_from([0.0025, 0.01, 0.05]) | st.floats(1e-6, 0.25)
 SAMPLES = st.lists(st.tuples(WAITS, vectors(500.0), vectors(100.0)), min_size=1, max_size=40)
-"""(dt in s, acc in m/s^2, gyro in rad/s): as large as a session lets in."""
+"""Samples (dt in s, acc in m/s^2, gyro in rad/s) as large as a session accepts."""
 ATTITUDES: st.SearchStrategy[Quat] = vectors(1.0).map(lambda v: normalise((1.0, *v)))
 
 
@@ -76,11 +76,11 @@ def test_turns_that_are_written_out_are_those_of_the_quaternions(before: Quat, a
 
 @given(st.lists(st.floats(-50.0, 50.0), min_size=1, max_size=60))
 def test_pitches_are_kept_as_singles(rates: list[float]) -> None:
-    step, pitch = StepBuilder(Foot.LEFT), 0.0
+    stride, pitch = StrideBuilder(Foot.LEFT), 0.0
     for k, rate in enumerate(rates):
-        step.moved(0.01 * k, 0.01, 0.0, 0.0, rate)
+        stride.add_motion(0.01 * k, 0.01, 0.0, 0.0, rate)
         pitch += rate * 0.01
-        assert step.pitches[step.slot - 1] == single(pitch)
+        assert stride.pitches[stride.slot - 1] == single(pitch)
 
 
 @given(st.floats(0.8, 1.25), vectors(0.1), vectors(499.0), vectors(99.0))
@@ -98,4 +98,4 @@ def test_a_gap_is_crossed_with_the_scale_and_bias_of_any_other_sample(
     tracker = FootTracker(Foot.LEFT, Sees(), ErrorStateFilter())
     tracker.rest.scale, tracker.rest.bias = scale, bias
     tracker.feed(Sample(0.0, Site.LEFT_FOOT, acc, gyro))
-    assert seen == [tracker.rest.calibrated(acc, gyro)]
+    assert seen == [tracker.rest.calibrate(acc, gyro)]

@@ -1,4 +1,4 @@
-"""Pressure cells that fail: told, left out, and the walk goes on."""
+"""Failed pressure cells are reported and not used, and the walk goes on."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from solepath.types import Cell, Foot, Layout, Phase, Sample
 WALK = Route().stand(1.5).walk(30.0, 1.3).stop(1.0)
 COUNTS = (24, 35, 96, 99)
 Fault = Callable[[float, tuple[float, ...], int], tuple[float | None, ...]]
-"""(t, cells, which one fails) -> cells."""
+"""Function of time, cells and the index of the failing cell that returns the changed cells."""
 
 
 @cache
 def walk(cells: int = 96) -> tuple[Sample, ...]:
-    """About 26 s, of samples at 50 Hz that are clipped as a device clips them."""
+    """Return a walk of about 26 s at 50 Hz, with cells clipped like those of a device."""
     return tuple(
         evolve(s, pressure=tuple([min(value, FULL_SCALE) for value in s.pressure]))
         for s in samples(WALK, cells=cells, rate=50.0)
@@ -40,7 +40,7 @@ def known(cells: int = 96) -> Calibration:
 
 
 def among_loading_cells(cells: int) -> int:
-    """A cell of the forefoot with cells that load on all its sides."""
+    """Return a cell of the forefoot with loading cells on all its sides."""
     there = layout(cells, Foot.LEFT)
     pressed = [s.pressure for s in walk(cells) if s.site is LEFT and s.pressure is not None]
     most = [max(values) for values in zip(*pressed, strict=True)]
@@ -49,23 +49,23 @@ def among_loading_cells(cells: int) -> int:
     return max(around, key=lambda i: (there.cells[i].x < 0.7 * there.length, most[i]))
 
 
-def heard(cells: int, fault: Fault | None = None, since: float = -inf) -> tuple[list[Event], list[Event]]:
-    """A walk in which a cell of the left insole fails: what is said of cells, and what the session says of the rest."""
+def run_walk(cells: int, fault: Fault | None = None, since: float = -inf) -> tuple[list[Event], list[Event]]:
+    """Return the events about cells, and all others, of a walk in which a cell of the left insole fails."""
     session, which = Session(calibration=known(cells)), among_loading_cells(cells)
-    told: list[Event] = []
+    cell_events: list[Event] = []
     for sample in walk(cells):
         if fault is not None and sample.site is LEFT and sample.t >= since and sample.pressure is not None:
             sample = evolve(sample, pressure=fault(sample.t, sample.pressure, which) or None)
-        told += session.feed(sample)
+        cell_events += session.feed(sample)
     kinds = CellsFailed | InsoleNeverUnloads
-    return of(kinds, told), [event for event in told if not isinstance(event, kinds)]
+    return of(kinds, cell_events), [event for event in cell_events if not isinstance(event, kinds)]
 
 
 @cache
 def clean(cells: int = 96) -> list[StrideTaken]:
-    """The steps of the same walk when nothing fails."""
-    told, rest = heard(cells)
-    assert told == []
+    """Return the strides of the same walk without a fault."""
+    cell_events, rest = run_walk(cells)
+    assert cell_events == []
     return of(StrideTaken, rest)
 
 
@@ -77,12 +77,12 @@ def put(value: float | None) -> Fault:
 
 
 def shaky(t: float, cells: tuple[float, ...], which: int) -> tuple[float | None, ...]:
-    """A value and, now and then, the count beside it."""
+    """Return a constant value and, now and then, the neighbouring count."""
     return put(60.0 + (0.05 if int(t * 1000) % 3 else 0.0))(t, cells, which)
 
 
 @pytest.mark.parametrize("cells", [8, *COUNTS])
-def test_nothing_is_said_of_cells_that_work(cells: int) -> None:
+def test_working_cells_cause_no_events(cells: int) -> None:
     for there in (True, False):
         health = CellHealth(LEFT)
         shape = layout(cells, Foot.LEFT) if there else None
@@ -104,9 +104,9 @@ def test_nothing_is_said_of_cells_that_work(cells: int) -> None:
         (CellFault.MISSING, put(None)),
     ],
 )
-def test_a_cell_that_failed_is_told_once_and_the_walk_goes_on(cells: int, kind: CellFault, fault: Fault) -> None:
-    told, rest = heard(cells, fault)
-    (failed,) = told
+def test_a_failed_cell_is_reported_once_and_the_walk_goes_on(cells: int, kind: CellFault, fault: Fault) -> None:
+    cell_events, rest = run_walk(cells, fault)
+    (failed,) = cell_events
     assert isinstance(failed, CellsFailed)
     assert (failed.site, failed.fault, failed.cells) == (LEFT, kind, (among_loading_cells(cells),))
     assert failed.t < (1.1 if kind is CellFault.MISSING else 15.0)
@@ -117,20 +117,20 @@ def test_a_cell_that_failed_is_told_once_and_the_walk_goes_on(cells: int, kind: 
 
 
 @pytest.mark.parametrize("cells", COUNTS)
-def test_a_cell_that_dies_on_the_way_is_told_within_three_windows(cells: int) -> None:
-    told, _ = heard(cells, put(0.0), since=13.0)
-    assert [(event.fault, event.cells) for event in told if isinstance(event, CellsFailed)] == [
+def test_a_cell_that_fails_during_a_walk_is_reported_within_three_windows(cells: int) -> None:
+    cell_events, _ = run_walk(cells, put(0.0), since=13.0)
+    assert [(event.fault, event.cells) for event in cell_events if isinstance(event, CellsFailed)] == [
         (CellFault.DEAD, (among_loading_cells(cells),))
     ]
-    assert 13.0 + 4.0 < told[0].t < 13.0 + 14.0
+    assert 13.0 + 4.0 < cell_events[0].t < 13.0 + 14.0
 
 
-def test_several_cells_that_fail_together_are_told_together() -> None:
+def test_several_cells_that_fail_together_are_reported_together() -> None:
     def two(t: float, cells: tuple[float, ...], which: int) -> tuple[float | None, ...]:
         return put(60.0)(t, cells, which)[:-1] + (60.0,)
 
-    told, _ = heard(96, two)
-    assert [event.cells for event in told if isinstance(event, CellsFailed)] == [(among_loading_cells(96), 95)]
+    cell_events, _ = run_walk(96, two)
+    assert [event.cells for event in cell_events if isinstance(event, CellsFailed)] == [(among_loading_cells(96), 95)]
 
 
 def test_a_cell_that_loads_again_is_used_again() -> None:
@@ -143,16 +143,16 @@ def test_a_cell_that_loads_again_is_used_again() -> None:
             continue
         cells = sample.pressure if sample.t > 13.0 else put(60.0)(sample.t, sample.pressure, which)
         health.update(sample.t, sample.t, cells, Phase.SWING, sample.gyro, shape)
-        used[sample.t] = which not in health.out
+        used[sample.t] = which not in health.excluded
     assert used[min(used)]
     assert not used[12.5]
     assert used[max(used)]
 
 
 @pytest.mark.parametrize("count", [0, 50, 95, 97])
-def test_another_number_of_cells_is_told_and_the_inertial_part_goes_on(count: int) -> None:
-    told, rest = heard(96, lambda t, cells, which: (*cells, 1.0)[:count], since=10.0)
-    (failed,) = told
+def test_another_number_of_cells_is_reported_and_the_inertial_part_is_used(count: int) -> None:
+    cell_events, rest = run_walk(96, lambda t, cells, which: (*cells, 1.0)[:count], since=10.0)
+    (failed,) = cell_events
     assert isinstance(failed, CellsFailed)
     assert failed.fault is CellFault.MISSING
     assert failed.cells == (tuple(range(count, 96)) or (96,))
@@ -160,9 +160,9 @@ def test_another_number_of_cells_is_told_and_the_inertial_part_goes_on(count: in
     assert len(of(StrideTaken, rest)) == len(clean())
 
 
-def test_one_sample_of_another_length_is_not_used_and_not_told() -> None:
-    told, _ = heard(96, lambda t, cells, which: cells[:9] if 10.0 <= t < 10.02 else cells)
-    assert told == []
+def test_one_sample_of_another_length_is_neither_used_nor_reported() -> None:
+    cell_events, _ = run_walk(96, lambda t, cells, which: cells[:9] if 10.0 <= t < 10.02 else cells)
+    assert cell_events == []
     health = CellHealth(LEFT)
     health.update(0.0, 0.0, (1.0,) * 8, Phase.STATIONARY)
     health.update(0.1, 0.1, (1.0,) * 7, Phase.STATIONARY)
@@ -172,28 +172,33 @@ def test_one_sample_of_another_length_is_not_used_and_not_told() -> None:
 
 def test_without_a_layout_another_number_of_cells_is_another_insole_after_a_second() -> None:
     health = CellHealth(LEFT)
-    told = [event for k in range(10) for event in health.update(0.1 * k, 0.1 * k, (1.0,) * 8, Phase.STATIONARY)]
-    told += [event for k in range(10, 40) for event in health.update(0.1 * k, 0.1 * k, (1.0,) * 6, Phase.STATIONARY)]
-    assert [(event.fault, event.cells) for event in told if isinstance(event, CellsFailed)] == [
+    cell_events = [event for k in range(10) for event in health.update(0.1 * k, 0.1 * k, (1.0,) * 8, Phase.STATIONARY)]
+    cell_events += [
+        event for k in range(10, 40) for event in health.update(0.1 * k, 0.1 * k, (1.0,) * 6, Phase.STATIONARY)
+    ]
+    assert [(event.fault, event.cells) for event in cell_events if isinstance(event, CellsFailed)] == [
         (CellFault.MISSING, (6, 7))
     ]
     assert health.usable((1.0,) * 6) == (1.0,) * 6
 
 
-def test_an_insole_that_never_unloads_is_told_and_steps_are_taken_by_the_inertial_sensor() -> None:
-    (told,), rest = heard(96, lambda t, cells, which: tuple([value + 40.0 for value in cells]))
-    assert isinstance(told, InsoleNeverUnloads) and told.site is LEFT
-    assert 6.0 < told.seconds < 16.0
+def test_an_insole_that_never_unloads_is_reported_and_strides_come_from_the_inertial_sensor() -> None:
+    (cell_events,), rest = run_walk(96, lambda t, cells, which: tuple([value + 40.0 for value in cells]))
+    assert isinstance(cell_events, InsoleNeverUnloads) and cell_events.site is LEFT
+    assert 6.0 < cell_events.seconds < 16.0
     assert abs(len(of(StrideTaken, rest)) - len(clean())) <= 1
 
 
 @pytest.mark.parametrize("value", [30.0, 0.0])
 def test_an_insole_that_shows_one_value_for_ever_never_unloads_and_one_that_shows_nothing_is_dead(value: float) -> None:
-    (told,), rest = heard(24, lambda t, cells, which: (value,) * 24)
+    (cell_events,), rest = run_walk(24, lambda t, cells, which: (value,) * 24)
     if value:
-        assert isinstance(told, InsoleNeverUnloads)
+        assert isinstance(cell_events, InsoleNeverUnloads)
     else:
-        assert isinstance(told, CellsFailed) and (told.fault, told.cells) == (CellFault.DEAD, tuple(range(24)))
+        assert isinstance(cell_events, CellsFailed) and (cell_events.fault, cell_events.cells) == (
+            CellFault.DEAD,
+            tuple(range(24)),
+        )
     assert len(of(StrideTaken, rest)) == len(clean(24))
 
 

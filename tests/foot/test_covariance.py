@@ -1,4 +1,4 @@
-"""The straight-line covariance code does what the matrices say."""
+"""The straight-line covariance code gives the same results as the matrix form."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.foot.navigate.covariance import HEIGHT, Covariance, believed_height, propagate, update
+from solepath.foot.navigate.covariance import HEIGHT, Covariance, constrain_height, propagate, update
 
 BLOCKS = [(0, 0), (0, 3), (0, 6), (3, 3), (3, 6), (6, 6)]
 
 
 def places() -> list[tuple[int, int]]:
-    """The matrix indices of a Covariance's numbers, in order."""
+    """Return the matrix indices of the numbers of a Covariance, in order."""
     return [
         (row + i, column + j) for row, column in BLOCKS for i in range(3) for j in range(3) if row != column or j >= i
     ]
@@ -73,6 +73,6 @@ def test_the_velocity_update_is_the_kalman_update(seed: int) -> None:
 def test_a_height_known_from_elsewhere_leaves_a_covariance(seed: int, left: float) -> None:
     root = np.random.default_rng(seed).normal(size=(9, 9))
     p, d = root @ root.T, np.diag([1.0, 1.0, left**0.5, *[1.0] * 6])
-    found = believed_height(flat(p), left)
+    found = constrain_height(flat(p), left)
     np.testing.assert_allclose(square(found), d @ p @ d, rtol=1e-9, atol=1e-12)
     assert found[HEIGHT] == pytest.approx(left * p[2, 2])

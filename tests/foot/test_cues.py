@@ -1,4 +1,4 @@
-"""The inertial cues: when a foot strikes, lies flat and leaves the ground; and the middle of an impact."""
+"""Inertial cues: times of heel-strike, foot-flat and toe-off, and the middle of an impact."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def test_heel_strike_is_where_the_ground_stops_the_foot_at_any_rate(rate: float)
     seen = [event.t for event in of(HeelStrike, Session().feed(samples))]
     true = walker.truth().feet[Foot.LEFT].heel_strikes
     assert len(seen) == len(true)
-    # between two samples nobody knows more
+    # the time between two samples is the limit
     assert abs(median(a - b for a, b in zip(seen, true, strict=True))) < 0.015 + 0.5 / rate
 
 
@@ -74,8 +74,9 @@ def test_heel_strike_stays_where_it_is_when_the_accelerometer_clips_at_2_g() -> 
 
 
 def after_standing(speed: float, rate: float) -> list[Cue]:
-    """What is seen of a foot that stood, and whose heel then rises for 0.6 s: the sensor's speed in m/s, the foot's
-    rate in rad/s."""
+    """Return the cues of a foot that stands, and whose heel then rises for 0.6 s.
+
+    `speed` is that of the sensor, m/s, `rate` that of the foot, rad/s."""
     cues = InertialCues()
     phase, seen = Phase.STATIONARY, []
     for k in range(160):
@@ -121,57 +122,59 @@ def test_heading_grows_less_certain_with_time() -> None:
     session = Session()
     session.feed(samples)
     foot = session.feet[Foot.LEFT]
-    lasted = samples[-1].t - 2.0  # what comes before the first heel-off is one stretch, and so is what is under way
-    assert foot.gait.way.yaw == pytest.approx(HEADING_DRIFT**2 * lasted, rel=0.4)
-    assert session.position is not None and session.position.covariance[3] > foot.gait.way.yaw * 10.0**2 / 4
+    lasted = samples[-1].t - 2.0  # without the stretch before the first heel-off and the current one
+    assert foot.gait.path.yaw == pytest.approx(HEADING_DRIFT**2 * lasted, rel=0.4)
+    assert session.position is not None and session.position.covariance[3] > foot.gait.path.yaw * 10.0**2 / 4
 
 
 LANDED, LASTS = 0.52, 0.03
-"""When the ground's push of `felt` is half over, and how long it takes, s."""
+"""Middle and duration of the push of the ground in `simulate_push`, s."""
 
 
-def felt(rate: float, mounting: Quat = (1.0, 0.0, 0.0, 0.0)) -> Impact:
-    """A swing of 0.6 s at 2 m/s that ends in a push of 40 m/s^2 upwards, as the sensor in this mounting has it."""
+def simulate_push(rate: float, mounting: Quat = (1.0, 0.0, 0.0, 0.0)) -> Impact:
+    """Return the impact of a swing of 0.6 s at 2 m/s that ends in a push of 40 m/s^2 upwards, for this mounting."""
     impact = Impact()
-    impact.begin(0.0)
-    was: Vec3 | None = None
+    impact.start_swing(0.0)
+    previous_acc: Vec3 | None = None
     for k in range(int(0.6 * rate)):
         t = k / rate
         share = (t - LANDED) / LASTS + 0.5
         push = 40.0 * sin(pi * share) if 0.0 < share < 1.0 else 0.0
         acc = rotate(mounting, (3.0 * sin(5.0 * t), 0.0, GRAVITY + push))
-        if was is not None:
-            impact.feel(t, 1.0 / rate, was, acc, 2.0, t > LANDED - LASTS)
-        was = acc
+        if previous_acc is not None:
+            impact.add_sample(t, 1.0 / rate, previous_acc, acc, 2.0, t > LANDED - LASTS)
+        previous_acc = acc
     return impact
 
 
 @pytest.mark.parametrize("rate", [50.0, 100.0, 200.0, 400.0])
 def test_the_middle_of_an_impact_is_found_at_any_rate(rate: float) -> None:
-    assert felt(rate).middle == pytest.approx(LANDED, abs=0.004 + 0.25 / rate)
+    assert simulate_push(rate).middle == pytest.approx(LANDED, abs=0.004 + 0.25 / rate)
 
 
 @given(st.tuples(*[st.floats(-2.0, 2.0)] * 3))
 def test_how_the_sensor_is_mounted_does_not_matter(turn: Vec3) -> None:
-    assert felt(100.0, from_rotation_vector(turn)).middle == pytest.approx(felt(100.0).middle, abs=1e-6)
+    assert simulate_push(100.0, from_rotation_vector(turn)).middle == pytest.approx(
+        simulate_push(100.0).middle, abs=1e-6
+    )
 
 
 def test_the_jolt_of_leaving_the_ground_is_not_that_of_landing() -> None:
     impact = Impact()
-    impact.begin(0.0)
+    impact.start_swing(0.0)
     for k in range(1, 60):
         pushed, landed = 90.0 if k == 5 else 0.0, 20.0 if k == 50 else 0.0
-        impact.feel(0.01 * k, 0.01, ZERO, (pushed, 0.0, landed), 1.0, False)
-        assert (impact.hardest > 0.0) is (k >= 50)
-    assert impact.jolted == pytest.approx(0.495)
+        impact.add_sample(0.01 * k, 0.01, ZERO, (pushed, 0.0, landed), 1.0, False)
+        assert (impact.peak_shock > 0.0) is (k >= 50)
+    assert impact.peak_shock_at == pytest.approx(0.495)
 
 
 @given(st.lists(st.tuples(st.floats(0.0, 1e6), *[st.floats(-1e300, 1e300)] * 3), max_size=20))
-def test_no_force_and_no_time_step_makes_it_forget_how_to_count(told: list[tuple[float, float, float, float]]) -> None:
-    impact, t, was = Impact(), 0.0, (0.0, 0.0, GRAVITY)
-    impact.begin(t)
-    for dt, x, y, z in told:
+def test_an_impact_stays_finite_for_any_force_and_interval(rows: list[tuple[float, float, float, float]]) -> None:
+    impact, t, previous_acc = Impact(), 0.0, (0.0, 0.0, GRAVITY)
+    impact.start_swing(t)
+    for dt, x, y, z in rows:
         t += dt
-        impact.feel(t, dt, was, (x, y, z), 1.0, False)
-        was = (x, y, z)
+        impact.add_sample(t, dt, previous_acc, (x, y, z), 1.0, False)
+        previous_acc = (x, y, z)
         assert 0.0 <= impact.middle <= t and 0.0 <= impact.shock < 1e300

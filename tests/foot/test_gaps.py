@@ -1,4 +1,4 @@
-"""What fills a gap: the habit of whole strides, a straight line before there is one, never more than can be."""
+"""Infill of gaps: stride template, straight line before there is one, and limits of both."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from solepath import Event, Foot, Session, StrideTaken
 from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
 from solepath.foot.gaps.gap import NoInfill, find_infill
-from solepath.foot.gaps.moment import corrected, moments
+from solepath.foot.gaps.moment import correction_distance, moments
 from solepath.foot.gaps.template import MOST_MOMENTS, OLD, StrideTemplate
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.tracker import FootTracker
@@ -25,13 +25,13 @@ from solepath.types import Quat, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO
 
 
-def test_before_any_whole_stride_a_moving_foot_leaves_nothing_to_go_by_and_a_still_one_has_stood() -> None:
+def test_without_a_template_a_moving_foot_gets_no_infill_and_a_still_one_has_stood() -> None:
     template, at_rest = StrideTemplate(), ErrorStateFilter()
     at_rest.start(IDENTITY, 0.02)
     up: Vec3 = (0.0, 0.0, GRAVITY)
     assert find_infill(template, at_rest, 1.0, 1.2, up, ZERO) is NoInfill.STOOD
     assert find_infill(template, at_rest, 1.0, 1.2, up, (0.0, 4.0, 0.0)) is NoInfill.UNKNOWN
-    template.lift(0.9)
+    template.start_stride(0.9)
     assert find_infill(template, at_rest, 1.0, 1.2, up, ZERO) is NoInfill.UNKNOWN
 
 
@@ -58,56 +58,56 @@ def test_a_gap_in_the_first_stride_is_bridged_by_a_straight_line() -> None:
     assert tracker.corrector.attitude == by_line.attitude
 
 
-def test_a_stride_is_remembered_as_it_was_wherever_on_earth_it_was() -> None:
+def test_a_stride_is_stored_exactly_at_any_time_and_position() -> None:
     template, far = StrideTemplate(), 1e7
-    template.lift(1e9)
+    template.start_stride(1e9)
     for k in range(8):
         t = 0.032 * k
         velocity, position = (1.0, 0.1 * k, 0.0), (far + t, -far, 0.0)
-        template.keep(1e9 + t, IDENTITY, velocity, position, (0.0, 3.0, 4.0), (0.0, -5.0, 0.25))
-    rows = moments(template.now)
+        template.add_moment(1e9 + t, IDENTITY, velocity, position, (0.0, 3.0, 4.0), (0.0, -5.0, 0.25))
+    rows = moments(template.rows)
     assert [one.since for one in rows] == pytest.approx([0.032 * k for k in range(8)], abs=1e-6)
     assert rows[7].velocity == pytest.approx((1.0, 0.7, 0.0))
     assert rows[7].position == pytest.approx((0.224, 0.0, 0.0), abs=1e-7)
     assert rows[7].rate == (0.0, -5.0, 0.25) and rows[7].force == 5.0 and rows[7].attitude == IDENTITY
-    assert corrected(template.now) == pytest.approx(
+    assert correction_distance(template.rows) == pytest.approx(
         0.35 * 0.224, abs=1e-6
-    )  # it went so far to the left, and is not there
-    template.keep(1e9 + 1.0, IDENTITY, (1e300, 0.0, 0.0), (far, far, 0.0), (0.0, 3.0, 4.0), ZERO)
-    assert template.now == [] and template.lifted is None
+    )  # the velocity to the left did not move the foot
+    template.add_moment(1e9 + 1.0, IDENTITY, (1e300, 0.0, 0.0), (far, far, 0.0), (0.0, 3.0, 4.0), ZERO)
+    assert template.rows == [] and template.t_heel_off is None
 
 
-def test_a_toe_off_or_heel_strike_at_one_of_the_moments_that_are_remembered_is_at_that_moment() -> None:
-    """At 10 samples a second they often are, and rounding must not decide whether a gap has hidden them."""
+def test_a_toe_off_or_heel_strike_at_a_stored_moment_has_the_time_of_that_moment() -> None:
+    """At 10 samples a second this is common, and rounding must not decide whether a gap has hidden them."""
     for start in range(100):
-        template, lifted = StrideTemplate(), 0.1 * start
-        template.lift(lifted)
-        times = [lifted + 0.1 * k for k in range(10)]
+        template, t_heel_off = StrideTemplate(), 0.1 * start
+        template.start_stride(t_heel_off)
+        times = [t_heel_off + 0.1 * k for k in range(10)]
         for t in times:
-            template.keep(t, IDENTITY, ZERO, ZERO, (0.0, 0.0, GRAVITY), ZERO)
-        template.flat(lifted + 1.0, times[2], times[7], 0.0, ZERO, 0.1)
+            template.add_moment(t, IDENTITY, ZERO, ZERO, (0.0, 0.0, GRAVITY), ZERO)
+        template.end_stride(t_heel_off + 1.0, times[2], times[7], 0.0, ZERO, 0.1)
         assert template.last is not None
         kept = moments(template.last.rows)
         assert (kept[2].since, kept[7].since) == (template.last.toe_off, template.last.heel_strike)
 
 
-def test_a_stride_with_a_gap_or_round_a_corner_is_not_the_habit() -> None:
+def test_a_stride_with_a_gap_or_round_a_corner_is_no_template() -> None:
     pose: tuple[Quat, Vec3, Vec3] = (IDENTITY, ZERO, ZERO)
     up: Vec3 = (0.0, 0.0, GRAVITY)
 
     def stride(template: StrideTemplate, t: float, turn: float, duration: float = 0.7, unseen: float = 0.0) -> None:
-        template.lift(t)
+        template.start_stride(t)
         for k in range(int(duration / 0.01)):
             if t + 0.01 * k >= template.due:
-                template.keep(t + 0.01 * k, *pose, up, ZERO)
+                template.add_moment(t + 0.01 * k, *pose, up, ZERO)
         if unseen:
-            template.guess(t, unseen)
-        template.flat(t + duration, t + 0.2, t + 0.6, turn, (1.3, 0.0, 0.0), 0.01)
+            template.add_infill(t, unseen)
+        template.end_stride(t + duration, t + 0.2, t + 0.6, turn, (1.3, 0.0, 0.0), 0.01)
 
     template = StrideTemplate()
     stride(template, 1.0, 0.0)
     kept = template.last
-    assert kept is not None and kept.lasted < 0.7
+    assert kept is not None and kept.duration < 0.7
     assert (kept.toe_off, kept.heel_strike) == pytest.approx((0.2, 0.6))
     stride(template, 2.0, 0.0, unseen=0.2)
     assert template.last is kept
@@ -115,19 +115,19 @@ def test_a_stride_with_a_gap_or_round_a_corner_is_not_the_habit() -> None:
     assert template.last is kept
     for k in range(OLD):
         stride(template, 4.0 + k, 0.5)
-    assert template.last is not kept  # who does nothing but turn has turning for a habit
-    stride(template, 40.0, 0.0, duration=3.0)  # too slow to be kept whole, and memory is bounded
-    assert len(template.now) <= MOST_MOMENTS
+    assert template.last is not kept  # after many turns a turn becomes the template
+    stride(template, 40.0, 0.0, duration=3.0)  # too slow to be stored as a whole, and memory is bounded
+    assert len(template.rows) <= MOST_MOMENTS
 
 
-def test_a_stride_that_zero_velocity_had_to_put_right_is_not_the_habit() -> None:
+def test_a_stride_with_a_large_zero_velocity_correction_is_no_template() -> None:
     template, up = StrideTemplate(), (0.0, 0.0, GRAVITY)
 
     def stride(t: float, speed: float) -> None:
-        template.lift(t)
+        template.start_stride(t)
         for k in range(20):
-            template.keep(t + 0.035 * k, IDENTITY, (speed, 0.0, 0.0), (2.0 * 0.035 * k, 0.0, 0.0), up, ZERO)
-        template.flat(t + 0.7, t + 0.2, t + 0.6, 0.0, (1.33, 0.0, 0.0), 0.01)
+            template.add_moment(t + 0.035 * k, IDENTITY, (speed, 0.0, 0.0), (2.0 * 0.035 * k, 0.0, 0.0), up, ZERO)
+        template.end_stride(t + 0.7, t + 0.2, t + 0.6, 0.0, (1.33, 0.0, 0.0), 0.01)
 
     stride(1.0, -5.0)
     assert template.last is None
@@ -135,32 +135,32 @@ def test_a_stride_that_zero_velocity_had_to_put_right_is_not_the_habit() -> None
     assert template.last is not None
 
 
-@pytest.mark.parametrize("way", [(3.3, 0.0, 0.0), (1.3, 0.0, 1.18), (1.3, 0.5, -1.18), (-40.0, 9.0, 7.0)])
+@pytest.mark.parametrize("displacement", [(3.3, 0.0, 0.0), (1.3, 0.0, 1.18), (1.3, 0.5, -1.18), (-40.0, 9.0, 7.0)])
 @pytest.mark.parametrize("filled", [True, False])
 def test_a_stride_with_a_gap_goes_hardly_further_than_those_before_and_no_higher_than_two_stairs(
-    way: Vec3, filled: bool
+    displacement: Vec3, filled: bool
 ) -> None:
     template, up = StrideTemplate(), (0.0, 0.0, GRAVITY)
     for n in range(2):
-        template.lift(1.2 * n + 0.4)
+        template.start_stride(1.2 * n + 0.4)
         for k in range(20):
-            template.keep(template.due, IDENTITY, (2.0, 0.0, 0.0), (2.0 * 0.032 * k, 0.0, 0.0), up, ZERO)
+            template.add_moment(template.due, IDENTITY, (2.0, 0.0, 0.0), (2.0 * 0.032 * k, 0.0, 0.0), up, ZERO)
         t = 1.2 * (n + 1)
-        template.flat(t, t - 0.5, t - 0.1, 0.0, (1.3, 0.0, 0.0), 0.01)
+        template.end_stride(t, t - 0.5, t - 0.1, 0.0, (1.3, 0.0, 0.0), 0.01)
     assert template.last is not None
-    template.lift(2.8)
+    template.start_stride(2.8)
     if filled:
-        template.guess(2.8, 0.3)
+        template.add_infill(2.8, 0.3)
     else:
-        template.cross()
-    mended = template.flat(3.6, 3.1, 3.5, 0.0, way, 0.01)
-    assert mended is not None
-    assert hypot(mended.way[0], mended.way[1]) <= 1.25 * 1.3 * 1.2
-    assert abs(mended.way[2]) <= 0.5
+        template.mark_bridged()
+    repair = template.end_stride(3.6, 3.1, 3.5, 0.0, displacement, 0.01)
+    assert repair is not None
+    assert hypot(repair.displacement[0], repair.displacement[1]) <= 1.25 * 1.3 * 1.2
+    assert abs(repair.displacement[2]) <= 0.5
 
 
 @pytest.mark.parametrize("duration", [0.15, 0.3, 0.6, 1.2, 2.0])
-def test_in_a_gap_no_foot_goes_faster_than_feet_go_and_a_long_one_is_not_filled(duration: float) -> None:
+def test_infill_limits_the_speed_of_a_foot_and_long_gaps_get_none(duration: float) -> None:
     samples, steps = walked()
     tracker = FootTracker(Foot.LEFT, Session().recipe.detector, ErrorStateFilter())
     a = steps[4].t_toe_off + 0.1
@@ -189,9 +189,9 @@ def test_however_many_gaps_there_are_no_stride_is_longer_or_higher_than_a_stride
     while t < 50.0:
         holes.append((t, t + random.choice([0.1, 0.2, 0.4, 0.7, 1.0])))
         t += random.uniform(0.3, 4.0)
-    told, _ = heard(without(tuple(walker.samples(Foot.LEFT, rate)), *holes))
+    events, _ = heard(without(tuple(walker.samples(Foot.LEFT, rate)), *holes))
     longest = max(step.length for step in walker.truth().steps(Foot.LEFT))
-    for step in of(StrideTaken, told):
+    for step in of(StrideTaken, events):
         if step.degraded:
             assert step.length < 2.5 * longest
             assert abs(step.height_change) < 0.85
@@ -208,15 +208,15 @@ def test_whatever_the_gaps_phases_follow_each_other_in_time_and_none_is_known_be
     samples, _ = walked()
     left = without(samples, *((a, a + duration) for a, duration in holes))
     session = Session()
-    told: list[Event] = []
+    events: list[Event] = []
     for sample in left:
         new = session.feed(sample)
         assert all(event.known_at >= event.t and event.known_at >= sample.t for event in new)
-        told += new
-    phases = of(PHASES, told)
+        events += new
+    phases = of(PHASES, events)
     assert all(a.t <= b.t for a, b in pairwise(phases))
     assert all(type(a) is not type(b) for a, b in pairwise(phases))
-    taken = of(StrideTaken, told)
+    taken = of(StrideTaken, events)
     assert all(a.t_end <= b.t_start for a, b in pairwise(taken))
     for step in taken:
         assert step.t_start <= step.t_toe_off <= step.t_end

@@ -1,4 +1,4 @@
-"""Whether a step was level: level walks stay level, and slopes, kerbs and stairs keep their height."""
+"""Level walks stay level, and slopes, kerbs and stairs keep their height."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ from solepath.saving import codec as machine
 from solepath.types import Quat
 from solepath.types.vector import IDENTITY, from_rotation_vector, multiply, normalise
 
-UNGATED = evolve(DEFAULT, corrector=ErrorStateFilter(ErrorStateSettings(level=False)))
+UNCORRECTED = evolve(DEFAULT, corrector=ErrorStateFilter(ErrorStateSettings(level=False)))
 LENGTH = 1.35
-"""m: a stride."""
+"""Length of a stride, m."""
 SPREAD = 0.02
-"""m: what the filter expects a stride's height to err by."""
+"""Standard deviation of a stride's height in the filter, m."""
 
 
 def pitched(angle: float, heading: float = 0.0, mounted: Quat = IDENTITY) -> Quat:
-    """A foot that heads there, toe up by `angle`; rad."""
+    """Return the attitude of a foot with this heading, toe up by `angle`; rad."""
     ahead = from_rotation_vector((0.0, -angle, 0.0))
     return normalise(multiply(from_rotation_vector((0.0, 0.0, heading)), multiply(ahead, mounted)))
 
@@ -44,24 +44,25 @@ def judged(
     level: LevelGround,
     heights: list[float],
     grade: float = 0.0,
-    lean: float = 0.01,
+    rise_bias: float = 0.01,
     length: float = LENGTH,
     seed: int = 0,
 ) -> list[float]:
-    """What `level` says of steps that rise by `heights` m, on ground that slopes by `grade`, with a sensor that makes
-    `lean` of every metre and errs by a centimetre."""
+    """Return the heights that `level` estimates for strides that rise by `heights`, m.
+
+    The ground slopes by `grade`; the sensor adds `rise_bias` for each metre and errs by a centimetre."""
     rng = np.random.default_rng(seed)
     found = []
     for height in heights:
-        z = height + lean * length + 0.01 * rng.standard_normal()
+        z = height + rise_bias * length + 0.01 * rng.standard_normal()
         attitude = pitched(grade + 0.01 * rng.standard_normal())
         found.append(level.judge((length, 0.0, z), 0.0, SPREAD * SPREAD, attitude)[0])
     return found
 
 
-@pytest.mark.parametrize("lean", [-0.03, -0.01, 0.0, 0.02, 0.03])
-def test_level_strides_are_level_whatever_lean_the_sensor_has(lean: float) -> None:
-    assert abs(sum(judged(LevelGround(), [0.0] * 60, lean=lean))) < 0.12
+@pytest.mark.parametrize("rise_bias", [-0.03, -0.01, 0.0, 0.02, 0.03])
+def test_level_strides_are_level_for_any_rise_bias(rise_bias: float) -> None:
+    assert abs(sum(judged(LevelGround(), [0.0] * 60, rise_bias=rise_bias))) < 0.12
 
 
 @pytest.mark.parametrize("grade", [0.05, -0.05, 0.08, -0.12])
@@ -88,7 +89,7 @@ def test_a_single_kerb_keeps_its_height(kerb: float) -> None:
 def test_stairs_keep_their_height_and_the_landing_between_them_is_level(riser: float) -> None:
     level = LevelGround()
     judged(level, [0.0] * 6)
-    first = judged(level, [riser] + [2.0 * riser] * 5, lean=0.0, length=0.6, seed=4)
+    first = judged(level, [riser] + [2.0 * riser] * 5, rise_bias=0.0, length=0.6, seed=4)
     landing = judged(level, [0.0] * 3, length=0.9, seed=5)
     assert sum(first) == pytest.approx(11 * riser, rel=0.06)
     assert max(abs(height) for height in landing) < 0.03
@@ -100,18 +101,18 @@ def test_a_stride_of_which_the_filter_is_unsure_must_rise_by_more_to_be_no_level
     assert unsure.judge((LENGTH, 0.0, 0.13), 0.0, 0.2**2, IDENTITY)[0] < 0.03
 
 
-def test_who_sets_out_on_a_ramp_walks_on_the_level_again_some_strides_after_it() -> None:
+def test_a_walk_that_starts_on_a_ramp_is_level_again_some_strides_after_it() -> None:
     level = LevelGround()
-    judged(level, [0.05 * LENGTH] * 9, grade=0.05, lean=0.0)
-    judged(level, [0.0] * 6, lean=0.0, seed=1)
-    assert abs(sum(judged(level, [0.0] * 20, lean=0.0, seed=2))) < 0.08
+    judged(level, [0.05 * LENGTH] * 9, grade=0.05, rise_bias=0.0)
+    judged(level, [0.0] * 6, rise_bias=0.0, seed=1)
+    assert abs(sum(judged(level, [0.0] * 20, rise_bias=0.0, seed=2))) < 0.08
 
 
 def test_a_ladder_and_a_foot_that_is_put_up_keep_their_height() -> None:
-    """They go up without going along, which no level step does."""
+    """They rise without a horizontal displacement, which no level stride does."""
     level = LevelGround()
     judged(level, [0.0] * 5)
-    assert sum(judged(level, [0.3] * 6, lean=0.0, length=0.05)) == pytest.approx(1.8, rel=0.05)
+    assert sum(judged(level, [0.3] * 6, rise_bias=0.0, length=0.05)) == pytest.approx(1.8, rel=0.05)
 
 
 @given(
@@ -153,15 +154,15 @@ def steps_of(samples: tuple[Sample, ...], recipe: Recipe = DEFAULT) -> list[Stri
 
 @pytest.mark.parametrize("part", [LSM6DSOX, MPU6050], ids=lambda part: part.name)
 @pytest.mark.parametrize("mounting", [IN_SOLE, TILTED], ids=["in the sole", "askew on the instep"])
-def test_a_level_walk_ends_as_high_as_it_began(part: Imu, mounting: Mounting) -> None:
+def test_a_level_walk_ends_at_the_height_of_its_start(part: Imu, mounting: Mounting) -> None:
     samples = walked(0.0, mounting, part)
     assert abs(steps_of(samples)[-1].position[2]) < 0.05
     assert steps_of(samples)[-1].features.rise is not None
 
 
-def test_an_ungated_height_is_told_beside_the_one_that_is_believed() -> None:
+def test_the_uncorrected_height_is_reported_beside_the_corrected_one() -> None:
     samples = walked(0.0, IN_SOLE, MPU6050)
-    for gated, ungated in zip(steps_of(samples), steps_of(samples, UNGATED), strict=True):
+    for gated, ungated in zip(steps_of(samples), steps_of(samples, UNCORRECTED), strict=True):
         assert ungated.features.rise == ungated.height_change
         assert gated.features.rise == pytest.approx(ungated.height_change, abs=0.02)
         assert gated.displacement[:2] == pytest.approx(ungated.displacement[:2], abs=1e-6)
@@ -182,12 +183,12 @@ def test_a_sensor_on_a_ramp_measures_what_it_does() -> None:
     angle = np.arctan(ramp.ground(level.position[:, 0])[1])
     turned = np.gradient(angle, t)
     assert float(np.max(angle)) == pytest.approx(0.0997, abs=1e-3)
-    # a level attitude turned toe up: what the rates differ by is that turn, about the world's y
+    # the rates differ by the turn toe up, about y of the world
     assert np.linalg.norm(on.rate - level.rate, axis=1)[5:-5] == pytest.approx(np.abs(turned)[5:-5], abs=2e-2)
     assert ramp.ground(np.array([-50.0, 50.0]))[0] == pytest.approx([0.0, ramp.height], abs=1e-9)
 
 
-def test_four_floors_of_stairs_up_and_down_end_where_they_began() -> None:
+def test_four_floors_of_stairs_up_and_down_end_at_the_height_of_their_start() -> None:
     route = Route().stand(2.0).walk(6.0)
     for up in (True, False):
         for _ in range(4):

@@ -1,4 +1,4 @@
-"""Input that contradicts itself or comes to an edge: large steps, odd numbers, dead areas, gaps."""
+"""Contradictory and extreme input: large intervals, extreme numbers, dead areas, gaps."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ from solepath.body.fuse.position import MeanOfFeet
 from solepath.body.part import TrackPart
 from solepath.emulate import CC2650, Route, emulate
 from solepath.emulate.sensors.insoles import layout
-from solepath.foot.pressure.guess import LayoutGuess
 from solepath.foot.pressure.insole import InsoleLoads
+from solepath.foot.pressure.layout_guess import LayoutGuess
 
 LEFT = Site.LEFT_FOOT
 
@@ -58,7 +58,7 @@ def test_a_first_wait_of_seconds_does_not_hide_the_gaps_after_it() -> None:
     assert [round(event.duration, 2) for event in events if isinstance(event, SampleGap)] == [2.0, 1.51]
 
 
-def test_who_was_heard_first_does_not_matter_to_a_snapshot() -> None:
+def test_a_snapshot_does_not_depend_on_the_first_site() -> None:
     walk = emulate(Route().stand(1).walk(4, 1.2).stop(1), seed=3)
     session = Session()
     session.feed([packet for packet in walk.packets[:400] if packet.site is Site.RIGHT_FOOT])
@@ -72,7 +72,7 @@ def test_who_was_heard_first_does_not_matter_to_a_snapshot() -> None:
 
 @pytest.mark.parametrize("seed", [1, 2])
 @pytest.mark.parametrize("first", [Route().stand(2).turn(radians(90)), Route().stand(2).turn(radians(90), radius=2.0)])
-def test_final_steps_are_all_seen_from_one_frame(first: Route, seed: int) -> None:
+def test_final_strides_are_all_in_one_frame(first: Route, seed: int) -> None:
     walk = emulate(first.walk(6, 1.2).stop(2), seed=seed)
     session = Session(recipes.DEFAULT.exchanged(TrackPart, MeanOfFeet()))  # no foot is moved by the other
     steps = [event for event in session.feed(walk.packets) if isinstance(event, StrideTaken)]
@@ -81,7 +81,7 @@ def test_final_steps_are_all_seen_from_one_frame(first: Route, seed: int) -> Non
         assert len(own) >= 5
         for before, after in zip(own, own[1:], strict=False):
             (x, y, _), (u, v, _), (dx, dy, _) = after.position, before.position, after.displacement
-            assert hypot(x - u - dx, y - v - dy) < 0.06  # what the foot shifts while it stands
+            assert hypot(x - u - dx, y - v - dy) < 0.06  # shift of a standing foot
 
 
 def test_a_session_has_its_own_copy_of_the_recipe() -> None:
@@ -119,10 +119,10 @@ def steps(events: list[Event], foot: Foot) -> list[StrideTaken]:
 
 @pytest.mark.parametrize("quat", QUATS, ids=str)
 @pytest.mark.parametrize("recipe", ["default", "gyroscope", "walking-modes"])
-def test_an_attitude_that_is_none_is_taken_for_none(recipe: str, quat: tuple[float, float, float, float]) -> None:
-    told = [evolve(sample, quat=quat) for sample in samples()]
+def test_an_invalid_attitude_counts_as_none(recipe: str, quat: tuple[float, float, float, float]) -> None:
+    changed = [evolve(sample, quat=quat) for sample in samples()]
     session, plain = Session(recipes.by_name(recipe)), Session(recipes.by_name(recipe))
-    assert session.feed(told) == plain.feed(samples())
+    assert session.feed(changed) == plain.feed(samples())
     session.snapshot()
 
 
@@ -132,7 +132,7 @@ def test_an_attitude_of_any_length_is_the_same_attitude() -> None:
     assert Session(recipes.by_name("gyroscope")).feed(ones) == Session(recipes.by_name("gyroscope")).feed(long)
 
 
-def test_cells_below_zero_tell_no_layout_and_raise_nothing() -> None:
+def test_cells_below_zero_give_no_layout_and_raise_nothing() -> None:
     guess = LayoutGuess(Foot.LEFT)
     shares = [0.0] * 20 + [0.9] * 60
     cells = (-100.0, -50.0, -90.0)
@@ -140,14 +140,14 @@ def test_cells_below_zero_tell_no_layout_and_raise_nothing() -> None:
 
 
 @pytest.mark.parametrize("cells", [(10**400,), (None, 10**400), (10**400, nan), (-(10**400), 1.0)])
-def test_numbers_that_no_float_holds_are_refused_or_missing_and_raise_nothing(cells: tuple[int, ...]) -> None:
+def test_numbers_too_large_for_a_float_are_rejected_or_missing_and_raise_nothing(cells: tuple[int, ...]) -> None:
     session = Session()
     for k in range(50):
         session.feed(Sample(0.01 * k, Site.LEFT_FOOT, (0.0, 0.0, 9.8), (0.0, 0.0, 0.0), cells))  # type: ignore[arg-type]
     session.snapshot()
 
 
-def test_an_area_that_never_carries_anything_tells_nothing() -> None:
+def test_an_area_that_never_bears_load_has_no_load() -> None:
     sole = layout(24, Foot.LEFT)
     dead = {k for k, cell in enumerate(sole.cells) if cell.x < 0.33 * sole.length}
     insole = InsoleLoads()
@@ -164,17 +164,17 @@ def test_an_area_that_never_carries_anything_tells_nothing() -> None:
 
 @pytest.mark.parametrize("recipe", ["kupt", "zupt", "kupt-dfpc"])
 def test_nothing_is_known_before_it_happened_in_a_gap_either(recipe: str) -> None:
-    for begin in (2.9, 3.4, 3.9, 4.4):
-        told = [sample for sample in samples() if not begin < sample.t < begin + 0.5]
-        for event in Session(recipes.by_name(recipe)).feed(told):
+    for start in (2.9, 3.4, 3.9, 4.4):
+        changed = [sample for sample in samples() if not start < sample.t < start + 0.5]
+        for event in Session(recipes.by_name(recipe)).feed(changed):
             assert event.known_at >= event.t
             assert isfinite(event.t)
 
 
 def test_a_guessed_layout_is_forgotten_with_its_insole() -> None:
     session = Session(recipes.by_name("zupt"))
-    told = [evolve(s, pressure=s.pressure and s.pressure[:20]) if s.t > 5.0 else s for s in samples()]
-    session.feed(told)
+    changed = [evolve(s, pressure=s.pressure and s.pressure[:20]) if s.t > 5.0 else s for s in samples()]
+    session.feed(changed)
     guessed: Layout | None = session.feet[Foot.LEFT].sole.insole.layout
     assert guessed is None or len(guessed.cells) == 20
 

@@ -1,4 +1,4 @@
-"""A detector, a corrector and cues of an app's own: in a recipe and in a snapshot."""
+"""An app's own detector, corrector and cues in a recipe and in a snapshot."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ def test_a_walk_with_parts_of_ones_own_is_saved_and_goes_on_when_their_classes_a
     walked = samples(cells=0)
     whole, half = Session(OWN), len(walked) // 2
     events = [whole.feed(sample) for sample in walked]
-    said = sum(events, [])
-    assert len(of(StrideTaken, said)) >= 6 and len(of(HeelStrike, said)) >= 6
+    all_events = sum(events, [])
+    assert len(of(StrideTaken, all_events)) >= 6 and len(of(HeelStrike, all_events)) >= 6
     assert all(foot.corrector.resets > 100 for foot in whole.feet.values())
     assert {foot.cues.for_foot for foot in whole.feet.values()} == {"left", "right"}
     first = Session(OWN)
@@ -44,7 +44,7 @@ def test_a_walk_with_parts_of_ones_own_is_saved_and_goes_on_when_their_classes_a
         assert json.dumps(second.snapshot()) == json.dumps(whole.snapshot())
 
 
-def test_a_clock_that_begins_anew_leaves_a_detector_of_ones_own_with_its_settings_alone() -> None:
+def test_after_a_clock_restart_an_own_detector_keeps_only_its_settings() -> None:
     session = Session(evolve(OWN, detector=Quiet(limit=0.7)))
     session.feed(WALKED[:50])
     tracker = session.feet[Foot.LEFT]
@@ -53,14 +53,14 @@ def test_a_clock_that_begins_anew_leaves_a_detector_of_ones_own_with_its_setting
     assert tracker.detector == evolve(OWN.detector, limit=0.7)
 
 
-def test_cues_of_ones_own_are_told_where_the_cells_are_and_speak_for_an_insole_alone() -> None:
+def test_own_cues_get_the_layout_and_work_for_an_insole_alone() -> None:
     session = Session(OWN, calibration=Calibration(insoles={Foot.LEFT: InsoleCalibration(CELLS)}))
     events = session.feed([evolve(sample, acc=None, gyro=None) for sample in WALKED])
     assert session.feet[Foot.LEFT].cues.cells == 24
     assert len(of(HeelStrike, events)) >= 3
 
 
-def test_classes_that_are_no_parts_or_share_a_name_are_refused() -> None:
+def test_classes_that_are_no_parts_or_share_a_name_are_rejected() -> None:
     saved = Session(OWN).snapshot()
     other = define(type("Quiet", (), {"__annotations__": {}}))
     with pytest.raises(TypeError, match="attrs class"):
@@ -73,7 +73,7 @@ def test_classes_that_are_no_parts_or_share_a_name_are_refused() -> None:
 
 @define
 class Usual(Quiet):
-    """Beside what was usual lately, by windows that forget by themselves."""
+    """A detector with bounded windows of recent rates."""
 
     rates: deque[float] = field(factory=lambda: deque(maxlen=8), init=False)
     by_kind: dict[str, deque[float]] = field(factory=dict, init=False)
@@ -86,7 +86,7 @@ class Usual(Quiet):
         return Quiet.update(self, t, dt, acc, gyro, *rest)._replace(statistic=usual)
 
 
-def test_a_window_that_forgets_by_itself_still_does_after_it_was_saved() -> None:
+def test_a_bounded_window_stays_bounded_after_it_was_saved() -> None:
     assert broken(Usual(), WALKED) == []
     one = Usual()
     for sample in WALKED[:20]:
@@ -125,7 +125,7 @@ def test_what_a_snapshot_cannot_hold_is_named_with_its_class_and_field() -> None
         save(Holder(Quiet()))  # type: ignore[arg-type]
 
 
-def test_what_cannot_be_saved_says_so_when_it_is_to_be_saved() -> None:
+def test_saving_a_part_that_cannot_be_saved_raises() -> None:
     class Bare:
         update = Quiet.update
 

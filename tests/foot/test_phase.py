@@ -1,4 +1,4 @@
-"""The phases of a foot and the support of a body: tables that can be read."""
+"""Tables of the phases of a foot and of the support of a body."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import pytest
 from walks import SHORT, insoles
 
 from solepath import Foot, FootFlat, HeelOff, HeelStrike, Phase, Session, Support, ToeOff
-from solepath.foot.phase import BEGINS, PHASES, SUPPORT, Cue, describe
+from solepath.foot.phase import EVENT_OF_PHASE, PHASES, SUPPORT, Cue, describe
 
 
 def test_every_phase_knows_what_to_make_of_every_cue_and_of_nothing_else() -> None:
@@ -41,13 +41,13 @@ def test_a_foot_in_the_air_can_only_land() -> None:
     assert PHASES[Phase.SWING][Cue.LIFT] is Phase.SWING
 
 
-def test_each_phase_begins_with_its_event() -> None:
+def test_each_phase_starts_with_its_event() -> None:
     assert {
         Phase.LOADING: HeelStrike,
         Phase.STATIONARY: FootFlat,
         Phase.PUSH_OFF: HeelOff,
         Phase.SWING: ToeOff,
-    } == BEGINS
+    } == EVENT_OF_PHASE
 
 
 @pytest.mark.parametrize(("left", "right"), list(product(Phase, Phase)))

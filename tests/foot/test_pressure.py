@@ -1,4 +1,4 @@
-"""Loads of the cells: tare, share of the wearer's own, centre of pressure; and heel and forefoot told apart."""
+"""Loads of the cells: tare, share of the full load, centre of pressure; and the estimated layout."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from solepath import Foot, FootFlat, HeelOff, HeelStrike, Layout, Sample, Sessio
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
-from solepath.foot.pressure.guess import LayoutGuess
 from solepath.foot.pressure.insole import Extremes, InsoleLoads
+from solepath.foot.pressure.layout_guess import LayoutGuess
 from solepath.foot.stance.pressure import MaximumPressure, TwoArea
 from solepath.foot.stance.stance import Load, Stance
 from solepath.types import Phase
 
 
 def worn(*frames: tuple[float, ...]) -> InsoleLoads:
-    """An insole that has been through some frames at 100 Hz."""
+    """Return an insole after some frames at 100 Hz."""
     insole = InsoleLoads()
     insole.set_layout(SOLE)
     for k, cells in enumerate(frames):
@@ -33,17 +33,17 @@ def worn(*frames: tuple[float, ...]) -> InsoleLoads:
 
 
 STEP = (above(100, 100, 50, 150), above(0, 0, 0, 200), TARE, above(30, 30, 0, 0), above(100, 100, 50, 150))
-"""On the whole sole (400), on the forefoot, in the air, on the heel, on the whole sole again."""
+"""Loads on the whole sole (400), on the forefoot, in the air, on the heel, on the whole sole again."""
 
 
 def test_nothing_is_known_until_the_load_has_fallen_and_risen_again() -> None:
     insole = worn()
-    said = [insole.update(0.01 * k, cells) for k, cells in enumerate(STEP)]
-    assert [load is None for load in said] == [True, True, True, True, False]
+    loads = [insole.update(0.01 * k, cells) for k, cells in enumerate(STEP)]
+    assert [load is None for load in loads] == [True, True, True, True, False]
 
 
 def test_a_load_that_only_falls_is_not_a_foot_in_the_air() -> None:
-    """Weight goes over to the other foot before the first step: the least load so far is still a load."""
+    """The weight moves to the other foot before the first step: the lowest load is then still a load."""
     insole = worn()
     for k in range(60):
         share = 1.0 - 0.01 * k
@@ -115,11 +115,11 @@ def test_an_insole_without_an_inertial_sensor_still_gives_the_phases() -> None:
     walker = Walker(Route().stand(1.0).walk(12.0, 1.3).stop(1.0), seed=2)
     shape = layout(96, Foot.LEFT)
     session = Session()
-    told = session.feed(insoles(SHORT).packets[:1])  # INFO, so that the layout is known
+    events = session.feed(insoles(SHORT).packets[:1])  # INFO, so that the layout is known
     pressed = [
         Sample(s.t, LEFT, pressure=s.pressure) for s in walker.samples(Foot.LEFT, 100.0, layout=shape) if s.t > 0.1
     ]
-    told += session.feed(pressed)
+    events += session.feed(pressed)
     truth = walker.truth().feet[Foot.LEFT]
     for kind, true, first in (
         (HeelStrike, truth.heel_strikes, 1),
@@ -127,7 +127,7 @@ def test_an_insole_without_an_inertial_sensor_still_gives_the_phases() -> None:
         (FootFlat, truth.foot_flats, 1),
         (HeelOff, truth.heel_offs, 1),
     ):
-        found = [event.t for event in of(kind, told)]
+        found = [event.t for event in of(kind, events)]
         for t in true[first:]:
             assert min(abs(t - other) for other in found) < 0.12, kind
         assert len(found) <= len(true) + 1
@@ -135,28 +135,30 @@ def test_an_insole_without_an_inertial_sensor_still_gives_the_phases() -> None:
 
 def test_the_first_toe_off_of_a_walk_is_when_the_toe_leaves_the_ground() -> None:
     walk = insoles(SHORT)
-    told = Session().feed(walk.packets)
+    events = Session().feed(walk.packets)
     for foot in Foot:
-        (first, *_) = (event.t for event in of(ToeOff, told) if event.foot is foot)
+        (first, *_) = (event.t for event in of(ToeOff, events) if event.foot is foot)
         assert first == pytest.approx(walk.truth.feet[foot].toe_offs[0], abs=0.06)
-        assert len([event for event in of(HeelOff, told) if event.foot is foot]) == len(walk.truth.feet[foot].heel_offs)
+        assert len([event for event in of(HeelOff, events) if event.foot is foot]) == len(
+            walk.truth.feet[foot].heel_offs
+        )
 
 
 def test_the_path_of_the_centre_of_pressure_runs_from_heel_to_toe() -> None:
-    told = of(StrideTaken, Session().feed(insoles(SHORT).packets))
-    paths = [step.features.cop for step in told[2:-2]]
+    events = of(StrideTaken, Session().feed(insoles(SHORT).packets))
+    paths = [step.features.cop for step in events[2:-2]]
     assert all(8 <= len(path) <= 32 for path in paths)
     for path in paths:
         assert path[0][0] < 0.09 and max(x for x, _ in path) > 0.20
         rising = [b[0] > a[0] - 0.003 for a, b in pairwise(path[:-3])]  # hardly any load is left at the very end
         assert all(rising)
         assert all(0.0 < x < 0.285 and abs(y) < 0.05 for x, y in path)
-    assert all(step.features.contact_load > 200.0 for step in told[2:-2])
+    assert all(step.features.contact_load > 200.0 for step in events[2:-2])
 
 
 @cache
 def guessed(cells: int) -> Layout | None:
-    """What is made of the left insole of a short walk that does not say where its cells are."""
+    """Return the estimated layout of the left insole of a short walk whose layout is unknown."""
     insole, guess = InsoleLoads(), LayoutGuess(Foot.LEFT)
     for sample in samples(cells=cells):
         if sample.site.foot is Foot.LEFT and sample.pressure:
@@ -167,23 +169,23 @@ def guessed(cells: int) -> Layout | None:
     return None
 
 
-def test_heel_and_forefoot_are_told_apart_after_two_stances() -> None:
+def test_heel_and_forefoot_are_distinguished_after_two_stances() -> None:
     for cells in (24, 96):
         true, found = layout(cells, Foot.LEFT), guessed(cells)
         assert found is not None
-        told = 0
+        placed = 0
         for cell, learnt in zip(true.cells, found.cells, strict=True):
             if learnt.x == 0.5 * found.length:
-                continue  # it never carries load
+                continue  # it never bears load
             if cell.x < 0.25 * true.length:
                 assert learnt.x < 0.45 * found.length, cell
             if cell.x > 0.75 * true.length:
                 assert learnt.x > 0.55 * found.length, cell
-            told += 1
-        assert told > 0.7 * cells
+            placed += 1
+        assert placed > 0.7 * cells
 
 
-def test_a_foot_that_stands_says_nothing_of_its_cells() -> None:
+def test_a_standing_foot_gives_no_layout() -> None:
     guess = LayoutGuess(Foot.RIGHT)
     assert all(guess.update(0.01 * k, (5.0, 7.0, 3.0), 0.9) is None for k in range(1000))
 
@@ -211,20 +213,20 @@ ACC_REST, GYRO_REST = (0.0, 0.0, 9.81), (0.0, 0.0, 0.0)
 
 
 def test_two_loaded_areas_are_a_flat_foot() -> None:
-    def said(heel: float | None, forefoot: float | None, airborne: bool = False) -> Stance:
+    def evidence(heel: float | None, forefoot: float | None, airborne: bool = False) -> Stance:
         return TwoArea().update(0.0, 0.01, ACC_REST, GYRO_REST, Load(0.5, heel, forefoot, 0.5, airborne))
 
-    assert said(0.3, 0.2) == Stance((0.0, 0.0, 0.0), 0.01, 0.2, Phase.STATIONARY)
-    assert said(0.05, 0.9).hint is Phase.STATIONARY
-    assert said(0.049, 0.9).sigma == inf and said(0.9, 0.0).sigma == inf
-    assert said(0.0, 0.0, airborne=True).hint is Phase.SWING
-    assert said(None, None).sigma == inf
+    assert evidence(0.3, 0.2) == Stance((0.0, 0.0, 0.0), 0.01, 0.2, Phase.STATIONARY)
+    assert evidence(0.05, 0.9).hint is Phase.STATIONARY
+    assert evidence(0.049, 0.9).sigma == inf and evidence(0.9, 0.0).sigma == inf
+    assert evidence(0.0, 0.0, airborne=True).hint is Phase.SWING
+    assert evidence(None, None).sigma == inf
 
 
 def test_a_heavily_loaded_cell_is_a_foot_on_the_ground() -> None:
-    def said(highest: float, airborne: bool = False) -> Stance:
+    def evidence(highest: float, airborne: bool = False) -> Stance:
         return MaximumPressure().update(0.0, 0.01, ACC_REST, GYRO_REST, Load(0.5, None, None, highest, airborne))
 
-    assert said(0.26).sigma == 0.05 and said(0.26).statistic == 0.26
-    assert said(0.25).sigma == inf
-    assert said(0.9, airborne=True) == Stance((0.0, 0.0, 0.0), inf, 0.9, Phase.SWING)
+    assert evidence(0.26).sigma == 0.05 and evidence(0.26).statistic == 0.26
+    assert evidence(0.25).sigma == inf
+    assert evidence(0.9, airborne=True) == Stance((0.0, 0.0, 0.0), inf, 0.9, Phase.SWING)

@@ -1,4 +1,4 @@
-"""What a session needs of a part, and that a part which does not keep to it is named."""
+"""The parts of recipes keep the rules of a part, and a part that breaks one is named."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ class Lost(Quiet):
 
 @define
 class Drifting(Resets):
-    """Its position is no number after a while."""
+    """A corrector whose position becomes nan."""
 
     def correct(self, t: float, stance: Stance) -> bool:
         if t > 6.0:
@@ -117,10 +117,10 @@ class Drifting(Resets):
 @define
 class Flat(Resets):
     def correct(self, t: float, stance: Stance) -> bool:
-        believed = Resets.correct(self, t, stance)
+        accepted = Resets.correct(self, t, stance)
         if t > 1e5:
             self.position = (0.0, 0.0, inf)
-        return believed
+        return accepted
 
 
 @define
@@ -148,7 +148,7 @@ class Hoarding(Resets):
 
 @define(slots=False)
 class Leaving(Resets):
-    """It remembers in no field how many samples there were."""
+    """A corrector that counts samples outside its fields."""
 
     def correct(self, t: float, stance: Stance) -> bool:
         self.__dict__["times"] = self.__dict__.get("times", 0) + 1
@@ -229,7 +229,7 @@ def test_a_class_that_extends_nothing_is_no_part() -> None:
 
 @define
 class Lasting(Part):
-    """Counts in a setting what it has heard: a packed session loses that."""
+    """A part that counts its inputs in a setting, which a packed session loses."""
 
     count: int = 0
     newest: float | None = field(default=None, init=False)
@@ -249,7 +249,7 @@ class Foreseeing(Part):
 
 @define
 class Lingering(Part):
-    """Knows where the cells are, and says at the end what happens only then."""
+    """A part that returns an event at the end of the session, after it has received a layout."""
 
     cells: int = field(default=0, init=False)
 

@@ -1,4 +1,4 @@
-"""Stance evidence of every detector, and how high the sensor sits above the sole."""
+"""Stance evidence of every detector, and the height of the sensor above the sole."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from solepath.types import Foot, Phase, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, conjugate, normalise, rotate
 
 SIGMA_ACC, SIGMA_GYRO = 0.01, 0.1 * pi / 180.0
-"""Skog et al.: the noise levels that the statistics are scaled by, m/s^2 and rad/s."""
+"""Noise levels that scale the statistics, m/s^2 and rad/s (Skog et al.)."""
 
 Rows = list[tuple[float, float, float]]
 
@@ -50,8 +50,7 @@ def mv(acc: Rows, gyro: Rows) -> float:
 
 
 def mbgtd(acc: Rows, gyro: Rows) -> float:
-    """The largest, over pairs of cuts a < b, of sum over i <= a, j >= b of |a_i - a_j| / ((b - a) (W - b + 1)); counted
-    from 0."""
+    """T = max over cuts a < b of sum over i <= a, j >= b of |a_i - a_j| / ((b - a) (W - b + 1)), counted from 0."""
     v, w = np.array(acc), len(acc)
     distances = np.linalg.norm(v[:, None] - v[None, :], axis=2)
     return max(
@@ -82,7 +81,7 @@ def run(detector: Any, acc: Rows, gyro: Rows, dt: float = 0.01) -> list[Stance]:
     ],
     ids=lambda value: type(value).__name__ if hasattr(value, "update") else None,
 )
-def test_the_statistic_is_what_its_formula_says(detector: Any, formula: Any, length: int) -> None:
+def test_the_statistic_follows_its_formula(detector: Any, formula: Any, length: int) -> None:
     found = run(detector, ACC, GYRO)[-1].statistic
     assert found == pytest.approx(formula(ACC[-length:], GYRO[-length:]), rel=1e-9)
 
@@ -102,13 +101,13 @@ def test_running_sums_are_the_direct_computation_after_ten_thousand_samples(
     detector: Any, formula: Any, length: int
 ) -> None:
     rng = np.random.default_rng(5)
-    # a wild ride of ten thousand samples, then rest: what the sums gathered must not show in the quiet
-    loud = rng.normal(0.0, 1.0, (10_000, 3)) * rng.choice([1.0, 300.0], (10_000, 1))
-    acc = [tuple(row) for row in (loud + [0.0, 0.0, GRAVITY]).tolist()]
-    gyro = [tuple(row) for row in (loud * 0.1).tolist()]
-    quiet = rng.normal(0.0, 0.01, (20, 6))
-    acc += [tuple(row) for row in (quiet[:, :3] + [0.0, 0.0, GRAVITY]).tolist()]
-    gyro += [tuple(row) for row in quiet[:, 3:].tolist()]
+    # ten thousand samples of strong motion, then rest: rounding errors of the sums must not show at rest
+    in_motion = rng.normal(0.0, 1.0, (10_000, 3)) * rng.choice([1.0, 300.0], (10_000, 1))
+    acc = [tuple(row) for row in (in_motion + [0.0, 0.0, GRAVITY]).tolist()]
+    gyro = [tuple(row) for row in (in_motion * 0.1).tolist()]
+    at_rest = rng.normal(0.0, 0.01, (20, 6))
+    acc += [tuple(row) for row in (at_rest[:, :3] + [0.0, 0.0, GRAVITY]).tolist()]
+    gyro += [tuple(row) for row in at_rest[:, 3:].tolist()]
     found = [stance.statistic for stance in run(detector, acc, gyro)]
     for k in [*range(100, 10_000, 501), *range(10_006, 10_020)]:
         exact = formula(acc[k - length + 1 : k + 1], gyro[k - length + 1 : k + 1])
@@ -123,7 +122,7 @@ def test_a_window_is_so_many_seconds_whatever_the_rate() -> None:
 
 
 @pytest.mark.parametrize("detector", [ShoeDetector(), AngularRate(), MovingVariance(), Graph(), Cycle()], ids=type)
-def test_a_foot_that_rests_is_certainly_still(detector: Any) -> None:
+def test_a_standing_foot_is_certainly_still(detector: Any) -> None:
     last = run(detector, [(0.0, 0.0, GRAVITY)] * 20, [(0.0, 0.0, 0.0)] * 20)[-1]
     assert last.hint is Phase.STATIONARY and last.sigma == pytest.approx(0.01, rel=0.01)
     assert last.v_ref == (0.0, 0.0, 0.0)
@@ -144,7 +143,7 @@ WALKER = Walker(Route().stand(1.0).walk(12.0, 1.3).stop(1.0), seed=2)
 
 
 def shares(detector: Any) -> tuple[float, float]:
-    """How often a detector has evidence of stillness in mid-stance, and in mid-swing."""
+    """Return the shares of samples with evidence of stillness in mid-stance, and in mid-swing."""
     fed = WALKER.samples(Foot.LEFT, 100.0, layout=layout(96, Foot.LEFT))
     truth = WALKER.truth().feet[Foot.LEFT]
     stance = [(flat + 0.02, off - 0.02) for flat, off in zip(truth.foot_flats, truth.heel_offs[1:], strict=False)]
@@ -155,8 +154,8 @@ def shares(detector: Any) -> tuple[float, float]:
     insole.set_layout(layout(96, Foot.LEFT))
     for sample in fed:
         load = insole.update(sample.t, sample.pressure)
-        said = detector.update(sample.t, 0.01, sample.acc, sample.gyro, load)
-        found.append((sample.t, said.sigma < inf))
+        evidence = detector.update(sample.t, 0.01, sample.acc, sample.gyro, load)
+        found.append((sample.t, evidence.sigma < inf))
 
     def share(spans: list[tuple[float, float]]) -> float:
         inside = [still for t, still in found for a, b in spans[1:] if a <= t <= b]
@@ -181,14 +180,14 @@ ACC_REST, GYRO_REST = (0.0, 0.0, GRAVITY), (0.0, 0.0, 0.0)
 
 
 @pytest.mark.parametrize("detector", [TwoArea(), MaximumPressure()], ids=type)
-def test_without_cells_a_pressure_detector_says_nothing(detector: Any) -> None:
-    said = detector.update(0.0, 0.01, ACC_REST, GYRO_REST, None)
-    assert said.sigma == inf and said.hint is None
+def test_without_cells_a_pressure_detector_gives_no_evidence(detector: Any) -> None:
+    evidence = detector.update(0.0, 0.01, ACC_REST, GYRO_REST, None)
+    assert evidence.sigma == inf and evidence.hint is None
 
 
-def test_cells_that_say_airborne_overrule_a_quiet_sensor() -> None:
-    said = Cycle().update(0.0, 0.01, ACC_REST, GYRO_REST, Load(0.0, None, None, 0.0, True))
-    assert said.sigma == inf and said.hint is Phase.SWING
+def test_airborne_cells_overrule_a_still_sensor() -> None:
+    evidence = Cycle().update(0.0, 0.01, ACC_REST, GYRO_REST, Load(0.0, None, None, 0.0, True))
+    assert evidence.sigma == inf and evidence.hint is Phase.SWING
 
 
 def test_noise_of_the_evidence_grows_with_the_turning_of_the_foot() -> None:
@@ -202,34 +201,36 @@ def test_noise_of_the_evidence_grows_with_the_turning_of_the_foot() -> None:
 
 
 DT = 0.005
-ASKEW = normalise((0.3, -0.5, 0.7, 0.4))
-"""Foot to sensor."""
+SKEWED = normalise((0.3, -0.5, 0.7, 0.4))
+"""Attitude, foot to sensor frame."""
 
 
 def roll(sensor_height: SensorHeight, height: float, tilt: float = 0.0, amount: float = 0.25) -> None:
-    """One stance of 0.3 s: the foot rolls forward faster and faster about a point of the ground, the sensor `height` m
-    above it; the attitude is believed `tilt` rad off."""
+    """Add one stance of 0.3 s to `sensor_height`.
+
+    The foot rolls forward faster and faster about a point of the ground, with the sensor `height` m above it. The
+    estimated attitude is `tilt` rad off."""
     for k in range(60):
         t = k * DT
         pitch, rate, faster = amount * (t / 0.3) ** 3, amount * 3 * t**2 / 0.3**3, amount * 6 * t / 0.3**3
         attitude = (cos(pitch / 2), 0.0, sin(pitch / 2), 0.0)
         acc_world: Vec3 = (height * faster, 0.0, GRAVITY)
-        sensor = rotate(ASKEW, rotate(conjugate(attitude), acc_world))
-        gyro = rotate(ASKEW, (0.0, rate, 0.0))
+        sensor = rotate(SKEWED, rotate(conjugate(attitude), acc_world))
+        gyro = rotate(SKEWED, (0.0, rate, 0.0))
         off = (cos((pitch + tilt) / 2), 0.0, sin((pitch + tilt) / 2), 0.0)
         w, x, y, z = off
-        a, b, c, d = conjugate(ASKEW)
-        believed = (
+        a, b, c, d = conjugate(SKEWED)
+        estimated = (
             w * a - x * b - y * c - z * d, w * b + x * a + y * d - z * c,
             w * c - x * d + y * a + z * b, w * d + x * c - y * b + z * a,
         )  # fmt: skip
-        sensor_height.roll(DT, sensor, gyro, believed)
-    sensor_height.lift()
+        sensor_height.roll(DT, sensor, gyro, estimated)
+    sensor_height.end_stance()
 
 
 @pytest.mark.parametrize("height", [0.0, 0.02, 0.08, 0.12])
 @pytest.mark.parametrize("tilt", [0.0, 0.02])
-def test_a_few_stances_tell_how_high_the_sensor_is(height: float, tilt: float) -> None:
+def test_the_sensor_height_is_known_after_a_few_stances(height: float, tilt: float) -> None:
     sensor_height = SensorHeight()
     for _ in range(5):
         roll(sensor_height, height, tilt)
@@ -240,7 +241,7 @@ def test_a_foot_that_only_stands_leaves_the_height_as_it_was() -> None:
     sensor_height = SensorHeight()
     for k in range(1000):
         sensor_height.roll(0.01, (0.01 * (k % 3), 0.0, GRAVITY), (1e-4 * (k % 2), 0.0, 0.0), IDENTITY)
-    sensor_height.lift()
+    sensor_height.end_stance()
     assert sensor_height.height == pytest.approx(GUESS, abs=1e-3)
 
 
@@ -253,7 +254,7 @@ def test_a_sensor_that_is_moved_is_followed() -> None:
     assert sensor_height.height == pytest.approx(0.02, abs=0.006)
 
 
-def test_a_rolling_foot_moves_forward_and_the_evidence_says_so() -> None:
+def test_the_evidence_of_a_rolling_foot_moves_forward() -> None:
     cycle = Cycle()
     still = cycle.update(0.0, 0.0, (0.0, 0.0, GRAVITY), (0.0, 0.0, 0.0), None)
     rolling = cycle.update(0.03, 0.03, (0.0, 0.0, GRAVITY), (0.0, 0.1, 0.0), None)
@@ -271,5 +272,5 @@ def test_whatever_is_measured_the_height_stays_that_of_a_sensor_on_a_foot(rows: 
     sensor_height = SensorHeight()
     for dt, ax, ay, az, wx, wy, wz in rows:
         sensor_height.roll(dt, (ax, ay, az), (wx, wy, wz), IDENTITY)
-    sensor_height.lift()
+    sensor_height.end_stance()
     assert LOWEST <= sensor_height.height <= HIGHEST

@@ -1,4 +1,4 @@
-"""One foot navigated: whatever the mounting, with bias, gaps and sensors that are not all there."""
+"""Navigation of one foot: any mounting, bias, gaps and absent sensors."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def fed(seed: int = 5) -> tuple[Sample, ...]:
     return tuple(walker(seed).samples(Foot.LEFT, 100.0, LSM6DSOX))
 
 
-def told(samples: Any, recipe: Recipe = DEFAULT, **options: Any) -> list[Any]:
+def run_session(samples: Any, recipe: Recipe = DEFAULT, **options: Any) -> list[Any]:
     session = Session(recipe, **options)
     return session.feed(list(samples)) + session.finish()
 
@@ -63,7 +63,7 @@ def told(samples: Any, recipe: Recipe = DEFAULT, **options: Any) -> list[Any]:
 @pytest.mark.parametrize("seed", [1, 2])
 @pytest.mark.parametrize("recipe", [EXACT, LINEAR], ids=lambda recipe: recipe.name)
 def test_both_correctors_track_a_walk_of_20_m(recipe: Recipe, seed: int) -> None:
-    events = told(fed(seed), recipe, poses=True)
+    events = run_session(fed(seed), recipe, poses=True)
     true, steps = walker(seed).truth().feet[Foot.LEFT].steps, of(StrideTaken, events)
     assert len(steps) == len(true)
     for step, truth in zip(steps, true, strict=True):
@@ -77,7 +77,7 @@ def test_both_correctors_track_a_walk_of_20_m(recipe: Recipe, seed: int) -> None
 
 
 @pytest.mark.parametrize("recipe", [EXACT, LINEAR], ids=lambda recipe: recipe.name)
-def test_a_step_says_how_uncertain_it_is_and_the_way_grows_less_certain(recipe: Recipe) -> None:
+def test_a_stride_has_a_covariance_and_that_of_the_path_grows(recipe: Recipe) -> None:
     session, spread = Session(recipe), []
     for sample in fed():
         for event in session.feed(sample):
@@ -91,8 +91,8 @@ def test_a_step_says_how_uncertain_it_is_and_the_way_grows_less_certain(recipe: 
     assert spread == sorted(spread) and spread[-1] > 3.0 * spread[0]
 
 
-def test_features_of_a_step_are_those_of_a_walk() -> None:
-    for step in of(StrideTaken, told(fed()))[1:-1]:
+def test_features_of_a_stride_are_those_of_a_walk() -> None:
+    for step in of(StrideTaken, run_session(fed()))[1:-1]:
         assert 0.01 < step.features.clearance < 0.25
         assert 2.5 < step.features.peak_speed < 7.0
         assert radians(40) < step.features.swing_pitch < radians(130)
@@ -106,7 +106,7 @@ _QUATS = (
 
 
 def turned(sample: Sample, mounting: tuple[float, float, float, float]) -> Sample:
-    """The same foot with the sensor turned within the shoe."""
+    """Return the sample of a sensor that is turned within the shoe."""
     back = conjugate(mounting)
     return evolve(sample, acc=rotate(back, sample.acc), gyro=rotate(back, sample.gyro))
 
@@ -116,9 +116,9 @@ def turned(sample: Sample, mounting: tuple[float, float, float, float]) -> Sampl
 @example((0.0, 0.0, 1.0, 0.0))
 @example(normalise((1.0, 1.0, 0.0, 0.0)))
 @settings(max_examples=8)
-def test_steps_are_the_same_however_the_sensor_is_turned(mounting: tuple[float, float, float, float]) -> None:
-    plain = of(StrideTaken, told(fed()))
-    other = of(StrideTaken, told(turned(sample, mounting) for sample in fed()))
+def test_strides_do_not_depend_on_the_mounting(mounting: tuple[float, float, float, float]) -> None:
+    plain = of(StrideTaken, run_session(fed()))
+    other = of(StrideTaken, run_session(turned(sample, mounting) for sample in fed()))
     assert len(other) == len(plain)
     for a, b in zip(plain, other, strict=True):
         assert b.t_end == pytest.approx(a.t_end, abs=0.015)
@@ -127,9 +127,9 @@ def test_steps_are_the_same_however_the_sensor_is_turned(mounting: tuple[float, 
         assert b.heading_change == pytest.approx(a.heading_change, abs=0.01)
 
 
-def test_a_sensor_on_the_laces_finds_the_same_steps_as_one_in_the_sole() -> None:
+def test_a_sensor_on_the_laces_finds_the_same_strides_as_one_in_the_sole() -> None:
     mounting = Mounting(ON_INSTEP.position, normalise((0.7, 0.1, -0.4, 0.2)))
-    events = told(walker().samples(Foot.LEFT, 100.0, LSM6DSOX, mounting=mounting))
+    events = run_session(walker().samples(Foot.LEFT, 100.0, LSM6DSOX, mounting=mounting))
     true = walker().truth({Foot.LEFT: mounting}).feet[Foot.LEFT].steps
     steps = of(StrideTaken, events)
     assert len(steps) == len(true)
@@ -163,8 +163,10 @@ def test_the_bias_of_the_gyroscope_is_learnt_while_the_wearer_stands() -> None:
 
 
 @pytest.mark.parametrize("recipe", [EXACT, LINEAR], ids=lambda recipe: recipe.name)
-def test_after_a_rest_a_bias_does_not_bend_the_way(recipe: Recipe) -> None:
-    plain, other = (of(StrideTaken, told(items, recipe)) for items in (fed(), [biased(sample) for sample in fed()]))
+def test_after_a_rest_a_bias_does_not_bend_the_path(recipe: Recipe) -> None:
+    plain, other = (
+        of(StrideTaken, run_session(items, recipe)) for items in (fed(), [biased(sample) for sample in fed()])
+    )
     assert len(other) == len(plain)
     assert other[-1].position == pytest.approx(plain[-1].position, abs=0.1)
     assert sum(step.heading_change for step in other) == pytest.approx(
@@ -174,34 +176,34 @@ def test_after_a_rest_a_bias_does_not_bend_the_way(recipe: Recipe) -> None:
 
 def test_a_turn_that_is_walked_is_not_taken_for_a_bias() -> None:
     route = Route().stand(2.0).walk(3.0, 1.2).turn(pi / 2, radius=2.0).walk(3.0).stop(1.0)
-    steps = of(StrideTaken, told(Walker(route, seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)))
+    steps = of(StrideTaken, run_session(Walker(route, seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)))
     assert sum(step.heading_change for step in steps) == pytest.approx(pi / 2, abs=0.06)
 
 
-def test_a_wrong_scale_is_said_once_by_the_link_that_knows_the_range() -> None:
+def test_a_wrong_scale_is_reported_once_by_the_link_that_knows_the_range() -> None:
     def wrong(packet: Packet) -> Packet:
         if packet.channel != "insole/info":
             return packet
-        told = parse_info(packet.data)
-        return evolve(packet, data=build_info(evolve(told, acc_scale=0.75 * told.acc_scale)))
+        info = parse_info(packet.data)
+        return evolve(packet, data=build_info(evolve(info, acc_scale=0.75 * info.acc_scale)))
 
     session = Session()
     events = session.feed([wrong(packet) for packet in emulate(Route().stand(4.0).walk(4.0), seed=1).packets])
-    said = of(ScaleSuspect, events)
-    assert {event.site for event in said} == {Site.LEFT_FOOT, Site.RIGHT_FOOT} and len(said) == 2
-    assert all("full scale assumed" in event.suggestion for event in said)
+    reported = of(ScaleSuspect, events)
+    assert {event.site for event in reported} == {Site.LEFT_FOOT, Site.RIGHT_FOOT} and len(reported) == 2
+    assert all("full scale assumed" in event.suggestion for event in reported)
 
 
 def test_an_accelerometer_of_the_wrong_range_is_named_and_one_a_little_off_is_put_right() -> None:
     def scaled(k: float) -> list[Sample]:
         return [evolve(s, acc=(k * s.acc[0], k * s.acc[1], k * s.acc[2])) for s in fed()]
 
-    (said,) = of(ScaleSuspect, told(scaled(0.5)))
-    assert said.magnitude == pytest.approx(0.5 * GRAVITY, rel=0.02) and "2" in said.suggestion
-    off = told(scaled(1.03))
+    (reported,) = of(ScaleSuspect, run_session(scaled(0.5)))
+    assert reported.magnitude == pytest.approx(0.5 * GRAVITY, rel=0.02) and "2" in reported.suggestion
+    off = run_session(scaled(1.03))
     assert of(ScaleSuspect, off) == []
     assert [s.length for s in of(StrideTaken, off)] == pytest.approx(
-        [s.length for s in of(StrideTaken, told(fed()))], abs=0.02
+        [s.length for s in of(StrideTaken, run_session(fed()))], abs=0.02
     )
 
 
@@ -209,7 +211,7 @@ def test_an_accelerometer_of_the_wrong_range_is_named_and_one_a_little_off_is_pu
 @pytest.mark.parametrize("length", [0.06, 0.3, 3.0])
 def test_after_a_gap_the_walk_goes_on(recipe: Recipe, length: float) -> None:
     start = walker().truth().feet[Foot.LEFT].toe_offs[4] + 0.1
-    events = told([s for s in fed() if not start < s.t < start + length], recipe)
+    events = run_session([s for s in fed() if not start < s.t < start + length], recipe)
     (gap,) = of(SampleGap, events)
     assert gap.duration == pytest.approx(length, abs=0.02) and gap.site is LEFT
     steps = of(StrideTaken, events)
@@ -220,61 +222,61 @@ def test_after_a_gap_the_walk_goes_on(recipe: Recipe, length: float) -> None:
     assert len(after) >= 4
     for step, truth in after[1:]:
         assert not step.degraded
-        # linear dedrift has only the pull of gravity to right the tilt that the gap cost
+        # linear dedrift corrects the tilt error of the gap only by gravity
         assert step.length == pytest.approx(truth.length, abs=0.06 if recipe is EXACT else 0.10)
 
 
 @pytest.mark.parametrize("first", [1e-6, 0.1, 5.0])
-def test_a_strange_first_interval_is_soon_forgotten(first: float) -> None:
-    begin, *others = fed()[2:]
-    start = evolve(begin, t=others[0].t - first)
-    events = told([start, *others])
+def test_an_unusual_first_interval_has_no_lasting_effect(first: float) -> None:
+    second, *others = fed()[2:]
+    start = evolve(second, t=others[0].t - first)
+    events = run_session([start, *others])
     assert len(of(SampleGap, events)) <= 10
     assert not any(step.degraded for step in of(StrideTaken, events)[1:])
-    with_gap = told([start, *(s for s in others if not 8.0 < s.t < 8.1)])
+    with_gap = run_session([start, *(s for s in others if not 8.0 < s.t < 8.1)])
     assert len(of(SampleGap, with_gap)) == len(of(SampleGap, events)) + 1
 
 
-def test_another_rate_is_no_gap_for_long() -> None:
-    events = told([s for k, s in enumerate(fed()) if s.t < 5.0 or k % 3 == 0])
+def test_another_rate_causes_only_a_few_gaps() -> None:
+    events = run_session([s for k, s in enumerate(fed()) if s.t < 5.0 or k % 3 == 0])
     assert 1 <= len(of(SampleGap, events)) <= 12
     assert sum(step.degraded for step in of(StrideTaken, events)) <= 2
 
 
-def test_a_saturated_sample_degrades_its_step_and_no_other() -> None:
+def test_a_saturated_sample_degrades_only_its_stride() -> None:
     swing = walker().truth().feet[Foot.LEFT].toe_offs[3] + 0.1
-    steps = of(StrideTaken, told(evolve(s, saturated=swing < s.t < swing + 0.03) for s in fed()))
+    steps = of(StrideTaken, run_session(evolve(s, saturated=swing < s.t < swing + 0.03) for s in fed()))
     assert [k for k, step in enumerate(steps) if step.degraded] == [3]
 
 
 @pytest.mark.parametrize("lacking", ["acc", "gyro"])
-def test_without_one_of_its_sensors_a_foot_has_no_track_and_that_is_said_once(lacking: str) -> None:
-    events = told(evolve(sample, **{lacking: None}) for sample in fed()[:500])
-    (said,) = of(Limitation, events)
-    assert {"acc": "accelerometer", "gyro": "gyroscope"}[lacking] in said.what
-    # what the wearer does, an accelerometer tells by itself
-    assert all(isinstance(event, ActivityChanged) for event in events if event is not said)
+def test_a_foot_without_one_of_its_sensors_has_no_track_and_one_limitation(lacking: str) -> None:
+    events = run_session(evolve(sample, **{lacking: None}) for sample in fed()[:500])
+    (reported,) = of(Limitation, events)
+    assert {"acc": "accelerometer", "gyro": "gyroscope"}[lacking] in reported.what
+    # an accelerometer alone gives the activity
+    assert all(isinstance(event, ActivityChanged) for event in events if event is not reported)
 
 
 @pytest.mark.parametrize("site", [site for site in Site if site.foot is None])
-def test_a_site_that_is_no_foot_is_a_limitation_once_and_disturbs_nothing(site: Site) -> None:
+def test_a_site_that_is_no_foot_is_one_limitation_and_changes_nothing_else(site: Site) -> None:
     others = (evolve(sample, t=sample.t + 0.004, site=site) for sample in fed()[:-1])
     both = sorted([*fed(), *others], key=lambda s: s.t)
-    events = told(both)
-    (said,) = of(Limitation, events)
-    assert said.site is site and site.value in said.what
-    assert [event for event in events if event is not said] == told(fed())
+    events = run_session(both)
+    (reported,) = of(Limitation, events)
+    assert reported.site is site and site.value in reported.what
+    assert [event for event in events if event is not reported] == run_session(fed())
 
 
 def test_the_first_heading_is_the_worlds_x() -> None:
     for yaw in (0.0, 2.0, -1.0):
-        steps = of(StrideTaken, told(turned(sample, from_yaw(yaw)) for sample in fed()))
+        steps = of(StrideTaken, run_session(turned(sample, from_yaw(yaw)) for sample in fed()))
         x, y, _ = steps[0].displacement
         assert x > 0.5 and abs(y) < 0.05
         assert steps[-1].position[0] == pytest.approx(20.0, rel=0.05)
 
 
-def test_a_foot_that_only_stands_takes_no_step() -> None:
+def test_a_standing_foot_takes_no_stride() -> None:
     still = Walker(Route().stand(6.0), seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)
-    assert of(StrideTaken, told(still)) == []
-    assert of(HeelStrike, told(still)) == of(ToeOff, told(still)) == []
+    assert of(StrideTaken, run_session(still)) == []
+    assert of(HeelStrike, run_session(still)) == of(ToeOff, run_session(still)) == []

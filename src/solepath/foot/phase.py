@@ -1,7 +1,7 @@
-"""The phases of a foot and the support of a body, as tables.
+"""Tables of the phases of a foot and of the support of the body.
 
-Rule 1: every transition there is stands here. Rule 2: this file knows no number; what turns numbers into cues, with
-hysteresis and debounce, is in cues/.
+All transitions are in these tables. The tables contain no numbers: cues/ turns numbers into cues, with hysteresis and
+debounce.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from ..types import Phase, Support
 
 
 class Cue(Enum):
-    """What a foot was seen to do."""
+    """Signs of gait events in the samples of one foot."""
 
-    CONTACT = "contact"  # it touched the ground
+    CONTACT = "contact"  # the foot touched the ground
     FLAT = "flat"  # the whole sole is down and still
-    LIFT = "lift"  # the heel came up
+    LIFT = "lift"  # the heel left the ground
     CLEAR = "clear"  # the toe left the ground
 
 
@@ -26,7 +26,7 @@ PHASES: dict[Phase, dict[Cue, Phase]] = {
     Phase.LOADING: {
         Cue.CONTACT: Phase.LOADING,
         Cue.FLAT: Phase.STATIONARY,
-        Cue.LIFT: Phase.PUSH_OFF,  # a runner rolls on without ever being flat
+        Cue.LIFT: Phase.PUSH_OFF,  # a runner's foot may never be flat
         Cue.CLEAR: Phase.SWING,
     },
     Phase.STATIONARY: {
@@ -36,18 +36,19 @@ PHASES: dict[Phase, dict[Cue, Phase]] = {
         Cue.CLEAR: Phase.SWING,  # the foot was lifted as a whole
     },
     Phase.PUSH_OFF: {
-        Cue.CONTACT: Phase.LOADING,  # the heel came down again without the toe ever leaving
+        Cue.CONTACT: Phase.LOADING,  # the heel came down again before toe-off
         Cue.FLAT: Phase.STATIONARY,
         Cue.LIFT: Phase.PUSH_OFF,
         Cue.CLEAR: Phase.SWING,
     },
     Phase.SWING: {
         Cue.CONTACT: Phase.LOADING,
-        Cue.FLAT: Phase.STATIONARY,  # it landed flat
+        Cue.FLAT: Phase.STATIONARY,  # the foot landed flat
         Cue.LIFT: Phase.SWING,
         Cue.CLEAR: Phase.SWING,
     },
 }
+"""Next phase for each phase and cue."""
 
 TO_COME: dict[Phase, tuple[Cue, ...]] = {
     Phase.STATIONARY: (Cue.LIFT, Cue.CLEAR, Cue.CONTACT, Cue.FLAT),
@@ -55,17 +56,18 @@ TO_COME: dict[Phase, tuple[Cue, ...]] = {
     Phase.SWING: (Cue.CONTACT, Cue.FLAT),
     Phase.LOADING: (Cue.FLAT,),
 }
-"""The cues of a whole step that are still to come."""
+"""Cues of a stride that are still to come in each phase."""
 
-BEGINS: dict[Phase, type[HeelStrike] | type[FootFlat] | type[HeelOff] | type[ToeOff]] = {
+EVENT_OF_PHASE: dict[Phase, type[HeelStrike] | type[FootFlat] | type[HeelOff] | type[ToeOff]] = {
     Phase.LOADING: HeelStrike,
     Phase.STATIONARY: FootFlat,
     Phase.PUSH_OFF: HeelOff,
     Phase.SWING: ToeOff,
 }
+"""Event that starts each phase."""
 
 _BOTH, _LEFT, _RIGHT, _NONE = Support.DOUBLE, Support.LEFT, Support.RIGHT, Support.FLIGHT
-SUPPORT: dict[Phase, dict[Phase, Support]] = {  # left foot, then right foot
+SUPPORT: dict[Phase, dict[Phase, Support]] = {
     left: dict(zip((Phase.LOADING, Phase.STATIONARY, Phase.PUSH_OFF, Phase.SWING), row, strict=True))
     for left, row in (
         (Phase.LOADING, (_BOTH, _BOTH, _BOTH, _LEFT)),
@@ -74,10 +76,11 @@ SUPPORT: dict[Phase, dict[Phase, Support]] = {  # left foot, then right foot
         (Phase.SWING, (_RIGHT, _RIGHT, _RIGHT, _NONE)),
     )
 }
+"""Support of the body for the phases of the left foot, then of the right foot."""
 
 
 def describe() -> str:
-    """Both tables as text, for people."""
+    """Return both tables as text."""
     return in_columns(
         [
             ["phase", *(cue.value for cue in Cue)],
@@ -90,5 +93,5 @@ def describe() -> str:
 
 
 def in_columns(rows: Iterable[Iterable[str]], width: int = 12) -> str:
-    """Rows of words as lines of columns, each `width` characters wide."""
+    """Return rows of words as lines of columns, each `width` characters wide."""
     return "\n".join("".join(word.ljust(width) for word in row).rstrip() for row in rows)

@@ -1,4 +1,4 @@
-"""From foot-flat to foot-flat: the record of one step and the uncertainty of the way so far."""
+"""Record of one stride from foot-flat to foot-flat, and uncertainty of the path so far."""
 
 from __future__ import annotations
 
@@ -11,40 +11,41 @@ from ..types.vector import IDENTITY, SPLIT, ZERO, heading_turned, single, sub
 from .world import World
 
 COP_POINTS = 32
-RECENT = 32
-"""Samples of which the pitch is kept: a toe-off or heel-strike is dated back by less."""
+"""Largest number of centre-of-pressure points that a stride keeps."""
+PITCHES_KEPT = 32
+"""Number of samples of which the pitch is kept; a toe-off or heel-strike is dated back by less."""
 
 
 LONGEST_SWING = 3.0
-"""A foot that was away for longer did more than a step, s."""
+"""Longest swing of a single stride, s."""
 FASTEST = 10.0
-"""Nor does anybody run faster than this, m/s."""
+"""Largest mean speed of a stride, m/s; nobody runs faster."""
 
 
 @define
-class StretchChain:
-    """Covariance of position and heading along a chain of stretches, by dead-reckoning's rule.
+class PathCovariance:
+    """The covariance of position and heading along a chain of stretches, by the rule of dead reckoning.
 
-    A stretch d (m) of covariance C begins with the heading uncertain by s (rad): its end errs by C and by s times d
-    turned by 90 degrees. O(1) memory however long the way.
+    A stretch d (m) with covariance C starts with a heading uncertainty s (rad). Its end then errs by C, and by s times
+    d turned by 90 degrees. Memory is O(1) however long the path is.
     """
 
     position: tuple[float, float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
-    """xx, xy, xz, yy, yz, zz in m^2."""
+    """Covariance of the position: xx, xy, xz, yy, yz, zz, m^2."""
     yaw: float = 0.0
-    """rad^2."""
-    mixed: tuple[float, float] = (0.0, 0.0)
-    """Position x, y with yaw, m rad."""
+    """Variance of the heading, rad^2."""
+    position_yaw: tuple[float, float] = (0.0, 0.0)
+    """Covariance of position x and y with yaw, m rad."""
 
-    def extended(self, displacement: Vec3, stretch: tuple[float, ...]) -> StretchChain:
-        """The way with one more stretch (`Corrector.anchor`), both in the same frame."""
+    def extended(self, displacement: Vec3, stretch: tuple[float, ...]) -> PathCovariance:
+        """Return the path with one more stretch (`Corrector.anchor`), both in the same frame."""
         dx, dy, _ = displacement
         px, py = -dy, dx
         sxx, sxy, sxz, syy, syz, szz, yaw = stretch
         xx, xy, xz, y2, yz, zz = self.position
-        mx, my = self.mixed
+        mx, my = self.position_yaw
         v = self.yaw
-        return StretchChain(
+        return PathCovariance(
             (
                 xx + sxx + 2.0 * mx * px + v * px * px,
                 xy + sxy + mx * py + my * px + v * px * py,
@@ -59,116 +60,141 @@ class StretchChain:
 
 
 SHORTEST_STRIDE, LEAST_TURN = 0.06, 0.35
-"""A foot that comes down this near to where it stood, m, has taken no stride, unless it turned by this much, rad."""
+"""Smallest displacement, m, and smallest turn, rad, of a stride; one of the two is enough."""
 
 
 @define
-class StepBuilder:
-    """Gathers one foot's step while it happens."""
+class StrideBuilder:
+    """Collects the data of one foot's stride."""
 
     foot: Foot
     number: int = field(default=0, init=False)
+    """Number of the last stride, counted from 1."""
     t_start: float | None = field(default=None, init=False)
+    """Time of the foot-flat that starts the stride, s; None before any."""
     start: Vec3 = field(default=ZERO, init=False)
+    """Position at the start, navigation frame, m."""
     attitude: Quat = field(default=IDENTITY, init=False)
+    """Attitude at the start, sensor to navigation frame."""
     t_toe_off: float | None = field(default=None, init=False)
+    """Time of toe-off, s; None before it."""
     t_heel_strike: float | None = field(default=None, init=False)
+    """Time of heel-strike, s; None before it."""
     degraded: bool = field(default=False, init=False)
-    spoilt_until: float | None = field(default=None, init=False)
-    """Up to then samples were missing or saturated, s; None when nothing is wrong since times began."""
-    highest: float = field(default=0.0, init=False)
-    fastest: float = field(default=0.0, init=False)
+    """Samples of the stride are missing or saturated."""
+    degraded_until: float | None = field(default=None, init=False)
+    """Time up to which samples were missing or saturated, s; None if none were since times restarted."""
+    peak_height: float = field(default=0.0, init=False)
+    """Largest height of the sensor in the stride, navigation frame, m."""
+    peak_speed: float = field(default=0.0, init=False)
+    """Largest speed of the sensor in the stride, m/s."""
     pitch: float = field(default=0.0, init=False)
+    """Integral of the sagittal rate since the start, toe down positive, rad."""
     pitch_low: float = field(default=0.0, init=False)
+    """Smallest pitch of the stride, rad."""
     pitch_high: float = field(default=0.0, init=False)
-    pitches: list[float] = field(factory=lambda: [0.0] * RECENT, init=False)
-    """The newest ones, rad, as `single` has them; the next goes to `slot`."""
+    """Largest pitch of the stride, rad."""
+    pitches: list[float] = field(factory=lambda: [0.0] * PITCHES_KEPT, init=False)
+    """Ring buffer of the newest pitches, rad, rounded by `single`; the next goes to `slot`."""
     slot: int = field(default=0, init=False)
-    moved_at: float = field(default=0.0, init=False)
-    """When the newest one was, s."""
+    """Index of the oldest pitch."""
+    pitch_at: float = field(default=0.0, init=False)
+    """Time of the newest pitch, s."""
     toe_off_pitch: float | None = field(default=None, init=False)
+    """Pitch at toe-off, toe down positive, rad; None if unknown."""
     heel_strike_pitch: float | None = field(default=None, init=False)
-    """Toe down positive, rad."""
+    """Pitch at heel-strike, toe down positive, rad; None if unknown."""
     load_sum: float = field(default=0.0, init=False)
+    """Sum of the total load over the samples on the ground."""
     load_count: int = field(default=0, init=False)
+    """Number of samples in `load_sum`."""
     cop: list[tuple[float, float]] = field(factory=list, init=False)
-    cop_stride: int = field(default=1, init=False)
+    """Points of the centre of pressure, foot frame, m."""
+    cop_interval: int = field(default=1, init=False)
+    """Number of samples for each kept point of the centre of pressure."""
     cop_skipped: int = field(default=0, init=False)
+    """Number of samples since the last kept point."""
 
-    def begin(self, t: float, position: Vec3, attitude: Quat) -> None:
-        """The foot is flat here: a step may start. Position (m) and attitude in the navigation frame."""
+    def start_stride(self, t: float, position: Vec3, attitude: Quat) -> None:
+        """Start a stride at a foot-flat; position (m) and attitude are in the navigation frame."""
         self.t_start = t
         self.start = position
         self.attitude = attitude
         self.t_toe_off = self.t_heel_strike = None
         self.toe_off_pitch = self.heel_strike_pitch = None
-        # foot-flat is dated back, into a gap even: what is wrong after it is wrong with the new step
-        self.degraded = self.spoilt_until is not None and t < self.spoilt_until
-        self.highest = position[2]
-        self.fastest = self.pitch = self.pitch_low = self.pitch_high = 0.0
+        # foot-flat is dated back, possibly into a gap: the rest of the gap then degrades the new stride
+        self.degraded = self.degraded_until is not None and t < self.degraded_until
+        self.peak_height = position[2]
+        self.peak_speed = self.pitch = self.pitch_low = self.pitch_high = 0.0
         self.load_sum = 0.0
         self.load_count = 0
         self.cop = []
-        self.cop_stride = 1
+        self.cop_interval = 1
         self.cop_skipped = 0
 
-    def spoil(self, until: float | None) -> None:
-        """Samples up to `until`, s, are missing or saturated; None: nobody knows which, and times begin anew."""
-        self.degraded = True
-        self.spoilt_until = until
+    def mark_degraded(self, until: float | None) -> None:
+        """Mark that samples up to `until`, s, are missing or saturated.
 
-    def moved(self, t: float, dt: float, height: float, speed: float, sagittal: float) -> None:
-        """One sample: height in m, speed in m/s, sagittal rate in rad/s, 0 while its axis is not known."""
-        if height > self.highest:
-            self.highest = height
-        if speed > self.fastest:
-            self.fastest = speed
+        None means that times restart and the end is unknown."""
+        self.degraded = True
+        self.degraded_until = until
+
+    def add_motion(self, t: float, dt: float, height: float, speed: float, sagittal: float) -> None:
+        """Add one sample: height in m, speed in m/s, sagittal rate in rad/s (0 while its axis is unknown)."""
+        if height > self.peak_height:
+            self.peak_height = height
+        if speed > self.peak_speed:
+            self.peak_speed = speed
         pitch = self.pitch = self.pitch + sagittal * dt
-        self.moved_at = t
+        self.pitch_at = t
         high = SPLIT * pitch  # rounded as by `single`
         self.pitches[self.slot] = high - (high - pitch)
-        self.slot = (self.slot + 1) % RECENT
+        self.slot = (self.slot + 1) % PITCHES_KEPT
         if pitch < self.pitch_low:
             self.pitch_low = pitch
         elif pitch > self.pitch_high:
             self.pitch_high = pitch
 
-    def left(self, t: float, interval: float) -> None:
-        """The toe left the ground at `t`, s. `interval`: the usual one between samples, s."""
+    def add_toe_off(self, t: float, interval: float) -> None:
+        """Set the toe-off at `t`, s; `interval` is the usual interval between samples, s."""
         self.t_toe_off = t
         self.toe_off_pitch = self._pitch_at(t, interval)
 
-    def struck(self, t: float, interval: float) -> None:
-        """The foot touched the ground at `t`, s."""
+    def add_heel_strike(self, t: float, interval: float) -> None:
+        """Set the heel-strike at `t`, s; `interval` is the usual interval between samples, s."""
         self.t_heel_strike = t
         self.heel_strike_pitch = self._pitch_at(t, interval)
 
     def _pitch_at(self, t: float, interval: float) -> float | None:
-        """Between the two samples around `t`, rad; None when a gap hides them, and before the axis is known: nothing
-        has turned."""
-        if t > self.moved_at or self.pitches[self.slot - 2] == 0.0:
+        """Return the pitch at `t`, interpolated between two samples, rad.
+
+        Returns None when a gap hides these samples, and before the sagittal axis is known, because the pitch is then
+        0."""
+        if t > self.pitch_at or self.pitches[self.slot - 2] == 0.0:
             return None
-        back = (self.moved_at - t) / interval if interval > 0.0 else 0.0
-        back = min(max(back, 0.0), RECENT - 2.0)
+        back = (self.pitch_at - t) / interval if interval > 0.0 else 0.0
+        back = min(max(back, 0.0), PITCHES_KEPT - 2.0)
         k = int(back)
         later, earlier = self.pitches[self.slot - 1 - k], self.pitches[self.slot - 2 - k]
         return later + (back - k) * (earlier - later)
 
-    def loaded(self, total: float, cop: tuple[float, float] | None) -> None:
-        """One sample of a foot on the ground. Keeps at most COP_POINTS points, evenly spaced, by thinning."""
+    def add_load(self, total: float, cop: tuple[float, float] | None) -> None:
+        """Add one sample of a foot on the ground.
+
+        At most COP_POINTS points stay, evenly spaced: when there are more, every second one is dropped."""
         self.load_sum += total
         self.load_count += 1
         if cop is None:
             return
         self.cop_skipped += 1
-        if self.cop_skipped < self.cop_stride:
+        if self.cop_skipped < self.cop_interval:
             return
         self.cop_skipped = 0
         x, y = cop
         self.cop.append((single(x), single(y)))
         if len(self.cop) > COP_POINTS:
             self.cop = self.cop[::2]
-            self.cop_stride *= 2
+            self.cop_interval *= 2
 
     def finish(
         self,
@@ -182,9 +208,11 @@ class StepBuilder:
         error_index: float | None = None,
         rise: float | None = None,
     ) -> StrideTaken | None:
-        """The foot is flat again: the step, if it was one. `position`, `attitude` and `stretch` as `begin` had them."""
+        """Return the stride that ends at this foot-flat; None if the foot made none.
+
+        `position`, `attitude` and `stretch` are in the same frame as the arguments of `start_stride`."""
         if self.t_start is None or self.t_toe_off is None or max(self.t_start, self.t_toe_off) > t:
-            return None  # no step, or one that times beginning anew have cut in two
+            return None  # no stride, or a restart of times has cut it in two
         displacement = world.vector(sub(position, self.start))
         length, dz = hypot(displacement[0], displacement[1]), displacement[2]
         turn = heading_turned(self.attitude, attitude)
@@ -208,11 +236,11 @@ class StepBuilder:
             t_heel_strike=self.t_heel_strike,
             degraded=self.degraded or t - self.t_toe_off > LONGEST_SWING or length > FASTEST * (t - self.t_start),
             features=StrideFeatures(
-                clearance=self.highest - max(position[2], self.start[2]),
-                peak_speed=self.fastest,
+                clearance=self.peak_height - max(position[2], self.start[2]),
+                peak_speed=self.peak_speed,
                 swing_pitch=self.pitch_high - self.pitch_low,
                 toe_off_angle=self.toe_off_pitch,
-                # the sole that lies flat again is what it is measured against
+                # the reference is the sole at the foot-flat that ends the stride
                 heel_strike_angle=None if self.heel_strike_pitch is None else self.pitch - self.heel_strike_pitch,
                 contact_load=self.load_sum / self.load_count if self.load_count else None,
                 cop=tuple(self.cop),

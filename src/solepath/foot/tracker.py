@@ -1,7 +1,7 @@
-"""One foot, one sample at a time: evidence, navigation, cues.
+"""Tracker of one foot: stance evidence, navigation and cues, one sample at a time.
 
-Order within a sample: gap, calibration, prediction, evidence, correction, cues, and what follows from those (gait.py).
-Everything that happens is an event; the live position is read from `position` after each sample.
+Order within a sample: gap, calibration, prediction, evidence, correction, cues, phases and strides (gait.py). The
+results are events; `position` is the live position after each sample.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from ..events import Event, FootMoved, SampleGap
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Quat, Sample, Vec3
 from ..types.attrs import define, evolve, field
 from ..types.vector import ZERO
-from .attitude import Levelling, Rest, suspected
+from .attitude import Levelling, Rest, check_scale
 from .cues.cues import Cues, SeenCue
 from .cues.gait_cues import GaitCues
 from .gait import Gait
-from .gaps.crossing import cross
+from .gaps.crossing import cross_gap
 from .gaps.gap import SHORTEST
-from .limits import WITHOUT, Limits
+from .limitations import LACKING_TIME, Limitations
 from .navigate.corrector import LONGEST_BRIDGE, Corrector
 from .pressure.insole import InsoleLoads
 from .pressure.sole import Sole
@@ -31,15 +31,15 @@ from .view import NOTHING_HAPPENED, AfterEvents, FootPose, FootView, PressedCell
 from .world import Covariance3
 
 SWING: Final = Phase.SWING
-"""Looked up once: a word of an enum costs as much as five multiplications."""
+"""Local name of `Phase.SWING`, because one look-up in the enum costs as much as five multiplications."""
 
 STILL = 0.35
-"""A foot that is faster than this after the correction is not flat, however much noise the evidence has, m/s."""
+"""Speed after the correction above which a foot is not flat, however noisy the evidence is, m/s."""
 
 
 @define
 class FootTracker:
-    """Feed it the samples of one foot in the order of their time."""
+    """Tracks one foot from its samples, which must be in order of time."""
 
     foot: Foot
     detector: Detector
@@ -47,42 +47,43 @@ class FootTracker:
     settings: FootSettings = FootSettings()
     cues: Cues = field(factory=GaitCues)
     sole: Sole = field()
-    """Its cells."""
+    """Pressure cells of the foot."""
     t: float | None = field(default=None, init=False)
-    """The newest sample, s."""
+    """Time of the newest sample, s; None before any."""
     moved_at: float | None = field(default=None, init=False)
-    """The newest sample with both acc and gyro, s."""
-    pressed_at: float | None = field(default=None, init=False)
-    """The newest sample that lacked one of them, s."""
+    """Time of the newest sample with both acc and gyro, s; None before any."""
+    partial_at: float | None = field(default=None, init=False)
+    """Time of the newest sample without acc or gyro, s; None before any."""
     seen_at: float | None = field(default=None, init=False)
-    """The newest sample after which the body had a view, s."""
+    """Time of the newest sample after which the body had a view, s; None before any."""
     load: Load | None = field(default=None, init=False)
-    """The newest load, when a sample without acc or gyro brought it."""
+    """Newest load, when it came with a sample without acc or gyro."""
     rhythm: Rhythm = field(factory=Rhythm, init=False)
     levelling: Levelling = field(factory=Levelling, init=False)
     levelled: bool = field(default=False, init=False)
+    """The first attitude is known."""
     rest: Rest = field(factory=Rest, init=False)
     gait: Gait = field(init=False)
-    limits: Limits = field(init=False)
+    limitations: Limitations = field(init=False)
     scale_reported: bool = field(default=False, init=False)
-    """That acc does not read 1 g at rest has been said, or is another's to say."""
+    """A wrong accelerometer scale was reported, or another part reports it."""
 
     def __attrs_post_init__(self) -> None:
         self.gait = Gait(self.foot)
-        self.limits = Limits(self.foot)
+        self.limitations = Limitations(self.foot)
 
     @sole.default
-    def _bare(self) -> Sole:
+    def _default_sole(self) -> Sole:
         return Sole(self.foot, InsoleLoads(), self.settings)
 
     @property
     def phase(self) -> Phase:
-        """What the foot is doing."""
+        """Phase of the foot."""
         return self.gait.phase
 
     @property
     def position(self) -> Vec3:
-        """Live position of the sensor, world frame, m; where it was first seen is the origin."""
+        """Live position of the sensor, world frame, m; the origin is its first position."""
         return self.gait.world.vector(self.corrector.position)
 
     @property
@@ -92,31 +93,32 @@ class FootTracker:
 
     @property
     def attitude(self) -> Quat:
-        """Sensor to world."""
+        """Live attitude, sensor to world frame."""
         return self.gait.world.attitude(self.corrector.attitude)
 
     @property
     def covariance(self) -> Covariance3:
-        """Of `position`, m^2."""
+        """Covariance of the live position, world frame, m^2."""
         return self.gait.covariance(self.corrector)
 
     @property
     def pose(self) -> FootPose | None:
-        """Where the foot is; None before any sample."""
+        """Position of the foot with its covariance; None before any sample."""
         return None if self.t is None else FootPose(self.foot, self.t, self.moved_at, self.position, self.covariance)
 
     def view(
         self, sample: Sample, known_at: float, events: tuple[Event, ...], spread: bool, other: float | None
     ) -> FootView:
-        """What a part of the body may see after `sample`, of which `events` came. `spread`: with the covariance.
-        `other`: `seen_at` of the other foot."""
+        """Return the view of the foot after `sample`, which caused `events`.
+
+        The view contains the covariance if `spread` is True. `other` is `seen_at` of the other foot, s."""
         corrector, gait, cells, rest = self.corrector, self.gait, self.sole.insole.cells, self.rest
         after, pressed = NOTHING_HAPPENED, None
         if events:
             takes_shifts, covariance = (
                 (hasattr(corrector, "shift"), gait.covariance(corrector)) if spread else (False, None)
             )
-            after = AfterEvents(gait.step.attitude, self.sole.insole.layout, other, takes_shifts, covariance)
+            after = AfterEvents(gait.stride.attitude, self.sole.insole.layout, other, takes_shifts, covariance)
         if cells:
             insole = self.sole.insole
             layout = insole.layout
@@ -131,32 +133,35 @@ class FootTracker:
         )  # fmt: skip
 
     def shift(self, yaw: float, by: Vec3) -> None:
-        """From here on the foot heads `yaw` rad further and stands `by` m off (world frame): its live track and its
-        next strides; those that were taken stay as they were reported, and none gets longer by it. To be called between
-        a foot-flat and the next sample; nothing happens where the corrector cannot be shifted."""
+        """Turn the foot by `yaw` rad and move it by `by` m, world frame, from now on.
+
+        The live track and the next strides change; strides that were reported stay, and no stride gets longer. Call it
+        between a foot-flat and the next sample. A corrector without `shift` is not changed."""
         move = getattr(self.corrector, "shift", None)
         if move is not None:
             move(yaw, self.gait.shift(yaw, by))
 
     def set_layout(self, layout: Layout) -> None:
-        """The device said where its pressure cells are."""
-        self.sole.set_layout(layout, self.limits)
+        """Set the layout of the pressure cells that the device has sent."""
+        self.sole.set_layout(layout, self.limitations)
         self._set_layouts(layout)
 
     def _set_layouts(self, layout: Layout) -> None:
         self.sole.layout_changed = False
         self.detector.set_layout(layout)
         self.cues.set_layout(layout)
-        self.limits.later(self.detector.lacking)
+        self.limitations.queue(self.detector.lacking)
 
     def reset(self) -> None:
-        """The clock of the samples begins anew, before or after the old one; what the foot did between is unknown."""
+        """Discard what depends on unbroken samples, because the clock of the samples restarts.
+
+        The new times may be before or after the old ones; the motion in between is unknown."""
         if self.t is not None and self.levelled:
             self.corrector.bridge(inf)
-        self.t = self.moved_at = self.pressed_at = self.seen_at = self.limits.since = self.load = None
-        self.limits.odd_since = None
+        self.t = self.moved_at = self.partial_at = self.seen_at = self.limitations.lacking_since = self.load = None
+        self.limitations.mismatch_since = None
         self.gait.reset()
-        # Windows over the old times would wait for the new ones to catch up. What was learnt stays.
+        # Windows that hold old times would wait for the new times to reach them. What was learnt stays.
         detector: Any = self.detector
         self.detector = evolve(detector)
         self.cues.restart()
@@ -167,47 +172,49 @@ class FootTracker:
         self.rest.reset()
 
     def feed(self, sample: Sample) -> list[Event]:
-        """One sample of this foot. A sample that cannot be used changes nothing and is named in an event."""
+        """Return the events of one sample of this foot.
+
+        A sample that cannot be used changes nothing except that an event names it."""
         t, acc, gyro = sample.t, sample.acc, sample.gyro
         whole = acc is not None and gyro is not None
-        last = self.moved_at if whole else self.pressed_at
+        last = self.moved_at if whole else self.partial_at
         why_not = rejection_reason(sample, last)
         if why_not is not None:
             return [rejected(sample, why_not, last)]
         known_at = t if sample.known_at is None else max(t, sample.known_at)
         if acc is None and gyro is None and not sample.pressure:
-            return []  # a barometer's or magnetometer's: not a matter of the foot
+            return []  # from a barometer or magnetometer, which a foot does not use
         events: list[Event] = []
-        if self.limits.waiting:
-            self.limits.flush(t, known_at, events)
+        if self.limitations.pending:
+            self.limitations.flush(t, known_at, events)
         if self.t is None or t > self.t:
             self.t = t
         if sample.saturated:
-            self.gait.step.spoil(t)
+            self.gait.stride.mark_degraded(t)
         sole, load = self.sole, None
         if sample.pressure or sole.pressed:
-            load = sole.press(sample, known_at, self.gait.phase, self.limits, events)
+            load = sole.add_sample(sample, known_at, self.gait.phase, self.limitations, events)
             if sole.layout_changed and sole.insole.layout is not None:
                 self._set_layouts(sole.insole.layout)
         if load is not None:
             gait = self.gait
-            if gait.phase is not SWING and gait.step.t_toe_off is None:
-                gait.step.loaded(sole.insole.sum, load.centre)
+            if gait.phase is not SWING and gait.stride.t_toe_off is None:
+                gait.stride.add_load(sole.insole.sum, load.centre)
         elif self.settings.needs_pressure and not sole.pressed:
             what = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
-            self.limits.lacks(what, t, known_at, events)
+            self.limitations.report_lacking(what, t, known_at, events)
             return events
         if not whole:
-            self.pressed_at = t
-            if self.moved_at is not None and t - self.moved_at < WITHOUT:
-                self.load = load  # cells and inertial sensor come apart; the next inertial sample takes the load along
+            self.partial_at = t
+            if self.moved_at is not None and t - self.moved_at < LACKING_TIME:
+                self.load = load  # cells and inertial sensor send separately: the next inertial sample uses this load
                 return events
         dt = 0.0 if last is None else t - last
         if last is not None and (self.rhythm.update(dt) or dt > LONGEST_BRIDGE):
             dt = self._gap(last, t, known_at, sample, events)
         if acc is not None and gyro is not None:
             self.moved_at = t
-            self.limits.since = None
+            self.limitations.lacking_since = None
             if load is None and self.load is not None:
                 load, self.load = self.load, None
             if sample.quat is not None:
@@ -216,22 +223,24 @@ class FootTracker:
             return events
         lacking = "accelerometer" if acc is None else "gyroscope"
         what = f"no {lacking} on the {self.foot.value} foot: no steps and no track from it"
-        self.limits.lacks(what, t, known_at, events)
+        self.limitations.report_lacking(what, t, known_at, events)
         if load is not None:
             for seen in self.cues.alone(t, dt, load, self.phase):
-                self._see(seen, known_at, events)
+                self._apply_cue(seen, known_at, events)
         return events
 
     def _gap(self, last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
-        """Name a gap between two samples; returns the time to integrate over, s."""
+        """Report a gap between two samples; return the time to integrate over, s."""
         events.append(SampleGap(t=last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=t - last))
-        self.gait.step.spoil(t)
+        self.gait.stride.mark_degraded(t)
         if not self.levelled:
             return t - last
         if t - last <= SHORTEST or sample.acc is None or sample.gyro is None:
             return self.corrector.bridge(t - last)
-        seen = self.rest.calibrated(sample.acc, sample.gyro)
-        return cross(self.gait, self.corrector, self.cues, last, t, known_at, seen, self.rhythm.usual or 0.0, events)
+        seen = self.rest.calibrate(sample.acc, sample.gyro)
+        return cross_gap(
+            self.gait, self.corrector, self.cues, last, t, known_at, seen, self.rhythm.usual or 0.0, events
+        )
 
     def _inertial(
         self, t: float, dt: float, known_at: float, acc: Vec3, gyro: Vec3, saturated: bool,
@@ -239,7 +248,7 @@ class FootTracker:
     ) -> None:  # fmt: skip
         rest, corrector, gait = self.rest, self.corrector, self.gait
         if rest.update(t, acc, gyro):
-            suspect = None if self.scale_reported else suspected(t, known_at, SITE_OF_FOOT[self.foot], rest.magnitude)
+            suspect = None if self.scale_reported else check_scale(t, known_at, SITE_OF_FOOT[self.foot], rest.magnitude)
             if suspect is not None:
                 self.scale_reported = True
                 events.append(suspect)
@@ -257,33 +266,33 @@ class FootTracker:
             if first is not None:
                 corrector.start(*first)
                 self.levelled = True
-                gait.step.begin(t, ZERO, corrector.attitude)
+                gait.stride.start_stride(t, ZERO, corrector.attitude)
             if self.settings.poses:
-                self._say_where(t, known_at, events)
+                self._report_motion(t, known_at, events)
             return
-        believed = corrector.correct(t, stance)
+        accepted = corrector.correct(t, stance)
         vx, vy, vz = corrector.velocity
         speed = sqrt(vx * vx + vy * vy + vz * vz)
         cues = self.cues
-        seen = cues.update(t, dt, acc, gyro, believed and speed < STILL, speed, gait.phase, load, stance)
+        seen = cues.update(t, dt, acc, gyro, accepted and speed < STILL, speed, gait.phase, load, stance)
         if cues.mark is not None:
             corrector.mark(t, cues.mark)
         template, position = gait.template, corrector.position
-        if template.lifted is not None and t >= template.due:
-            template.keep(t, corrector.attitude, corrector.velocity, position, acc, gyro)
-        gait.step.moved(t, dt, position[2], speed, cues.sagittal)
+        if template.t_heel_off is not None and t >= template.due:
+            template.add_moment(t, corrector.attitude, corrector.velocity, position, acc, gyro)
+        gait.stride.add_motion(t, dt, position[2], speed, cues.sagittal)
         if seen:
             for one in seen:
-                self._see(one, known_at, events)
-        elif not gait.headed:
-            gait.world.find(position)
+                self._apply_cue(one, known_at, events)
+        elif not gait.heading_settled:
+            gait.world.find_heading(position)
         if self.settings.poses:
-            self._say_where(t, known_at, events)
+            self._report_motion(t, known_at, events)
 
-    def _say_where(self, t: float, known_at: float, events: list[Event]) -> None:
+    def _report_motion(self, t: float, known_at: float, events: list[Event]) -> None:
         p, v = self.position, self.velocity
         events.append(FootMoved(t=t, known_at=known_at, foot=self.foot, position=p, velocity=v, phase=self.phase))
 
-    def _see(self, seen: SeenCue, known_at: float, events: list[Event]) -> None:
+    def _apply_cue(self, seen: SeenCue, known_at: float, events: list[Event]) -> None:
         corrector = self.corrector if self.levelled else None
-        events += self.gait.see(seen, known_at, corrector, self.rhythm.usual or 0.0)
+        events += self.gait.apply_cue(seen, known_at, corrector, self.rhythm.usual or 0.0)

@@ -1,4 +1,4 @@
-"""What a part of the body may see of a foot: a record of one foot at one sample, and nothing that it could change."""
+"""Read-only view of one foot at one sample, for the parts of the body."""
 
 from __future__ import annotations
 
@@ -12,87 +12,90 @@ from .world import Covariance3
 
 
 class PressedCells(NamedTuple):
-    """What the pressure cells of one sample show, calibrated and noise taken off."""
+    """The values of the pressure cells of one sample, calibrated and without noise."""
 
     values: tuple[float, ...]
-    """N, or in the unit of the samples."""
+    """Value of each cell, N or in the unit of the samples."""
     layout: Layout | None
-    """Where the cells are; None when nobody knows."""
+    """Layout of the cells; None when it is unknown."""
     in_newtons: bool
-    """Which of the two."""
+    """The values are in N."""
     highest: float
-    """The most loaded cell of late, as `values`."""
+    """Largest recent value of any cell, in the unit of `values`."""
     centre_alone: tuple[float, float] | None
-    """Centre of pressure (x, y), foot frame, m, of an insole without an inertial sensor; None otherwise."""
+    """Centre of pressure (x, y) of an insole without inertial sensor, foot frame, m; None otherwise."""
 
 
 class AfterEvents(NamedTuple):
-    """Of a foot of which a sample had events."""
+    """Additional data of a foot whose sample caused events."""
 
     stood: Quat
-    """Its attitude when it was last flat, sensor to navigation frame."""
+    """Attitude at the last foot-flat, sensor to navigation frame."""
     layout: Layout | None
-    """Where its pressure cells are; None when nobody knows."""
+    """Layout of the pressure cells; None when it is unknown."""
     other_t: float | None
-    """The newest sample of the other foot, s; None before any."""
+    """Time of the newest sample of the other foot, s; None before any."""
     takes_shifts: bool
-    """Whether its corrector can be turned and moved by a `Shift` (body/part.py); given with a stride."""
+    """The corrector can be turned and moved by a `Shift` (body/part.py); given with a stride."""
     covariance: Covariance3 | None
-    """Of its position, world frame, m^2; None but with a stride: it takes long."""
+    """Covariance of the position, world frame, m^2; None without a stride, because it is costly."""
 
 
 NOTHING_HAPPENED: Final = AfterEvents(IDENTITY, None, None, False, None)
+"""Value of `FootView.after` for a sample without events."""
 
 
 @define(eq=False)
 class FootView:
-    """One foot right after one of its samples. Vectors are in the foot's own navigation frame, z up, whose heading is
-    that of the moment when the foot was levelled; `north` turns them into the world frame. Read only: type
-    checkers refuse to write into it, and what is written all the same the foot never sees."""
+    """The state of one foot right after one of its samples.
+
+    Vectors are in the navigation frame of this foot: z up, heading as at levelling. `north` turns them into the world
+    frame. The view is read only: type checkers reject assignments, and the foot never sees a changed field.
+    """
 
     foot: Final[Foot]
-    """Whose sample it is."""
+    """Foot of the sample."""
     sample: Final[Sample]
-    """The sample as the link or the app gave it, calibration not applied."""
+    """Sample as the link or the app gave it, without calibration."""
     t: Final[float]
-    """Its time, s."""
+    """Time of the sample, s."""
     known_at: Final[float]
-    """When the sample was known, s; never earlier than `t`."""
+    """Time at which the sample was known, s; never earlier than `t`."""
     events: Final[tuple[Event, ...]]
-    """What the foot said of this sample, in order."""
+    """Events of the foot that this sample caused, in order."""
     moved_at: Final[float | None]
-    """The newest sample with both acc and gyro, s; `t` where this one has both; None before any."""
+    """Time of the newest sample with both acc and gyro, s; `t` if this one has both; None before any."""
     levelled: Final[bool]
-    """Which way is up is known: the foot is followed."""
+    """The first attitude is known, so the foot is tracked."""
     phase: Final[Phase]
-    """What the foot is doing after `events`."""
+    """Phase of the foot after `events`."""
     position: Final[Vec3]
-    """Of the sensor, m."""
+    """Position of the sensor, navigation frame, m."""
     velocity: Final[Vec3]
-    """Of the sensor, m/s."""
+    """Velocity of the sensor, navigation frame, m/s."""
     attitude: Final[Quat]
-    """Sensor to navigation frame."""
+    """Attitude, sensor to navigation frame."""
     north: Final[tuple[float, float] | None]
-    """cos and sin of the turn from the navigation frame to the world frame; None until the first heading is known."""
+    """Cosine and sine of the angle from navigation to world frame; None until the first heading is known."""
     gyro_bias: Final[Vec3]
-    """What the gyroscope shows at rest, rad/s, sensor frame."""
+    """Gyroscope bias, sensor frame, rad/s."""
     acc_grain: Final[float]
-    """What a count of the accelerometer is worth, m/s^2; 0 when nobody knows."""
+    """Value of one accelerometer count, m/s^2; 0 when it is unknown."""
     pressed: Final[PressedCells | None]
-    """Of a sample with pressure cells that can be used; None otherwise."""
+    """Pressure cells of the sample; None if it has no cells that can be used."""
     after: Final[AfterEvents]
-    """What is asked for when something happened; NOTHING_HAPPENED otherwise."""
+    """Additional data if `events` is not empty; NOTHING_HAPPENED otherwise."""
 
 
 class FootPose(NamedTuple):
-    """Where one foot is now."""
+    """The live position of one foot."""
 
     foot: Foot
     t: float
-    """The newest sample, s."""
+    """Time of the newest sample, s."""
     moved_at: float | None
-    """The newest sample with both acc and gyro, s; None before any."""
+    """Time of the newest sample with both acc and gyro, s; None before any."""
     position: Vec3
-    """Of the sensor, world frame, m."""
+    """Position of the sensor, world frame, m."""
     covariance: Covariance3
-    """Of `position`, m^2."""
+    """Covariance of `position`, world frame, m^2."""

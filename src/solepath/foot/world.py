@@ -1,8 +1,9 @@
-"""The world frame of one foot: z up, x along the first heading, y left, origin where the sensor was first seen.
+"""Turn from the navigation frame of one foot to the world frame.
 
-Navigation begins before anybody knows where the wearer will go, in a frame with an arbitrary heading. The first
-heading is that of the first step; from when the foot has moved a little until that step is over it is the direction in
-which the foot has come so far. What was reported before lies within `FIRST_WAY` of the origin and was not final.
+World frame: z up, x along the first heading, y left, origin at the first position of the sensor. Navigation starts
+before the first heading is known, in a frame with an arbitrary heading. The first heading is that of the first stride.
+From when the foot has moved `FIRST_HEADING_DISTANCE` until that stride ends, the heading is the direction from the
+origin to the foot. Positions that were reported earlier lie within this distance of the origin and were not final.
 """
 
 from __future__ import annotations
@@ -13,22 +14,24 @@ from ..types import Quat, Vec3
 from ..types.attrs import define, field
 from ..types.vector import from_yaw, multiply
 
-FIRST_WAY = 0.15
-"""The foot tells a heading when it is this far from where it first stood, m."""
+FIRST_HEADING_DISTANCE = 0.15
+"""Distance from its first position at which a foot defines a heading, m."""
 
 Covariance3 = tuple[float, float, float, float, float, float]
-"""xx, xy, xz, yy, yz, zz."""
+"""Covariance of a 3D vector: xx, xy, xz, yy, yz, zz."""
 
 
 @define
 class World:
-    """The turn from the navigation frame to the world frame."""
+    """The rotation about z from the navigation frame to the world frame."""
 
     north: tuple[float, float] | None = field(default=None, init=False)
-    """cos and sin of the turn; None until the first heading is known."""
+    """Cosine and sine of the angle from navigation to world frame; None until the first heading is known."""
 
-    def find(self, position: Vec3, least: float = FIRST_WAY) -> bool:
-        """Take the direction of `position` (navigation frame, m) as the first heading if it is far enough."""
+    def find_heading(self, position: Vec3, least: float = FIRST_HEADING_DISTANCE) -> bool:
+        """Return whether `position` was far enough from the origin to set the first heading.
+
+        `position` is in the navigation frame, m; `least` is the smallest horizontal distance, m."""
         x, y, _ = position
         if hypot(x, y) < max(least, 1e-6):
             return False
@@ -37,12 +40,12 @@ class World:
         return True
 
     def settle(self) -> None:
-        """Keep the navigation frame's own heading if no other was found."""
+        """Keep the heading of the navigation frame if no other heading is set."""
         if self.north is None:
             self.north = (1.0, 0.0)
 
     def vector(self, v: Vec3) -> Vec3:
-        """A vector of the navigation frame, in the world frame."""
+        """Return a vector of the navigation frame in the world frame."""
         if self.north is None:
             return v
         c, s = self.north
@@ -50,13 +53,13 @@ class World:
         return (c * x - s * y, s * x + c * y, z)
 
     def attitude(self, q: Quat) -> Quat:
-        """Sensor to navigation frame, as sensor to world."""
+        """Return the attitude from sensor to world frame for one from sensor to navigation frame."""
         if self.north is None:
             return q
         return multiply(from_yaw(atan2(self.north[1], self.north[0])), q)
 
     def covariance(self, covariance: tuple[float, ...]) -> Covariance3:
-        """Of a vector of the navigation frame, as of one of the world frame."""
+        """Return the covariance of a vector in the world frame for one in the navigation frame."""
         xx, xy, xz, yy, yz, zz = covariance
         if self.north is None:
             return (xx, xy, xz, yy, yz, zz)

@@ -125,7 +125,7 @@ class WearerParts:
                 events.append(moved)
         if sample.pressure:
             if self.settings.pressures:
-                pressed = tracker.sole.pressed_by(t, known_at, sample.pressure)
+                pressed = tracker.sole.make_event(t, known_at, sample.pressure)
                 if pressed is not None:
                     events.append(pressed)
             tracker.sole.insole.cells = ()
@@ -269,7 +269,7 @@ class WearerParts:
             )
             layout = known.insole(foot).layout
             if layout is not None:
-                tracker.sole.suppose(layout)
+                tracker.sole.set_calibrated_layout(layout)
         return tracker
 
     def _keep(self, tracker: FootTracker) -> None:

@@ -34,7 +34,7 @@ def detector() -> KnownVelocity:
     """One that has learnt that the sensor's axes are the foot's, and whose cells were right in the last swing."""
     known = KnownVelocity(sagittal=Sagittal())
     known.sagittal.up, known.sagittal.toe = (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)
-    known.touch.known, known.touch.blind = True, False
+    known.touch.trusted, known.touch.load_unknown = True, False
     return known
 
 

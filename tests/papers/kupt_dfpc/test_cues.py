@@ -38,7 +38,7 @@ def believed() -> CopCues:
     """One that stands and whose cells were right in the last swing."""
     cues = CopCues(touch=Touch())
     cues.set_layout(FOUR)
-    cues.touch.known, cues.touch.blind = True, False
+    cues.touch.trusted, cues.touch.load_unknown = True, False
     cues.stage = StepStage.STANDING
     return cues
 

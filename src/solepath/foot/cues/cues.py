@@ -1,4 +1,4 @@
-"""What cues are asked: from the numbers of one foot to what it was seen to do."""
+"""Interface of cues, which detect gait events in the samples of one foot."""
 
 from __future__ import annotations
 
@@ -12,21 +12,23 @@ from ..stance.stance import Load, Stance
 
 
 class SeenCue(NamedTuple):
-    """A cue and when it happened."""
+    """A cue and its time."""
 
     cue: Cue
     t: float
-    """s."""
+    """Time of the cue, s."""
 
 
 class Cues(Protocol):
-    """What sees heel-strike, foot-flat, heel-off and toe-off. An app's own extends this and may stand in a Recipe
-    beside ours; testing/promises.py tries whether it keeps what follows, docs/extending.md shows one.
+    """The interface of a detector of heel-strike, foot-flat, heel-off and toe-off.
 
-    An attrs class (`@define`) with fields of kinds that can be saved. It says what has happened, never what will. It
-    reads no clock and no random numbers, costs the same at every sample, remembers no more the longer it is fed, and
-    never raises: samples are finite, but otherwise of any size (up to 500 m/s^2, 100 rad/s) and at any distance in
-    time. What follows from a cue is in the table of phase.py, and one that changes no phase is no matter.
+    An app's own class extends this class and can be used in a Recipe. testing/promises.py checks the rules below,
+    docs/extending.md shows an example.
+
+    Cues are an attrs class (`@define`) with fields that can be saved. They report the past, never the future. They read
+    no clock and no random numbers, have a constant cost for each sample, use bounded memory, and never raise. Samples
+    are finite, but otherwise have any size (up to 500 m/s^2, 100 rad/s) and any distance in time. The table in phase.py
+    gives the phase that follows from a cue; a cue that changes no phase has no effect.
     """
 
     __slots__ = ()
@@ -35,37 +37,42 @@ class Cues(Protocol):
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
         load: Load | None, stance: Stance,
     ) -> Sequence[SeenCue]:  # fmt: skip
-        """One corrected sample: `acc` in m/s^2, `gyro` in rad/s without bias, `still`: the evidence of zero velocity
-        was believed, `speed` in m/s, `phase` before it. What was seen, in order."""
+        """Return the cues of one corrected sample, in order.
+
+        `acc` is in m/s^2, `gyro` in rad/s without bias. `still`: the zero velocity evidence was accepted. `speed` is in
+        m/s, `phase` is the phase before this sample."""
 
     def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
-        """The same for an insole without an inertial sensor."""
+        """Return the cues of one sample of an insole without inertial sensor, in order."""
 
-    # what cues may know or pay heed to; they need not
+    # optional: the default does nothing
 
     sagittal: float = 0.0
-    """Rate about the axis to the wearer's left in the last sample, positive toe down, rad/s; 0 while that axis is not
-    known."""
+    """Rate of the last sample about the axis to the wearer's left, positive toe down, rad/s.
+
+    It is 0 while that axis is unknown."""
     mark: Cue | None = None
-    """CONTACT: of all samples so far the last is most likely that of heel-strike. CLEAR: the one before it is most
-    likely that of toe-off (Corrector.mark). None: neither."""
+    """Most likely sample of an event so far (Corrector.mark); None for neither.
+
+    CONTACT: the last sample is most likely the one of heel-strike. CLEAR: the one before it is most likely the one of
+    toe-off."""
 
     def cleared(self, t: float) -> SeenCue:
-        """The toe left the ground at `t`, in a gap, and the swing was under way when that ended."""
+        """Return a toe-off at `t`, which a gap has hidden; the swing was not over at the end of the gap."""
         return SeenCue(Cue.CLEAR, t)
 
     def reset(self) -> None:
-        """There was a gap: what lasts must be seen to last."""
+        """Discard what depends on unbroken samples, after a gap."""
         return
 
     def restart(self) -> None:
-        """Times begin anew: what was learnt stays, what lasted does not."""
+        """Discard what depends on times, because times restart; what was learnt stays."""
         return
 
     def set_layout(self, layout: Layout) -> None:
-        """Where the cells are; told once that is known, and again when it changes."""
+        """Set the layout of the pressure cells; called once it is known, and when it changes."""
         return
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> Self:
-        """The cues to be used for that foot, with what the calibration says of it."""
+        """Return the cues for that foot, with what the calibration contains for it."""
         return self

@@ -1,7 +1,7 @@
-"""The cues that most recipes have.
+"""Cues of most recipes, from the inertial sensor and the pressure cells.
 
-`GaitCues` reads the inertial sensor and, where there are cells, the load: contact and clear are the pressure's to say,
-flat and lift the inertial sensor's, and the heel dates the lift.
+`GaitCues` uses the inertial sensor and, if there are cells, the load. Contact and clear then come from the load, flat
+and lift from the inertial sensor. The load of the heel gives the time of lift.
 """
 
 from __future__ import annotations
@@ -20,24 +20,27 @@ from .touch import FEW, Touch
 
 @define
 class GaitCues(Cues):
-    """Latency: that of `InertialCues`, or of `PressureCues` where there are cells."""
+    """Detects gait events from the inertial sensor and the load.
+
+    Latency: that of `InertialCues`, or of `PressureCues` with pressure cells.
+    """
 
     inertial: InertialCues = field(factory=InertialCues)
     pressure: PressureCues = field(factory=PressureCues)
     touch: Touch = field(factory=Touch)
-    """For insoles of few cells."""
+    """Ground contact for insoles of few cells."""
     sagittal: float = field(default=0.0, init=False)
-    """As in `Cues`."""
+    """Rate of the last sample about the axis to the wearer's left, positive toe down, rad/s; 0 if unknown."""
 
     def set_layout(self, layout: Layout) -> None:
-        """The device said where its cells are."""
+        """Set the layout of the pressure cells."""
         self.touch.set_layout(layout)
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
         load: Load | None, stance: Stance,
     ) -> Sequence[SeenCue]:  # fmt: skip
-        """As in `Cues`; at most one."""
+        """Return at most one cue; arguments as in `Cues`."""
         inertial = self.inertial
         seen = inertial.update(t, dt, acc, gyro, still, speed, phase)
         self.sagittal = 0.0 if inertial.axis is None else inertial.sagittal
@@ -47,35 +50,35 @@ class GaitCues(Cues):
             pressed = self.pressure.update(t, dt, load, phase)
             if len(load.cells) <= FEW:
                 airborne = self.touch.update(t, load, still)
-                if not self.touch.known:
+                if not self.touch.trusted:
                     return () if seen is None else (seen,)
                 pressed = None
                 if airborne is not (phase is Phase.SWING):
                     pressed = SeenCue(Cue.CLEAR if airborne else Cue.CONTACT, t)
             if pressed is not None:
                 if pressed.cue is Cue.CLEAR:
-                    inertial.pushed_off(phase)
+                    inertial.apply_toe_off(phase)
                     self.sagittal = 0.0 if inertial.axis is None else inertial.sagittal
                 return (pressed,)
             if seen is not None and seen.cue is not Cue.FLAT:
-                seen = self.pressure.dated(seen) if seen.cue is Cue.LIFT else None
+                seen = self.pressure.date_lift(seen) if seen.cue is Cue.LIFT else None
         return () if seen is None else (seen,)
 
     def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
-        """As in `Cues`: heel and forefoot say what stillness would have said."""
-        seen = self.pressure.update(t, dt, load, phase) or self.pressure.areas(t, load, phase)
+        """Return the cue of an insole without inertial sensor; heel and forefoot replace stillness."""
+        seen = self.pressure.update(t, dt, load, phase) or self.pressure.update_areas(t, load, phase)
         return () if seen is None else (seen,)
 
     def cleared(self, t: float) -> SeenCue:
-        """As in `Cues`."""
+        """Return a toe-off at `t`, which a gap has hidden."""
         return self.inertial.cleared(t)
 
     def reset(self) -> None:
-        """As in `Cues`."""
+        """Discard what depends on unbroken samples, after a gap."""
         self.inertial.reset()
 
     def restart(self) -> None:
-        """As in `Cues`."""
+        """Discard what depends on times, because times restart; what was learnt stays."""
         self.inertial = self.inertial.restart()
         self.pressure = evolve(self.pressure)
         self.touch = self.touch.restart()

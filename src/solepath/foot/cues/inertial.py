@@ -1,14 +1,14 @@
-"""From numbers to cues: what a foot was seen to do, with hysteresis and debounce.
+"""Cues from the inertial sensor, with hysteresis and debounce.
 
-`InertialCues` reads stillness and the sagittal angular rate (about the axis that points to the wearer's left, so that
-positive is toe down). Of a step that rate shows: a rise as the heel lifts, a peak of several rad/s as the toe pushes
-off, a long negative hump while the leg swings, and a return through zero as the heel lands. Toe-off is where the rate
-has fallen to half its peak, the steepest place of its fall. Landmarks of this kind are common in gait analysis
-(Sabatini et al., IEEE Trans. Biomed. Eng. 52, 2005; Mariani et al., Gait & Posture 37, 2013).
-The ground may stop the foot later than that, or earlier: heel-strike is the middle of the impact (impact.py).
+`InertialCues` uses stillness and the sagittal angular rate, which is the rate about the axis to the wearer's left:
+positive is toe down. During a stride this rate rises as the heel lifts, has a peak of several rad/s at push-off, is
+negative for a long time while the leg swings, and returns through zero as the heel lands. Toe-off is where the rate has
+fallen to half its peak, which is the steepest place of its fall. Such landmarks are common in gait analysis (Sabatini
+et al., IEEE Trans. Biomed. Eng. 52, 2005; Mariani et al., Gait & Posture 37, 2013). The ground may stop the foot later
+than the return through zero, or earlier: heel-strike is the middle of the impact (impact.py).
 
-Numbers that name no source were chosen by hand on the recordings of docs/accuracy.md and not swept; those of
-heel-strike and toe-off on those that have such events.
+Numbers without source were chosen by hand on the recordings of docs/accuracy.md and not swept; those of heel-strike and
+toe-off on the recordings that contain such events.
 """
 
 from __future__ import annotations
@@ -24,91 +24,104 @@ from .cues import SeenCue
 from .impact import Impact
 
 SWING: Final = Phase.SWING
+"""Local name of `Phase.SWING`, because one look-up in the enum costs as much as five multiplications."""
 STATIONARY: Final = Phase.STATIONARY
+"""Local name of `Phase.STATIONARY`, because one look-up in the enum costs as much as five multiplications."""
 PUSH_OFF: Final = Phase.PUSH_OFF
+"""Local name of `Phase.PUSH_OFF`, because one look-up in the enum costs as much as five multiplications."""
 LOADING: Final = Phase.LOADING
-"""Looked up once: a word of an enum costs as much as five multiplications."""
+"""Local name of `Phase.LOADING`, because one look-up in the enum costs as much as five multiplications."""
 
 LEAST_TURN = 0.25
-"""A foot that has turned by less than this was not pushing off, rad."""
-ALIKE = 0.5
-"""Cosine of 60 degrees: axes that are further apart are not the same."""
+"""Smallest turn of a push-off, rad."""
+SAME_AXIS = 0.5
+"""Smallest cosine between two axes that count as the same: 60 degrees."""
 MISFITS = 3
-"""Push-offs in a row about another axis after which that one is believed."""
-NEWEST = 0.2
-"""Share of the newest push-off in the axis."""
-IN_SWING = 2.0
-"""A swing that a gap has hidden was under way when its hump was taken to be so many times the least one."""
+"""Number of push-offs in a row about another axis after which that axis is used."""
+AXIS_GAIN = 0.2
+"""Weight of the newest push-off in the axis."""
+GAP_TROUGH = 2.0
+"""Depth of the negative rate of a swing whose start a gap has hidden, as a multiple of LEAST_TROUGH."""
 SETTLE = 0.009
-"""Stillness, or its loss, must last this long, s."""
+"""Shortest duration of stillness, or of its loss, s."""
 LEAST_PUSH = 1.5
-"""A push-off's peak rate is at least this, rad/s."""
+"""Smallest peak rate of a push-off, rad/s."""
 PAST_PEAK = 0.5
-"""Toe-off is where the rate has fallen to this share of its peak."""
-LEAST_HUMP = 1.0
-"""The swing's negative hump is at least this, rad/s."""
-SLAP = 1.0
-"""The heel lands about when the rate comes up through this, as the ground turns the sole down, rad/s."""
-HEAR_OUT = 0.04
-"""Then the impact is heard out until its middle is this long ago, s: heel-strike is to be known within 60 ms."""
+"""Ratio of the rate at toe-off to its peak."""
+LEAST_TROUGH = 1.0
+"""Smallest depth of the negative rate of a swing, rad/s."""
+LANDING_RATE = 1.0
+"""Rate through which the sagittal rate rises at about the landing of the heel, rad/s.
+
+The ground then turns the sole down."""
+IMPACT_SETTLES = 0.04
+"""Time after the middle of an impact at which it is final, s: heel-strike must be known within 60 ms."""
 LONGEST_IMPACT = 0.1
-"""An impact is heard out for no longer than this, s."""
-LEAST_JOLT = 1e4
-"""A foot that has lost its speed has landed if the impact's squared jerk came to this, m^2/s^5: 600 m/s^3 for
-30 ms. Muscles that swing a leg reach half of that jerk, the ground some thousands."""
+"""Longest time for which an impact is observed, s."""
+LEAST_SHOCK = 1e4
+"""Smallest shock that shows that a foot without speed has landed, m^2/s^5.
+
+This is 600 m/s^3 for 30 ms. Muscles that swing a leg reach half of that jerk, the ground some thousands."""
 SHORTEST_SWING = 0.1
-"""No heel-strike sooner than this after toe-off, s."""
+"""Shortest time from toe-off to heel-strike, s."""
 SHUFFLE_SPEED = 0.35
-"""A foot that moves this fast for SHUFFLE_TIME is in swing, however it got there, m/s."""
-REACH = 0.2
-"""That speed is higher by this for each rad/s, m: no sensor is further from the toes, which a foot rolls over."""
+"""Smallest speed of a foot in swing without push-off, m/s; it must last for SHUFFLE_TIME."""
+SPEED_PER_RATE = 0.2
+"""Increase of that speed for each rad/s, m.
+
+No sensor is further from the toes, over which a foot rolls."""
 SHUFFLE_TIME = 0.15
-"""For so long a foot must be so fast to be in swing, s."""
+"""Shortest duration of that speed, s."""
 LOADING_TIME = 0.4
-"""For so long right after heel-strike, when the sensor still swings down with the sole, s."""
+"""Shortest duration of that speed after heel-strike, s, because the sensor still moves down with the sole."""
 LOOKBACK = 0.02
-"""Stillness is judged over a window, so it began about this long before it showed, s."""
+"""Time by which stillness starts before it is detected, s, because it is judged over a window."""
 ROLLING = 0.12
-"""The heel came off when the sagittal rate was last below this, rad/s."""
+"""Sagittal rate below which the heel has not left the ground, rad/s."""
 
 
 @define
 class InertialCues:
-    """Latency: toe-off one sample; heel-strike HEAR_OUT, or when the foot is still where no impact shows; foot-flat
-    and heel-off SETTLE."""
+    """Detects gait events from the inertial sensor.
+
+    Latency: toe-off one sample; heel-strike IMPACT_SETTLES, or until the foot is still if no impact is found; foot-flat
+    and heel-off SETTLE.
+    """
 
     still_since: float | None = field(default=None, init=False)
-    """Since when the evidence of zero velocity has been believed, s; None while it is not."""
-    calm: float | None = field(default=None, init=False)
-    """The last moment of this stance at which the foot did not turn, s."""
+    """Time since which zero velocity evidence is accepted, s; None while it is not."""
+    not_turning_at: float | None = field(default=None, init=False)
+    """Last time in this stance at which the foot did not turn, s; None before any."""
     moving_since: float | None = field(default=None, init=False)
-    """Since when it has not been believed, s."""
+    """Time since which zero velocity evidence is not accepted, s; None while it is."""
     fast_since: float | None = field(default=None, init=False)
-    """Since when the foot has been fast, s."""
+    """Time since which the foot is fast, s; None while it is not."""
     axis: Vec3 | None = field(default=None, init=False)
-    """Unit vector to the wearer's left, sensor frame; learnt from how the foot turns as the heel lifts."""
+    """Unit vector to the wearer's left, sensor frame, learnt from the turn of the foot at push-off; None at first."""
     misfits: int = field(default=0, init=False)
-    """Push-offs in a row that turned about another axis."""
+    """Number of push-offs in a row about another axis."""
     turned: Vec3 = field(default=ZERO, init=False)
-    """Turn since the foot began to move, rad, sensor frame."""
+    """Turn since the foot started to move, sensor frame, rad."""
     peak: float = field(default=0.0, init=False)
-    """The highest sagittal rate of this push-off, rad/s."""
+    """Highest sagittal rate of this push-off, rad/s."""
     trough: float = field(default=0.0, init=False)
-    """The lowest sagittal rate of this swing, rad/s."""
-    toe_off: float | None = field(default=None, init=False)
-    """When the last swing began, s."""
-    struck: float | None = field(default=None, init=False)
-    """When the rate came up after the swing, s, until heel-strike is told."""
+    """Lowest sagittal rate of this swing, rad/s."""
+    swing_start: float | None = field(default=None, init=False)
+    """Start of the last swing, s; None before any."""
+    landing_at: float | None = field(default=None, init=False)
+    """Time at which the rate rose through LANDING_RATE, s; None except until heel-strike is reported."""
     force: Vec3 | None = field(default=None, init=False)
-    """Specific force of the last sample, m/s^2."""
+    """Specific force of the last sample, sensor frame, m/s^2."""
     impact: Impact = field(factory=Impact, init=False)
     sagittal: float = field(default=0.0, init=False)
-    """Sagittal rate of the last sample, rad/s; the whole rate while the axis is unknown."""
+    """Sagittal rate of the last sample, rad/s; the norm of the rate while the axis is unknown."""
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase
     ) -> SeenCue | None:
-        """`acc` in m/s^2, `gyro` in rad/s without bias, `still`: the evidence of zero velocity was believed, `speed` in
+        """Return the cue of one sample, or None.
+
+        `acc` is in m/s^2, `gyro` in rad/s without bias. `still`: the zero velocity evidence was accepted. `speed` is in
         m/s."""
         before, axis = self.sagittal, self.axis
         gx, gy, gz = gyro
@@ -118,7 +131,7 @@ class InertialCues:
             x, y, z = axis
             now = x * gx + y * gy + z * gz
         self.sagittal = now
-        was, self.force = self.force, acc
+        previous_force, self.force = self.force, acc
         if still:
             self.moving_since = self.fast_since = None
             if self.still_since is None:
@@ -129,15 +142,15 @@ class InertialCues:
                 self.moving_since = t
                 self.turned = ZERO
                 self.peak = 0.0
-            if speed < SHUFFLE_SPEED + REACH * (now if now > 0.0 else -now):
+            if speed < SHUFFLE_SPEED + SPEED_PER_RATE * (now if now > 0.0 else -now):
                 self.fast_since = None
             elif self.fast_since is None:
                 self.fast_since = t
         if phase is SWING:
-            self.calm = None
-            return self._in_swing(t, dt, speed, before, now, was)
-        if now < ROLLING and (still or self.calm is None):
-            self.calm = t
+            self.not_turning_at = None
+            return self._in_swing(t, dt, speed, before, now, previous_force)
+        if now < ROLLING and (still or self.not_turning_at is None):
+            self.not_turning_at = t
         if self.still_since is not None:
             if phase is not STATIONARY and t - self.still_since >= SETTLE - TIE:
                 return SeenCue(Cue.FLAT, self.still_since - LOOKBACK)
@@ -148,7 +161,10 @@ class InertialCues:
             if now > self.peak:
                 self.peak = now
             if self.moving_since is not None and t - self.moving_since >= SETTLE - TIE:
-                return SeenCue(Cue.LIFT, self.moving_since if self.calm is None else min(self.calm, self.moving_since))
+                return SeenCue(
+                    Cue.LIFT,
+                    self.moving_since if self.not_turning_at is None else min(self.not_turning_at, self.moving_since),
+                )
             return None
         return self._in_push_off(t, dt, before, now, phase)
 
@@ -157,77 +173,82 @@ class InertialCues:
             self.peak = now
         limit = PAST_PEAK * self.peak
         if phase is PUSH_OFF and self.peak > LEAST_PUSH and now < limit and self._learn_axis():
-            # between the last two samples, where a straight line meets the limit
+            # time between the last two samples at which a straight line meets the limit
             share = (before - limit) / (before - now) if before > limit > now else 1.0
-            return self._clear(t - dt * (1.0 - share))
+            return self._report_clear(t - dt * (1.0 - share))
         patience = LOADING_TIME if phase is LOADING else SHUFFLE_TIME
         if self.fast_since is not None and t - self.fast_since >= patience - TIE:
-            return self._clear(self.fast_since)
+            return self._report_clear(self.fast_since)
         return None
 
     def _in_swing(
-        self, t: float, dt: float, speed: float, before: float, now: float, was: Vec3 | None
+        self, t: float, dt: float, speed: float, before: float, now: float, previous_force: Vec3 | None
     ) -> SeenCue | None:
         if now < self.trough:
             self.trough = now
         impact = self.impact
-        struck = self.struck
+        landing_at = self.landing_at
         force = self.force
-        if was is not None and force is not None:
-            impact.feel(t, dt, was, force, speed, struck is not None)
-        if struck is not None:
-            middle = max(struck, impact.middle)
-            over = t - middle >= HEAR_OUT - TIE or t - struck >= LONGEST_IMPACT - TIE
-            return self._landed(middle) if over or self.still_since is not None else None
+        if previous_force is not None and force is not None:
+            impact.add_sample(t, dt, previous_force, force, speed, landing_at is not None)
+        if landing_at is not None:
+            middle = max(landing_at, impact.middle)
+            over = t - middle >= IMPACT_SETTLES - TIE or t - landing_at >= LONGEST_IMPACT - TIE
+            return self._report_contact(middle) if over or self.still_since is not None else None
         if self.still_since is not None:
             if t - self.still_since >= SETTLE - TIE:
-                return self._landed(impact.jolted if impact.hardest > 0.0 else self.still_since - LOOKBACK)
+                return self._report_contact(
+                    impact.peak_shock_at if impact.peak_shock > 0.0 else self.still_since - LOOKBACK
+                )
             return None
-        if self.toe_off is not None and t - self.toe_off < SHORTEST_SWING - TIE:
+        if self.swing_start is not None and t - self.swing_start < SHORTEST_SWING - TIE:
             return None
-        if before < SLAP <= now and self.trough < -LEAST_HUMP and self.axis is not None:
-            self.struck = t - dt * (now - SLAP) / (now - before)
-        elif speed < SHUFFLE_SPEED and impact.hardest > LEAST_JOLT and t - impact.jolted >= HEAR_OUT - TIE:
-            return self._landed(impact.jolted)
+        if before < LANDING_RATE <= now and self.trough < -LEAST_TROUGH and self.axis is not None:
+            self.landing_at = t - dt * (now - LANDING_RATE) / (now - before)
+        elif (
+            speed < SHUFFLE_SPEED
+            and impact.peak_shock > LEAST_SHOCK
+            and t - impact.peak_shock_at >= IMPACT_SETTLES - TIE
+        ):
+            return self._report_contact(impact.peak_shock_at)
         return None
 
-    def _landed(self, t: float) -> SeenCue:
+    def _report_contact(self, t: float) -> SeenCue:
         self.peak = 0.0
         self.turned = ZERO
-        self.struck = self.fast_since = None
+        self.landing_at = self.fast_since = None
         return SeenCue(Cue.CONTACT, t)
 
     def reset(self) -> None:
-        """What lasts must be seen to last: a gap counts neither as stillness nor as speed."""
+        """Discard durations after a gap, because it counts neither as stillness nor as speed."""
         self.still_since = self.fast_since = None
 
     def restart(self) -> InertialCues:
-        """For times that begin anew: the axis is kept."""
+        """Return cues for times that restart; the axis stays."""
         fresh = evolve(self)
         fresh.axis = self.axis
         return fresh
 
     def cleared(self, t: float) -> SeenCue:
-        """The toe left the ground at `t`, in a gap, and the swing was under way when that ended."""
-        seen = self._clear(t)
-        self.trough = -IN_SWING * LEAST_HUMP
+        """Return a toe-off at `t`, which a gap has hidden; the swing was not over at the end of the gap."""
+        seen = self._report_clear(t)
+        self.trough = -GAP_TROUGH * LEAST_TROUGH
         return seen
 
-    def _clear(self, t: float) -> SeenCue:
-        self.toe_off = t
-        self.impact.begin(t)
-        self.struck = None
+    def _report_clear(self, t: float) -> SeenCue:
+        self.swing_start = t
+        self.impact.start_swing(t)
+        self.landing_at = None
         self.trough = self.peak = 0.0
         return SeenCue(Cue.CLEAR, t)
 
-    def pushed_off(self, phase: Phase) -> None:
-        """The load says that the toe has left the ground, in `phase`: how the foot has turned shows the axis all the
-        same."""
+    def apply_toe_off(self, phase: Phase) -> None:
+        """Learn the axis from the turn of the foot at a toe-off that the load has shown, in `phase`."""
         if phase is PUSH_OFF and self.peak > LEAST_PUSH:
             self._learn_axis()
 
     def _learn_axis(self) -> bool:
-        """The heel lifts by a turn about the axis to the left; True when it turned far enough to be a push-off."""
+        """Learn the axis from the turn as the heel lifts; return whether the turn was a push-off."""
         x, y, z = self.turned
         angle = sqrt(x * x + y * y + z * z)
         if angle < LEAST_TURN:
@@ -237,14 +258,14 @@ class InertialCues:
             self.axis = (x, y, z)
             return True
         u, v, w = self.axis
-        if u * x + v * y + w * z < ALIKE:
-            # turned about another axis: not how this wearer pushes off, unless it keeps on doing so
+        if u * x + v * y + w * z < SAME_AXIS:
+            # a turn about another axis is no push-off of this wearer, unless it occurs again and again
             self.misfits += 1
             if self.misfits < MISFITS:
                 return False
             u, v, w = x, y, z
         self.misfits = 0
-        u, v, w = u + NEWEST * (x - u), v + NEWEST * (y - v), w + NEWEST * (z - w)
+        u, v, w = u + AXIS_GAIN * (x - u), v + AXIS_GAIN * (y - v), w + AXIS_GAIN * (z - w)
         k = 1.0 / sqrt(u * u + v * v + w * w)
         self.axis = (u * k, v * k, w * k)
         return True

@@ -1,4 +1,4 @@
-"""From loads to cues: what the cells under a foot show.
+"""Cues from the load of the pressure cells.
 
 The numbers were chosen by hand on the recordings of docs/accuracy.md that have cells, and not swept.
 """
@@ -14,31 +14,34 @@ from ..stance.stance import Load
 from .cues import SeenCue
 
 SWING: Final = Phase.SWING
+"""Local name of `Phase.SWING`, because one look-up in the enum costs as much as five multiplications."""
 STATIONARY: Final = Phase.STATIONARY
+"""Local name of `Phase.STATIONARY`, because one look-up in the enum costs as much as five multiplications."""
 PUSH_OFF: Final = Phase.PUSH_OFF
+"""Local name of `Phase.PUSH_OFF`, because one look-up in the enum costs as much as five multiplications."""
 LOADING: Final = Phase.LOADING
-"""Looked up once: a word of an enum costs as much as five multiplications."""
+"""Local name of `Phase.LOADING`, because one look-up in the enum costs as much as five multiplications."""
 CONTACT_LOAD, CLEAR_LOAD = 0.05, 0.03
-"""Contact: the load rises above the first of these shares of the wearer's full load. Clear: it falls below the
-other."""
+"""Total loads above which contact is reported, and below which clear is, as shares of the full load."""
 AREA_ON = 0.06
-"""An area, heel or forefoot, is loaded above this share of the wearer's full load."""
+"""Load above which an area, heel or forefoot, is loaded, as a share of the wearer's full load."""
 AREA_OFF = 0.03
-"""An area is unloaded below this share of it."""
+"""Load below which an area is unloaded, as a share of the wearer's full load."""
 RECENT = 0.3
-"""The heel's last load before a lift may date it this far back, s."""
+"""Longest time by which the last load of the heel may date a lift back, s."""
 
 
 @define
 class PressureCues:
-    """Contact and clear from the total load, flat and lift from heel and forefoot. Latency: one sample."""
+    """Detects contact and clear from the total load, flat and lift from heel and forefoot. Latency: one sample."""
 
     before: float = field(default=0.0, init=False)
-    """The total load of the sample before, as a share of the wearer's full load."""
+    """Total load of the last sample, as a share of the wearer's full load."""
     heel_loaded: float | None = field(default=None, init=False)
-    """When the heel was last seen to carry load, s."""
+    """Time at which the heel was last loaded, s; None before any."""
 
     def update(self, t: float, dt: float, load: Load, phase: Phase) -> SeenCue | None:
+        """Return contact or clear if the total load shows it in this sample, or None."""
         before, now = self.before, load.total
         self.before = now
         if load.heel is not None and load.heel > AREA_OFF:
@@ -49,14 +52,14 @@ class PressureCues:
             return SeenCue(Cue.CLEAR, _crossing(t, dt, before, now, CLEAR_LOAD))
         return None
 
-    def dated(self, lift: SeenCue) -> SeenCue:
-        """The inertial sensor saw the heel lift; the cells know when it did, if the heel has any."""
+    def date_lift(self, lift: SeenCue) -> SeenCue:
+        """Return the lift of the inertial sensor with the time at which the heel was last loaded, if that is known."""
         if self.heel_loaded is None or not 0.0 <= lift.t - self.heel_loaded < RECENT:
             return lift
         return SeenCue(lift.cue, self.heel_loaded)
 
-    def areas(self, t: float, load: Load, phase: Phase) -> SeenCue | None:
-        """For an insole without an inertial sensor: heel and forefoot say what stillness would have said."""
+    def update_areas(self, t: float, load: Load, phase: Phase) -> SeenCue | None:
+        """Return flat or lift from heel and forefoot, for an insole without inertial sensor, or None."""
         if load.heel is None or load.forefoot is None:
             return None
         if phase is LOADING and load.heel > AREA_OFF and load.forefoot > AREA_ON:
@@ -69,7 +72,7 @@ class PressureCues:
 
 
 def _crossing(t: float, dt: float, before: float, now: float, level: float) -> float:
-    """When the straight line between the last two samples met the level, s."""
+    """Return the time at which a straight line between the last two samples crosses the level, s."""
     if (before - level) * (now - level) >= 0.0:
         return t
     return t - dt * (now - level) / (now - before)

@@ -1,14 +1,15 @@
-"""Whether a foot is on the ground or in the air, from its cells.
+"""Ground contact of a foot from its pressure cells.
 
-Insoles of many cells tell by the total: whatever lies under the foot, some cells feel it. On one of few, a switch
-under heel and toe or eight sensors, a cell that is weak, or slow to let go, spoils the total, and in mid-stance the
-load may lie between them. There every cell is looked at as a share of its own range. The foot is in the air when the
-rear cells have let go and the front ones too after they had pushed off; it is on the ground again when a rear cell is
-loaded, or a front one for more than the shoe's own pressure as the toes are raised in swing.
+For an insole of many cells the total load is enough: some cells are always under the foot. For an insole of few cells,
+such as switches under heel and toe or eight sensors, one cell that is weak, or slow to unload, makes the total wrong,
+and in mid-stance the load may lie between the cells. There, each cell is judged by its load as a share of its own
+range. The foot is in the air when the rear cells are unloaded, and the front cells too after they have pushed off. It
+is on the ground again when a rear cell is loaded, or a front cell more than by the pressure of the shoe as the toes
+rise in swing.
 
-What an insole shows in the air is learnt from the least that it showed (pressure.py), which is wrong before the first
-step and after a long stand: half of the wearer's weight is then the least. So what the cells say is believed
-(`known`) from a swing on, and no longer when a foot that they have in the air stands still.
+The values in the air are learnt from the lowest ones so far (pressure.py). These are wrong before the first step and
+after standing for long, where half of the wearer's weight is the lowest load. So the cells are `trusted` after a swing,
+and no longer when the foot stands still while the cells say that it is in the air.
 """
 
 from __future__ import annotations
@@ -21,71 +22,79 @@ from ..pressure.insole import Extremes
 from ..stance.stance import Load
 
 FEW = 16
-"""Up to so many cells are looked at one by one."""
+"""Largest number of cells that are judged one by one."""
 ON, OFF = 0.07, 0.05
-"""Many cells: on the ground above the first of these shares of the wearer's full load, and in the air below the other:
-a recorded insole of 35 cells shows up to 5 % of the load throughout the swing."""
+"""Loads of an insole of many cells above which it is on the ground, and below which it is in the air.
+
+They are shares of the wearer's full load. A recorded insole of 35 cells shows up to 5 % of the load throughout the
+swing."""
 CELL_ON = 0.20
-"""Few cells: one is loaded above this share of its own range of the last seconds."""
+"""Load above which one of few cells is loaded, as a share of its own range of the last seconds."""
 CELL_OFF = 0.10
-"""Without a layout, which tells front from rear, all cells are unloaded below this."""
+"""Load below which all cells are unloaded without a layout, as a share of their ranges.
+
+Without a layout, front and rear are unknown."""
 CONTRAST = 0.5
-"""A cell's range is known once it is this share of its highest value."""
-PUSHED = 0.50
-"""A front cell has pushed off, or landed first, above this share."""
+"""Smallest range of a cell that is known, as a share of the cell's highest value."""
+FRONT_LOADED = 0.50
+"""Load above which a front cell has pushed off, or landed first, as a share of its range."""
 STANCE = 0.3
-"""A foot that did not push off stays on the ground for so long, s."""
+"""Shortest stance of a foot without push-off, s."""
 WEAK = 0.10
-"""A cell whose range is below this share of the widest one's tells nothing."""
+"""Smallest range of a cell that is used, as a share of the widest range."""
 FLIGHT = 0.1
-"""A foot that is in the air and moves, or stands still, for so long: the cells are right, or wrong, s."""
+"""Time after which an airborne foot that moves shows that the cells are right, s.
+
+After the same time, an airborne foot that stands still shows that they are wrong."""
 
 
 @define
 class Touch:
-    """Latency: none. A foot of which nothing is known yet is on the ground."""
+    """Detects ground contact from the load. Latency: none. At first the foot is on the ground."""
 
-    known: bool = field(default=False, init=False)
-    """The cells were right when the foot swung last."""
+    trusted: bool = field(default=False, init=False)
+    """The cells were right in the last swing."""
     moving_since: float | None = field(default=None, init=False)
-    """Since when the foot moved without load, or before any was known, s."""
+    """Time since which the foot moves without load, or with unknown load, s."""
     still_since: float | None = field(default=None, init=False)
-    """Since when it stood still though the cells have it in the air, s."""
-    blind: bool = field(default=True, init=False)
-    """There was no load in the last sample."""
+    """Time since which the foot stands still while the cells say that it is in the air, s."""
+    load_unknown: bool = field(default=True, init=False)
+    """The load of the last sample is unknown."""
     airborne: bool = field(default=False, init=False)
+    """The cells say that the foot is in the air."""
     cells: list[Extremes] = field(factory=list, init=False)
-    ahead: list[bool] = field(factory=list, init=False)
-    """Which cells lie in the front half of the foot; empty without a layout."""
+    """Extremes of each cell."""
+    in_front: list[bool] = field(factory=list, init=False)
+    """Cells in the front half of the foot; empty without a layout."""
     peak: float = field(default=0.0, init=False)
-    """The highest share of a front cell since the foot came down."""
-    landed: float = field(default=0.0, init=False)
-    """When that was, s."""
+    """Highest load of a front cell since the last contact, as a share of its range."""
+    landed_at: float = field(default=0.0, init=False)
+    """Time of the last contact, s."""
 
     def set_layout(self, layout: Layout) -> None:
-        """The device said where its cells are."""
+        """Set the layout of the pressure cells."""
         middle = centre(layout)
-        self.ahead = [] if middle is None else [cell.x > middle for cell in layout.cells]
+        self.in_front = [] if middle is None else [cell.x > middle for cell in layout.cells]
 
     def restart(self) -> Touch:
-        """For times that begin anew: where the cells are is kept, what they showed is not."""
+        """Return a copy for times that restart; the layout stays, the loads do not."""
         fresh = evolve(self)
-        fresh.ahead = self.ahead
+        fresh.in_front = self.in_front
         return fresh
 
     def update(self, t: float, load: Load | None, still: bool = False) -> bool:
-        """True when the foot is in the air. `still`: it stands, whatever the cells say."""
-        airborne = load is not None and self._in_the_air(t, load)
+        """Return whether the foot is in the air; `still` tells that it stands, whatever the cells show."""
+        airborne = load is not None and self._is_airborne(t, load)
         moved = self.moving_since is not None and t - self.moving_since >= FLIGHT - TIE
         if load is None:
-            self.known = False
-        elif self.blind:
-            # a load is known from when it has risen; it rose because the foot came down from a swing, or it stood
-            self.known = moved
+            self.trusted = False
+        elif self.load_unknown:
+            # the load is known once it has risen, because the foot came down from a swing or because it stood
+            self.trusted = moved
         if moved and airborne:
-            self.known = True
-        self.blind = load is None
-        if still or not (airborne or self.blind):
+            self.trusted = True
+        self.load_unknown = load is None
+        if still or not (airborne or self.load_unknown):
             self.moving_since = None
         elif self.moving_since is None:
             self.moving_since = t
@@ -94,21 +103,21 @@ class Touch:
         elif self.still_since is None:
             self.still_since = t
         elif t - self.still_since >= FLIGHT - TIE:
-            self.known = False
+            self.trusted = False
         return airborne
 
-    def _in_the_air(self, t: float, load: Load) -> bool:
+    def _is_airborne(self, t: float, load: Load) -> bool:
         if 0 < len(load.cells) <= FEW:
-            self.airborne = self._by_cell(t, load.cells)
+            self.airborne = self._is_airborne_by_cell(t, load.cells)
         else:
             self.airborne = load.total < (ON if self.airborne else OFF)
         return self.airborne
 
-    def _by_cell(self, t: float, values: tuple[float, ...]) -> bool:
+    def _is_airborne_by_cell(self, t: float, values: tuple[float, ...]) -> bool:
         if len(self.cells) != len(values):
             self.cells = [Extremes() for _ in values]
-            if len(self.ahead) != len(values):
-                self.ahead = []
+            if len(self.in_front) != len(values):
+                self.in_front = []
         widest = 0.0
         for extremes, value in zip(self.cells, values, strict=True):
             extremes.update(t, value)
@@ -121,22 +130,22 @@ class Touch:
                 continue
             known = True
             share = (value - extremes.low) / reach
-            if self.ahead and self.ahead[k]:
+            if self.in_front and self.in_front[k]:
                 front = max(front, share)
             else:
                 rear = max(rear, share)
         if not known:
             return False
-        if not self.ahead:
+        if not self.in_front:
             return rear < (CELL_ON if self.airborne else CELL_OFF)
         if self.airborne:
-            if rear > CELL_ON or front > PUSHED:
+            if rear > CELL_ON or front > FRONT_LOADED:
                 self.peak = front
-                self.landed = t
+                self.landed_at = t
                 return False
             return True
         self.peak = max(self.peak, front)
-        if self.peak > PUSHED:
+        if self.peak > FRONT_LOADED:
             return rear < CELL_ON and front < CELL_ON
-        # it has not pushed off: a valley in mid-stance, where the load lies between the cells, is no swing
-        return max(rear, front) < 0.5 * CELL_OFF and t - self.landed >= STANCE
+        # without push-off this is a valley in mid-stance, where the load lies between the cells, and no swing
+        return max(rear, front) < 0.5 * CELL_OFF and t - self.landed_at >= STANCE

@@ -1,4 +1,4 @@
-"""Over a gap in the samples: what the foot did meanwhile is taken from its habit, where it has one (gap.py)."""
+"""Continuation over a gap in the samples, with the stride template where there is one (gap.py)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..navigate.corrector import LONGEST_BRIDGE, Corrector
 from .gap import NoInfill, find_infill
 
 
-def cross(
+def cross_gap(
     gait: Gait,
     corrector: Corrector,
     cues: Cues,
@@ -21,28 +21,27 @@ def cross(
     interval: float,
     events: list[Event],
 ) -> float:
-    """From the last sample at `last` to the one at `t`, s, that saw acc and gyro (m/s^2, rad/s; without bias).
+    """Return how long to integrate over a gap, s, and add the phases that it has hidden to `events`.
 
-    `interval`: the usual one between samples, s. Adds the phases that the gap has hidden to `events`; returns how long
-    to integrate over, s.
-    """
+    The gap lasts from the last sample at `last` to the one at `t`, s. `seen` is acc and gyro at `t` (m/s^2, rad/s;
+    without bias), `interval` the usual interval between samples, s."""
     template = gait.template
     dt = t - last
     acc, gyro = seen
     found = find_infill(template, corrector, last, t, acc, gyro)
     if found is NoInfill.UNKNOWN:
-        template.cross()
+        template.mark_bridged()
         if dt > LONGEST_BRIDGE:
             template.reset()
         return corrector.bridge(dt)
-    for _ in range(2):  # within a second a foot may land, stand, and leave again
+    for _ in range(2):  # within a second a foot may land, stand and leave again
         if isinstance(found, NoInfill):
             break
         cues.reset()
         corrector.infill(t - last, found.attitude, found.velocity, found.position)
         events += gait.apply_infill(found, cues, known_at, corrector, interval)
-        if found.landed is None:
+        if found.t_foot_flat is None:
             break
-        last = found.landed
+        last = found.t_foot_flat
         found = find_infill(template, corrector, last, t, acc, gyro)
     return 0.0

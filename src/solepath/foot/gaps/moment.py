@@ -1,4 +1,4 @@
-"""A stride as a row of moments, and where between two of them a foot is."""
+"""A stride as a list of moments, and interpolation between them."""
 
 from __future__ import annotations
 
@@ -12,46 +12,52 @@ from ...types.vector import normalise, sub
 MomentRow = tuple[
     float, float, float, float, float, float, float, float, float, float, float, float, float, float, float
 ]  # fmt: skip
-"""A moment as it is kept: all numbers of `StrideMoment` in their order, rounded to float32, which changes by less than
-1e-6 of itself what is good for some per cent."""
+"""One moment as it is stored: all numbers of `StrideMoment` in order, rounded to float32.
+
+This changes a number by less than 1e-6 of itself, where strides differ by some per cent."""
 SINGLES = Struct("<15f")
+"""Packing of a `MomentRow` as float32."""
 
 
 @frozen
 class StrideMoment:
-    """One moment of a stride, in the navigation frame; `rate` in the sensor's."""
+    """One moment of a stride, in the navigation frame; `rate` is in the sensor frame."""
 
     since: float
-    """The heel's rise, s."""
+    """Time since heel-off, s."""
     attitude: Quat
+    """Attitude, sensor to navigation frame."""
     velocity: Vec3
+    """Velocity, navigation frame, m/s."""
     position: Vec3
-    """Only differences within a stride mean anything."""
+    """Position, navigation frame, m; only differences within a stride have a meaning."""
     rate: Vec3
+    """Angular rate, sensor frame, rad/s."""
     force: float
-    """How large the specific force was, m/s^2."""
+    """Norm of the specific force, m/s^2."""
 
 
 @define
 class RecordedStride:
-    """A stride that was seen whole."""
+    """A stride without gaps."""
 
     rows: list[MomentRow]
-    """Moments from the heel's rise to just before foot-flat, in order; never none."""
+    """Moments from heel-off to just before foot-flat, in order; at least one."""
     toe_off: float
-    """s after the heel's rise."""
+    """Time from heel-off to toe-off, s."""
     heel_strike: float
-    way: Vec3
-    """From foot-flat to foot-flat, m; x along the mean of both headings."""
+    """Time from heel-off to heel-strike, s."""
+    displacement: Vec3
+    """Displacement from foot-flat to foot-flat, m; x along the mean of both headings."""
 
     @property
-    def lasted(self) -> float:
-        """The last moment, s after the heel's rise."""
+    def duration(self) -> float:
+        """Time from heel-off to the last moment, s."""
         return self.rows[-1][0]
 
 
 def moments(rows: list[MomentRow]) -> list[StrideMoment]:
-    """What was kept, in order."""
+    """Return stored rows as moments, in order."""
     return [
         StrideMoment(t, (qw, qx, qy, qz), (vx, vy, vz), (px, py, pz), (rx, ry, rz), force)
         for t, qw, qx, qy, qz, vx, vy, vz, px, py, pz, rx, ry, rz, force in rows
@@ -59,7 +65,7 @@ def moments(rows: list[MomentRow]) -> list[StrideMoment]:
 
 
 def at(moments: list[StrideMoment], since: float) -> StrideMoment:
-    """The stride `since` s after the heel's rise, between the moments that were kept; within its first and last."""
+    """Return the stride at `since` s after heel-off, interpolated and within its first and last moment."""
     before = moments[0]
     for moment in moments:
         if moment.since >= since:
@@ -68,18 +74,20 @@ def at(moments: list[StrideMoment], since: float) -> StrideMoment:
             k = (since - before.since) / (moment.since - before.since)
             return StrideMoment(
                 since,
-                normalise(_mixed(before.attitude, moment.attitude, k)),
-                _between(before.velocity, moment.velocity, k),
-                _between(before.position, moment.position, k),
-                _between(before.rate, moment.rate, k),
+                normalise(_mix_attitudes(before.attitude, moment.attitude, k)),
+                _interpolate(before.velocity, moment.velocity, k),
+                _interpolate(before.position, moment.position, k),
+                _interpolate(before.rate, moment.rate, k),
                 before.force + k * (moment.force - before.force),
             )
         before = moment
     return before
 
 
-def corrected(rows: list[MomentRow]) -> float:
-    """How far zero velocity moved the foot in a stride when it came down, m: what the velocities do not tell."""
+def correction_distance(rows: list[MomentRow]) -> float:
+    """Return how far the zero velocity updates have moved the foot in a stride, m.
+
+    This is the difference between the displacement and the integral of the velocity."""
     first, last = rows[0], rows[-1]
     before, ax, ay, az = first[0], *first[5:8]
     x, y, z = sub(last[8:11], first[8:11])
@@ -91,20 +99,21 @@ def corrected(rows: list[MomentRow]) -> float:
 
 
 def length(v: Vec3) -> float:
+    """Return the length of a vector."""
     return hypot(v[0], v[1], v[2])
 
 
-def limited(v: Vec3, most: float) -> Vec3:
-    """In the same direction, no longer than `most`."""
+def limit_length(v: Vec3, most: float) -> Vec3:
+    """Return a vector of the same direction that is at most `most` long."""
     far = length(v)
     return v if far <= most else (v[0] * most / far, v[1] * most / far, v[2] * most / far)
 
 
-def _between(a: Vec3, b: Vec3, k: float) -> Vec3:
+def _interpolate(a: Vec3, b: Vec3, k: float) -> Vec3:
     return (a[0] + k * (b[0] - a[0]), a[1] + k * (b[1] - a[1]), a[2] + k * (b[2] - a[2]))
 
 
-def _mixed(p: Quat, q: Quat, k: float) -> Quat:
+def _mix_attitudes(p: Quat, q: Quat, k: float) -> Quat:
     if p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3] < 0.0:
         q = (-q[0], -q[1], -q[2], -q[3])
     w, x, y, z = (a + k * (b - a) for a, b in zip(p, q, strict=True))

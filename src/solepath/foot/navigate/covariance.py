@@ -1,17 +1,17 @@
-"""The covariance of the nine error states, in straight-line scalar code.
+"""Covariance of the nine error states, in straight-line scalar code.
 
 States: dp (position, m), dv (velocity, m/s), dt (attitude, rad, small turn in the world frame: R_true = exp([dt]x) R).
-`Covariance` holds the upper triangle of the symmetric 9x9 matrix, block by block: pp (6), pv (9), pt (9), vv (6),
-vt (9), tt (6); the names say which states meet, so `vtxz` is the covariance of dv_x and dt_z.
+`Covariance` is the upper triangle of the symmetric 9x9 matrix, block by block: pp (6), pv (9), pt (9), vv (6), vt (9),
+tt (6). The names contain both states: `vtxz` is the covariance of dv_x and dt_z.
 
-Between two corrections nobody needs the covariance, so it is carried over the whole interval T at once. With
-S = integral of f dt and D = double integral of f dt^2 (f: specific force in the world frame), and the attitude error
-constant over T, the error equations dp' = dv, dv' = -[f]x dt (Sola 2017, section 7) integrate exactly to
+No part needs the covariance between two corrections, so it is propagated over the whole interval T at once. With S =
+integral of f dt and D = double integral of f dt^2 (f: specific force in the world frame), and a constant attitude error
+over T, the error equations dp' = dv, dv' = -[f]x dt (Sola 2017, section 7) integrate exactly to
 
     dp(T) = dp + T dv + M2 dt,  M2 = -[D]x      dv(T) = dv + M1 dt,  M1 = -[S]x      dt(T) = dt
 
-The lines below are the blocks of P <- F P F' + Q and of the Kalman update by a measured velocity, H = [0 I 0];
-tests/foot/test_covariance.py holds them against the matrix form.
+The lines below are the blocks of P <- F P F' + Q and of the Kalman update by a measured velocity, H = [0 I 0].
+tests/foot/test_covariance.py compares them with the matrix form.
 """
 
 from __future__ import annotations
@@ -19,17 +19,17 @@ from __future__ import annotations
 from math import sqrt
 
 Covariance = tuple[float, ...]
-"""45 numbers: pp, pv, pt, vv, vt, tt."""
+"""Covariance as 45 numbers: pp, pv, pt, vv, vt, tt."""
 
 Correction = tuple[float, float, float, float, float, float, float, float, float]
-"""What to add to dp, dv and dt: m, m/s, rad."""
+"""Values to add to dp, dv and dt: m, m/s, rad."""
 
 PLACE_X, PLACE_Y, HEIGHT = 0, 3, 5
-"""Where the variances of the position stand in a Covariance."""
+"""Indices of the variances of the position in a Covariance."""
 VELOCITY_X, VELOCITY_Y, VELOCITY_Z = 24, 27, 29
-"""Where the variances of the velocity stand."""
+"""Indices of the variances of the velocity in a Covariance."""
 TILT_X, TILT_Y, YAW = 39, 42, 44
-"""Where the variances of the attitude stand."""
+"""Indices of the variances of the attitude in a Covariance."""
 
 
 def propagate(
@@ -42,7 +42,9 @@ def propagate(
     q_vv: float,
     q_tt: float,
 ) -> Covariance:
-    """P <- F P F' + Q over an interval of `dt` s; `s` (m/s) and `d` (m) are S and D as above, q_* the noise added."""
+    """Return P <- F P F' + Q over an interval of `dt` s.
+
+    `s` (m/s) and `d` (m) are S and D of the module, q_* are the blocks of the noise Q."""
     sx, sy, sz = s
     dx, dy, dz = d
     (
@@ -205,7 +207,7 @@ def update(
             ppyy,
             ppyz,
             ppzz,
-            # P H' - K H P H' = K (S - H P H') = K r: of the velocity's columns r K is left
+            # P H' - K H P H' = K (S - H P H') = K r: the columns of the velocity become r K
             r * kpxx,
             r * kpxy,
             r * kpxz,
@@ -261,9 +263,11 @@ def update(
     )
 
 
-def believed_height(covariance: Covariance, left: float) -> Covariance:
-    """The height is known from elsewhere, with `left` (0 to 1) of its variance: P <- D P D, D = diag(1, 1, d, 1, ...)
-    with d^2 = `left`. What else is uncertain stays so, and has less to do with the height."""
+def constrain_height(covariance: Covariance, left: float) -> Covariance:
+    """Return the covariance after the height was set from elsewhere, with `left` (0 to 1) of its variance.
+
+    P <- D P D, D = diag(1, 1, d, 1, ...) with d^2 = `left`. Other variances stay, and their covariance with the height
+    shrinks."""
     d = sqrt(left)
     p = list(covariance)
     p[HEIGHT] *= left

@@ -1,9 +1,9 @@
-"""Linear dedrift: free integration in swing, velocity held in stance, and the drift of a swing taken out in a line.
+"""Linear dedrift: integration in swing, velocity of the evidence in stance, linear removal of the drift of a swing.
 
-The textbook corrector (for instance Ojeda and Borenstein, "Non-GPS navigation for security personnel and first
-responders", 2007): whatever velocity is left at the end of a swing was gathered evenly over it. With e(t) = e_T t/T
-removed from the velocity, the position loses the integral, e_T T/2. Tilt drifts with the gyroscope, so in stance the
-measured direction of gravity pulls the attitude back (the proportional term of Mahony, Hamel, Pflimlin, IEEE Trans.
+This is the textbook corrector (for instance Ojeda and Borenstein, "Non-GPS navigation for security personnel and first
+responders", 2007): the velocity error at the end of a swing has grown evenly over it. With e(t) = e_T t/T removed from
+the velocity, the position changes by the integral, e_T T/2. The tilt drifts with the gyroscope, so in stance the
+measured direction of gravity corrects the attitude (the proportional term of Mahony, Hamel, Pflimlin, IEEE Trans.
 Autom. Control 53, 2008).
 """
 
@@ -22,16 +22,17 @@ from .strapdown import Strapdown
 
 @define
 class LinearDedrift(Strapdown):
-    """Strapdown navigation whose velocity is set to the evidence's in stance, the swing's drift taken out at once.
+    """Strapdown navigation that takes the velocity of the evidence in stance and removes the drift of the swing.
 
-    Frame and units as in `Corrector`. Latency: the position is corrected, in one jump, with the first sample of stance.
+    Frame and units as in `Corrector`. Latency: the position is corrected, in one jump, at the first sample of
+    stance.
     """
 
     settings: DedriftSettings = DedriftSettings()
     swing: float = field(default=0.0, init=False)
     """Time since stance, s."""
     length: float = field(default=0.0, init=False)
-    """Way since the last anchor, m."""
+    """Length of the path since the last anchor, m."""
     lasted: float = field(default=0.0, init=False)
     """Time since the last anchor, s."""
 
@@ -62,7 +63,7 @@ class LinearDedrift(Strapdown):
         return True
 
     def bridge(self, dt: float) -> float:
-        # nothing is estimated from noise here; the gap only makes the stretch less certain
+        # this corrector has no noise model: the gap only makes the stretch less certain
         self.length += min(dt, LONGEST_BRIDGE) * 1.0
         if dt <= LONGEST_BRIDGE:
             return dt
@@ -90,12 +91,12 @@ class LinearDedrift(Strapdown):
         return (variance, 0.0, 0.0, variance, 0.0, variance, yaw)
 
     def _level(self) -> None:
-        """The foot stands: the specific force points up."""
+        """Turn the attitude towards the specific force of a standing foot, which points up."""
         if self.force is not None:
             self._pull(self.force, self.swing)
 
     def _pull(self, force: Vec3, dt: float) -> None:
-        """Turn the attitude about `force` x z so that `force`, m/s^2, points up, by 1 - exp(-rate dt) of the way."""
+        """Turn the attitude about `force` x z so that `force`, m/s^2, points up, by a share of 1 - exp(-rate dt)."""
         fx, fy, _ = force
         share = 0.5 * (1.0 - exp(-self.settings.tilt_rate * min(dt, 0.1))) / GRAVITY
         self.attitude = tipped(self.attitude, share * fy, -share * fx)

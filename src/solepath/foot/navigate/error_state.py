@@ -1,12 +1,12 @@
-"""The nine-state error-state filter: position, velocity and attitude errors, corrected by stance evidence.
+"""Nine-state error-state filter: errors of position, velocity and attitude, corrected by stance evidence.
 
-After Foxlin, "Pedestrian tracking with shoe-mounted inertial sensors" (2005) and Sola, "Quaternion kinematics for the
-error-state Kalman filter" (arXiv:1711.02508, 2017, section 7 with global angular errors). Gyroscope bias is not a
-state: it is learnt at rest (attitude.py), which costs less and, on short walks, errs less than a 15-state filter.
+Sources: Foxlin, "Pedestrian tracking with shoe-mounted inertial sensors" (2005) and Sola, "Quaternion kinematics for
+the error-state Kalman filter" (arXiv:1711.02508, 2017, section 7 with global angular errors). The gyroscope bias is not
+a state: it is learnt at rest (attitude.py), which costs less and, on short walks, errs less than a 15-state filter.
 
-Between corrections the covariance is carried in one stroke (propagated.py), so a swing costs no more than its
-integration. Evidence that the motion so far makes too unlikely is refused, since a slow swing can look as still as a
-fast stance; but a filter that has refused everything for a while is lost and takes the quietest moment there is.
+Between corrections the covariance is propagated at once (propagated.py), so a swing costs no more than its integration.
+An innovation gate rejects evidence that the motion so far makes too unlikely, because a slow swing can look as still as
+a fast stance. A filter that has gated everything for some time is lost and takes the most still moment there is.
 """
 
 from __future__ import annotations
@@ -19,89 +19,95 @@ from ...types.attrs import define, field
 from ...types.vector import GRAVITY, TIE
 from ..settings import ErrorStateSettings
 from ..stance.stance import Stance
-from .clipping import Missed
+from .clipping import ClippedPeak
 from .corrector import LONGEST_BRIDGE
-from .covariance import HEIGHT, believed_height, update
+from .covariance import HEIGHT, constrain_height, update
 from .level import UNEVEN, LevelGround
 from .propagated import PropagatedCovariance
 from .recovery import Recovery
 from .strapdown import WIDEST_SERIES
 
 STATIONARY: Final = Phase.STATIONARY
-"""Looked up once: a word of an enum costs as much as five multiplications."""
+"""Local name of `Phase.STATIONARY`, because one look-up in the enum costs as much as five multiplications."""
 
 REFERENCE_INTERVAL = 0.005
-"""The spacing of updates that a Stance's sigma is meant for, s; other spacings scale its variance."""
+"""Interval of updates for which the sigma of a Stance is meant, s; other intervals scale its variance."""
 SHORTEST_INTERVAL = 0.0035
-"""Corrections closer together than this are left out, s: neighbouring samples say the same. At 400 Hz every second one
-corrects."""
+"""Shortest interval between corrections, s, because neighbouring samples give the same evidence.
+
+At 400 Hz every second sample corrects."""
 SETTLED = 0.06
-"""After so much of a stance corrections are as close as this no longer, s; chosen by hand."""
+"""Time after the start of a stance at which the interval between corrections grows, s; chosen by hand."""
 SETTLED_INTERVAL = 0.0385
-"""What they are spaced by then, s: every fourth sample at 100 Hz. What they correct has hardly grown in between; with
-5, 20 and 40 ms the ARMSE2d of `pyshoe_vicon` was 0.0503, 0.0500 and 0.0496 m."""
+"""Interval between corrections from then on, s: every fourth sample at 100 Hz.
+
+The error has hardly grown in between: with 5, 20 and 40 ms the ARMSE2d of `pyshoe_vicon` was 0.0503, 0.0500 and 0.0496
+m."""
 
 NONE_GATED = 1e12
-"""Larger than any statistic."""
-AS_QUIET = 3.0
-"""A lost filter takes evidence whose statistic is at most so many times the least that it refused."""
+"""Upper bound of any statistic."""
+LOST_STATISTIC_RATIO = 3.0
+"""Largest ratio of a statistic that a lost filter accepts to the least one that it has gated."""
 LOST_SPEED, LOST_TILT = 0.3, 0.03
-"""What the velocity of a lost filter may be off by besides, m/s, and its tilt, rad."""
+"""Standard deviations that inflate the covariance of a lost filter: velocity, m/s, and tilt, rad."""
 LASTING_TILT = 0.1
-"""What the tilt may be off by when evidence lasts, rad; the velocity by all that it differs from the evidence."""
+"""Standard deviation that inflates the tilt when evidence lasts, rad.
+
+The velocity is inflated by its whole difference from the evidence."""
 
 
 @define
 class ErrorStateFilter(PropagatedCovariance):
-    """Strapdown navigation corrected by stance evidence, weighted by what the motion so far makes likely.
+    """Strapdown navigation with stance evidence, weighted by the covariance of the motion so far.
 
-    Frame, units and latency as in `Corrector`: live position and velocity with every sample, corrected with the sample
-    that brings the evidence.
+    Frame, units and latency as in `Corrector`: live position and velocity with every sample, corrected at the sample
+    with the evidence.
 
-    Numbers here and above that name no source were chosen by hand on the recordings of docs/accuracy.md and not swept;
-    what whole terms are worth stands there in the table of the default without one of its parts.
+    Numbers in this module without source were chosen by hand on the recordings of docs/accuracy.md and not swept. The
+    table of the default without one of its parts in that document gives the effect of whole terms.
     """
 
     settings: ErrorStateSettings = ErrorStateSettings()
     level: LevelGround = field(factory=LevelGround, init=False)
-    """What keeps level walking level."""
+    """Height correction of level walking."""
     accepted: float | None = field(default=None, init=False)
-    """When evidence was last accepted, s."""
-    quietest: float = field(default=NONE_GATED, init=False)
-    """The least statistic that was refused since."""
-    quiet_since: float | None = field(default=None, init=False)
-    """Since when there has been evidence without a break, s."""
+    """Time at which evidence was last accepted, s; None before any."""
+    least_gated: float = field(default=NONE_GATED, init=False)
+    """Smallest statistic that was gated since then."""
+    evidence_since: float | None = field(default=None, init=False)
+    """Start of the current unbroken evidence, s; None without evidence."""
     recovery: Recovery = field(factory=Recovery, init=False)
-    """What the sensors miss at the ends of their ranges."""
+    """Recovery of the clipped peaks of both sensors."""
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         PropagatedCovariance.start(self, attitude, tilt_sigma)
-        self.accepted = self.quiet_since = None
-        self.quietest = NONE_GATED
+        self.accepted = self.evidence_since = None
+        self.least_gated = NONE_GATED
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
-        """As in `Corrector`: `Strapdown.integrate` and the noise that it adds, in one stroke, for a call of it would be
-        5 % of this (tests/foot/test_alike.py holds both equal)."""
+        """Integrate one sample as in `Corrector`: `Strapdown.integrate` and its noise in one function.
+
+        A call of `integrate` would cost 5 % of this function (tests/foot/test_alike.py checks that both are equal)."""
         gx, gy, gz = gyro
         fx, fy, fz = acc
-        rate, was, attitude = self.rate or gyro, self.force, self.attitude
+        rate, previous_force, attitude = self.rate or gyro, self.force, self.attitude
         rx, ry, rz = rate
         turning = gx * gx + gy * gy + gz * gz
-        # what the sensors may miss at the ends of their ranges
+        # clipped peaks of the sensors
         recovery = self.recovery
         turns, impacts = recovery.turns, recovery.impacts
-        missed = lost = None
+        peaks = acc_peaks = None
         if (
-            turning > turns.watch
-            or fx * fx + fy * fy + fz * fz > impacts.watch
+            turning > turns.watch_square
+            or fx * fx + fy * fy + fz * fz > impacts.watch_square
             or turns.clipping
             or impacts.clipping
             or recovery.swing.rows
         ):
-            missed, lost = recovery.watch(dt, acc, gyro, rate, attitude, saturated)
-        else:  # far from them: what `watch` keeps
-            recovery.felt_before, recovery.felt = recovery.felt, acc
-            recovery.earlier, recovery.earlier_dt = rate, dt
+            peaks, acc_peaks = recovery.watch(dt, acc, gyro, rate, attitude, saturated)
+        else:  # far from the ends of the ranges: store only what `watch` would store
+            recovery.earlier_acc, recovery.last_acc = recovery.last_acc, acc
+            recovery.earlier_rate, recovery.earlier_dt = rate, dt
         # half the turn by the mean rate, and its sin and cos by their series
         k = 0.25 * dt
         hx, hy, hz = k * (gx + rx), k * (gy + ry), k * (gz + rz)
@@ -136,10 +142,10 @@ class ErrorStateFilter(PropagatedCovariance):
         fz = fz + w * tz + x * ty - y * tx
         self.rate, self.force = gyro, (fx, fy, fz)
         # trapezoidal rule: a = (f + f before) / 2 - g, v <- v + a dt, p <- p + (v + v before) dt / 2
-        if was is None:
+        if previous_force is None:
             ax, ay, az, x, y, z = fx, fy, fz - GRAVITY, fx, fy, fz
         else:
-            px, py, pz = was
+            px, py, pz = previous_force
             ax, ay, az = 0.5 * (fx + px), 0.5 * (fy + py), 0.5 * (fz + pz) - GRAVITY
             x, y, z = fx - px, fy - py, fz - pz
         vx, vy, vz = self.velocity
@@ -148,7 +154,7 @@ class ErrorStateFilter(PropagatedCovariance):
         k = 0.5 * dt
         self.position = (px + (vx + ux) * k, py + (vy + uy) * k, pz + (vz + uz) * k)
         self.velocity = (ux, uy, uz)
-        # noise: the sensor's own, a share of the motion, and of what neighbouring samples differ by
+        # noise of the sensor, a share of the motion, and a share of the difference of neighbouring samples
         rx, ry, rz = gx - rx, gy - ry, gz - rz
         settings = self.settings
         share, unknown = settings.in_motion * settings.in_motion, settings.between * settings.between * dt
@@ -163,29 +169,29 @@ class ErrorStateFilter(PropagatedCovariance):
         self.gyro_variance += noise * dt
         self.since += dt
         self.stretch += dt
-        if (missed or lost) and settings.recover:
-            self._make_up(missed, lost)
+        if (peaks or acc_peaks) and settings.recover:
+            self._add_peaks(peaks, acc_peaks)
 
-    def _make_up(self, missed: tuple[Missed, ...] | None, lost: tuple[Missed, ...] | None) -> None:
-        """What gyroscope and accelerometer turned out to have missed."""
+    def _add_peaks(self, peaks: tuple[ClippedPeak, ...] | None, acc_peaks: tuple[ClippedPeak, ...] | None) -> None:
+        """Correct the state by the clipped peaks of gyroscope and accelerometer."""
         self._propagate()
         state = (self.attitude, self.velocity, self.position, self.uncertainty)
-        if missed:
-            state = self.recovery.turned(missed, state)
-        if lost:
-            state = self.recovery.struck(lost, state)
+        if peaks:
+            state = self.recovery.add_turns(peaks, state)
+        if acc_peaks:
+            state = self.recovery.add_velocities(acc_peaks, state)
         self.attitude, self.velocity, self.position, self.uncertainty = state
-        self._here()
+        self._mark_start()
 
     def correct(self, t: float, stance: Stance) -> bool:
         sigma = stance.sigma
         if sigma == inf:
-            self.quiet_since = None
+            self.evidence_since = None
             return False
-        if self.quiet_since is None:
-            self.quiet_since = t
-        if self.since < (SHORTEST_INTERVAL if t - self.quiet_since < SETTLED - TIE else SETTLED_INTERVAL):
-            return self.accepted is not None and self.quietest >= NONE_GATED  # as the sample before was judged
+        if self.evidence_since is None:
+            self.evidence_since = t
+        if self.since < (SHORTEST_INTERVAL if t - self.evidence_since < SETTLED - TIE else SETTLED_INTERVAL):
+            return self.accepted is not None and self.least_gated >= NONE_GATED  # same result as for the last sample
         settings = self.settings
         share = settings.tilt_rate * min(self.since, SETTLED_INTERVAL)
         r = sigma * sigma * REFERENCE_INTERVAL / self.since
@@ -195,27 +201,31 @@ class ErrorStateFilter(PropagatedCovariance):
             self.accepted = t
         rx, ry, rz = stance.v_ref
         vx, vy, vz = self.velocity
-        if not certain and t - self.accepted > settings.patience - TIE and stance.statistic <= AS_QUIET * self.quietest:
+        if (
+            not certain
+            and t - self.accepted > settings.patience - TIE
+            and stance.statistic <= LOST_STATISTIC_RATIO * self.least_gated
+        ):
             self._inflate(velocity=LOST_SPEED, tilt=LOST_TILT)
-        elif min(t - self.quiet_since, t - self.accepted) > settings.lasting - TIE:
-            # not even a foot that is carried is quiet for so long: it stands, and the velocity is what is wrong
+        elif min(t - self.evidence_since, t - self.accepted) > settings.lasting - TIE:
+            # not even a foot that is lifted is still for so long: it stands, so the velocity is wrong
             self._inflate(velocity=abs(vx - rx) + abs(vy - ry) + abs(vz - rz), tilt=LASTING_TILT)
         outcome = update(self.uncertainty, rx - vx, ry - vy, rz - vz, r, inf if certain else settings.innovation_gate)
         if outcome is None:
-            self.quietest = min(self.quietest, stance.statistic)
+            self.least_gated = min(self.least_gated, stance.statistic)
             return False
         self.uncertainty, error = outcome
-        tx, ty = self._off_plumb(share) if certain else (0.0, 0.0)
+        tx, ty = self._tilt_correction(share) if certain else (0.0, 0.0)
         self._inject(error, tx, ty)
         self.accepted = t
-        self.quietest = NONE_GATED
+        self.least_gated = NONE_GATED
         return True
 
     def bridge(self, dt: float) -> float:
         if dt > LONGEST_BRIDGE:
             self.recovery.reset()
-        if dt == inf:  # times begin anew
-            self.accepted = self.quiet_since = None
+        if dt == inf:  # times restart
+            self.accepted = self.evidence_since = None
         return PropagatedCovariance.bridge(self, dt)
 
     def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
@@ -229,22 +239,22 @@ class ErrorStateFilter(PropagatedCovariance):
         (x, y, z), (sx, sy, sz) = self.position, start
         variance = self.uncertainty[HEIGHT]
         height, level = self.level.judge((x - sx, y - sy, z - sz), turn, variance, self.attitude)
-        # tilt and velocity are left out of it: what heights have in common is no random error of theirs
+        # tilt and velocity stay, because the common part of the heights is not their random error
         self.position = self.start_position = (x, y, sz + height)
         least = UNEVEN * UNEVEN
         if variance > least:
-            self.uncertainty = believed_height(self.uncertainty, 1.0 - level * (1.0 - least / variance))
+            self.uncertainty = constrain_height(self.uncertainty, 1.0 - level * (1.0 - least / variance))
 
     def anchor(self) -> tuple[float, ...]:
-        self.recovery.stepped()
+        self.recovery.end_stride()
         return PropagatedCovariance.anchor(self)
 
-    def _off_plumb(self, share: float) -> tuple[float, float]:
-        """Tilt aiding: this share of the turn, f x up / g, that would make the measured force point up, rad.
+    def _tilt_correction(self, share: float) -> tuple[float, float]:
+        """Return `share` of the turn, f x up / g, that would make the measured force point up, rad.
 
-        Outside the covariance on purpose: a foot that stands is loaded and trembles, and the lag of this pull, half a
-        second, averages what a Kalman update would take for independent measurements.
-        """
+        This tilt aiding is outside the covariance on purpose. A foot that stands is loaded and trembles. The lag of
+        this correction, half a second, averages the trembling, which a Kalman update would take for independent
+        measurements."""
         if self.force is None:
             return 0.0, 0.0
         fx, fy, _ = self.force

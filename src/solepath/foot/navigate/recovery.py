@@ -1,6 +1,7 @@
-"""Both sensors of a foot watched at the ends of their ranges, and what they missed put into a filter's state.
+"""Recovery of the clipped peaks of both sensors of a foot, for the state of a filter.
 
-clipping.py says what was missed, missed.py what follows from it; this keeps the samples that both need.
+clipping.py detects clipped peaks, reintegration.py gives their effect; this module stores the samples that both
+need.
 """
 
 from __future__ import annotations
@@ -8,9 +9,9 @@ from __future__ import annotations
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO, from_rotation_vector, multiply, normalise, rotate
-from .clipping import ACCELEROMETER, Clipping, Missed
+from .clipping import ACCELEROMETER, ClippedPeak, Clipping
 from .covariance import Covariance
-from .missed import NUDGE, Swing, apart, spread
+from .reintegration import NUDGE, SwingSamples, add_error, difference
 
 State = tuple[Quat, Vec3, Vec3, Covariance]
 """Attitude, velocity (m/s), position (m) and their covariance."""
@@ -18,71 +19,77 @@ State = tuple[Quat, Vec3, Vec3, Covariance]
 
 @define
 class Recovery:
-    """Fed every sample before it is integrated. A plain record."""
+    """The clipping of both sensors of one foot. Call `watch` for every sample before it is integrated."""
 
     turns: Clipping = field(factory=Clipping, init=False)
-    """The gyroscope."""
+    """Clipping of the gyroscope."""
     impacts: Clipping = field(factory=lambda: Clipping(ACCELEROMETER), init=False)
-    """The accelerometer; and its last two readings, m/s^2:"""
-    felt: Vec3 = field(default=ZERO, init=False)
-    felt_before: Vec3 = field(default=ZERO, init=False)
-    swing: Swing = field(factory=Swing, init=False)
-    earlier: Vec3 = field(default=ZERO, init=False)
-    """The rate before the last one, rad/s, and how long before it, s:"""
+    """Clipping of the accelerometer."""
+    last_acc: Vec3 = field(default=ZERO, init=False)
+    """Last acc, sensor frame, m/s^2."""
+    earlier_acc: Vec3 = field(default=ZERO, init=False)
+    """Acc before the last one, sensor frame, m/s^2."""
+    swing: SwingSamples = field(factory=SwingSamples, init=False)
+    earlier_rate: Vec3 = field(default=ZERO, init=False)
+    """Rate before the last one, sensor frame, rad/s."""
     earlier_dt: float = field(default=0.0, init=False)
+    """Time between the last two samples, s."""
 
     def watch(
         self, dt: float, acc: Vec3, gyro: Vec3, before: Vec3, attitude: Quat, saturated: bool
-    ) -> tuple[tuple[Missed, ...] | None, tuple[Missed, ...] | None]:
-        """A sample; `before` and `attitude`: rate and attitude before it. What the gyroscope and the accelerometer
-        turn out to have missed, as soon as they are within their ranges again."""
+    ) -> tuple[tuple[ClippedPeak, ...] | None, tuple[ClippedPeak, ...] | None]:
+        """Return the clipped peaks of gyroscope and accelerometer that one sample completes.
+
+        `before` and `attitude` are the rate and the attitude before the sample."""
         x, y, z = gyro
-        turns, missed = self.turns, None
-        if turns.clipping or x * x + y * y + z * z > turns.watch:
-            missed = turns.update(dt, gyro, before, self.earlier, self.earlier_dt, saturated)
-            self.swing.keep(dt, gyro, before, acc, attitude)
+        turns, peaks = self.turns, None
+        if turns.clipping or x * x + y * y + z * z > turns.watch_square:
+            peaks = turns.update(dt, gyro, before, self.earlier_rate, self.earlier_dt, saturated)
+            self.swing.add_sample(dt, gyro, before, acc, attitude)
         elif self.swing.rows:
             self.swing.rows = []
         x, y, z = acc
-        impacts, lost = self.impacts, None
-        if impacts.clipping or x * x + y * y + z * z > impacts.watch:
-            lost = impacts.update(dt, acc, self.felt, self.felt_before, self.earlier_dt, saturated)
-        self.felt_before, self.felt = self.felt, acc
-        self.earlier, self.earlier_dt = before, dt
-        return missed, lost
+        impacts, acc_peaks = self.impacts, None
+        if impacts.clipping or x * x + y * y + z * z > impacts.watch_square:
+            acc_peaks = impacts.update(dt, acc, self.last_acc, self.earlier_acc, self.earlier_dt, saturated)
+        self.earlier_acc, self.last_acc = self.last_acc, acc
+        self.earlier_rate, self.earlier_dt = before, dt
+        return peaks, acc_peaks
 
     def reset(self) -> None:
-        """There was a gap."""
+        """Discard clipped peaks after a gap."""
         self.turns.reset()
         self.impacts.reset()
         self.swing.rows = []
 
-    def stepped(self) -> None:
-        """A step is over."""
-        self.turns.stepped()
-        self.impacts.stepped()
+    def end_stride(self) -> None:
+        """Let the largest readings decay at the end of a stride."""
+        self.turns.end_stride()
+        self.impacts.end_stride()
 
-    def turned(self, missed: tuple[Missed, ...], state: State) -> State:
-        """The state as it is with the turn that the gyroscope missed, and the doubt."""
+    def add_turns(self, peaks: tuple[ClippedPeak, ...], state: State) -> State:
+        """Return the state with the clipped peaks of the gyroscope, and with their covariance."""
         attitude, (vx, vy, vz), (x, y, z), covariance = state
-        for one in missed:
-            seen, likely, more = (self.swing.reintegrated(one, angle) for angle in (0.0, one.angle, one.angle + NUDGE))
-            (px, py, pz), (ux, uy, uz), turn = apart(seen, likely)
+        for one in peaks:
+            seen, likely, more = (
+                self.swing.reintegrate(one, integral) for integral in (0.0, one.integral, one.integral + NUDGE)
+            )
+            (px, py, pz), (ux, uy, uz), turn = difference(seen, likely)
             x, y, z = x + px, y + py, z + pz
             vx, vy, vz = vx + ux, vy + uy, vz + uz
             attitude = normalise(multiply(from_rotation_vector(turn), attitude))
-            covariance = spread(covariance, *apart(likely, more), one.sigma / NUDGE)
+            covariance = add_error(covariance, *difference(likely, more), one.sigma / NUDGE)
         return attitude, (vx, vy, vz), (x, y, z), covariance
 
     @staticmethod
-    def struck(lost: tuple[Missed, ...], state: State) -> State:
-        """The same of the velocity that the accelerometer missed."""
+    def add_velocities(acc_peaks: tuple[ClippedPeak, ...], state: State) -> State:
+        """Return the state with the clipped peaks of the accelerometer, and with their covariance."""
         attitude, (vx, vy, vz), (x, y, z), covariance = state
-        for one in lost:
+        for one in acc_peaks:
             i, j, k = (1.0 if axis == one.axis else 0.0 for axis in (0, 1, 2))
             ux, uy, uz = rotate(attitude, (i, j, k))
-            v, since = one.angle, one.ago + 0.5 * one.lasted
+            v, since = one.integral, one.ago + 0.5 * one.duration
             x, y, z = x + v * since * ux, y + v * since * uy, z + v * since * uz
             vx, vy, vz = vx + v * ux, vy + v * uy, vz + v * uz
-            covariance = spread(covariance, (since * ux, since * uy, since * uz), (ux, uy, uz), ZERO, one.sigma)
+            covariance = add_error(covariance, (since * ux, since * uy, since * uz), (ux, uy, uz), ZERO, one.sigma)
         return attitude, (vx, vy, vz), (x, y, z), covariance

@@ -1,8 +1,8 @@
 """Strapdown navigation of one foot: attitude, velocity and position from specific force and angular rate.
 
-The frame is z up with the heading that the sensor had when it was levelled; the tracker turns it into the world frame.
-What keeps the integration from drifting is a corrector (`ErrorStateFilter`, `LinearDedrift`): this strapdown and a way
-of using stance evidence.
+The navigation frame is z up, with the heading of the sensor at levelling; the tracker turns it into the world frame. A
+corrector (`ErrorStateFilter`, `LinearDedrift`) extends this strapdown with the use of stance evidence, which keeps the
+integration from drifting.
 """
 
 from __future__ import annotations
@@ -15,29 +15,32 @@ from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, multiply, normali
 from .corrector import Corrector
 
 WIDEST_SERIES = 0.06
-"""Square of the half angle, rad^2, up to which the series below are good to 1e-12."""
+"""Square of the half angle up to which the series below are accurate to 1e-12, rad^2."""
 
 
 @define
 class Strapdown(Corrector):
-    """Attitude by the rotation vector, velocity and position by the trapezoidal rule; dt is each sample's own."""
+    """Integrates attitude by the rotation vector, velocity and position by the trapezoidal rule.
+
+    Each sample has its own dt.
+    """
 
     attitude: Quat = field(default=IDENTITY, init=False)
     velocity: Vec3 = field(default=ZERO, init=False)
     position: Vec3 = field(default=ZERO, init=False)
     force: Vec3 | None = field(default=None, init=False)
-    """Specific force of the last sample in this frame, m/s^2."""
+    """Specific force of the last sample, navigation frame, m/s^2; None before any sample and after a gap."""
     rate: Vec3 | None = field(default=None, init=False)
-    """Angular rate of the last sample, sensor frame, rad/s."""
+    """Angular rate of the last sample, sensor frame, rad/s; None before any sample and after a gap."""
 
     def repair(self, yaw: float, position: Vec3) -> None:
-        """As in `Corrector`."""
+        """Turn the attitude by `yaw` rad and set `position`, m."""
         self.attitude = normalise(multiply(from_yaw(yaw), self.attitude))
         self.position = position
         self.force = None
 
     def turn_about(self, yaw: float, by: Vec3) -> None:
-        """Turn attitude, velocity and force by `yaw` rad about the foot, and move it `by` m."""
+        """Turn attitude, velocity and force by `yaw` rad about the foot, and move it by `by` m."""
         c, s = cos(yaw), sin(yaw)
         self.attitude = normalise(multiply(from_yaw(yaw), self.attitude))
         x, y, z = self.velocity
@@ -49,8 +52,8 @@ class Strapdown(Corrector):
         self.position = (x + dx, y + dy, z + dz)
 
     def integrate(self, dt: float, acc: Vec3, gyro: Vec3) -> Vec3:
-        """One sample; returns the mean acceleration over dt, m/s^2."""
-        # turn by the mean rate: half angles, sin and cos by their series (angles of a sample are small)
+        """Integrate one sample; return the mean acceleration over dt, m/s^2."""
+        # turn by the mean rate: half angles, with series for sin and cos because the angle of one sample is small
         gx, gy, gz = gyro
         if self.rate is None:
             hx, hy, hz = 0.5 * dt * gx, 0.5 * dt * gy, 0.5 * dt * gz

@@ -1,13 +1,15 @@
-"""What a window of walking says of the pressure cells of an insole, and of the insole: nothing of earlier windows in it
-but in how many of them each cell was lively.
+"""Faults of pressure cells, and of the insole, that one window of walking shows.
 
-- DEAD: it varies by less than 1 % of what the most lively cell does, though all around it cells load (that takes a
-  layout), or it has loaded in every window before, or there are at most four cells, which are where the foot presses.
-- STUCK: it shows one value, well above what the other cells show in the air.
-- SATURATED: it is at the end of its range, or beyond, also while the foot is in the air (that takes a layout).
+Earlier windows count only by the number of windows in which each cell was lively.
 
-A cell at the rim of the sole or under a high arch may carry nothing for all its life. One that was dead from the
-beginning looks the same there: it is not reported, and does no harm.
+- DEAD: the cell varies by less than 1 % of the most lively cell, although it should load: cells on all its sides load
+  (this needs a layout), or it loaded in every window before, or there are at most four cells, which are where the foot
+  presses.
+- STUCK: the cell shows one value, well above the other cells in the air.
+- SATURATED: the cell is at or beyond the end of its range, even while the foot is in the air (this needs a layout).
+
+A cell at the rim of the sole or under a high arch may never bear load. A cell there that was dead from the start looks
+the same: it is not reported, and does no harm.
 """
 
 from __future__ import annotations
@@ -18,63 +20,69 @@ from ...types.attrs import frozen
 from .cells import CellSpan, enclosed, spacing
 
 LIVELY = 0.15
-"""A cell that varies by more than this share of what the most lively one does loads and unloads."""
+"""Smallest variation of a cell that loads and unloads, as a share of the most lively one's."""
 SILENT = 0.01
-"""One that varies by less carries nothing."""
+"""Largest variation of a cell that bears no load, as a share of the most lively one's."""
 CONSTANT = 0.0025
-"""One that varies by less shows one value, and perhaps a count beside it."""
+"""Largest variation of a cell that shows one value, or two neighbouring counts, as a share of the most lively one's."""
 RAISED = 0.1
-"""This share of the most lively one's variation above the others in the air is not the air."""
-USED_TO = 3
-"""A cell that was lively in so many windows in a row is expected to be,"""
-USED_TO_ALONE = 8
-"""where nobody knows which cells are next to it."""
+"""Smallest excess of a cell over the others in the air that is no unloaded value.
+
+The unit is the variation of the most lively cell."""
+LIVELY_WINDOWS = 3
+"""Number of lively windows in a row after which a cell should load."""
+LIVELY_WINDOWS_ALONE = 8
+"""Number of lively windows in a row after which a cell should load if its neighbours are unknown."""
 FEW = 4
+"""Largest number of cells that all are where the foot presses."""
 FULL = 0.99
-"""From this share of its range a cell is at the end of it."""
-HELD = 0.3
-"""An insole in newtons does not unload when it never shows less than this share of its highest load;"""
-HELD_IN_COUNTS = 0.9
-"""one whose zero is not known, this share."""
-UNMOVED = 0.01
-"""Of the highest value: if no cell varies by more, none shows anything."""
+"""Share of its range from which on a cell is at the end of it."""
+STAYS_LOADED = 0.3
+"""Smallest load of an insole in N that does not unload, as a share of its highest load."""
+STAYS_LOADED_IN_COUNTS = 0.9
+"""Smallest load of an insole with unknown zero that does not unload, as a share of its highest load."""
+NO_VARIATION = 0.01
+"""Largest variation of cells that show no load at all, as a share of the highest value."""
 
 
 @frozen
 class CellWindow:
-    """What the cells showed in a window; of `working`, those that have not failed, the others are judged."""
+    """The extremes of the cells in one window; only the `working` cells, which have not failed, are judged."""
 
     lows: list[float]
-    """Of every cell, unit of the samples."""
+    """Lowest value of each cell, unit of the samples."""
     ranges: list[float]
-    """By how much each varied."""
+    """Variation of each cell: highest minus lowest value, unit of the samples."""
     working: list[int]
+    """Indices of the cells that have not failed."""
     liveliest: float
-    """By how much the most lively of the working ones varied."""
+    """Variation of the most lively working cell, unit of the samples."""
     highest: float
-    """What any of them showed."""
+    """Highest value of any working cell, unit of the samples."""
 
     @classmethod
-    def of(cls, span: CellSpan, out: list[int]) -> CellWindow:
-        """`out`: the cells that failed."""
+    def from_span(cls, span: CellSpan, excluded: list[int]) -> CellWindow:
+        """Return the window of a span; `excluded` are the cells that failed."""
         ranges = [high - low for low, high in zip(span.lows, span.highs, strict=True)]
-        working = [i for i in range(len(ranges)) if i not in out]
+        working = [i for i in range(len(ranges)) if i not in excluded]
         liveliest = max([ranges[i] for i in working], default=0.0)
         highest = max([span.highs[i] for i in working], default=0.0)
         return cls(span.lows, ranges, working, liveliest, highest)
 
     @property
     def moves(self) -> bool:
-        """Some cell shows something."""
-        return self.liveliest > UNMOVED * self.highest and self.liveliest > 0.0
+        """Some cell varies enough to show a load."""
+        return self.liveliest > NO_VARIATION * self.highest and self.liveliest > 0.0
 
     def lively(self) -> list[bool]:
-        """Of every cell, whether it loads and unloads."""
+        """Return for each cell whether it loads and unloads."""
         return [r > LIVELY * self.liveliest for r in self.ranges]
 
-    def faults(self, layout: Layout | None, used_to: list[int]) -> dict[CellFault, list[int]]:
-        """What the window says of the working cells. `used_to`: in how many windows in a row before it each cell was
-        lively, [] before any."""
+    def faults(self, layout: Layout | None, lively_windows: list[int]) -> dict[CellFault, list[int]]:
+        """Return the faults of the working cells.
+
+        `lively_windows` is the number of windows in a row before this one in which each cell was lively; [] before
+        any."""
         lows, ranges, liveliest = self.lows, self.ranges, self.liveliest
         air = sorted([lows[i] for i in self.working])[len(self.working) // 2]
         full = None if layout is None else layout.full_scale
@@ -88,22 +96,22 @@ class CellWindow:
                 if ranges[i] > CONSTANT * liveliest:
                     continue
                 fault = CellFault.STUCK
-            elif self._ought_to_load(i, layout, used_to[i] if used_to else 0):
+            elif self._should_load(i, layout, lively_windows[i] if lively_windows else 0):
                 fault = CellFault.DEAD
             else:
                 continue
             faults.setdefault(fault, []).append(i)
         return faults
 
-    def _ought_to_load(self, i: int, layout: Layout | None, used_to: int) -> bool:
+    def _should_load(self, i: int, layout: Layout | None, lively_windows: int) -> bool:
         if layout is None:
-            return len(self.ranges) <= FEW or used_to >= USED_TO_ALONE
+            return len(self.ranges) <= FEW or lively_windows >= LIVELY_WINDOWS_ALONE
         all_around, some = enclosed(layout, spacing(layout), i, self.lively())
-        return all_around or (used_to >= USED_TO and some)
+        return all_around or (lively_windows >= LIVELY_WINDOWS and some)
 
 
 def unloads(span: CellSpan, layout: Layout | None) -> bool:
-    """The insole bears much less at some time in the window than at others, or nothing at all."""
+    """Return whether the load of the insole is much lower at some time in the window, or always zero."""
     in_newtons = layout is not None and layout.scale is not None
-    share = HELD if in_newtons else HELD_IN_COUNTS
+    share = STAYS_LOADED if in_newtons else STAYS_LOADED_IN_COUNTS
     return not (span.high > 0.0 and span.low > share * span.high)

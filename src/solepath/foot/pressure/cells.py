@@ -1,4 +1,4 @@
-"""Pressure cells over a stretch of time, and which lie around one."""
+"""Extremes of pressure cells over a span of time, and geometry of their layout."""
 
 from __future__ import annotations
 
@@ -8,29 +8,33 @@ from math import atan2, hypot, pi
 from ...types import Layout
 from ...types.attrs import define, field
 
-AROUND = 1.7
-"""Neighbours are within this many times the usual distance between cells."""
-OPEN = 2.6
-"""A cell with a wider gap between its neighbours lies at their rim, rad."""
+NEIGHBOUR_DISTANCE = 1.7
+"""Largest distance of a neighbour, as a multiple of the usual distance between cells."""
+WIDEST_OPENING = 2.6
+"""Widest angle between neighbours of an enclosed cell, rad; a cell with a wider one is at their rim."""
 
 
 @define
 class CellSpan:
-    """The lowest and highest value of each cell, and of their sum, over a stretch of time."""
+    """The lowest and highest value of each cell, and of their sum, over a span of time."""
 
     lows: list[float] = field(factory=list)
+    """Lowest value of each cell."""
     highs: list[float] = field(factory=list)
+    """Highest value of each cell."""
     low: float = 0.0
+    """Lowest sum of the cells."""
     high: float = 0.0
+    """Highest sum of the cells."""
 
-    def add(self, cells: tuple[float, ...], out: list[int]) -> None:
-        """One sample more; `out` are not part of the sum."""
-        total = sum(cells) - sum([cells[i] for i in out])
+    def add(self, cells: tuple[float, ...], excluded: list[int]) -> None:
+        """Add one sample; the `excluded` cells do not count in the sum."""
+        total = sum(cells) - sum([cells[i] for i in excluded])
         if not self.lows:
             self.lows, self.highs = list(cells), list(cells)
             self.low = self.high = total
             return
-        # half the time of map(min, ...), which calls a function for every cell
+        # takes half the time of map(min, ...), which calls a function for every cell
         self.lows = [low if low < value else value for low, value in zip(self.lows, cells, strict=True)]
         self.highs = [high if high > value else value for high, value in zip(self.highs, cells, strict=True)]
         self.low, self.high = min(self.low, total), max(self.high, total)
@@ -38,7 +42,7 @@ class CellSpan:
 
 @lru_cache(maxsize=8)
 def spacing(layout: Layout) -> float:
-    """The usual distance from one cell to the next, m; 0 with fewer than two."""
+    """Return the usual distance from one cell to the next, m; 0 with fewer than two cells."""
     places = [(cell.x, cell.y) for cell in layout.cells]
     nearest = sorted(
         [min([hypot(x - u, y - v) for j, (u, v) in enumerate(places) if j != i]) for i, (x, y) in enumerate(places)]
@@ -49,12 +53,14 @@ def spacing(layout: Layout) -> float:
 
 
 def enclosed(layout: Layout, between: float, i: int, loading: list[bool]) -> tuple[bool, bool]:
-    """Of the cells around cell `i`: whether those that load lie on all its sides, and whether two of them do at all."""
+    """Return whether loading neighbours lie on all sides of cell `i`, and whether at least two neighbours load.
+
+    `between` is the usual distance between cells, m; `loading` tells for each cell whether it loads."""
     here = layout.cells[i]
     angles, others = [], 0
     for j, cell in enumerate(layout.cells):
         dx, dy = cell.x - here.x, cell.y - here.y
-        if j == i or hypot(dx, dy) > AROUND * between:
+        if j == i or hypot(dx, dy) > NEIGHBOUR_DISTANCE * between:
             continue
         if loading[j]:
             angles.append(atan2(dy, dx))
@@ -67,14 +73,14 @@ def enclosed(layout: Layout, between: float, i: int, loading: list[bool]) -> tup
     angles.sort()
     gaps = [b - a for a, b in zip(angles, angles[1:], strict=False)]
     widest = max([*gaps, angles[0] + 2.0 * pi - angles[-1]])
-    return widest < OPEN, True
+    return widest < WIDEST_OPENING, True
 
 
 def centre(layout: Layout) -> float | None:
-    """x of the centre of the foot, half-way between the first and the last cell, foot frame, m; None without cells.
+    """Return x of the centre of the foot, half-way between the first and the last cell, m; None without cells.
 
-    "Smart insole-based indoor localization system for Internet of Things applications", IEEE Internet of Things Journal
-    6, 2019: of cells from 34 to 166 mm the centre is at 100 mm, and there the centre of pressure is taken to be while
-    the foot is in the air."""
+    The frame is that of the foot. Source: "Smart insole-based indoor localization system for Internet of Things
+    applications", IEEE Internet of Things Journal 6, 2019. There, cells from 34 to 166 mm have their centre at 100 mm,
+    and this is taken for the centre of pressure while the foot is in the air."""
     xs = [cell.x for cell in layout.cells]
     return 0.5 * (min(xs) + max(xs)) if xs else None

@@ -1,9 +1,10 @@
-"""Pressure cells as the foot room uses them: tare, load, centre of pressure and areas.
+"""Load of one insole: tare, full load, centre of pressure, and load of heel and forefoot.
 
-Nobody calibrates an insole before walking. The tare is what the cells show when the foot is in the air (a shoe presses
-on them even then), the full load what they show when it carries the body; both are learnt from the signal, so newtons
-and counts serve alike. Until the load has once fallen to a fraction of itself and risen again nothing is known and
-there is no `Load`: a load that still falls is always the least so far, and a foot about to step would be in the air.
+An insole needs no calibration before walking. The tare is the value of the cells when the foot is in the air, where the
+shoe still presses on them. The full load is their value when they bear the body. Both are learnt from the signal, so
+newtons and counts work alike. There is no `Load` before the load has once fallen to a fraction of itself and risen
+again. Until then a falling load would always be the lowest so far, and a foot that is about to step would seem to be in
+the air.
 """
 
 from __future__ import annotations
@@ -20,15 +21,15 @@ from ..settings import InsoleSettings
 from ..stance.stance import Load
 
 SPAN = 2.0
-"""Length of one of the five spans over which the lowest and highest load are kept, s."""
+"""Duration of one of the five spans over which the lowest and highest load are kept, s."""
 CONTRAST = 0.2
-"""Lowest and highest load must differ by this share of the highest before they mean anything."""
+"""Smallest difference between lowest and highest load that means anything, as a share of the highest."""
 AIRBORNE = 0.02
-"""Below this share of the full load the foot is in the air."""
+"""Load below which the foot is in the air, as a share of the full load."""
 LEAST_LOAD = 0.05
-"""Below this share of the full load the centre of pressure is noise."""
-ALIVE = 0.05
-"""An area whose load varies by less than this share of the full load is no area."""
+"""Load below which the centre of pressure is noise, as a share of the full load."""
+LEAST_AREA_RANGE = 0.05
+"""Smallest variation of the load of a working area, as a share of the full load."""
 
 
 @define
@@ -36,13 +37,18 @@ class Extremes:
     """The lowest and highest value of the last 8 to 10 s, from five spans of 2 s. O(1) a sample."""
 
     ends: float | None = field(default=None, init=False)
+    """End of the current span, s; None before any."""
     lows: list[float] = field(factory=list, init=False)
+    """Lowest value of each span."""
     highs: list[float] = field(factory=list, init=False)
+    """Highest value of each span."""
     low: float = field(default=0.0, init=False)
+    """Lowest value of all spans."""
     high: float = field(default=0.0, init=False)
+    """Highest value of all spans."""
 
     def update(self, t: float, value: float) -> float:
-        """One more value, at `t`, s: by how much it is above the lowest."""
+        """Add one value at `t`, s; return its difference from the lowest one."""
         if self.ends is None or t >= self.ends - TIE:
             self.ends = t + SPAN
             self.lows = [*self.lows[-4:], value]
@@ -61,55 +67,64 @@ class Extremes:
 
 @define
 class InsoleLoads:
-    """One insole: cell values in, `Load` out.
+    """Converts the cell values of one insole to a `Load`.
 
-    With a calibration raw values become newtons by a cubic (calibration.Newtons), and each cell's noise in the air is
-    taken off, never below 0 (Chen et al. 2019: noise "could be removed through deleting p_noise", equation (1)).
+    With a calibration, raw values become newtons by a cubic (calibration.Newtons). The noise of each cell in the air is
+    subtracted, with 0 as the lower limit (Chen et al. 2019: noise "could be removed through deleting p_noise", equation
+    (1)).
     """
 
     settings: InsoleSettings = InsoleSettings()
     layout: Layout | None = field(default=None, init=False)
     in_newtons: bool = field(default=False, init=False)
-    """The device does, so `newtons` are not used."""
+    """The device sends newtons, so `settings.newtons` is not used."""
     cells: tuple[float, ...] = field(default=(), init=False)
-    """Values of the sample that is being used, noise taken off; () once it was."""
+    """Cells of the current sample without noise; () once the sample was used."""
     sum: float = field(default=0.0, init=False)
-    """Of them."""
+    """Sum of `cells`."""
     heel_cells: tuple[int, ...] = field(default=(), init=False)
+    """Indices of the cells of the heel area."""
     forefoot_cells: tuple[int, ...] = field(default=(), init=False)
+    """Indices of the cells of the forefoot area."""
     total: Extremes = field(factory=Extremes, init=False)
+    """Extremes of the total load."""
     heel: Extremes = field(factory=Extremes, init=False)
+    """Extremes of the load of the heel area."""
     forefoot: Extremes = field(factory=Extremes, init=False)
+    """Extremes of the load of the forefoot area."""
     highest: float = field(default=0.0, init=False)
+    """Highest recent value of any cell, unit of the cells; it decays slowly."""
     tare: list[float] = field(factory=list, init=False)
-    """Each cell in the air, unit of the samples."""
+    """Value of each cell in the air, unit of the samples."""
     tare_total: float = field(default=0.0, init=False)
-    unloaded: bool = field(default=False, init=False)
-    risen: bool = field(default=False, init=False)
-    """The load has come up again from its lowest."""
+    """Sum of the cells when the tare was taken."""
+    was_airborne: bool = field(default=False, init=False)
+    """The foot was in the air in the last sample."""
+    load_risen: bool = field(default=False, init=False)
+    """The load has risen again from its lowest value."""
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> InsoleLoads:
-        """The same with what is known of this foot's insole."""
+        """Return a copy with the calibration of this foot's insole."""
         known = calibration.insole(foot)
         newtons, noise = known.newtons or self.settings.newtons, known.noise or self.settings.noise
         return evolve(self, settings=evolve(self.settings, newtons=newtons, noise=noise))
 
     def set_layout(self, layout: Layout) -> None:
-        """The device said where its cells are."""
+        """Set the layout of the cells."""
         self.layout = layout
         settings = self.settings
-        heel_ends, forefoot_begins = settings.heel_ends * layout.length, settings.forefoot_begins * layout.length
-        self.heel_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x < heel_ends])
+        heel_end, forefoot_start = settings.heel_end * layout.length, settings.forefoot_start * layout.length
+        self.heel_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x < heel_end])
         if len(self.tare) != len(layout.cells):
             self.tare = [0.0] * len(layout.cells)
-        self.forefoot_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x > forefoot_begins])
+        self.forefoot_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x > forefoot_start])
 
     def reset(self) -> None:
-        """Times begin anew: the extremes are kept, but their spans end here."""
+        """Keep the extremes but end their current spans, because times restart."""
         self.total.ends = self.heel.ends = self.forefoot.ends = None
 
     def update(self, t: float, cells: tuple[float, ...]) -> Load | None:
-        """The load as shares of the wearer's full load, or None while that is not known."""
+        """Return the load as shares of the wearer's full load; None while that is unknown."""
         settings = self.settings
         if settings.newtons is not None and not self.in_newtons:
             cells = in_newtons(settings.newtons, cells)
@@ -130,37 +145,39 @@ class InsoleLoads:
         low, high = self.total.low, self.total.high
         reach = high - low
         if reach <= CONTRAST * high or reach <= 0.0:
-            self.risen = False
+            self.load_risen = False
             return None
-        if not self.risen:
-            self.risen = total - low > CONTRAST * high
-            if not self.risen:
+        if not self.load_risen:
+            self.load_risen = total - low > CONTRAST * high
+            if not self.load_risen:
                 return None
         share = (total - low) / reach
         airborne = share < AIRBORNE
-        if airborne and (not self.unloaded or total < self.tare_total):  # the toe has hardly left yet at first
+        # at first the toe has hardly left the ground, so a lower total replaces the tare
+        if airborne and (not self.was_airborne or total < self.tare_total):
             self.tare = list(cells)
             self.tare_total = total
-        self.unloaded = airborne
-        # an area that never carries anything is dead, or there is none: nothing can be told by it
+        self.was_airborne = airborne
+        # an area without variation is dead or absent, so it has no load
         if heel is not None:
-            heel = heel / reach if self.heel.high - self.heel.low > ALIVE * reach else None
+            heel = heel / reach if self.heel.high - self.heel.low > LEAST_AREA_RANGE * reach else None
         if forefoot is not None:
-            forefoot = forefoot / reach if self.forefoot.high - self.forefoot.low > ALIVE * reach else None
+            forefoot = forefoot / reach if self.forefoot.high - self.forefoot.low > LEAST_AREA_RANGE * reach else None
         highest = largest / self.highest if self.highest > 0.0 else 0.0
         centre = None if airborne else self.centre_of_pressure(cells)
         return Load(share, heel, forefoot, highest, airborne, cells, centre)
 
     def above_tare(self, cells: tuple[float, ...]) -> tuple[float, ...]:
-        """The cells less what they show in the air, as far as that is known; unit of the samples."""
+        """Return the cells minus their values in the air, if these are known; unit of the samples."""
         if len(cells) != len(self.tare):
             return cells
         return tuple([value - zero if value > zero else 0.0 for value, zero in zip(cells, self.tare, strict=True)])
 
     def centre_of_pressure(self, cells: tuple[float, ...]) -> tuple[float, float] | None:
-        """(x, y) in the foot frame, m: the mean of the cells' places weighted by their load above tare. None with
-        hardly any load or without a layout. Equations (2) and (3) of "Smart insole-based indoor localization system
-        for Internet of Things applications", with load in place of pressure."""
+        """Return the centre of pressure (x, y), foot frame, m; None with hardly any load or without a layout.
+
+        It is the mean of the positions of the cells, weighted by their load above tare: equations (2) and (3) of "Smart
+        insole-based indoor localization system for Internet of Things applications", with load in place of pressure."""
         layout = self.layout
         if layout is None or not len(cells) == len(layout.cells) == len(self.tare):
             return None
@@ -173,13 +190,13 @@ class InsoleLoads:
 
 @lru_cache(maxsize=16)
 def picker(indices: tuple[int, ...]) -> Callable[[tuple[float, ...]], tuple[float, ...]]:
-    """Takes these of a tuple, as a tuple, in a third of the time of a loop."""
+    """Return a function that picks these items of a tuple, in a third of the time of a loop."""
     few = slice(indices[0], indices[0] + 1)
     return itemgetter(*indices) if len(indices) > 1 else itemgetter(few)
 
 
 def in_newtons(newtons: Newtons, cells: tuple[float, ...]) -> tuple[float, ...]:
-    """Raw values as N: 0 below the threshold, and no more than the most that was calibrated."""
+    """Return raw values in N: 0 below the threshold, and at most the largest calibrated force."""
     a, b, c, d = newtons.coefficients
     least, most = newtons.threshold, newtons.most
     forces = [a + value * (b + value * (c + value * d)) for value in cells]

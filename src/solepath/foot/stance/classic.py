@@ -1,13 +1,13 @@
-"""Detectors with fixed thresholds, from inertial signals alone.
+"""Stance detectors with fixed thresholds on inertial signals.
 
-ARE and MV are those of Skog, Handel, Nilsson, Rantakokko, "Zero-velocity detection: an algorithm evaluation"
-(IEEE Trans. Biomed. Eng. 57, 2010); the memory-based graph-theoretic detector (MBGTD) is the one that Wagstaff,
-Peretroukhin, Kelly, "Robust data-driven zero-velocity detection for foot-mounted inertial navigation" (2019) compare
-with. All of them are causal and look back over `window` seconds (where the rate is lower than that, over as few samples
-as the statistic can do with); their evidence has no other latency. Sums run, so a sample costs the same whatever the
-window, except in MBGTD, whose statistic needs every pair of samples in the window.
+ARE and MV are from Skog, Handel, Nilsson, Rantakokko, "Zero-velocity detection: an algorithm evaluation" (IEEE Trans.
+Biomed. Eng. 57, 2010). The memory-based graph-theoretic detector (MBGTD) is the one that Wagstaff, Peretroukhin, Kelly,
+"Robust data-driven zero-velocity detection for foot-mounted inertial navigation" (2019) compare with. All are causal
+and use a window of `window` seconds; at low rates, of as few samples as the statistic needs. Their evidence has no
+other latency. Sums are updated, so the cost of a sample does not depend on the window, except in MBGTD, whose statistic
+needs every pair of samples in the window.
 
-The papers give thresholds for their own sensors; these were chosen by hand on the recordings of docs/accuracy.md, not
+The papers give thresholds for their own sensors. These were chosen by hand on the recordings of docs/accuracy.md, not
 swept.
 """
 
@@ -30,7 +30,9 @@ class AngularRate(Detector):
 
     settings: WindowThreshold = WindowThreshold(window=0.025, base=5e3, gate=1e5)
     entries: deque[tuple[float, float]] = field(factory=deque, init=False)
+    """Time, s, and squared rate, (rad/s)^2, of each sample in the window."""
     total: float = field(default=0.0, init=False)
+    """Sum of the squared rates in the window, (rad/s)^2."""
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
@@ -52,7 +54,9 @@ class MovingVariance(Detector):
 
     settings: WindowThreshold = WindowThreshold(window=0.05, base=5e3, gate=5e4)
     entries: deque[tuple[float, float, float, float]] = field(factory=deque, init=False)
+    """Time, s, and acc, m/s^2, of each sample in the window."""
     sums: tuple[float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0), init=False)
+    """Sums over the window of acc x, y, z, m/s^2, and of the squared norm, (m/s^2)^2."""
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
@@ -74,15 +78,16 @@ class MovingVariance(Detector):
 
 @define
 class Graph(Detector):
-    """MBGTD: how well the window can be cut into an early and a late part that are far from each other.
+    """MBGTD: how well the window splits into an early and a late part that are far from each other.
 
     For every pair of cuts a < b, counted from 0 as in published code, the distances |a_i - a_j| between the samples up
-    to a and the samples from b on are summed and divided by (b - a) (W - b + 1); T is the largest of
-    these, in m/s^2. Costs O(W^2) a sample.
+    to a and the samples from b on are summed and divided by (b - a) (W - b + 1). T is the largest of these, in m/s^2.
+    The cost of a sample is O(W^2).
     """
 
     settings: CountThreshold = CountThreshold(count=5, base=2.0, gate=8.0)
     entries: deque[Vec3] = field(factory=deque, init=False)
+    """Acc of each sample in the window, m/s^2."""
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
@@ -94,7 +99,7 @@ class Graph(Detector):
         w = len(entries)
         if w < 3:
             return Stance(ZERO, inf, 0.0, None)
-        # column[j] grows, row by row, into the sum over i <= a of |a_i - a_j|
+        # column[j] becomes, row by row, the sum over i <= a of |a_i - a_j|
         column = [0.0] * w
         largest = 0.0
         for a in range(w - 1):

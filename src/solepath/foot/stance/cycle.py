@@ -1,15 +1,15 @@
-"""Stance evidence judged within each gait cycle, the default.
+"""Stance evidence relative to each gait cycle; the default detector.
 
-No single threshold serves a stroll and a run: between a stroll's stance and its swing the SHOE statistic goes from 10^3
-to 10^7, in a run from 10^5 to 10^8. So what is still is judged against the wearer's own last cycle: in logarithms, the
-threshold lies a fixed share of the way from the quietest to the loudest moment of the last 1.2 to 1.6 s. The noise of
-the evidence comes from the motion itself: a foot that turns at w about a point of the sole r away moves the sensor at
-r w. What of that is known, the height of the sensor above the sole (sensor_height.py), is the velocity that it ought to
-have; what is not is noise, and the steeper second term keeps early and late stance from outvoting mid-stance.
+No single threshold suits a stroll and a run: from stance to swing, the SHOE statistic goes from 10^3 to 10^7 in a
+stroll, and from 10^5 to 10^8 in a run. So stillness is judged relative to the wearer's own last cycle: in logarithms,
+the threshold lies at a fixed share between the lowest and the highest statistic of the last 1.2 to 1.6 s. The noise of
+the evidence follows from the motion: a foot that turns at w about a point of the sole at distance r moves the sensor at
+r w. The known part of this, from the height of the sensor above the sole (sensor_height.py), is the reference velocity.
+The unknown part is noise. Its steeper second term keeps early and late stance from outvoting mid-stance.
 
-The settings (settings.py) were chosen by hand on the recordings of docs/accuracy.md and not swept. What the whole of a
-term is worth stands there in the table of the default without one of its parts: one threshold for all, evidence of one
-noise, zero velocity of a foot that does not roll, no extra noise of a foot that is braked.
+The settings (settings.py) were chosen by hand on the recordings of docs/accuracy.md and not swept. The table of the
+default without one of its parts in that document gives the effect of whole terms: one threshold for all, evidence of
+one noise, zero velocity for a foot that rolls, no extra noise for a foot that brakes.
 """
 
 from __future__ import annotations
@@ -29,41 +29,49 @@ ACC_SQUARE = SIGMA_ACC**2
 GYRO_SQUARE = SIGMA_GYRO**2
 TWO_G = 2.0 * GRAVITY
 SHOE_WINDOW = 0.025
-"""How far back the statistic looks, s."""
+"""Duration of the window of the statistic, s."""
 
 SWING: Final = Phase.SWING
+"""Local name of `Phase.SWING`, because one look-up in the enum costs as much as five multiplications."""
 STATIONARY: Final = Phase.STATIONARY
-"""Looked up once: a word of an enum costs as much as five multiplications."""
+"""Local name of `Phase.STATIONARY`, because one look-up in the enum costs as much as five multiplications."""
 
-told = tuple.__new__
-"""A Stance of its five fields, in half the time that its own constructor takes."""
+make_stance = tuple.__new__
+"""Constructor of a Stance from its five fields, which takes half the time of the class's own."""
 
 NO_LOW = 1e12
-"""Above any statistic."""
+"""Upper bound of any statistic."""
 
 
 @define
 class Cycle(Detector):
-    """SHOE's statistic against a threshold learnt from the last cycle, with noise from the motion. Latency: 25 ms.
+    """Compares the SHOE statistic with a threshold from the last cycle, with noise from the motion.
 
-    Statistics have no unit: SHOE divides each mean square by that of the sensor's noise (shoe.py).
+    Latency: 25 ms. The statistic has no unit: SHOE divides each mean square by that of the sensor's noise (shoe.py).
     """
 
     settings: CycleSettings = CycleSettings()
     sensor_height: SensorHeight = field(factory=SensorHeight, init=False)
     shoe: ShoeDetector = field(factory=ShoeDetector, init=False)
-    bucket_end: float | None = field(default=None, init=False)
+    span_end: float | None = field(default=None, init=False)
+    """End of the current span, s; None before any."""
     lows: tuple[float, float, float] = field(default=(NO_LOW, NO_LOW, NO_LOW), init=False)
+    """Lowest statistic of each of the last three spans."""
     highs: tuple[float, float, float] = field(default=(0.0, 0.0, 0.0), init=False)
+    """Highest statistic of each of the last three spans."""
     low: float = field(default=NO_LOW, init=False)
+    """Lowest statistic of the current span."""
     high: float = field(default=0.0, init=False)
+    """Highest statistic of the current span."""
     past_low: float = field(default=NO_LOW, init=False)
+    """Lowest statistic of the last three spans together."""
     past_high: float = field(default=0.0, init=False)
+    """Highest statistic of the last three spans together."""
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
-        # SHOE's sums, as ShoeDetector.parts: a call would be 4 % of this (tests/foot/test_alike.py holds both equal)
+        # the sums of ShoeDetector.parts: a call would cost 4 % of this (tests/foot/test_alike.py checks both are equal)
         ax, ay, az = acc
         wx, wy, wz = gyro
         a2, w2 = ax * ax + ay * ay + az * az, wx * wx + wy * wy + wz * wz
@@ -90,22 +98,22 @@ class Cycle(Detector):
         force, rate = (force / n if force > 0.0 else 0.0), (sw / n if sw > 0.0 else 0.0)
         statistic = force / ACC_SQUARE + rate / GYRO_SQUARE
         # the extremes of the last cycle
-        if self.bucket_end is None or t >= self.bucket_end - TIE:
-            self._next(t, statistic)
+        if self.span_end is None or t >= self.span_end - TIE:
+            self._start_span(t, statistic)
         elif statistic < self.low:
             self.low = statistic
         elif statistic > self.high:
             self.high = statistic
         if load is not None and load.airborne:
-            self.sensor_height.lift()
-            return told(Stance, (ZERO, inf, statistic, SWING, None))
+            self.sensor_height.end_stance()
+            return make_stance(Stance, (ZERO, inf, statistic, SWING, None))
         settings = self.settings
         if statistic < settings.floor:
             hint = STATIONARY if statistic < settings.certain else None
         elif statistic > settings.ceiling or statistic > self._threshold():
             if self.sensor_height.sums is not EMPTY:
-                self.sensor_height.lift()
-            return told(Stance, (ZERO, inf, statistic, None, None))
+                self.sensor_height.end_stance()
+            return make_stance(Stance, (ZERO, inf, statistic, None, None))
         else:
             hint = None
         variance = (
@@ -115,29 +123,29 @@ class Cycle(Detector):
             * force
         )
         if not settings.rolls:
-            return told(Stance, (ZERO, sqrt(variance), statistic, hint, None))
+            return make_stance(Stance, (ZERO, sqrt(variance), statistic, hint, None))
         vx, vy = self.sensor_height.roll(dt, acc, gyro, attitude)
-        return told(Stance, ((vx, vy, 0.0), sqrt(variance), statistic, hint, None))
+        return make_stance(Stance, ((vx, vy, 0.0), sqrt(variance), statistic, hint, None))
 
     def _threshold(self) -> float:
-        low, high, quietest = self.low, self.high, self.settings.quietest
+        low, high, least_statistic = self.low, self.high, self.settings.least_statistic
         if self.past_low < low:
             low = self.past_low
-        if low < quietest:
-            low = quietest
+        if low < least_statistic:
+            low = least_statistic
         if self.past_high > high:
             high = self.past_high
-        if high < quietest:
-            high = quietest
+        if high < least_statistic:
+            high = least_statistic
         share = self.settings.share
         return exp((1.0 - share) * log(low) + share * log(high))
 
-    def _next(self, t: float, statistic: float) -> None:
-        """A span begins."""
-        if self.bucket_end is not None:
+    def _start_span(self, t: float, statistic: float) -> None:
+        """Start the next span."""
+        if self.span_end is not None:
             self.lows = (self.lows[1], self.lows[2], self.low)
             self.highs = (self.highs[1], self.highs[2], self.high)
             self.past_low = min(self.lows)
             self.past_high = max(self.highs)
-        self.bucket_end = t + self.settings.bucket
+        self.span_end = t + self.settings.span_duration
         self.low = self.high = statistic

@@ -1,6 +1,6 @@
-"""Stance evidence from pressure cells; the same signature as the inertial detectors in shoe.py and classic.py.
+"""Stance evidence from pressure cells, with the same signature as the inertial detectors in shoe.py and classic.py.
 
-Without cells, or while the wearer's full load is not known yet, both have nothing to say (sigma is infinite).
+Without cells, or while the wearer's full load is unknown, both detectors give no evidence (sigma is infinite).
 """
 
 from __future__ import annotations
@@ -12,26 +12,29 @@ from ...types.attrs import define
 from ...types.vector import IDENTITY, ZERO
 from .stance import Detector, Load, Stance
 
-_SILENT = Stance(ZERO, inf, 0.0, None)
+NO_EVIDENCE = Stance(ZERO, inf, 0.0, None)
+"""Evidence of a sample without load."""
 
 
 @define
 class TwoArea(Detector):
-    """Heel area and forefoot area both loaded: the sole lies flat, so the sensor between them stands still.
+    """Detects a flat sole: if heel area and forefoot area are both loaded, the sensor between them stands still.
 
-    After "Smart insole-based indoor localization system for Internet of Things applications", stationary epoch
-    detection: forces on both sides of the circuit board. The statistic is the smaller of the two loads as a share of
-    the wearer's full load.
+    Source: "Smart insole-based indoor localization system for Internet of Things applications", stationary epoch
+    detection, which uses the forces on both sides of the circuit board. The statistic is the smaller of the two loads
+    as a share of the wearer's full load.
     """
 
     on: float = 0.05
+    """Smallest load of an area that counts as loaded, as a share of the wearer's full load."""
     sigma: float = 0.01
+    """Noise of the zero velocity, m/s."""
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
         if load is None or load.heel is None or load.forefoot is None:
-            return _SILENT
+            return NO_EVIDENCE
         statistic = min(load.heel, load.forefoot)
         if statistic >= self.on:
             return Stance(ZERO, self.sigma, statistic, Phase.STATIONARY)
@@ -40,21 +43,23 @@ class TwoArea(Detector):
 
 @define
 class MaximumPressure(Detector):
-    """The most loaded cell beyond a threshold: the foot is down (equation (6) of "Improving accuracy of real-time
-    positioning and path tracking by using an error compensation algorithm against walking modes", method III).
+    """Detects a foot on the ground: the most loaded cell is above a threshold.
 
-    The statistic is that cell as a share of the most loaded one ever seen. A foot that is down still rolls, hence the
-    larger noise.
+    Source: equation (6) of "Improving accuracy of real-time positioning and path tracking by using an error
+    compensation algorithm against walking modes", method III. The statistic is that cell as a share of the highest cell
+    value so far. A foot on the ground still rolls, so the noise is larger.
     """
 
     threshold: float = 0.25
+    """Smallest statistic of a foot on the ground."""
     sigma: float = 0.05
+    """Noise of the zero velocity, m/s."""
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
         if load is None:
-            return _SILENT
+            return NO_EVIDENCE
         if load.highest > self.threshold and not load.airborne:
             return Stance(ZERO, self.sigma, load.highest, None)
         return Stance(ZERO, inf, load.highest, Phase.SWING if load.airborne else None)

@@ -1,16 +1,16 @@
-"""How high a sensor sits above what the foot rolls on, learnt from the wearer's own stances.
+"""Height of a sensor above the point over which the foot rolls, learnt from the wearer's own stances.
 
-A foot on the ground is never quite still: it rolls, over its heel, its sole and its forefoot, and a sensor r away from
-the point of contact moves at v = w x r. On the instep of a brisk walker that is 5 cm/s at the stillest moment there is;
-zero velocity imposed on it makes every stride some per cent short.
+A foot on the ground is never quite still. It rolls over heel, sole and forefoot, and a sensor at distance r from the
+point of contact moves at v = w x r. On the instep of a brisk walker this is 5 cm/s at the stillest moment, so zero
+velocity makes every stride some per cent too short.
 
-The height h of the sensor need not be told, since its accelerometer sees the same motion: within one stance, what the
-velocity gains is what w x r gains. With c = w x up and u = the integral of the acceleration, both horizontal, and a
-slope of u for the tilt, which is not known exactly,
+The height h of the sensor need not be configured, because its accelerometer measures the same motion: within one
+stance, the change of velocity is the change of w x r. Let c = w x up, and u the integral of the acceleration, both
+horizontal, with a slope of u for the tilt, which is not known exactly. Then
 
     u(t) = h c(t) + a + b t
 
-is fitted by least squares to each stance, and its h pooled over the stances, older ones counting ever less.
+is fitted by least squares to each stance. h is pooled over the stances, with less weight for older ones.
 """
 
 from __future__ import annotations
@@ -20,37 +20,42 @@ from ...types.attrs import define, field
 from ...types.vector import TIE
 
 EMPTY = (0.0,) * 18
+"""Sums of a stance without samples."""
 
 GUESS = 0.05
-"""Height until a stance says otherwise: between a sensor in the sole and one on the instep, m."""
+"""Initial height, between a sensor in the sole and one on the instep, m."""
 TRUST = 0.005
-"""What that guess is worth as a sum of c c dt, (rad/s)^2 s: half a slow stance."""
+"""Weight of the initial height as a sum of c c dt, (rad/s)^2 s: half a slow stance."""
 MEMORY = 0.95
-"""What a stance counts for at the next one."""
+"""Factor for the weight of earlier stances at each new one."""
 SHORTEST, LONGEST = 0.06, 0.6
-"""A stance shorter than this says nothing, and a longer one is cut in pieces, since what is integrated drifts, s."""
+"""Shortest and longest stance that is used, s.
+
+A longer one is cut into pieces, because the integral drifts."""
 LOWEST, HIGHEST = -0.03, 0.2
-"""Between these lies the sensor, m."""
+"""Limits of the height of the sensor, m."""
 
 
 @define
 class SensorHeight:
-    """Height of the sensor above the point over which the foot rolls, m. Latency: the next stance."""
+    """The height of the sensor above the point over which the foot rolls, m. Latency: the next stance."""
 
     height: float = field(default=GUESS, init=False)
-    """As learnt so far, m."""
+    """Current estimate of the height, m."""
     product: float = field(default=GUESS * TRUST, init=False)
     """Sum of u c dt over the stances, m (rad/s)^2 s."""
     square: float = field(default=TRUST, init=False)
-    """Sum of c c dt, (rad/s)^2 s."""
+    """Sum of c c dt over the stances, (rad/s)^2 s."""
     sums: tuple[float, ...] = field(default=EMPTY, init=False)
-    """Of the stance under way: count, time, acceleration and u on x and y; sums of t, tt, cc and uc over both axes; of
-    u, tu, c and tc on x and on y."""
+    """Sums over the current stance.
+
+    They are: count, time, last acceleration and u on x and y; sums of t, tt, cc and uc over both axes; sums of u, tu, c
+    and tc on x and on y."""
 
     def roll(self, dt: float, acc: Vec3, gyro: Vec3, attitude: Quat) -> tuple[float, float]:
-        """One sample of a foot on the ground. Returns its horizontal velocity h w x up, m/s, navigation frame."""
+        """Add one sample of a foot on the ground; return its horizontal velocity h w x up, m/s, navigation frame."""
         w, x, y, z = attitude
-        # the first two rows of the rotation
+        # the first two rows of the rotation matrix
         xx, xy, xz = 1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)
         yx, yy, yz = 2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)
         wx, wy, wz = gyro
@@ -67,17 +72,17 @@ class SensorHeight:
             sux + ux, suy + uy, stux + t * ux, stuy + t * uy, scx + cx, scy + cy, stcx + t * cx, stcy + t * cy,
         )  # fmt: skip
         if t > LONGEST + TIE:
-            self.lift()
+            self.end_stance()
         return self.height * cx, self.height * cy
 
-    def lift(self) -> None:
-        """The foot rolls no longer: what the stance says of the height."""
+    def end_stance(self) -> None:
+        """End the stance and update the height from it."""
         n, t, _, _, _, _, st, stt, scc, suc, sux, suy, stux, stuy, scx, scy, stcx, stcy = self.sums
         self.sums = EMPTY
         d = n * stt - st * st
         if t < SHORTEST - TIE or n < 5.0 or d <= 0.0:
             return
-        # what is left of u c and c c when the best a + b t is taken out of both, axis by axis
+        # u c and c c after subtraction of the best a + b t from both, axis by axis
         square = (
             scc
             - (stt * (scx * scx + scy * scy) - 2.0 * st * (scx * stcx + scy * stcy) + n * (stcx * stcx + stcy * stcy))

@@ -1,6 +1,9 @@
-"""SHOE, of Skog, Handel, Nilsson, Rantakokko, "Zero-velocity detection: an algorithm evaluation" (IEEE Trans. Biomed.
-Eng. 57, 2010), with fixed thresholds, which were chosen by hand on the recordings of docs/accuracy.md, not swept. It is
-causal and looks back over `window` seconds; its evidence has no other latency."""
+"""The SHOE detector with fixed thresholds.
+
+Source: Skog, Handel, Nilsson, Rantakokko, "Zero-velocity detection: an algorithm evaluation" (IEEE Trans. Biomed. Eng.
+57, 2010). The thresholds were chosen by hand on the recordings of docs/accuracy.md, not swept. The detector is causal
+and uses a window of `window` seconds; its evidence has no other latency.
+"""
 
 from __future__ import annotations
 
@@ -14,18 +17,23 @@ from ..settings import WindowThreshold
 from .stance import Detector, Load, Stance, soften
 
 SIGMA_ACC = 0.01
-"""Noise of the accelerometer that scales the statistics, m/s^2."""
+"""Accelerometer noise that scales the statistic, m/s^2."""
 SIGMA_GYRO = 0.1 * 3.141592653589793 / 180.0
-"""Noise of the gyroscope that scales the statistics, rad/s."""
+"""Gyroscope noise that scales the statistic, rad/s."""
 
 
 @define
 class ShoeDetector(Detector):
-    """SHOE: stance hypothesis optimal estimation. T = 1/W sum(|a - g a_mean/|a_mean||^2/s_a^2 + |w|^2/s_w^2)."""
+    """SHOE: stance hypothesis optimal estimation.
+
+    T = 1/W sum(|a - g a_mean/|a_mean||^2/s_a^2 + |w|^2/s_w^2).
+    """
 
     settings: WindowThreshold = WindowThreshold(window=0.025, base=1e4, gate=3.5e5)
     entries: deque[tuple[float, float, float, float, float, float]] = field(factory=deque, init=False)
+    """Time, acc, squared norm of acc and squared norm of gyro of each sample in the window."""
     sums: tuple[float, float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0, 0.0), init=False)
+    """Sums over the window of acc x, y, z and of the squared norms of acc and gyro."""
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
@@ -35,7 +43,9 @@ class ShoeDetector(Detector):
         return soften(statistic, self.settings)
 
     def parts(self, t: float, acc: Vec3, gyro: Vec3) -> tuple[float, float]:
-        """The two means of the statistic before scaling: specific force off gravity, (m/s^2)^2, and rate, (rad/s)^2."""
+        """Return the two means of the statistic before scaling.
+
+        The first is the specific force minus gravity, (m/s^2)^2, the second the rate, (rad/s)^2."""
         ax, ay, az = acc
         wx, wy, wz = gyro
         a2 = ax * ax + ay * ay + az * az

@@ -1,8 +1,8 @@
-"""Stance evidence: what a detector says of a foot, and what it is asked.
+"""Stance evidence, and the interface of stance detectors.
 
-A stance detector never answers yes or no: for every sample it says which velocity the sensor ought to have now and how
-far to trust that (`Stance`). Detectors share one signature, so they and the correctors that use them are
-interchangeable.
+A stance detector never answers yes or no. For every sample it returns the velocity that the sensor should have now and
+how far to trust it (`Stance`). All detectors have the same signature, so detectors and the correctors that use them can
+be combined freely.
 """
 
 from __future__ import annotations
@@ -19,46 +19,55 @@ from ..settings import StanceThreshold
 
 @frozen
 class Load:
-    """What the pressure cells say at one instant; loads are fractions of the wearer's own full load."""
+    """The load of the pressure cells in one sample; loads are fractions of the wearer's own full load."""
 
     total: float
+    """Total load."""
     heel: float | None
+    """Load of the heel area; None without that area."""
     forefoot: float | None
+    """Load of the forefoot area; None without that area."""
     highest: float
-    """The most loaded single cell, as a fraction of the most loaded cell ever seen."""
+    """Most loaded single cell, as a fraction of the highest cell value so far."""
     airborne: bool
     """No load at all: the foot is in the air."""
     cells: tuple[float, ...] = ()
-    """Every cell by itself, newtons and noise seen to, in the unit of the samples."""
+    """Value of each cell after conversion to N and subtraction of noise, in the unit of the samples."""
     centre: tuple[float, float] | None = None
     """Centre of pressure (x, y), foot frame, m; None with hardly any load or without a layout."""
 
 
 class Stance(NamedTuple):
-    """What one sample says about the velocity of the sensor."""
+    """Evidence of one sample about the velocity of the sensor."""
 
     v_ref: Vec3
-    """The velocity that the sensor ought to have now, m/s, navigation frame (strapdown.py); zero for ZUPT."""
+    """Velocity that the sensor should have now, m/s, navigation frame (strapdown.py); zero for ZUPT."""
     sigma: float
-    """How far to trust it, m/s an axis, for one update every 5 ms; infinite where the detector has nothing to say."""
+    """Standard deviation of each axis of `v_ref` for one update every 5 ms, m/s; inf without evidence."""
     statistic: float
-    """The detector's own, in its own unit; where the hint is None, ErrorStateFilter takes less for stiller."""
+    """Statistic of the detector, in its own unit.
+
+    If the hint is None, ErrorStateFilter takes a smaller one for more still."""
     hint: Phase | None
-    """STATIONARY where the detector is certain, SWING where it is certain of the opposite, LOADING or PUSH_OFF where
-    v_ref is that of a shoe that rolls over heel or forefoot, otherwise None."""
+    """Phase that the detector is sure of, or None.
+
+    STATIONARY: the foot certainly stands. SWING: it certainly does not. LOADING or PUSH_OFF: `v_ref` is that of a shoe
+    that rolls over heel or forefoot."""
     detail: object = None
-    """What the detector hands to the cues and the corrector of its own recipe; nobody else looks at it."""
+    """Data for the cues and the corrector of the detector's own recipe; no other part uses it."""
 
 
 class Detector(Protocol):
-    """What says that a foot stands still, or how fast it rolls. An app's own extends this and may stand in a Recipe
-    beside ours; testing/promises.py tries whether it keeps what follows, docs/extending.md shows one.
+    """The interface of a stance detector.
 
-    An attrs class (`@define`) with fields of kinds that can be saved. When times begin anew, after a restart of the
-    device, the session goes on with `evolve(detector)`: fields with `init=False` are then as at first, settings and
-    whatever else `__init__` takes stay. A detector reads no clock and no random numbers, costs the same at every
-    sample, remembers no more the longer it is fed, and never raises: samples are finite, but otherwise of any size (up
-    to 500 m/s^2, 100 rad/s) and at any distance in time.
+    An app's own detector extends this class and can be used in a Recipe. testing/promises.py checks the rules below,
+    docs/extending.md shows an example.
+
+    A detector is an attrs class (`@define`) with fields that can be saved. When times restart, for example after a
+    restart of the device, the session continues with `evolve(detector)`: fields with `init=False` get their initial
+    values, settings and other arguments of `__init__` stay. A detector reads no clock and no random numbers, has a
+    constant cost for each sample, uses bounded memory, and never raises. Samples are finite, but otherwise have any
+    size (up to 500 m/s^2, 100 rad/s) and any distance in time.
     """
 
     __slots__ = ()
@@ -66,32 +75,38 @@ class Detector(Protocol):
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
-        """What this sample says. `t`: its time, `dt`: since the one before, s; `acc` in m/s^2 and `gyro` in rad/s,
-        sensor frame, scale and bias of the gyroscope seen to; `load` None without pressure cells; `attitude`: sensor to
-        navigation frame, predicted to this sample (of no meaning before the foot was levelled)."""
+        """Return the evidence of one sample.
 
-    # what a detector may pay heed to; it need not
+        `t` is its time and `dt` the time since the last sample, s. `acc` (m/s^2) and `gyro` (rad/s) are in the sensor
+        frame, with scale and bias applied. `load` is None without pressure cells. `attitude` is sensor to navigation
+        frame, predicted for this sample; it has no meaning before levelling."""
+
+    # optional: the default does nothing
 
     @property
     def lacking(self) -> str | None:
-        """What it must do without, a sentence that becomes a Limitation; read when it was told of a layout."""
+        """Sentence about data that the detector lacks, for a Limitation; None if it lacks none.
+
+        It is read after each `set_layout`."""
         return None
 
     def set_layout(self, layout: Layout) -> None:
-        """Where the cells are; told once that is known, and again when it changes."""
+        """Set the layout of the pressure cells; called once it is known, and when it changes."""
         return
 
     def scaled(self, scale: float) -> None:
-        """What acc is multiplied by from now on, so that it reads 1 g at rest."""
+        """Set the factor for acc that makes it read 1 g at rest, when it changes."""
         return
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> Self:
-        """The detector to be used for that foot, with what the calibration says of it."""
+        """Return the detector for that foot, with what the calibration contains for it."""
         return self
 
 
 def soften(statistic: float, settings: StanceThreshold) -> Stance:
-    """Zero-velocity evidence whose noise grows with the statistic: sigma sqrt(max(1, T / base)) up to the gate."""
+    """Return zero-velocity evidence with sigma sqrt(max(1, T / base)), where T is the statistic.
+
+    From the gate on there is no evidence."""
     base = settings.base
     if statistic >= settings.gate:
         return Stance(ZERO, inf, statistic, None)

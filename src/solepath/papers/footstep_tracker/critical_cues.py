@@ -39,7 +39,7 @@ class CriticalCues(Cues):
         return [SeenCue(cue, when[cue]) for cue in TO_COME[phase]]
 
     def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
-        seen = self.pressure.update(t, dt, load, phase) or self.pressure.areas(t, load, phase)
+        seen = self.pressure.update(t, dt, load, phase) or self.pressure.update_areas(t, load, phase)
         return () if seen is None else (seen,)
 
     def restart(self) -> None:

@@ -94,7 +94,7 @@ class CopCues(Cues):
             return ()
         stationary = still and stance.hint is Phase.STATIONARY
         airborne = self.touch.update(t, load, stationary)
-        if load is None or not self.touch.known:
+        if load is None or not self.touch.trusted:
             self._forget(t)
             return () if seen is None else (seen,)
         found = self._begin(t, airborne, phase) if self.pressed_at is None else []

@@ -103,7 +103,7 @@ class KnownVelocity(Detector):
             self.held = None
         airborne = self.touch.update(t, load, still)
         sagittal = self.sagittal
-        if load is None or not self.touch.known:
+        if load is None or not self.touch.trusted:
             return self._by_inertia(dt, attitude, inertial, overdue)
         heel, forefoot = load.heel, load.forefoot
         if overdue and (airborne or heel is None or forefoot is None or min(heel, forefoot) < settings.on):

@@ -20,7 +20,7 @@ KUPT = Recipe(
     KnownVelocity(),
     SwingDedrift(),
     CopCues(),
-    InsoleLoads(InsoleSettings(heel_ends=BOARD, forefoot_begins=BOARD)),
+    InsoleLoads(InsoleSettings(heel_end=BOARD, forefoot_start=BOARD)),
     needs_pressure=True,
 )
 """Velocity known from heel-strike to toe-off, without the fusion of both feet."""

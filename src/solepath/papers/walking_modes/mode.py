@@ -79,8 +79,8 @@ def regions(layout: Layout) -> dict[str, tuple[int, ...]]:
     """The cells of each region: of each point the nearest one, measured across by the width of the sole there.
 
     None at all where the cells do not tell left from right: fewer than there are regions, a layout that was guessed
-    (foot/pressure/guess.py), or places that are no insole's. Then nobody knows a mode but standing, and a touchdown is
-    taken for one straight on, which most are."""
+    (foot/pressure/layout_guess.py), or places that are no insole's. Then nobody knows a mode but standing, and a
+    touchdown is taken for one straight on, which most are."""
     if len(layout.cells) < len(POINTS) or not SHORTEST_SOLE <= layout.length <= LONGEST_SOLE:
         return {}
     if not all([abs(cell.x) <= LONGEST_SOLE and abs(cell.y) <= LONGEST_SOLE for cell in layout.cells]):

@@ -28,7 +28,7 @@ from ....events import (
     WearerMoved,
 )
 from ....floorplan.plan import FloorPlan
-from ....foot.phase import BEGINS, SUPPORT
+from ....foot.phase import EVENT_OF_PHASE, SUPPORT
 from ....types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site
 from ...observer import REJECTED, FootCounts, Observer
 from ..messages import Written, shown
@@ -260,7 +260,7 @@ class Scene:
 
 NOTHING = FootCounts()
 """Of a foot that nothing is known of."""
-PHASES: dict[type, Phase] = {event: phase for phase, event in BEGINS.items()}
+PHASES: dict[type, Phase] = {event: phase for phase, event in EVENT_OF_PHASE.items()}
 
 TAKEN: dict[type, Callable[[Scene, Any], None]] = {
     FootMoved: Scene._moved,

@@ -1,12 +1,12 @@
-"""What follows from what a sensor at the end of its range missed (clipping.py): the state with it, and the doubt.
+"""Correction of the state by a clipped peak of the gyroscope (clipping.py), with its covariance.
 
-A turn that is missed, tenths of a radian, tilts all that comes after it. Its axis is the sensor's own, so the samples
-since are integrated anew with the rate higher by the cubic that holds m. Once more with a little more of it tells by
-how much attitude, velocity and position err when m does: one unknown of a known direction b,
+A clipped turn of tenths of a radian tilts all that follows. Its axis is that of the sensor, so the samples since are
+integrated again, with the rate raised by the cubic with integral m. A third integration with a slightly larger m gives
+the effect of an error of m on attitude, velocity and position. This is one unknown in a known direction b,
 
     P <- P + sigma^2 b b',  b = d(p, v, theta) / dm
 
-and how large it is the zero velocity of the next stance tells.
+and the zero velocity of the next stance tells its size.
 """
 
 from __future__ import annotations
@@ -17,65 +17,69 @@ from typing import NamedTuple
 from ...types import Quat, Vec3
 from ...types.attrs import define, field
 from ...types.vector import GRAVITY, IDENTITY, conjugate, from_rotation_vector, multiply, rotate
-from .clipping import Missed
+from .clipping import ClippedPeak
 from .covariance import Covariance
 
 ROWS = 64
-"""So many samples are kept at the most; when there are more, pairs become one."""
+"""Largest number of stored samples; when there are more, pairs are joined."""
 NUDGE = 0.05
-"""By how much more than m that is told, rad."""
+"""Change of m for the numerical derivative, rad."""
 
 Row = tuple[float, Vec3, Vec3]
-"""How long, s, and the mean rate (rad/s) and specific force (m/s^2) meanwhile, sensor frame."""
+"""Duration, s, and the mean rate (rad/s) and specific force (m/s^2) during it, sensor frame."""
 
 
-class Gone(NamedTuple):
-    """Where an integration went."""
+class IntegratedMotion(NamedTuple):
+    """The end state of an integration that starts at rest at zero."""
 
     attitude: Quat
+    """Attitude, sensor to navigation frame."""
     velocity: Vec3
+    """Change of velocity, navigation frame, m/s."""
     position: Vec3
+    """Change of position, navigation frame, m."""
 
 
 @define
-class Swing:
+class SwingSamples:
     """The samples since the gyroscope came near the end of its range."""
 
     rows: list[Row] = field(factory=list, init=False)
-    began: Quat = field(default=IDENTITY, init=False)
-    """Attitude before them."""
+    """Samples in order of time."""
+    start_attitude: Quat = field(default=IDENTITY, init=False)
+    """Attitude before the first row, sensor to navigation frame."""
 
-    def keep(self, dt: float, gyro: Vec3, before: Vec3, acc: Vec3, attitude: Quat) -> None:
-        """A sample to integrate anew; `attitude`: before it."""
+    def add_sample(self, dt: float, gyro: Vec3, before: Vec3, acc: Vec3, attitude: Quat) -> None:
+        """Add one sample; `before` and `attitude` are the rate and the attitude before it."""
         if not self.rows:
-            self.began = attitude
+            self.start_attitude = attitude
         elif len(self.rows) >= ROWS:
-            self.rows = [_joined(a, b) for a, b in zip(self.rows[::2], self.rows[1::2], strict=True)]
+            self.rows = [_join(a, b) for a, b in zip(self.rows[::2], self.rows[1::2], strict=True)]
         (x, y, z), (u, v, w) = gyro, before
         self.rows.append((dt, (0.5 * (x + u), 0.5 * (y + v), 0.5 * (z + w)), acc))
 
-    def reintegrated(self, missed: Missed, angle: float) -> Gone:
-        """The rows once more, from rest at zero, with `angle` more about the axis that missed it."""
-        end = sum([row[0] for row in self.rows]) - missed.ago
-        t, shape, total = missed.lasted - end, [], 0.0
+    def reintegrate(self, peak: ClippedPeak, angle: float) -> IntegratedMotion:
+        """Return the end state of the rows with `angle` rad more about the axis that was clipped."""
+        end = sum([row[0] for row in self.rows]) - peak.ago
+        t, shape, total = peak.duration - end, [], 0.0
         for dt, _, _ in self.rows:
-            share = (t + 0.5 * dt) / missed.lasted if missed.lasted > 0.0 else 0.5
+            share = (t + 0.5 * dt) / peak.duration if peak.duration > 0.0 else 0.5
             t += dt
             more = 0.0
             if 0.0 < share < 1.0:
-                more = share * (1.0 - share) * (missed.rise * (1.0 - share) + missed.fall * share)
+                more = share * (1.0 - share) * (peak.rise * (1.0 - share) + peak.fall * share)
             shape.append(more)
             total += more * dt
         if not total > 0.0:
             shape = [1.0] * len(self.rows)
             total = sum([row[0] for row in self.rows])
         k = angle / total if total > 0.0 else 0.0
-        q = self.began
+        q = self.start_attitude
         vx = vy = vz = x = y = z = 0.0
         for (dt, (gx, gy, gz), acc), more in zip(self.rows, shape, strict=True):
-            if missed.axis == 0:
+            if peak.axis == 0:
                 gx += k * more
-            elif missed.axis == 1:
+            elif peak.axis == 1:
                 gy += k * more
             else:
                 gz += k * more
@@ -86,10 +90,10 @@ class Swing:
             az -= GRAVITY
             x, y, z = x + (vx + 0.5 * ax * dt) * dt, y + (vy + 0.5 * ay * dt) * dt, z + (vz + 0.5 * az * dt) * dt
             vx, vy, vz = vx + ax * dt, vy + ay * dt, vz + az * dt
-        return Gone(q, (vx, vy, vz), (x, y, z))
+        return IntegratedMotion(q, (vx, vy, vz), (x, y, z))
 
 
-def _joined(a: Row, b: Row) -> Row:
+def _join(a: Row, b: Row) -> Row:
     (t, (gx, gy, gz), (ax, ay, az)), (u, (hx, hy, hz), (bx, by, bz)) = a, b
     both = t + u
     k = t / both if both > 0.0 else 0.5
@@ -101,8 +105,8 @@ def _joined(a: Row, b: Row) -> Row:
     )
 
 
-def apart(a: Gone, b: Gone) -> tuple[Vec3, Vec3, Vec3]:
-    """Position (m), velocity (m/s) and turn in the world frame (rad) by which `b` differs from `a`."""
+def difference(a: IntegratedMotion, b: IntegratedMotion) -> tuple[Vec3, Vec3, Vec3]:
+    """Return position (m), velocity (m/s) and turn (world frame, rad) by which `b` differs from `a`."""
     (ax, ay, az), (bx, by, bz) = a.position, b.position
     (ux, uy, uz), (vx, vy, vz) = a.velocity, b.velocity
     w, x, y, z = multiply(b.attitude, conjugate(a.attitude))
@@ -113,8 +117,8 @@ def apart(a: Gone, b: Gone) -> tuple[Vec3, Vec3, Vec3]:
     return (bx - ax, by - ay, bz - az), (vx - ux, vy - uy, vz - uz), (k * x, k * y, k * z)
 
 
-def spread(covariance: Covariance, p: Vec3, v: Vec3, turn: Vec3, sigma: float) -> Covariance:
-    """P + sigma^2 b b' with b = (p, v, turn): an error of one unknown size and a known direction."""
+def add_error(covariance: Covariance, p: Vec3, v: Vec3, turn: Vec3, sigma: float) -> Covariance:
+    """Return P + sigma^2 b b' with b = (p, v, turn), for an error in a known direction."""
     k = sigma * sigma
     grown: list[float] = []
     i = 0
