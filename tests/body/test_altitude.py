@@ -13,8 +13,8 @@ from views import fed
 from walks import samples
 
 from solepath import Foot, LiftRidden, Sample, Session, Site, StrideTaken, recipes
-from solepath.body.height.altitude import LEFT, MOVE, RIGHT, SCALE, STANDARD, UNKNOWN, Altitude
-from solepath.body.height.received import Heard, Told
+from solepath.body.height.altitude import LEFT, MOVE, RIGHT, SCALE_HEIGHT, STANDARD_PRESSURE, UNKNOWN_VARIANCE, Altitude
+from solepath.body.height.recent_inputs import HeightInput, RecentInputs
 from solepath.body.part import HeightShift, Replacement
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
@@ -33,7 +33,7 @@ def lift() -> SampledWalk:
 
 
 def pressure(height: float) -> float:
-    return STANDARD * exp(-height / SCALE)
+    return STANDARD_PRESSURE * exp(-height / SCALE_HEIGHT)
 
 
 def breathing(walk: SampledWalk, off: float = 0.0) -> list[Sample]:
@@ -165,16 +165,16 @@ def test_a_lift_that_stands_feet_in_it_is_believed_without_air() -> None:
 
 
 TOLD = st.tuples(
-    st.floats(-1e3, 1e3), st.sampled_from([LEFT, RIGHT, MOVE]), st.floats(-1e5, 1e5), st.floats(0.0, UNKNOWN)
+    st.floats(-1e3, 1e3), st.sampled_from([LEFT, RIGHT, MOVE]), st.floats(-1e5, 1e5), st.floats(0.0, UNKNOWN_VARIANCE)
 )
 
 
 @given(st.floats(-1e9, 1e9), st.lists(TOLD, max_size=40), st.integers(0, 40))
 @settings(max_examples=60)
 def test_what_the_filter_was_told_is_kept_to_a_hundredth_of_a_second_and_a_tenth_of_a_millimetre(
-    start: float, told: list[Told], popped: int
+    start: float, told: list[HeightInput], popped: int
 ) -> None:
-    heard, used = Heard(), []
+    heard, used = RecentInputs(), []
     for since, which, value, variance in told:
         t = start + since
         used.append(heard.add((t, which, value, variance)))

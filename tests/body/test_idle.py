@@ -95,5 +95,5 @@ def test_where_the_load_is_of_a_foot_without_accelerometer_is_looked_at_beside_i
         t = 0.01 * k
         session.feed(Sample(t=t, site=Site.LEFT_FOOT, gyro=(0.0, 0.1, 0.0)))
         session.feed(Sample(t=t + 0.005, site=Site.LEFT_FOOT, pressure=(float(k % 50),) * 8))
-        looked.add(sides.left.seen_at)
+        looked.add(sides.left.centre_at)
     assert len(looked) >= 60, "twenty times a second"

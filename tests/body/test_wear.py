@@ -196,7 +196,7 @@ def test_devices_that_say_that_they_are_on_the_right_feet_are_believed() -> None
     told = session.feed(emulate(WALK, seed=1).packets)
     assert of(FeetSwapped, told) == []
     sides = session._state.wearer.ask("sides")
-    assert sides.left.told and sides.right.told
+    assert sides.left.declared and sides.right.declared
     assert not sides.left.turned.rows and not sides.right.turned.rows, "what their feet do need not be remembered"
     sides.left.roll = sides.right.roll = Average(count=24, mean=0.2)
     assert not sides._agree()
