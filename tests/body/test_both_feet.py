@@ -10,9 +10,9 @@ import walks
 from attrs import evolve
 
 from solepath import recipes
-from solepath.body.fuse.agreement import HEADING, RATE, STATES, Agreement, X, Y
 from solepath.body.fuse.both_feet import BothFeet, BothFeetSettings
 from solepath.body.fuse.corridor import Corridor
+from solepath.body.fuse.error_filter import HEADING, RATE, STATES, TrackErrorFilter, X, Y
 from solepath.body.fuse.position import MeanOfFeet
 from solepath.body.part import TrackPart
 from solepath.emulate.routes.route import Route
@@ -125,19 +125,19 @@ def test_a_foot_alone_is_where_its_own_track_has_it() -> None:
     assert session.position == other.position
 
 
-def _agreement() -> Agreement:
-    agreement = Agreement()
-    agreement.begin()
+def _agreement() -> TrackErrorFilter:
+    error_filter = TrackErrorFilter()
+    error_filter.start()
     x = 0.0
     for k in range(20):
         x += 0.65
-        agreement.advance(k % 2, 0.5, 0.5, (x, 0.0), (1.3, 0.0), (1e-4, 0.0, 1e-4), False)
-    return agreement
+        error_filter.propagate(k % 2, 0.5, 0.5, (x, 0.0), (1.3, 0.0), (1e-4, 0.0, 1e-4), False)
+    return error_filter
 
 
 def test_what_a_difference_says_is_shared_and_never_said_of_both_feet_alike() -> None:
-    agreement = _agreement()
-    found = agreement.measure([(STATES + Y, 1.0), (Y, -1.0)], 0.1, 0.002, 16.0)
+    error_filter = _agreement()
+    found = error_filter.correct([(STATES + Y, 1.0), (Y, -1.0)], 0.1, 0.002, 16.0)
     assert found is not None
     for one in (HEADING, RATE):
         assert found[one] * found[STATES + one] < 0.0
@@ -145,24 +145,26 @@ def test_what_a_difference_says_is_shared_and_never_said_of_both_feet_alike() ->
 
 
 def test_a_foot_whose_stride_was_spoilt_gives_way() -> None:
-    agreement = _agreement()
-    agreement.doubt(0, 2.0)
-    found = agreement.measure([(STATES + X, 1.0), (X, -1.0)], 1.0, 0.01, 1e12)
+    error_filter = _agreement()
+    error_filter.inflate(0, 2.0)
+    found = error_filter.correct([(STATES + X, 1.0), (X, -1.0)], 1.0, 0.01, 1e12)
     assert found is not None
     assert found[X] < -0.8 and abs(found[STATES + X]) < 0.1
 
 
 def test_the_covariance_stays_one() -> None:
-    agreement = _agreement()
+    error_filter = _agreement()
     for k in range(400):
         angle = 0.05 * k
         end = (20.0 * sin(angle), 20.0 * cos(angle))
-        agreement.advance(k % 2, 0.5, 0.5, end, (1.3 * cos(angle), -1.3 * sin(angle)), (1e-4, 0.0, 1e-4), k % 37 == 0)
-        agreement.measure([(STATES + Y, 1.0), (Y, -1.0), (8, 1.0)], 0.03 * (-1) ** k, 0.002, 1e12)
-        p = agreement.covariance
+        error_filter.propagate(
+            k % 2, 0.5, 0.5, end, (1.3 * cos(angle), -1.3 * sin(angle)), (1e-4, 0.0, 1e-4), k % 37 == 0
+        )
+        error_filter.correct([(STATES + Y, 1.0), (Y, -1.0), (8, 1.0)], 0.03 * (-1) ** k, 0.002, 1e12)
+        p = error_filter.covariance
         assert min(p[i][i] for i in range(9)) >= 0.0
         assert all(abs(p[i][j] - p[j][i]) <= 1e-9 * (1.0 + p[i][i] + p[j][j]) for i in range(9) for j in range(i))
-    assert machine.load(Agreement, machine.save(agreement)) == agreement
+    assert machine.load(TrackErrorFilter, machine.save(error_filter)) == error_filter
 
 
 def _held(corridor: Corridor, bend: float, strides: int = 120) -> list[tuple[float, float]]:
@@ -170,7 +172,7 @@ def _held(corridor: Corridor, bend: float, strides: int = 120) -> list[tuple[flo
     held = []
     for k in range(strides):
         start, end = (_along(bend, s) for s in (0.65 * k, 0.65 * k + 1.3))
-        one = corridor.stride(k % 2, 0.5 * k, start, end, 1.3 * bend)
+        one = corridor.add_stride(k % 2, 0.5 * k, start, end, 1.3 * bend)
         held += [] if one is None else [one]
     return held
 
@@ -195,9 +197,9 @@ def test_who_walks_straight_is_left_alone() -> None:
     assert all(abs(yaw) < 1e-6 for yaw, _ in _held(Corridor(), 1e-9))
 
 
-def test_a_corner_begins_a_new_run() -> None:
+def test_a_corner_starts_a_new_run() -> None:
     corridor = Corridor()
     _held(corridor, 1e-9, 40)
     assert corridor.heading is not None
-    assert corridor.stride(0, 20.5, (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), 0.5 * pi) is None
+    assert corridor.add_stride(0, 20.5, (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), 0.5 * pi) is None
     assert corridor.heading is None
