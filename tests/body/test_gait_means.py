@@ -248,11 +248,11 @@ def test_walking_and_running_are_added_up_apart() -> None:
     found = gone(walked(L, R), 12)
     means = GaitMeans()
     for stride in found:
-        means.hear(stride)
+        means.add(stride)
     assert means.of(True) is None and means.of(False) is not None
     for stride in found:
         ran = attrs.evolve(stride, t=stride.t + 10.0, t_start=stride.t_start + 10.0, stance_time=0.3, steady=True)
-        means.hear(ran)
+        means.add(ran)
     both = means.of(True), means.of(False)
     assert both[0] is not None and both[1] is not None
     assert means.parameters == both[0] and both[0].running and not both[1].running

@@ -117,7 +117,7 @@ class BothFeet(MeanOfFeet):
             self.corridor.reset()
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
-        """Return the wearer's position, with the covariance of the mean at the newest stride; None before any sample."""
+        """Return the wearer's position, with the mean's covariance at the newest stride; None before any sample."""
         found = MeanOfFeet.position(self, feet)
         left, right = self.left, self.right
         if found is None or not self.started or left.unplaced or right.unplaced or left.absent or right.absent:
