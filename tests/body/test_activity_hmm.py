@@ -10,13 +10,13 @@ from hypothesis import strategies as st
 
 from solepath.papers.footstep_tracker.activity.hmm import forward, spread, weighed
 
-BEGIN = (0.6, 0.3, 0.1)
+FIRST_CHANCES = (0.6, 0.3, 0.1)
 CHAIN = ((0.9, 0.05, 0.05), (0.15, 0.8, 0.05), (0.15, 0.15, 0.7))
 
 
 def followed(seen: list[tuple[float, ...]]) -> tuple[float, ...]:
     """The belief after all of these log-likelihoods."""
-    belief = weighed(BEGIN, spread(seen[0]))
+    belief = weighed(FIRST_CHANCES, spread(seen[0]))
     for one in seen[1:]:
         belief = forward(belief, CHAIN, spread(one))
     return belief
@@ -26,7 +26,7 @@ def by_hand(seen: list[tuple[float, ...]]) -> list[float]:
     """Probability of each last state, summed over all courses."""
     found = [0.0] * 3
     for course in product(range(3), repeat=len(seen)):
-        p = BEGIN[course[0]]
+        p = FIRST_CHANCES[course[0]]
         for before, after in zip(course, course[1:], strict=False):
             p *= CHAIN[before][after]
         for state, likely in zip(course, seen, strict=True):

@@ -1,4 +1,4 @@
-"""What is kept of half a second of one foot, and of a step."""
+"""Records of half a second of one foot, and of a stride."""
 
 from __future__ import annotations
 
@@ -14,26 +14,26 @@ class ActivityBlock:
     force: float
     """Mean |acc|, m/s^2."""
     variance: float
-    """Of |acc|, (m/s^2)^2."""
+    """Variance of |acc|, (m/s^2)^2."""
     acc_bins: tuple[int, ...]
-    """Samples in each bin of |acc|; 255 is as many or more."""
+    """Number of samples in each bin of |acc|, limited to 255."""
     rates: int
-    """Samples with a gyroscope."""
+    """Number of samples with a gyroscope."""
     rate: float
     """Mean square of |gyro|, (rad/s)^2."""
     gyro_bins: tuple[int, ...]
     tracked: bool
     climb: float
-    """Largest velocity upwards, m/s,"""
+    """Largest upward velocity, m/s."""
     sink: float
-    """downwards, negative,"""
+    """Largest downward velocity, m/s, negative."""
     speed: float
-    """and in all."""
+    """Largest horizontal speed, m/s."""
 
 
 @define
 class BlockStride:
-    """What counts of a step: times in s, lengths in m, m/s, rad."""
+    """The features of a stride: times in s, lengths in m, speed in m/s, pitch in rad."""
 
     start: float
     end: float
@@ -43,8 +43,8 @@ class BlockStride:
     speed: float
     pitch: float
     top: float
-    """Highest above where it began,"""
+    """Greatest height above the start of the stride, m."""
     bottom: float
-    """lowest,"""
+    """Lowest height above the start of the stride, m."""
     strike: float
-    """and at heel-strike."""
+    """Height at heel-strike above the start of the stride, m."""

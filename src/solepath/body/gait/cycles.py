@@ -33,7 +33,7 @@ class FootProgress:
 
 @define
 class GaitCycles(Part):
-    """Measures gait cycles: takes the events of both feet and returns GaitCycleMeasured; the running means are in `means`."""
+    """Measures gait cycles from the events of both feet and returns GaitCycleMeasured; `means` has running means."""
 
     needs_samples: ClassVar[bool] = True
 

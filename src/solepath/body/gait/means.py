@@ -141,10 +141,10 @@ class GaitParameters:
     feet: dict[Foot, StrideFigures]
     both: StrideFigures
     coordination: float | None
-    """Phase coordination index as a share (0.03 is 3 %), None without both feet (Plotnik et al. 2007, Exp. Brain Res. 181).
+    """Phase coordination index, as a share (0.03 is 3 %); None without both feet.
 
     It is the coefficient of variation of the phase of the foot that swings longer, plus the mean distance of that phase
-    from a half, relative to a half. Healthy walkers have 0.02 to 0.04.
+    from a half, relative to a half (Plotnik et al. 2007, Exp. Brain Res. 181). Healthy walkers have 0.02 to 0.04.
     """
 
     @property

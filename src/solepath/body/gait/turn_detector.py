@@ -33,7 +33,7 @@ One foot may stride twice on the spot while the other turns.
 
 @frozen
 class TurnProcess:
-    """A turning process that is over; `left` and `right` are the sums of each foot's turns, rad, None of an absent foot."""
+    """A turning process that is over; `left` and `right`: sum of each foot's turns, rad, None of an absent foot."""
 
     t_start: float
     t_end: float
