@@ -31,7 +31,7 @@ from walks import insoles
 from solepath import Activity, Event, FlightClimbed, Foot, LiftRidden, Placed, PlaceLost, Session, recipes
 from solepath.body.part import Position
 from solepath.body.place.particles import Particles
-from solepath.body.place.readings import ReadingsSettings
+from solepath.body.place.place_hypotheses import PlaceSettings
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import FloorPlan, Level, Start, Wall
 from solepath.saving import codec as machine
@@ -85,7 +85,7 @@ STARTS = st.one_of(
 @settings(max_examples=40)
 @given(start=STARTS, tellings=TELLINGS)
 def test_no_events_and_no_track_whatever_make_it_raise_and_what_it_tells_is_sound(method, start, tellings) -> None:  # type: ignore[no-untyped-def]
-    part = method(ReadingsSettings(most=60))
+    part = method(PlaceSettings(most=60))
     if start is not None:
         part.set_out(start)
     for events, t, position in tellings:

@@ -25,7 +25,7 @@ from floors import (
 )
 
 from solepath import Activity, LiftRidden, TurnMade
-from solepath.body.place.crowd import rounded
+from solepath.body.place.rows import rounded
 from solepath.floorplan.index import IndexedPlan
 
 NEAR = 3.5
