@@ -98,7 +98,7 @@ class AnglePerMetre(ActivityPart):
         elif t - self.moved_at >= STANDS - TIE:
             self.stepped_at = max(self.stepped_at, t)
             self._tell(Activity.STANDING, self.moved_at, known_at, told)
-        if self.flights.way != 0:
+        if self.flights.direction != 0:
             told += self.flights.advance(t, known_at)
         return told
 
