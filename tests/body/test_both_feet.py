@@ -1,4 +1,4 @@
-"""Two feet that are one body: what each step says of the other foot's track."""
+"""Two feet of one body: each stride corrects the other foot's track."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from solepath.types import Foot, Sample
 
 LONG = Route().stand(2.0).walk(40.0, 1.3).stop(1.0)
 CHEAP = evolve(LSM6DSOX, gyro=evolve(LSM6DSOX.gyro, scale=0.03, cross=0.02))
-"""Strides of one foot turn, by this gyroscope, otherwise than those of the other."""
+"""A gyroscope that turns the strides of one foot otherwise than those of the other."""
 
 
 @cache
@@ -72,7 +72,7 @@ def test_a_foot_whose_steps_are_not_seen_any_more_does_not_hold_the_other_one_ba
     assert session.position is not None and session.position.position[0] > 0.9 * 40.0
 
 
-def test_what_is_unsure_of_the_place_of_both_feet_is_so_in_every_direction() -> None:
+def test_the_uncertainty_of_both_feets_place_is_the_same_in_every_direction() -> None:
     session = Session()
     for sample in _samples(102)[:1500]:
         session.feed(sample)
@@ -84,8 +84,8 @@ def test_what_is_unsure_of_the_place_of_both_feet_is_so_in_every_direction() -> 
                 assert both * both <= one * other * (1.0 + 1e-9)
 
 
-@pytest.mark.parametrize("askew", [-1.0, 2.0, 3.1])
-def test_a_foot_that_first_steps_aside_does_not_bend_either_track(askew: float) -> None:
+@pytest.mark.parametrize("first_direction", [-1.0, 2.0, 3.1])
+def test_a_foot_that_first_steps_aside_does_not_bend_either_track(first_direction: float) -> None:
     session = Session()
     steps: list[StrideTaken] = []
     for sample in _samples(102):
@@ -94,7 +94,7 @@ def test_a_foot_that_first_steps_aside_does_not_bend_either_track(askew: float) 
                 steps.append(event)
                 if event.foot is Foot.LEFT and event.number == 1:
                     # as if its first step, which its world frame begins along, had led there
-                    session.feet[Foot.LEFT].gait.world.north = (cos(askew), sin(askew))
+                    session.feet[Foot.LEFT].gait.world.north = (cos(first_direction), sin(first_direction))
     assert _apart(session) < 0.5
     for foot in Foot:
         own = [step.displacement for step in steps if step.foot is foot][2:-1]
@@ -106,7 +106,7 @@ def test_a_foot_that_first_steps_aside_does_not_bend_either_track(askew: float) 
 def test_corrections_make_no_stride_longer() -> None:
     _, events = _walked("both")
     _, without = _walked("mean")
-    lengths, own = ([event.length for event in heard if isinstance(event, StrideTaken)] for heard in (events, without))
+    lengths, own = ([event.length for event in each if isinstance(event, StrideTaken)] for each in (events, without))
     assert lengths == pytest.approx(own, abs=0.01)
 
 
@@ -135,7 +135,7 @@ def _agreement() -> TrackErrorFilter:
     return error_filter
 
 
-def test_what_a_difference_says_is_shared_and_never_said_of_both_feet_alike() -> None:
+def test_a_measured_difference_is_shared_and_never_moves_both_feet_alike() -> None:
     error_filter = _agreement()
     found = error_filter.correct([(STATES + Y, 1.0), (Y, -1.0)], 0.1, 0.002, 16.0)
     assert found is not None
@@ -193,7 +193,7 @@ def test_a_straight_way_that_seems_to_bend_is_turned_back(drift: float) -> None:
     assert all(yaw * drift < 0.0 for yaw, _ in held[:3])
 
 
-def test_who_walks_straight_is_left_alone() -> None:
+def test_a_straight_walk_is_not_changed() -> None:
     assert all(abs(yaw) < 1e-6 for yaw, _ in _held(Corridor(), 1e-9))
 
 

@@ -1,4 +1,4 @@
-"""Strides measured as clinicians do, against what emulated walkers really did."""
+"""Gait cycles measured, against the true motion of emulated walkers."""
 
 from __future__ import annotations
 
@@ -40,8 +40,8 @@ def walked(
         for sample in walker.samples(foot, 100.0, LSM6DSOX, layout=layout(cells, foot) if cells else None)
     ]
     session = Session()
-    told = session.feed(sorted(samples, key=lambda sample: sample.t)) + session.finish()
-    return walker.truth(), tuple(event for event in told if isinstance(event, GaitCycleMeasured)), session.gait
+    events = session.feed(sorted(samples, key=lambda sample: sample.t)) + session.finish()
+    return walker.truth(), tuple(event for event in events if isinstance(event, GaitCycleMeasured)), session.gait
 
 
 def really(truth: Truth, foot: Foot) -> dict[float, dict[str, float]]:
@@ -152,7 +152,7 @@ def test_stance_and_swing_are_the_cycle_and_shares_add_up() -> None:
         assert stride.double_support + stride.single_support == pytest.approx(stride.stance_time)
 
 
-def test_one_foot_alone_tells_nothing_of_what_is_between_the_feet() -> None:
+def test_one_foot_alone_gives_no_parameter_between_the_feet() -> None:
     _, strides, gait = walked(LEVEL, 0, (Foot.RIGHT,))
     assert len(strides) >= 7
     for stride in strides:
@@ -165,7 +165,7 @@ def test_one_foot_alone_tells_nothing_of_what_is_between_the_feet() -> None:
     assert gait.cadence == pytest.approx(cadence(LEVEL), abs=1.5)
 
 
-def test_an_insole_without_an_inertial_sensor_tells_times_alone() -> None:
+def test_an_insole_without_an_inertial_sensor_gives_times_alone() -> None:
     walker = Walker(LEVEL, seed=102)
     both = [s for foot in Foot for s in walker.samples(foot, 100.0, LSM6DSOX, layout=layout(96, foot))]
     session = Session()
@@ -249,7 +249,7 @@ def test_a_runner_is_in_the_air_where_a_walker_stands_on_both_feet() -> None:
         assert stride.single_support is not None and stride.single_support <= stride.stance_time + 1e-9
 
 
-def test_gait_csv_has_a_line_for_each_stride_and_nothing_where_nothing_could_be_told(tmp_path: Path) -> None:
+def test_gait_csv_has_a_line_for_each_stride_and_empty_fields_where_nothing_is_known(tmp_path: Path) -> None:
     _, strides, _ = walked(LEVEL, 0, (Foot.RIGHT,))
     with closing(TrackFiles(tmp_path)) as files:
         for stride in strides:

@@ -1,4 +1,4 @@
-"""How a foot has turned lately."""
+"""Turn of a foot over the last seconds."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ RATES = st.tuples(*[st.floats(-30.0, 30.0)] * 3)
 
 @given(st.floats(0.0, 1e6), st.lists(st.tuples(st.floats(0.015, LONGEST_GAP), RATES), min_size=1, max_size=60))
 @settings(max_examples=40)
-def test_what_is_kept_of_the_turn_of_a_foot_is_its_integral(start: float, rates: list[tuple[float, Vec3]]) -> None:
+def test_the_turn_of_a_foot_is_the_integral_of_its_rate(start: float, rates: list[tuple[float, Vec3]]) -> None:
     turned = RateIntegral()
     turned.restart(start)
     t, times, turns = start, [start], [(0.0, 0.0, 0.0)]
