@@ -26,8 +26,11 @@ CELLAR = (
     Route().stand(3.0).walk(6.0, 1.2).stairs(12, up=False).walk(6.0).turn(radians(90)).lift(3.4).walk(5.0).stand(3.0)
 )
 ACTIVITIES = 0.9
-"""Share of the time that must be right: a ride is dated from its first jerk until its doors open, and who halts has one
-foot still while the other closes."""
+"""Share of the time that must be right.
+
+A ride is dated from its first jerk until its doors open, and a wearer who halts has one foot still while the other
+closes.
+"""
 
 
 @cache

@@ -44,7 +44,7 @@ def _walked(part: str) -> tuple[Session, list[Event]]:
 
 
 def _apart(session: Session) -> float:
-    """How far from one another the feet are, as their body has placed them, m."""
+    """Return the distance between the feet as their body has placed them, m."""
     body = next(part for part in session._state.wearer.parts if isinstance(part, MeanOfFeet))
     left = body.left.place(session.feet[Foot.LEFT].position)
     right = body.right.place(session.feet[Foot.RIGHT].position)

@@ -38,15 +38,15 @@ L, R = Foot.LEFT, Foot.RIGHT
 
 @define
 class Walked:
-    """Two feet whose events are written down."""
+    """Two feet with a given list of events."""
 
     strides: GaitCycles
     feet: dict[Foot, FootTracker]
     newest: dict[Foot, float] = field(factory=dict)
-    """The newest sample of each foot, s."""
+    """Time of the newest sample of each foot, s."""
 
     def add_sample(self, foot: Foot, t: float, *events: Event) -> list[GaitCycleMeasured]:
-        """The events of a sample of `t`, s."""
+        """Add a sample at `t` s with these events, and return the gait cycles."""
         sample = Sample(t=t, site=SITE_OF_FOOT[foot], acc=(0.0, 0.0, 9.81), gyro=(0.0, 0.0, 0.0))
         self.newest[foot] = max(t, self.newest.get(foot, t))
         found = fed(self.strides, self.feet[foot], sample, events, self.newest.get(OTHER[foot]))

@@ -32,7 +32,7 @@ OTHER = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
 def walked(
     route: Route, cells: int = 0, feet: tuple[Foot, ...] = tuple(Foot)
 ) -> tuple[Truth, tuple[GaitCycleMeasured, ...], GaitParameters | None]:
-    """The truth, the strides and the running means of an emulated walk."""
+    """Return the truth, the strides and the running means of an emulated walk."""
     walker = Walker(route, seed=102)
     samples = [
         sample
@@ -45,7 +45,7 @@ def walked(
 
 
 def really(truth: Truth, foot: Foot) -> dict[float, dict[str, float]]:
-    """By its second contact (s), what a foot's strides really were."""
+    """Return the true values of a foot's strides, by their second contact, s."""
     own, other = truth.feet[foot], truth.feet[OTHER[foot]]
     found = {}
     for before, step in zip(own.steps, own.steps[1:], strict=False):
@@ -78,8 +78,10 @@ def really(truth: Truth, foot: Foot) -> dict[float, dict[str, float]]:
 
 
 def errors(route: Route, name: str, cells: int = 0) -> list[float]:
-    """Of a parameter, over the strides of both feet but the first two, in which a foot that has stood goes off; every
-    stride is found, and none invented."""
+    """Return the errors of a parameter over the strides of both feet; every stride is found, and none invented.
+
+    The first two strides, in which a foot that has stood sets off, are left out.
+    """
     truth, strides, _ = walked(route, cells)
     found = []
     for foot in Foot:
@@ -193,7 +195,7 @@ def test_without_a_frame_for_both_feet_nobody_knows_the_length_of_a_step() -> No
 
 
 def cadence(route: Route) -> float:
-    """Of the true strides between the first and the last one of each foot, steps/min."""
+    """Return the true cadence between the first and the last stride of each foot, steps/min."""
     truth, *_ = walked(route)
     times = [values["stride_time"] for foot in Foot for values in list(really(truth, foot).values())[1:-1]]
     return 120.0 * len(times) / sum(times)

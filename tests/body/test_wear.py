@@ -264,6 +264,6 @@ def test_an_average_is_a_number_between_the_lowest_and_the_highest(values: list[
         average.add(value)
     assert min(values) - 1e-9 <= average.mean <= max(values) + 1e-9
     assert average.variance >= 0.0
-    assert not average.beyond(max(values), 1)
-    assert not average.beyond(limit, len(values) + 1)
+    assert not average.exceeds(max(values), 1)
+    assert not average.exceeds(limit, len(values) + 1)
     assert machine.load(Average, machine.save(average)) == average

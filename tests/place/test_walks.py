@@ -33,9 +33,9 @@ from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import FloorPlan, Level, Start
 
 SURE = 0.99
-"""With so much of the belief a candidate is found."""
+"""Weight at which a candidate counts as found."""
 NEAR = 3.5
-"""A candidate within this of the wearer is the true one, m: candidates are told as the mean over some metres."""
+"""Largest distance of the true candidate from the wearer, m: candidates are means over some metres."""
 
 
 @define
@@ -43,9 +43,9 @@ class Followed:
     """The result of a tour."""
 
     errors: list[float] = field(factory=list)
-    """Once one candidate has nearly all of the belief, and as long as it has, m; of another level, infinitely far."""
+    """Distances while one candidate has nearly all of the weight, m; infinite on another level."""
     dropped: int = 0
-    """Steps at which no candidate was near the wearer."""
+    """Number of strides at which no candidate was near the wearer."""
     found: int | None = None
     events: list[Event] = field(factory=list)
 
