@@ -2,7 +2,7 @@
 
 The samples of each foot are cut into blocks of half a second (features.py), and every block gives a likelihood of each
 motion (motion.py). The votes of the feet, the force that a lift adds on a standing foot (ride.py) and the slope of the
-air pressure, where there is a barometer (air.py), are the evidence of a chain of sixteen states that is followed by
+air pressure, where there is a barometer (pressure_height.py), are the evidence of a chain of sixteen states that is followed by
 Viterbi's algorithm (hypotheses.py).
 
 Latency: a block is judged when two more have come, 1 to 1.5 s after it. The likeliest course is reported at once, not
@@ -23,12 +23,12 @@ from ...types import Activity, Foot, Site
 from ...types.attrs import define, field, frozen
 from ...types.vector import TIE, ZERO
 from ..part import ActivityPart, PartOutput
-from .air import NO_EVIDENCE, PressureHeight
 from .features import BLOCK, REACH
 from .flights import Flights
 from .foot_blocks import FootBlocks
 from .hypotheses import ActivitySegment, BlockEvidence, Hypotheses
 from .motion import MotionModel, shipped
+from .pressure_height import NO_EVIDENCE, PressureHeight
 from .votes import block_force, motion_votes
 
 LEFT: Final = Foot.LEFT

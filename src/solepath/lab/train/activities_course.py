@@ -12,11 +12,11 @@ from statistics import median
 
 from attrs import frozen
 
-from ...body.activity.air import NO_EVIDENCE
 from ...body.activity.chain import DEFAULT_CHANCES, Chances, Shifts
 from ...body.activity.features import BLOCK
 from ...body.activity.hypotheses import BlockEvidence, Hypotheses
 from ...body.activity.motion import MotionModel
+from ...body.activity.pressure_height import NO_EVIDENCE
 from ...body.activity.ride import BlockForce
 from ...body.activity.votes import motion_votes
 from ...types import Activity, Foot
