@@ -10,7 +10,9 @@ class ActivityBlock:
     """Means and shares over the samples of one block."""
 
     index: int
+    """Number of the block."""
     count: int
+    """Number of samples."""
     force: float
     """Mean |acc|, m/s^2."""
     variance: float
@@ -22,7 +24,9 @@ class ActivityBlock:
     rate: float
     """Mean square of |gyro|, (rad/s)^2."""
     gyro_bins: tuple[int, ...]
+    """Number of samples in each bin of |gyro|, limited to 255."""
     tracked: bool
+    """Flag: the foot has a track."""
     climb: float
     """Largest upward velocity, m/s."""
     sink: float
@@ -39,9 +43,11 @@ class BlockStride:
     end: float
     length: float
     rise: float
+    """Height change, m."""
     clearance: float
     speed: float
     pitch: float
+    """Pitch of the swing, rad."""
     top: float
     """Greatest height above the start of the stride, m."""
     bottom: float

@@ -47,8 +47,11 @@ class Flights:
     direction: int = field(default=0, init=False)
     """Direction of the flight under way: 1 up, -1 down, 0 when there is none."""
     t_start: float = field(default=0.0, init=False)
+    """Start of the flight under way, s."""
     t_end: float = field(default=0.0, init=False)
+    """End of its newest stair stride, s."""
     strides: int = field(default=0, init=False)
+    """Number of strides of the flight under way."""
     level: int = field(default=0, init=False)
     """Number of level strides since the last stair stride."""
     rises: dict[Foot, float] = field(factory=dict, init=False)

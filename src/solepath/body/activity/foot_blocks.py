@@ -38,24 +38,34 @@ class FootBlocks:
     index: int | None = None
     """Number of the block under way."""
     force: float = 0.0
+    """Sum of |acc| over the block under way, m/s^2."""
     squares: float = 0.0
+    """Sum of |acc|^2 over the block under way, (m/s^2)^2."""
     acc_bins: list[int] = field(factory=lambda: [0] * BINS)
     """Number of samples of the block under way in each bin of |acc|; every sample is in a bin."""
     rate_squares: float = 0.0
+    """Sum of |gyro|^2 over the block under way, (rad/s)^2."""
     gyro_bins: list[int] = field(factory=lambda: [0] * BINS)
+    """Number of samples of the block under way in each bin of |gyro|."""
     bias: Vec3 = ZERO
     """Gyroscope bias at the start of the block, rad/s."""
     resolution: float = 0.0
     """Resolution of the accelerometer, m/s^2 a count; 0 when it is not known."""
     tracked: bool = False
     climb: float = 0.0
+    """Largest upward velocity in the block under way, m/s."""
     sink: float = 0.0
+    """Largest downward velocity in the block under way, m/s, negative."""
     speed: float = 0.0
+    """Largest square of the horizontal speed in the block under way, (m/s)^2."""
     flat_height: float = 0.0
     """Height at the last foot-flat, navigation frame, m."""
     top: float = 0.0
+    """Greatest height since the last foot-flat, navigation frame, m."""
     bottom: float = 0.0
+    """Lowest height since the last foot-flat, navigation frame, m."""
     strike_height: float | None = None
+    """Height at the last heel-strike, navigation frame, m; None since the last foot-flat."""
     blocks: deque[ActivityBlock] = field(factory=deque)
     """The newest blocks, at most `MOST_BLOCKS`, oldest first."""
     strides: deque[BlockStride] = field(factory=deque)

@@ -76,7 +76,9 @@ class PressureHeight:
     index: int | None = None
     """Number of the block under way."""
     total: float = 0.0
+    """Sum of the heights in the block under way, m."""
     count: int = 0
+    """Number of heights in the block under way."""
     blocks: deque[tuple[int, float]] = field(factory=deque)
     """Number and mean height, m, of the newest blocks, oldest first."""
 

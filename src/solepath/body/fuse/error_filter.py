@@ -61,6 +61,7 @@ class TrackErrorFilter:
     """
 
     covariance: list[list[float]] = field(factory=_zeros, init=False)
+    """Covariance of the errors, `COUNT` rows; units of m, rad and rad/s."""
     centre: tuple[float, float] = field(default=(0.0, 0.0), init=False)
     """Point about which the tracks turn, m."""
     rates: list[float] = field(factory=lambda: [0.0, 0.0], init=False)

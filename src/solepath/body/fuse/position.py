@@ -43,7 +43,9 @@ class PlacedTrack:
     newest_place: Vec3 = ZERO
     """Place on the foot's own track at `t`, m."""
     turn: float = 0.0
+    """Turn of the track, rad."""
     offset: Vec3 = ZERO
+    """Offset of the track after the turn, m."""
     variance: tuple[float, float] | None = None
     """Variances of the own track after its newest stride, horizontal (an axis) and vertical, m^2; None before any."""
     added_variance: tuple[float, float] = (0.0, 0.0)

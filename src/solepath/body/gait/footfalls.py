@@ -48,8 +48,11 @@ class Footfalls:
     toe_off: float | None = None
     """Toe-off in the cycle under way, s; also set for a foot in the air without a cycle."""
     follows: bool = False
+    """Flag: the foot's cycle before the one under way was accepted."""
     degraded: bool = False
+    """Flag: samples are missing in the cycle under way, or an event is inferred."""
     unsteady: bool = False
+    """Flag: more is missing in the cycle under way than a steady stride may lack."""
     ended: PendingCycle | None = None
     waiting: list[PendingCycle] = field(factory=list)
     count: int = 0

@@ -36,7 +36,9 @@ class TurnProcess:
     """A turning process that is over; `left` and `right`: sum of each foot's turns, rad, None of an absent foot."""
 
     t_start: float
+    """Start of the first turning stride, s."""
     t_end: float
+    """End of the last turning stride, s."""
     left: float | None
     right: float | None
 

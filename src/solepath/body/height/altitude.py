@@ -71,7 +71,9 @@ class HeightEstimate:
     """The filter's estimate: the correction and two offsets, m, and their covariance, row by row, m^2."""
 
     values: list[float] = field(factory=lambda: [0.0, 0.0, 0.0])
+    """The correction and the offsets of the left and the right barometer, m."""
     covariance: list[float] = field(factory=lambda: [0.0] * 9)
+    """Covariance of the three values, row by row, m^2."""
     read_at: list[float | None] = field(factory=lambda: [None, None])
     """Time of the newest reading of each barometer, s; None: never read."""
 
@@ -123,7 +125,9 @@ class PendingReadings:
     since: float | None = None
     """Time of the newest reading that was used, s."""
     total: float = 0.0
+    """Sum of the pending heights, m."""
     count: int = 0
+    """Number of pending heights."""
     last: float | None = None
     """Newest height that was used, m."""
 

@@ -38,7 +38,9 @@ class PlaceHypotheses(Part, ABC):
 
     settings: PlaceSettings = PlaceSettings()
     rows: list[Row] = field(factory=list, init=False)
+    """The rows, at most `PlaceSettings.most`."""
     random: int = field(default=1, init=False)
+    """State of the random numbers (noise.py)."""
 
     @abstractmethod
     def extend(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:

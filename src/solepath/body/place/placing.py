@@ -57,8 +57,11 @@ class Placing(LevelChanges):
     """Events since the wearer's last move."""
     start: Start | None = field(default=None, init=False)
     started: bool = field(default=False, init=False)
+    """Flag: the first position was followed."""
     t: float | None = field(default=None, init=False)
+    """Time of the newest position, s."""
     stride_count: int = field(default=0, init=False)
+    """Number of strides since the last check for rows outside of the plan."""
     outside: int = field(default=0, init=False)
     """Number of strides since the wearer was last within the plan."""
     wide: int = field(default=0, init=False)
@@ -66,6 +69,7 @@ class Placing(LevelChanges):
     stuck: float = field(default=0.0, init=False)
     """Length of the track since a row could move, m."""
     newest: Placed | None = field(default=None, init=False)
+    """The newest place that was reported, None once it is lost."""
 
     @property
     def place(self) -> Placed | None:

@@ -38,6 +38,7 @@ class StrideScale:
     """The scale by which the wearer's moves are multiplied, `factor`."""
 
     factor: float = field(default=1.0, init=False)
+    """Scale of the wearer's moves."""
     left: LastStride | None = field(default=None, init=False)
     right: LastStride | None = field(default=None, init=False)
 
