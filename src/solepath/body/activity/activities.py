@@ -2,8 +2,8 @@
 
 The samples of each foot are cut into blocks of half a second (features.py), and every block gives a likelihood of each
 motion (motion.py). The votes of the feet, the force that a lift adds on a standing foot (ride.py) and the slope of the
-air pressure, where there is a barometer (pressure_height.py), are the evidence of a chain of sixteen states that is followed by
-Viterbi's algorithm (hypotheses.py).
+air pressure, where there is a barometer (pressure_height.py), are the evidence of a chain of sixteen states that is
+followed by Viterbi's algorithm (hypotheses.py).
 
 Latency: a block is judged when two more have come, 1 to 1.5 s after it. The likeliest course is reported at once, not
 final. The part on which all likely courses agree is reported again as final, mostly seconds later. Standing that may
