@@ -19,7 +19,7 @@ from yardstick import Tuned, Usual
 from solepath import Calibration, Foot, Packet, Recipe, Sample, Session, Site, StrideTaken, recipes
 from solepath.body.gait.turns import Turns
 from solepath.body.part import ActivityPart, Part, TrackPart
-from solepath.body.place.readings import Readings
+from solepath.body.place.place_hypotheses import PlaceHypotheses
 from solepath.body.worn.wear import Wear
 from solepath.calibration import InsoleCalibration
 from solepath.emulate.radio import CLEAN
@@ -169,7 +169,7 @@ def overhead() -> float:
 
 def parts_of(items: list[Sample], recipe: Recipe, plan: IndexedPlan) -> dict[str, float]:
     """Microseconds a sample that activities, turns and the place on a plan take in a walk through a building."""
-    kinds: dict[str, type[Part]] = {"activity": ActivityPart, "turns": Turns, "place": Readings}
+    kinds: dict[str, type[Part]] = {"activity": ActivityPart, "turns": Turns, "place": PlaceHypotheses}
     found: dict[str, list[float]] = {name: [] for name in kinds}
     for _ in range(RUNS):
         session = Session(recipe, floorplan=plan)

@@ -1,4 +1,4 @@
-"""What must hold of the part for activities whatever its samples."""
+"""Contracts of the part for activities, for any samples."""
 
 from __future__ import annotations
 
@@ -63,9 +63,9 @@ def walk() -> tuple[Sample, ...]:
 
 @given(st.lists(moments, max_size=60))
 @settings(max_examples=25)
-def test_whatever_the_samples_are_events_come_in_their_time_and_the_state_can_be_saved(told: list[tuple]) -> None:  # type: ignore[type-arg]
+def test_whatever_the_samples_are_events_come_in_their_time_and_the_state_can_be_saved(rows: list[tuple]) -> None:  # type: ignore[type-arg]
     wearing, t = Wearing(), 0.0
-    for dt, foot, acc, gyro, pressure, again in told:
+    for dt, foot, acc, gyro, pressure, again in rows:
         for _ in range(again):
             t += dt
             sample = Sample(t=t, site=SITE_OF_FOOT[foot], acc=acc, gyro=gyro, air_pressure=pressure)
@@ -77,27 +77,27 @@ def test_whatever_the_samples_are_events_come_in_their_time_and_the_state_can_be
 
 def test_after_a_long_gap_nobody_knows_what_was_done_in_it() -> None:
     wearing = Wearing()
-    told: list[Event] = []
+    events: list[Event] = []
     for away in (0.0, 60.0):
         for sample in walk():
-            told += wearing.feed(Sample(t=sample.t + away, site=sample.site, acc=sample.acc, gyro=sample.gyro))
-    assert "UNKNOWN" in [event.activity.name for event in told if isinstance(event, ActivityChanged)]
+            events += wearing.feed(Sample(t=sample.t + away, site=sample.site, acc=sample.acc, gyro=sample.gyro))
+    assert "UNKNOWN" in [event.activity.name for event in events if isinstance(event, ActivityChanged)]
 
 
-def test_a_clock_that_begins_anew_is_followed() -> None:
+def test_a_clock_that_restarts_is_followed() -> None:
     wearing = Wearing()
     for sample in walk():
         wearing.feed(Sample(t=sample.t + 1000.0, site=sample.site, acc=sample.acc, gyro=sample.gyro))
     for foot, tracker in wearing.feet.items():
         tracker.reset()
         wearing.part.reset(SITE_OF_FOOT[foot])
-    told = [event for sample in walk() for event in wearing.feed(sample)]
-    assert told and all(event.t < 100.0 for event in told)
+    events = [event for sample in walk() for event in wearing.feed(sample)]
+    assert events and all(event.t < 100.0 for event in events)
 
 
 @given(st.lists(st.floats(-5.0, 5.0), min_size=COUNT, max_size=COUNT))
 @settings(max_examples=30)
-def test_what_the_network_says_adds_up(features: list[float]) -> None:
+def test_the_probabilities_of_the_network_add_up_to_one(features: list[float]) -> None:
     from math import exp, isclose
 
     model = shipped()

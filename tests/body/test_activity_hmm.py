@@ -10,23 +10,23 @@ from hypothesis import strategies as st
 
 from solepath.papers.footstep_tracker.activity.hmm import forward, spread, weighed
 
-BEGIN = (0.6, 0.3, 0.1)
+FIRST_CHANCES = (0.6, 0.3, 0.1)
 CHAIN = ((0.9, 0.05, 0.05), (0.15, 0.8, 0.05), (0.15, 0.15, 0.7))
 
 
 def followed(seen: list[tuple[float, ...]]) -> tuple[float, ...]:
-    """The belief after all of these log-likelihoods."""
-    belief = weighed(BEGIN, spread(seen[0]))
+    """Return the probabilities after all of these log-likelihoods."""
+    belief = weighed(FIRST_CHANCES, spread(seen[0]))
     for one in seen[1:]:
         belief = forward(belief, CHAIN, spread(one))
     return belief
 
 
 def by_hand(seen: list[tuple[float, ...]]) -> list[float]:
-    """Probability of each last state, summed over all courses."""
+    """Return the probability of each last state, summed over all courses."""
     found = [0.0] * 3
     for course in product(range(3), repeat=len(seen)):
-        p = BEGIN[course[0]]
+        p = FIRST_CHANCES[course[0]]
         for before, after in zip(course, course[1:], strict=False):
             p *= CHAIN[before][after]
         for state, likely in zip(course, seen, strict=True):
@@ -41,10 +41,10 @@ def test_the_belief_is_that_of_all_courses_up_to_now(seen: list[tuple[float, ...
 
 
 @given(st.lists(st.tuples(*[st.floats(allow_nan=True, allow_infinity=True)] * 3), min_size=1, max_size=20))
-def test_whatever_it_is_told_it_believes_in_numbers(seen: list[tuple[float, ...]]) -> None:
+def test_any_input_gives_finite_probabilities(seen: list[tuple[float, ...]]) -> None:
     belief = followed(seen)
     assert isclose(sum(belief), 1.0, rel_tol=1e-9) and all(isfinite(p) and p > 0.0 for p in belief)
 
 
-def test_what_is_no_number_says_nothing() -> None:
+def test_nan_gives_no_evidence() -> None:
     assert spread((float("nan"), log(0.5), 0.0)) == (1.0, 0.5, 1.0)

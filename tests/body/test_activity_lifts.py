@@ -1,4 +1,4 @@
-"""Lifts felt in feet that stand: pulses of a sensor whose own error is larger than they are."""
+"""Lifts detected by feet that stand: the error of the sensor is larger than the pulses."""
 
 from __future__ import annotations
 
@@ -16,29 +16,31 @@ from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample
 
 RATE = 50.0
 OFF = {Foot.LEFT: 0.4, Foot.RIGHT: -0.3}
-"""What each foot's accelerometer adds to 1 g, m/s^2."""
+"""Error that each foot's accelerometer adds to 1 g, m/s^2."""
 
 
-def pulse(t: float, begin: float, size: float) -> float:
-    """Two seconds of acceleration, m/s^2."""
-    return size * max(0.0, min(1.0, 2.0 * (t - begin), 2.0 * (begin + 2.0 - t)))
+def pulse(t: float, start: float, size: float) -> float:
+    """Return a pulse of acceleration of two seconds, m/s^2."""
+    return size * max(0.0, min(1.0, 2.0 * (t - start), 2.0 * (start + 2.0 - t)))
 
 
-def stood(lift: Callable[[float], float], until: float, shuffles: tuple[tuple[float, float], ...] = ()) -> list[Event]:
-    """What comes of two feet that stand in a lift with this acceleration, and shuffle from and to these times, s."""
+def standing_events(
+    lift: Callable[[float], float], until: float, shuffles: tuple[tuple[float, float], ...] = ()
+) -> list[Event]:
+    """Return the events of two feet that stand in a lift with this acceleration, and shuffle in these intervals, s."""
     part = Activities()
     feet = {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in Foot}
-    told: list[Event] = []
+    events: list[Event] = []
     for k in range(int(until * RATE)):
         t = k / RATE
-        shuffling = any(begin <= t < end for begin, end in shuffles)
+        shuffling = any(start <= t < end for start, end in shuffles)
         for foot, tracker in feet.items():
             shake = (6.0 * sin(31.0 * t) if shuffling else 0.0) + 0.02 * sin(1000.0 * t)
             turn = 1.5 * sin(31.0 * t) if shuffling else 0.0
             up = 9.80665 + OFF[foot] + lift(t) + shake
             sample = Sample(t=t, site=SITE_OF_FOOT[foot], acc=(0.02, 0.0, up), gyro=(0.001, turn, 0.0))
-            told += fed(part, tracker, sample, tracker.feed(sample))
-    return told + part.finish(until)
+            events += fed(part, tracker, sample, tracker.feed(sample))
+    return events + part.finish(until)
 
 
 def rides(events: list[Event]) -> list[LiftRidden]:
@@ -46,27 +48,29 @@ def rides(events: list[Event]) -> list[LiftRidden]:
 
 
 def test_a_pair_of_pulses_is_a_ride_in_the_direction_of_the_first() -> None:
-    (up,) = rides(stood(lambda t: pulse(t, 10.0, 0.6) - pulse(t, 16.0, 0.6), 40.0))
-    (down,) = rides(stood(lambda t: pulse(t, 16.0, 0.6) - pulse(t, 10.0, 0.6), 40.0))
+    (up,) = rides(standing_events(lambda t: pulse(t, 10.0, 0.6) - pulse(t, 16.0, 0.6), 40.0))
+    (down,) = rides(standing_events(lambda t: pulse(t, 16.0, 0.6) - pulse(t, 10.0, 0.6), 40.0))
     assert up.up and not down.up
     assert abs(up.t_start - 10.0) < 1.0 and abs(up.t - 18.0) < 1.0
 
 
-def test_a_ride_is_as_high_as_its_pulses_say() -> None:
-    (ride,) = rides(stood(lambda t: pulse(t, 10.0, 0.6) - pulse(t, 16.0, 0.6), 40.0))
+def test_the_height_of_a_ride_is_that_of_its_pulses() -> None:
+    (ride,) = rides(standing_events(lambda t: pulse(t, 10.0, 0.6) - pulse(t, 16.0, 0.6), 40.0))
     assert ride.height is not None and abs(ride.height - 0.9 * 6.0) < 0.7  # 0.6 m/s^2 for 1.5 s, 6 s apart
 
 
 def test_who_stands_on_the_ground_rides_nowhere() -> None:
-    assert not rides(stood(lambda t: 0.0, 60.0))
+    assert not rides(standing_events(lambda t: 0.0, 60.0))
 
 
 def test_a_slow_change_of_posture_is_no_ride() -> None:
-    assert not rides(stood(lambda t: 0.08 * min(1.0, max(0.0, (t - 20.0) / 20.0)), 60.0))
+    assert not rides(standing_events(lambda t: 0.08 * min(1.0, max(0.0, (t - 20.0) / 20.0)), 60.0))
 
 
 def test_a_ride_is_found_whose_first_pulse_was_lost_in_shuffling_feet() -> None:
-    events = stood(lambda t: pulse(t, 10.0, 0.8) - pulse(t, 18.0, 0.8), 45.0, shuffles=((9.0, 12.5), (26.0, 45.0)))
+    events = standing_events(
+        lambda t: pulse(t, 10.0, 0.8) - pulse(t, 18.0, 0.8), 45.0, shuffles=((9.0, 12.5), (26.0, 45.0))
+    )
     (ride,) = rides(events)
     assert ride.up
     assert ride.t_start < 15.0 and abs(ride.t - 20.0) < 1.5
@@ -74,13 +78,15 @@ def test_a_ride_is_found_whose_first_pulse_was_lost_in_shuffling_feet() -> None:
 
 def test_doors_take_their_time_so_two_rides_are_not_one() -> None:
     found = rides(
-        stood(lambda t: pulse(t, 10.0, 0.6) - pulse(t, 15.0, 0.6) + pulse(t, 27.0, 0.6) - pulse(t, 32.0, 0.6), 60.0)
+        standing_events(
+            lambda t: pulse(t, 10.0, 0.6) - pulse(t, 15.0, 0.6) + pulse(t, 27.0, 0.6) - pulse(t, 32.0, 0.6), 60.0
+        )
     )
     assert [ride.up for ride in found] == [True, True]
 
 
 def test_standing_that_may_still_be_a_ride_is_not_final_at_once() -> None:
-    events = stood(lambda t: pulse(t, 10.0, 0.6) - pulse(t, 16.0, 0.6), 40.0)
+    events = standing_events(lambda t: pulse(t, 10.0, 0.6) - pulse(t, 16.0, 0.6), 40.0)
     lifted = [event for event in events if isinstance(event, ActivityChanged)]
     riding = [event for event in lifted if event.activity is Activity.ELEVATOR_UP]
     assert not riding[0].final and riding[-1].final and riding[0].known_at < 14.0

@@ -1,4 +1,4 @@
-"""What emulated wearers do, as the part for activities tells it."""
+"""Activities of emulated wearers, as the part for activities reports them."""
 
 from __future__ import annotations
 
@@ -26,8 +26,11 @@ CELLAR = (
     Route().stand(3.0).walk(6.0, 1.2).stairs(12, up=False).walk(6.0).turn(radians(90)).lift(3.4).walk(5.0).stand(3.0)
 )
 ACTIVITIES = 0.9
-"""Share of the time that must be right: a ride is dated from its first jerk until its doors open, and who halts has one
-foot still while the other closes."""
+"""Share of the time that must be right.
+
+A ride is dated from its first jerk until its doors open, and a wearer who halts has one foot still while the other
+closes.
+"""
 
 
 @cache
@@ -43,11 +46,11 @@ def samples(route: Route, rate: float) -> tuple[Sample, ...]:
 
 @cache
 def tagged() -> EmulatedWalk:
-    """Two of the older SensorTags, at 20 Hz, with barometers."""
+    """Return a walk with two of the older SensorTags, at 20 Hz, with barometers."""
     return emulate(HOUSE, devices={Site.LEFT_FOOT: CC2541(rate=20.0), Site.RIGHT_FOOT: CC2541(rate=20.0)}, seed=5)
 
 
-def told(items: tuple[Sample, ...] | tuple[Packet, ...]) -> tuple[list[Event], Timeline]:
+def run(items: tuple[Sample, ...] | tuple[Packet, ...]) -> tuple[list[Event], Timeline]:
     session = Session(recipes.DEFAULT)
     events = [event for item in items for event in session.feed(item)] + session.finish()
     timeline = Timeline()
@@ -58,26 +61,26 @@ def told(items: tuple[Sample, ...] | tuple[Packet, ...]) -> tuple[list[Event], T
 
 
 def right(timeline: Timeline, route: Route) -> float:
-    """Share of the time for which the timeline has the truth, the last two seconds left out."""
+    """Return the share of the time for which the timeline has the truth, without the last two seconds."""
     truth = walker(route).truth()
     times = [0.1 * k for k in range(int(10.0 * (truth.duration - 2.0)))]
     return sum(timeline.at(t) is truth.activity(t) for t in times) / len(times)
 
 
 @pytest.mark.parametrize(("route", "rate"), [(HOUSE, 100.0), (HOUSE, 20.0), (CELLAR, 50.0)])
-def test_standing_walking_running_stairs_and_lifts_are_told(route: Route, rate: float) -> None:
-    _, timeline = told(samples(route, rate))
+def test_standing_walking_running_stairs_and_lifts_are_reported(route: Route, rate: float) -> None:
+    _, timeline = run(samples(route, rate))
     assert right(timeline, route) >= ACTIVITIES
 
 
 def test_one_foot_is_enough() -> None:
     left = tuple(one for one in samples(HOUSE, 100.0) if one.site is Site.LEFT_FOOT)
-    _, timeline = told(left)
+    _, timeline = run(left)
     assert right(timeline, HOUSE) >= ACTIVITIES - 0.05
 
 
-def test_feet_without_gyroscopes_still_tell_standing_moving_and_lifts() -> None:
-    events, timeline = told(tuple(attrs.evolve(one, gyro=None) for one in samples(HOUSE, 100.0)))
+def test_feet_without_gyroscopes_still_show_standing_moving_and_lifts() -> None:
+    events, timeline = run(tuple(attrs.evolve(one, gyro=None) for one in samples(HOUSE, 100.0)))
     truth = walker(HOUSE).truth()
     still = (Activity.STANDING, Activity.ELEVATOR_DOWN)
     times = [0.1 * k for k in range(int(10.0 * (truth.duration - 2.0)))]
@@ -86,8 +89,8 @@ def test_feet_without_gyroscopes_still_tell_standing_moving_and_lifts() -> None:
     assert [event.up for event in events if isinstance(event, LiftRidden)] == [False]
 
 
-def test_a_ride_is_told_with_its_times_and_its_height() -> None:
-    events, _ = told(samples(HOUSE, 100.0))
+def test_a_ride_is_reported_with_its_times_and_its_height() -> None:
+    events, _ = run(samples(HOUSE, 100.0))
     (ride,) = [event for event in events if isinstance(event, LiftRidden)]
     (true,) = walker(HOUSE).truth().rides
     assert not ride.up
@@ -96,20 +99,20 @@ def test_a_ride_is_told_with_its_times_and_its_height() -> None:
 
 
 def test_a_barometer_measures_the_ride() -> None:
-    events, _ = told(tagged().packets)
+    events, _ = run(tagged().packets)
     (ride,) = [event for event in events if isinstance(event, LiftRidden)]
     assert not ride.up
     assert ride.height is not None and abs(ride.height + 6.8) < 1.0
 
 
-def test_flights_are_told_with_their_direction() -> None:
-    events, _ = told(samples(HOUSE, 100.0))
+def test_flights_are_reported_with_their_direction() -> None:
+    events, _ = run(samples(HOUSE, 100.0))
     assert [event.up for event in events if isinstance(event, FlightClimbed)] == [True, True]
 
 
 def test_what_is_final_is_never_replaced() -> None:
     final: list[float] = []
-    for event in told(samples(HOUSE, 20.0))[0]:
+    for event in run(samples(HOUSE, 20.0))[0]:
         if isinstance(event, ActivityChanged):
             assert event.revises is None or event.revises not in final
             assert not final or event.t >= final[-1]
@@ -118,9 +121,9 @@ def test_what_is_final_is_never_replaced() -> None:
     assert len(final) > 8
 
 
-def test_nothing_is_told_later_than_a_few_seconds_after_it_began() -> None:
+def test_everything_is_reported_within_a_few_seconds_of_its_start() -> None:
     first: dict[Activity, float] = {}
-    for event in told(samples(HOUSE, 100.0))[0]:
+    for event in run(samples(HOUSE, 100.0))[0]:
         if isinstance(event, ActivityChanged):
             first.setdefault(event.activity, event.known_at - event.t)
     walked = {Activity.WALKING, Activity.STAIRS_UP, Activity.RUNNING}

@@ -1,4 +1,4 @@
-"""How high the wearer is: lifts, air pressure, weather and doors."""
+"""Height of the wearer: lifts, air pressure, weather and doors."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from views import fed
 from walks import samples
 
 from solepath import Foot, LiftRidden, Sample, Session, Site, StrideTaken, recipes
-from solepath.body.height.altitude import LEFT, MOVE, RIGHT, SCALE, STANDARD, UNKNOWN, Altitude
-from solepath.body.height.received import Heard, Told
+from solepath.body.height.altitude import LEFT, MOVE, RIGHT, SCALE_HEIGHT, STANDARD_PRESSURE, UNKNOWN_VARIANCE, Altitude
+from solepath.body.height.recent_inputs import HeightInput, RecentInputs
 from solepath.body.part import HeightShift, Replacement
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import Insole
@@ -33,20 +33,20 @@ def lift() -> SampledWalk:
 
 
 def pressure(height: float) -> float:
-    return STANDARD * exp(-height / SCALE)
+    return STANDARD_PRESSURE * exp(-height / SCALE_HEIGHT)
 
 
 def breathing(walk: SampledWalk, off: float = 0.0) -> list[Sample]:
-    """With a good barometer at the foot, read once a second; `off`: how wrong it is, m per second."""
+    """Return the samples with a good barometer at the foot, read once a second; `off`: its error, m per second."""
     read: dict[Site, float] = {}
-    told = []
+    found = []
     for sample in walk.samples:
         if sample.t - read.get(sample.site, -9.0) >= 1.0:
             read[sample.site] = sample.t
             z = float(walk.truth.pose(foot_of(sample), sample.t).position.flat[2])
             sample = evolve(sample, air_pressure=pressure(z + off * sample.t + 0.1 * sin(77.0 * sample.t)))
-        told.append(sample)
-    return told
+        found.append(sample)
+    return found
 
 
 def foot_of(sample: Sample) -> Foot:
@@ -54,7 +54,7 @@ def foot_of(sample: Sample) -> Foot:
 
 
 def heights(items: list[Sample], recipe: Recipe = recipes.DEFAULT) -> tuple[list[float], list[LiftRidden]]:
-    """Height of the wearer with every sample, m, and the rides that were told."""
+    """Return the height of the wearer with every sample, m, and the rides that were reported."""
     session = Session(recipe)
     found, rides = [], []
     for sample in items:
@@ -85,7 +85,7 @@ def test_without_this_part_a_lift_leaves_the_height_as_it_was() -> None:
 
 @cache
 def ridden() -> Session:
-    """A session that was fed the ride without air."""
+    """Return a session that was fed the ride without air pressure."""
     session = Session()
     session.feed(list(lift().samples))
     session.finish()
@@ -106,12 +106,12 @@ def test_weather_and_a_door_do_not_move_who_walks_on_the_level() -> None:
         else sample
         for k, sample in enumerate(plain)
     ]
-    told = Session().feed(plain)
-    assert any([isinstance(event, StrideTaken) for event in told])
+    events = Session().feed(plain)
+    assert any([isinstance(event, StrideTaken) for event in events])
     assert heights(windy)[0] == heights(list(plain))[0]
 
 
-def test_air_says_what_stairs_came_to_where_the_steps_are_wrong() -> None:
+def test_air_pressure_gives_the_height_of_stairs_where_the_strides_are_wrong() -> None:
     altitude = Altitude()
     foot, sample = Session(), samples(cells=0)[0]
     foot.feed(list(samples(cells=0))[:2])
@@ -119,24 +119,24 @@ def test_air_says_what_stairs_came_to_where_the_steps_are_wrong() -> None:
     heights = [0.0]
 
     def breathed(t: float, pascal: float, *events: Event) -> None:
-        for said in fed(altitude, tracker, evolve(sample, t=t, known_at=t, air_pressure=pascal), events):
-            if isinstance(said, HeightShift):
-                heights.append(said.above)
+        for output in fed(altitude, tracker, evolve(sample, t=t, known_at=t, air_pressure=pascal), events):
+            if isinstance(output, HeightShift):
+                heights.append(output.above)
 
     step = next(event for event in Session().feed(samples(cells=0)) if isinstance(event, StrideTaken))
     climbing = evolve(step, height_change=0.1, covariance=(0.0, 0.0, 0.0, 0.0, 0.0, 0.04))  # known to 20 cm
-    begin = tracker.position[2]
+    start_height = tracker.position[2]
     for k in range(30):
-        breathed(float(k), pressure(begin))
+        breathed(float(k), pressure(start_height))
     for k in range(30, 50):  # a stair of 10 cm more than the track has it, each second
         climbed = evolve(climbing, t=float(k), t_end=float(k), t_start=k - 1.0)
-        breathed(float(k), pressure(begin + 0.1 * (k - 29)), climbed)
+        breathed(float(k), pressure(start_height + 0.1 * (k - 29)), climbed)
     for k in range(50, 60):
-        breathed(float(k), pressure(begin + 2.0))
+        breathed(float(k), pressure(start_height + 2.0))
     assert heights[-1] == pytest.approx(2.0, abs=0.3)
     before = heights[-1]
     for k in range(60, 90):  # and a door that opens for good
-        breathed(float(k), pressure(begin + 5.0))
+        breathed(float(k), pressure(start_height + 5.0))
     assert heights[-1] == pytest.approx(before, abs=0.3)
 
 
@@ -148,46 +148,46 @@ def ride(height: float | None, lasted: float, up: bool = True) -> LiftRidden:
     ("height", "lasted", "strides"),
     [(0.6, 3.0, 0), (40.0, 5.0, 0), (3.0, 40.0, 0), (6.0, 8.0, 4), (-6.0, 8.0, 0), (None, 8.0, 0)],
 )
-def test_without_air_what_no_lift_rides_has_no_height(height: float | None, lasted: float, strides: int) -> None:
+def test_without_air_an_implausible_ride_has_no_height(height: float | None, lasted: float, strides: int) -> None:
     altitude = Altitude()
     step = next(event for event in Session().feed(samples(cells=0)) if isinstance(event, StrideTaken))
     for k in range(strides):
         altitude.receive(evolve(step, t_start=101.0 + k, t_end=102.0 + k, t=102.0 + k))
-    told = ride(height, lasted)
-    assert altitude.receive(told) == [Replacement(told, evolve(told, height=None)), HeightShift(0.0, 0.0)]
+    reported = ride(height, lasted)
+    assert altitude.receive(reported) == [Replacement(reported, evolve(reported, height=None)), HeightShift(0.0, 0.0)]
 
 
-def test_a_lift_that_stands_feet_in_it_is_believed_without_air() -> None:
+def test_a_plausible_lift_ride_is_trusted_without_air_pressure() -> None:
     altitude = Altitude()
     instead, height = altitude.receive(ride(6.0, 8.0))
     assert instead == Replacement(ride(6.0, 8.0), ride(6.0, 8.0))
     assert isinstance(height, HeightShift) and height.above == 6.0
 
 
-TOLD = st.tuples(
-    st.floats(-1e3, 1e3), st.sampled_from([LEFT, RIGHT, MOVE]), st.floats(-1e5, 1e5), st.floats(0.0, UNKNOWN)
+INPUTS = st.tuples(
+    st.floats(-1e3, 1e3), st.sampled_from([LEFT, RIGHT, MOVE]), st.floats(-1e5, 1e5), st.floats(0.0, UNKNOWN_VARIANCE)
 )
 
 
-@given(st.floats(-1e9, 1e9), st.lists(TOLD, max_size=40), st.integers(0, 40))
+@given(st.floats(-1e9, 1e9), st.lists(INPUTS, max_size=40), st.integers(0, 40))
 @settings(max_examples=60)
-def test_what_the_filter_was_told_is_kept_to_a_hundredth_of_a_second_and_a_tenth_of_a_millimetre(
-    start: float, told: list[Told], popped: int
+def test_inputs_are_kept_to_a_hundredth_of_a_second_and_a_tenth_of_a_millimetre(
+    start: float, inputs: list[HeightInput], popped: int
 ) -> None:
-    heard, used = Heard(), []
-    for since, which, value, variance in told:
+    recent, used = RecentInputs(), []
+    for since, which, value, variance in inputs:
         t = start + since
-        used.append(heard.add((t, which, value, variance)))
+        used.append(recent.add((t, which, value, variance)))
         assert used[-1][0] == pytest.approx(t, abs=0.006) and used[-1][1] == which
         assert used[-1][2] == pytest.approx(value, abs=6e-5) and used[-1][3] == pytest.approx(variance)
-    assert heard.all() == used
-    gone = [heard.pop() for _ in range(min(popped, len(told)))]
-    assert gone + heard.all() == used
-    assert heard.count == len(used) - len(gone)
-    assert heard.oldest == (heard.all()[0][0] if heard.count else None)
-    kept = heard.all()
-    heard.replace(kept)
-    assert heard.all() == kept
+    assert recent.all() == used
+    removed = [recent.pop() for _ in range(min(popped, len(inputs)))]
+    assert removed + recent.all() == used
+    assert recent.count == len(used) - len(removed)
+    assert recent.oldest == (recent.all()[0][0] if recent.count else None)
+    kept = recent.all()
+    recent.replace(kept)
+    assert recent.all() == kept
 
 
 def test_a_session_in_a_lift_goes_on_from_its_snapshot() -> None:
@@ -205,10 +205,10 @@ def test_any_air_is_survived() -> None:
     session = Session()
     session.feed(list(samples(cells=0))[:2])
     tracker, sample = session.feet[Foot.RIGHT], samples(cells=0)[0]
-    said: list[object] = []
+    outputs: list[object] = []
     for k, pascal in enumerate((0.0, 1e308, 2.1e4, 1.9e5, float("nan"), -1.0, 1e5) * 30):
         t = 1e3 * k if k % 2 else -1e9 * k
         rides = (ride(1e308, 1e-9), ride(None, 0.0))
-        said += fed(altitude, tracker, evolve(sample, t=t, known_at=t, air_pressure=pascal), rides)
-    heights = [one for one in said if isinstance(one, HeightShift)]
+        outputs += fed(altitude, tracker, evolve(sample, t=t, known_at=t, air_pressure=pascal), rides)
+    heights = [one for one in outputs if isinstance(one, HeightShift)]
     assert heights and all([abs(v) < 1e7 for one in heights for v in (one.above, one.variance)])

@@ -1,4 +1,4 @@
-"""Two feet that are one body: what each step says of the other foot's track."""
+"""Two feet of one body: each stride corrects the other foot's track."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ import walks
 from attrs import evolve
 
 from solepath import recipes
-from solepath.body.fuse.agreement import HEADING, RATE, STATES, Agreement, X, Y
 from solepath.body.fuse.both_feet import BothFeet, BothFeetSettings
 from solepath.body.fuse.corridor import Corridor
+from solepath.body.fuse.error_filter import HEADING, RATE, STATES, TrackErrorFilter, X, Y
 from solepath.body.fuse.position import MeanOfFeet
 from solepath.body.part import TrackPart
 from solepath.emulate.routes.route import Route
@@ -25,7 +25,7 @@ from solepath.types import Foot, Sample
 
 LONG = Route().stand(2.0).walk(40.0, 1.3).stop(1.0)
 CHEAP = evolve(LSM6DSOX, gyro=evolve(LSM6DSOX.gyro, scale=0.03, cross=0.02))
-"""Strides of one foot turn, by this gyroscope, otherwise than those of the other."""
+"""A gyroscope that turns the strides of one foot otherwise than those of the other."""
 
 
 @cache
@@ -44,7 +44,7 @@ def _walked(part: str) -> tuple[Session, list[Event]]:
 
 
 def _apart(session: Session) -> float:
-    """How far from one another the feet are, as their body has placed them, m."""
+    """Return the distance between the feet as their body has placed them, m."""
     body = next(part for part in session._state.wearer.parts if isinstance(part, MeanOfFeet))
     left = body.left.place(session.feet[Foot.LEFT].position)
     right = body.right.place(session.feet[Foot.RIGHT].position)
@@ -72,7 +72,7 @@ def test_a_foot_whose_steps_are_not_seen_any_more_does_not_hold_the_other_one_ba
     assert session.position is not None and session.position.position[0] > 0.9 * 40.0
 
 
-def test_what_is_unsure_of_the_place_of_both_feet_is_so_in_every_direction() -> None:
+def test_the_uncertainty_of_both_feets_place_is_the_same_in_every_direction() -> None:
     session = Session()
     for sample in _samples(102)[:1500]:
         session.feed(sample)
@@ -84,8 +84,8 @@ def test_what_is_unsure_of_the_place_of_both_feet_is_so_in_every_direction() -> 
                 assert both * both <= one * other * (1.0 + 1e-9)
 
 
-@pytest.mark.parametrize("askew", [-1.0, 2.0, 3.1])
-def test_a_foot_that_first_steps_aside_does_not_bend_either_track(askew: float) -> None:
+@pytest.mark.parametrize("first_direction", [-1.0, 2.0, 3.1])
+def test_a_foot_that_first_steps_aside_does_not_bend_either_track(first_direction: float) -> None:
     session = Session()
     steps: list[StrideTaken] = []
     for sample in _samples(102):
@@ -94,7 +94,7 @@ def test_a_foot_that_first_steps_aside_does_not_bend_either_track(askew: float) 
                 steps.append(event)
                 if event.foot is Foot.LEFT and event.number == 1:
                     # as if its first step, which its world frame begins along, had led there
-                    session.feet[Foot.LEFT].gait.world.north = (cos(askew), sin(askew))
+                    session.feet[Foot.LEFT].gait.world.north = (cos(first_direction), sin(first_direction))
     assert _apart(session) < 0.5
     for foot in Foot:
         own = [step.displacement for step in steps if step.foot is foot][2:-1]
@@ -106,7 +106,7 @@ def test_a_foot_that_first_steps_aside_does_not_bend_either_track(askew: float) 
 def test_corrections_make_no_stride_longer() -> None:
     _, events = _walked("both")
     _, without = _walked("mean")
-    lengths, own = ([event.length for event in heard if isinstance(event, StrideTaken)] for heard in (events, without))
+    lengths, own = ([event.length for event in each if isinstance(event, StrideTaken)] for each in (events, without))
     assert lengths == pytest.approx(own, abs=0.01)
 
 
@@ -125,19 +125,19 @@ def test_a_foot_alone_is_where_its_own_track_has_it() -> None:
     assert session.position == other.position
 
 
-def _agreement() -> Agreement:
-    agreement = Agreement()
-    agreement.begin()
+def _agreement() -> TrackErrorFilter:
+    error_filter = TrackErrorFilter()
+    error_filter.start()
     x = 0.0
     for k in range(20):
         x += 0.65
-        agreement.advance(k % 2, 0.5, 0.5, (x, 0.0), (1.3, 0.0), (1e-4, 0.0, 1e-4), False)
-    return agreement
+        error_filter.propagate(k % 2, 0.5, 0.5, (x, 0.0), (1.3, 0.0), (1e-4, 0.0, 1e-4), False)
+    return error_filter
 
 
-def test_what_a_difference_says_is_shared_and_never_said_of_both_feet_alike() -> None:
-    agreement = _agreement()
-    found = agreement.measure([(STATES + Y, 1.0), (Y, -1.0)], 0.1, 0.002, 16.0)
+def test_a_measured_difference_is_shared_and_never_moves_both_feet_alike() -> None:
+    error_filter = _agreement()
+    found = error_filter.correct([(STATES + Y, 1.0), (Y, -1.0)], 0.1, 0.002, 16.0)
     assert found is not None
     for one in (HEADING, RATE):
         assert found[one] * found[STATES + one] < 0.0
@@ -145,24 +145,26 @@ def test_what_a_difference_says_is_shared_and_never_said_of_both_feet_alike() ->
 
 
 def test_a_foot_whose_stride_was_spoilt_gives_way() -> None:
-    agreement = _agreement()
-    agreement.doubt(0, 2.0)
-    found = agreement.measure([(STATES + X, 1.0), (X, -1.0)], 1.0, 0.01, 1e12)
+    error_filter = _agreement()
+    error_filter.inflate(0, 2.0)
+    found = error_filter.correct([(STATES + X, 1.0), (X, -1.0)], 1.0, 0.01, 1e12)
     assert found is not None
     assert found[X] < -0.8 and abs(found[STATES + X]) < 0.1
 
 
 def test_the_covariance_stays_one() -> None:
-    agreement = _agreement()
+    error_filter = _agreement()
     for k in range(400):
         angle = 0.05 * k
         end = (20.0 * sin(angle), 20.0 * cos(angle))
-        agreement.advance(k % 2, 0.5, 0.5, end, (1.3 * cos(angle), -1.3 * sin(angle)), (1e-4, 0.0, 1e-4), k % 37 == 0)
-        agreement.measure([(STATES + Y, 1.0), (Y, -1.0), (8, 1.0)], 0.03 * (-1) ** k, 0.002, 1e12)
-        p = agreement.covariance
+        error_filter.propagate(
+            k % 2, 0.5, 0.5, end, (1.3 * cos(angle), -1.3 * sin(angle)), (1e-4, 0.0, 1e-4), k % 37 == 0
+        )
+        error_filter.correct([(STATES + Y, 1.0), (Y, -1.0), (8, 1.0)], 0.03 * (-1) ** k, 0.002, 1e12)
+        p = error_filter.covariance
         assert min(p[i][i] for i in range(9)) >= 0.0
         assert all(abs(p[i][j] - p[j][i]) <= 1e-9 * (1.0 + p[i][i] + p[j][j]) for i in range(9) for j in range(i))
-    assert machine.load(Agreement, machine.save(agreement)) == agreement
+    assert machine.load(TrackErrorFilter, machine.save(error_filter)) == error_filter
 
 
 def _held(corridor: Corridor, bend: float, strides: int = 120) -> list[tuple[float, float]]:
@@ -170,7 +172,7 @@ def _held(corridor: Corridor, bend: float, strides: int = 120) -> list[tuple[flo
     held = []
     for k in range(strides):
         start, end = (_along(bend, s) for s in (0.65 * k, 0.65 * k + 1.3))
-        one = corridor.stride(k % 2, 0.5 * k, start, end, 1.3 * bend)
+        one = corridor.add_stride(k % 2, 0.5 * k, start, end, 1.3 * bend)
         held += [] if one is None else [one]
     return held
 
@@ -191,13 +193,13 @@ def test_a_straight_way_that_seems_to_bend_is_turned_back(drift: float) -> None:
     assert all(yaw * drift < 0.0 for yaw, _ in held[:3])
 
 
-def test_who_walks_straight_is_left_alone() -> None:
+def test_a_straight_walk_is_not_changed() -> None:
     assert all(abs(yaw) < 1e-6 for yaw, _ in _held(Corridor(), 1e-9))
 
 
-def test_a_corner_begins_a_new_run() -> None:
+def test_a_corner_starts_a_new_run() -> None:
     corridor = Corridor()
     _held(corridor, 1e-9, 40)
     assert corridor.heading is not None
-    assert corridor.stride(0, 20.5, (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), 0.5 * pi) is None
+    assert corridor.add_stride(0, 20.5, (0.0, 0.0, 0.0), (0.0, 1.0, 0.0), 0.5 * pi) is None
     assert corridor.heading is None

@@ -38,15 +38,15 @@ L, R = Foot.LEFT, Foot.RIGHT
 
 @define
 class Walked:
-    """Two feet whose events are written down."""
+    """Two feet with a given list of events."""
 
     strides: GaitCycles
     feet: dict[Foot, FootTracker]
     newest: dict[Foot, float] = field(factory=dict)
-    """The newest sample of each foot, s."""
+    """Time of the newest sample of each foot, s."""
 
-    def told(self, foot: Foot, t: float, *events: Event) -> list[GaitCycleMeasured]:
-        """The events of a sample of `t`, s."""
+    def add_sample(self, foot: Foot, t: float, *events: Event) -> list[GaitCycleMeasured]:
+        """Add a sample at `t` s with these events, and return the gait cycles."""
         sample = Sample(t=t, site=SITE_OF_FOOT[foot], acc=(0.0, 0.0, 9.81), gyro=(0.0, 0.0, 0.0))
         self.newest[foot] = max(t, self.newest.get(foot, t))
         found = fed(self.strides, self.feet[foot], sample, events, self.newest.get(OTHER[foot]))
@@ -57,8 +57,8 @@ def walked(*feet: Foot) -> Walked:
     return Walked(GaitCycles(), {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in feet})
 
 
-def taken(foot: Foot, toe_off: float, struck: float, begin: Vec3, end: Vec3) -> StrideTaken:
-    way = (end[0] - begin[0], end[1] - begin[1], end[2] - begin[2])
+def taken(foot: Foot, toe_off: float, struck: float, start: Vec3, end: Vec3) -> StrideTaken:
+    way = (end[0] - start[0], end[1] - start[1], end[2] - start[2])
     return StrideTaken(
         t=struck + 0.1, known_at=struck + 0.1, foot=foot, number=1, t_start=toe_off - 0.3, t_end=struck + 0.1,
         displacement=way, position=end, length=abs(way[0]), heading_change=0.0, height_change=way[2],
@@ -66,28 +66,28 @@ def taken(foot: Foot, toe_off: float, struck: float, begin: Vec3, end: Vec3) -> 
     )  # fmt: skip
 
 
-def gone(
-    on: Walked, count: int, *, step: float = 0.5, late: float = 0.0, length: float | None = None, begins: float = 0.0
+def walk_on(
+    on: Walked, count: int, *, step: float = 0.5, late: float = 0.0, length: float | None = None, start: float = 0.0
 ) -> list[GaitCycleMeasured]:
-    """Both feet walk on: the right one comes down `step` after the left one, and `late` s more."""
+    """Walk on with both feet: the right one comes down `step` after the left one, and `late` s more."""
     found: list[GaitCycleMeasured] = []
     for k in range(count):
         foot = L if k % 2 == 0 else R
-        struck = begins + k * step + (late if foot is R else 0.0)
+        struck = start + k * step + (late if foot is R else 0.0)
         cleared = struck - 0.8 * step
-        found += on.told(foot, cleared, ToeOff(t=cleared, known_at=cleared, foot=foot))
-        found += on.told(foot, struck, HeelStrike(t=struck, known_at=struck, foot=foot))
+        found += on.add_sample(foot, cleared, ToeOff(t=cleared, known_at=cleared, foot=foot))
+        found += on.add_sample(foot, struck, HeelStrike(t=struck, known_at=struck, foot=foot))
         flat: list[Event] = [FootFlat(t=struck + 0.1, known_at=struck + 0.1, foot=foot)]
         if length is not None and k > 1:
             at = (0.5 * k * length, 0.1 if foot is L else -0.05, 0.0)
             flat.append(taken(foot, cleared, struck, (at[0] - length, at[1], 0.0), at))
         for other in on.feet:
-            found += on.told(other, struck + 0.1, *(flat if other is foot else ()))
+            found += on.add_sample(other, struck + 0.1, *(flat if other is foot else ()))
     return found
 
 
 def test_a_cycle_goes_from_contact_to_contact_and_the_other_foot_divides_it() -> None:
-    found = gone(walked(L, R), 8)
+    found = walk_on(walked(L, R), 8)
     assert [(stride.foot, stride.t_start, stride.t) for stride in found[:2]] == [(L, 0.0, 1.0), (R, 0.5, 1.5)]
     for stride in found:
         assert (stride.stride_time, stride.cadence) == (1.0, 120.0)
@@ -99,48 +99,48 @@ def test_a_cycle_goes_from_contact_to_contact_and_the_other_foot_divides_it() ->
 
 
 def test_no_foot_is_cleared_by_less_than_nothing() -> None:
-    """Its height was corrected at the foot-flat to above what the swing was seen to reach."""
+    """Correct the foot's height at the foot-flat to above the highest point of the swing."""
     on, step = walked(L), taken(L, 0.6, 1.0, (0.0, 0.0, 0.0), (1.4, 0.0, 0.27))
     step = attrs.evolve(step, features=StrideFeatures(-0.02, 4.0, 1.0))
-    on.told(L, 0.0, HeelStrike(t=0.0, known_at=0.0, foot=L))
-    on.told(L, 0.6, ToeOff(t=0.6, known_at=0.6, foot=L))
-    on.told(L, 1.0, HeelStrike(t=1.0, known_at=1.0, foot=L))
-    found = on.told(L, 1.1, FootFlat(t=1.1, known_at=1.1, foot=L), step)
+    on.add_sample(L, 0.0, HeelStrike(t=0.0, known_at=0.0, foot=L))
+    on.add_sample(L, 0.6, ToeOff(t=0.6, known_at=0.6, foot=L))
+    on.add_sample(L, 1.0, HeelStrike(t=1.0, known_at=1.0, foot=L))
+    found = on.add_sample(L, 1.1, FootFlat(t=1.1, known_at=1.1, foot=L), step)
     assert [stride.clearance for stride in found] == [0.0]
 
 
 def test_a_stand_of_more_than_two_seconds_is_no_stride() -> None:
     on = walked(L, R)
-    gone(on, 6)
-    again = gone(on, 6, begins=12.0)
+    walk_on(on, 6)
+    again = walk_on(on, 6, start=12.0)
     assert min(stride.t_start for stride in again) >= 12.0
     assert not [stride for stride in again if stride.steady and stride.t_start < 12.9]
 
 
 def test_a_heel_that_comes_down_again_without_the_toe_leaving_is_no_contact() -> None:
     on = walked(L)
-    gone_on = [(ToeOff, 0.0), (HeelStrike, 0.4), (FootFlat, 0.5), (HeelOff, 0.8), (HeelStrike, 0.9), (FootFlat, 0.95),
+    cues = [(ToeOff, 0.0), (HeelStrike, 0.4), (FootFlat, 0.5), (HeelOff, 0.8), (HeelStrike, 0.9), (FootFlat, 0.95),
                (HeelOff, 1.0), (ToeOff, 1.1), (HeelStrike, 1.5), (FootFlat, 1.6)]  # fmt: skip
-    found = [s for kind, t in gone_on for s in on.told(L, t, kind(t=t, known_at=t, foot=L))]
+    found = [s for kind, t in cues for s in on.add_sample(L, t, kind(t=t, known_at=t, foot=L))]
     assert [(stride.t_start, stride.t) for stride in found] == [(0.4, 1.5)]
 
 
 def test_a_stride_waits_for_the_other_foots_samples_but_not_for_ever() -> None:
     on = walked(L, R)
-    gone(on, 4)
-    on.told(L, 1.2, ToeOff(t=1.2, known_at=1.2, foot=L))
-    on.told(L, 2.0, HeelStrike(t=2.0, known_at=2.0, foot=L))
-    assert not on.told(L, 2.1, FootFlat(t=2.1, known_at=2.1, foot=L)) and not on.strides.idle
-    assert not on.told(L, 2.4)
-    (late,) = on.told(L, 2.5)
+    walk_on(on, 4)
+    on.add_sample(L, 1.2, ToeOff(t=1.2, known_at=1.2, foot=L))
+    on.add_sample(L, 2.0, HeelStrike(t=2.0, known_at=2.0, foot=L))
+    assert not on.add_sample(L, 2.1, FootFlat(t=2.1, known_at=2.1, foot=L)) and not on.strides.idle
+    assert not on.add_sample(L, 2.4)
+    (late,) = on.add_sample(L, 2.5)
     assert (late.t, late.known_at) == (2.0, 2.5) and on.strides.idle
 
 
-def test_a_clock_that_begins_anew_ends_the_cycle_under_way() -> None:
+def test_a_clock_that_restarts_ends_the_cycle_under_way() -> None:
     on = walked(L, R)
-    before = gone(on, 6)
+    before = walk_on(on, 6)
     on.strides.reset(Site.LEFT_FOOT)
-    after = gone(on, 6, begins=100.0)
+    after = walk_on(on, 6, start=100.0)
     assert all(stride.t_start >= 100.0 for stride in after if stride.foot is L)
     assert [s.number for s in (*before, *after) if s.foot is L] == [1, 2, 3, 4]
 
@@ -148,15 +148,15 @@ def test_a_clock_that_begins_anew_ends_the_cycle_under_way() -> None:
 def test_a_long_gap_spoils_a_steady_stride_and_a_short_one_does_not() -> None:
     for duration, steady in ((0.03, True), (0.3, False)):
         on = walked(L, R)
-        gone(on, 8)
-        on.told(L, 3.6, SampleGap(t=3.5, known_at=3.6, site=SITE_OF_FOOT[L], duration=duration))
-        (stride,) = [stride for stride in gone(on, 1, begins=4.0) if stride.foot is L]
+        walk_on(on, 8)
+        on.add_sample(L, 3.6, SampleGap(t=3.5, known_at=3.6, site=SITE_OF_FOOT[L], duration=duration))
+        (stride,) = [stride for stride in walk_on(on, 1, start=4.0) if stride.foot is L]
         assert stride.degraded and stride.steady is steady
 
 
 def test_the_last_stride_before_a_stop_does_not_count() -> None:
     on = walked(L, R)
-    found = gone(on, 12)
+    found = walk_on(on, 12)
     left = on.strides.means.of(False)
     assert left is not None and left.feet[L].stride_time is not None
     assert left.feet[L].stride_time.strides == len([s for s in found if s.foot is L]) - 2
@@ -184,7 +184,7 @@ def test_whatever_the_feet_do_strides_are_sound_and_can_be_saved(
         else:
             event = kind(t=t, known_at=t, foot=foot, inferred=inferred)
         off = t if kind is ToeOff else off
-        found += on.told(foot, t, event)
+        found += on.add_sample(foot, t, event)
         copy = machine.load(GaitCycles, json.loads(json.dumps(machine.save(on.strides), allow_nan=False)))
         assert copy == on.strides
     found += on.strides.finish(t)
@@ -224,8 +224,8 @@ def test_one_stride_has_no_deviation() -> None:
 
 def test_walking_alternately_is_symmetric_and_limping_is_not() -> None:
     even, limping = walked(L, R), walked(L, R)
-    gone(even, 20)
-    gone(limping, 20, late=0.05)
+    walk_on(even, 20)
+    walk_on(limping, 20, late=0.05)
     same, other = even.strides.parameters, limping.strides.parameters
     assert same is not None and other is not None
     assert same.asymmetry("step_time") == pytest.approx(0.0) and same.coordination == pytest.approx(0.0, abs=1e-9)
@@ -237,7 +237,7 @@ def test_walking_alternately_is_symmetric_and_limping_is_not() -> None:
 
 def test_a_difference_between_the_feet_is_no_variability() -> None:
     on = walked(L, R)
-    gone(on, 20, late=0.05)
+    walk_on(on, 20, late=0.05)
     parameters = on.strides.parameters
     assert parameters is not None and parameters.both.step_time is not None
     assert parameters.both.step_time.mean == pytest.approx(0.5)
@@ -245,14 +245,14 @@ def test_a_difference_between_the_feet_is_no_variability() -> None:
 
 
 def test_walking_and_running_are_added_up_apart() -> None:
-    found = gone(walked(L, R), 12)
+    found = walk_on(walked(L, R), 12)
     means = GaitMeans()
     for stride in found:
-        means.hear(stride)
+        means.add(stride)
     assert means.of(True) is None and means.of(False) is not None
     for stride in found:
         ran = attrs.evolve(stride, t=stride.t + 10.0, t_start=stride.t_start + 10.0, stance_time=0.3, steady=True)
-        means.hear(ran)
+        means.add(ran)
     both = means.of(True), means.of(False)
     assert both[0] is not None and both[1] is not None
     assert means.parameters == both[0] and both[0].running and not both[1].running

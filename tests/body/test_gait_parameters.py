@@ -1,4 +1,4 @@
-"""Strides measured as clinicians do, against what emulated walkers really did."""
+"""Gait cycles measured, against the true motion of emulated walkers."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ OTHER = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
 def walked(
     route: Route, cells: int = 0, feet: tuple[Foot, ...] = tuple(Foot)
 ) -> tuple[Truth, tuple[GaitCycleMeasured, ...], GaitParameters | None]:
-    """The truth, the strides and the running means of an emulated walk."""
+    """Return the truth, the strides and the running means of an emulated walk."""
     walker = Walker(route, seed=102)
     samples = [
         sample
@@ -40,12 +40,12 @@ def walked(
         for sample in walker.samples(foot, 100.0, LSM6DSOX, layout=layout(cells, foot) if cells else None)
     ]
     session = Session()
-    told = session.feed(sorted(samples, key=lambda sample: sample.t)) + session.finish()
-    return walker.truth(), tuple(event for event in told if isinstance(event, GaitCycleMeasured)), session.gait
+    events = session.feed(sorted(samples, key=lambda sample: sample.t)) + session.finish()
+    return walker.truth(), tuple(event for event in events if isinstance(event, GaitCycleMeasured)), session.gait
 
 
 def really(truth: Truth, foot: Foot) -> dict[float, dict[str, float]]:
-    """By its second contact (s), what a foot's strides really were."""
+    """Return the true values of a foot's strides, by their second contact, s."""
     own, other = truth.feet[foot], truth.feet[OTHER[foot]]
     found = {}
     for before, step in zip(own.steps, own.steps[1:], strict=False):
@@ -78,8 +78,10 @@ def really(truth: Truth, foot: Foot) -> dict[float, dict[str, float]]:
 
 
 def errors(route: Route, name: str, cells: int = 0) -> list[float]:
-    """Of a parameter, over the strides of both feet but the first two, in which a foot that has stood goes off; every
-    stride is found, and none invented."""
+    """Return the errors of a parameter over the strides of both feet; every stride is found, and none invented.
+
+    The first two strides, in which a foot that has stood sets off, are left out.
+    """
     truth, strides, _ = walked(route, cells)
     found = []
     for foot in Foot:
@@ -152,7 +154,7 @@ def test_stance_and_swing_are_the_cycle_and_shares_add_up() -> None:
         assert stride.double_support + stride.single_support == pytest.approx(stride.stance_time)
 
 
-def test_one_foot_alone_tells_nothing_of_what_is_between_the_feet() -> None:
+def test_one_foot_alone_gives_no_parameter_between_the_feet() -> None:
     _, strides, gait = walked(LEVEL, 0, (Foot.RIGHT,))
     assert len(strides) >= 7
     for stride in strides:
@@ -165,7 +167,7 @@ def test_one_foot_alone_tells_nothing_of_what_is_between_the_feet() -> None:
     assert gait.cadence == pytest.approx(cadence(LEVEL), abs=1.5)
 
 
-def test_an_insole_without_an_inertial_sensor_tells_times_alone() -> None:
+def test_an_insole_without_an_inertial_sensor_gives_times_alone() -> None:
     walker = Walker(LEVEL, seed=102)
     both = [s for foot in Foot for s in walker.samples(foot, 100.0, LSM6DSOX, layout=layout(96, foot))]
     session = Session()
@@ -193,7 +195,7 @@ def test_without_a_frame_for_both_feet_nobody_knows_the_length_of_a_step() -> No
 
 
 def cadence(route: Route) -> float:
-    """Of the true strides between the first and the last one of each foot, steps/min."""
+    """Return the true cadence between the first and the last stride of each foot, steps/min."""
     truth, *_ = walked(route)
     times = [values["stride_time"] for foot in Foot for values in list(really(truth, foot).values())[1:-1]]
     return 120.0 * len(times) / sum(times)
@@ -249,7 +251,7 @@ def test_a_runner_is_in_the_air_where_a_walker_stands_on_both_feet() -> None:
         assert stride.single_support is not None and stride.single_support <= stride.stance_time + 1e-9
 
 
-def test_gait_csv_has_a_line_for_each_stride_and_nothing_where_nothing_could_be_told(tmp_path: Path) -> None:
+def test_gait_csv_has_a_line_for_each_stride_and_empty_fields_where_nothing_is_known(tmp_path: Path) -> None:
     _, strides, _ = walked(LEVEL, 0, (Foot.RIGHT,))
     with closing(TrackFiles(tmp_path)) as files:
         for stride in strides:

@@ -1,4 +1,4 @@
-"""Which samples reach a part: those that it asks for."""
+"""Samples that reach a part: only those that it asks for."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ WALKED = [*Walker(Route().stand(2.0).walk(6.0, 1.3).stop(1.0)).samples(Foot.LEFT
 
 @define
 class Wakes(Part):
-    """Has nothing to do until a clock is unsettled, or restarts; then it counts samples of which nothing came."""
+    """A part that is idle until a clock is unsettled or restarts; then it counts samples without events."""
 
     needs_samples: ClassVar[bool] = True
     idle: bool = field(default=True, init=False)
-    quiet: int = field(default=0, init=False)
+    eventless: int = field(default=0, init=False)
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
         if isinstance(event, ClockUnsettled):
@@ -33,7 +33,7 @@ class Wakes(Part):
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
         if not self.idle:
-            self.quiet += not view.events
+            self.eventless += not view.events
         return ()
 
     def reset(self, site: Site) -> None:
@@ -42,7 +42,7 @@ class Wakes(Part):
 
 @define
 class Deaf(Part):
-    """Declares no need of samples."""
+    """A part that declares no need of samples."""
 
     fed: int = field(default=0, init=False)
 
@@ -77,7 +77,7 @@ def test_a_part_that_is_idle_no_longer_is_fed_from_then_on_in_a_restored_session
     for one in (session, again):
         one.feed(WALKED[400:600])
     assert last(session) == last(again) != Wakes()
-    assert last(session).quiet > 150
+    assert last(session).eventless > 150
 
 
 def test_a_part_that_declares_no_need_of_samples_gets_none_of_a_barometer_either() -> None:
@@ -86,14 +86,14 @@ def test_a_part_that_declares_no_need_of_samples_gets_none_of_a_barometer_either
     assert last(session) == Deaf()
 
 
-def test_where_the_load_is_of_a_foot_without_accelerometer_is_looked_at_beside_its_rates() -> None:
+def test_the_centre_of_pressure_of_a_foot_without_accelerometer_is_sampled_beside_its_rates() -> None:
     """Cells and rates come as samples of their own."""
     session = Session()
     sides = next(part.sides for part in session._state.wearer.parts if isinstance(part, Wear))
-    looked = set()
+    sampled_at = set()
     for k in range(400):
         t = 0.01 * k
         session.feed(Sample(t=t, site=Site.LEFT_FOOT, gyro=(0.0, 0.1, 0.0)))
         session.feed(Sample(t=t + 0.005, site=Site.LEFT_FOOT, pressure=(float(k % 50),) * 8))
-        looked.add(sides.left.seen_at)
-    assert len(looked) >= 60, "twenty times a second"
+        sampled_at.add(sides.left.centre_at)
+    assert len(sampled_at) >= 60, "twenty times a second"

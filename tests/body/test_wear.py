@@ -1,4 +1,4 @@
-"""How the feet are worn: one that falls silent, and left and right exchanged."""
+"""Wearing faults: a foot that falls silent, and left and right exchanged."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ MEAN = recipes.DEFAULT.exchanged(TrackPart, MeanOfFeet())
 
 
 def exchanged(walk: tuple[Sample, ...]) -> tuple[Sample, ...]:
-    """The same with the device of each foot taken for the other's."""
+    """Return the walk with the device of each foot taken for the other's."""
     return tuple(evolve(sample, site=OTHER[sample.site]) for sample in walk)
 
 
@@ -43,31 +43,31 @@ def walk(seed: int = 1) -> tuple[Sample, ...]:
     return samples(WALK, cells=0, rate=50.0, seed=seed)
 
 
-def said(kind: Any, items: tuple[Sample, ...], session: Session | None = None) -> list[Any]:
+def reported(kind: Any, items: tuple[Sample, ...], session: Session | None = None) -> list[Any]:
     return of(kind, (Session() if session is None else session).feed(items))
 
 
-def without(foot: Site, begin: float, end: float) -> tuple[Sample, ...]:
-    return tuple(s for s in walk() if s.site is not foot or not begin <= s.t < end)
+def without(foot: Site, start: float, end: float) -> tuple[Sample, ...]:
+    return tuple(s for s in walk() if s.site is not foot or not start <= s.t < end)
 
 
 @pytest.mark.parametrize("foot", [LEFT, RIGHT])
-def test_a_foot_that_gives_no_samples_while_the_other_walks_on_is_silent_until_it_is_heard(foot: Site) -> None:
-    told = said(FootSilent | FootResumed, without(foot, 6.0, 12.0))
-    assert [type(event) for event in told] == [FootSilent, FootResumed]
-    silent, heard = told
-    assert {event.foot for event in told} == {foot.foot}
+def test_a_foot_that_gives_no_samples_while_the_other_walks_on_is_silent_until_it_gives_one(foot: Site) -> None:
+    events = reported(FootSilent | FootResumed, without(foot, 6.0, 12.0))
+    assert [type(event) for event in events] == [FootSilent, FootResumed]
+    silent, resumed = events
+    assert {event.foot for event in events} == {foot.foot}
     assert 8.9 < silent.t < 11.0
     assert silent.silent_for == pytest.approx(silent.t - 6.0, abs=0.05)
-    assert heard.t == pytest.approx(12.0, abs=0.05)
-    assert heard.silent_for == pytest.approx(6.0, abs=0.05)
+    assert resumed.t == pytest.approx(12.0, abs=0.05)
+    assert resumed.silent_for == pytest.approx(6.0, abs=0.05)
 
 
 def test_the_foot_that_is_left_takes_its_steps_as_before() -> None:
     left = without(RIGHT, 6.0, 1e9)
 
     def steps(items: tuple[Sample, ...], recipe: Recipe) -> list[StrideTaken]:
-        return [step for step in said(StrideTaken, items, Session(recipe)) if step.foot is Foot.LEFT]
+        return [step for step in reported(StrideTaken, items, Session(recipe)) if step.foot is Foot.LEFT]
 
     assert steps(left, MEAN) == steps(walk(), MEAN)
     # where feet hold each other's heading its steps are as long
@@ -77,14 +77,14 @@ def test_the_foot_that_is_left_takes_its_steps_as_before() -> None:
     assert [step.length for step in alone] == pytest.approx(lengths, abs=0.01)
 
 
-def test_a_short_silence_and_a_foot_that_was_never_heard_are_not_told() -> None:
-    assert said(FootSilent | FootResumed, without(RIGHT, 6.0, 8.0)) == []
-    assert said(FootSilent | FootResumed, tuple(s for s in walk() if s.site is LEFT)) == []
+def test_a_short_silence_and_a_foot_without_any_sample_are_not_reported() -> None:
+    assert reported(FootSilent | FootResumed, without(RIGHT, 6.0, 8.0)) == []
+    assert reported(FootSilent | FootResumed, tuple(s for s in walk() if s.site is LEFT)) == []
 
 
-def test_while_the_wearer_stands_nobody_is_missed() -> None:
+def test_no_foot_is_silent_while_the_wearer_stands() -> None:
     standing = samples(Route().stand(8.0), cells=0, rate=50.0)
-    assert said(FootSilent, tuple(s for s in standing if s.site is LEFT or s.t < 2.0)) == []
+    assert reported(FootSilent, tuple(s for s in standing if s.site is LEFT or s.t < 2.0)) == []
 
 
 FAR = Route().stand(1.5).walk(40.0, 1.2).stop(1.5)
@@ -92,7 +92,7 @@ ROUND = Route().stand(1.5).walk(16.0, 1.2).turn(radians(90), radius=1.5).walk(22
 
 
 def place(walk: tuple[Sample, ...], recipe: Recipe = recipes.DEFAULT) -> tuple[float, float, float, float]:
-    """Where the wearer is at its end: x, y, and their standard deviations, m."""
+    """Return the position of the wearer at the end: x, y, and their standard deviations, m."""
     session = Session(recipe)
     session.feed(walk)
     where = session.position
@@ -137,7 +137,7 @@ def test_a_foot_without_a_gyroscope_has_no_track_and_does_not_hold_the_wearer_ba
     assert place(bare) == place(tuple(s for s in both(FAR) if s.site is RIGHT))
 
 
-def test_the_place_does_not_leap_when_a_foot_falls_silent_or_comes_back() -> None:
+def test_the_position_does_not_jump_when_a_foot_falls_silent_or_comes_back() -> None:
     session = Session()
     before = None
     for sample in silent(both(FAR), LEFT, 8.0, 20.0):
@@ -149,7 +149,7 @@ def test_the_place_does_not_leap_when_a_foot_falls_silent_or_comes_back() -> Non
 
 
 @pytest.mark.parametrize("whole", [True, False])
-def test_while_both_feet_are_heard_the_place_is_their_mean_to_the_last_digit(whole: bool) -> None:
+def test_while_both_feet_give_samples_the_position_is_their_mean_to_the_last_digit(whole: bool) -> None:
     feet = both(SHORT)
     # or first all samples of the one foot and then all of the other: neither was away
     items = feet if whole else tuple(s for foot in (LEFT, RIGHT) for s in feet if s.site is foot)
@@ -167,53 +167,56 @@ def test_while_both_feet_are_heard_the_place_is_their_mean_to_the_last_digit(who
 
 
 @pytest.mark.parametrize("seed", [1, 2])
-def test_exchanged_feet_are_told_once_within_ten_steps_of_each(seed: int) -> None:
+def test_exchanged_feet_are_reported_once_within_ten_strides_of_each(seed: int) -> None:
     session = Session()
-    told = session.feed(exchanged(walk(seed)))
-    (swapped,) = of(FeetSwapped, told)
-    before = [step.foot for step in of(StrideTaken, told) if step.t <= swapped.t]
+    events = session.feed(exchanged(walk(seed)))
+    (swapped,) = of(FeetSwapped, events)
+    before = [step.foot for step in of(StrideTaken, events) if step.t <= swapped.t]
     assert 8 <= before.count(Foot.LEFT) <= 12
     assert 8 <= before.count(Foot.RIGHT) <= 12
 
 
 @pytest.mark.parametrize("seed", [1, 2])
 def test_feet_that_are_worn_as_they_should_be_are_not_taken_for_exchanged(seed: int) -> None:
-    assert said(FeetSwapped, walk(seed)) == []
+    assert reported(FeetSwapped, walk(seed)) == []
 
 
 @pytest.mark.soak
 @pytest.mark.parametrize("seed", range(1, 21))
-def test_twenty_walks_of_many_speeds_are_told_apart_from_their_exchanged_selves(seed: int) -> None:
+def test_twenty_walks_of_many_speeds_differ_from_their_exchanged_selves(seed: int) -> None:
     turn = radians(90.0 if seed % 2 else -120.0)
     route = Route().stand(1.5).walk(18.0, 0.8 + 0.04 * seed).turn(turn, radius=1.5).walk(8.0).stop(1.0)
     both = samples(route, cells=24, seed=seed)
-    assert said(FeetSwapped, both) == []
-    assert len(said(FeetSwapped, exchanged(both))) == 1
+    assert reported(FeetSwapped, both) == []
+    assert len(reported(FeetSwapped, exchanged(both))) == 1
 
 
-def test_devices_that_say_that_they_are_on_the_right_feet_are_believed() -> None:
+def test_devices_that_report_the_right_feet_are_trusted() -> None:
     session = Session()
-    told = session.feed(emulate(WALK, seed=1).packets)
-    assert of(FeetSwapped, told) == []
+    events = session.feed(emulate(WALK, seed=1).packets)
+    assert of(FeetSwapped, events) == []
     sides = session._state.wearer.ask("sides")
-    assert sides.left.told and sides.right.told
+    assert sides.left.declared and sides.right.declared
     assert not sides.left.turned.rows and not sides.right.turned.rows, "what their feet do need not be remembered"
     sides.left.roll = sides.right.roll = Average(count=24, mean=0.2)
     assert not sides._agree()
 
 
-def test_layouts_of_the_other_foot_on_both_sides_are_told_after_a_step() -> None:
+def test_layouts_of_the_other_foot_on_both_sides_are_reported_after_a_stride() -> None:
     left, right = (InsoleCalibration(layout(24, foot)) for foot in Foot)
     mirrored = Calibration({Foot.LEFT: right, Foot.RIGHT: left})
     session = Session(calibration=mirrored)
-    told = session.feed(samples(WALK, rate=50.0))
-    (swapped,) = of(FeetSwapped, told)
-    assert len([step for step in of(StrideTaken, told) if step.t <= swapped.t]) <= 2
+    events = session.feed(samples(WALK, rate=50.0))
+    (swapped,) = of(FeetSwapped, events)
+    assert len([step for step in of(StrideTaken, events) if step.t <= swapped.t]) <= 2
 
 
 def pressure_alone(numbered_alike: bool) -> tuple[tuple[Sample, ...], Calibration]:
-    """A walk of insoles without inertial sensors, and where their cells are. Numbered alike: cell k of the left insole
-    lies where cell k of the right one does, seen from above, and not where its mirror image does."""
+    """Return a walk of insoles without inertial sensors, and their calibration.
+
+    Numbered alike: cell k of the left insole lies where cell k of the right one does, seen from above, and not where
+    its mirror image does.
+    """
     walker = Walker(WALK, seed=1)
     there = {foot: layout(24, Foot.LEFT if numbered_alike else foot) for foot in Foot}
     both = [
@@ -229,29 +232,29 @@ def _time(sample: Sample) -> float:
     return sample.t
 
 
-def test_without_inertial_sensors_the_centre_of_pressure_tells_exchanged_feet() -> None:
+def test_without_inertial_sensors_the_centre_of_pressure_shows_exchanged_feet() -> None:
     both, known = pressure_alone(numbered_alike=True)
-    assert said(FeetSwapped, both, Session(calibration=known)) == []
-    assert len(said(FeetSwapped, exchanged(both), Session(calibration=known))) == 1
+    assert reported(FeetSwapped, both, Session(calibration=known)) == []
+    assert len(reported(FeetSwapped, exchanged(both), Session(calibration=known))) == 1
 
 
-def test_insoles_numbered_as_mirror_images_look_alike_when_exchanged_and_nothing_is_said() -> None:
+def test_insoles_numbered_as_mirror_images_look_alike_when_exchanged_and_nothing_is_reported() -> None:
     both, known = pressure_alone(numbered_alike=False)
-    assert said(FeetSwapped, both, Session(calibration=known)) == []
-    assert said(FeetSwapped, exchanged(both), Session(calibration=known)) == []
+    assert reported(FeetSwapped, both, Session(calibration=known)) == []
+    assert reported(FeetSwapped, exchanged(both), Session(calibration=known)) == []
 
 
 @given(st.integers(0, 10_000))
 @settings(max_examples=5)
-def test_a_session_saved_at_any_moment_goes_on_to_tell_the_same_and_to_the_same_place(cut: int) -> None:
+def test_a_session_saved_at_any_moment_continues_with_the_same_events_and_position(cut: int) -> None:
     items = exchanged(without(LEFT, 6.0, 10.0))
     k = cut % len(items)
     session, straight = Session(), Session()
-    told = session.feed(items[:k])
+    events = session.feed(items[:k])
     session = Session.restore(json.loads(json.dumps(session.snapshot(), allow_nan=False)))
-    told += session.feed(items[k:])
-    assert told == straight.feed(items) and session.position == straight.position
-    assert len(of(FeetSwapped | FootSilent | FootResumed, told)) >= 3
+    events += session.feed(items[k:])
+    assert events == straight.feed(items) and session.position == straight.position
+    assert len(of(FeetSwapped | FootSilent | FootResumed, events)) >= 3
 
 
 @given(st.lists(st.floats(-10.0, 10.0), min_size=1, max_size=60), st.floats(-5.0, 5.0))
@@ -261,6 +264,6 @@ def test_an_average_is_a_number_between_the_lowest_and_the_highest(values: list[
         average.add(value)
     assert min(values) - 1e-9 <= average.mean <= max(values) + 1e-9
     assert average.variance >= 0.0
-    assert not average.beyond(max(values), 1)
-    assert not average.beyond(limit, len(values) + 1)
+    assert not average.exceeds(max(values), 1)
+    assert not average.exceeds(limit, len(values) + 1)
     assert machine.load(Average, machine.save(average)) == average

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import isclose
 
-from solepath.body.activity.chain import STAND, SUPPOSED, UP, WALK, chain_of
+from solepath.body.activity.chain import DEFAULT_CHANCES, STAND, UP, WALK, chain_of
 from solepath.lab.train.activities_course import LabelledCourse, chances, changes
 from solepath.lab.train.hugadb import spans
 from solepath.types import Activity
@@ -23,14 +23,14 @@ def test_who_climbs_often_makes_stairs_likelier() -> None:
     done = [(10.0 * k, 10.0 * k + 10.0, (WALKED, CLIMBED)[k % 2]) for k in range(100)]
     learnt = chances([LabelledCourse(0.0, {}, tuple(done))])
     assert all(isclose(sum(row), 1.0, abs_tol=1e-4) for row in learnt)
-    assert SUPPOSED[WALK][UP] < learnt[WALK][UP] < 1.0 / 20.0 + 1e-3  # ten seconds are twenty blocks
+    assert DEFAULT_CHANCES[WALK][UP] < learnt[WALK][UP] < 1.0 / 20.0 + 1e-3  # ten seconds are twenty blocks
 
 
 def test_without_recordings_everything_is_as_supposed() -> None:
-    for row, supposed in zip(chances([]), SUPPOSED, strict=True):
+    for row, supposed in zip(chances([]), DEFAULT_CHANCES, strict=True):
         assert all(isclose(a, b, abs_tol=1e-5) for a, b in zip(row, supposed, strict=True))
 
 
 def test_from_standing_one_may_come_to_anything() -> None:
-    chain = chain_of(SUPPOSED, ())
-    assert all(STAND in [source for source, _ in chain.before[state]] for state in range(UP))
+    chain = chain_of(DEFAULT_CHANCES, ())
+    assert all(STAND in [source for source, _ in chain.predecessors[state]] for state in range(UP))

@@ -192,7 +192,7 @@ def test_one_foot_alone_has_nothing_of_both() -> None:
 def test_angles_that_lean_to_either_side_differ_by_degrees_and_not_by_hundreds_of_per_cent() -> None:
     means = GaitMeans()
     for stride in strides((LEFT, RIGHT), 7, (radians(3.0), radians(-1.0))):
-        means.hear(stride)
+        means.add(stride)
     parameters = means.of(False)
     assert parameters is not None
     rows = {row.name: row for row in gait_rows(parameters)}
@@ -208,7 +208,7 @@ def test_feet_that_fly_have_no_share_of_less_than_nothing() -> None:
     means = GaitMeans()
     for stride in strides((LEFT, RIGHT), 7):
         flight = -0.08 if stride.foot is LEFT else -0.04
-        means.hear(evolve(stride, stance_time=0.4 * stride.stride_time, initial_double_support=flight))
+        means.add(evolve(stride, stance_time=0.4 * stride.stride_time, initial_double_support=flight))
     parameters = means.of(True)
     assert parameters is not None
     (row,) = [row for row in gait_rows(parameters) if row.name == "initial_double_support"]

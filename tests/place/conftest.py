@@ -1,4 +1,4 @@
-"""What tests of the place share."""
+"""Fixtures of the tests of the place on a plan."""
 
 from __future__ import annotations
 
@@ -8,6 +8,6 @@ from floors import METHODS, Method
 
 @pytest.fixture(params=METHODS)
 def part(request: pytest.FixtureRequest) -> Method:
-    """Each way to find a wearer on a plan, as new."""
+    """Return each method of finding a wearer on a plan, new."""
     found: Method = request.param()
     return found

@@ -1,4 +1,4 @@
-"""What must hold for a place on a floor plan whatever the track does, and what is said when the plan is of no use."""
+"""Contracts of a place on a floor plan for any track, and messages about plans of no use."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from walks import insoles
 from solepath import Activity, Event, FlightClimbed, Foot, LiftRidden, Placed, PlaceLost, Session, recipes
 from solepath.body.part import Position
 from solepath.body.place.particles import Particles
-from solepath.body.place.readings import ReadingsSettings
+from solepath.body.place.place_hypotheses import PlaceSettings
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import FloorPlan, Level, Start, Wall
 from solepath.saving import codec as machine
@@ -84,15 +84,15 @@ STARTS = st.one_of(
 @pytest.mark.parametrize("method", METHODS)
 @settings(max_examples=40)
 @given(start=STARTS, tellings=TELLINGS)
-def test_no_events_and_no_track_whatever_make_it_raise_and_what_it_tells_is_sound(method, start, tellings) -> None:  # type: ignore[no-untyped-def]
-    part = method(ReadingsSettings(most=60))
+def test_any_events_and_any_track_give_sound_events_and_no_exception(method, start, tellings) -> None:  # type: ignore[no-untyped-def]
+    part = method(PlaceSettings(most=60))
     if start is not None:
         part.set_out(start)
     for events, t, position in tellings:
         here = Position(t, position, (0.0,) * 6)  # type: ignore[arg-type]
-        told = part.follow(OFFICE, events, here)
-        assert not told or part.place == (told[-1] if isinstance(told[-1], Placed) else None)
-        for event in told:
+        outputs = part.follow(OFFICE, events, here)
+        assert not outputs or part.place == (outputs[-1] if isinstance(outputs[-1], Placed) else None)
+        for event in outputs:
             assert isinstance(event, Placed | PlaceLost) and event.known_at >= event.t
             if isinstance(event, Placed):
                 numbers = [*event.position, event.spread, *(c.weight for c in event.candidates)]
@@ -117,8 +117,8 @@ def test_the_state_is_small_and_does_not_grow(part: Method) -> None:
     for _ in range(3):
         one.walk(beside(one.place), (RIGHT, LOW), (RIGHT, HIGH), (6.2, HIGH), (6.2, LOW), beside(one.place))
     found = []
-    for told in one.told:
-        part.follow(OFFICE, told.events, told.here)
+    for moment in one.told:
+        part.follow(OFFICE, moment.events, moment.here)
         sizes.append(packed_size(part))
         if part.place is not None and len(part.place.candidates) == 1:
             found.append(sizes[-1])
@@ -133,7 +133,7 @@ def test_the_state_is_small_and_does_not_grow(part: Method) -> None:
         (Start("0", (-4.0, 3.0)), "start: (-4, 3) is nowhere on level 0"),
     ],
 )
-def test_a_start_that_is_nowhere_is_said_once_and_the_wearer_is_found_later(
+def test_a_start_outside_of_the_plan_is_reported_once_and_the_wearer_is_found_later(
     part: Method, start: Start, why: str
 ) -> None:
     one = Pedestrian(22, "1", LIFTS["lift south"])
@@ -169,14 +169,14 @@ def test_a_wearer_who_leaves_by_the_door_is_no_longer_on_the_plan(part: Method) 
     assert "the track leaves the plan near (4" in lost(events)[0] and "on level 0" in lost(events)[0]
 
 
-def test_a_track_that_leaps_loses_the_place(part: Method) -> None:
+def test_a_track_that_jumps_loses_the_place(part: Method) -> None:
     one = Pedestrian(25, "0", (12.0, LOW)).known_to(part)
     one.walk((16.0, LOW))
     one.step(500.0, 0.0)
     assert lost(follow(part, one.told)) == ["the track leaps by more than 100 m"]
 
 
-def test_without_start_stairs_and_lifts_it_says_that_the_place_cannot_be_known(part: Method) -> None:
+def test_without_start_stairs_and_lifts_the_place_is_reported_as_lost(part: Method) -> None:
     bare = IndexedPlan(evolve(office(), connectors=()))
     one = Pedestrian(26, "0", (12.0, LOW))
     one.walk((30.0, LOW))
@@ -198,12 +198,12 @@ def test_stairs_that_the_plan_does_not_have_change_no_level(part: Method) -> Non
 def test_the_position_is_never_bent_to_the_plan() -> None:
     bare = Session(recipes.DEFAULT)
     on_plan = Session(recipes.DEFAULT, floorplan=square(30.0), start=Start("0", (15.0, 15.0), 0.3))
-    heard: list[Event] = []
+    events: list[Event] = []
     for packet in insoles(cells=12).packets:
         bare.feed(packet)
-        heard += on_plan.feed(packet)
+        events += on_plan.feed(packet)
         assert bare.position == on_plan.position
-    assert any(isinstance(event, Placed) for event in heard)
+    assert any(isinstance(event, Placed) for event in events)
     assert bare.place is None and on_plan.place is not None
 
 

@@ -1,4 +1,4 @@
-"""What docs/accuracy.md says of places on a plan: walks through the emulator's building, from sensor to place."""
+"""Claims of docs/accuracy.md on places on a plan: walks through the emulator's building, from sensor to place."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ PLAN = IndexedPlan(BUILDING)
 
 
 def wandered(recipe: str, seed: int) -> PlaceScore:
-    """SensorTags at 20 Hz for the recipe that is made for them, else small insoles at 100 Hz."""
+    """Return the score of SensorTags at 20 Hz for the recipe made for them, else of small insoles at 100 Hz."""
     way = wandering(seed)
     tag = CC2541(rate=20.0, mounting=IN_SOLE)
     devices = {SITE_OF_FOOT[foot]: tag if recipe == "footstep-tracker" else Insole(cells=8) for foot in Foot}
@@ -34,8 +34,11 @@ def wandered(recipe: str, seed: int) -> PlaceScore:
 @pytest.mark.soak
 @pytest.mark.parametrize(("recipe", "walks", "most"), [("footstep-tracker", 50, 4), ("default", 25, 0)])
 def test_walks_through_the_building_keep_the_true_candidate(recipe: str, walks: int, most: int) -> None:
-    """Aimed at is none dropped by either recipe. Stairs that are taken for the other direction make some of
-    footstep-tracker's walks believe the wrong one of two floors that are alike."""
+    """Aim at no true candidate dropped by either recipe.
+
+    Stairs that are taken for the other direction make some of footstep-tracker's walks end on the wrong one of two
+    floors that are alike.
+    """
     scores = [wandered(recipe, seed) for seed in range(1, walks + 1)]
     off = [sum(score.off) / len(score.off) for score in scores if score.off]
     for seed, score in enumerate(scores, 1):

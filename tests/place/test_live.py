@@ -11,7 +11,7 @@ from programs import emulator, run
 from solepath.floorplan.importers.geojson import write_floorplan
 
 
-def test_live_tells_the_place_on_the_plan_and_writes_places(tmp_path: Path) -> None:
+def test_live_prints_the_place_on_the_plan_and_writes_places(tmp_path: Path) -> None:
     plan, out = tmp_path / "office.geojson", tmp_path / "out"
     write_floorplan(plan, office())
     with emulator("--distance", 20) as (_, where):
@@ -23,7 +23,7 @@ def test_live_tells_the_place_on_the_plan_and_writes_places(tmp_path: Path) -> N
     assert len(rows) > 3 and {row["level"] for row in rows} == {"0"}
 
 
-def test_live_refuses_a_start_that_is_nowhere_before_it_listens(tmp_path: Path) -> None:
+def test_live_rejects_a_start_outside_of_the_plan_before_it_connects(tmp_path: Path) -> None:
     plan = tmp_path / "office.geojson"
     write_floorplan(plan, office())
     done = run("live", "--floorplan", plan, "--start", "7,1,1", "--via", "tcp:127.0.0.1:1", expect=2)

@@ -42,11 +42,11 @@ def words(svg: ElementTree.Element) -> list[str]:
 
 def test_the_picture_has_a_panel_for_every_level_a_scale_and_where_the_wearer_was_found_and_ended() -> None:
     svg = pictured(office(), tour(7))
-    told = words(svg)
-    assert "a tour <of two> floors & a lift" in told
-    assert {"floor 0 (0), 0.0 m", "floor 1 (1), 3.6 m", "candidate", "stairs", "lift"} <= set(told)
-    assert {"found", "end", "5 m"} <= set(told)
-    assert "N" not in told, "without an anchor nobody knows where north is"
+    texts = words(svg)
+    assert "a tour <of two> floors & a lift" in texts
+    assert {"floor 0 (0), 0.0 m", "floor 1 (1), 3.6 m", "candidate", "stairs", "lift"} <= set(texts)
+    assert {"found", "end", "5 m"} <= set(texts)
+    assert "N" not in texts, "without an anchor nobody knows where north is"
     tracks = [line for line in svg.iter() if line.tag.endswith("polyline")]
     assert len({line.get("stroke") for line in tracks}) > 5, "coloured by time"
     dots = [float(dot.get("fill-opacity", "1")) for dot in svg.iter() if dot.get("r") == "2.2"]
@@ -86,10 +86,10 @@ def test_colours_run_from_the_start_to_the_end() -> None:
     assert all(len(blend(COLOURS, k / 50.0)) == 7 for k in range(51))
 
 
-def test_the_summary_says_when_the_wearer_was_found_and_on_which_levels() -> None:
+def test_the_summary_has_the_time_at_which_the_wearer_was_found_and_the_levels() -> None:
     part, places = Particles(), PlaceCounts()
-    for told in tour(7).told:
-        for event in [*told.events, *part.follow(OFFICE, told.events, told.here)]:
+    for moment in tour(7).told:
+        for event in [*moment.events, *part.follow(OFFICE, moment.events, moment.here)]:
             places.add(event)
     assert places.last is not None and places.last.level == "1"
     lines = place_lines(places)
@@ -99,7 +99,7 @@ def test_the_summary_says_when_the_wearer_was_found_and_on_which_levels() -> Non
     assert lines[3].endswith("no start was given, so the place is not known before the first stairs or lift")
 
 
-def test_the_summary_of_a_wearer_who_was_never_found_says_so() -> None:
+def test_the_summary_of_a_wearer_who_was_never_found_contains_that() -> None:
     places = PlaceCounts()
     places.add(PlaceLost(t=3.0, known_at=3.0, what="the plan is of another building"))
     lines = place_lines(places)
@@ -123,7 +123,7 @@ def hall(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return path
 
 
-def test_track_writes_places_and_the_picture_and_says_where_the_wearer_is(
+def test_track_writes_places_and_the_picture_and_prints_where_the_wearer_is(
     walk: Path, hall: Path, tmp_path: Path
 ) -> None:
     done = run("track", walk, "--floorplan", hall, "--start", "0,10,10,30", "--out", tmp_path)
@@ -140,13 +140,13 @@ def test_track_writes_places_and_the_picture_and_says_where_the_wearer_is(
     assert svg.tag == f"{SVG}svg" and "walk.jsonl, recipe default" in words(svg)
 
 
-def test_without_a_floor_plan_nothing_of_it_is_written_or_said(walk: Path, tmp_path: Path) -> None:
+def test_without_a_floor_plan_nothing_of_it_is_written_or_printed(walk: Path, tmp_path: Path) -> None:
     done = run("track", walk, "--out", tmp_path)
     assert done.returncode == 0 and "place:" not in done.stdout
     assert not (tmp_path / "places.csv").exists() and not (tmp_path / "plan.svg").exists()
 
 
-def test_a_floor_plan_or_a_start_that_cannot_be_used_is_refused_in_one_line(
+def test_a_floor_plan_or_a_start_that_cannot_be_used_is_rejected_in_one_line(
     walk: Path, hall: Path, tmp_path: Path
 ) -> None:
     assert "give --floorplan, too" in refused("track", walk, "--start", "0,1,2")

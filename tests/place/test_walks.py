@@ -1,4 +1,4 @@
-"""Finding the wearer on a floor plan: tours through an office of two floors, whose track errs as recorded ones do."""
+"""Finding the wearer on a floor plan: tours through an office of two floors, with the errors of recorded tracks."""
 
 from __future__ import annotations
 
@@ -33,19 +33,19 @@ from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import FloorPlan, Level, Start
 
 SURE = 0.99
-"""With so much of the belief a candidate is found."""
+"""Weight at which a candidate counts as found."""
 NEAR = 3.5
-"""A candidate within this of the wearer is the true one, m: candidates are told as the mean over some metres."""
+"""Largest distance of the true candidate from the wearer, m: candidates are means over some metres."""
 
 
 @define
 class Followed:
-    """What came of a tour."""
+    """The result of a tour."""
 
     errors: list[float] = field(factory=list)
-    """Once one candidate has nearly all of the belief, and as long as it has, m; of another level, infinitely far."""
+    """Distances while one candidate has nearly all of the weight, m; infinite on another level."""
     dropped: int = 0
-    """Steps at which no candidate was near the wearer."""
+    """Number of strides at which no candidate was near the wearer."""
     found: int | None = None
     events: list[Event] = field(factory=list)
 
@@ -54,9 +54,9 @@ class Followed:
         return sum(self.errors) / len(self.errors)
 
 
-def followed(part: Method, told: list[Told]) -> Followed:
+def followed(part: Method, moments: list[Told]) -> Followed:
     result = Followed()
-    for k, one in enumerate(told):
+    for k, one in enumerate(moments):
         result.events += part.follow(OFFICE, one.events, one.here)
         place = part.place
         if one.place is None or one.level is None:
@@ -93,9 +93,9 @@ def test_the_true_candidate_is_never_dropped_in_fifty_walks_and_the_mean_error_i
     assert sum(result.mean for result in found) / len(found) <= 1.0
 
 
-def test_while_several_places_are_possible_all_of_them_are_told_with_weights_that_add_up_to_one(part: Method) -> None:
-    told = tour(4).told
-    first = placed(followed(part, told[:3]).events)[-1]
+def test_while_several_places_are_possible_all_are_reported_with_weights_that_add_up_to_one(part: Method) -> None:
+    moments = tour(4).told
+    first = placed(followed(part, moments[:3]).events)[-1]
     assert {candidate.origin for candidate in first.candidates} == set(LIFTS)
     weights = [candidate.weight for candidate in first.candidates]
     assert sum(weights) == pytest.approx(1.0) and weights == sorted(weights, reverse=True)
@@ -121,9 +121,7 @@ def test_a_known_start_finds_the_wearer_with_or_without_the_heading(part: Method
 
 
 @pytest.mark.parametrize("flights", [True, False])
-def test_stairs_lead_to_the_other_level_and_the_height_is_the_plans_whatever_the_track_says(
-    part: Method, flights: bool
-) -> None:
+def test_stairs_lead_to_the_other_level_and_the_height_is_the_plans_not_the_tracks(part: Method, flights: bool) -> None:
     one = Pedestrian(8, "0", (LEFT, 12.0)).known_to(part)
     one.walk((LEFT, LOW), beside(STAIRS["stairs south"]), STAIRS["stairs south"])
     one.climb("1", "stairs south", flights)
@@ -178,7 +176,7 @@ def test_who_stands_in_a_lift_that_has_stopped_is_on_the_level_that_it_went_to(p
     assert last.level == "1" and last.t == one.t and dist(last.position[:2], one.place) <= 1.0
 
 
-def test_a_lift_that_only_the_activity_tells_of_changes_the_level_too(part: Method) -> None:
+def test_a_lift_that_only_the_activity_reports_changes_the_level_too(part: Method) -> None:
     one = Pedestrian(11, "0", (20.0, LOW)).known_to(part)
     one.walk(beside(LIFTS["lift south"]), LIFTS["lift south"])
     one.say(doing(one.t + 2.0, one.t + 4.0, Activity.ELEVATOR_UP))
@@ -191,7 +189,7 @@ def test_a_lift_that_only_the_activity_tells_of_changes_the_level_too(part: Meth
     assert last.level == "1" and dist(last.position[:2], one.place) <= 1.0
 
 
-def test_a_ride_far_from_where_the_plan_had_the_wearer_begins_the_search_anew(part: Method) -> None:
+def test_a_ride_far_from_the_estimated_place_restarts_the_search(part: Method) -> None:
     one = Pedestrian(12, "0", (14.0, HIGH))
     part.set_out(Start("0", (20.0, HIGH), None))  # wrong by 6 m, and far from every lift
     one.walk((18.0, HIGH))
@@ -219,7 +217,7 @@ def test_a_gap_in_the_track_widens_the_belief_and_the_wearer_is_followed_on(part
     assert result.dropped == 0 and result.errors[-1] <= 1.0
 
 
-def test_a_lift_ride_that_was_told_before_is_not_told_again_by_the_activity() -> None:
+def test_a_lift_ride_that_was_reported_is_not_reported_again_by_the_activity() -> None:
     part = Particles()
     one = Pedestrian(15, "1", LIFTS["lift south"]).known_to(part)
     one.step(0.0, 0.1)
@@ -239,7 +237,7 @@ def test_a_plan_of_rooms_without_walls_far_from_its_zero_is_a_plan_too(part: Met
     part.set_out(Start("0", (1e6 + 20.0, 1e6 + 20.0), 0.0))
     one = Pedestrian(11, "0", (20.0, 20.0))
     one.walk((30.0, 20.0))
-    events = [event for told in one.told for event in part.follow(hall, told.events, told.here)]
+    events = [event for moment in one.told for event in part.follow(hall, moment.events, moment.here)]
     assert len(placed(events)) == len(events) > 5
     x, y, _ = placed(events)[-1].position
     assert dist((x - 1e6, y - 1e6), (20.0, 20.0)) == pytest.approx(10.0, abs=1.5)

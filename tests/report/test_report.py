@@ -70,7 +70,7 @@ def rows_of(page: Node) -> dict[str, list[str]]:
 def test_the_gait_table_has_the_numbers_of_the_session() -> None:
     means = GaitMeans()
     for event in of(GaitCycleMeasured, walked()):
-        means.hear(event, 10**9)
+        means.add(event, 10**9)
     parameters = means.of(False)
     assert parameters is not None
     rows = rows_of(shown(told(*walked())))

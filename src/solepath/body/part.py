@@ -1,8 +1,8 @@
-"""What everything that a wearer has beside the two feet is made of: parts, in an order, with one contract.
+"""The contract of body parts: everything that a wearer has beside the two feet.
 
-A recipe has its parts as a tuple. What a foot or a link says reaches them in that order, and what a part says reaches
-those after it, also at the end of a session. Nothing is written back into a foot: a correction is a value that a part
-returns (`Shift`, `HeightShift`, `Replacement`), and the wearer applies it.
+A recipe holds its parts in a tuple. The output of a foot or of a link reaches the parts in that order. The output of a
+part reaches the parts after it, also at the end of a session. Parts never write into a foot: a correction is a value
+that a part returns (`Shift`, `HeightShift`, `Replacement`), and the wearer applies it.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from ..types.attrs import frozen
 
 @frozen
 class Shift:
-    """The foot, which is flat, heads `yaw` rad further from here on and stands `by` m off, world frame."""
+    """A correction of one foot, which is flat: heading plus `yaw` rad, position plus `by` m, world frame."""
 
     foot: Foot
     yaw: float
@@ -31,7 +31,10 @@ class Shift:
 
 @frozen
 class HeightShift:
-    """The wearer is `above` m higher than the feet's tracks say, known with this variance, m^2; until the next one."""
+    """A correction of the wearer's height: `above` m over the feet's tracks, variance in m^2.
+
+    It holds until the next one.
+    """
 
     above: float
     variance: float
@@ -39,7 +42,10 @@ class HeightShift:
 
 @frozen
 class Replacement:
-    """`by` takes the place of `event`, which a part before this one has said of the same sample."""
+    """A correction that puts the event `by` in the place of `event`.
+
+    An earlier part has returned `event` for the same sample.
+    """
 
     event: Event
     by: Event
@@ -47,7 +53,7 @@ class Replacement:
 
 @frozen
 class ClockUnsettled:
-    """The times of a site's samples up to `until`, s, cannot be compared with another site's; None: all can."""
+    """Notice that a site's sample times up to `until`, s, cannot be compared with another site's; None: all can."""
 
     site: Site
     until: float | None
@@ -55,7 +61,10 @@ class ClockUnsettled:
 
 @frozen
 class LayoutReported:
-    """The device at a site says itself where its cells are, and with it whose foot it is on; a calibration does not."""
+    """Notice that the device at a site has reported its cell layout, and with it the foot it is made for.
+
+    A layout of a calibration is not reported this way.
+    """
 
     site: Site
     layout: Layout
@@ -63,7 +72,7 @@ class LayoutReported:
 
 @frozen
 class Position:
-    """Where the wearer is: world frame, m, with covariance xx, xy, xz, yy, yz, zz in m^2, at `t` s."""
+    """Position of the wearer at `t` s, world frame, m, with covariance xx, xy, xz, yy, yz, zz in m^2."""
 
     t: float
     position: Vec3
@@ -71,76 +80,82 @@ class Position:
 
 
 PartOutput = Happening | Shift | HeightShift | Replacement
-"""What a part may say: events, an app's own too, and corrections."""
+"""Everything that a part may return: events, also those of an app, and corrections."""
 PartInput = Event | ClockUnsettled | LayoutReported
+"""Everything that a part may receive: events, and notices of the links."""
 MOVEMENTS = (StrideTaken, ActivityChanged, LiftRidden, FlightClimbed, TurnMade)
-"""After these it is said where the wearer is, to the parts that follow it (`Part.needs_position`)."""
+"""Events after which the wearer's position is given to the parts that follow (`Part.needs_position`)."""
 
 
 class Part(Protocol):
-    """A part of the body that does nothing. Derive from it, as a plain record (`@define`), and say what you do.
+    """A part of the body that does nothing: derive a plain record (`@define`) from it and override its methods.
 
-    Of each sample of a foot a part first gets its view, if it declares `needs_samples`, then every event of it: the
-    foot's, and those of the parts before. Times are s. Nothing here may raise, whatever comes, keep more the longer it
-    is fed, or read a clock or random numbers.
+    For each sample of a foot a part first gets the foot's view, if it declares `needs_samples`, and then every event of
+    that sample: those of the foot and those of the parts before. Times are in s. No method may raise, whatever the
+    input is, use more memory the longer it is fed, or read a clock or random numbers.
     """
 
     __slots__ = ()
 
     needs_samples: ClassVar[bool] = False
-    """It needs samples: `feed` is called."""
+    """Flag of a part that needs samples: `feed` is called."""
     idle: bool = False
-    """For the moment `feed` would do nothing with a sample of which nothing came and that has no air pressure, so it is
-    not called with it. True for good, or a field that changes in `receive`, in `reset` and in `feed`."""
+    """Flag of a part whose `feed` would do nothing now with a sample that has neither events nor air pressure.
+
+    `feed` is not called with such a sample. The flag is always true, or a field that changes in `receive`, `reset` and
+    `feed`.
+    """
     sites: ClassVar[tuple[Site, ...]] = ()
-    """Sites above the ankle whose samples it needs: `feed_limb` is called."""
+    """Sites above the ankle whose samples the part needs: `feed_limb` is called."""
     needs_position: ClassVar[bool] = False
-    """It needs to know where the wearer is (WearerMoved) after a stride, a turn, a ride or a flight."""
+    """Flag of a part that needs the wearer's position (WearerMoved) after a stride, turn, ride or flight."""
 
     def calibrated(self, calibration: Calibration) -> Self:
-        """The part to be used, given what is known of this wearer; called once, before anything else."""
+        """Return the part to be used for a wearer with this calibration; called once, before anything else."""
         return self
 
     def ready(self) -> None:
-        """A wearer is new, or goes on from a saved state. What must be read from a file is read now: `feed` and
-        `receive` import nothing and open nothing."""
+        """Load the files that the part needs; called for a new wearer and for one restored from a saved state.
+
+        `feed` and `receive` import nothing and open no file.
+        """
         return
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """Something was said. What follows from it."""
+        """Receive an event or a notice and return the outputs that follow from it."""
         return ()
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """A foot has used a sample. What follows from it."""
+        """Take the view of a foot after a sample and return the outputs that follow from it."""
         return ()
 
     def feed_limb(self, sample: Sample) -> Sequence[PartOutput]:
-        """A sample of one of `sites`. What follows from it."""
+        """Take a sample of one of `sites` and return the outputs that follow from it."""
         return ()
 
     def finish(self, now: float) -> Sequence[PartOutput]:
-        """No more comes, and it is `now`: what was held back."""
+        """Return the outputs that were held back: no more data comes, and it is `now`, s."""
         return ()
 
     def reset(self, site: Site) -> None:
-        """The clock of a site's samples restarts, or another device is worn there."""
+        """Reset what depends on a site's clock or device: the clock restarts, or another device is worn there."""
         return
 
 
 class TrackPart(Part):
-    """The part that says where the wearer is. A recipe has one, and one only."""
+    """The part that reports the wearer's position; a recipe has exactly one."""
 
     __slots__ = ()
 
     @abstractmethod
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
-        """Where the wearer is, of where the feet are that were heard of; None before any sample."""
+        """Return the wearer's position from the poses of the feet that gave samples; None before any sample."""
 
 
 class ActivityPart(Part):
-    """The part that says what the wearer does. A recipe has one, and one only."""
+    """The part that reports the wearer's activity; a recipe has exactly one."""
 
     __slots__ = ()
 
     activity: Activity
-    """The newest that it said, final or not; UNKNOWN before any."""
+    """The newest activity that was reported, final or not; UNKNOWN before any."""

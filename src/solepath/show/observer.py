@@ -220,8 +220,8 @@ class Observer:
                 one.degraded += event.degraded
                 one.distance += event.length
             case GaitCycleMeasured():
-                self.gait.hear(event, EVER)
-                self.gait_of_late.hear(event)
+                self.gait.add(event, EVER)
+                self.gait_of_late.add(event)
             case ClockReset(known_at=known_at) if known_at < self.now - BACK:
                 self.now = known_at
             case ActivityChanged():

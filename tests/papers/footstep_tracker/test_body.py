@@ -14,8 +14,8 @@ from strides import stride
 from walks import LEFT, RIGHT, of, said
 
 from solepath import Session
-from solepath.body.gait.direction import Direction, TurnProcess
-from solepath.body.gait.turns import WEIGHTS, classified
+from solepath.body.gait.turn_detector import TurnDetector, TurnProcess
+from solepath.body.gait.turns import WEIGHTS, classify
 from solepath.calibration import Calibration, CalibrationError
 from solepath.calibration.file import read_calibration
 from solepath.emulate.routes.route import Route
@@ -97,8 +97,8 @@ def test_both_feet_go_on_in_the_direction_of_the_mean_of_their_turns() -> None:
     assert (x - before[0], y - before[1]) == pytest.approx((0.0, 1.0))
 
 
-def told(direction: Direction, steps: list[StrideTaken]) -> list[TurnProcess]:
-    return [found for one in steps if (found := direction.step(one)) is not None]
+def told(direction: TurnDetector, steps: list[StrideTaken]) -> list[TurnProcess]:
+    return [found for one in steps if (found := direction.add_stride(one)) is not None]
 
 
 def both(turns: list[tuple[float, float]], first: float = 1.0) -> list[StrideTaken]:
@@ -111,7 +111,7 @@ def both(turns: list[tuple[float, float]], first: float = 1.0) -> list[StrideTak
 
 
 def test_a_turn_over_several_steps_is_their_sum_and_the_mean_of_both_feet() -> None:
-    (found,) = told(Direction(), both([(0, 0), (30, 50), (40, 50), (0, 0), (0, 0)]))
+    (found,) = told(TurnDetector(), both([(0, 0), (30, 50), (40, 50), (0, 0), (0, 0)]))
     assert found.left is not None and found.right is not None
     assert degrees(found.left) == pytest.approx(70.0) and degrees(found.right) == pytest.approx(100.0)
     assert degrees(found.angle) == pytest.approx(85.0)
@@ -119,29 +119,29 @@ def test_a_turn_over_several_steps_is_their_sum_and_the_mean_of_both_feet() -> N
 
 
 def test_who_walks_straight_on_makes_no_turn() -> None:
-    assert told(Direction(), both([(3, -4), (-2, 5), (6, -3)] * 10)) == []
+    assert told(TurnDetector(), both([(3, -4), (-2, 5), (6, -3)] * 10)) == []
 
 
 def test_a_turn_ends_when_the_wearer_stands() -> None:
-    direction = Direction()
+    direction = TurnDetector()
     assert told(direction, both([(0, 0), (90, 90)])) == []
-    assert direction.stood(3.0) is None
-    found = direction.stood(6.0)
+    assert direction.advance(3.0) is None
+    found = direction.advance(6.0)
     assert found is not None and degrees(found.angle) == pytest.approx(90.0)
-    assert direction.stood(9.0) is None
+    assert direction.advance(9.0) is None
 
 
 def test_one_foot_stepping_on_the_spot_does_not_end_the_other_s_turn() -> None:
-    found = told(Direction(), both([(0, 0), (100, 0), (0, 90), (70, 80), (0, 0), (0, 0)]))
+    found = told(TurnDetector(), both([(0, 0), (100, 0), (0, 90), (70, 80), (0, 0), (0, 0)]))
     assert len(found) == 1 and degrees(found[0].angle) == pytest.approx(170.0)
 
 
 def test_a_foot_that_pivots_without_a_step_has_turned_all_the_same() -> None:
-    direction = Direction()
+    direction = TurnDetector()
     told(direction, both([(0, 0), (0, 0)]))
     for k in range(3):
-        assert direction.pivot(Foot.LEFT, 3.0 + k, 3.5 + k, radians(30.0)) is None
-        assert direction.pivot(Foot.RIGHT, 3.5 + k, 4.0 + k, radians(32.0)) is None
+        assert direction.add_pivot(Foot.LEFT, 3.0 + k, 3.5 + k, radians(30.0)) is None
+        assert direction.add_pivot(Foot.RIGHT, 3.5 + k, 4.0 + k, radians(32.0)) is None
     (found,) = told(direction, both([(0, 0), (0, 0)], first=7.0))
     assert degrees(found.angle) == pytest.approx(93.0)
     assert (found.t_start, found.t_end) == (3.0, 6.0)
@@ -160,9 +160,9 @@ def test_a_foot_that_pivots_without_a_step_has_turned_all_the_same() -> None:
     ],
 )
 def test_turns_are_called_left_right_and_about(left: float, right: float, turn: Turn | None) -> None:
-    assert classified(radians(left), radians(right)) is turn
-    assert classified(radians(left), None) is turn
-    assert classified(None, radians(right)) is turn
+    assert classify(radians(left), radians(right)) is turn
+    assert classify(radians(left), None) is turn
+    assert classify(None, radians(right)) is turn
 
 
 def test_the_weights_are_those_that_the_training_turns_give() -> None:

@@ -271,7 +271,7 @@ def test_the_habit_of_a_straight_step_is_no_turn_and_a_corner_is() -> None:
     turning = TurningSteps()
     for _ in range(60):
         turning.turn(0.1)
-    assert turning.habit == pytest.approx(0.1, abs=0.01)
+    assert turning.straight_turn == pytest.approx(0.1, abs=0.01)
     assert turning.turn(0.15) == 0.0
     assert turning.turn(1.6) == pytest.approx(1.5, abs=0.02)
-    assert turning.habit == pytest.approx(0.1, abs=0.02)
+    assert turning.straight_turn == pytest.approx(0.1, abs=0.02)

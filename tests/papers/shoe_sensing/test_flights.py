@@ -35,9 +35,9 @@ def flights_of(risers: list[int], *, feet: tuple[Foot, ...] = FEET, last: bool =
         rise, stood[foot] = riser - stood[foot], riser
         if foot in feet:
             way = 0 if abs(rise) < 2 else (1 if rise > 0 else -1)
-            told += flights.stepped(step(foot, 0.6 * k, RISER * rise), way)
+            told += flights.add_stride(step(foot, 0.6 * k, RISER * rise), way)
     if last:
-        told += flights.waited(0.6 * len(risers) + 5.0, 0.6 * len(risers) + 5.0)
+        told += flights.advance(0.6 * len(risers) + 5.0, 0.6 * len(risers) + 5.0)
     return told
 
 
@@ -78,7 +78,7 @@ def judged(strides: Iterable[tuple[float, int | None]], degraded: bool = False) 
     """Strides of alternating feet, how high each is, m, and what its judge says of it; and a rest at the end."""
     flights, told = Flights(), list[FlightClimbed]()
     for k, (height, way) in enumerate(strides):
-        told += flights.stepped(step(FEET[k % 2], 0.6 * k, height, degraded=degraded), way)
+        told += flights.add_stride(step(FEET[k % 2], 0.6 * k, height, degraded=degraded), way)
     return told + flights.finish(60.0)
 
 
@@ -97,9 +97,9 @@ def test_a_long_level_stride_before_a_flight_is_its_first_riser_if_it_can_be_one
     first: Vec3, last: Vec3, risers: int
 ) -> None:
     flights = Flights()
-    told = flights.stepped(stride(Foot.LEFT, 1.0, first), 0)
-    told += [event for k in range(4) for event in flights.stepped(step(Foot.LEFT, 2.0 + k, 2 * RISER), 1)]
-    told += flights.stepped(stride(Foot.LEFT, 7.0, last), 0)
+    told = flights.add_stride(stride(Foot.LEFT, 1.0, first), 0)
+    told += [event for k in range(4) for event in flights.add_stride(step(Foot.LEFT, 2.0 + k, 2 * RISER), 1)]
+    told += flights.add_stride(stride(Foot.LEFT, 7.0, last), 0)
     assert told[0].height == pytest.approx(risers * RISER)
 
 
@@ -111,11 +111,11 @@ def test_who_rests_with_a_foot_on_each_tread_is_not_there_yet() -> None:
     for k, riser in enumerate(paused):
         foot = FEET[k % 2]
         rise, stood[foot] = riser - stood[foot], riser
-        told += flights.stepped(step(foot, 0.6 * k, RISER * rise), int(rise > 0))
-    assert told + flights.waited(60.0, 60.0) == []
-    told += flights.stepped(step(Foot.LEFT, 60.0, RISER), 1)  # joins the other foot
+        told += flights.add_stride(step(foot, 0.6 * k, RISER * rise), int(rise > 0))
+    assert told + flights.advance(60.0, 60.0) == []
+    told += flights.add_stride(step(Foot.LEFT, 60.0, RISER), 1)  # joins the other foot
     assert told == []
-    (flight,) = flights.waited(64.0, 64.0)
+    (flight,) = flights.advance(64.0, 64.0)
     assert flight.t == 60.0
     assert flight.known_at == 64.0
 
@@ -123,10 +123,10 @@ def test_who_rests_with_a_foot_on_each_tread_is_not_there_yet() -> None:
 def test_a_clock_that_begins_anew_gives_up_the_flight() -> None:
     flights = Flights()
     for k in range(6):
-        flights.stepped(step(FEET[k % 2], 1000.0 + k, 2 * RISER), 1)
+        flights.add_stride(step(FEET[k % 2], 1000.0 + k, 2 * RISER), 1)
     flights.reset()
-    assert flights.waited(2.0, 2.0) == []
-    assert flights.stepped(step(Foot.LEFT, 3.0, 0.0), 0) == []
+    assert flights.advance(2.0, 2.0) == []
+    assert flights.add_stride(step(Foot.LEFT, 3.0, 0.0), 0) == []
 
 
 def climbed(heights: list[float], *, degraded: bool = False) -> list[FlightClimbed]:
@@ -185,8 +185,8 @@ def test_strides_that_nobody_can_judge_end_a_flight_as_level_ones_do() -> None:
 def test_who_rests_after_a_stride_of_unknown_height_has_arrived() -> None:
     flights = Flights()
     for k, height in enumerate((0.32, 0.32, 7.0, 0.32)):
-        assert flights.stepped(step(FEET[k % 2], 0.6 * k, height), 1) == []
-    assert [flight.steps for flight in flights.waited(6.0, 6.0)] == [4]
+        assert flights.add_stride(step(FEET[k % 2], 0.6 * k, height), 1) == []
+    assert [flight.steps for flight in flights.advance(6.0, 6.0)] == [4]
 
 
 def test_strides_that_sink_are_no_flight_upwards() -> None:
@@ -210,8 +210,8 @@ def test_whatever_the_strides_flights_are_in_order_and_high(told: list[tuple[Foo
     found: list[FlightClimbed] = []
     for foot, dt, height, way in told:
         t += dt
-        found += flights.stepped(step(foot, t, height), way)
-        found += flights.waited(t + 1.0, t + 1.0)
+        found += flights.add_stride(step(foot, t, height), way)
+        found += flights.advance(t + 1.0, t + 1.0)
         flights = machine.load(Flights, json.loads(json.dumps(machine.save(flights), allow_nan=False)))
     for flight in found:
         assert flight.final

@@ -1,4 +1,4 @@
-"""What is kept of half a second of one foot, and of a step."""
+"""Records of half a second of one foot, and of a stride."""
 
 from __future__ import annotations
 
@@ -10,41 +10,47 @@ class ActivityBlock:
     """Means and shares over the samples of one block."""
 
     index: int
+    """Number of the block."""
     count: int
+    """Number of samples."""
     force: float
     """Mean |acc|, m/s^2."""
     variance: float
-    """Of |acc|, (m/s^2)^2."""
+    """Variance of |acc|, (m/s^2)^2."""
     acc_bins: tuple[int, ...]
-    """Samples in each bin of |acc|; 255 is as many or more."""
+    """Number of samples in each bin of |acc|, limited to 255."""
     rates: int
-    """Samples with a gyroscope."""
+    """Number of samples with a gyroscope."""
     rate: float
     """Mean square of |gyro|, (rad/s)^2."""
     gyro_bins: tuple[int, ...]
+    """Number of samples in each bin of |gyro|, limited to 255."""
     tracked: bool
+    """Flag: the foot has a track."""
     climb: float
-    """Largest velocity upwards, m/s,"""
+    """Largest upward velocity, m/s."""
     sink: float
-    """downwards, negative,"""
+    """Largest downward velocity, m/s, negative."""
     speed: float
-    """and in all."""
+    """Largest horizontal speed, m/s."""
 
 
 @define
 class BlockStride:
-    """What counts of a step: times in s, lengths in m, m/s, rad."""
+    """The features of a stride: times in s, lengths in m, speed in m/s, pitch in rad."""
 
     start: float
     end: float
     length: float
     rise: float
+    """Height change, m."""
     clearance: float
     speed: float
     pitch: float
+    """Pitch of the swing, rad."""
     top: float
-    """Highest above where it began,"""
+    """Greatest height above the start of the stride, m."""
     bottom: float
-    """lowest,"""
+    """Lowest height above the start of the stride, m."""
     strike: float
-    """and at heel-strike."""
+    """Height at heel-strike above the start of the stride, m."""

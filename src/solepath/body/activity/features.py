@@ -1,7 +1,7 @@
-"""What one foot's samples look like, half a second at a time: what activities are told from.
+"""Features of one foot's samples, half a second at a time, from which activities are recognised.
 
-Only lengths of vectors count, so nothing depends on how the sensor is mounted, and shares of samples rather than their
-number, so little depends on the rate. Accelerometers clip at anything from 2 g: |acc| beyond that says the same.
+Only lengths of vectors count, so nothing depends on the mounting of the sensor, and shares of samples count instead of
+their number, so little depends on the rate. Accelerometers clip at anything from 2 g: |acc| beyond that has one bin.
 """
 
 from __future__ import annotations
@@ -11,29 +11,32 @@ from math import log
 from .block import ActivityBlock, BlockStride
 
 BLOCK = 0.5
-"""s."""
+"""Duration of a block, s."""
 REACH = 2
-"""Blocks before and after the one that is told; five of them are a window of 2.5 s."""
+"""Number of blocks before and after the judged one; five of them are a window of 2.5 s."""
 BINS = 10
-"""Of |acc|, 2 m/s^2 each, and of |gyro|, 1 rad/s each; the last one is open."""
+"""Number of bins of |acc|, 2 m/s^2 each, and of |gyro|, 1 rad/s each; the last one is open."""
 BEYOND, BEYOND_RATE = 2.0 * BINS, BINS * BINS
-"""|acc| and the square of |gyro| of the last bins and more."""
+"""Lower limits of the open bins: |acc|, m/s^2, and the square of |gyro|, (rad/s)^2."""
 
 THIRDS = 3
-"""Parts of a window: the blocks before the one that is told, that one, and the blocks after it."""
+"""Number of parts of a window: the blocks before the judged one, that one, and the blocks after it."""
 
 GYRO = 4 + THIRDS * BINS
 """Index of the first feature that needs a gyroscope."""
 TRACK = GYRO + 5 + THIRDS * BINS
 """Index of the first feature that needs a track."""
-STEP = TRACK + 6
-"""Index of the first feature of a step."""
-COUNT = STEP + 11
+STRIDE = TRACK + 6
+"""Index of the first feature of a stride."""
+COUNT = STRIDE + 11
+"""Number of features."""
 
 
-def features_of(here: ActivityBlock, near: list[ActivityBlock], step: BlockStride | None) -> list[float]:
-    """`COUNT` numbers of the order of 1 for the block `here`, with those `near` it, itself among them, and the stride
-    under way in it; what is not known is 0."""
+def features_of(here: ActivityBlock, near: list[ActivityBlock], stride: BlockStride | None) -> list[float]:
+    """Return `COUNT` features of the order of 1 for the block `here`; those not known are 0.
+
+    `near` are the blocks of the window, `here` among them, and `stride` is the stride under way.
+    """
     values = [0.0] * COUNT
     earlier = [block for block in near if block.index < here.index]
     later = [block for block in near if block.index > here.index]
@@ -50,11 +53,11 @@ def features_of(here: ActivityBlock, near: list[ActivityBlock], step: BlockStrid
             least = variance
         elif variance > most:
             most = variance
-    values[0] = _logarithm(here.variance)
-    values[1] = _logarithm(least)
-    values[2] = _logarithm(most)
+    values[0] = _log_variance(here.variance)
+    values[1] = _log_variance(least)
+    values[2] = _log_variance(most)
     mean = forces / whole
-    values[3] = _logarithm(max(0.0, squares / whole - mean * mean))
+    values[3] = _log_variance(max(0.0, squares / whole - mean * mean))
     thirds = (earlier, [here], later)
     at = 4
     for third in thirds:
@@ -73,10 +76,10 @@ def features_of(here: ActivityBlock, near: list[ActivityBlock], step: BlockStrid
             elif rate > most:
                 most = rate
         values[GYRO] = 1.0
-        values[GYRO + 1] = _logarithm(here.rate if here.rates else turned[0].rate)
-        values[GYRO + 2] = _logarithm(least)
-        values[GYRO + 3] = _logarithm(most)
-        values[GYRO + 4] = _logarithm(squares / rates)
+        values[GYRO + 1] = _log_variance(here.rate if here.rates else turned[0].rate)
+        values[GYRO + 2] = _log_variance(least)
+        values[GYRO + 3] = _log_variance(most)
+        values[GYRO + 4] = _log_variance(squares / rates)
         at = GYRO + 5
         for third in thirds:
             if len(turned) < len(near):
@@ -91,29 +94,29 @@ def features_of(here: ActivityBlock, near: list[ActivityBlock], step: BlockStrid
         values[TRACK + 3] = 0.5 * min(max([block.speed for block in tracked]), 6.0)
         values[TRACK + 4] = min(here.climb, 3.0)
         values[TRACK + 5] = max(here.sink, -3.0)
-    if step is not None:
-        lasted = step.end - step.start
-        values[STEP] = 1.0
-        values[STEP + 1] = min(lasted, 2.0)
-        values[STEP + 2] = min(step.length, 2.0)
-        values[STEP + 3] = 2.0 * min(max(step.rise, -0.6), 0.6)
-        values[STEP + 4] = 2.0 * min(max(step.clearance, 0.0), 0.5)
-        values[STEP + 5] = 0.5 * min(step.speed, 6.0)
-        values[STEP + 6] = min(step.pitch, 3.0)
-        values[STEP + 7] = min(max(step.rise / max(step.length, 0.2), -1.0), 1.0)
-        values[STEP + 8] = 2.0 * min(max(step.top, -0.6), 0.6)
-        values[STEP + 9] = 2.0 * min(max(step.bottom, -0.6), 0.6)
-        values[STEP + 10] = 2.0 * min(max(step.strike, -0.6), 0.6)
+    if stride is not None:
+        lasted = stride.end - stride.start
+        values[STRIDE] = 1.0
+        values[STRIDE + 1] = min(lasted, 2.0)
+        values[STRIDE + 2] = min(stride.length, 2.0)
+        values[STRIDE + 3] = 2.0 * min(max(stride.rise, -0.6), 0.6)
+        values[STRIDE + 4] = 2.0 * min(max(stride.clearance, 0.0), 0.5)
+        values[STRIDE + 5] = 0.5 * min(stride.speed, 6.0)
+        values[STRIDE + 6] = min(stride.pitch, 3.0)
+        values[STRIDE + 7] = min(max(stride.rise / max(stride.length, 0.2), -1.0), 1.0)
+        values[STRIDE + 8] = 2.0 * min(max(stride.top, -0.6), 0.6)
+        values[STRIDE + 9] = 2.0 * min(max(stride.bottom, -0.6), 0.6)
+        values[STRIDE + 10] = 2.0 * min(max(stride.strike, -0.6), 0.6)
     return values
 
 
-def _logarithm(variance: float) -> float:
-    """Of a variance: about -1 at rest and 1 in a run."""
+def _log_variance(variance: float) -> float:
+    """Return the scaled logarithm of a variance: about -1 at rest and 1 in a run."""
     return 0.25 * log(1e-4 if variance < 1e-4 else 1e4 if variance > 1e4 else variance)
 
 
 def _shares(bins: list[tuple[int, ...]], counts: list[int]) -> list[float]:
-    """Shares of each bin among the samples of the blocks of one third of a window."""
+    """Return the share of each bin among the samples of the blocks of one third of a window."""
     whole = sum(counts)
     if len(bins) == 1:
         return [n / whole for n in bins[0]]

@@ -1,4 +1,4 @@
-"""The newest half seconds of one foot: sums of samples, and what its strides were like."""
+"""The newest half seconds of one foot: sums over samples, and features of its strides."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from ...types.vector import ZERO
 from .block import ActivityBlock, BlockStride
 from .features import BEYOND, BEYOND_RATE, BINS, BLOCK, REACH, features_of
 
-KEPT = 2 * REACH + 1
-"""Blocks that are kept."""
-STEPS = 3
-"""Strides that are kept: as many as a window holds of a runner."""
-LONGEST = 1.6
-"""A stride that lasted longer began with standing, s."""
+MOST_BLOCKS = 2 * REACH + 1
+"""Number of blocks that are kept."""
+MOST_STRIDES = 3
+"""Number of strides that are kept: as many as a window holds of a runner."""
+LONGEST_STRIDE = 1.6
+"""Longest stride, s; one that lasted longer started with standing."""
 
 
 class FootTrack(Protocol):
-    """Where a foot is: position in m and velocity in m/s, z up."""
+    """Position, m, and velocity, m/s, of a foot, z up."""
 
     @property
     def position(self) -> Vec3: ...
@@ -33,47 +33,59 @@ class FootTrack(Protocol):
 
 @define
 class FootBlocks:
-    """The newest blocks of one foot. `add` every sample; `close` when a block is over; `features` of a block."""
+    """The newest blocks of one foot: `add` every sample, `close` each block, and ask for the `features` of a block."""
 
     index: int | None = None
-    """Of the block under way."""
+    """Number of the block under way."""
     force: float = 0.0
+    """Sum of |acc| over the block under way, m/s^2."""
     squares: float = 0.0
+    """Sum of |acc|^2 over the block under way, (m/s^2)^2."""
     acc_bins: list[int] = field(factory=lambda: [0] * BINS)
-    """Of the samples of the block under way; every one is in a bin."""
+    """Number of samples of the block under way in each bin of |acc|; every sample is in a bin."""
     rate_squares: float = 0.0
+    """Sum of |gyro|^2 over the block under way, (rad/s)^2."""
     gyro_bins: list[int] = field(factory=lambda: [0] * BINS)
+    """Number of samples of the block under way in each bin of |gyro|."""
     bias: Vec3 = ZERO
-    """Of the gyroscope, rad/s, as the foot had it when the block began."""
-    grain: float = 0.0
-    """What a count of its accelerometer is worth, m/s^2; 0 when nobody knows."""
+    """Gyroscope bias at the start of the block, rad/s."""
+    resolution: float = 0.0
+    """Resolution of the accelerometer, m/s^2 a count; 0 when it is not known."""
     tracked: bool = False
     climb: float = 0.0
+    """Largest upward velocity in the block under way, m/s."""
     sink: float = 0.0
+    """Largest downward velocity in the block under way, m/s, negative."""
     speed: float = 0.0
-    flat: float = 0.0
+    """Largest square of the horizontal speed in the block under way, (m/s)^2."""
+    flat_height: float = 0.0
     """Height at the last foot-flat, navigation frame, m."""
     top: float = 0.0
+    """Greatest height since the last foot-flat, navigation frame, m."""
     bottom: float = 0.0
-    struck: float | None = None
+    """Lowest height since the last foot-flat, navigation frame, m."""
+    strike_height: float | None = None
+    """Height at the last heel-strike, navigation frame, m; None since the last foot-flat."""
     blocks: deque[ActivityBlock] = field(factory=deque)
-    """The newest, at most `KEPT`, oldest first."""
-    steps: deque[BlockStride] = field(factory=deque)
+    """The newest blocks, at most `MOST_BLOCKS`, oldest first."""
+    strides: deque[BlockStride] = field(factory=deque)
 
-    def begin(self, index: int, bias: Vec3, grain: float) -> None:
-        """A block begins. `bias`: of the gyroscope, rad/s; `grain`: what a count of the accelerometer is worth, m/s^2,
-        0 when nobody knows."""
+    def start_block(self, index: int, bias: Vec3, resolution: float) -> None:
+        """Start a block with the gyroscope bias, rad/s, and the accelerometer's resolution, m/s^2 a count.
+
+        A resolution of 0 is not known.
+        """
         self.index = index
         self.force = self.squares = self.rate_squares = 0.0
         self.acc_bins = [0] * BINS
         self.gyro_bins = [0] * BINS
         self.bias = bias
-        self.grain = grain
+        self.resolution = resolution
         self.tracked = False
         self.climb = self.sink = self.speed = 0.0
 
     def add(self, acc: Vec3, gyro: Vec3 | None, track: FootTrack | None) -> None:
-        """A sample of the block under way. `track`: where the foot is after it; None when nobody knows."""
+        """Add a sample to the block under way; `track` is the foot after it, None when it is not known."""
         x, y, z = acc
         square = x * x + y * y + z * z
         length = sqrt(square)
@@ -107,20 +119,20 @@ class FootBlocks:
         elif z < self.bottom:
             self.bottom = z
 
-    def heard(self, events: Sequence[Event], height: float) -> None:
-        """What came of the sample, and how high the foot is, m."""
+    def add_events(self, events: Sequence[Event], height: float) -> None:
+        """Add the events of a sample; `height` is that of the foot, m."""
         for event in events:
             if isinstance(event, StrideTaken):
-                self._stepped(event)
+                self._add_stride(event)
             elif isinstance(event, HeelStrike):
-                self.struck = height
+                self.strike_height = height
         for event in events:
             if isinstance(event, FootFlat):
-                self.flat = self.top = self.bottom = height
-                self.struck = None
+                self.flat_height = self.top = self.bottom = height
+                self.strike_height = None
 
     def close(self) -> None:
-        """The block under way is over."""
+        """Close the block under way and keep it."""
         n, rates = sum(self.acc_bins), sum(self.gyro_bins)
         if self.index is None or not n:
             return
@@ -141,62 +153,63 @@ class FootBlocks:
                 round(sqrt(self.speed), 4),
             )
         )
-        if len(self.blocks) > KEPT:
+        if len(self.blocks) > MOST_BLOCKS:
             self.blocks.popleft()
 
-    def _stepped(self, step: StrideTaken) -> None:
-        seen = step.features
-        # heights as integration has them: what is told from them was learnt so
-        rise = step.height_change if seen.rise is None else seen.rise
-        clearance = seen.clearance + max(step.height_change, 0.0) - max(rise, 0.0)
-        self.steps.append(
+    def _add_stride(self, stride: StrideTaken) -> None:
+        seen = stride.features
+        # use heights as integrated: the network was trained with them
+        rise = stride.height_change if seen.rise is None else seen.rise
+        clearance = seen.clearance + max(stride.height_change, 0.0) - max(rise, 0.0)
+        self.strides.append(
             BlockStride(
-                step.t_start,
-                step.t_end,
-                round(step.length, 4),
+                stride.t_start,
+                stride.t_end,
+                round(stride.length, 4),
                 round(rise, 4),
                 round(clearance, 4),
                 round(seen.peak_speed, 4),
                 round(seen.swing_pitch, 4),
-                round(self.top - self.flat, 4),
-                round(self.bottom - self.flat, 4),
-                round((self.struck if self.struck is not None else self.flat) - self.flat, 4),
+                round(self.top - self.flat_height, 4),
+                round(self.bottom - self.flat_height, 4),
+                round(
+                    (self.strike_height if self.strike_height is not None else self.flat_height) - self.flat_height, 4
+                ),
             )
         )
-        if len(self.steps) > STEPS:
-            self.steps.popleft()
+        if len(self.strides) > MOST_STRIDES:
+            self.strides.popleft()
 
     def restart(self) -> None:
-        """Times begin anew."""
+        """Discard all blocks and strides: times restart."""
         self.index = None
         self.acc_bins = [0] * BINS
         self.blocks.clear()
-        self.steps.clear()
+        self.strides.clear()
 
     def block(self, index: int) -> ActivityBlock | None:
-        """The block of that number; None when nothing was heard in it."""
+        """Return the block of that number; None when it has no samples."""
         for block in self.blocks:
             if block.index == index:
                 return block
         return None
 
     def features(self, index: int, t: float) -> list[float] | None:
-        """Of the block of that number, whose middle is at `t` s, with `REACH` blocks before and after it; None when
-        nothing was heard in it."""
+        """Return the features of a block with `REACH` blocks around it, middle at `t` s; None without samples."""
         here = self.block(index)
         if here is None:
             return None
         near = [block for block in self.blocks if -REACH <= block.index - index <= REACH]
-        return features_of(here, near, self._step(t))
+        return features_of(here, near, self._stride_at(t))
 
-    def _step(self, t: float) -> BlockStride | None:
-        """The step that was under way at `t` s, or was a quarter of a second off."""
+    def _stride_at(self, t: float) -> BlockStride | None:
+        """Return the stride under way at `t` s, or within a quarter of a second of it."""
         best, nearest = None, 0.5 * BLOCK
-        for step in self.steps:
-            start = max(step.start, step.end - LONGEST)
-            away = max(start - t, t - step.end, 0.0)
+        for stride in self.strides:
+            start = max(stride.start, stride.end - LONGEST_STRIDE)
+            away = max(start - t, t - stride.end, 0.0)
             if away <= nearest:
-                best, nearest = step, away
+                best, nearest = stride, away
         return best
 
 

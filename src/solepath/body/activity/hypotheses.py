@@ -1,8 +1,8 @@
-"""What the wearer may have done: the likeliest course of activities up to each state that may hold now.
+"""Hypotheses on the wearer's activities: for each state the likeliest course of activities that ends in it.
 
-Viterbi's algorithm with the paths kept in tokens (Young, Russell, Thornton 1989, "Token passing"): each state holds one
-token, the best course that ends in it. Where the tokens agree the past is settled; a token that disagrees with what is
-settled is dropped, so that it stays settled. The states are those of chain.py.
+This is Viterbi's algorithm with the paths kept in tokens (Young, Russell, Thornton 1989, "Token passing"): each state
+holds one token, the best course that ends in it. Where the tokens agree the past is settled; a token that disagrees
+with what is settled is dropped, so that it stays settled. chain.py has the states.
 """
 
 from __future__ import annotations
@@ -14,28 +14,42 @@ from math import exp, inf, log
 from ...types import Activity
 from ...types.attrs import define, field
 from ...types.vector import TIE
-from .chain import ACTIVITIES, BEGIN, CRUISES, HALTS, LIFTS, PULSES, RIDES, STAND, Chain
+from .chain import ACTIVITIES, CRUISES, FIRST_CHANCES, HALTS, LIFTS, PULSES, RIDES, STAND, Chain
 from .features import BLOCK
-from .ride import DWELLS, HALT, HALT_VARIES, HASTE, USUAL, VARIES, Beside, Felt, Levels, LiftRide, RestLevel
+from .ride import (
+    DWELL_TIME,
+    HALT,
+    HALT_DEVIATION,
+    PULSE,
+    PULSE_DEVIATION,
+    SHORT_DWELL_COST,
+    BlockForce,
+    Levels,
+    LiftEvidence,
+    LiftRide,
+    RestLevel,
+)
 
-FORGOTTEN = 13.0
-"""A token that is so much less likely than the best (natural logarithm) is dropped."""
-DOUBT = 8.0
-"""One that is less likely by more than this has no say in what is settled."""
-SETTLED = 12.0
-"""After so long, s, a ride has ended: the lift does not creep on to its floor."""
-DECIDED = 60.0
-"""After so long, s, it is settled what was begun: few rides are longer."""
+DROP_LIMIT = 13.0
+"""Difference to the best token's log-likelihood above which a token is dropped."""
+AGREEMENT_LIMIT = 8.0
+"""Difference to the best token's log-likelihood above which a token need not agree with what is settled."""
+LIFT_SETTLED = 12.0
+"""Time after which the end of a ride is settled, s: the lift does not creep on to its floor."""
+LONGEST_OPEN = 60.0
+"""Time after which an activity that has started is settled, s: few rides are longer."""
 ENDS = RIDES - CRUISES
-"""A ride ends in one of these states."""
-LONGEST = 8
-"""Changes of activity that may be unsettled."""
+"""States in which a ride ends."""
+MOST_SEGMENTS = 8
+"""Largest number of changes of activity that are not settled."""
 
 
 @define
 class ActivitySegment:
-    """From `t` s on the wearer does `activity`; never changed. Of a ride: when its pulses were felt, s, and its height,
-    m, as far as it is known."""
+    """The activity from `t` s on; never changed.
+
+    A ride also has the times between which its pulses were measured, `from_` and `to`, s, and its height, m, if known.
+    """
 
     t: float
     activity: Activity
@@ -46,35 +60,35 @@ class ActivitySegment:
 
 @define
 class Token:
-    """The likeliest course that ends in `state`; `score`: logarithm of how likely, beside the best."""
+    """The likeliest course that ends in `state`; `score` is its log-likelihood relative to the best."""
 
     state: int
     score: float
     path: tuple[ActivitySegment, ...]
-    """What is not settled yet, and the last that is."""
+    """The segments that are not settled yet, and the last one that is."""
     ride: LiftRide
 
 
 @define
 class BlockEvidence:
-    """What half a second from `t` s on looks like."""
+    """The evidence of half a second from `t` s on."""
 
     t: float
     motions: tuple[float, ...]
-    """Logarithms of how likely it is, for STAND, WALK, RUN, UP, DOWN and UNKNOWN."""
-    felt: tuple[Felt | None, ...]
-    """In the left foot and the right one."""
+    """Log-likelihoods of STAND, WALK, RUN, UP, DOWN and UNKNOWN by the motion of the feet."""
+    forces: tuple[BlockForce | None, ...]
+    """Force on the left and on the right foot."""
     climbs: tuple[float, ...]
-    """The same of what the air pressure shows, for each state."""
+    """Log-likelihood of each state by the air pressure."""
     before: float | None
-    """How high the wearer was just before it, m above anything, by the air pressure,"""
+    """Height just before the block by the air pressure, m above any reference."""
     after: float | None
-    """and is just after it."""
+    """Height just after the block by the air pressure, m above the same reference."""
 
 
 @define
 class Hypotheses:
-    """Feed it the evidence of every half second."""
+    """The tokens of all states, updated with the evidence of every half second."""
 
     tokens: list[Token] = field(factory=list)
     settled: Activity | None = None
@@ -82,26 +96,26 @@ class Hypotheses:
 
     @property
     def best(self) -> Token | None:
-        """The likeliest; None before any evidence."""
+        """The likeliest token; None before any evidence."""
         return max(self.tokens, key=_score, default=None)
 
     def update(self, seen: BlockEvidence, chain: Chain) -> None:
-        """Half a second more."""
+        """Add the evidence of one half second."""
         scores, stops = [-inf] * len(ACTIVITIES), [0.0] * len(ACTIVITIES)
         held: list[Token | None] = [None] * len(ACTIVITIES)
         for token in self.tokens:
             state = token.state
             held[state], scores[state] = token, token.score
             if state in ENDS:
-                stops[state] = token.ride.stopped()
-        beside = Beside(seen.felt)
+                stops[state] = token.ride.stop_score()
+        evidence = LiftEvidence(seen.forces)
         found: list[tuple[float, int, Token, Levels, float]] = []
         newest = -inf
-        for state, before in enumerate(chain.before):
-            # the best course that goes on to the state
+        for state, before in enumerate(chain.predecessors):
+            # the best course that continues in the state
             best, highest = -1, -inf
             if not self.tokens:
-                best, highest = state, BEGUN[state].score
+                best, highest = state, FIRST_TOKENS[state].score
             elif state in RIDES:
                 for i, chance in before:
                     score = scores[i] + chance
@@ -112,55 +126,54 @@ class Hypotheses:
                     score = scores[i] + chance + stops[i]
                     if score > highest:
                         best, highest = i, score
-            arrived = (held[best] if self.tokens else BEGUN[state]) if best >= 0 else None
+            arrived = (held[best] if self.tokens else FIRST_TOKENS[state]) if best >= 0 else None
             if arrived is not None:
-                one = _scored(arrived, highest, state, seen, beside)
+                one = _scored(arrived, highest, state, seen, evidence)
                 found.append(one)
                 if one[0] > newest:
                     newest = one[0]
         self.tokens = []
-        for likely, state, token, levels, taken in found:
+        for likely, state, token, levels, acceleration in found:
             score = round(likely - newest, 4)
-            if score >= -FORGOTTEN:
-                path, ride = _gone_on(token, state, seen, chain, levels, taken)
+            if score >= -DROP_LIMIT:
+                path, ride = _extended(token, state, seen, chain, levels, acceleration)
                 self.tokens.append(Token(state, score, path, ride))
 
     def settle(self, now: float) -> list[tuple[ActivitySegment, ActivitySegment | None, float]]:
-        """What is settled from now on, `now` s: each activity that was begun, with the one before it that it ends, and
-        how likely it is of the courses that were held."""
+        """Settle what is certain at `now` s; return each segment, the one that it ends, and its probability."""
         best = self.best
         found: list[tuple[ActivitySegment, ActivitySegment | None, float]] = []
         if best is None:
             return found
-        old = _old(best.path, now)
+        old = _settled_by(best.path, now)
         i = 0 if self.settled is None else 1
         while len(best.path) > i:
-            begun = best.path[i]
+            segment = best.path[i]
             if not (
-                begun.t <= old
-                or len(best.path) > LONGEST
-                or all([_agrees(token, i, begun) for token in self.tokens if token.score >= -DOUBT])
+                segment.t <= old
+                or len(best.path) > MOST_SEGMENTS
+                or all([_agrees(token, i, segment) for token in self.tokens if token.score >= -AGREEMENT_LIMIT])
             ):
                 break
-            found.append((begun, best.path[0] if i else None, self.probability(begun)))
-            self.tokens = [token for token in self.tokens if _agrees(token, i, begun)]
-            self.settled = begun.activity
+            found.append((segment, best.path[0] if i else None, self.probability(segment)))
+            self.tokens = [token for token in self.tokens if _agrees(token, i, segment)]
+            self.settled = segment.activity
             for token in self.tokens:
                 token.path = token.path[i:]
             i = 1
         return found
 
     def probability(self, segment: ActivitySegment) -> float:
-        """That the wearer did this then, of the courses that are held."""
+        """Return the probability that the wearer did this then, by the tokens that are kept."""
         those = whole = 0.0
         for token in self.tokens:
             likely = exp(token.score)
             whole += likely
-            doing = self.settled
+            activity = self.settled
             for one in token.path:
                 if one.t <= segment.t:
-                    doing = one.activity
-            if doing is segment.activity:
+                    activity = one.activity
+            if activity is segment.activity:
                 those += likely
         return those / whole if whole > 0.0 else 1.0
 
@@ -169,75 +182,81 @@ def _score(token: Token) -> float:
     return token.score
 
 
-def _old(path: Sequence[ActivitySegment], now: float) -> float:
-    """What began up to then is settled for want of time, s."""
-    old = now - DECIDED
+def _settled_by(path: Sequence[ActivitySegment], now: float) -> float:
+    """Return the time before which everything is settled because it is old, s."""
+    old = now - LONGEST_OPEN
     for before, after in pairwise(path):
-        if before.activity in LIFTS and now - after.t >= SETTLED:
+        if before.activity in LIFTS and now - after.t >= LIFT_SETTLED:
             old = max(old, after.t)
     return old
 
 
-def _agrees(token: Token, i: int, begun: ActivitySegment) -> bool:
+def _agrees(token: Token, i: int, segment: ActivitySegment) -> bool:
     if len(token.path) <= i:
         return False
     other = token.path[i]
-    return other.t == begun.t and other.activity is begun.activity
+    return other.t == segment.t and other.activity is segment.activity
 
 
 def _scored(
-    token: Token, score: float, state: int, seen: BlockEvidence, beside: Beside
+    token: Token, score: float, state: int, seen: BlockEvidence, evidence: LiftEvidence
 ) -> tuple[float, int, Token, Levels, float]:
-    """How likely the course of `token`, that far, is after half a second in the state; with the levels of its feet at
-    rest, and the acceleration of the lift, m/s^2."""
-    levels, taken, begins = token.ride.levels, 0.0, 0.0
+    """Return the score of the course of `token` after half a second in the state, with its parts.
+
+    The others are the state, the token, the levels of its feet at rest, and the acceleration of the lift, m/s^2.
+    """
+    levels, acceleration, start_score = token.ride.levels, 0.0, 0.0
     motion = state
     if state in RIDES:
         motion = STAND
-        if token.ride.stood < DWELLS and (not token.path or token.path[-1].activity is not ACTIVITIES[state]):
-            begins = -HASTE
+        if token.ride.standing_time < DWELL_TIME and (
+            not token.path or token.path[-1].activity is not ACTIVITIES[state]
+        ):
+            start_score = -SHORT_DWELL_COST
         if state in PULSES:
-            levels, taken, likely = beside.pulse(levels, PULSES[state] * USUAL, VARIES)
+            levels, acceleration, likely = evidence.pulse(levels, PULSES[state] * PULSE, PULSE_DEVIATION)
         elif state in HALTS:
-            levels, taken, likely = beside.pulse(levels, HALTS[state] * HALT, HALT_VARIES)
+            levels, acceleration, likely = evidence.pulse(levels, HALTS[state] * HALT, HALT_DEVIATION)
         else:
-            levels, likely = beside.rest(levels)
+            levels, likely = evidence.rest(levels)
     elif state == STAND:
-        levels, likely = beside.rest(levels)
+        levels, likely = evidence.rest(levels)
     else:
-        levels, likely = beside.walk(levels)
-    return score + begins + seen.motions[motion] + likely + seen.climbs[state], state, token, levels, taken
+        levels, likely = evidence.walk(levels)
+    return score + start_score + seen.motions[motion] + likely + seen.climbs[state], state, token, levels, acceleration
 
 
-def _gone_on(
-    token: Token, state: int, seen: BlockEvidence, chain: Chain, levels: Levels, taken: float
+def _extended(
+    token: Token, state: int, seen: BlockEvidence, chain: Chain, levels: Levels, acceleration: float
 ) -> tuple[tuple[ActivitySegment, ...], LiftRide]:
-    """The course of the token and its ride after half a second in the state."""
+    """Return the course of the token and its ride after half a second in the state."""
     ride, path, activity = token.ride, token.path, ACTIVITIES[state]
     if path and path[-1].activity is activity:
         if state in RIDES:
-            return path, ride.goes(levels, taken, BLOCK)
+            return path, ride.move(levels, acceleration, BLOCK)
         if state == STAND:
-            return path, ride.stands(levels, BLOCK)
-        return path, LiftRide(levels, stood=ride.stood).stands(levels, BLOCK)
+            return path, ride.wait(levels, BLOCK)
+        return path, LiftRide(levels, standing_time=ride.standing_time).wait(levels, BLOCK)
     t = seen.t
     if path:
         last = path[-1]
         if token.state in RIDES and state not in RIDES:
-            ended = ActivitySegment(last.t, last.activity, last.from_, t, ride.risen(seen.after))
+            ended = ActivitySegment(last.t, last.activity, last.from_, t, ride.height_gain(seen.after))
             path = (*path[:-1], ended)
-            ride = ride.over()
-        t = max(t + chain.late[token.state][state], last.t + TIE)
+            ride = ride.end()
+        t = max(t + chain.shift[token.state][state], last.t + TIE)
     if state in RIDES:
         whole = state in PULSES and bool(path)
-        return (*path, ActivitySegment(t, activity, seen.t)), ride.begins(whole, seen.before, levels, taken, BLOCK)
+        return (*path, ActivitySegment(t, activity, seen.t)), ride.start(
+            whole, seen.before, levels, acceleration, BLOCK
+        )
     path = (*path, ActivitySegment(t, activity))
     if state == STAND:
-        return path, ride.stands(levels, BLOCK)
-    return path, LiftRide(levels, stood=ride.stood).stands(levels, BLOCK)
+        return path, ride.wait(levels, BLOCK)
+    return path, LiftRide(levels, standing_time=ride.standing_time).wait(levels, BLOCK)
 
 
-BEGUN = tuple(
-    [Token(state, log(chance), (), LiftRide((RestLevel(), RestLevel()))) for state, chance in enumerate(BEGIN)]
+FIRST_TOKENS = tuple(
+    [Token(state, log(chance), (), LiftRide((RestLevel(), RestLevel()))) for state, chance in enumerate(FIRST_CHANCES)]
 )
-"""A course that has done nothing yet, for each state."""
+"""An empty course for each state."""

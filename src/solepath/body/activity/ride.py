@@ -1,10 +1,10 @@
-"""A lift that is ridden, felt in the feet that stand in it.
+"""Lift rides, detected by the force on standing feet.
 
 A lift adds its own acceleration to the specific force of a foot at rest: a pulse of 0.3 to 1.2 m/s^2 as it sets off and
-one the other way as it stops, each a second or more long, and nothing between them. The feet's accelerometers are
-wrong by more than that and by another amount in every posture, so what counts is how the force differs from that of the
-same foot at rest. That level is followed by a scalar Kalman filter for each foot, and each hypothesis has its own: who
-holds that the lift has just set off takes another level for that of rest than who holds that it stands.
+one in the other direction as it stops, each a second or more long, and nothing between them. The errors of the feet's
+accelerometers are larger than that and differ in every posture, so the evidence is the difference to the force of the
+same foot at rest. A scalar Kalman filter follows that level for each foot, and each hypothesis has its own: a
+hypothesis that the lift has just set off takes another level for that of rest than one that it stands.
 """
 
 from __future__ import annotations
@@ -15,45 +15,45 @@ from operator import is_
 from ...types.attrs import define
 from ...types.vector import GRAVITY
 
-USUAL = 0.6
-"""Acceleration of a lift that starts or stops, m/s^2, and"""
-VARIES = 0.35
-"""its deviation over a pulse and from lift to lift."""
+PULSE = 0.6
+"""Usual acceleration of a lift that starts or stops, m/s^2."""
+PULSE_DEVIATION = 0.35
+"""Standard deviation of that acceleration over a pulse and from lift to lift, m/s^2."""
 HALT = 0.15
-"""The same of one that has crept on to its floor, and stops, and"""
-HALT_VARIES = 0.08
-"""its deviation."""
-LEVEL = 0.4
-"""Deviation of |acc| of a sensor at rest from 1 g before anything is known of it, m/s^2."""
-MOVED = 0.08
-"""and after the foot has moved: another posture, another share of the axes' errors, m/s^2."""
-WANDER = 1e-5
-"""By which the variance of the level grows each half second, (m/s^2)^2."""
-SWAY = 0.03
-"""Deviation of the mean over half a second of somebody who stands, m/s^2."""
-OUTLIER = 0.03
+"""Usual acceleration of a lift that has crept on to its floor and stops, m/s^2."""
+HALT_DEVIATION = 0.08
+"""Standard deviation of that acceleration, m/s^2."""
+FIRST_DEVIATION = 0.4
+"""Standard deviation of |acc| of a sensor at rest from 1 g before anything is known of it, m/s^2."""
+MOVED_DEVIATION = 0.08
+"""Standard deviation of the level after the foot has moved, m/s^2: the posture and the axes' share of errors change."""
+LEVEL_WANDER = 1e-5
+"""Growth of the variance of the level in each half second, (m/s^2)^2."""
+SWAY_DEVIATION = 0.03
+"""Standard deviation of the mean force over half a second of a standing wearer, m/s^2."""
+OUTLIER_SHARE = 0.03
 """Share of blocks at rest that deviate by 1 m/s^2: weight is shifted, a heel is lifted."""
-FEET = 0.2
-"""Share of blocks of feet that move by themselves that deviate by"""
-WIDE = 8.0
-"""so much, m/s^2; the others by 1."""
-DWELLS = 5.0
-"""A lift opens and closes its doors before it sets off again: that takes longer, s,"""
-HASTE = 6.0
-"""or is so much less likely (natural logarithm)."""
-LEAST = 1e-6
-"""No density is less, s^2/m."""
-PULSES = 0.1
-"""A ride's height by its pulses is wrong by this share of it,"""
-AIR = 0.3
-"""and by the air pressure by so much: readings of a second or two at either end, m."""
-SLOWEST = 0.4
-"""No lift is slower, m/s."""
+MOVING_OUTLIER_SHARE = 0.2
+"""Share of blocks of moving feet that deviate by `MOVING_OUTLIER`."""
+MOVING_OUTLIER = 8.0
+"""Standard deviation of these blocks, m/s^2; that of the other blocks of moving feet is 1."""
+DWELL_TIME = 5.0
+"""Least usual time between two rides, s: a lift opens and closes its doors before it sets off again."""
+SHORT_DWELL_COST = 6.0
+"""Minus log-likelihood of a shorter time between two rides."""
+LEAST_DENSITY = 1e-6
+"""Lowest probability density, s^2/m."""
+PULSE_HEIGHT_ERROR = 0.1
+"""Error of a ride's height by its pulses, as a share of it."""
+AIR_HEIGHT_ERROR = 0.3
+"""Error of a ride's height by the air pressure, m: readings of a second or two at either end."""
+SLOWEST_LIFT = 0.4
+"""Speed of the slowest lift, m/s."""
 
 
 @define
-class Felt:
-    """Half a second of one foot: mean |acc|, m/s^2, the variance of that mean, and whether the foot moved."""
+class BlockForce:
+    """The force on one foot in half a second: mean |acc|, m/s^2, its variance, and whether the foot moved."""
 
     force: float
     variance: float
@@ -62,38 +62,38 @@ class Felt:
 
 @define
 class RestLevel:
-    """|acc| of one foot at rest, m/s^2."""
+    """The level of |acc| of one foot at rest, m/s^2, and its variance."""
 
     value: float = GRAVITY
-    variance: float = LEVEL * LEVEL
+    variance: float = FIRST_DEVIATION * FIRST_DEVIATION
 
 
 Levels = tuple[RestLevel, ...]
-"""Of the left foot and the right one."""
+"""Levels of the left foot and the right one."""
 
 
-class Beside:
-    """Half a second of both feet beside their levels at rest.
+class LiftEvidence:
+    """The forces on both feet in half a second, compared with their levels at rest.
 
-    Most courses hold the very same levels, and then what comes of them is worked out once. It lasts no longer than the
+    Most courses hold the very same levels, and then the result is computed once. The object lasts no longer than the
     half second, and is no state.
     """
 
-    __slots__ = ("_acceleration", "_pulses", "_rests", "_walks", "felt")
+    __slots__ = ("_acceleration", "_pulses", "_still", "_walks", "forces")
 
-    def __init__(self, felt: tuple[Felt | None, ...]) -> None:
-        self.felt = felt
-        # by the identity of levels, which somebody holds as long as this lasts
+    def __init__(self, forces: tuple[BlockForce | None, ...]) -> None:
+        self.forces = forces
+        # keyed by the identity of levels, which a token holds as long as this object lasts
         self._acceleration: dict[int, tuple[float, float] | None] = {}
-        self._rests: dict[int, tuple[Levels, float]] = {}
+        self._still: dict[int, tuple[Levels, float]] = {}
         self._walks: dict[int, tuple[Levels, float]] = {}
         self._pulses: dict[tuple[int, float], tuple[Levels, float, float]] = {}
 
     def rest(self, levels: Levels) -> tuple[Levels, float]:
-        """Without acceleration: the levels after it, and the logarithm of how likely what was felt is."""
-        known = self._rests.get(id(levels))
+        """Return the levels after a block without acceleration, and the log-likelihood of the forces."""
+        known = self._still.get(id(levels))
         if known is None:
-            known = self._rests[id(levels)] = self._rest(levels)
+            known = self._still[id(levels)] = self._rest(levels)
         return known
 
     def _rest(self, levels: Levels) -> tuple[Levels, float]:
@@ -101,30 +101,33 @@ class Beside:
         if seen is None:
             return levels, 0.0
         acceleration, variance = seen
-        regular = (1.0 - OUTLIER) * _density(acceleration, variance)
-        odd = OUTLIER * _density(acceleration, variance + 1.0)
-        return self._learnt(levels, 0.0, 0.0 if regular > odd else 1e9), log(regular + odd + LEAST)
+        regular = (1.0 - OUTLIER_SHARE) * _density(acceleration, variance)
+        odd = OUTLIER_SHARE * _density(acceleration, variance + 1.0)
+        return self._updated_levels(levels, 0.0, 0.0 if regular > odd else 1e9), log(regular + odd + LEAST_DENSITY)
 
-    def pulse(self, levels: Levels, usual: float, varies: float) -> tuple[Levels, float, float]:
-        """Of an acceleration `usual` with the deviation `varies`, m/s^2: levels, what it was, logarithm as above."""
-        known = self._pulses.get((id(levels), usual))
+    def pulse(self, levels: Levels, mean: float, deviation: float) -> tuple[Levels, float, float]:
+        """Return the levels after a block of a pulse, its acceleration, m/s^2, and the log-likelihood of the forces.
+
+        The acceleration of the pulse has this `mean` and `deviation`, m/s^2.
+        """
+        known = self._pulses.get((id(levels), mean))
         if known is None:
-            known = self._pulses[id(levels), usual] = self._pulse(levels, usual, varies)
+            known = self._pulses[id(levels), mean] = self._pulse(levels, mean, deviation)
         return known
 
-    def _pulse(self, levels: Levels, usual: float, varies: float) -> tuple[Levels, float, float]:
+    def _pulse(self, levels: Levels, mean: float, deviation: float) -> tuple[Levels, float, float]:
         seen = self.acceleration(levels)
         if seen is None:
-            return levels, usual, 0.0
+            return levels, mean, 0.0
         acceleration, variance = seen
-        off = acceleration - usual
-        likely = log(_density(off, variance + varies * varies) + LEAST)
-        share = varies * varies / (varies * varies + variance)
-        taken = usual + share * off
-        return self._learnt(levels, taken, share * variance), taken, likely
+        off = acceleration - mean
+        likely = log(_density(off, variance + deviation * deviation) + LEAST_DENSITY)
+        share = deviation * deviation / (deviation * deviation + variance)
+        taken = mean + share * off
+        return self._updated_levels(levels, taken, share * variance), taken, likely
 
     def walk(self, levels: Levels) -> tuple[Levels, float]:
-        """Of feet that move by themselves: no lift is felt."""
+        """Return the levels after a block of moving feet, and the log-likelihood of the forces; no lift is detected."""
         known = self._walks.get(id(levels))
         if known is None:
             known = self._walks[id(levels)] = self._walk(levels)
@@ -135,20 +138,20 @@ class Beside:
         walked = tuple(
             [
                 level
-                if one is None or not one.moved or level.variance >= MOVED * MOVED
-                else RestLevel(level.value, MOVED * MOVED)
-                for level, one in zip(levels, self.felt, strict=True)
+                if one is None or not one.moved or level.variance >= MOVED_DEVIATION * MOVED_DEVIATION
+                else RestLevel(level.value, MOVED_DEVIATION * MOVED_DEVIATION)
+                for level, one in zip(levels, self.forces, strict=True)
             ]
         )
         if all(map(is_, walked, levels)):
             walked = levels
         if seen is None:
             return walked, 0.0
-        near, far = _density(seen[0], seen[1] + 1.0), _density(seen[0], seen[1] + WIDE * WIDE)
-        return walked, log((1.0 - FEET) * near + FEET * far + LEAST)
+        near, far = _density(seen[0], seen[1] + 1.0), _density(seen[0], seen[1] + MOVING_OUTLIER * MOVING_OUTLIER)
+        return walked, log((1.0 - MOVING_OUTLIER_SHARE) * near + MOVING_OUTLIER_SHARE * far + LEAST_DENSITY)
 
     def acceleration(self, levels: Levels) -> tuple[float, float] | None:
-        """(m/s^2, its variance) of the feet that were heard, each beside its own level; None without any."""
+        """Return the acceleration of the feet against their levels, m/s^2, and its variance; None without samples."""
         if id(levels) not in self._acceleration:
             self._acceleration[id(levels)] = self._accelerated(levels)
         return self._acceleration[id(levels)]
@@ -156,7 +159,7 @@ class Beside:
     def _accelerated(self, levels: Levels) -> tuple[float, float] | None:
         total = weights = 0.0
         offs = []
-        for level, one in zip(levels, self.felt, strict=True):
+        for level, one in zip(levels, self.forces, strict=True):
             if one is not None:
                 off = one.force - level.value
                 weight = 1.0 / (level.variance + one.variance)
@@ -171,51 +174,53 @@ class Beside:
             variance += 0.25 * max(0.0, (a - b) * (a - b) - va - vb)
         return total / weights, variance
 
-    def _learnt(self, levels: Levels, acceleration: float, uncertain: float) -> Levels:
-        """After half a second in which the lift accelerated by so much, with that variance."""
-        learnt = []
-        for level, one in zip(levels, self.felt, strict=True):
+    def _updated_levels(self, levels: Levels, acceleration: float, uncertain: float) -> Levels:
+        """Return the levels after half a second with this acceleration of the lift, whose variance is `uncertain`."""
+        updated = []
+        for level, one in zip(levels, self.forces, strict=True):
             if one is None:
-                learnt.append(level)
+                updated.append(level)
                 continue
-            variance = level.variance + WANDER
+            variance = level.variance + LEVEL_WANDER
             if one.moved:
-                variance = max(variance, MOVED * MOVED)
+                variance = max(variance, MOVED_DEVIATION * MOVED_DEVIATION)
             gain = variance / (variance + one.variance + uncertain)
             off = one.force - acceleration - level.value
-            learnt.append(RestLevel(round(level.value + gain * off, 7), round((1.0 - gain) * variance, 9)))
-        return tuple(learnt)
+            updated.append(RestLevel(round(level.value + gain * off, 7), round((1.0 - gain) * variance, 9)))
+        return tuple(updated)
 
 
 @define
 class LiftRide:
-    """What a hypothesis has of a lift: all upwards positive."""
+    """The state of a lift in one hypothesis, upwards positive."""
 
     levels: Levels
     velocity: float = 0.0
-    """m/s."""
+    """Velocity, m/s."""
     fastest: float = 0.0
-    """Largest so far, m/s."""
+    """Largest speed so far, m/s."""
     height: float = 0.0
-    """Since it set off, m."""
-    lasted: float = 0.0
-    """s."""
+    """Height since the lift set off, m."""
+    duration: float = 0.0
+    """Duration of the ride so far, s."""
     whole: bool = False
-    """The first pulse was felt."""
+    """Flag: the first pulse was measured."""
     air: float | None = None
-    """How high it was when it set off, m above anything, by the air pressure."""
-    stood: float = 1e3
-    """Since the last ride ended, s."""
+    """Height when the lift set off, by the air pressure, m above any reference."""
+    standing_time: float = 1e3
+    """Time since the last ride ended, s."""
 
     @staticmethod
-    def begins(whole: bool, air: float | None, levels: Levels, acceleration: float, block: float) -> LiftRide:
-        """The first `block` s of a ride, `whole` when with its first pulse, at the height `air` in m; the others as in
-        `goes`."""
+    def start(whole: bool, air: float | None, levels: Levels, acceleration: float, block: float) -> LiftRide:
+        """Return a ride after its first `block` s; `whole`: with its first pulse.
+
+        `air` is the height at the start, m; for the others see `move`.
+        """
         velocity = round(0.0 + acceleration * block, 6)
         return LiftRide(levels, velocity, abs(velocity), round(0.0 + 0.5 * velocity * block, 6), block, whole, air)
 
-    def goes(self, levels: Levels, acceleration: float, block: float) -> LiftRide:
-        """`block` s more with this acceleration, m/s^2, and the levels after it."""
+    def move(self, levels: Levels, acceleration: float, block: float) -> LiftRide:
+        """Return the ride after `block` s more with this acceleration, m/s^2, and the levels after it."""
         before = self.velocity
         velocity = round(before + acceleration * block, 6)
         fast = abs(velocity)
@@ -224,48 +229,56 @@ class LiftRide:
             velocity,
             fast if fast > self.fastest else self.fastest,
             round(self.height + 0.5 * (before + velocity) * block, 6),
-            self.lasted + block,
+            self.duration + block,
             self.whole,
             self.air,
-            self.stood,
+            self.standing_time,
         )
 
-    def stands(self, levels: Levels, block: float) -> LiftRide:
-        """`block` s more without a ride: the levels after it. What there was of one is kept."""
-        stood = self.stood
-        if stood < DWELLS:
-            stood += block
+    def wait(self, levels: Levels, block: float) -> LiftRide:
+        """Return the ride after `block` s without one and the levels after it; the last ride's values are kept."""
+        standing_time = self.standing_time
+        if standing_time < DWELL_TIME:
+            standing_time += block
         elif levels is self.levels:
             return self
-        return LiftRide(levels, self.velocity, self.fastest, self.height, self.lasted, self.whole, self.air, stood)
+        return LiftRide(
+            levels, self.velocity, self.fastest, self.height, self.duration, self.whole, self.air, standing_time
+        )
 
-    def over(self) -> LiftRide:
-        """The same levels, no ride."""
-        return LiftRide(self.levels, stood=0.0)
+    def end(self) -> LiftRide:
+        """Return the state after the end of the ride, with the same levels."""
+        return LiftRide(self.levels, standing_time=0.0)
 
-    def stopped(self) -> float:
-        """Logarithm of how likely it is that a lift that moved like this stands now."""
+    def stop_score(self) -> float:
+        """Return the log-likelihood that a lift that moved like this stands now."""
         odd = 0.0
-        if self.fastest < SLOWEST:
-            odd = 0.5 * ((SLOWEST - self.fastest) / 0.1) ** 2
+        if self.fastest < SLOWEST_LIFT:
+            odd = 0.5 * ((SLOWEST_LIFT - self.fastest) / 0.1) ** 2
         if self.whole:
             odd += min(4.0, 0.5 * (self.velocity / (0.3 * self.fastest + 0.1)) ** 2)
         return -min(odd, 8.0)
 
-    def risen(self, air: float | None) -> float | None:
-        """How far it went, m: by the pulses, taking away the drift of a lift that must stand in the end, and by the air
-        pressure, each as far as it is sure; None when there is no air and the first pulse was not felt. `air`: how high
-        it is now."""
+    def height_gain(self, air: float | None) -> float | None:
+        """Return the height of the ride, m; None without air pressure and first pulse. `air`: height now, m.
+
+        The height by the pulses, without the drift of a lift that must stand in the end, and the height by the air
+        pressure are weighted by their variances.
+        """
         by_air = None if air is None or self.air is None else air - self.air
         if not self.whole:
             return by_air
-        felt = self.height - 0.5 * self.velocity * self.lasted
+        by_pulses = self.height - 0.5 * self.velocity * self.duration
         if by_air is None:
-            return felt
-        share = AIR * AIR / (AIR * AIR + (PULSES * by_air) ** 2)
-        return by_air + share * (felt - by_air)
+            return by_pulses
+        share = (
+            AIR_HEIGHT_ERROR
+            * AIR_HEIGHT_ERROR
+            / (AIR_HEIGHT_ERROR * AIR_HEIGHT_ERROR + (PULSE_HEIGHT_ERROR * by_air) ** 2)
+        )
+        return by_air + share * (by_pulses - by_air)
 
 
 def _density(off: float, variance: float) -> float:
-    """Of a normal distribution."""
+    """Return the density of a normal distribution."""
     return exp(-0.5 * min(off * off / variance, 1400.0)) / sqrt(2.0 * pi * variance)

@@ -1,4 +1,4 @@
-"""What the feet say of half a second, each by itself, and what that comes to."""
+"""Votes of both feet on half a second, and their sum."""
 
 from __future__ import annotations
 
@@ -6,42 +6,43 @@ from collections.abc import Sequence
 
 from .block import ActivityBlock
 from .motion import MOTIONS, MotionModel
-from .ride import SWAY, Felt
+from .ride import SWAY_DEVIATION, BlockForce
 
-SHARE = 0.6
-"""Neighbouring windows are of the same samples, so each vote counts so much."""
-LEAST = -12.0
-"""No vote is less (natural logarithm)."""
-STRANGE = 3.0
-"""Something that nobody has learnt is as likely as this (minus natural logarithm) for a foot that moves as usual,"""
-USUAL = 6.0
-"""up to this strangeness (motion.py), and ever more likely above."""
-MOVES = 1.0
-"""Variance of |acc| of a foot that does not stand, (m/s^2)^2."""
-MOST = 40.0
-"""A mean force beyond is none of a standing foot, m/s^2."""
+VOTE_WEIGHT = 0.6
+"""Weight of one vote: neighbouring windows contain the same samples."""
+LEAST_VOTE = -12.0
+"""Lowest vote (natural logarithm)."""
+UNKNOWN_COST = 3.0
+"""Minus log-likelihood of an unknown activity for a foot of usual motion."""
+USUAL_STRANGENESS = 6.0
+"""Largest strangeness of usual motion (motion.py); above it an unknown activity becomes likelier."""
+MOVING_VARIANCE = 1.0
+"""Least variance of |acc| of a foot that moves, (m/s^2)^2."""
+LARGEST_FORCE = 40.0
+"""Largest mean force of a standing foot, m/s^2."""
 
 
-def motions(model: MotionModel, feet: Sequence[Sequence[float] | None]) -> tuple[float, ...]:
-    """Logarithms of how likely each of `MOTIONS` is, and something else, given the features of each foot; None: it was
-    not heard."""
-    said = [0.0] * len(MOTIONS)
+def motion_votes(model: MotionModel, feet: Sequence[Sequence[float] | None]) -> tuple[float, ...]:
+    """Return the log-likelihoods of `MOTIONS`, and of an unknown one, given the features of each foot or None."""
+    votes = [0.0] * len(MOTIONS)
     unknown = 0.0
-    heard = False
+    known = False
     for features in feet:
         if features is None:
             continue
-        heard = True
+        known = True
         for i, likely in enumerate(model.log_probabilities(features)):
-            said[i] += SHARE * max(likely, LEAST)
-        unknown += SHARE * min(0.5 * (model.strangeness(features) - USUAL) - STRANGE, 0.0)
-    return (*said, unknown) if heard else (*[-1.0] * len(MOTIONS), 0.0)
+            votes[i] += VOTE_WEIGHT * max(likely, LEAST_VOTE)
+        unknown += VOTE_WEIGHT * min(0.5 * (model.strangeness(features) - USUAL_STRANGENESS) - UNKNOWN_COST, 0.0)
+    return (*votes, unknown) if known else (*[-1.0] * len(MOTIONS), 0.0)
 
 
-def felt(block: ActivityBlock | None, grain: float) -> Felt | None:
-    """What a lift would be felt in; None of a foot that was not heard. `grain`: what a count of its accelerometer is
-    worth, m/s^2."""
-    if block is None or block.force >= MOST:
+def block_force(block: ActivityBlock | None, resolution: float) -> BlockForce | None:
+    """Return the force on a foot in a block, by which lifts are detected; None without a block.
+
+    `resolution` is that of its accelerometer, m/s^2 a count.
+    """
+    if block is None or block.force >= LARGEST_FORCE:
         return None
-    variance = SWAY * SWAY + 0.05 * min(block.variance, 1e4) + grain * grain / 12.0
-    return Felt(block.force, variance, block.variance > MOVES)
+    variance = SWAY_DEVIATION * SWAY_DEVIATION + 0.05 * min(block.variance, 1e4) + resolution * resolution / 12.0
+    return BlockForce(block.force, variance, block.variance > MOVING_VARIANCE)

@@ -1,10 +1,10 @@
-"""Where the wearer is, of both feet.
+"""Position of the wearer: the mean of both feet.
 
-While both feet are heard that is their mean. A foot that falls silent would hold the mean back by half of the way, so
-it is left out; the other goes on from where the mean was, for the feet's tracks may have drifted apart. What an absent
-foot did is not known when it comes back, nor which way it turned: it stays out until both have taken `STRIDES` strides
-together, and is then turned and set beside the other. A foot that is first heard while the other walks is set beside it
-as well. Without absence nothing is turned or set.
+A foot that falls silent would hold the mean back by half of the distance walked, so it is left out; the track continues
+with the other foot from where the mean was, since the feet's tracks may have drifted apart. The displacement and turn
+of an absent foot are not known when it comes back: it stays out until both have taken `STRIDES_TO_ALIGN` strides
+together, and is then turned and set beside the other. A foot whose first sample comes while the other walks is set
+beside it as well. Without absence nothing is turned or set.
 """
 
 from __future__ import annotations
@@ -20,47 +20,51 @@ from ...types.vector import ZERO, sub, turned
 from ..part import PartOutput, Position, TrackPart
 
 LEFT: Final = Foot.LEFT
-"""Looked up once: a word of an enum costs as much as five multiplications."""
+"""The left foot, looked up once: access to an enum member costs as much as five multiplications."""
 
 ABSENT = 1.0
-"""A foot that was last heard this long before the other is absent, s."""
-STRIDES = 3
-"""So many strides of both feet say how a foot that came back stands to the other."""
-LEAST_WAY = 1.0
-"""and must lead this far, m."""
+"""Time without samples after which a foot is absent, while the other gives samples, s."""
+STRIDES_TO_ALIGN = 3
+"""Number of strides of each foot that align a returned foot with the other."""
+LEAST_DISTANCE = 1.0
+"""Least distance of these strides, m."""
 
 
 @define
 class PlacedTrack:
-    """How one foot's own track lies among both: turned by `turn` rad and then moved by `offset` m."""
+    """The placement of one foot's own track in the common frame: turned by `turn` rad and then moved by `offset` m."""
 
     t: float | None = None
-    """Its newest sample with acc and gyro, s."""
-    began: float | None = None
-    """The first one, s."""
-    alone: float = 0.0
-    """The other foot was heard for this long since then, s."""
-    here: Vec3 = ZERO
-    """Where its own track had it then, m."""
+    """Time of the newest sample with acc and gyro, s."""
+    started_at: float | None = None
+    """Time of the first sample, s."""
+    absent_for: float = 0.0
+    """Time for which the other foot has given samples since `t`, s."""
+    newest_place: Vec3 = ZERO
+    """Place on the foot's own track at `t`, m."""
     turn: float = 0.0
+    """Turn of the track, rad."""
     offset: Vec3 = ZERO
+    """Offset of the track after the turn, m."""
     variance: tuple[float, float] | None = None
-    """Of its own track after its newest step, horizontal (an axis) and vertical, m^2; None before any step."""
-    spread: tuple[float, float] = (0.0, 0.0)
-    """What setting it beside the other has added to that, m^2."""
-    beside: Vec3 | None = None
-    """The left foot less the right one after this one's newest step, m; a mean over both feet's steps has the stride
-    between them no more."""
-    waits: bool = False
-    """It has come back, and is not set beside the other yet."""
+    """Variances of the own track after its newest stride, horizontal (an axis) and vertical, m^2; None before any."""
+    added_variance: tuple[float, float] = (0.0, 0.0)
+    """Variances that the alignment with the other foot has added to `variance`, m^2."""
+    separation: Vec3 | None = None
+    """Left foot minus right foot after this one's newest stride, m.
+
+    The mean of both feet's values does not contain the stride between them any more.
+    """
+    unplaced: bool = False
+    """Flag: the foot has come back, and its track is not aligned with the other's yet."""
 
     @property
     def absent(self) -> bool:
-        """Long not heard while the other was."""
-        return self.alone >= ABSENT
+        """Flag: the foot gave no samples for long while the other one did."""
+        return self.absent_for >= ABSENT
 
     def place(self, own: Vec3) -> Vec3:
-        """A place on its own track, among both feet, m."""
+        """Return a place of the foot's own track in the common frame, m."""
         x, y, z = own
         if self.turn:
             c, s = cos(self.turn), sin(self.turn)
@@ -69,7 +73,7 @@ class PlacedTrack:
         return (x + dx, y + dy, z + dz)
 
     def correct(self, at: Vec3, yaw: float, dx: float, dy: float) -> None:
-        """Turn its track by `yaw` rad about the place `at` on it, m, and move it by (dx, dy) m, among both feet."""
+        """Turn the track by `yaw` rad about its own place `at`, m, and move it by (dx, dy) m in the common frame."""
         x, y, _ = at
         ox, oy, oz = self.offset
         c, s = cos(self.turn), sin(self.turn)
@@ -78,8 +82,8 @@ class PlacedTrack:
         c, s = cos(self.turn), sin(self.turn)
         self.offset = (ox + before_x + dx - (c * x - s * y + ox), oy + before_y + dy - (s * x + c * y + oy), oz)
 
-    def undone(self, place: Vec3) -> Vec3:
-        """Where its own track has a place among both feet, m."""
+    def to_own(self, place: Vec3) -> Vec3:
+        """Return a place of the common frame on the foot's own track, m."""
         x, y, z = place
         dx, dy, dz = self.offset
         c, s = cos(-self.turn), sin(-self.turn)
@@ -88,94 +92,96 @@ class PlacedTrack:
 
 @define
 class MeanOfFeet(TrackPart):
-    """The mean of the feet that are heard, each in the world frame of its own first heading.
+    """The mean of the feet that give samples, each in the world frame of its own first heading.
 
-    Of feet that were set beside one another the covariance is that of the one which was heard all along: the errors
-    that they had by then are the same.
+    After an alignment of two feet the covariance is that of the foot which was never absent: both then have the same
+    errors.
     """
 
     needs_samples: ClassVar[bool] = True
 
     left: PlacedTrack = field(factory=PlacedTrack, init=False)
     right: PlacedTrack = field(factory=PlacedTrack, init=False)
-    newest: Foot | None = field(default=None, init=False)
-    """The foot that was set beside the other last."""
-    steps: list[tuple[bool, Vec3, Vec3]] = field(factory=list, init=False)
-    """While a foot waits, after the newest steps of both: whether the left one took it, where the waiting foot's own
-    track has it, and where the other is."""
+    placed_last: Foot | None = field(default=None, init=False)
+    """The foot that was aligned with the other last."""
+    return_strides: list[tuple[bool, Vec3, Vec3]] = field(factory=list, init=False)
+    """Newest strides of both feet while a foot is unplaced.
+
+    Each one has a flag for the left foot, the unplaced foot's place on its own track, and the other foot's place, m.
+    """
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """Nothing follows, but it is seen who is absent and who has come back."""
+        """Add one sample of a foot, and note which foot is absent or has come back; returns nothing."""
         t, is_left = view.t, view.foot is LEFT
         if view.sample.acc is None or view.sample.gyro is None:
             return ()
         this, other = (self.left, self.right) if is_left else (self.right, self.left)
         back = False
         if this.t is None:
-            this.began = t
-            # at the start they stand side by side; a foot that comes while the other walks does not
-            back = other.began is not None and t - other.began >= ABSENT and other.variance is not None
+            this.started_at = t
+            # at the start the feet stand side by side; a foot that comes while the other walks does not
+            back = other.started_at is not None and t - other.started_at >= ABSENT and other.variance is not None
         elif t - this.t >= ABSENT:
             back = this.absent
         elif t > this.t and other.t is not None:
-            other.alone += t - this.t
-        here = view.position
+            other.absent_for += t - this.t
+        newest_place = view.position
         if view.north is not None:
-            (c, s), (x, y, z) = view.north, here
-            here = (c * x - s * y, s * x + c * y, z)
-        this.t, this.alone, this.here = t, 0.0, here
+            (c, s), (x, y, z) = view.north, newest_place
+            newest_place = (c * x - s * y, s * x + c * y, z)
+        this.t, this.absent_for, this.newest_place = t, 0.0, newest_place
         if back:
-            self._came_back(this, other)
+            self._start_return(this, other)
         covariance = view.after.covariance
         if covariance is not None:  # there was a stride
             xx, _, _, yy, _, zz = covariance
             this.variance = (0.5 * (xx + yy), zz)
-            if other.t is not None and other.alone < ABSENT:
-                self._stepped(is_left, this)
+            if other.t is not None and other.absent_for < ABSENT:
+                self._place_returned(is_left, this)
         return ()
 
     def reset(self, site: Site) -> None:
-        """Times of the foot restart, and it is as if it were heard for the first time."""
+        """Reset the times of a foot: its next sample counts as its first."""
         if site.foot is not None:
             placed = self._placed(site.foot)
-            placed.t, placed.alone = None, 0.0
+            placed.t, placed.absent_for = None, 0.0
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
-        """None before any sample."""
+        """Return the position of the wearer; None before any sample."""
         known = list(feet.values())
         if not known:
             return None
-        heard = self._heard(known)
-        k = 1.0 / len(heard)
-        places = [self._place(foot) for foot in heard]
+        used = self._used(known)
+        k = 1.0 / len(used)
+        places = [self._place(foot) for foot in used]
         x, y, z = (sum([place[axis] for place in places]) * k for axis in range(3))
-        if len(heard) == 1:
-            dx, dy, dz = self._lean(heard[0].foot)
+        if len(used) == 1:
+            dx, dy, dz = self._offset_to_mean(used[0].foot)
             x, y, z = x + dx, y + dy, z + dz
-        elif self.newest is not None:
-            heard = [foot for foot in heard if foot.foot is not self.newest]
-            k = 1.0 / len(heard)
-        covariances = [foot.covariance for foot in heard]
+        elif self.placed_last is not None:
+            used = [foot for foot in used if foot.foot is not self.placed_last]
+            k = 1.0 / len(used)
+        covariances = [foot.covariance for foot in used]
         xx, xy, xz, yy, yz, zz = (sum([c[i] for c in covariances]) * k * k for i in range(6))
-        if len(heard) == 1:
-            across, up = self._placed(heard[0].foot).spread
+        if len(used) == 1:
+            across, up = self._placed(used[0].foot).added_variance
             xx, yy, zz = xx + across, yy + across, zz + up
         t = max([foot.t for foot in known])
         return Position(t, (x, y, z), (xx, xy, xz, yy, yz, zz))
 
-    def _heard(self, known: list[FootPose]) -> list[FootPose]:
-        """Of two feet those that have a track, are not absent and do not wait; never none."""
+    def _used(self, known: list[FootPose]) -> list[FootPose]:
+        """Return the feet that have a track, are not absent and are placed; at least one."""
         moving = [foot for foot in known if foot.moved_at is not None]
         if len(moving) < 2:
             return moving or known
         newest = max([foot.moved_at for foot in moving if foot.moved_at is not None])
-        # by both: samples of one foot may be fed long after the other's of the same time
-        there = [
+        # compare both times: samples of one foot may be fed long after the other's of the same time
+        present = [
             foot
             for foot in moving
             if not (self._placed(foot.foot).absent and foot.moved_at is not None and newest - foot.moved_at >= ABSENT)
         ]
-        return [foot for foot in there if not self._placed(foot.foot).waits] or there or moving
+        return [foot for foot in present if not self._placed(foot.foot).unplaced] or present or moving
 
     def _placed(self, foot: Foot) -> PlacedTrack:
         return self.left if foot is LEFT else self.right
@@ -183,61 +189,64 @@ class MeanOfFeet(TrackPart):
     def _place(self, foot: FootPose) -> Vec3:
         return self._placed(foot.foot).place(foot.position)
 
-    def _lean(self, foot: Foot) -> Vec3:
-        """From this foot alone to the mean of both, as they lay to one another when they last walked together, m."""
-        one, two = self.left.beside, self.right.beside
+    def _offset_to_mean(self, foot: Foot) -> Vec3:
+        """Return the offset from this foot to the mean of both, as they were when they last walked together, m."""
+        one, two = self.left.separation, self.right.separation
         if one is None or two is None:
             return ZERO
         k = -0.25 if foot is LEFT else 0.25
         return (k * (one[0] + two[0]), k * (one[1] + two[1]), k * (one[2] + two[2]))
 
-    def _came_back(self, this: PlacedTrack, other: PlacedTrack) -> None:
-        """It waits. Should the other fall silent meanwhile, it goes on from where that one is now."""
-        lx, ly, lz = self._lean(LEFT if other is self.left else Foot.RIGHT)
+    def _start_return(self, this: PlacedTrack, other: PlacedTrack) -> None:
+        """Mark the foot as unplaced, and let it continue from the other foot's place should that one fall silent."""
+        lx, ly, lz = self._offset_to_mean(LEFT if other is self.left else Foot.RIGHT)
         x, y, z = other.offset
         other.offset = (x + lx, y + ly, z + lz)
-        self.left.beside = self.right.beside = None
-        this.offset = sub(other.place(other.here), turned(this.here, this.turn))
-        self._doubt(this, other)
-        this.waits, other.waits = True, False
-        self.steps = []
+        self.left.separation = self.right.separation = None
+        this.offset = sub(other.place(other.newest_place), turned(this.newest_place, this.turn))
+        self._set_added_variance(this, other)
+        this.unplaced, other.unplaced = True, False
+        self.return_strides = []
 
-    def _stepped(self, is_left: bool, this: PlacedTrack) -> None:
-        """A foot has taken a step, and both are heard."""
+    def _place_returned(self, is_left: bool, this: PlacedTrack) -> None:
+        """Add a stride while both feet give samples, and align the unplaced foot when there are enough."""
         left, right = self.left, self.right
-        if not left.waits and not right.waits:
-            this.beside = sub(left.place(left.here), right.place(right.here))
+        if not left.unplaced and not right.unplaced:
+            this.separation = sub(left.place(left.newest_place), right.place(right.newest_place))
             return
-        waiting, other = (left, right) if left.waits else (right, left)
-        self.steps = [*self.steps[-2 * STRIDES - 1 :], (is_left, waiting.here, other.place(other.here))]
-        lefts = [(own, beside) for was_left, own, beside in self.steps if was_left]
-        rights = [(own, beside) for was_left, own, beside in self.steps if not was_left]
-        if len(lefts) <= STRIDES or len(rights) <= STRIDES:
+        waiting, other = (left, right) if left.unplaced else (right, left)
+        self.return_strides = [
+            *self.return_strides[-2 * STRIDES_TO_ALIGN - 1 :],
+            (is_left, waiting.newest_place, other.place(other.newest_place)),
+        ]
+        lefts = [(own, others) for was_left, own, others in self.return_strides if was_left]
+        rights = [(own, others) for was_left, own, others in self.return_strides if not was_left]
+        if len(lefts) <= STRIDES_TO_ALIGN or len(rights) <= STRIDES_TO_ALIGN:
             return
-        own_x, own_y, _ = _way(lefts[0][0], lefts[-1][0], rights[0][0], rights[-1][0])
-        x, y, _ = _way(lefts[0][1], lefts[-1][1], rights[0][1], rights[-1][1])
-        if min(hypot(own_x, own_y), hypot(x, y)) < LEAST_WAY:
+        own_x, own_y, _ = _mean_displacement(lefts[0][0], lefts[-1][0], rights[0][0], rights[-1][0])
+        x, y, _ = _mean_displacement(lefts[0][1], lefts[-1][1], rights[0][1], rights[-1][1])
+        if min(hypot(own_x, own_y), hypot(x, y)) < LEAST_DISTANCE:
             return
         waiting.turn = atan2(own_x * y - own_y * x, own_x * x + own_y * y)
         stood = _mean([turned(own, waiting.turn) for own, _ in (*lefts, *rights)])
-        waiting.offset = sub(_mean([beside for _, beside in (*lefts, *rights)]), stood)
-        self._doubt(waiting, other)
-        waiting.waits = False
-        self.newest = LEFT if waiting is left else Foot.RIGHT
-        self.steps = []
+        waiting.offset = sub(_mean([others for _, others in (*lefts, *rights)]), stood)
+        self._set_added_variance(waiting, other)
+        waiting.unplaced = False
+        self.placed_last = LEFT if waiting is left else Foot.RIGHT
+        self.return_strides = []
 
     @staticmethod
-    def _doubt(this: PlacedTrack, other: PlacedTrack) -> None:
-        """What its place is uncertain by from now on: as the other's is."""
+    def _set_added_variance(this: PlacedTrack, other: PlacedTrack) -> None:
+        """Set the foot's added variance so that its place is as uncertain as the other foot's."""
         across, up = other.variance or (0.0, 0.0)
         own_across, own_up = this.variance or (0.0, 0.0)
-        more, higher = other.spread
-        this.spread = (max(0.0, across + more - own_across), max(0.0, up + higher - own_up))
+        more, higher = other.added_variance
+        this.added_variance = (max(0.0, across + more - own_across), max(0.0, up + higher - own_up))
 
 
-def _way(begin: Vec3, end: Vec3, other_begin: Vec3, other_end: Vec3) -> Vec3:
-    """The mean of two ways, m."""
-    return _mean([sub(end, begin), sub(other_end, other_begin)])
+def _mean_displacement(start: Vec3, end: Vec3, other_start: Vec3, other_end: Vec3) -> Vec3:
+    """Return the mean of two displacements, m."""
+    return _mean([sub(end, start), sub(other_end, other_start)])
 
 
 def _mean(vectors: list[Vec3]) -> Vec3:

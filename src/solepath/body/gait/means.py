@@ -1,12 +1,12 @@
-"""Running means of steady strides: what a clinician reads off a walk.
+"""Running means of steady strides.
 
-Up to `MEMORY` strides of a foot (two minutes of walking) the means are plain ones; from then on each new stride weighs
-as much as one of so many, and what is old fades. Walking and running are added up apart.
+Up to `MEMORY` strides of a foot (two minutes of walking) the means are plain ones; from then on each new stride has the
+weight of one in `MEMORY`, and old strides fade. Walking and running have separate means.
 
 Means and standard deviations of both feet together: the mean of the feet's means, and the root of the mean of their
 variances, so that a difference between the feet does not count as variability (Galna et al. 2013, Gait & Posture 37;
 Lord et al. 2013, J. Gerontol. A 68). Variability is that standard deviation, or relative to the mean the coefficient of
-variation (Hausdorff 2005, J. NeuroEng. Rehabil. 2). It takes at least 30 steps to mean something (Galna et al.).
+variation (Hausdorff 2005, J. NeuroEng. Rehabil. 2). It needs at least 30 steps to be meaningful (Galna et al.).
 """
 
 from __future__ import annotations
@@ -19,29 +19,29 @@ from ...types import Foot, Word
 from ...types.attrs import define, field, fields, frozen
 
 MEMORY = 120
-"""Strides of a foot."""
+"""Number of strides of a foot that a running mean covers."""
 
 
 @define
 class RunningMean:
-    """Mean and variance of a figure. O(1)."""
+    """The running mean and variance of one gait parameter; O(1)."""
 
     count: int = 0
-    """Values, up to those that are remembered."""
+    """Number of values, up to the number remembered."""
     mean: float = 0.0
     variance: float = 0.0
-    """About the mean, by the weights of the values."""
+    """Variance about the mean, by the weights of the values."""
 
     @property
     def figure(self) -> Figure:
-        """As it is now."""
+        """Mean and standard deviation as they are now."""
         # the variance of a sample of n is n / (n - 1) times that about its own mean
         sd = sqrt(self.variance * self.count / (self.count - 1)) if self.count > 1 else None
         return Figure(self.mean, sd, self.count)
 
 
 def add(figures: Iterable[tuple[RunningMean, float]], memory: int) -> None:
-    """One more value for each; older ones fade once there were `memory`."""
+    """Add one value to each running mean; older values fade once there are `memory`."""
     for figure, value in figures:
         figure.count = min(figure.count + 1, memory)
         weight = 1.0 / figure.count
@@ -57,7 +57,7 @@ class Figure:
     mean: float
     sd: float | None
     strides: int
-    """Over which it was taken; of a session at most 120 of a foot."""
+    """Number of strides of this figure; of a session at most 120 of a foot."""
 
     @property
     def cv(self) -> float | None:
@@ -67,8 +67,7 @@ class Figure:
 
 @frozen
 class StrideFigures:
-    """The parameters of GaitCycleMeasured over steady strides, of one foot or of both; None where none could be
-    told."""
+    """The parameters of GaitCycleMeasured over steady strides, of one foot or of both; None: not measured."""
 
     stride_time: Figure | None = None
     stance_time: Figure | None = None
@@ -87,7 +86,7 @@ class StrideFigures:
     heel_strike_angle: Figure | None = None
 
     def share(self, name: str) -> float | None:
-        """Mean of a time as a share of the mean stride time; None where it could not be told."""
+        """Return the mean of a time as a share of the mean stride time; None where it is not known."""
         time: Figure | None = getattr(self, name)
         if time is None or self.stride_time is None:
             return None
@@ -95,17 +94,20 @@ class StrideFigures:
 
     @property
     def double_support(self) -> float | None:
-        """Mean of initial and terminal double support together, s; below zero of a runner, who flies for so long."""
+        """Mean of initial and terminal double support together, s.
+
+        It is below zero for a runner, whose flight lasts as long.
+        """
         if self.initial_double_support is None or self.terminal_double_support is None:
             return None
         return self.initial_double_support.mean + self.terminal_double_support.mean
 
 
-NAMES = tuple(one.name for one in fields(StrideFigures))
+PARAMETER_NAMES = tuple(one.name for one in fields(StrideFigures))
 
 
 class Parameter(Word):
-    """What is summed up: the fields of StrideFigures, and |phase - 0.5|."""
+    """The parameters that have running means: the fields of StrideFigures, and |phase - 0.5|."""
 
     STRIDE_TIME = "stride_time"
     STANCE_TIME = "stance_time"
@@ -125,33 +127,39 @@ class Parameter(Word):
     OFF_PHASE = "off_phase"
 
 
-MEASURED = tuple([Parameter(name) for name in NAMES])
+MEASURED = tuple([Parameter(name) for name in PARAMETER_NAMES])
 
 
 @frozen
 class GaitParameters:
-    """Running means over steady strides (body/gait/measuring.py says which those are). `running`: of strides that were
-    run. `feet`: each foot's own, of those that took steady strides; `both`: of both together."""
+    """Running means over steady strides (body/gait/measuring.py defines them).
+
+    `running`: of strides that were run. `feet`: figures of each foot that has steady strides; `both`: of both together.
+    """
 
     running: bool
     feet: dict[Foot, StrideFigures]
     both: StrideFigures
     coordination: float | None
-    """Phase coordination index (Plotnik et al. 2007, Exp. Brain Res. 181): the coefficient of variation of the phase of
-    the foot that swings longer, and the mean of how far that phase is from a half, relative to a half. A share (0.03 is
-    3 %): 0.02 to 0.04 of healthy walkers. None without both feet."""
+    """Phase coordination index, as a share (0.03 is 3 %); None without both feet.
+
+    It is the coefficient of variation of the phase of the foot that swings longer, plus the mean distance of that phase
+    from a half, relative to a half (Plotnik et al. 2007, Exp. Brain Res. 181). Healthy walkers have 0.02 to 0.04.
+    """
 
     @property
     def cadence(self) -> float | None:
-        """Steps a minute: 120 / mean stride time."""
+        """Cadence, steps a minute: 120 / mean stride time."""
         time = self.both.stride_time
         return None if time is None else 120.0 / time.mean
 
     def asymmetry(self, name: str) -> float | None:
-        """Symmetry index of a parameter of StrideFigures, (right - left) / (half of right + left), as a share (0.05 is
-        5 %): 0 of equal feet, positive where the right one's is larger (Robinson et al. 1987, J. Manip. Physiol. Ther.
-        10). Of swing times |ln(right / left)| of Plotnik et al. 2005 (Ann. Neurol. 57) is nearly its size. None where
-        one foot's is not known, or both are zero."""
+        """Return the symmetry index of a parameter, (right - left) / (half of right + left), as a share (0.05 is 5 %).
+
+        It is 0 for equal feet and positive where the right one's is larger (Robinson et al. 1987, J. Manip. Physiol.
+        Ther. 10). For swing times |ln(right / left)| of Plotnik et al. 2005 (Ann. Neurol. 57) has nearly the same size.
+        It is None where one foot's figure is not known, or both are zero.
+        """
         left, right = (getattr(self.feet.get(foot), name, None) for foot in Foot)
         if left is None or right is None or left.mean + right.mean == 0.0:
             return None
@@ -160,18 +168,18 @@ class GaitParameters:
 
 
 @define
-class StrideSums:
-    """Of one way of moving: by foot and parameter."""
+class ParameterMeans:
+    """Running means of walking or of running, by foot and parameter."""
 
     left: dict[Parameter, RunningMean] = field(factory=dict)
     right: dict[Parameter, RunningMean] = field(factory=dict)
 
-    def of(self, foot: Foot) -> dict[Parameter, RunningMean]:
-        """A foot's."""
+    def of_foot(self, foot: Foot) -> dict[Parameter, RunningMean]:
+        """Return the running means of a foot."""
         return self.left if foot is Foot.LEFT else self.right
 
     def add(self, stride: GaitCycleMeasured, memory: int) -> None:
-        """One more stride; older ones fade once there were `memory`."""
+        """Add one stride; older ones fade once there are `memory`."""
         sums = self.left if stride.foot is Foot.LEFT else self.right
         figures: list[tuple[RunningMean, float]] = []
         for parameter in MEASURED:
@@ -184,7 +192,7 @@ class StrideSums:
 
     @property
     def coordination(self) -> float | None:
-        """As in GaitParameters."""
+        """Phase coordination index, as in GaitParameters."""
         known = [sums for sums in (self.left, self.right) if Parameter.PHASE in sums]
         if len(known) < 2:
             return None
@@ -205,19 +213,22 @@ def _swing(sums: dict[Parameter, RunningMean]) -> float:
 
 @define
 class GaitMeans:
-    """Every stride in, running means of the steady ones out: each is counted once the next one of its foot follows, so
-    that the last one before a stop is not."""
+    """The running means of the steady strides of both feet.
+
+    A stride is counted once the next one of its foot follows, so that the last one before a stop is not.
+    """
 
     left: GaitCycleMeasured | None = field(default=None, init=False)
+    """Newest stride of the left foot."""
     right: GaitCycleMeasured | None = field(default=None, init=False)
-    """The foot's newest stride."""
-    walked: StrideSums = field(factory=StrideSums, init=False)
-    run: StrideSums = field(factory=StrideSums, init=False)
+    """Newest stride of the right foot."""
+    walked: ParameterMeans = field(factory=ParameterMeans, init=False)
+    run: ParameterMeans = field(factory=ParameterMeans, init=False)
     running: bool | None = field(default=None, init=False)
-    """What the newest stride that counts was; None before any."""
+    """Flag: the newest stride that counts was run; None before any."""
 
-    def hear(self, stride: GaitCycleMeasured, memory: int = MEMORY) -> None:
-        """One more stride, of either foot in the order of its time; its foot's old ones fade after `memory`."""
+    def add(self, stride: GaitCycleMeasured, memory: int = MEMORY) -> None:
+        """Add one stride, of either foot in the order of time; old strides of its foot fade after `memory`."""
         if stride.foot is Foot.LEFT:
             before, self.left = self.left, stride
         else:
@@ -227,7 +238,7 @@ class GaitMeans:
             (self.run if running else self.walked).add(before, memory)
 
     def reset(self, foot: Foot) -> None:
-        """Nothing that comes follows what came."""
+        """Reset a foot: its next stride does not follow its newest one."""
         if foot is Foot.LEFT:
             self.left = None
         else:
@@ -235,21 +246,21 @@ class GaitMeans:
 
     @property
     def parameters(self) -> GaitParameters | None:
-        """Of what the wearer does now, walking or running; None before any stride."""
+        """Running means of walking or running, whichever the newest stride that counts was; None before any."""
         return None if self.running is None else self.of(self.running)
 
     def of(self, running: bool) -> GaitParameters | None:
-        """Of walking or of running; None where there was none."""
+        """Return the running means of walking or of running; None where there was none."""
         sums = self.run if running else self.walked
-        feet = {foot: _figures(sums.of(foot)) for foot in Foot if sums.of(foot)}
+        feet = {foot: _figures(sums.of_foot(foot)) for foot in Foot if sums.of_foot(foot)}
         if not feet:
             return None
-        both = {name: together([getattr(one, name) for one in feet.values()]) for name in NAMES}
+        both = {name: combined([getattr(one, name) for one in feet.values()]) for name in PARAMETER_NAMES}
         return GaitParameters(running, feet, StrideFigures(**both), sums.coordination)
 
 
-def together(figures: list[Figure | None]) -> Figure | None:
-    """Of both feet: mean of the means, root of the mean variance."""
+def combined(figures: list[Figure | None]) -> Figure | None:
+    """Return the figure of both feet: mean of the means, root of the mean variance."""
     known = [figure for figure in figures if figure is not None]
     if not known:
         return None

@@ -1,9 +1,9 @@
-"""Which steps turn and which go straight on (Liu et al. 2015, IEEE MASS, section IV.D).
+"""Separation of turning strides from straight ones (Liu et al. 2015, IEEE MASS, section IV.D).
 
 "FootStep-Tracker use low-pass filter to extract the turning steps from the steps of walking straight ahead." The paper
-gives no filter. A foot's turn of a straight step is not zero: it has a habit of its own (what the ankle does while the
-foot is off the ground), and noise. The habit is the low-passed turn; a step that differs from it by more than
-`NO_TURN` is a turning step and turns by that difference; any other goes straight on.
+gives no filter. A foot's turn in a straight stride is not zero: each foot has its own usual turn (by the motion of the
+ankle while the foot is off the ground), and noise. The usual turn is the low-passed turn. A stride that differs from it
+by more than `NO_TURN` is a turning stride and turns by that difference; any other goes straight on.
 """
 
 from __future__ import annotations
@@ -11,26 +11,30 @@ from __future__ import annotations
 from ...types.attrs import define, field
 
 NO_TURN = 0.12
-"""What straight steps differ by, rad: 3 degrees are their standard deviation on recorded feet, and 11 degrees a step
-lead round a circle of 7 m."""
-CORNER = 0.35
-"""A step that turns further is no habit, rad."""
+"""Largest deviation of a straight stride, rad.
+
+The standard deviation is 3 degrees on recorded feet, and 11 degrees a stride lead round a circle of 7 m.
+"""
+LARGEST_DEVIATION = 0.35
+"""Largest deviation of a stride that enters the usual turn, rad."""
 WEIGHT = 0.1
-"""Of a step in the low pass."""
-LARGEST_HABIT = 0.3
-"""No habit is larger, rad."""
+"""Weight of one stride in the low-pass filter."""
+LARGEST_STRAIGHT_TURN = 0.3
+"""Largest usual turn of a straight stride, rad."""
 
 
 @define
 class TurningSteps:
-    """O(1), no latency."""
+    """The low-pass filter of one foot: O(1), no latency."""
 
-    habit: float = field(default=0.0, init=False)
-    """rad."""
+    straight_turn: float = field(default=0.0, init=False)
+    """Usual turn of a straight stride, rad."""
 
     def turn(self, angle: float) -> float:
-        """One step that turned by `angle`, rad: by how much the way turned."""
-        off = angle - self.habit
-        if abs(off) < CORNER:
-            self.habit = min(max(self.habit + WEIGHT * off, -LARGEST_HABIT), LARGEST_HABIT)
+        """Add one stride that turned by `angle`, rad, and return by how much the path turned, rad."""
+        off = angle - self.straight_turn
+        if abs(off) < LARGEST_DEVIATION:
+            self.straight_turn = min(
+                max(self.straight_turn + WEIGHT * off, -LARGEST_STRAIGHT_TURN), LARGEST_STRAIGHT_TURN
+            )
         return off if abs(off) > NO_TURN else 0.0

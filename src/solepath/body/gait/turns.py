@@ -1,11 +1,10 @@
-"""Left, right and about turns, told apart by a linear classifier on what both feet turned (Liu et al. 2015,
-IEEE MASS, section V.E: "we use the degree of both foot as features of the turn, and use SVM").
+"""Classification of turns: left, right or about, by a linear classifier on the turns of both feet.
 
-An about turn to the left and one to the right lie on both sides of everything else, which no line through the plane of
-two angles parts; with their magnitudes beside them one does. Features of a turn, in half turns (rad / pi):
-left, right, |left|, |right|, 1. The class is that of the largest of three linear functions of them. The weights come
-from `python -m solepath.lab.train.turns`, which says what they were trained on; of a foot that was not heard the
-other's angle is taken.
+Liu et al. 2015, IEEE MASS, section V.E: "we use the degree of both foot as features of the turn, and use SVM". About
+turns to the left and to the right lie on both sides of all others, which no line in the plane of the two angles
+separates; with their magnitudes as features one does. Features of a turn, in half turns (rad / pi): left, right,
+|left|, |right|, 1. The class is that of the largest of three linear functions of them. The weights come from `python -m
+solepath.lab.train.turns`, which lists the training data. For a foot without samples the other foot's angle is used.
 """
 
 from __future__ import annotations
@@ -20,30 +19,33 @@ from ...types import Foot, Quat, Site, Turn
 from ...types.attrs import define, field
 from ...types.vector import heading_turned
 from ..part import Part, PartOutput
-from .direction import Direction, TurnProcess
+from .turn_detector import TurnDetector, TurnProcess
 
-SLIGHT = 0.61
-"""A turn by less than this is a bend and none of the three: half-way between 0 and the 70 degrees that the slightest
-turns to the side come to, rad."""
+LEAST_TURN = 0.61
+"""Angle below which a turn is a bend and has no class, rad.
+
+It is half-way between 0 and the 70 degrees of the slightest turns to the side.
+"""
 
 WEIGHTS: dict[Turn, tuple[float, float, float, float, float]] = {
     Turn.LEFT: (2.79, 1.82, -4.51, -5.9, 4.24),
     Turn.RIGHT: (-1.82, -2.79, -5.9, -4.51, 4.24),
     Turn.ABOUT: (-1.32, 1.32, 4.05, 4.05, -5.55),
 }
+"""Weights of the five features for each class."""
 
 
 def features(left: float, right: float) -> tuple[float, float, float, float, float]:
-    """Of what the feet turned, rad."""
+    """Return the features of a turn by the angles of both feet, rad."""
     x, y = left / pi, right / pi
     return (x, y, abs(x), abs(y), 1.0)
 
 
-def classified(left: float | None, right: float | None) -> Turn | None:
-    """The class of a turn by what each foot turned, rad; None of a slight one."""
+def classify(left: float | None, right: float | None) -> Turn | None:
+    """Return the class of a turn by the angles of both feet, rad; None for a slight one."""
     one = right if left is None else left
     other = left if right is None else right
-    if one is None or other is None or abs(one + other) < 2.0 * SLIGHT:
+    if one is None or other is None or abs(one + other) < 2.0 * LEAST_TURN:
         return None
     known = features(one, other)
     scores = {turn: sum(w * x for w, x in zip(weights, known, strict=True)) for turn, weights in WEIGHTS.items()}
@@ -51,75 +53,76 @@ def classified(left: float | None, right: float | None) -> Turn | None:
 
 
 @define
-class Lain:
-    """When a foot was last flat, s, and its attitude then, navigation frame."""
+class FlatFoot:
+    """The newest foot-flat of a foot: its time, s, and the attitude at it, navigation frame."""
 
-    since: float
+    t: float
     attitude: Quat
 
 
 @define
 class Turns(Part):
-    """What the wearer's steps turned, and what the feet did between them. Latency: as `Direction` has it."""
+    """Detects and classifies turns from strides and from the pivots between them; latency: see `TurnDetector`."""
 
     needs_samples: ClassVar[bool] = True
 
-    direction: Direction = field(factory=Direction, init=False)
-    lain: dict[Foot, Lain] = field(factory=dict, init=False)
+    detector: TurnDetector = field(factory=TurnDetector, init=False)
+    last_flat: dict[Foot, FlatFoot] = field(factory=dict, init=False)
+    """Newest foot-flat of each foot."""
     idle: bool = field(default=True, init=False)
-    """No turn is under way."""
+    """Flag: no turn is under way."""
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """The turns that are over."""
+        """Add one sample of a foot with its events, and return the turns that are over."""
         found: list[TurnProcess] = []
         known_at = view.t
         for event in view.events:
             turned = None
             if isinstance(event, StrideTaken):
-                turned = self.direction.step(event)
+                turned = self.detector.add_stride(event)
             elif isinstance(event, FootFlat) and view.levelled:
                 turned = self._flat(view, event)
             if turned is not None:
                 known_at = event.known_at
                 found.append(turned)
-        if not found and self.direction.began is not None:
-            turned = self.direction.stood(view.t)
+        if not found and self.detector.t_start is not None:
+            turned = self.detector.advance(view.t)
             if turned is not None:
                 known_at = view.known_at
                 found.append(turned)
-        self.idle = self.direction.began is None
-        return [made(turned, known_at) for turned in found if abs(turned.angle) > 0.5 * SLIGHT]
+        self.idle = self.detector.t_start is None
+        return [turn_event(turned, known_at) for turned in found if abs(turned.angle) > 0.5 * LEAST_TURN]
 
     def _flat(self, view: FootView, event: FootFlat) -> TurnProcess | None:
-        """A foot that is flat without a stride may have pivoted."""
-        lay, now = self.lain.get(event.foot), view.after.stood
-        self.lain[event.foot] = Lain(event.t, now)
+        """Add a foot-flat: without a stride the foot may have pivoted."""
+        before, now = self.last_flat.get(event.foot), view.after.stood
+        self.last_flat[event.foot] = FlatFoot(event.t, now)
         stepped = view.after.covariance is not None and any(
             [isinstance(one, StrideTaken) and one.t == event.t for one in view.events]
         )
-        if lay is None or stepped or event.t < lay.since:
+        if before is None or stepped or event.t < before.t:
             return None
-        return self.direction.pivot(event.foot, lay.since, event.t, heading_turned(lay.attitude, now))
+        return self.detector.add_pivot(event.foot, before.t, event.t, heading_turned(before.attitude, now))
 
     def finish(self, now: float) -> Sequence[PartOutput]:
-        """Nobody steps any more: the turn under way, if any, is over."""
-        turned = self.direction.finish()
-        return [] if turned is None or abs(turned.angle) <= 0.5 * SLIGHT else [made(turned, now)]
+        """Return the turn under way, if any: no more samples come."""
+        turned = self.detector.finish()
+        return [] if turned is None or abs(turned.angle) <= 0.5 * LEAST_TURN else [turn_event(turned, now)]
 
     def reset(self, site: Site) -> None:
-        """The clock of a site's samples restarts."""
+        """Reset a foot whose clock restarts."""
         if site.foot is not None:
-            self.direction.reset(site.foot)
+            self.detector.reset(site.foot)
             self.idle = True
-            self.lain.pop(site.foot, None)
+            self.last_flat.pop(site.foot, None)
 
 
-def made(turned: TurnProcess, known_at: float) -> TurnMade:
-    """The event of a turn that was known at `known_at`, s."""
+def turn_event(turned: TurnProcess, known_at: float) -> TurnMade:
+    """Return the event of a turn that was known at `known_at`, s."""
     return TurnMade(
         t=turned.t_end,
         known_at=max(known_at, turned.t_end),
         t_start=turned.t_start,
         angle=turned.angle,
-        turn=classified(turned.left, turned.right),
+        turn=classify(turned.left, turned.right),
     )

@@ -1,4 +1,4 @@
-"""Where a floor plan's stairs and lifts can be entered, and where one who enters there comes out."""
+"""Landings: the places at which a floor plan's stairs and lifts are entered and left."""
 
 from __future__ import annotations
 
@@ -8,42 +8,42 @@ from ...floorplan.plan import ConnectorKind, FloorPlan, Point
 from ...types.attrs import frozen
 
 REACH = 5.0
-"""Somebody who goes onto stairs or into a lift is within this of it as the track has it, m."""
-APART = 2.5
-"""Standard deviation of the distance, m."""
-BESIDE = 4.0
-"""So near to stairs or a lift one may be on them, m."""
-OFF = 0.35
-"""Standard deviation of a told height, m, ..."""
-OFF_SHARE = 0.12
-"""... and per m."""
+"""Largest distance on the track between a wearer and the stairs or lift that he enters, m."""
+DISTANCE_DEVIATION = 2.5
+"""Standard deviation of that distance, m."""
+NEAR_LANDING = 4.0
+"""Distance from stairs or a lift within which the wearer may be on them, m."""
+HEIGHT_ERROR = 0.35
+"""Standard deviation of a reported height, m, as a constant part."""
+HEIGHT_ERROR_SHARE = 0.12
+"""Standard deviation of a reported height, m per m, which adds to `HEIGHT_ERROR`."""
 LOW, HIGH = 2.4, 5.0
-"""Usual heights of a storey, m."""
-UNLIKELY = 0.02
-"""Of the best one: less likely ways out are none."""
+"""Usual heights of a storey, m: least and largest."""
+LEAST_LIKELY = 0.02
+"""Least likelihood of an exit, as a share of the best one's."""
 
 
 @frozen
 class Landing:
-    """A stop with its connector and level."""
+    """A stop of a connector on one level."""
 
     index: int
-    """One more than its place among all stops of the plan."""
+    """Index of the stop among all stops of the plan, plus one."""
     connector: int
-    """Its connector's place in the plan."""
+    """Index of its connector in the plan."""
     kind: ConnectorKind
     level: int
-    """Its level's place in the plan."""
+    """Index of its level in the plan."""
     ordinal: int
-    """Its level's place in the order of storeys."""
+    """Ordinal of its level among the storeys."""
     elevation: float
-    """m"""
+    """Elevation of its level, m."""
     place: Point
-    """m, plan frame."""
+    """Place, m, plan frame."""
 
 
 def landings(plan: FloorPlan) -> list[Landing]:
-    """All of them, connector by connector, from the lowest up."""
+    """Return all landings, connector by connector, from the lowest up."""
     levels = {level.id: k for k, level in enumerate(plan.levels)}
     found: list[Landing] = []
     for c, connector in enumerate(plan.connectors):
@@ -56,27 +56,26 @@ def landings(plan: FloorPlan) -> list[Landing]:
     return found
 
 
-def nearest(
-    all_of_them: list[Landing], kind: ConnectorKind, level: int, x: float, y: float
-) -> tuple[Landing, float] | None:
-    """The nearest landing of a kind on a level, and how likely it is that somebody at (x, y) goes there; None where
-    none is within reach."""
+def nearest(stops: list[Landing], kind: ConnectorKind, level: int, x: float, y: float) -> tuple[Landing, float] | None:
+    """Return the nearest landing of a kind on a level, and its likelihood for a wearer at (x, y); None out of reach."""
     best, distance = None, REACH
-    for landing in all_of_them:
+    for landing in stops:
         if landing.kind is kind and landing.level == level:
             away = hypot(landing.place[0] - x, landing.place[1] - y)
             if away <= distance:
                 best, distance = landing, away
-    return None if best is None else (best, exp(-0.5 * (distance / APART) ** 2))
+    return None if best is None else (best, exp(-0.5 * (distance / DISTANCE_DEVIATION) ** 2))
 
 
 def ways_out(
-    plan: FloorPlan, all_of_them: list[Landing], entered: Landing, up: bool, height: float | None
+    plan: FloorPlan, stops: list[Landing], entered: Landing, up: bool, height: float | None
 ) -> list[tuple[Landing, float]]:
-    """Where one who entered there and rode or climbed `height` m (None: any) comes out, with how likely each is. Where
-    the plan knows no heights, any usual height of a storey is as good."""
+    """Return the exits for a wearer who entered there and gained `height` m (None: any), with their likelihoods.
+
+    Where the plan has no heights, all usual heights of a storey are alike.
+    """
     ways = []
-    for landing in _along(all_of_them, entered):
+    for landing in _along(stops, entered):
         rise = landing.elevation - entered.elevation
         if rise > 0.0 if up else rise < 0.0:
             low = high = abs(rise)
@@ -84,24 +83,24 @@ def ways_out(
                 storeys = max(abs(landing.ordinal - entered.ordinal), 1)
                 low, high = LOW * storeys, HIGH * storeys
             out = 0.0 if height is None else max(low - height, height - high, 0.0)
-            off = out / (OFF + OFF_SHARE * low)
+            off = out / (HEIGHT_ERROR + HEIGHT_ERROR_SHARE * low)
             ways.append((landing, exp(-0.5 * min(off * off, 1000.0))))
     most = max([weight for _, weight in ways], default=0.0)
     if most <= 0.0:
         return [(landing, 1.0 / len(ways)) for landing, _ in ways]
-    return [(landing, weight / most) for landing, weight in ways if weight >= UNLIKELY * most]
+    return [(landing, weight / most) for landing, weight in ways if weight >= LEAST_LIKELY * most]
 
 
-def _along(all_of_them: list[Landing], entered: Landing) -> list[Landing]:
-    """The landings of the same connector: they stand side by side."""
+def _along(stops: list[Landing], entered: Landing) -> list[Landing]:
+    """Return the landings of the same connector: they are consecutive."""
     first = last = entered.index - 1
-    while first > 0 and all_of_them[first - 1].connector == entered.connector:
+    while first > 0 and stops[first - 1].connector == entered.connector:
         first -= 1
-    while last < len(all_of_them) and all_of_them[last].connector == entered.connector:
+    while last < len(stops) and stops[last].connector == entered.connector:
         last += 1
-    return all_of_them[first:last]
+    return stops[first:last]
 
 
-def beside(all_of_them: list[Landing], level: int, x: float, y: float) -> bool:
-    """Whether somebody at (x, y), m, may be on stairs or in a lift already."""
-    return any([stop.level == level and hypot(stop.place[0] - x, stop.place[1] - y) < BESIDE for stop in all_of_them])
+def is_near_landing(stops: list[Landing], level: int, x: float, y: float) -> bool:
+    """Return whether a wearer at (x, y), m, may be on stairs or in a lift already."""
+    return any([stop.level == level and hypot(stop.place[0] - x, stop.place[1] - y) < NEAR_LANDING for stop in stops])

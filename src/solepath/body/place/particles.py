@@ -1,8 +1,8 @@
-"""A particle filter on the floor plan.
+"""Particle filter on the floor plan.
 
-Every particle is a reading of the track that sways by chance (sway.py). One that would go through a wall tries again,
-erring more and counting less; when that fails, it is gone. Those that are left are the places where the wearer can be.
-Chance is a table of numbers and a count, so it is the same everywhere.
+Every particle is a row (rows.py) that moves with random errors (sway.py). A particle that would go through a wall tries
+again with larger errors and less weight; when that fails, it is removed. The others are the places where the wearer can
+be. Random numbers come from a table and a count, so they are the same everywhere.
 """
 
 from __future__ import annotations
@@ -10,26 +10,26 @@ from __future__ import annotations
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
 from ...types.attrs import define
-from .crowd import Row, resampled
-from .noise import NOISE, ROWS, following
+from .noise import NOISE, ROWS, next_random
 from .placing import Placing
-from .sway import swayed
+from .rows import Row, resampled
+from .sway import sway_rows
 
 
 @define
 class Particles(Placing):
-    """The default for every recipe."""
+    """The particle filter: the default for every recipe."""
 
-    def extended(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
-        """The rows a move further; without those that cannot go there."""
-        self.random = following(self.random)
-        return swayed(plan, rows, move, rough, turned, self.random, False)
+    def extend(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
+        """Return the rows after a move, without those that cannot go there."""
+        self.random = next_random(self.random)
+        return sway_rows(plan, rows, move, rough, turned, self.random, False)
 
-    def scattered(self, k: int, count: int) -> tuple[float, float, float, float]:
-        """For the k-th of `count` new rows, each from -1 to 1: x, y, heading, stretch."""
+    def scatter(self, k: int, count: int) -> tuple[float, float, float, float]:
+        """Return offsets for the k-th of `count` new rows, each from -1 to 1: x, y, heading, stretch."""
         return NOISE[k % ROWS]
 
-    def thinned(self, rows: list[Row], wanted: int) -> list[Row]:
-        """So many rows, each as often as it is believed."""
-        self.random = following(self.random)
-        return resampled(rows, wanted, (self.random % 4093) / 4093.0)
+    def thin(self, rows: list[Row], count: int) -> list[Row]:
+        """Return `count` rows, drawn by their weights."""
+        self.random = next_random(self.random)
+        return resampled(rows, count, (self.random % 4093) / 4093.0)

@@ -1,10 +1,11 @@
-"""Where on a floor plan the wearer is: what both methods have in common.
+"""Place of the wearer on a floor plan: the common part of both methods.
 
-The track has a shape, but nobody knows how it lies in the plan. Stairs and lifts tell a place (a known start does,
-too); walls tell the rest: of all ways in which the track could lie there, those that lead through walls are wrong (Liu
-et al. 2015, section IV.E). Stairs and lifts lead to another level, and where they end is where the plan has it.
+The track has a shape, but its placement in the plan is not known. Stairs and lifts give a place (a known start does,
+too); walls give the rest: placements of the track that lead through walls are wrong (Liu et al. 2015, section IV.E).
+Stairs and lifts lead to another level, and they end where the plan has them.
 
-The track itself is never bent. Latency: a place is told with the step that leads there, a level as reference.py says.
+The track itself is never bent. Latency: a place is reported with the stride that leads there, a level as in
+reference.py.
 """
 
 from __future__ import annotations
@@ -18,96 +19,102 @@ from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Start
 from ...types.attrs import NOT_SAVED, define, field
 from ..part import MOVEMENTS, PartInput, PartOutput
-from .arrivals import fan, nowhere
-from .crowd import AGREED, Row, believed, effective, rounded
-from .levels import FARTHEST, FEW, ROUGH, Levels
-from .readings import ABOUT, looked, mistold
+from .arrivals import fan, start_error
+from .levels import DEGRADED_FACTOR, KNOWN_ROWS, LONGEST_JUMP, LevelChanges
+from .place_hypotheses import ABOUT_TURN, penalise_outside, wrong_turns
 from .reference import Arrived, Held
+from .rows import ONE_CANDIDATE, Row, candidates_of, effective, rounded
 
-MORE = 30
-"""So many more readings are kept for every other candidate, when it is not faint, than once the place is known."""
-OUTSIDE = 6
-"""After so many steps outside of everything that the plan has, the wearer has left it."""
-LOOK = 4
-"""Every so many steps it is looked who has left the plan."""
-WIDE = 12
-"""Steps until the walls have decided which way an about-turn led."""
-APART = 0.5
-"""Until then all places together are one candidate only when they differ by no more (rms), m."""
-STUCK = 5.0
-"""When nobody could go on for so much of the track, m, there is no way."""
-CLEAR, FADE, ASIDE = 0.9, 0.88, 3.0
-"""Where one place has so much of the belief, the one that is within `ASIDE`, m, of it on another level keeps so much of
-its own with each step: floors are often alike, and then no wall ever decides."""
+ROWS_PER_CANDIDATE = 30
+"""Number of further rows that are kept for every other candidate of some weight."""
+MOST_OUTSIDE = 6
+"""Number of strides outside of the plan after which the wearer has left it."""
+OUTSIDE_INTERVAL = 4
+"""Number of strides between two checks for rows outside of the plan."""
+WIDE_STRIDES = 12
+"""Number of strides until the walls have decided which way an about-turn led."""
+WIDE_LIMIT = 0.5
+"""Largest deviation (rms) at which all places are one candidate until then, m."""
+LONGEST_STUCK = 5.0
+"""Length of the track without a possible row after which the place is lost, m."""
+CLEAR_WEIGHT, FADE_FACTOR, FADE_RADIUS = 0.9, 0.88, 3.0
+"""Weight of a clear candidate, factor of the weight of rows on other levels, and their distance from it, m.
+
+Rows within that distance on another level keep this share of their weight with each stride: floors are often alike, and
+then no wall ever decides.
+"""
 
 
 @define
-class Placing(Levels):
-    """What both methods do alike: they start, change level, end and tell. How they extend the track is their own."""
+class Placing(LevelChanges):
+    """The common part of both methods: start, change of level, loss and report of the place."""
 
     needs_position: ClassVar[bool] = True
 
     plan: IndexedPlan | None = field(default=None, init=False, eq=False, repr=False, metadata=NOT_SAVED)
-    """Where the wearer is; whoever makes or restores a session sets it, since it is not saved."""
-    waiting: list[Event] = field(factory=list, init=False)
-    """What was said since the wearer moved last."""
+    """The floor plan; it is not saved, and is set when a session is made or restored."""
+    pending: list[Event] = field(factory=list, init=False)
+    """Events since the wearer's last move."""
     start: Start | None = field(default=None, init=False)
-    begun: bool = field(default=False, init=False)
+    started: bool = field(default=False, init=False)
+    """Flag: the first position was followed."""
     t: float | None = field(default=None, init=False)
-    steps: int = field(default=0, init=False)
+    """Time of the newest position, s."""
+    stride_count: int = field(default=0, init=False)
+    """Number of strides since the last check for rows outside of the plan."""
     outside: int = field(default=0, init=False)
-    """Steps since the wearer was last within the plan."""
+    """Number of strides since the wearer was last within the plan."""
     wide: int = field(default=0, init=False)
-    """Steps for which more readings are kept than belief asks for."""
+    """Number of strides for which more rows are kept than their weights need."""
     stuck: float = field(default=0.0, init=False)
-    """Track, m, since anybody could go on."""
+    """Length of the track since a row could move, m."""
     newest: Placed | None = field(default=None, init=False)
+    """The newest place that was reported, None once it is lost."""
 
     @property
     def place(self) -> Placed | None:
-        """Where the wearer is on the plan; None while it is of no use."""
+        """Place of the wearer on the plan; None while it is not known."""
         return self.newest
 
     def set_out(self, start: Start) -> None:
-        """The wearer sets out there. To be told before the first `follow`. ValueError for what is no number."""
+        """Set the start of the wearer, before the first `follow`; raises ValueError for values that are no numbers."""
         numbers = (*start.place, start.spread, 0.0 if start.heading is None else start.heading)
         if not all([isfinite(number) for number in numbers]):
             raise ValueError(f"a start's place, heading and spread are numbers, not {numbers}")
         self.start = start
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """What leads somewhere waits until it is known where the wearer is after it."""
+        """Receive an event and hold it back until the wearer's position after it is known."""
         if isinstance(event, MOVEMENTS):
-            self.waiting.append(event)
+            self.pending.append(event)
         elif isinstance(event, WearerMoved) and self.plan is not None:
-            events, self.waiting = self.waiting, []
+            events, self.pending = self.pending, []
             return self.follow(self.plan, events, event)
         return ()
 
     def follow(self, plan: IndexedPlan, events: list[Event], here: WearerMoved) -> list[Event]:
-        """One step, one activity, or what has come together; the wearer is `here` after it. Never raises, whatever the
-        track does."""
-        told: list[Event] = []
+        """Follow a stride, an activity, or several events, after which the wearer is `here`; never raises."""
+        outputs: list[Event] = []
         if not all([isfinite(v) for v in (here.t, *here.position)]):
-            return told
+            return outputs
         known_at = max([here.t, *[event.known_at for event in events]])
-        if not self.begun:
-            self.begun = True
-            self._begin(plan, here, known_at, told)
+        if not self.started:
+            self.started = True
+            self._start(plan, here, known_at, outputs)
         if self.t is not None and here.t < self.t - 1.0:
-            self.references.forget()
-            self.arrived = None
+            self.references.reset()
+            self.arrived_at = None
         self.t = here.t
-        steps = [event for event in events if isinstance(event, StrideTaken)]
-        for step in steps:
-            self.pace.stepped(step, here.position)
-        if steps:
-            self._move(plan, here, steps, known_at, told)
+        strides = [event for event in events if isinstance(event, StrideTaken)]
+        for stride in strides:
+            self.stride_scale.add_stride(stride, here.position)
+        if strides:
+            self._move(plan, here, strides, known_at, outputs)
         for event in events:
-            if isinstance(event, TurnMade) and abs(event.angle) > ABOUT and self.crowd:
-                self._turned(plan, event.t)
+            if isinstance(event, TurnMade) and abs(event.angle) > ABOUT_TURN and self.rows:
+                self._add_about_turn(plan, event.t)
         arrived = False
-        for reference in self.references.hear(plan.plan, events, here):
+        for reference in self.references.update(plan.plan, events, here):
             match reference:
                 case Held():
                     self.hold(plan.plan, reference)
@@ -116,109 +123,115 @@ class Placing(Levels):
                     arrived = True
                 case _:
                     self.release()
-        if (steps or arrived) and self.crowd:
-            told.append(self._told(plan, here, known_at))
-        return told
+        if (strides or arrived) and self.rows:
+            outputs.append(self._placed(plan, here, known_at))
+        return outputs
 
-    def _begin(self, plan: IndexedPlan, here: WearerMoved, known_at: float, told: list[Event]) -> None:
+    def _start(self, plan: IndexedPlan, here: WearerMoved, known_at: float, outputs: list[Event]) -> None:
         start = self.start
         if start is None:
             what = "no start was given, so the place is not known before the first stairs or lift"
             if not plan.plan.connectors:
                 what = "no start was given and the plan has neither stairs nor lifts: the place cannot be known"
-            told.append(PlaceLost(t=here.t, known_at=known_at, what=what))
-            self.last = here.position
+            outputs.append(PlaceLost(t=here.t, known_at=known_at, what=what))
+            self.last_place = here.position
             return
-        why_not = nowhere(plan, start)
+        why_not = start_error(plan, start)
         if why_not is not None:
-            told.append(PlaceLost(t=here.t, known_at=known_at, what=why_not))
-            self.last = here.position
+            outputs.append(PlaceLost(t=here.t, known_at=known_at, what=why_not))
+            self.last_place = here.position
             return
         level = plan.number(start.level)
-        count = self.settings.most if start.heading is None else 2 * FEW
-        self.crowd = rounded(fan(self.scattered, plan, level, start.place, start.spread, start.heading, count, 0, 1.0))
+        count = self.settings.most if start.heading is None else 2 * KNOWN_ROWS
+        self.rows = rounded(fan(self.scatter, plan, level, start.place, start.spread, start.heading, count, 0, 1.0))
 
     def _move(
-        self, plan: IndexedPlan, here: WearerMoved, steps: list[StrideTaken], known_at: float, told: list[Event]
+        self, plan: IndexedPlan, here: WearerMoved, strides: list[StrideTaken], known_at: float, outputs: list[Event]
     ) -> None:
-        """The track since the last step, for all rows."""
+        """Move all rows with the track since the last stride."""
         x, y, _ = here.position
-        move = (x - self.last[0], y - self.last[1])
-        if not (abs(move[0]) < FARTHEST and abs(move[1]) < FARTHEST):
-            self.last = here.position
-            if self.crowd:
-                what = f"the track leaps by more than {FARTHEST:.0f} m"
-                told.append(PlaceLost(t=here.t, known_at=known_at, what=what))
-            self._forget()
+        move = (x - self.last_place[0], y - self.last_place[1])
+        if not (abs(move[0]) < LONGEST_JUMP and abs(move[1]) < LONGEST_JUMP):
+            self.last_place = here.position
+            if self.rows:
+                what = f"the track leaps by more than {LONGEST_JUMP:.0f} m"
+                outputs.append(PlaceLost(t=here.t, known_at=known_at, what=what))
+            self._lose_place()
             return
-        self.last = here.position
-        rows = self.crowd
+        self.last_place = here.position
+        rows = self.rows
         if not rows:
             return
-        move = (move[0] * self.pace.factor, move[1] * self.pace.factor)
+        move = (move[0] * self.stride_scale.factor, move[1] * self.stride_scale.factor)
         before = self.newest
         came_from = rows
-        # each foot turns as the wearer does, and each tells it by its own step
-        turned = min(0.5 * sum([abs(step.heading_change) for step in steps]), pi)
-        rough = ROUGH if any([step.degraded for step in steps]) else 1.0
-        rows = self.stepped(plan, rows, move, rough, turned)
-        self.steps = (self.steps + 1) % LOOK
-        if self.steps == 0:
-            rows = looked(plan, rows)
+        # each foot turns as the wearer does, and each stride contains the turn
+        turned = min(0.5 * sum([abs(stride.heading_change) for stride in strides]), pi)
+        rough = DEGRADED_FACTOR if any([stride.degraded for stride in strides]) else 1.0
+        rows = self.move_rows(plan, rows, move, rough, turned)
+        self.stride_count = (self.stride_count + 1) % OUTSIDE_INTERVAL
+        if self.stride_count == 0:
+            rows = penalise_outside(plan, rows)
         stays = _stay(rows, came_from)
         self.stuck = self.stuck + hypot(*move) if stays else 0.0
-        self.crowd = rounded(rows) if self.stuck <= STUCK else []
-        if not self.crowd:
+        self.rows = rounded(rows) if self.stuck <= LONGEST_STUCK else []
+        if not self.rows:
             where = "" if before is None else f" near ({before.position[0]:.1f}, {before.position[1]:.1f})"
             level = "" if before is None else f" on level {before.level}"
-            told.append(
+            outputs.append(
                 PlaceLost(t=here.t, known_at=known_at, what=f"the track goes where the plan has no way{where}{level}")
             )
-            self._forget()
+            self._lose_place()
 
-    def _turned(self, plan: IndexedPlan, t: float) -> None:
-        """The wearer has turned about, until `t` s."""
-        rows = self.crowd
-        self.keep(rows + mistold(plan, rows, self.since(t)))
-        self.wide = WIDE
+    def _add_about_turn(self, plan: IndexedPlan, t: float) -> None:
+        """Add rows for an about-turn of the wearer that ended at `t` s."""
+        rows = self.rows
+        self.set_rows(rows + wrong_turns(plan, rows, self.displacement_since(t)))
+        self.wide = WIDE_STRIDES
 
-    def _forget(self) -> None:
-        self.crowd, self.newest, self.outside, self.stuck = [], None, 0, 0.0
+    def _lose_place(self) -> None:
+        self.rows, self.newest, self.outside, self.stuck = [], None, 0, 0.0
 
-    def _told(self, plan: IndexedPlan, here: WearerMoved, known_at: float) -> Event:
-        rows = self.crowd
+    def _placed(self, plan: IndexedPlan, here: WearerMoved, known_at: float) -> Event:
+        rows = self.rows
         known = plan.plan.heights_known
-        shown, heights = self.shown(plan.plan, rows, here)
-        candidates, spread = believed(
-            shown, plan.plan, heights, None if known else here.position[2], AGREED if self.wide == 0 else APART
+        shown, heights = self.with_levels(plan.plan, rows, here)
+        candidates, spread = candidates_of(
+            shown,
+            plan.plan,
+            heights,
+            None if known else here.position[2],
+            ONE_CANDIDATE if self.wide == 0 else WIDE_LIMIT,
         )
         first = candidates[0]
         if len(candidates) == 1 and not plan.inside(plan.number(first.level), first.position[0], first.position[1]):
             self.outside += 1
-            if self.outside >= OUTSIDE and self.references.passage is None:
-                self._forget()
+            if self.outside >= MOST_OUTSIDE and self.references.passage is None:
+                self._lose_place()
                 x, y, _ = first.position
                 what = f"the track leaves the plan near ({x:.1f}, {y:.1f}) on level {first.level}"
                 return PlaceLost(t=here.t, known_at=known_at, what=what)
         else:
             self.outside = 0
         others = sum([min(1.0, 10.0 * one.weight) for one in candidates[1:]])
-        wanted = min(self.settings.most, FEW + int(MORE * others if others else 8.0 * min(spread, 5.0)))
+        count = min(
+            self.settings.most, KNOWN_ROWS + int(ROWS_PER_CANDIDATE * others if others else 8.0 * min(spread, 5.0))
+        )
         if self.wide > 0:
-            self.wide, wanted = self.wide - 1, self.settings.most
-        few = len(rows) <= 1.25 * wanted and (self.wide > 0 or effective(rows) >= 0.5 * wanted)
-        if first.weight >= CLEAR and len(candidates) > 1 and self.wide == 0 and not self.either:
+            self.wide, count = self.wide - 1, self.settings.most
+        few = len(rows) <= 1.25 * count and (self.wide > 0 or effective(rows) >= 0.5 * count)
+        if first.weight >= CLEAR_WEIGHT and len(candidates) > 1 and self.wide == 0 and not self.level_uncertain:
             x0, y0 = plan.plan.origin
             x, y, at = first.position[0] - x0, first.position[1] - y0, plan.number(first.level)
             rows = [
-                (*row[:4], FADE * row[4], *row[5:])
-                if told[5] != at and (row[0] - x) ** 2 + (row[1] - y) ** 2 < ASIDE * ASIDE
+                (*row[:4], FADE_FACTOR * row[4], *row[5:])
+                if shown_row[5] != at and (row[0] - x) ** 2 + (row[1] - y) ** 2 < FADE_RADIUS * FADE_RADIUS
                 else row
-                for row, told in zip(rows, shown, strict=True)
+                for row, shown_row in zip(rows, shown, strict=True)
             ]
-            self.crowd = rounded(rows)
+            self.rows = rounded(rows)
         if not few:
-            self.crowd = rounded(self.thinned(rows, wanted))
+            self.rows = rounded(self.thin(rows, count))
         self.newest = Placed(
             t=here.t,
             known_at=known_at,
@@ -231,7 +244,7 @@ class Placing(Levels):
 
 
 def _stay(rows: list[Row], before: list[Row]) -> bool:
-    """Whether all are where some were before. Most often the first one is not."""
+    """Return whether all rows are where some were before; most often the first one is not."""
     if rows:
         x, y = rows[0][:2]
         if not any([row[0] == x and row[1] == y for row in before]):

@@ -1,4 +1,4 @@
-"""How the feet's sensors are worn, whatever the recipe: a foot that falls silent, and left and right exchanged."""
+"""Wearing faults of any recipe: a foot that falls silent, and left and right exchanged."""
 
 from __future__ import annotations
 
@@ -13,84 +13,84 @@ from ..part import LayoutReported, Part, PartInput, PartOutput
 from .sides import Sides
 
 LEFT: Final = Foot.LEFT
-"""Looked up once: a word of an enum costs as much as five multiplications."""
+"""The left foot, looked up once: access to an enum member costs as much as five multiplications."""
 
 
 @define
-class Hearing:
-    """When one foot was last heard."""
+class FootSilence:
+    """The time since the last sample of one foot, and whether its silence was reported."""
 
     t: float | None = None
-    """Its newest sample, s; None before any."""
-    missing: int = 0
-    """Steps of the other foot since then."""
-    said: bool = False
-    """That it is silent."""
+    """Time of the newest sample, s; None before any."""
+    strides_since: int = 0
+    """Number of strides that the other foot has taken since then."""
+    silent: bool = False
+    """Flag: the silence of this foot was reported."""
 
 
 @frozen
 class WearSettings:
-    """What `Wear` is set to."""
+    """The settings of `Wear`."""
 
     steps: int = 3
-    """A foot is silent when the other has taken so many steps since its last sample."""
+    """Number of strides that the other foot takes after the last sample of a foot before that foot is silent."""
     seconds: float = 3.0
-    """No foot is silent that was heard less than this ago, s."""
+    """Least time since the last sample of a foot before that foot is silent, s."""
 
 
 @define
 class Wear(Part):
-    """Hears every sample of both feet.
+    """Detects a silent foot and exchanged feet from the samples of both feet.
 
-    A foot that was heard before is silent when the other has taken `steps` steps and `seconds` since its last sample:
-    FootSilent, and FootResumed with the sample that ends it. While nobody walks nothing is said, and nothing of a foot
-    that was never heard: a recording may be of one foot. Recipes of two feet go on with the one that is left.
-    FeetSwapped is said once, as `Sides` sees it.
+    A foot that gave samples before is silent when the other one has taken `steps` strides, and `seconds` have passed,
+    since its last sample. FootSilent reports that, and FootResumed comes with the sample that ends it. Nothing is
+    reported while nobody walks, nor of a foot that never gave a sample: a recording may be of one foot. Recipes of two
+    feet continue with the one that is left. FeetSwapped is reported once, when `Sides` detects it.
     """
 
     needs_samples: ClassVar[bool] = True
 
     settings: WearSettings = WearSettings()
     sides: Sides = field(factory=Sides, init=False)
-    left: Hearing = field(factory=Hearing, init=False)
-    right: Hearing = field(factory=Hearing, init=False)
+    left: FootSilence = field(factory=FootSilence, init=False)
+    right: FootSilence = field(factory=FootSilence, init=False)
     swapped: bool = field(default=False, init=False)
-    """That has been said."""
+    """Flag: exchanged feet were reported."""
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
-        """The device on a foot may have said where its cells are."""
+        """Receive the layout that the device on a foot may have reported."""
         if isinstance(event, LayoutReported) and event.site.foot is not None:
-            self.sides.told(event.site.foot, event.layout)
+            self.sides.set_layout(event.site.foot, event.layout)
         return ()
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """A foot was heard."""
+        """Add one sample of a foot and return what it reveals: a silent foot, a resumed one, exchanged feet."""
         t, events = view.t, view.events
         is_left = view.foot is LEFT
         this, other = (self.left, self.right) if is_left else (self.right, self.left)
-        if not (events or this.said or other.missing):
-            this.t, this.missing = t, 0
+        if not (events or this.silent or other.strides_since):
+            this.t, this.strides_since = t, 0
             if not self.swapped:
-                self.sides.keep(self.sides.left if is_left else self.sides.right, view)
+                self.sides.add_sample(self.sides.left if is_left else self.sides.right, view)
             return ()
         found: list[PartOutput] = []
-        if this.said:
-            this.said = False
+        if this.silent:
+            this.silent = False
             silence = 0.0 if this.t is None else max(0.0, t - this.t)
             found.append(FootResumed(t=t, known_at=view.known_at, foot=view.foot, silent_for=silence))
         this.t = t
-        this.missing = 0
+        this.strides_since = 0
         if view.after.covariance is not None:  # there was a stride
-            other.missing += 1
-        if other.missing and other.t is not None and not other.said:
+            other.strides_since += 1
+        if other.strides_since and other.t is not None and not other.silent:
             if t < other.t:
-                other.missing = 0  # this foot lags behind the other on the way here, or its times began anew
-            elif other.missing >= self.settings.steps and t - other.t >= self.settings.seconds:
-                other.said = True
-                silent = Foot.RIGHT if is_left else LEFT
-                found.append(FootSilent(t=t, known_at=view.known_at, foot=silent, silent_for=t - other.t))
-        if not self.swapped and self.sides.swapped(view):
+                other.strides_since = 0  # this foot's samples arrive later than the other's, or its clock has restarted
+            elif other.strides_since >= self.settings.steps and t - other.t >= self.settings.seconds:
+                other.silent = True
+                silent_foot = Foot.RIGHT if is_left else LEFT
+                found.append(FootSilent(t=t, known_at=view.known_at, foot=silent_foot, silent_for=t - other.t))
+        if not self.swapped and self.sides.update(view):
             self.swapped = True
-            self.sides.forget()
+            self.sides.reset()
             found.append(FeetSwapped(t=t, known_at=view.known_at))
         return found

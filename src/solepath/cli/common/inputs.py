@@ -97,7 +97,7 @@ def add_floorplan(command: argparse.ArgumentParser) -> None:
 def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start | None]:
     """What --floorplan and --start name; what is worth saying of the plan goes to stderr. Failure when the plan cannot
     be used, or nobody can set out there."""
-    from ...body.place.arrivals import nowhere
+    from ...body.place.arrivals import start_error
     from ...floorplan.checks import warnings
     from ...floorplan.importers.reading import read_floorplan
     from ...floorplan.index import IndexedPlan
@@ -115,7 +115,7 @@ def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start
         raise Failure(str(error)) from None
     for sentence in warnings(plan):
         note(f"{options.floorplan}: {sentence}")
-    if start is not None and (why_not := nowhere(indexed, start)) is not None:
+    if start is not None and (why_not := start_error(indexed, start)) is not None:
         raise Failure(f"{options.floorplan}: {why_not}")
     return indexed, start
 

@@ -27,11 +27,11 @@ from numpy.typing import NDArray
 
 from ... import recipes
 from ...body.activity import motion
-from ...body.activity.features import BLOCK, COUNT, REACH, STEP
+from ...body.activity.features import BLOCK, COUNT, REACH, STRIDE
 from ...body.activity.foot_blocks import FootBlocks
 from ...body.activity.motion import MotionModel, to_json
-from ...body.activity.ride import Felt
-from ...body.activity.votes import felt
+from ...body.activity.ride import BlockForce
+from ...body.activity.votes import block_force
 from ...emulate.sensors.device import Device
 from ...emulate.sensors.parts import LSM6DSOX, MPU6050, MPU9250, Imu
 from ...emulate.sensors.sensortags import CC2541, CC2650
@@ -119,7 +119,7 @@ def blocks_of(
         for index, features, force in _features(foot, own, begin, recipe):
             seen.setdefault(index, {})[foot] = features, force
             now = _pure(label, begin + index * BLOCK)
-            if now is not None and (not only_steps or (features[STEP] and features[1] > AFOOT)):
+            if now is not None and (not only_steps or (features[STRIDE] and features[1] > AFOOT)):
                 rows.append(features)
                 classes.append(CLASSES[now])
     n = len(rows)
@@ -129,7 +129,7 @@ def blocks_of(
 
 def _features(
     foot: Foot, samples: Sequence[Sample], begin: float, recipe: Recipe
-) -> Iterator[tuple[int, list[float], Felt | None]]:
+) -> Iterator[tuple[int, list[float], BlockForce | None]]:
     parts = deepcopy(recipe)
     tracker = FootTracker(foot, parts.detector, parts.corrector, cues=parts.cues)
     window = FootBlocks()
@@ -142,13 +142,13 @@ def _features(
                 judged = window.index - REACH
                 found = window.features(judged, begin + (judged + 0.5) * BLOCK)
                 if found is not None:
-                    yield judged, found, felt(window.block(judged), window.grain)
+                    yield judged, found, block_force(window.block(judged), window.resolution)
             rest = tracker.rest
-            window.begin(index, rest.bias, rest.grain if rest.count else 0.0)
+            window.start_block(index, rest.bias, rest.grain if rest.count else 0.0)
         if sample.acc is not None:
             window.add(sample.acc, sample.gyro, tracker.corrector if tracker.levelled else None)
         if events:
-            window.heard(events, tracker.corrector.position[2])
+            window.add_events(events, tracker.corrector.position[2])
 
 
 def _pure(label: Label, begin: float) -> Activity | None:

@@ -12,22 +12,22 @@ from statistics import median
 
 from attrs import frozen
 
-from ...body.activity.air import NOTHING
-from ...body.activity.chain import SUPPOSED, Chances, Shifts
+from ...body.activity.chain import DEFAULT_CHANCES, Chances, Shifts
 from ...body.activity.features import BLOCK
 from ...body.activity.hypotheses import BlockEvidence, Hypotheses
 from ...body.activity.motion import MotionModel
-from ...body.activity.ride import Felt
-from ...body.activity.votes import motions
+from ...body.activity.pressure_height import NO_EVIDENCE
+from ...body.activity.ride import BlockForce
+from ...body.activity.votes import motion_votes
 from ...types import Activity, Foot
 from .activities_net import CLASSES
 from .hugadb import APART, Span
 
-Said = tuple[list[float], Felt | None]
+Said = tuple[list[float], BlockForce | None]
 """Features of a foot in a block, and what a lift would be felt in."""
 
 WORTH = 0.5
-"""`SUPPOSED` counts so much beside what was seen: chances must hold of others than these wearers too."""
+"""`DEFAULT_CHANCES` counts so much beside what was seen: chances must hold of others than these wearers too."""
 NEAR = 4.0
 """A change that was seen further, s, from one that was labelled is another."""
 FEWEST = 8
@@ -54,7 +54,7 @@ def changes(done: Sequence[Span]) -> list[tuple[float, Activity, Activity]]:
 
 def chances(courses: Sequence[LabelledCourse]) -> Chances:
     """Of each change within a block."""
-    counts = [[1e-6 * chance for chance in row] for row in SUPPOSED]
+    counts = [[1e-6 * chance for chance in row] for row in DEFAULT_CHANCES]
     for course in courses:
         for begin, end, activity in course.done:
             counts[CLASSES[activity]][CLASSES[activity]] += (end - begin) / BLOCK
@@ -63,7 +63,7 @@ def chances(courses: Sequence[LabelledCourse]) -> Chances:
     return tuple(
         [
             tuple([round(WORTH * a + (1.0 - WORTH) * b / sum(row), 5) for a, b in zip(supposed, row, strict=True)])
-            for supposed, row in zip(SUPPOSED, counts, strict=True)
+            for supposed, row in zip(DEFAULT_CHANCES, counts, strict=True)
         ]
     )
 
@@ -100,9 +100,9 @@ def followed(course: LabelledCourse, model: MotionModel) -> list[Span]:
         courses.update(
             BlockEvidence(
                 t=t,
-                motions=motions(model, [None if one is None else one[0] for one in said]),
-                felt=tuple([None if one is None else one[1] for one in said]),
-                climbs=NOTHING,
+                motions=motion_votes(model, [None if one is None else one[0] for one in said]),
+                forces=tuple([None if one is None else one[1] for one in said]),
+                climbs=NO_EVIDENCE,
                 before=None,
                 after=None,
             ),

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ...body.activity.features import GYRO, STEP, TRACK
+from ...body.activity.features import GYRO, STRIDE, TRACK
 from ...body.activity.motion import MOTIONS, Network, Row
 from ...types import Activity
 
@@ -116,12 +116,12 @@ def disturbed(features: Floats, rng: np.random.Generator) -> Floats:
     """As other sensors might have seen the same."""
     found = features.copy()
     n = len(found)
-    stepped = found[:, STEP] > 0.0
+    stepped = found[:, STRIDE] > 0.0
     for column, size in ((2, 0.12), (5, 0.06), (6, 0.05)):
-        found[stepped, STEP + column] *= np.exp(rng.normal(0.0, size, n))[stepped]
+        found[stepped, STRIDE + column] *= np.exp(rng.normal(0.0, size, n))[stepped]
     for column, size in ((3, 0.08), (4, 0.05), (8, 0.05), (9, 0.05), (10, 0.05)):
-        found[stepped, STEP + column] += rng.normal(0.0, size, n)[stepped]
-    found[rng.random(n) < WITHOUT_STEP, STEP:] = 0.0
+        found[stepped, STRIDE + column] += rng.normal(0.0, size, n)[stepped]
+    found[rng.random(n) < WITHOUT_STEP, STRIDE:] = 0.0
     found[rng.random(n) < WITHOUT_TRACK, TRACK:] = 0.0
     return found
 

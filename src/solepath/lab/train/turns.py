@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 from attrs import frozen
 
-from ...body.gait.direction import Direction, TurnProcess
+from ...body.gait.turn_detector import TurnDetector, TurnProcess
 from ...body.gait.turns import features
 from ...emulate.routes.route import Route
 from ...emulate.sensors.sensortags import CC2541
@@ -69,11 +69,11 @@ def walk(seed: int, turn: Turn) -> EmulatedWalk:
 
 def measured(walked: EmulatedWalk) -> TurnProcess | None:
     """The largest turn that the recipe found in a walk."""
-    session, direction = Session(FOOTSTEP_TRACKER), Direction()
+    session, direction = Session(FOOTSTEP_TRACKER), TurnDetector()
     steps = [event for packet in walked.packets for event in session.feed(packet) if isinstance(event, StrideTaken)]
-    found = [direction.step(step) for step in steps]
+    found = [direction.add_stride(step) for step in steps]
     if steps:
-        found.append(direction.stood(steps[-1].t_end + 1e3))
+        found.append(direction.advance(steps[-1].t_end + 1e3))
     turns = [one for one in found if one is not None]
     return max(turns, key=lambda one: abs(one.angle), default=None)
 

@@ -13,10 +13,10 @@ from __future__ import annotations
 
 from math import atan2
 
-from ...body.place.crowd import Row, resampled
-from ...body.place.noise import following
+from ...body.place.rows import Row, resampled
+from ...body.place.noise import next_random
 from ...body.place.placing import Placing
-from ...body.place.sway import swayed
+from ...body.place.sway import sway_rows
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
 from ...types.attrs import define
@@ -33,21 +33,21 @@ SHARE = 0.02
 class SnakeGame(Placing):
     """Traces from every reference, those through walls dropped, until one is left."""
 
-    def extended(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
+    def extend(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
         """The traces a move further; without those that cannot go there."""
-        self.random = following(self.random)
-        grown = swayed(plan, rows, move, rough, turned, self.random, True)
+        self.random = next_random(self.random)
+        grown = sway_rows(plan, rows, move, rough, turned, self.random, True)
         most = self.settings.most
-        return grown if len(grown) <= most else self.thinned(grown, most)
+        return grown if len(grown) <= most else self.thin(grown, most)
 
-    def scattered(self, k: int, count: int) -> tuple[float, float, float, float]:
+    def scatter(self, k: int, count: int) -> tuple[float, float, float, float]:
         """For the k-th of `count` new rows, each from -1 to 1: x, y, heading, stretch."""
         return (0.0, 0.0, 0.0, float(k % 3 - 1))
 
-    def thinned(self, rows: list[Row], wanted: int) -> list[Row]:
+    def thin(self, rows: list[Row], count: int) -> list[Row]:
         """About so many, by taking together those that are nearly the same, then by weight."""
-        one = merged(rows) if len(rows) > wanted else rows
-        return one if 0.8 * wanted < len(one) <= wanted else resampled(one, wanted, 0.5)
+        one = merged(rows) if len(rows) > count else rows
+        return one if 0.8 * count < len(one) <= count else resampled(one, count, 0.5)
 
 
 def merged(rows: list[Row]) -> list[Row]:

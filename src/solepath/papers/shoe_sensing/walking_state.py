@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from typing import ClassVar
 
 from ...body.activity.flights import Flights
-from ...body.activity.steepness import of_stairs, steepness
+from ...body.activity.steepness import is_stair_rise, steepness
 from ...body.part import ActivityPart, PartOutput
 from ...events import ActivityChanged, Event, StrideTaken
 from ...foot.view import FootView
@@ -84,12 +84,12 @@ class AnglePerMetre(ActivityPart):
                 began = event.t_start if event.t_toe_off is None else max(event.t_start, event.t_toe_off)
                 self.stepped_at = max(self.stepped_at, event.t)
                 way = None
-                if of_stairs(event.height_change, event.degraded):
+                if is_stair_rise(event.height_change, event.degraded):
                     way = steepness(event.length, event.height_change)
                     self._tell(_OF_STEP[way], began, known_at, told)
                 elif self.activity is Activity.STANDING:
                     self._tell(Activity.UNKNOWN, began, known_at, told)
-                told += self.flights.stepped(event, way)
+                told += self.flights.add_stride(event, way)
         if view.phase is not Phase.STATIONARY:
             if t > self.moved_at:
                 self.moved_at = t
@@ -98,8 +98,8 @@ class AnglePerMetre(ActivityPart):
         elif t - self.moved_at >= STANDS - TIE:
             self.stepped_at = max(self.stepped_at, t)
             self._tell(Activity.STANDING, self.moved_at, known_at, told)
-        if self.flights.way != 0:
-            told += self.flights.waited(t, known_at)
+        if self.flights.direction != 0:
+            told += self.flights.advance(t, known_at)
         return told
 
     def _dates(self, foot: Foot, t: float) -> bool:

@@ -76,7 +76,7 @@ class FootPlaces:
     def moved(self, view: FootView) -> None:
         """A sample of a foot: where its own track has it."""
         left, right = self.tracks.left, self.tracks.right
-        was_left, was_right, waited = left.offset, right.offset, (left.waits, right.waits)
+        was_left, was_right, waited = left.offset, right.offset, (left.unplaced, right.unplaced)
         self.tracks.feed(view)
         if left.offset is not was_left:
             self._shifted(Foot.LEFT, left, was_left, waited[0])
@@ -84,13 +84,13 @@ class FootPlaces:
             self._shifted(Foot.RIGHT, right, was_right, waited[1])
         if view.levelled:
             placed = left if view.foot is Foot.LEFT else right
-            self.sides[view.foot].track = placed.place(placed.here)
+            self.sides[view.foot].track = placed.place(placed.newest_place)
 
     def _shifted(self, foot: Foot, placed: PlacedTrack, offset: Vec3, waited: bool) -> None:
         """Its track lies elsewhere among both than with `offset` before."""
         side, other = self.sides[foot], self.sides[OTHER[foot]]
-        if waited and not placed.waits:  # it is known there again, and they walk as far apart as they stood
-            side.track = placed.place(placed.here)
+        if waited and not placed.unplaced:  # it is known there again, and they walk as far apart as they stood
+            side.track = placed.place(placed.newest_place)
             x, y = self._apart(foot, other)
             side.offset = suspended(other.offset, (x, y, 0.0))
             side.place = side.own
@@ -107,7 +107,7 @@ class FootPlaces:
     def unheard(self, foot: Foot, t: float) -> bool:
         """The foot is absent, or its track is not known among both yet, and the chain does not tell either."""
         placed = self.tracks.left if foot is Foot.LEFT else self.tracks.right
-        return (placed.absent or placed.waits) and not self.chain.current(t)
+        return (placed.absent or placed.unplaced) and not self.chain.current(t)
 
     def middle(self, foot: Foot) -> Vec3:
         """The middle between the feet as this foot alone has it, by its own track, m."""

@@ -1,4 +1,4 @@
-"""Height from air pressure, half a second at a time, and what its slope says of stairs and lifts."""
+"""Height from air pressure in blocks of half a second, and its slope as evidence for stairs and lifts."""
 
 from __future__ import annotations
 
@@ -26,18 +26,21 @@ from .chain import (
     WALK,
 )
 
-SCALE = 8578.0
+SCALE_HEIGHT = 8578.0
 """Height over which the pressure of air of 20 degrees falls to 1/e, m: R T / (M g)."""
 NOISE = 0.25
-"""Deviation of the mean over half a second, m: 3 Pa. Small barometers flicker by 1 to 3 Pa, and doors add to it."""
-BEFORE, AFTER = 3, 2
-"""Blocks before and after the one that is told, over which the slope is taken."""
-LEAST = 1.0
-"""They must span so long, s."""
+"""Standard deviation of the mean over half a second, m: 3 Pa.
+
+Small barometers flicker by 1 to 3 Pa, and doors add to it.
+"""
+BLOCKS_BEFORE, BLOCKS_AFTER = 3, 2
+"""Numbers of blocks before and after the judged one over which the slope is taken."""
+LEAST_SPAN = 1.0
+"""Least time that these blocks span, s."""
 WEIGHT = 1.0 / 3.0
-"""Neighbouring slopes are of the same samples, so each counts so much."""
-WORST = 3.0
-"""A slope speaks no louder than this (natural logarithm): a door that opens is a gust."""
+"""Weight of one slope: neighbouring slopes come from the same samples."""
+LARGEST_VOTE = 3.0
+"""Largest penalty by a slope (natural logarithm): a door that opens is a gust."""
 
 _SLOPES = {
     STAND: (0.0, 0.05),
@@ -59,33 +62,35 @@ _SLOPES = {
 }
 """Mean and deviation of the climb in each state, m/s: stairs at two treads a second, lifts of 0.5 to 2.5 m/s."""
 _ORDERED = tuple(_SLOPES[state] for state in range(len(_SLOPES)))
-NOTHING = (0.0,) * len(_ORDERED)
+NO_EVIDENCE = (0.0,) * len(_ORDERED)
 
 
 @define
 class PressureHeight:
-    """Feed it every pressure; `climbs` and `height` look back a few seconds."""
+    """Height over the newest blocks by the pressures of both barometers; it covers the last few seconds."""
 
     references: dict[Foot, float] = field(factory=dict)
-    """Pressure at height 0 by each foot's barometer, Pa."""
+    """Pressure at height 0 of each foot's barometer, Pa."""
     newest: float = 0.0
-    """m."""
+    """Newest height, m."""
     index: int | None = None
-    """Of the block under way."""
+    """Number of the block under way."""
     total: float = 0.0
+    """Sum of the heights in the block under way, m."""
     count: int = 0
+    """Number of heights in the block under way."""
     blocks: deque[tuple[int, float]] = field(factory=deque)
     """Number and mean height, m, of the newest blocks, oldest first."""
 
     def add(self, foot: Foot, index: int, pressure: float) -> None:
-        """A pressure in Pa in the block of that number."""
+        """Add a pressure, Pa, to the block of that number."""
         if not 2e4 < pressure < 2e5:
             return
         reference = self.references.get(foot)
         if reference is None:
-            # a barometer that is heard later goes on where the other one is
-            reference = self.references[foot] = pressure * exp(self.newest / SCALE)
-        self.newest = SCALE * log(reference / pressure)
+            # a barometer that is read later starts at the height of the other one
+            reference = self.references[foot] = pressure * exp(self.newest / SCALE_HEIGHT)
+        self.newest = SCALE_HEIGHT * log(reference / pressure)
         if index != self.index:
             self._close()
             self.index = index
@@ -95,20 +100,20 @@ class PressureHeight:
     def _close(self) -> None:
         if self.index is not None and self.count:
             self.blocks.append((self.index, self.total / self.count))
-            if len(self.blocks) > BEFORE + AFTER + 4:
+            if len(self.blocks) > BLOCKS_BEFORE + BLOCKS_AFTER + 4:
                 self.blocks.popleft()
         self.total, self.count = 0.0, 0
 
     def height(self, first: int, last: int) -> float | None:
-        """Mean over these blocks, m; None when nothing was heard in them."""
+        """Return the mean height over these blocks, m; None when they have no pressure."""
         near = [height for index, height in self.blocks if first <= index <= last]
         return sum(near) / len(near) if near else None
 
     def climbs(self, index: int, block: float) -> tuple[float, ...]:
-        """Logarithm of how likely the slope about the block of that number is, for each state; `block`: s."""
-        near = [(i * block, height) for i, height in self.blocks if index - BEFORE <= i <= index + AFTER]
-        if len(near) < 3 or near[-1][0] - near[0][0] < LEAST:
-            return NOTHING
+        """Return the log-likelihood of the slope about a block for each state; `block` is its duration, s."""
+        near = [(i * block, height) for i, height in self.blocks if index - BLOCKS_BEFORE <= i <= index + BLOCKS_AFTER]
+        if len(near) < 3 or near[-1][0] - near[0][0] < LEAST_SPAN:
+            return NO_EVIDENCE
         n = len(near)
         middle = sum([t for t, _ in near]) / n
         spread = sum([(t - middle) ** 2 for t, _ in near])
@@ -119,4 +124,4 @@ class PressureHeight:
             whole = variance + deviation * deviation
             likely.append(-0.5 * (min((slope - mean) ** 2 / whole, 1e3) + log(whole)))
         best = max(likely)
-        return tuple([max(WEIGHT * (one - best), -WORST) for one in likely])
+        return tuple([max(WEIGHT * (one - best), -LARGEST_VOTE) for one in likely])

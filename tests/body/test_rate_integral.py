@@ -1,4 +1,4 @@
-"""How a foot has turned lately."""
+"""Turn of a foot over the last seconds."""
 
 from __future__ import annotations
 
@@ -6,18 +6,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.body.worn.sides import HIDDEN, REMEMBERED
-from solepath.body.worn.turned import RateIntegral
+from solepath.body.worn.rate_integral import RateIntegral
+from solepath.body.worn.sides import LONGEST_GAP, MOST_INSTANTS
 from solepath.types import Vec3
 
 RATES = st.tuples(*[st.floats(-30.0, 30.0)] * 3)
 
 
-@given(st.floats(0.0, 1e6), st.lists(st.tuples(st.floats(0.015, HIDDEN), RATES), min_size=1, max_size=60))
+@given(st.floats(0.0, 1e6), st.lists(st.tuples(st.floats(0.015, LONGEST_GAP), RATES), min_size=1, max_size=60))
 @settings(max_examples=40)
-def test_what_is_kept_of_the_turn_of_a_foot_is_its_integral(start: float, rates: list[tuple[float, Vec3]]) -> None:
+def test_the_turn_of_a_foot_is_the_integral_of_its_rate(start: float, rates: list[tuple[float, Vec3]]) -> None:
     turned = RateIntegral()
-    turned.begin(start)
+    turned.restart(start)
     t, times, turns = start, [start], [(0.0, 0.0, 0.0)]
     for dt, gyro in rates:
         t += dt
@@ -32,15 +32,15 @@ def test_what_is_kept_of_the_turn_of_a_foot_is_its_integral(start: float, rates:
 
 def test_of_a_foot_that_never_lands_only_the_newest_instants_are_kept() -> None:
     turned = RateIntegral()
-    turned.begin(0.0)
+    turned.restart(0.0)
     for k in range(1, 1000):
-        turned.add(0.02 * k, 0.02, (9.0, -9.0, 0.0), REMEMBERED)
-        assert len(turned.rows) <= REMEMBERED
+        turned.add(0.02 * k, 0.02, (9.0, -9.0, 0.0), MOST_INSTANTS)
+        assert len(turned.rows) <= MOST_INSTANTS
     times = turned.times()
     assert times[-1] == 0.02 * 999 and times[-1] - times[0] > 1.3
     *_, last = turned.between(len(times) - 11, len(times))
     assert last == pytest.approx((1.8, -1.8, 0.0), abs=3e-4)
     turned.keep_newest()
     assert turned.times() == [0.02 * 999]
-    turned.forget()
+    turned.clear()
     assert turned.times() == [] and turned.t is None

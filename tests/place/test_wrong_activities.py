@@ -1,4 +1,4 @@
-"""What the wearer is said to do may be wrong: the true place stays among the candidates, and walls decide."""
+"""Wrong activities and turns: the true place stays among the candidates, and walls decide."""
 
 from __future__ import annotations
 
@@ -25,25 +25,25 @@ from floors import (
 )
 
 from solepath import Activity, LiftRidden, TurnMade
-from solepath.body.place.crowd import rounded
+from solepath.body.place.rows import rounded
 from solepath.floorplan.index import IndexedPlan
 
 NEAR = 3.5
 
 
 def near(part: Method, level: str, place: tuple[float, float]) -> float:
-    """The weight of all candidates on that level near the place."""
+    """Return the weight of all candidates on that level near the place."""
     here = [] if part.place is None else [one for one in part.place.candidates if one.level == level]
     return sum([one.weight for one in here if dist(one.position[:2], place) < NEAR])
 
 
-def never_drops_the_truth(part: Method, told: list[Told]) -> None:
-    for one in told:
+def never_drops_the_truth(part: Method, moments: list[Told]) -> None:
+    for one in moments:
         part.follow(OFFICE, one.events, one.here)
         assert one.level is None or one.place is None or near(part, one.level, one.place) > 0.0
 
 
-def test_who_walks_past_stairs_and_is_said_to_climb_them_stays_among_the_candidates(part: Method) -> None:
+def test_a_wearer_who_walks_past_stairs_that_are_reported_as_climbed_stays_among_the_candidates(part: Method) -> None:
     one = Pedestrian(201, "0", (20.0, LOW)).known_to(part)
     one.walk(beside(STAIRS["stairs south"]))
     one.say(doing(one.t, one.t, Activity.STAIRS_UP))
@@ -56,7 +56,7 @@ def test_who_walks_past_stairs_and_is_said_to_climb_them_stays_among_the_candida
 
 
 @pytest.mark.parametrize("words", [("down", "down"), ("down", "up"), ("up", "down")])
-def test_stairs_up_that_are_told_as_stairs_down_lead_up_where_there_is_no_way_down(
+def test_stairs_up_that_are_reported_as_stairs_down_lead_up_where_there_is_no_way_down(
     part: Method, words: tuple[str, str]
 ) -> None:
     one = Pedestrian(202, "0", (20.0, LOW)).known_to(part)
@@ -73,7 +73,7 @@ def test_stairs_up_that_are_told_as_stairs_down_lead_up_where_there_is_no_way_do
     assert near(part, "1", one.place) > 0.1
 
 
-def test_an_unknown_wearer_whose_flights_are_told_up_and_down_may_be_on_either_level(part: Method) -> None:
+def test_a_wearer_whose_flights_are_reported_up_and_down_may_be_on_either_level(part: Method) -> None:
     one = Pedestrian(203, "1", STAIRS["stairs south"])
     one.step(0.1, 0.0, counts=False)
     for flight, word in enumerate((Activity.STAIRS_UP, Activity.STAIRS_DOWN)):
@@ -96,34 +96,31 @@ def test_an_about_turn_that_the_track_has_wrong_by_a_hundred_degrees_is_put_righ
     one = Pedestrian(204, "0", (12.0, LOW)).known_to(part)
     one.walk((20.0, LOW))
     one.turned += radians(wrong)
-    begun = one.t
+    t_start = one.t
     one.t += 3.0
     one.step(-0.5, 0.0)
     one.step(-0.6, 0.0)
-    one.say(TurnMade(t=begun + 3.0, known_at=one.t, t_start=begun, angle=radians(180.0 + wrong), turn=None))
+    one.say(TurnMade(t=t_start + 3.0, known_at=one.t, t_start=t_start, angle=radians(180.0 + wrong), turn=None))
     one.told[-1] = evolve_angle(one.told[-1])
     one.walk((LEFT, LOW), (LEFT, HIGH))
     never_drops_the_truth(part, one.told)
     assert near(part, "0", one.place) > 0.9
 
 
-def evolve_angle(told: Told) -> Told:
-    """The turn is told as the about-turn that it is: feet tell turns better than tracks that are led by saturated
-    sensors."""
-    return Told([evolve(event, angle=3.2) for event in told.events if isinstance(event, TurnMade)], told.here)
+def evolve_angle(moment: Told) -> Told:
+    """Return the turn as the about-turn that it is: feet measure turns better than tracks of saturated sensors."""
+    return Told([evolve(event, angle=3.2) for event in moment.events if isinstance(event, TurnMade)], moment.here)
 
 
 def unknown_heights() -> IndexedPlan:
-    """A plan that knows the order of its levels only: 3 m between them are a guess."""
+    """Return a plan that has only the order of its levels: 3 m between them are a guess."""
     plan = office()
     levels = tuple(evolve(level, elevation=3.0 * k) for k, level in enumerate(plan.levels))
     return IndexedPlan(evolve(plan, levels=levels, heights_known=False))
 
 
 @pytest.mark.parametrize("rise", [0.14, 0.22])
-def test_heights_that_no_plan_knows_neither_keep_a_wearer_from_another_level_nor_are_told(
-    part: Method, rise: float
-) -> None:
+def test_unknown_heights_neither_keep_a_wearer_from_another_level_nor_are_reported(part: Method, rise: float) -> None:
     plan = unknown_heights()
     one = Pedestrian(205, "0", (20.0, LOW)).known_to(part)
     one.walk(beside(STAIRS["stairs south"]), STAIRS["stairs south"])
@@ -151,7 +148,7 @@ def test_a_ride_over_a_storey_of_another_height_than_guessed_ends_on_the_next_le
     assert near(part, "1", one.place) > 0.9
 
 
-def test_readings_are_kept_to_three_digits_and_no_less_when_they_are_kept_again() -> None:
+def test_rows_are_kept_to_three_digits_and_no_less_when_they_are_kept_again() -> None:
     rows = [(10.0 + k, 2.0 * k, cos(0.1 * k), sin(0.1 * k), 1.0 / (1 + k), k % 3, k % 2, 0) for k in range(40)]
     again = rounded(rows)
     for before, after in zip(rows, again, strict=True):

@@ -1,0 +1,69 @@
+"""Turn of a foot over the last second or two: the motion by which sides.py judges a stride."""
+
+from __future__ import annotations
+
+from itertools import accumulate
+
+from ...types import Vec3
+from ...types.attrs import define, field
+from ...types.vector import ZERO
+
+Instant = tuple[int, int, int, int]
+"""Time since the previous instant, in ticks, and the three components of the turn, in units of `UNITS_PER_RAD`."""
+TICKS_PER_S = 2.0**19
+"""Ticks of the time in one second: 2 us each."""
+UNITS_PER_RAD = 2.0**13
+"""Units of the turn in one radian: 0.12 mrad each."""
+
+
+@define
+class RateIntegral:
+    """The integral of the angular rate, rad, sensor frame: its components along axes that are fixed in the foot."""
+
+    t: float | None = None
+    """Time of the newest instant, s; None before any."""
+    turn: Vec3 = ZERO
+    """Integral up to the newest instant, rad."""
+    rows: list[Instant] = field(factory=list)
+    """The newest instants, oldest first."""
+
+    def restart(self, t: float) -> None:
+        """Start a new integral at `t`, s: nothing is known of the turn before."""
+        self.t, self.turn, self.rows = t, ZERO, [(0, 0, 0, 0)]
+
+    def add(self, t: float, dt: float, gyro: Vec3, most: int) -> None:
+        """Add an angular rate at `t`, s, in rad/s, that lasted `dt` s since the newest instant, 0.12 s at the most.
+
+        When there are `most` instants, the oldest eighth is discarded.
+        """
+        x, y, z = self.turn
+        gx, gy, gz = gyro
+        x, y, z = self.turn = (x + dt * gx, y + dt * gy, z + dt * gz)
+        self.t = t
+        if len(self.rows) >= most:
+            del self.rows[: most // 8]
+        k = UNITS_PER_RAD
+        self.rows.append((int(dt * TICKS_PER_S + 0.5), int(x * k), int(y * k), int(z * k)))
+
+    def keep_newest(self) -> None:
+        """Discard all instants but the newest."""
+        del self.rows[:-1]
+
+    def clear(self) -> None:
+        """Discard all instants."""
+        self.t, self.turn, self.rows = None, ZERO, []
+
+    def times(self) -> list[float]:
+        """Return the times of the instants, s, oldest first, accurate to 0.1 ms; an empty list before any."""
+        if self.t is None:
+            return []
+        back = [-row[0] / TICKS_PER_S for row in self.rows]
+        return [*accumulate([self.t, *back[:0:-1]])][::-1]
+
+    def between(self, i: int, j: int) -> list[Vec3]:
+        """Return the turn since instant `i` at each instant from `i` to before `j`, rad."""
+        _, ax, ay, az = self.rows[i]
+        return [
+            ((x - ax) / UNITS_PER_RAD, (y - ay) / UNITS_PER_RAD, (z - az) / UNITS_PER_RAD)
+            for _, x, y, z in self.rows[i:j]
+        ]
