@@ -30,18 +30,18 @@ FIRST_WINDOW = 0.25
 """Device seconds of which only the earliest arrival is kept, while the fit is young."""
 LAST_WINDOW = 16.0
 """The same once it is old: 32 of them are about eight minutes, short beside a change of temperature."""
-WINDOWS = 32
-STEEPEST = 0.06
+MAX_WINDOWS = 32
+MAX_DRIFT = 0.06
 """A slope further from nominal than this is not believed (some insoles run 4 % fast by design)."""
-SLEW, SLEW_FAR, FAR = 0.005, 0.02, 0.25
+MAX_SLEW, MAX_SLEW_FAR, FAR_OFF = 0.005, 0.02, 0.25
 """Largest relative slew; the same when the error (s) is above FAR."""
-SETTLE = 2.0
+SLEW_TIME = 2.0
 """Time constant in s with which a small error is slewed away."""
-AHEAD = 0.5
+MAX_AHEAD = 0.5
 """A packet cannot arrive before it was measured; the fit may be wrong by this many s, not more."""
-WITHIN, SETTLED_FOR = 0.005, 5.0
+SETTLED_ERROR, SETTLED_FOR = 0.005, 5.0
 """s that the times of a settled clock are from the line at the most, and device seconds for which they have been."""
-BEHIND_AT_ONCE, BEHIND, BEHIND_FOR = 30.0, 1.0, 20.0
+JUMP_DELAY, STOPPED_DELAY, STOPPED_FOR = 30.0, 1.0, 20.0
 """A delay (s) that no device buffers; and one that, kept up for so long (s), is a clock that stood still."""
 
 
@@ -63,7 +63,7 @@ class Clock:
     rs: list[float] = field(factory=list)
     """Arrival minus device seconds of the same points, s."""
     window: float = FIRST_WINDOW
-    begins: float = 0.0
+    window_start: float = 0.0
     """Device second at which the newest window began."""
     drift: float = 0.0
     """Slope of the line minus 1."""
@@ -75,29 +75,29 @@ class Clock:
     """Device seconds of the newest time assigned."""
     last_t: float = 0.0
     """The newest time assigned, s."""
-    away: float = 0.0
+    last_off_line: float = 0.0
     """Device seconds of the newest time that was further than WITHIN from the line, or the first."""
     unsettled_until: float | None = None
     """The newest time assigned while the clock was not settled, s; until then it is not to be compared with others."""
-    floor: float | None = None
+    t_min: float | None = None
     """The first time assigned is not before this: a fit that follows another keeps the order of times."""
 
-    def fitted(self, ticks: float) -> float:
+    def fit_time(self, ticks: float) -> float:
         """Where the line puts `ticks`, s: unslewed, may still change."""
         x = (ticks - self.first_tick) / self.rate
         return self.origin + self.offset + x * (1.0 + self.drift)
 
-    def jumped(self, ticks: float, arrival: float) -> bool:
+    def contradicts(self, ticks: float, arrival: float) -> bool:
         """Whether a packet measured at `ticks` that arrived at `arrival` must be of another clock. Changes nothing."""
         if not self.xs:
             return False
         x = (ticks - self.first_tick) / self.rate
         delay = arrival - (self.origin + self.offset + x * (1.0 + self.drift))
         if delay < 0.0:
-            return delay < -(AHEAD + 0.01 * max(0.0, x - self.xs[-1]))
-        if delay > BEHIND_AT_ONCE:
+            return delay < -(MAX_AHEAD + 0.01 * max(0.0, x - self.xs[-1]))
+        if delay > JUMP_DELAY:
             return True
-        return delay > BEHIND and self.behind_since is not None and arrival - self.behind_since > BEHIND_FOR
+        return delay > STOPPED_DELAY and self.behind_since is not None and arrival - self.behind_since > STOPPED_FOR
 
     def observe(self, ticks: float, arrival: float) -> None:
         """Learn from a packet whose newest sample was measured at `ticks` and that arrived at `arrival` (s)."""
@@ -108,16 +108,16 @@ class Clock:
         x = (ticks - self.first_tick) / self.rate
         r = arrival - self.origin - x
         above = r - self.offset - self.drift * x
-        if above > BEHIND:
+        if above > STOPPED_DELAY:
             if self.behind_since is None:
                 self.behind_since = arrival
         else:
             self.behind_since = None
-        if x >= self.begins + self.window:
-            self.begins = x
+        if x >= self.window_start + self.window:
+            self.window_start = x
             self.xs.append(x)
             self.rs.append(r)
-            if len(self.xs) > WINDOWS:
+            if len(self.xs) > MAX_WINDOWS:
                 self._thin()
             self._fit()
         elif above < self.rs[-1] - self.offset - self.drift * self.xs[-1]:
@@ -125,31 +125,31 @@ class Clock:
             if above < 0.0:
                 self._fit()
 
-    def time(self, ticks: float) -> float:
+    def assign_time(self, ticks: float) -> float:
         """The time of a sample measured at `ticks`, s; call once per sample, in order of ticks."""
         x = (ticks - self.first_tick) / self.rate
         fitted = self.origin + self.offset + x * (1.0 + self.drift)
         if self.last_x is None:
-            t = fitted if self.floor is None else max(fitted, self.floor)
+            t = fitted if self.t_min is None else max(fitted, self.t_min)
         else:
-            step = x - self.last_x
-            straight = self.last_t + step * (1.0 + self.drift)
-            error = fitted - straight
-            limit = step * (SLEW if -FAR < error < FAR else SLEW_FAR)
-            slew = error * (step / SETTLE) if step < SETTLE else error
-            t = straight + max(-limit, min(limit, slew))
+            dx = x - self.last_x
+            t_unslewed = self.last_t + dx * (1.0 + self.drift)
+            error = fitted - t_unslewed
+            limit = dx * (MAX_SLEW if -FAR_OFF < error < FAR_OFF else MAX_SLEW_FAR)
+            slew = error * (dx / SLEW_TIME) if dx < SLEW_TIME else error
+            t = t_unslewed + max(-limit, min(limit, slew))
             if t <= self.last_t:  # below float resolution, or ticks that stand still
                 t = self.last_t + 1e-6
-        if self.last_x is None or not -WITHIN <= fitted - t <= WITHIN:
-            self.away = x
-        if x - self.away < SETTLED_FOR:
+        if self.last_x is None or not -SETTLED_ERROR <= fitted - t <= SETTLED_ERROR:
+            self.last_off_line = x
+        if x - self.last_off_line < SETTLED_FOR:
             self.unsettled_until = t
         self.last_x, self.last_t = x, t
         return t
 
-    def expected(self, ticks: float) -> float:
+    def preview_time(self, ticks: float) -> float:
         """What `time(ticks)` would assign. Changes nothing."""
-        return copy(self).time(ticks)
+        return copy(self).assign_time(ticks)
 
     def _thin(self) -> None:
         if self.window >= LAST_WINDOW:
@@ -166,17 +166,17 @@ class Clock:
     def _fit(self) -> None:
         xs, rs = self.xs, self.rs
         span = xs[-1] - xs[0]
-        drift = max(-STEEPEST, min(STEEPEST, _support_slope(xs, rs)))
+        drift = max(-MAX_DRIFT, min(MAX_DRIFT, _support_slope(xs, rs)))
         heights = [r - drift * x for x, r in zip(xs, rs, strict=True)]
         # How far the slope can be trusted: the minima's mean height over the line, tilted across the span; few points
         # lie close to any line, hence `free`. A drift no larger than its doubt stays near nominal, a device 4 % off
         # is believed within about two seconds.
         free = len(xs) - 4
-        unsettled_until = (
+        drift_error = (
             4.0 * (sum(heights) / len(heights) - min(heights)) / span * (1.0 + 8.0 / free) if free > 0 else 0.0
         )
         drift *= (
-            drift * drift / (drift * drift + unsettled_until * unsettled_until) if free > 0 and drift != 0.0 else 0.0
+            drift * drift / (drift * drift + drift_error * drift_error) if free > 0 and drift != 0.0 else 0.0
         )
         heights = [r - drift * x for x, r in zip(xs, rs, strict=True)]
         self.drift, self.offset = drift, min(heights)

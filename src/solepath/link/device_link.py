@@ -18,7 +18,7 @@ class DeviceLink(Protocol):
         """Of the device, as in its channels."""
 
     @property
-    def silence_is_legal(self) -> bool:
+    def may_be_silent(self) -> bool:
         """Whether the device may send nothing for long."""
 
     @property
@@ -28,16 +28,16 @@ class DeviceLink(Protocol):
     def flush(self, known_at: float) -> Output:
         """What still waits for more, which will not come."""
 
-    def forget_clock(self) -> None:
+    def restart_clock(self) -> None:
         """The receiver's clock was set back: what was fitted to it is of no use."""
 
-    def reconnected(self) -> None:
+    def handle_reconnection(self) -> None:
         """The device was connected anew."""
 
-    def learn_firmware(self, firmware: str) -> None:
+    def set_firmware(self, firmware: str) -> None:
         """The device said which firmware it has; most links have no use for that."""
         return
 
-    def stands_on(self) -> Any:
-        """What a declared device's saved link must find again in its driver (`Driver.basis`); None of others."""
+    def driver_signature(self) -> Any:
+        """What a declared device's saved link must find again in its driver (`Driver.signature`); None of others."""
         return None

@@ -6,7 +6,7 @@ something, a reader that turns it into a `Reading`. stream.py does the rest, the
 file of constructs and data, and a file of vectors (vectors.py checks one with the other): link/devices/ has some,
 examples/own_device.py one of an app's own, which it hands to `Session(profiles=[...])`.
 
-A driver holds functions, so it is never saved: what is saved holds its name and its numbers (`Basis`), and whoever
+A driver holds functions, so it is never saved: what is saved holds its name and its numbers (`DriverSignature`), and whoever
 restores brings it again. Other numbers are refused then; whether the functions are the same, nobody can see.
 """
 
@@ -25,14 +25,14 @@ from ..wire.error import WireError
 from ..wire.fields import Definition, build_whole, malformed, parse_whole
 from .profile import Profile, Write
 
-COUNTERS = 1 << 64
+MAX_COUNTER = 1 << 64
 """No counter of a device has more than 64 bits."""
 UNREADABLE = (ValueError, LookupError, ArithmeticError, StructError)
 """What a construct or a reader raises that can make nothing of a value."""
-FINE = 20.0
+FINE_TICKS = 20.0
 """Ticks that there must be in a sample's time, for ticks to be better than counting samples."""
 
-COARSEST = 2.0
+MIN_TICKS = 2.0
 """The same, for ticks to be better than arrivals where nothing is counted: with fewer, samples would share a tick."""
 
 
@@ -99,10 +99,10 @@ class TimeAxis(Enum):
 
 
 @frozen
-class Basis:
+class DriverSignature:
     """What the state of a link stands on in its driver: it is saved with it, and means nothing on another one."""
 
-    ours: bool
+    built_in: bool
     """A device of devices/, not one of an app's own."""
     stream: str
     nominal_rate: float
@@ -148,7 +148,7 @@ class Driver:
             raise ValueError(f"{self.name}: one channel carries the samples, not {self.profile.streams}")
         if (self.tick_rate > 0.0) is not (self.tick_modulus > 0) or not 0.0 <= self.tick_rate < inf:
             raise ValueError(f"{self.name}: ticks have a rate and a modulus, both above 0")
-        if self.sequence == 1 or not (0 <= self.sequence <= COUNTERS and 0 <= self.tick_modulus <= COUNTERS):
+        if self.sequence == 1 or not (0 <= self.sequence <= MAX_COUNTER and 0 <= self.tick_modulus <= MAX_COUNTER):
             raise ValueError(f"{self.name}: counters wrap at 2 to 2**64")
         if not 0.0 < self.acc_range < inf:
             raise ValueError(f"{self.name}: the range of the accelerometer is above 0")
@@ -169,14 +169,14 @@ class Driver:
     @property
     def axis(self) -> TimeAxis:
         """Ticks, unless they are so coarse beside the samples that counting these is better, or arrivals are."""
-        if self.tick_rate >= (FINE if self.sequence else COARSEST) * self.profile.nominal_rate:
+        if self.tick_rate >= (FINE_TICKS if self.sequence else MIN_TICKS) * self.profile.nominal_rate:
             return TimeAxis.TICKS
         return TimeAxis.COUNT if self.sequence else TimeAxis.ARRIVAL
 
-    def basis(self, ours: bool) -> Basis:
+    def signature(self, built_in: bool) -> DriverSignature:
         (stream,) = self.profile.streams
         rate, ticks = self.profile.nominal_rate, (self.tick_rate, self.tick_modulus)
-        return Basis(ours, stream, rate, self.axis, self.sequence, *ticks, self.acc_range)
+        return DriverSignature(built_in, stream, rate, self.axis, self.sequence, *ticks, self.acc_range)
 
     def parse(self, channel: str, data: bytes) -> Any:
         """What the channel's construct makes of `data`, all of it. WireError when it is not that."""

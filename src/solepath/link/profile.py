@@ -31,7 +31,7 @@ class Channel:
     name: str
     service: str
     characteristic: str
-    how: Access
+    access: Access
 
 
 @frozen
@@ -78,13 +78,13 @@ class Profile:
         named = {*self.streams, *self.reads}.union(*[(write.channel, *write.then_read) for write in self.setup])
         if named - self.channel_names:
             raise ValueError(f"{self.name}: no channel of its own: {sorted(named - self.channel_names)}")
-        silent = [name for name in self.streams if self.channel(name).how is not Access.NOTIFY]
+        silent = [name for name in self.streams if self.channel(name).access is not Access.NOTIFY]
         if silent:
             raise ValueError(f"{self.name}: a stream is notified, and {silent} are not")
         if not (0.0 < self.nominal_rate < inf and 0.0 < self.stale_after < inf):
             raise ValueError(f"{self.name}: nominal_rate and stale_after are finite and above 0")
 
-    def answers_to(self, name: str) -> bool:
+    def matches_name(self, name: str) -> bool:
         """Whether a device of this kind may advertise this name."""
         return name in self.names or (name != "" and name.startswith(self.prefixes))
 
@@ -96,16 +96,16 @@ class Profile:
         raise KeyError(name)
 
 
-def ti(short: int) -> str:
+def ti_uuid(short: int) -> str:
     """A UUID of Texas Instruments' own."""
     return f"f000{short:04x}-0451-4000-b000-000000000000"
 
 
-def standard(short: int) -> str:
+def standard_uuid(short: int) -> str:
     """A UUID that the Bluetooth SIG has assigned."""
     return f"0000{short:04x}-0000-1000-8000-00805f9b34fb"
 
 
-FIRMWARE = Channel("device/firmware", standard(0x180A), standard(0x2A26), Access.READ)
-BATTERY = Channel("device/battery", standard(0x180F), standard(0x2A19), Access.NOTIFY)
+FIRMWARE = Channel("device/firmware", standard_uuid(0x180A), standard_uuid(0x2A26), Access.READ)
+BATTERY = Channel("device/battery", standard_uuid(0x180F), standard_uuid(0x2A19), Access.NOTIFY)
 """What any device may have."""

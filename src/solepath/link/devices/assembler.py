@@ -20,9 +20,9 @@ from math import radians
 from ...types import Sample, Site, Vec3
 from ...types.attrs import define, field
 
-BRACKET = 2.5
+MAX_BRACKET = 2.5
 """Periods that interpolation may span, and after which a channel counts as silent."""
-NEAR = 0.75
+NEAREST = 0.75
 """Periods within which one measurement may stand in for a time without a bracket."""
 RATE_END = 0.99 * radians(250.0)
 """rad/s; the gyroscope ends at 250 degrees/s, which a foot exceeds in every push-off."""
@@ -43,38 +43,38 @@ class Assembler:
     site: Site
     waiting: list[TimedMeasurement] = field(factory=list)
     """Accelerometer measurements without their gyroscope."""
-    before: TimedMeasurement | None = None
+    gyro_before: TimedMeasurement | None = None
     """The gyroscope measurement before the newest."""
-    newest: TimedMeasurement | None = None
+    gyro_newest: TimedMeasurement | None = None
     acc_t: float | None = None
     """When acc was last measured."""
     gyro_since: float | None = None
     """The gyroscope's first time since acc was last heard."""
-    alone: bool = False
+    gyro_silent: bool = False
     """The gyroscope fell silent: acc does not wait for it."""
     mag: Vec3 | None = None
     air_pressure: float | None = None
     last_t: float | None = None
     """Of the newest Sample; they strictly increase."""
 
-    def acc(self, t: float, value: Vec3, period: float, known_at: float) -> list[Sample]:
+    def add_acc(self, t: float, value: Vec3, period: float, known_at: float) -> list[Sample]:
         """An accelerometer measurement, m/s^2."""
         self.acc_t, self.gyro_since = t, None
         self.waiting.append(TimedMeasurement(t, value))
         return self._release(period, known_at)
 
-    def gyro(self, t: float, value: Vec3, period: float, known_at: float) -> list[Sample]:
+    def add_gyro(self, t: float, value: Vec3, period: float, known_at: float) -> list[Sample]:
         """A gyroscope measurement, rad/s."""
-        self.before, self.newest, self.alone = self.newest, TimedMeasurement(t, value), False
+        self.gyro_before, self.gyro_newest, self.gyro_silent = self.gyro_newest, TimedMeasurement(t, value), False
         out = self._release(period, known_at)
         if self.gyro_since is None:
             self.gyro_since = t
-        heard = self.gyro_since if self.acc_t is None else self.acc_t
-        if t - heard > BRACKET * period:
+        t_last = self.gyro_since if self.acc_t is None else self.acc_t
+        if t - t_last > MAX_BRACKET * period:
             out += self._sample(t, None, value, known_at)
         return out
 
-    def pressure_alone(self, t: float, pascal: float) -> list[Sample]:
+    def add_pressure_alone(self, t: float, pascal: float) -> list[Sample]:
         """Air pressure while nothing else comes: a Sample of its own at its arrival `t`, s."""
         out = self.flush(t)
         self.air_pressure = pascal
@@ -92,26 +92,26 @@ class Assembler:
         out: list[Sample] = []
         while self.waiting:
             acc = self.waiting[0]
-            settled = self.newest is not None and self.newest.t >= acc.t
-            if not settled and not self.alone:
-                heard = self.newest.t if self.newest is not None else acc.t
-                if self.waiting[-1].t - heard < BRACKET * period:
+            settled = self.gyro_newest is not None and self.gyro_newest.t >= acc.t
+            if not settled and not self.gyro_silent:
+                t_last = self.gyro_newest.t if self.gyro_newest is not None else acc.t
+                if self.waiting[-1].t - t_last < MAX_BRACKET * period:
                     break
-                self.alone = True
+                self.gyro_silent = True
             out += self._sample(acc.t, acc.value, self._gyro_at(acc.t, period), known_at)
             del self.waiting[0]
         return out
 
     def _gyro_at(self, t: float, period: float) -> Vec3 | None:
-        a, b = self.before, self.newest
+        a, b = self.gyro_before, self.gyro_newest
         if b is None:
             return None
-        if a is not None and a.t <= t <= b.t and b.t - a.t <= BRACKET * period:
+        if a is not None and a.t <= t <= b.t and b.t - a.t <= MAX_BRACKET * period:
             k = (t - a.t) / (b.t - a.t)
             (ax, ay, az), (bx, by, bz) = a.value, b.value
             return (ax + k * (bx - ax), ay + k * (by - ay), az + k * (bz - az))
         nearest = a if a is not None and abs(t - a.t) < abs(b.t - t) else b
-        return nearest.value if abs(nearest.t - t) <= NEAR * period else None
+        return nearest.value if abs(nearest.t - t) <= NEAREST * period else None
 
     def _sample(self, t: float, acc: Vec3 | None, gyro: Vec3 | None, known_at: float) -> list[Sample]:
         if self.last_t is not None and t <= self.last_t:  # the first after its channel was silent: overtaken

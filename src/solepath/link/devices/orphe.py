@@ -36,7 +36,7 @@ ACC_RANGES, GYRO_RANGES = (2.0, 4.0, 8.0, 16.0), (250.0, 500.0, 1000.0, 2000.0)
 """g, degrees/s; by the numbers in INFO."""
 GYRO = radians(35e-6)
 """rad/s per count and degree/s of range: 70 mdps per count at 2000 (ST, LSM6DSOX), and not 2000 / 32768."""
-END = 32767
+END_COUNTS = 32767
 LONGEST_INFO = 32
 """Bytes; the maker's tests have 20."""
 
@@ -117,7 +117,7 @@ def _values(sent: Any, known: Known) -> Reading:
                 gyro=(gx * g, gy * g, gz * g),
                 pressure=tuple(map(float, one.pressure)) if "pressure" in one else None,
                 quat=one.get("quat"),
-                saturated=max(map(abs, (*one.acc, *one.gyro))) >= END,
+                saturated=max(map(abs, (*one.acc, *one.gyro))) >= END_COUNTS,
             )
         )
     ms = ((sent.hour * 60 + sent.minute) * 60 + sent.second) * 1000 + sent.millisecond

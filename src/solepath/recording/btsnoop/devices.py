@@ -69,7 +69,7 @@ def name_attributes(device: LoggedDevice, types: Mapping[int, str], handles: Han
         else:
             same = []
         for how in AttOperation:
-            channel = next((each.name for use in USES[how] for each in same if each.how is use), None)
+            channel = next((each.name for use in USES[how] for each in same if each.access is use), None)
             if channel is not None:
                 device.channels[handle, how] = channel
     return used
