@@ -215,7 +215,7 @@ def timed(packets: list[tuple[float, float]], stream: PeriodicClock) -> tuple[li
     """Errors of the times, and losses counted."""
     errors, lost = [], 0
     for true, arrival in packets:
-        found = stream.arrive(arrival)
+        found = stream.add_packet(arrival)
         errors.append(found.times[0] - true)
         lost += found.lost
     return errors, lost
@@ -249,7 +249,7 @@ def test_times_without_counters_strictly_increase(pauses: list[float]) -> None:
     stream, arrival, newest = make_periodic_clock(0.1), 5.0, -1.0
     for pause in pauses:
         arrival += pause
-        found = stream.arrive(arrival)
+        found = stream.add_packet(arrival)
         assert found.times[0] > newest
         assert found.lost >= 0
         newest = found.times[0]

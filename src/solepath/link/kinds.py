@@ -1,5 +1,8 @@
-"""The kinds of devices that a session knows, by the prefix of their channels: those of devices/, each loaded when a
-channel of it is first heard, and what an app adds. This is a table of functions, so nothing that is saved holds it."""
+"""The kinds of devices that a session knows, by the prefix of their channels.
+
+These are the devices of devices/, each loaded when the first packet of one of its channels arrives, and those that an
+app adds. The table holds functions, so nothing that is saved holds it.
+"""
 
 from __future__ import annotations
 
@@ -12,16 +15,19 @@ from ..types import Site
 from ..types.attrs import field, frozen
 from .device_link import DeviceLink, Output
 
-if TYPE_CHECKING:  # loaded with a device that has them
+if TYPE_CHECKING:  # loaded with a device that needs them
     from .driver import Driver, DriverSignature
     from .profile import Profile
 
 
 @frozen
 class DeviceKind:
-    """One kind of device. `make_link`: a fresh link at a site, of a device with this firmware as far as that is known.
-    `feed`: what a value of a channel (link, channel, data, arrival) makes of it; WireError when it cannot be used.
-    `signature`: what the state of its links stands on; None for those that are not declared."""
+    """One kind of device.
+
+    `make_link`: returns a fresh link at a site, for a device with this firmware as far as that is known. `feed`:
+    returns the samples and events of a value (link, channel, data, arrival); WireError when it cannot be used.
+    `signature`: driver numbers on which the state of its links depends; None for devices that are not declared.
+    """
 
     profile: Profile
     make_link: Callable[[Site, str], DeviceLink]
@@ -29,7 +35,7 @@ class DeviceKind:
     signature: DriverSignature | None = None
 
     def accepts(self, link: DeviceLink) -> bool:
-        """Whether this link, which was saved, is one that this kind began."""
+        """Return whether this saved link is one that this kind made."""
         return link.name == self.profile.name and link.driver_signature() == self.signature
 
 
@@ -49,18 +55,18 @@ _DEVICE_MODULES = {
     "orphe": "orphe",
     "thingy": "thingy",
 }
-"""Name of a device -> its file in devices/."""
+"""File in devices/ of each device, by the device's name."""
 _RESERVED_NAMES = {"insole", "cc2541", "device", "receiver"}
 
 
 @frozen
 class DeviceKinds:
-    """The table. `loaded`: as far as it was asked for; ours come into it then."""
+    """The table of device kinds. `loaded`: those used so far; devices of devices/ are added at first use."""
 
     loaded: dict[str, DeviceKind] = field(factory=dict)
 
     def get(self, name: str) -> DeviceKind | None:
-        """The kind of this name; None where there is none."""
+        """Return the kind of this name; None where there is none."""
         if name in _DEVICE_MODULES and name not in self.loaded:
             module = import_module(f"{__package__}.devices.{_DEVICE_MODULES[name]}")
             own: DeviceKind | None = None
@@ -71,8 +77,10 @@ class DeviceKinds:
 
 
 def make_kinds(drivers: Iterable[Driver] = ()) -> DeviceKinds:
-    """The table with an app's own devices in it, which may replace declared ones of ours. TypeError for what is no
-    Driver, ValueError for a name that is taken."""
+    """Return the table with an app's own devices in it, which may replace declared ones of devices/.
+
+    TypeError for an object that is no Driver, ValueError for a name that is taken.
+    """
     table = DeviceKinds()
     added: set[str] = set()
     for driver in drivers:
@@ -88,4 +96,4 @@ def make_kinds(drivers: Iterable[Driver] = ()) -> DeviceKinds:
 
 
 BUILT_IN_KINDS = make_kinds()
-"""Without any that an app adds."""
+"""The table without any device of an app."""

@@ -1,19 +1,21 @@
-"""A stream without counters: which period each notification belongs to, and when that was.
+"""Times of a stream without counters: the period to which each notification belongs.
 
 SensorTags send neither sequence nor ticks. Their notifications are the slots of a period that the host wrote or that
-the profile names; the slot number takes the place of ticks on the lower envelope (clock.py), and a hole in the arrivals
-is lost packets or late ones. Nothing on the wire tells which, so:
+the profile names. The slot number takes the place of ticks on the lower envelope (clock.py). A gap in the arrivals
+means lost packets or late ones; nothing in the packets tells which. The rules are:
 
-- a hole of 1.5 periods or more that leaves a packet 0.9 periods or more (and five times the usual jitter) later than
-  its slot is lost packets at once;
-- otherwise packets were only late, unless eight in a row stay 0.9 periods behind: then the loss is said at the eighth;
-- a packet that comes half a period too early says that a loss was none; its slot is not counted.
+- A gap of 1.5 periods or more means lost packets at once when the packet after it is later than its slot by 0.9
+  periods or more (and five times the usual jitter).
+- Otherwise packets were only late, unless eight in a row stay 0.9 periods behind: then the loss is reported at the
+  eighth.
+- A packet that comes half a period too early shows that a reported loss was none; its slot is not counted.
 
-A radio may hold back anything for some connection events. So with periods shorter than that a hole says nothing; only
-packets that stay behind by as much, and for a third of a second, are a sign of loss. A smaller loss cannot be told from
-lateness, and the fit makes it good.
+A radio may hold back anything for some connection events. With periods shorter than that, a gap is no evidence; only
+packets that stay behind by as much, and for a third of a second, are a sign of loss. A smaller loss cannot be
+distinguished from lateness, and the fit corrects it.
 
-A period that was never written is found by itself: arrivals clearly faster than the period, or six holes in a row.
+A period that was never written is estimated from the arrivals: they are clearly faster than the period, or there are
+six gaps in a row.
 """
 
 from __future__ import annotations
@@ -27,63 +29,65 @@ from .counters import SampleTimes
 LOSS_GAP = 1.5
 """Periods between two arrivals, from which on a loss is possible."""
 LATE_PERIODS = 0.9
-"""Periods behind its slot, from which on a packet may be one of a later slot."""
+"""Periods behind its slot, from which on a packet may belong to a later slot."""
 LATE_JITTERS = 5.0
-"""The same in mean jitters."""
+"""Mean jitters behind its slot, from which on a packet may belong to a later slot."""
 REVISABLE_PACKETS = 12
-"""Packets after a loss that may still show that there was none."""
+"""Number of packets after a loss that may still show that there was none."""
 MAX_AHEAD = 0.15
-"""Seconds (and one period) by which a time given out may be after the arrival."""
+"""Seconds (and one period) by which an assigned time may be after the arrival."""
 SETTLED_PACKETS = 40
-"""Packets until the fit is good enough to judge lateness by; before, only holes count."""
+"""Number of packets until the fit is good enough to judge lateness; before, only gaps count."""
 SLIPPED_PACKETS, SLIPPED_FOR = 8, 0.32
-"""Packets in a row that stay behind before a slip is a loss, and s for which they do."""
+"""Number of packets in a row, and s, that must stay behind before a slip is a loss."""
 RADIO_DELAY = 0.04
-"""What a radio may hold back at any time, s; with a shorter period a hole is no sign of loss by itself."""
+"""Delay that a radio may cause at any time, s; with a shorter period a gap alone is no sign of loss."""
 FAST_LEAD = 0.24
 """Seconds that arrivals must be ahead before the period is taken to be shorter (radio jitter is less)."""
 WIDE_GAPS = 6
-"""Holes in a row before the period is taken to be longer."""
+"""Number of gaps in a row before the period is taken to be longer."""
 NEW_PHASE_SILENCE = 5.0
-"""Seconds of silence after which the device may have begun to measure anew: slots are counted from there."""
+"""Silence after which the device may measure at a new phase, s; slots are then counted from the next packet."""
 
 
 @define
 class PeriodicClock:
-    """Times of a periodic characteristic. `period`: s, as written to the device or from its profile.
+    """The clock of a periodic characteristic, which has no counters.
 
-    `arrive(a)` assigns the time of the notification that arrived at `a`, s; in order, never revised. Latency none.
+    Times are assigned in order and never revised. Latency none.
     """
 
     period: float
+    """Period in s, as written to the device or from its profile."""
     clock: Clock
+    """Clock whose ticks are slots."""
     slot: float = 0.0
     """Slot of the newest packet."""
     arrived: float | None = None
-    """Its arrival, s."""
+    """Arrival of the newest packet, s; None before the first and after a change of period."""
     jitter: float = 0.0
-    """Running mean of how late packets are, s."""
+    """Running mean of the packets' lateness, s."""
     slipped: int = 0
-    """Packets in a row that were a period behind their slot."""
+    """Number of packets in a row that were a period behind their slot."""
     slip: float = 0.0
-    """The least that they were behind, s."""
+    """Least delay of those packets behind their slots, s."""
     jitter_before_slip: float = 0.0
-    """The jitter before them, s."""
+    """Jitter before the first of those packets, s."""
     revisable: int = 0
-    """Packets for which the latest loss may still turn out to be none."""
+    """Number of packets for which the latest loss may still turn out to be none."""
     settled_packets: int = 0
-    """Packets since the fit began, up to SETTLED."""
+    """Number of packets since the fit started, up to SETTLED_PACKETS."""
     rate_since: float = 0.0
-    """Arrival from which the rate is watched, s."""
+    """Arrival from which the rate is estimated, s."""
     rate_count: int = 0
-    """Packets since then."""
+    """Number of packets since `rate_since`."""
     wide_gaps: int = 0
-    """Holes in a row."""
+    """Number of gaps in a row."""
     wide_gaps_since: float = 0.0
-    """Arrival before the first of them, s."""
+    """Arrival before the first gap in the row, s."""
 
     def add_packet(self, arrival: float, counts_losses: bool = True) -> SampleTimes:
-        """The notification that arrived at `arrival` (s, not before the one before it).
+        """Assign a time to the notification that arrived at `arrival` (s, not before the previous one).
 
         With `counts_losses` False silence is legal (wake on motion) and says nothing about losses.
         """
@@ -110,7 +114,7 @@ class PeriodicClock:
         self.revisable = REVISABLE_PACKETS if lost else max(0, self.revisable - 1)
         if lost == 0 and (
             not self.revisable or behind >= (0.0 if settled else -0.3 * period)
-        ):  # a slot that may be a wrong guess teaches nothing
+        ):  # the fit does not use a slot that may be a wrong guess
             self.clock.observe(self.slot, arrival)
             if settled:
                 late = max(0.0, min(4.0 * period, arrival - self.clock.fit_time(self.slot)))
@@ -118,17 +122,27 @@ class PeriodicClock:
         return SampleTimes([self.clock.assign_time(self.slot)], lost, t_missing)
 
     def set_period(self, period: float) -> None:
-        """Another period (s) was written to the device; slots are counted anew from the next packet."""
+        """Set another period (s), which was written to the device; slots are counted from the next packet."""
         arrived = self.arrived
         self.period, self.arrived = period, None
         if arrived is None:
             self.clock = Clock(1.0 / period)
 
     def _count_lost(self, gap: float, behind: float, period: float) -> int:
+        """Return the number of packets lost before this one."""
         gap_is_evidence = period >= RADIO_DELAY
-        if self.settled_packets < SETTLED_PACKETS:  # how far behind cannot be told from a slow device yet; the hole alone must do
-            return round(gap / period) - 1 if gap_is_evidence and gap >= LOSS_GAP * period and behind >= 0.75 * period else 0
-        if gap_is_evidence and gap >= LOSS_GAP * period and behind >= LATE_PERIODS * period and behind >= LATE_JITTERS * self.jitter:
+        if self.settled_packets < SETTLED_PACKETS:  # lateness may still be a slow device; only the gap is evidence
+            return (
+                round(gap / period) - 1
+                if gap_is_evidence and gap >= LOSS_GAP * period and behind >= 0.75 * period
+                else 0
+            )
+        if (
+            gap_is_evidence
+            and gap >= LOSS_GAP * period
+            and behind >= LATE_PERIODS * period
+            and behind >= LATE_JITTERS * self.jitter
+        ):
             self.slipped = 0
             return floor(behind / period + 1.0 - LATE_PERIODS)
         if behind < (LATE_PERIODS * period if gap_is_evidence else RADIO_DELAY):
@@ -144,7 +158,7 @@ class PeriodicClock:
         return floor(self.slip / period + 1.0 - LATE_PERIODS)
 
     def _correct_period(self, arrival: float, gap: float) -> bool:
-        """Whether the period was wrong; then it is put right."""
+        """Correct the period if it is wrong, and return whether it was."""
         self.rate_count += 1
         expected, found = self.rate_count * self.period, arrival - self.rate_since
         if found < 0.6 * expected and expected - found > FAST_LEAD:
@@ -175,5 +189,5 @@ class PeriodicClock:
 
 
 def make_periodic_clock(period: float) -> PeriodicClock:
-    """A fresh stream with this nominal period, s."""
+    """Return a fresh clock with this nominal period, s."""
     return PeriodicClock(period, Clock(1.0 / period))

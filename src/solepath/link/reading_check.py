@@ -1,5 +1,7 @@
-"""Is a Reading (driver.py) one that a device can mean, and that a machine can hold? An app's readers are not trusted:
-whatever they return is looked at here, before anything changes."""
+"""Check of a Reading (driver.py) before it changes anything, because the readers of an app are not trusted.
+
+A reading must be one that a device can mean and that the core can hold.
+"""
 
 from __future__ import annotations
 
@@ -13,14 +15,17 @@ from ..wire.fields import LONGEST_VALUE, malformed
 from .driver import MAX_COUNTER, Measured, Reading
 
 MAX_VALUE = 1e8
-"""Nothing that a sensor of a foot says is more, in SI units: 24 bits of Pa are 1.7e7."""
+"""Largest magnitude of a sensor value in SI units; no sensor of a foot gives more: 24 bits of Pa are 1.7e7."""
 MIN_RATE, MAX_RATE = 0.1, 10_000.0
-"""Samples a second."""
+"""Smallest and largest rate, samples a second."""
 
 
 def check_reading(reading: object) -> Reading:
-    """The same reading. WireError when it is none, or holds what no device can mean: other shapes than it is declared
-    with, numbers that are none or beyond any sensor, no rate, no range."""
+    """Return the same reading, checked.
+
+    WireError when it is no Reading, or holds values that no device can mean: other shapes than declared, numbers that
+    are not finite or beyond any sensor, an impossible rate or range.
+    """
     if not isinstance(reading, Reading):
         raise malformed(f"a reader gave a {type(reading).__name__}, not a Reading")
     samples = _tuple("samples", reading.samples)
@@ -85,7 +90,7 @@ def _check_known(known: object) -> None:
 
 
 def _tuple(name: str, values: object) -> tuple[object, ...]:
-    """`values`, when they are a tuple of no more things than a value has bytes."""
+    """Return `values` when they are a tuple of no more items than a value has bytes."""
     if not isinstance(values, tuple):
         raise malformed(f"{name} is a {type(values).__name__}, not a tuple")
     if len(values) > LONGEST_VALUE:

@@ -1,4 +1,4 @@
-"""What the receiver says of itself, as events (protocol/receiver.md)."""
+"""Events from the packets in which the receiver reports its own state (protocol/receiver.md)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,10 @@ from ..wire.receiver import parse_connected, parse_dropped, parse_nothing
 
 
 def parse_receiver_event(packet: Packet) -> list[LinkEvent]:
-    """The event of a packet of a channel receiver/...; none of a tick. WireError when it cannot be used."""
+    """Return the event of a packet of a channel receiver/..., or none for a tick.
+
+    WireError when the packet cannot be used.
+    """
     t, site = packet.t, packet.site
     match packet.channel:
         case "receiver/tick":
@@ -18,7 +21,11 @@ def parse_receiver_event(packet: Packet) -> list[LinkEvent]:
             return []
         case "receiver/connected":
             connection = parse_connected(packet.data)
-            return [Connected(t=t, known_at=t, site=site, device=packet.device, name=connection.name, signal=connection.signal)]
+            return [
+                Connected(
+                    t=t, known_at=t, site=site, device=packet.device, name=connection.name, signal=connection.signal
+                )
+            ]
         case "receiver/disconnected":
             parse_nothing(packet.data)
             return [Disconnected(t=t, known_at=t, site=site)]

@@ -1,4 +1,4 @@
-"""Does the accelerometer read 1 g at rest? The one check that tells a wrong range or scale from a right one."""
+"""Check that the accelerometer reads 1 g at rest, which tells a wrong range or scale from a right one."""
 
 from __future__ import annotations
 
@@ -10,30 +10,39 @@ from ..types.attrs import define
 from ..types.vector import GRAVITY
 
 STILL_FOR = 1.5
-"""Seconds without motion that count as rest."""
+"""Time without motion that counts as rest, s."""
 STILL_RANGE = 0.06
-"""How far each axis may range in a still window, as a fraction of the reading's magnitude."""
+"""Range of each axis in a still window at most, as a fraction of the reading's magnitude."""
 TOLERANCE = 0.15
-"""Of 1 g; more than this off and the scale is suspect (ranges differ by factors of two)."""
+"""Deviation from 1 g above which the scale is suspect, as a fraction (ranges differ by factors of two)."""
 RANGES = (2, 4, 8, 16)
-"""Full scales of accelerometers, g."""
+"""Usual full scales of accelerometers, g."""
 
 
 @define
 class RestCheck:
-    """Finds one still window, compares its mean with 1 g, and is done. `grain`: the size of one count, m/s^2."""
+    """Finds one still window, compares its mean with 1 g, and is done."""
 
     grain: float
+    """Size of one count, m/s^2."""
     done: bool = False
+    """Whether a still window was found; then no more samples are needed."""
     started: float = 0.0
+    """Start of the present window, s."""
     count: int = 0
+    """Number of samples in the present window."""
     acc_min: Vec3 = (0.0, 0.0, 0.0)
+    """Smallest value of each axis in the window, m/s^2."""
     acc_max: Vec3 = (0.0, 0.0, 0.0)
+    """Largest value of each axis in the window, m/s^2."""
     acc_sum: Vec3 = (0.0, 0.0, 0.0)
+    """Sum of the samples in the window, m/s^2."""
 
     def check(self, sample: Sample, assumed: float) -> list[ScaleSuspect]:
-        """The event when this sample, which has `acc`, shows that it is wrong; a full scale of `assumed` g is taken for
-        granted. Call with every such sample until `done`."""
+        """Return a ScaleSuspect event when this sample, which has `acc`, shows that the scale is wrong.
+
+        `assumed`: full scale that the sample was computed with, g. Call it with every such sample until `done`.
+        """
         magnitude = None if sample.acc is None else self.add_acc(sample.t, sample.acc)
         if magnitude is None:
             return []
@@ -41,7 +50,7 @@ class RestCheck:
         return [ScaleSuspect(t=t, known_at=known_at, site=sample.site, magnitude=magnitude, suggestion=words)]
 
     def add_acc(self, t: float, acc: Vec3) -> float | None:
-        """Mean |acc| in m/s^2 when it is known to be wrong, else None."""
+        """Return the mean |acc| of the still window in m/s^2 when it shows a wrong scale, else None."""
         x, y, z = acc
         if self.count == 0:
             self._restart_window(t, acc)
@@ -66,7 +75,7 @@ class RestCheck:
 
 
 def suggest_range(magnitude: float, assumed: float) -> str:
-    """What a reading of `magnitude` m/s^2 at rest says, when a full scale of `assumed` g was taken for granted."""
+    """Return a sentence on a reading of `magnitude` m/s^2 at rest with an assumed full scale of `assumed` g."""
     if magnitude < 0.05 * GRAVITY:
         return "reads nothing at rest: is the accelerometer switched on?"
     ratio = magnitude / GRAVITY

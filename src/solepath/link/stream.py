@@ -1,12 +1,12 @@
-"""One declared device (driver.py): what its readers make of each value, to Samples on one clock and events.
+"""The link of one declared device (driver.py): its readings to Samples on one clock and events.
 
-Times come from the best that the device has, by the rules of protocol/clock.md:
+Times come from the best source that the device has, by the rules of protocol/clock.md:
 
-- its own time, where it has one, as with an insole. Without sequence numbers losses are device_elapsed by the ticks, at the rate
-  that the profile or a value says; six packets in a row at another, steady distance say that the rate was wrong;
-- else its sequence numbers: they count the samples, and what samples count is time. A coarse device time beside them,
-  or a silence of 5 s, tells when counting stood still;
-- else arrivals alone (periodic.py).
+- The device's own time, where it has one, as with an insole. Without sequence numbers the ticks show losses, at the
+  rate of the profile or of a value; six packets in a row at another, steady distance show that the rate was wrong.
+- Else its sequence numbers: they count the samples, and the count is the time. A coarse device time beside them, or a
+  silence of 5 s, shows when counting stopped.
+- Else arrivals alone (periodic.py).
 """
 
 from __future__ import annotations
@@ -25,64 +25,71 @@ from .reading_check import MIN_RATE, check_reading
 from .rest import RestCheck
 
 MAX_WAIT = 1.0
-"""Seconds without samples after which air pressure no longer waits for one to ride on."""
+"""Time without samples after which air pressure no longer waits for one, s."""
 TICKS_PER_SAMPLE = 100
-"""Ticks that a counted sample is worth: a pause is no whole number of samples."""
+"""Ticks of a counted sample: a pause is no whole number of samples."""
 PAUSE_LEAD = 0.25
-"""Seconds (and a tenth of the time) by which a device's coarse time is ahead of its count when it has paused."""
+"""Seconds (and a tenth of the time) by which a device's coarse time is ahead of its count after a pause."""
 MAX_BEHIND, MAX_AHEAD = 2.0, 0.25
-"""Seconds by which that time may be behind the arrivals, or ahead; else somebody has set it."""
+"""Seconds by which a device's coarse time may be behind the arrivals, or ahead; beyond, it was set."""
 SILENCE, LATE_AFTER_SILENCE, LATE_AFTER_CONNECTION = 5.0, 2.5, 0.5
-"""Seconds without packets after which counting may have stood still; how late the packet after them is then; the same
-right after a new connection, which delivers nothing of before."""
+"""Silence after which counting may have stopped, and lateness of the next packet that shows it, s.
+
+LATE_AFTER_CONNECTION is that lateness right after a new connection, which delivers nothing from before."""
 LOSS_GAP = 1.5
-"""Packets' times between two packets, from which on some were lost; device_elapsed by ticks alone."""
+"""Packet intervals between two packets from which on some were lost, where only ticks show it."""
 STEADY_PACKETS = 6
-"""Packets in a row at another distance, after which the rate is taken to have been wrong."""
+"""Number of packets in a row at another distance after which the rate is taken to have been wrong."""
 RATE_TOLERANCE = 0.2
-"""By how much that distance must differ, and how much the six may differ among themselves, relatively."""
+"""Relative difference of that distance from the nominal one, and the spread of the six packets' distances."""
 
 
 @define
 class StreamLink(DeviceLink):
-    """Feeds on the channels of one declared device at one site; `name` is that of its driver.
+    """The link of one declared device at one site.
 
-    `feed` raises WireError for what cannot be used, and then nothing has changed. Latency none.
+    `feed` raises WireError for values that cannot be used, and then nothing has changed. Latency none.
     """
 
     site: Site
     name: str
+    """Name of the driver."""
     signature: DriverSignature
+    """Numbers of the driver with which the link started."""
     rate: float
-    """Samples a second, nominal."""
+    """Nominal rate, samples a second."""
     rest: RestCheck
+    """Check of the accelerometer's scale."""
     known: dict[str, float] = field(factory=dict)
-    """What earlier values said that later ones are read with."""
+    """Numbers from earlier values that later ones are read with."""
     may_be_silent: bool = False
     run: PacketRun = field(factory=PacketRun)
     coarse: int = 0
-    """The device's time of the newest packet, in ticks as sent, where it stands beside the sequence."""
+    """Device time of the newest packet in ticks as sent, where it stands beside a sequence number."""
     off_rate_packets: int = 0
-    """Packets in a row at another distance than the rate says."""
+    """Number of packets in a row at another distance than the rate predicts."""
     off_rate_interval: float = 1.0
-    """That distance, ticks a sample."""
+    """Distance of those packets, ticks a sample."""
     periodic: PeriodicClock | None = None
     arrived: float | None = None
     """Newest arrival with samples, s."""
     last_t: float | None = None
-    """Of the newest sample; they strictly increase."""
+    """Time of the newest sample, s; sample times strictly increase."""
     mag: Vec3 | None = None
+    """Magnetometer value that waits for the next sample, T."""
     air_pressure: float | None = None
+    """Air pressure that waits for the next sample, Pa."""
     limitation_reported: bool = False
-    """The limitation was said."""
+    """Whether the driver's limitation was reported."""
 
     @property
     def unsettled_until(self) -> float | None:
-        """The newest time that is not to be compared with those of other devices (clock.py), s."""
+        """Newest time that is not comparable with those of other devices (clock.py), s."""
         clock = self.run.clock if self.periodic is None else self.periodic.clock
         return None if clock is None else clock.unsettled_until
 
     def feed(self, channel: str, data: bytes, arrival: float, driver: Driver) -> Output:
+        """Return the samples and events of one value that arrived at `arrival`, s."""
         reading = check_reading(driver.read(channel, data, self.known))
         self._check(driver, channel, reading)
         out = self._make_samples(driver, channel, reading, arrival) if reading.samples else []
@@ -90,24 +97,24 @@ class StreamLink(DeviceLink):
         return self._make_events(reading, arrival) + out + self._take_slow_values(reading, arrival)
 
     def driver_signature(self) -> DriverSignature:
-        """What its driver declared when it began."""
+        """Return the signature of the driver with which the link started."""
         return self.signature
 
     def restart_clock(self) -> None:
-        """The receiver's clock was set back: fit anew, and let times begin anew too."""
+        """Restart the clock fit and the times, because the receiver's clock was set back."""
         self.run.clock, self.arrived, self.last_t = None, None, None
         if self.periodic is not None:
             self.periodic = make_periodic_clock(self.periodic.period)
 
     def handle_reconnection(self) -> None:
-        """A new connection: nothing can be overtaken, and the device may have begun anew."""
+        """Expect counters to have restarted; after a new connection nothing can be overtaken."""
         self.run.after_reconnection = True
 
     def flush(self, known_at: float) -> Output:
         return []
 
     def _check(self, driver: Driver, channel: str, reading: Reading) -> None:
-        """WireError when a reading is none that could be used."""
+        """Raise WireError when a reading cannot be used."""
         if reading.foot is not None and reading.foot is not self.site.foot:
             raise WireError(Rejection.WRONG_SITE, f"of a {reading.foot.value} foot")
         if reading.samples and channel not in driver.profile.streams:
@@ -182,7 +189,7 @@ class StreamLink(DeviceLink):
             self._correct_rate(driver, reading, counted)
         else:
             counted = self._by_count(driver, reading, rate, arrival)
-            taken = self.run.accept(counted, rate * TICKS_PER_SAMPLE, arrival, new_fit=self._counting_stopped(driver, arrival))
+            taken = self.run.accept(counted, rate * TICKS_PER_SAMPLE, arrival, new_fit=self._stopped(driver, arrival))
             self._set_rate(rate)
             self.coarse = int(reading.ticks or 0)
         out: Output = [*taken.make_events(self.site, channel, arrival)]
@@ -190,20 +197,20 @@ class StreamLink(DeviceLink):
             self.limitation_reported = True
             out.append(Limitation(t=arrival, known_at=arrival, site=self.site, what=driver.limitation))
         self.arrived = arrival
-        for device_sample, taken_at in zip(reading.samples, taken.times, strict=True):
+        for raw, taken_at in zip(reading.samples, taken.times, strict=True):
             t = self._make_increasing(taken_at)
-            mag, air_pressure = device_sample.mag, device_sample.air_pressure
+            mag, air_pressure = raw.mag, raw.air_pressure
             if mag is None:
                 mag, self.mag = self.mag, None
             if air_pressure is None:
                 air_pressure, self.air_pressure = self.air_pressure, None
-            quat = None if device_sample.quat is None else unit(device_sample.quat)
+            quat = None if raw.quat is None else unit(raw.quat)
             known_at = arrival if arrival > t else t
             sample = Sample(
-                t, self.site, device_sample.acc, device_sample.gyro, device_sample.pressure, quat, mag, air_pressure, known_at, device_sample.saturated
+                t, self.site, raw.acc, raw.gyro, raw.pressure, quat, mag, air_pressure, known_at, raw.saturated
             )
             out.append(sample)
-            if device_sample.acc is not None and not self.rest.done:
+            if raw.acc is not None and not self.rest.done:
                 out += self.rest.check(sample, self._acc_range(driver))
         return out
 
@@ -216,14 +223,17 @@ class StreamLink(DeviceLink):
         if reading.sequence is not None and driver.sequence:
             d, m = run.count_packets(reading.sequence, driver.sequence, e / run.packet_ticks)
             return PacketPosition(int(reading.sequence), int(reading.ticks), interval, count, d, m, e)
-        if e > 0:  # ticks were cut to whole ones: a distance may be one tick less than it says
+        if e > 0:  # ticks were cut to whole ones: the true distance may be up to one tick less
             m = max(1, round(e / run.packet_ticks)) if e - 1 >= LOSS_GAP * run.packet_ticks else 1
         else:
             m = 0 if e == 0 else min(-1, round(e / run.packet_ticks))
         return PacketPosition(0, int(reading.ticks), interval, count, m, m, e)
 
     def _by_count(self, driver: Driver, reading: Reading, rate: float, arrival: float) -> PacketPosition:
-        """Samples make the ticks, and the place of a packet is that of its number nearest to what time says."""
+        """Return a packet's position by its number: of all that wrap, the one nearest to the elapsed time.
+
+        Samples make the ticks.
+        """
         run, count = self.run, len(reading.samples)
         if reading.sequence is None:
             raise malformed("no sequence number, which this device has")
@@ -239,26 +249,37 @@ class StreamLink(DeviceLink):
             e = round(ticks)
         return PacketPosition(int(reading.sequence), 0, TICKS_PER_SAMPLE, count, d, m, e)
 
-    def _counting_stopped(self, driver: Driver, arrival: float) -> bool:
-        """Whether a packet after a silence is too late to be counted on from the one before it."""
+    def _stopped(self, driver: Driver, arrival: float) -> bool:
+        """Return whether a packet after a silence is too late to be counted on from the one before it."""
         clock, run = self.run.clock, self.run
         if clock is None or self.arrived is None or driver.tick_modulus:
             return False
         silence, delay = arrival - self.arrived, arrival - clock.fit_time(run.ticks + run.packet_ticks)
-        return delay > LATE_AFTER_CONNECTION if run.after_reconnection else silence > SILENCE and delay > LATE_AFTER_SILENCE
+        return (
+            delay > LATE_AFTER_CONNECTION
+            if run.after_reconnection
+            else silence > SILENCE and delay > LATE_AFTER_SILENCE
+        )
 
     def _correct_rate(self, driver: Driver, reading: Reading, counted: PacketPosition) -> None:
-        """Put the rate right when the ticks say that it was wrong."""
+        """Correct the rate when the ticks show that it was wrong."""
         if driver.sequence or reading.interval is not None or counted.ticks_after <= 0:
             return
         distance = counted.ticks_after / counted.samples
         if abs(distance - counted.interval) <= RATE_TOLERANCE * counted.interval + 1.0 / counted.samples:
             self.off_rate_packets = 0
             return
-        same = self.off_rate_packets > 0 and abs(distance - self.off_rate_interval) <= RATE_TOLERANCE * self.off_rate_interval
+        same = (
+            self.off_rate_packets > 0
+            and abs(distance - self.off_rate_interval) <= RATE_TOLERANCE * self.off_rate_interval
+        )
         self.off_rate_packets, self.off_rate_interval = self.off_rate_packets + 1 if same else 1, distance
         if self.off_rate_packets >= STEADY_PACKETS:
-            self.rate, self.off_rate_packets, self.run.packet_ticks = driver.tick_rate / distance, 0, float(counted.ticks_after)
+            self.rate, self.off_rate_packets, self.run.packet_ticks = (
+                driver.tick_rate / distance,
+                0,
+                float(counted.ticks_after),
+            )
 
     def _by_arrival(self, count: int, rate: float, arrival: float) -> SampleTimes:
         if self.periodic is None:
@@ -276,6 +297,6 @@ class StreamLink(DeviceLink):
 
 
 def make_stream_link(driver: Driver, built_in: bool, site: Site, firmware: str) -> StreamLink:
-    """A fresh device of this kind at `site`."""
+    """Return a fresh link of this kind of device at `site`."""
     rest = RestCheck(driver.acc_range * GRAVITY / 32768)
     return StreamLink(site, driver.name, driver.signature(built_in), driver.profile.nominal_rate, rest)

@@ -1,16 +1,16 @@
-"""CC2541: accelerometer, gyroscope and magnetometer come separately, each at its own phase; here they become Samples.
+"""Assembly of CC2541 accelerometer, gyroscope and magnetometer values, which come separately, into Samples.
 
-A Sample is taken at each accelerometer time, with the gyroscope interpolated to it between the measurements before and
-after. So a Sample waits for the next gyroscope packet: latency up to one period (100 ms stock, 50 ms at 20 Hz) and the
-radio's. When a channel fails:
+Each sensor has its own phase. A Sample is taken at each accelerometer time, with the gyroscope interpolated to it
+between the measurements before and after. So a Sample waits for the next gyroscope packet: latency up to one period
+(100 ms stock, 50 ms at 20 Hz) plus the radio's. When a channel fails:
 
-- one gyroscope packet lost: interpolated over the hole (PacketsLost has been said); the wait is one period longer;
-- more lost: the nearest measurement within 0.75 periods, else no gyroscope in that Sample;
-- gyroscope silent for 2.5 periods or never seen: Samples with acc alone, then at once;
-- an accelerometer packet lost: no Sample there; the next has its own time;
-- accelerometer silent for 2.5 periods or never seen: Samples with gyro alone, at the gyroscope's times.
+- One gyroscope packet lost: interpolated over the gap (PacketsLost was reported); the wait is one period longer.
+- More lost: the nearest measurement within 0.75 periods, else no gyroscope in that Sample.
+- Gyroscope silent for 2.5 periods or never seen: Samples with acc alone, then without waiting.
+- An accelerometer packet lost: no Sample there; the next has its own time.
+- Accelerometer silent for 2.5 periods or never seen: Samples with gyro alone, at the gyroscope's times.
 
-Magnetometer and air pressure are slower; each value rides on the next Sample once.
+Magnetometer and air pressure are slower; each value is attached once, to the next Sample.
 """
 
 from __future__ import annotations
@@ -23,14 +23,16 @@ from ...types.attrs import define, field
 MAX_BRACKET = 2.5
 """Periods that interpolation may span, and after which a channel counts as silent."""
 NEAREST = 0.75
-"""Periods within which one measurement may stand in for a time without a bracket."""
+"""Periods within which one measurement may stand in for a time without measurements on both sides."""
 RATE_END = 0.99 * radians(250.0)
-"""rad/s; the gyroscope ends at 250 degrees/s, which a foot exceeds in every push-off."""
+"""Angular rate that counts as saturated, rad/s.
+
+The gyroscope ends at 250 degrees/s, which a foot exceeds in every push-off."""
 
 
 @define
 class TimedMeasurement:
-    """A measurement and when it was taken, s."""
+    """A measurement and the time at which it was taken, s."""
 
     t: float
     value: Vec3
@@ -38,33 +40,39 @@ class TimedMeasurement:
 
 @define
 class Assembler:
-    """Pairs measurements; the times given to `acc` and to `gyro` each increase. At most four wait."""
+    """Pairs accelerometer and gyroscope measurements; at most four wait.
+
+    The times given to `add_acc` and to `add_gyro` each increase.
+    """
 
     site: Site
     waiting: list[TimedMeasurement] = field(factory=list)
-    """Accelerometer measurements without their gyroscope."""
+    """Accelerometer measurements that wait for their gyroscope measurement."""
     gyro_before: TimedMeasurement | None = None
-    """The gyroscope measurement before the newest."""
+    """Gyroscope measurement before the newest."""
     gyro_newest: TimedMeasurement | None = None
+    """Newest gyroscope measurement."""
     acc_t: float | None = None
-    """When acc was last measured."""
+    """Time of the newest accelerometer measurement, s."""
     gyro_since: float | None = None
-    """The gyroscope's first time since acc was last heard."""
+    """Time of the first gyroscope measurement since the newest accelerometer measurement, s."""
     gyro_silent: bool = False
-    """The gyroscope fell silent: acc does not wait for it."""
+    """Whether the gyroscope is silent, so that acc does not wait for it."""
     mag: Vec3 | None = None
+    """Magnetometer value that waits for the next Sample, T."""
     air_pressure: float | None = None
+    """Air pressure that waits for the next Sample, Pa."""
     last_t: float | None = None
-    """Of the newest Sample; they strictly increase."""
+    """Time of the newest Sample, s; sample times strictly increase."""
 
     def add_acc(self, t: float, value: Vec3, period: float, known_at: float) -> list[Sample]:
-        """An accelerometer measurement, m/s^2."""
+        """Add an accelerometer measurement, m/s^2, and return the Samples that are complete."""
         self.acc_t, self.gyro_since = t, None
         self.waiting.append(TimedMeasurement(t, value))
         return self._release(period, known_at)
 
     def add_gyro(self, t: float, value: Vec3, period: float, known_at: float) -> list[Sample]:
-        """A gyroscope measurement, rad/s."""
+        """Add a gyroscope measurement, rad/s, and return the Samples that are complete."""
         self.gyro_before, self.gyro_newest, self.gyro_silent = self.gyro_newest, TimedMeasurement(t, value), False
         out = self._release(period, known_at)
         if self.gyro_since is None:
@@ -75,13 +83,13 @@ class Assembler:
         return out
 
     def add_pressure_alone(self, t: float, pascal: float) -> list[Sample]:
-        """Air pressure while nothing else comes: a Sample of its own at its arrival `t`, s."""
+        """Return a Sample of air pressure alone at its arrival `t`, s, while nothing else comes."""
         out = self.flush(t)
         self.air_pressure = pascal
         return out + self._sample(t, None, None, t)
 
     def flush(self, known_at: float) -> list[Sample]:
-        """What still waits, with the gyroscope as far as it is known."""
+        """Return the Samples that still wait, with the gyroscope as far as it is known."""
         out: list[Sample] = []
         for acc in self.waiting:
             out += self._sample(acc.t, acc.value, None, known_at)
@@ -114,7 +122,7 @@ class Assembler:
         return nearest.value if abs(nearest.t - t) <= NEAREST * period else None
 
     def _sample(self, t: float, acc: Vec3 | None, gyro: Vec3 | None, known_at: float) -> list[Sample]:
-        if self.last_t is not None and t <= self.last_t:  # the first after its channel was silent: overtaken
+        if self.last_t is not None and t <= self.last_t:  # the first after its channel was silent came too late
             return []
         mag, self.mag = self.mag, None
         air_pressure, self.air_pressure = self.air_pressure, None

@@ -1,7 +1,7 @@
 """TI CC2541 SensorTag (protocol/cc2541.md): five separate sensors in raw axes, each with a characteristic of its own.
 
-It has a link of its own, no Driver: accelerometer and gyroscope are two streams on two clocks, which assembler.py puts
-together, and what a count is worth depends on the firmware.
+It has a link of its own, no Driver: accelerometer and gyroscope are two streams on two clocks, which assembler.py
+combines, and the scale of a count depends on the firmware.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ from ..rest import RestCheck
 from .assembler import Assembler
 
 STOCK_PERIOD = 0.1
-"""s, what the stock profile writes; 20 Hz firmware is known by its period packet, or by its arrivals."""
+"""Period that the stock profile writes, s; 20 Hz firmware is known by its period packet, or by its arrivals."""
 GYRO = radians(500.0 / 65536.0)
-"""rad/s per count (TI, SensorTag user's guide: v * 500 / 65536 degrees/s)."""
+"""Gyroscope scale, rad/s per count (TI, SensorTag user's guide: v * 500 / 65536 degrees/s)."""
 MAG = 2000.0 / 65536.0 * 1e-6
-"""T per count (the same: v * 2000 / 65536 uT)."""
+"""Magnetometer scale, T per count (TI, SensorTag user's guide: v * 2000 / 65536 uT)."""
 MAX_WAIT = 1.0
-"""Seconds without inertial samples after which air pressure no longer waits for one to ride on."""
+"""Time without inertial samples after which air pressure no longer waits for one, s."""
 
 
 def _profile(name: str, period: bytes, nominal_rate: float) -> Profile:
@@ -57,7 +57,7 @@ def _profile(name: str, period: bytes, nominal_rate: float) -> Profile:
         ),
         setup=(
             Write("cc2541/accelerometer-period", period),
-            Write("cc2541/accelerometer-config", b"\x03"),  # 8 g: the one value on which drivers agree most
+            Write("cc2541/accelerometer-config", b"\x03"),  # 8 g: the value on which published drivers agree most
             Write("cc2541/gyroscope-period", period),
             Write("cc2541/gyroscope-config", b"\x07"),
             Write("cc2541/magnetometer-period", b"\x64"),
@@ -75,7 +75,7 @@ def _profile(name: str, period: bytes, nominal_rate: float) -> Profile:
 
 PROFILE = _profile("cc2541", b"\x0a", 10.0)
 PROFILE_20HZ = _profile("cc2541-20hz", b"\x05", 20.0)
-"""Firmware rebuilt with a lower minimum period; from its advertisement it cannot be told from the stock one."""
+"""Profile of firmware rebuilt with a lower minimum period; its advertisement is the same as the stock one's."""
 
 FORMATS: dict[str, Definition] = {
     "cc2541/accelerometer": Struct("acc" / Fields("<3b")),
@@ -88,7 +88,7 @@ FORMATS: dict[str, Definition] = {
     "cc2541/magnetometer": Struct("mag" / Fields("<3h")),
     "cc2541/magnetometer-config": Struct("on" / ON_OFF),
     "cc2541/magnetometer-period": PERIOD,
-    # Of the T5400, uncompensated: it needs the calibration.
+    # Raw values of the T5400, which need the calibration.
     "cc2541/barometer": Struct("temperature" / Int16sl, "pressure" / Int16ul),
     # 0 off, 1 on, 2 fetch the coefficients so that they can be read.
     "cc2541/barometer-config": Struct("code" / OneOf(Int8ul, range(3))),
@@ -102,8 +102,8 @@ FORMATS: dict[str, Definition] = {
 
 COUNTS_PER_G = {
     # (firmware revision contains, value of AA12) -> counts of the KXTJ9's 8 bits per g: protocol/cc2541.md's table.
-    # Published drivers contradict each other (16 always, 64 always, opposite tests of the revision), so this is what
-    # the firmware itself does: since 1.5, AA12 = 1, 2, 3 sets 2, 4, 8 g; before, it only switches on, at 2 g.
+    # Published drivers contradict each other (16 always, 64 always, opposite tests of the revision), so the table
+    # follows the firmware: since 1.5, AA12 = 1, 2, 3 sets 2, 4, 8 g; before, it only switches on, at 2 g.
     ("1.4", 1): 64,
     ("1.4", 2): 64,
     ("1.4", 3): 64,
@@ -112,11 +112,14 @@ COUNTS_PER_G = {
     ("", 3): 16,
 }
 WRITTEN_CODE = 3
-"""AA12 as the profile writes it, until a packet says otherwise."""
+"""Value of AA12 as the profile writes it, until a packet says otherwise."""
 
 
 def counts_per_g(firmware: str, code: int) -> int:
-    """The accelerometer's scale by firmware revision and AA12 (1 to 3); "" in the table is any other revision."""
+    """Return the accelerometer's scale by firmware revision and AA12 (1 to 3), counts per g.
+
+    "" in the table is any other revision.
+    """
     return COUNTS_PER_G["1.4" if "1.4" in firmware else "", code]
 
 
@@ -134,12 +137,14 @@ class BarometerCalibration:
     c8: int
 
     def celsius(self, temperature: int) -> float:
-        """Temperature in degrees Celsius: c1 t / 2^24 + c2 / 2^10."""
+        """Return the temperature in degrees Celsius: c1 t / 2^24 + c2 / 2^10."""
         return self.c1 * temperature / 2**24 + self.c2 / 2**10
 
     def pascal(self, temperature: int, pressure: int) -> float:
-        """Air pressure in Pa: (S p + O) / 2^14, where S = c3 + c4 t / 2^17 + c5 t^2 / 2^34 and
-        O = c6 2^14 + c7 t / 2^3 + c8 t^2 / 2^19."""
+        """Return the air pressure in Pa: (S p + O) / 2^14.
+
+        S = c3 + c4 t / 2^17 + c5 t^2 / 2^34 and O = c6 2^14 + c7 t / 2^3 + c8 t^2 / 2^19.
+        """
         t = temperature
         sensitivity = self.c3 + self.c4 * t / 2**17 + self.c5 * t * t / 2**34
         offset = self.c6 * 2**14 + self.c7 * t / 2**3 + self.c8 * t * t / 2**19
@@ -148,10 +153,11 @@ class BarometerCalibration:
 
 @define
 class Cc2541Link(DeviceLink):
-    """Feeds on the channels cc2541/... of one site.
+    """The link of a CC2541 at one site.
 
-    `feed` raises WireError for what cannot be used, and then nothing has changed. Latency: see assembler.py.
-    Losses of accelerometer and gyroscope are estimated by their periods (periodic.py); those of slower channels not.
+    `feed` raises WireError for values that cannot be used, and then nothing has changed. Latency: see assembler.py.
+    Losses of accelerometer and gyroscope are estimated by their periods (periodic.py); those of slower channels are
+    not.
     """
 
     name: ClassVar[str] = "cc2541"
@@ -160,13 +166,14 @@ class Cc2541Link(DeviceLink):
     assembler: Assembler
     firmware: str = ""
     code: int = WRITTEN_CODE
+    """Newest value of AA12 that is not 0; it selects the accelerometer's scale."""
     acc: PeriodicClock = field(factory=lambda: make_periodic_clock(STOCK_PERIOD))
     gyro: PeriodicClock = field(factory=lambda: make_periodic_clock(STOCK_PERIOD))
     acc_on: bool = True
     gyro_on: bool = True
     calibration: BarometerCalibration | None = None
     limitation_reported: bool = False
-    """The Limitation about the barometer was said."""
+    """Whether the Limitation about the barometer was reported."""
     rest: RestCheck = field(factory=lambda: RestCheck(GRAVITY / COUNTS_PER_G["", WRITTEN_CODE]))
 
     @property
@@ -175,7 +182,7 @@ class Cc2541Link(DeviceLink):
 
     @property
     def unsettled_until(self) -> float | None:
-        """The newest time that is not to be compared with those of other devices (clock.py), s."""
+        """Newest time that is not comparable with those of other devices (clock.py), s."""
         return self.acc.clock.unsettled_until if self.acc.clock.last_x is not None else self.gyro.clock.unsettled_until
 
     def feed(self, channel: str, data: bytes, arrival: float) -> Output:
@@ -205,19 +212,19 @@ class Cc2541Link(DeviceLink):
         return []
 
     def set_firmware(self, firmware: str) -> None:
-        """The firmware revision decides on the accelerometer's scale."""
+        """Set the firmware revision, which decides on the accelerometer's scale."""
         before = counts_per_g(self.firmware, self.code)
         self.firmware = firmware
         if counts_per_g(firmware, self.code) != before:
             self._restart_scale_check()
 
     def restart_clock(self) -> None:
-        """The receiver's clock was set back: fit anew, and let times begin anew too."""
+        """Restart the clock fits and the times, because the receiver's clock was set back."""
         self.acc, self.gyro = make_periodic_clock(self.acc.period), make_periodic_clock(self.gyro.period)
         self.assembler = Assembler(self.site)
 
     def handle_reconnection(self) -> None:
-        """A new connection: nothing was under way that could end with the old one."""
+        """Do nothing: no state ends with the old connection."""
 
     def flush(self, known_at: float) -> Output:
         return [*self.assembler.flush(known_at)]
@@ -275,11 +282,11 @@ def _scaled(counts: tuple[int, int, int], scale: float) -> Vec3:
 
 
 def make_cc2541_link(site: Site, firmware: str) -> Cc2541Link:
-    """A fresh tag at `site`."""
+    """Return a fresh link of a tag at `site`."""
     link = Cc2541Link(site, Assembler(site))
     link.set_firmware(firmware)
     return link
 
 
 LINK = make_cc2541_link, Cc2541Link.feed
-"""How a link of its own begins, and how it is fed."""
+"""Function that makes the device's own link, and function that feeds it."""

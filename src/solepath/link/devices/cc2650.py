@@ -1,5 +1,7 @@
-"""TI CC2650 SensorTag (protocol/cc2650.md): nine axes in one notification without any counter, 10 Hz at stock firmware;
-air pressure and keys beside them."""
+"""TI CC2650 SensorTag (protocol/cc2650.md): nine axes in one notification without any counter, 10 Hz at stock firmware.
+
+It sends air pressure and keys as well.
+"""
 
 from __future__ import annotations
 
@@ -16,13 +18,13 @@ from ..driver import Driver, Known, Measured, Reading
 from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_uuid
 
 ACC_RANGE = 8.0
-"""g, what the profile writes."""
+"""Full scale of the accelerometer that the profile writes, g."""
 GYRO = radians(500.0 / 65536.0)
-"""rad/s per count: +-250 degrees/s (TI, CC2650 SensorTag user's guide)."""
+"""Gyroscope scale, rad/s per count: +-250 degrees/s (TI, CC2650 SensorTag user's guide)."""
 MAG = 4912.0 / 32760.0 * 1e-6
-"""T per count (InvenSense, MPU-9250 product specification: 4912 uT full scale, 32760 counts)."""
+"""Magnetometer scale, T per count (InvenSense, MPU-9250 product specification: 4912 uT full scale, 32760 counts)."""
 END_COUNTS = 32767
-"""Counts at which a sensor is at the end of its range."""
+"""Counts at the end of a sensor's range."""
 
 PROFILE = Profile(
     name="cc2650",
@@ -111,7 +113,7 @@ def _movement(sent: Any, known: Known) -> Reading:
 
 
 def _movement_config(sent: Any, known: Known) -> Reading:
-    """With wake on motion the tag is silent while it lies still."""
+    """Read the configuration; with wake on motion the tag is silent while it lies still."""
     measures = any(sent.acc_axes) or any(sent.gyro_axes) or sent.mag
     return Reading(
         silent=sent.wake_on_motion or not measures,

@@ -28,18 +28,19 @@ from ..rest import RestCheck
 from .reassembly import Reassembly
 
 FULL_SCALE_COUNTS = 32768
-"""Counts of a full scale, IMU."""
+"""Counts of a full scale of the inertial sensor."""
 ASSUMED_ACC = 16.0 * GRAVITY / FULL_SCALE_COUNTS
-"""m/s^2 per count until INFO says otherwise."""
+"""Accelerometer scale until INFO says otherwise, m/s^2 per count."""
 ASSUMED_GYRO = radians(2000.0) / FULL_SCALE_COUNTS
-"""rad/s per count until INFO says otherwise."""
+"""Gyroscope scale until INFO says otherwise, rad/s per count."""
 TICK_RATE = 32768
 """Ticks per second until INFO says otherwise."""
 SEQUENCE_MODULUS, TICK_MODULUS = 1 << 16, 1 << 32
-"""Where the counters of a frame wrap."""
+"""Number of values of the two counters of a frame, at which they wrap."""
 WHOLE_FRAME = bytes([MAGIC])
-"""What a frame that was not cut begins with."""
+"""First byte of a frame that is not fragmented."""
 FULL_PRESSURE = 4095.0
+"""Counts of a cell at full scale."""
 
 
 def _uuid(short: int) -> str:
@@ -67,10 +68,10 @@ PROFILE = Profile(
 
 @define
 class InsoleLink(DeviceLink):
-    """Feeds on the channels insole/frame, insole/info and insole/control of one foot.
+    """The link of an insole: channels insole/frame, insole/info and insole/control of one foot.
 
-    `feed` raises WireError for what cannot be used, and then nothing has changed but the fragments under way.
-    Latency none. Before INFO came, counts are taken for 16 g and 2000 degrees/s full scale and pressure stays in
+    `feed` raises WireError for values that cannot be used, and then nothing has changed but the fragments under way.
+    Latency none. Before INFO comes, counts are taken for 16 g and 2000 degrees/s full scale and pressure stays in
     counts; the layout of the first frame is then the only one accepted.
     """
 
@@ -79,7 +80,7 @@ class InsoleLink(DeviceLink):
 
     site: Site
     info_digest: bytes = b""
-    """Eight bytes that tell the INFO record in force from others; none before any."""
+    """Digest (eight bytes) of the INFO record in force; empty before the first."""
     layout: int | None = None
     cells: int = 0
     rate: int = TICK_RATE
@@ -87,14 +88,14 @@ class InsoleLink(DeviceLink):
     gyro_scale: float = ASSUMED_GYRO
     pressure_scale: float = 0.0
     limitation_reported: bool = False
-    """The Limitation was said."""
+    """Whether the Limitation was reported."""
     run: PacketRun = field(factory=PacketRun)
     fragments: Reassembly = field(factory=Reassembly)
     rest: RestCheck = field(factory=lambda: RestCheck(ASSUMED_ACC))
 
     @property
     def unsettled_until(self) -> float | None:
-        """The newest time that is not to be compared with those of other devices (clock.py), s."""
+        """Newest time that is not comparable with those of other devices (clock.py), s."""
         return None if self.run.clock is None else self.run.clock.unsettled_until
 
     def feed(self, channel: str, data: bytes, arrival: float) -> Output:
@@ -107,15 +108,15 @@ class InsoleLink(DeviceLink):
             return self._report_dropped(self.fragments.drop(), arrival) + out
         if channel == "insole/info":
             return self._read_info(data, arrival)
-        parse_control(data)  # insole/control, as it was written: frames and INFO say what became of it
+        parse_control(data)  # insole/control as written: its effect shows in frames and INFO
         return []
 
     def restart_clock(self) -> None:
-        """The receiver's clock was set back: fit anew, and let times begin anew too."""
+        """Discard the clock fit, because the receiver's clock was set back."""
         self.run.clock = None
 
     def handle_reconnection(self) -> None:
-        """A new connection: the rest of a frame in fragments will not come, and nothing can be overtaken."""
+        """Discard an incomplete frame in fragments; after a new connection nothing can be overtaken."""
         self.fragments.drop()
         self.run.after_reconnection = True
 
@@ -176,7 +177,9 @@ class InsoleLink(DeviceLink):
         run = self.run
         e = (frame.ticks - run.ticks + TICK_MODULUS // 2) % TICK_MODULUS - TICK_MODULUS // 2  # nearest to zero
         d, m = run.count_packets(frame.sequence, SEQUENCE_MODULUS, e / run.packet_ticks)
-        counted = PacketPosition(frame.sequence, frame.ticks, frame.interval, len(frame.samples), d, m, e, frame.retransmitted)
+        counted = PacketPosition(
+            frame.sequence, frame.ticks, frame.interval, len(frame.samples), d, m, e, frame.retransmitted
+        )
         taken = run.accept(counted, float(self.rate), arrival)
         out: Output = []
         if taken.lost or taken.restarted is not None:
@@ -209,8 +212,11 @@ class InsoleLink(DeviceLink):
 
 
 def _check_scales(info: InsoleInfo) -> None:
-    """WireError for what no insole is: full scales out of 1 to 1000 g, 10 to 100,000 degrees/s, over 100 kN, a tick
-    rate under 100 Hz. Zero is legal and says that there is no such sensor, or no calibration."""
+    """Raise WireError for values that no insole has.
+
+    Full scales must be from 1 to 1000 g and from 10 to 100,000 degrees/s, pressure up to 100 kN, the tick rate at least
+    100 Hz. Zero is legal and means that there is no such sensor, or no calibration.
+    """
     full_acc = info.acc_scale * FULL_SCALE_COUNTS / GRAVITY
     full_gyro = info.gyro_scale * FULL_SCALE_COUNTS
     if (
@@ -227,9 +233,9 @@ def _check_scales(info: InsoleInfo) -> None:
 
 
 def make_insole_link(site: Site, firmware: str) -> InsoleLink:
-    """A fresh insole at `site`."""
+    """Return a fresh link of an insole at `site`."""
     return InsoleLink(site)
 
 
 LINK = make_insole_link, InsoleLink.feed
-"""How a link of its own begins, and how it is fed."""
+"""Function that makes the device's own link, and function that feeds it."""
