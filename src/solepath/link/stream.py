@@ -230,10 +230,7 @@ class StreamLink(DeviceLink):
         return PacketPosition(0, int(reading.ticks), interval, count, m, m, e)
 
     def _by_count(self, driver: Driver, reading: Reading, rate: float, arrival: float) -> PacketPosition:
-        """Return a packet's position by its number: of all that wrap, the one nearest to the elapsed time.
-
-        Samples make the ticks.
-        """
+        """Return a packet's position by its number, nearest to the elapsed time; the samples are the ticks."""
         run, count = self.run, len(reading.samples)
         if reading.sequence is None:
             raise malformed("no sequence number, which this device has")
