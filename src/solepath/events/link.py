@@ -44,7 +44,7 @@ class PacketRejected(Happening):
 class SampleRejected(Happening):
     """A sample that was fed could not be used; it changed nothing.
 
-    Known when it is fed; `t` is the sample's, or that of the one before where its own is not finite.
+    Known when it is fed; `t` is the sample's, or that of the one before where its own time cannot be used.
     """
 
     site: Site

@@ -14,7 +14,7 @@ class Candidate:
     level: str
     """Level.id of the plan."""
     position: Vec3
-    """Position in the plan frame, m; z is the height above the plan's zero, or the track's own if the plan has no heights."""
+    """Position in the plan frame, m; z is the height above the plan's zero, or the track's own if that is unknown."""
     heading: float | None
     """Direction of the track's x axis in the plan frame, rad; None while unknown.
 

@@ -15,7 +15,7 @@ from sys import float_info
 from typing import Any, BinaryIO
 
 from ..types import Packet, Site
-from .trouble import RecordingError, Report, open_file, printable, warn, why
+from .errors import RecordingError, Report, open_file, os_error_text, printable, warn
 
 FORMAT = "solepath-packets"
 VERSION = 1
@@ -27,9 +27,9 @@ def read_header(path: Path | str) -> dict[str, Any]:
     """The first line of a recording. RecordingError when it is not the header of one."""
     path = Path(path)
     with open_file(path) as file:
-        for number, _, line in _lines(file):
+        for number, _, line in _read_lines(file):
             try:
-                fields = _object(line)
+                fields = _parse_object(line)
                 _check_header(fields)
             except _LineFlaw as flaw:
                 raise RecordingError(path, str(flaw), f"line {number}") from None
@@ -37,7 +37,7 @@ def read_header(path: Path | str) -> dict[str, Any]:
     raise RecordingError(path, "is empty")
 
 
-def began(header: Mapping[str, Any]) -> tuple[datetime, float | None] | None:
+def read_start_time(header: Mapping[str, Any]) -> tuple[datetime, float | None] | None:
     """What o'clock it was at which `t` of the packets, as a header says: (UTC, s), the latter None where it is the
     first packet's. None where the header does not say, or says what is no time."""
     text, t = header.get("began"), header.get("began_t")
@@ -64,17 +64,17 @@ def read_packets(
     path = Path(path)
     with open_file(path) as file:
         header_seen = False
-        for number, read, line in _lines(file):
+        for number, read, line in _read_lines(file):
             where = f"line {number}"
             if progress is not None:
                 progress(read)
             try:
-                fields = _object(line)
+                fields = _parse_object(line)
                 if not header_seen:
                     _check_header(fields)
                     header_seen = True
                     continue
-                packet = _packet(fields)
+                packet = _parse_packet(fields)
             except _NotAnObject as flaw:
                 # an object ends with its brace, so a line that was cut is never an object
                 if header_seen and not line.endswith(b"\n") and len(line) <= LONGEST_LINE:
@@ -89,7 +89,7 @@ def read_packets(
             raise RecordingError(path, "is empty")
 
 
-def _lines(file: BinaryIO) -> Iterator[tuple[int, int, bytes]]:
+def _read_lines(file: BinaryIO) -> Iterator[tuple[int, int, bytes]]:
     """The lines that are not blank, each with its number and how many bytes were read with it."""
     read = number = 0
     while line := file.readline(LONGEST_LINE + 1):
@@ -106,11 +106,11 @@ class _NotAnObject(_LineFlaw):
     """The line is not a JSON object at all."""
 
 
-def _object(line: bytes) -> dict[str, Any]:
+def _parse_object(line: bytes) -> dict[str, Any]:
     if len(line) > LONGEST_LINE:
         raise _NotAnObject(f"is longer than {LONGEST_LINE} bytes, so this is not a recording of packets")
     try:
-        value = json.loads(line.decode("utf-8"), parse_constant=_refuse_constant)
+        value = json.loads(line.decode("utf-8"), parse_constant=_reject_constant)
     except UnicodeDecodeError:
         raise _NotAnObject("is not text, so this is not a recording of packets") from None
     except (ValueError, RecursionError):
@@ -120,7 +120,7 @@ def _object(line: bytes) -> dict[str, Any]:
     return value
 
 
-def _refuse_constant(name: str) -> None:
+def _reject_constant(name: str) -> None:
     raise _NotAnObject(f"{name} is not JSON")
 
 
@@ -132,7 +132,7 @@ def _check_header(header: dict[str, Any]) -> None:
         raise _LineFlaw(f"is of version {_short(version)}; this release reads version {VERSION}")
 
 
-def _packet(fields: dict[str, Any]) -> Packet:
+def _parse_packet(fields: dict[str, Any]) -> Packet:
     for key in ("t", "site", "channel", "data"):
         if key not in fields:
             raise _LineFlaw(f'"{key}" is missing')
@@ -161,7 +161,7 @@ def _short(value: Any) -> str:
     return printable(json.dumps(value), 40)
 
 
-def _line(fields: dict[str, Any]) -> bytes:
+def _format_line(fields: dict[str, Any]) -> bytes:
     encoded = json.dumps(fields, allow_nan=False).encode("utf-8") + b"\n"
     if len(encoded) > LONGEST_LINE:
         raise ValueError(f"a line of {len(encoded)} bytes is too long for a recording")
@@ -181,7 +181,7 @@ class PacketWriter:
     """
 
     def __init__(self, path: Path | str, header: Mapping[str, Any] = {}) -> None:
-        """`header`: further keys for the first line: `began` and `began_t` (protocol/recording.md), a note; or all that
+        """`header`: further keys for the first line: `read_start_time` and `began_t` (protocol/recording.md), a note; or all that
         `read_header` gave of another recording. ValueError when it says that this is of another format or version."""
         self.count = 0
         self._path = Path(path)
@@ -190,7 +190,7 @@ class PacketWriter:
             _check_header({**own, **header})
         except _LineFlaw as flaw:
             raise ValueError(f"a header that {flaw}") from None
-        first = _line({**own, **header})
+        first = _format_line({**own, **header})
         self._size = 0
         """Bytes of whole lines."""
         self._torn = False
@@ -199,7 +199,7 @@ class PacketWriter:
             # unbuffered: what a write did not take is known at once, and close has nothing left to lose
             self._file: io.FileIO = self._path.open("wb", buffering=0)
         except OSError as error:
-            raise RecordingError(self._path, why(error)) from error
+            raise RecordingError(self._path, os_error_text(error)) from error
         try:
             self._put(first)
         except BaseException:
@@ -212,25 +212,25 @@ class PacketWriter:
         line = {"t": packet.t, "site": packet.site.value, "channel": packet.channel, "data": packet.data.hex()}
         if packet.device:
             line["device"] = packet.device
-        self._put(_line(line))
+        self._put(_format_line(line))
         self.count += 1
 
     def _put(self, encoded: bytes) -> None:
         if self._torn:
-            raise RecordingError(self._path, f"ends in the middle of a line; {self._safe()}")
+            raise RecordingError(self._path, f"ends in the middle of a line; {self._saved_count()}")
         done = 0
         try:
             while done < len(encoded):
                 done += self._file.write(encoded[done:]) or 0
         except OSError as error:
-            self._take_back()
-            raise RecordingError(self._path, f"{why(error)}; {self._safe()}") from error
+            self._truncate()
+            raise RecordingError(self._path, f"{os_error_text(error)}; {self._saved_count()}") from error
         except BaseException:  # an interrupt between two halves of a line
-            self._take_back()
+            self._truncate()
             raise
         self._size += done
 
-    def _take_back(self) -> None:
+    def _truncate(self) -> None:
         """The file ends with its last whole line again, whatever was written of another."""
         try:
             if self._file.tell() != self._size:
@@ -239,7 +239,7 @@ class PacketWriter:
         except OSError:  # a pipe
             self._torn = True
 
-    def _safe(self) -> str:
+    def _saved_count(self) -> str:
         return f"the {self.count} packets before that are safe" if self.count != 1 else "the packet before that is safe"
 
     def close(self) -> None:
@@ -247,7 +247,9 @@ class PacketWriter:
         try:
             self._file.close()
         except OSError as error:
-            raise RecordingError(self._path, f"{why(error)} on closing; the last packets may be missing") from error
+            raise RecordingError(
+                self._path, f"{os_error_text(error)} on closing; the last packets may be missing"
+            ) from error
 
     def __enter__(self) -> PacketWriter:
         return self

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 from attrs import define
 
 from ..types import Foot, Packet, Sample
+from .errors import RecordingError, Report, open_file, printable, warn
 from .packets import read_packets
-from .trouble import RecordingError, Report, open_file, printable, warn
 
 if TYPE_CHECKING:
     from .samples import SampleRecording
@@ -45,13 +45,13 @@ class Source:
             yield sample
 
     def _packets(self) -> Iterator[Packet]:
-        any_there = used = False
+        found_any = used = False
         for packet in read_packets(self.path, report=self.report, progress=partial(setattr, self, "done")):
-            any_there = True
+            found_any = True
             if self.foot is None or packet.site.foot in (None, self.foot):
                 used = True
                 yield packet
-        if not any_there:
+        if not found_any:
             self.report(f"{printable(str(self.path))}: holds no packets")
         elif self.foot is not None and not used:
             raise RecordingError(self.path, f"holds no packets of the {self.foot.value} foot")

@@ -55,29 +55,29 @@ def name_attributes(device: LoggedDevice, types: Mapping[int, str], handles: Han
     device.profile = _profile(set(types.values()))
     used: set[tuple[str, int]] = set()
     for handle, evidence in device.seen.items():
-        said = None
-        for wish in ((device.address.upper(), handle), ("", handle)):
-            if wish in handles and _may_be(handles[wish], wish, device, types):
-                said = said or handles[wish]
-                used.add(wish)
-        if said is None and handle not in types:
-            said = evidence.channel
-        if said is not None:
-            same = _same_characteristic(said)
+        channel_name = None
+        for hint in ((device.address.upper(), handle), ("", handle)):
+            if hint in handles and _is_compatible(handles[hint], hint, device, types):
+                channel_name = channel_name or handles[hint]
+                used.add(hint)
+        if channel_name is None and handle not in types:
+            channel_name = evidence.channel
+        if channel_name is not None:
+            same = _same_characteristic(channel_name)
         elif device.profile is not None:
             same = [each for each in device.profile.channels if each.characteristic == types.get(handle)]
         else:
             same = []
-        for how in AttOperation:
-            channel = next((each.name for use in USES[how] for each in same if each.access is use), None)
+        for operation in AttOperation:
+            channel = next((each.name for use in USES[operation] for each in same if each.access is use), None)
             if channel is not None:
-                device.channels[handle, how] = channel
+                device.channels[handle, operation] = channel
     return used
 
 
-def _may_be(channel: str, wish: tuple[str, int], device: LoggedDevice, types: Mapping[int, str]) -> bool:
+def _is_compatible(channel: str, hint: tuple[str, int], device: LoggedDevice, types: Mapping[int, str]) -> bool:
     """Whether discovery leaves it open, or agrees, that the attribute is this channel."""
-    address, handle = wish
+    address, handle = hint
     if device.profile is not None and channel not in device.profile.channel_names:
         return False
     same = {each.characteristic for each in _same_characteristic(channel)}
@@ -85,11 +85,11 @@ def _may_be(channel: str, wish: tuple[str, int], device: LoggedDevice, types: Ma
     return uuid is None or uuid in same or (address != "" and uuid not in CHARACTERISTICS)
 
 
-def no_use(
-    wish: tuple[str, int], channel: str, devices: Mapping[str, LoggedDevice], types: Mapping[str, Mapping[int, str]]
+def explain_unused(
+    hint: tuple[str, int], channel: str, devices: Mapping[str, LoggedDevice], types: Mapping[str, Mapping[int, str]]
 ) -> str:
     """Why what was said of an attribute is of no use."""
-    address, handle = wish
+    address, handle = hint
     there = [device for device in devices.values() if address in ("", device.address.upper())]
     if not there:
         return f"holds no device {address}, whose {handle:#06x} was said to be {channel}"
@@ -99,7 +99,7 @@ def no_use(
         return f"holds no value of an attribute {handle:#06x}{of}, which was said to be {channel}"
     device = with_it[0]
     uuid = types.get(device.address, {}).get(handle)
-    kind = f"is of {one(device.profile.name)}" if device.profile is not None else f"is {uuid}"
+    kind = f"is of {with_article(device.profile.name)}" if device.profile is not None else f"is {uuid}"
     found = sorted({name for (number, _), name in device.channels.items() if number == handle})
     if uuid is not None and found:
         kind = f"is {' and '.join(found)}"
@@ -122,21 +122,21 @@ def _profile(uuids: set[str]) -> Profile | None:
     return best
 
 
-def place(device: LoggedDevice, places: Mapping[str, Site]) -> None:
+def assign_site(device: LoggedDevice, places: Mapping[str, Site]) -> None:
     """Where the caller says, else the foot that it says itself."""
     device.site = places.get(device.address.upper())
-    for (handle, how), channel in device.channels.items():
-        foot = _foot(channel, how, device.seen[handle])
+    for (handle, operation), channel in device.channels.items():
+        foot = _foot(channel, operation, device.seen[handle])
         if device.site is None and foot is not None:
             device.site = SITE_OF_FOOT[foot]
 
 
-def _foot(channel: str, how: AttOperation, evidence: ValueEvidence) -> Foot | None:
+def _foot(channel: str, operation: AttOperation, evidence: ValueEvidence) -> Foot | None:
     """Whose insole it is, where a channel's values say it."""
     if channel in ("insole/frame", "insole/info"):
         return evidence.foot
     driver = DRIVERS.get(channel.partition("/")[0])
-    if how is not AttOperation.READ or driver is None or channel not in driver.readers or evidence.read is None:
+    if operation is not AttOperation.READ or driver is None or channel not in driver.readers or evidence.read is None:
         return None
     try:
         return driver.read(channel, evidence.read, {}).foot
@@ -144,6 +144,6 @@ def _foot(channel: str, how: AttOperation, evidence: ValueEvidence) -> Foot | No
         return None
 
 
-def one(noun: str) -> str:
+def with_article(noun: str) -> str:
     """With its article."""
     return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"

@@ -18,9 +18,9 @@ from ...wire.insole import parse_frame
 from ...wire.insole_info import parse_info
 from .att import AttOperation
 
-LOOKED_AT = 300
+MAX_VALUES = 300
 """Values of one attribute; the sixteen fragments of a frame are among them many times."""
-PROOF = 2
+PROVING_FRAMES = 2
 """Frames with a sound CRC: one in 2^16 arbitrary values that begin with the magic has it by chance."""
 
 
@@ -39,17 +39,17 @@ class ValueEvidence:
     """The value that was read last."""
     _pieces: Reassembly = field(factory=Reassembly)
 
-    def see(self, how: AttOperation, data: bytes) -> None:
-        if how is AttOperation.WRITTEN:
+    def add_value(self, operation: AttOperation, data: bytes) -> None:
+        if operation is AttOperation.WRITTEN:
             return
-        if how is AttOperation.READ:
+        if operation is AttOperation.READ:
             self.read = data
             with suppress(WireError):
                 self.foot = parse_info(data).foot
                 self.is_info = True
             return
         self.count += 1
-        if self.count > LOOKED_AT:
+        if self.count > MAX_VALUES:
             return
         self.lengths.add(len(data))
         with suppress(WireError):
@@ -65,4 +65,4 @@ class ValueEvidence:
         """What the values prove the attribute to be."""
         if self.is_info:
             return "insole/info"
-        return "insole/frame" if self.frames >= PROOF else None
+        return "insole/frame" if self.frames >= PROVING_FRAMES else None

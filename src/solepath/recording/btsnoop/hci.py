@@ -73,7 +73,7 @@ class LinkChange:
 
     t: int
     link: HciConnection
-    begins: bool
+    connected: bool
 
 
 @frozen
@@ -130,26 +130,26 @@ class Controller:
         if event.size != len(parameters):
             self.flaws["records that are not HCI"] += 1
         elif event.code == LE_META and parameters and len(parameters) == CONNECTION_SUBEVENTS.get(parameters[0]):
-            made = parse_whole(LE_CONNECTION_COMPLETE, parameters)
-            if made.status == 0:
-                handle = made.handle & HANDLE_BITS
-                yield from self._end(record, handle)
-                yield LinkChange(record.t, self._begin(record, handle, address_text(made.peer)), True)
+            complete = parse_whole(LE_CONNECTION_COMPLETE, parameters)
+            if complete.status == 0:
+                handle = complete.handle & HANDLE_BITS
+                yield from self._remove_link(record, handle)
+                yield LinkChange(record.t, self._add_link(record, handle, address_text(complete.peer)), True)
         elif event.code == DISCONNECTED:
-            lost = parse_whole(DISCONNECTION_COMPLETE, parameters)
-            if lost.status == 0:
-                yield from self._end(record, lost.handle & HANDLE_BITS)
+            disconnection = parse_whole(DISCONNECTION_COMPLETE, parameters)
+            if disconnection.status == 0:
+                yield from self._remove_link(record, disconnection.handle & HANDLE_BITS)
         elif event.code == COMMAND_COMPLETE and len(parameters) == READ_ADDRESS_COMPLETE.sizeof():
-            told = parse_whole(READ_ADDRESS_COMPLETE, parameters)
-            if told.opcode == READ_BD_ADDR and told.status == 0:
-                self._public[record.adapter] = address_text(told.address)
+            completed = parse_whole(READ_ADDRESS_COMPLETE, parameters)
+            if completed.opcode == READ_BD_ADDR and completed.status == 0:
+                self._public[record.adapter] = address_text(completed.address)
 
-    def _begin(self, record: HciRecord, handle: int, address: str) -> HciConnection:
+    def _add_link(self, record: HciRecord, handle: int, address: str) -> HciConnection:
         link = self._links[record.adapter, handle] = HciConnection(self._count, record.adapter, handle, address)
         self._count += 1
         return link
 
-    def _end(self, record: HciRecord, handle: int) -> Iterator[LinkChange]:
+    def _remove_link(self, record: HciRecord, handle: int) -> Iterator[LinkChange]:
         link = self._links.pop((record.adapter, handle), None)
         if link is not None:
             yield LinkChange(record.t, link, False)
@@ -162,14 +162,14 @@ class Controller:
         handle, boundary, body = head & HANDLE_BITS, head >> 12 & 3, record.data[4:]
         link = self._links.get((record.adapter, handle))
         if link is None:
-            link = self._begin(record, handle, "")
+            link = self._add_link(record, handle, "")
         if len(body) != size:
             if record.whole:
                 self.flaws["records that are not HCI"] += 1
-            self._give_up(link, record.sent)
+            self._discard_pieces(link, record.sent)
             return
         if boundary != CONTINUING:
-            self._give_up(link, record.sent)
+            self._discard_pieces(link, record.sent)
             link.pieces[record.sent] = bytearray()
         pieces = link.pieces.get(record.sent)
         if pieces is None:
@@ -180,7 +180,7 @@ class Controller:
             return
         size, channel = L2CAP.parse(bytes(pieces[:4]))
         if len(pieces) > 4 + size:
-            self._give_up(link, record.sent)
+            self._discard_pieces(link, record.sent)
         elif len(pieces) == 4 + size:
             del link.pieces[record.sent]
             if channel == ATT_CHANNEL:
@@ -188,7 +188,7 @@ class Controller:
             elif channel >= DYNAMIC_CHANNELS and link.address:
                 self.flaws["packets of channels that are not followed (EATT perhaps)"] += 1
 
-    def _give_up(self, link: HciConnection, sent: bool) -> None:
+    def _discard_pieces(self, link: HciConnection, sent: bool) -> None:
         """What was begun will not be completed."""
         if link.pieces.pop(sent, None) is not None:
             self.flaws["packets of which a piece is missing"] += 1

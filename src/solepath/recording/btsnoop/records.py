@@ -16,13 +16,13 @@ from construct import Const, Int32ub, Struct
 
 from ...wire.error import WireError
 from ...wire.fields import Fields, parse_whole
-from ..trouble import RecordingError, Report, open_file, printable
+from ..errors import RecordingError, Report, open_file, printable
 
 MAGIC = b"btsnoop\0"
 VERSION = 1
 YEAR_1970 = 0x00DCDDB30F2F8000
 """us from the beginning of the year 0, from which btsnoop counts, to that of 1970."""
-LONGEST = 0x1_0000 + 64
+MAX_RECORD_SIZE = 0x1_0000 + 64
 """Bytes of a record: the longest ACL packet and whatever stands before it. No HCI packet is longer."""
 
 FILE_HEADER = Struct("magic" / Const(MAGIC), "version" / Int32ub, "datalink" / Int32ub)
@@ -90,12 +90,12 @@ _MONITOR = {
 def is_btsnoop(path: Path) -> bool:
     """True when the file begins as a btsnoop log does. RecordingError when it cannot be read, or only once: a look at
     the beginning of a pipe would take it away."""
-    refuse_pipe(path)
+    reject_pipe(path)
     with open_file(path) as file:
         return file.read(len(MAGIC)) == MAGIC
 
 
-def refuse_pipe(path: Path) -> None:
+def reject_pipe(path: Path) -> None:
     """RecordingError for what is there but can be read only once."""
     if path.exists() and not path.is_file() and not path.is_dir():
         raise RecordingError(path, "is a pipe or a device; it is read more than once, so it has to be a file")
@@ -118,7 +118,7 @@ def read_records(
                 report(torn)
                 return
             header: RecordHeader = RECORD_HEADER.parse(start)
-            if header.included > min(LONGEST, header.original):
+            if header.included > min(MAX_RECORD_SIZE, header.original):
                 what = f"is damaged: it claims {header.included} of {header.original} bytes"
                 raise RecordingError(path, what, f"record {number}")
             data = file.read(header.included)

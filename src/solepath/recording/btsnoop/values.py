@@ -8,7 +8,7 @@ from pathlib import Path
 
 from attrs import define, field, frozen
 
-from ..trouble import RecordingError, Report
+from ..errors import RecordingError, Report
 from .att import FROM_CLIENT, AttValue, Conversation
 from .hci import Controller, HciConnection, LinkChange, Pdu
 from .records import read_records
@@ -21,7 +21,7 @@ class Value:
     t: int
     link: HciConnection
     device: str
-    said: AttValue
+    att_value: AttValue
 
 
 @define
@@ -36,7 +36,7 @@ class ValueListener:
     report: Report
     flaws: Counter[str] = field(factory=Counter)
     types: dict[str, dict[int, str]] = field(factory=dict)
-    _talks: dict[tuple[int, bool], Conversation] = field(factory=dict)
+    _conversations: dict[tuple[int, bool], Conversation] = field(factory=dict)
     """By connection and whether the peer is the server."""
 
     def listen(self, progress: Callable[[int], None] | None = None) -> Iterator[Value | LinkChange]:
@@ -51,7 +51,7 @@ class ValueListener:
                         case Pdu():
                             yield from self._pdu(item)
                         case LinkChange():
-                            if not item.begins:
+                            if not item.connected:
                                 yield from self._finish(t, item.link, controller.own(item.link.adapter))
                             yield item
         except RecordingError as error:
@@ -65,14 +65,14 @@ class ValueListener:
         # the peer is the server when the host speaks as a client, or the peer as a server
         of_peer = pdu.sent == (bool(pdu.data) and pdu.data[0] in FROM_CLIENT)
         device = pdu.link.peer if of_peer else pdu.own
-        talk = self._talks.get((pdu.link.number, of_peer))
-        if talk is None:
+        conversation = self._conversations.get((pdu.link.number, of_peer))
+        if conversation is None:
             types = self.types.setdefault(device, {})
-            talk = self._talks[pdu.link.number, of_peer] = Conversation(types, self.flaws)
-        yield from (Value(pdu.t, pdu.link, device, one) for one in talk.feed(pdu.data))
+            conversation = self._conversations[pdu.link.number, of_peer] = Conversation(types, self.flaws)
+        yield from (Value(pdu.t, pdu.link, device, one) for one in conversation.feed(pdu.data))
 
     def _finish(self, t: int, link: HciConnection, own: str) -> Iterator[Value]:
         for of_peer, device in ((True, link.peer), (False, own)):
-            talk = self._talks.pop((link.number, of_peer), None)
-            if talk is not None:
-                yield from (Value(t, link, device, one) for one in talk.finish())
+            conversation = self._conversations.pop((link.number, of_peer), None)
+            if conversation is not None:
+                yield from (Value(t, link, device, one) for one in conversation.finish())

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...types import Foot
-from ..trouble import RecordingError, open_file, printable
+from ..errors import RecordingError, open_file, printable
 from .table import QUANTITIES, Floats, FootTable, as_floats
 
 UNREADABLE = (

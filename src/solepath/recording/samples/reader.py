@@ -10,10 +10,10 @@ from pathlib import Path
 from attrs import frozen
 
 from ...types import Foot, Sample
-from ..trouble import RecordingError, Report, warn
+from ..errors import RecordingError, Report, warn
 from .npz import read_npz
 from .sheet import read_csv
-from .table import FootTable, checked
+from .table import FootTable, check_table
 
 KINDS = (".npz", ".csv")
 
@@ -65,9 +65,9 @@ def load_samples(path: Path | str, foot: Foot | None = None, *, report: Report =
         tables, flaw = read_npz(path, one_foot), None
     else:
         tables, flaw = read_csv(path, one_foot, report)
-    wanted = [table for table in tables if foot in (None, table.foot)]
+    expected = [table for table in tables if foot in (None, table.foot)]
     if not tables:
         raise flaw or RecordingError(path, "holds no samples")
-    if not wanted and foot is not None:
+    if not expected and foot is not None:
         raise RecordingError(path, f"holds nothing of the {foot.value} foot")
-    return SampleRecording(path, tuple(checked(table) for table in wanted), flaw)
+    return SampleRecording(path, tuple(check_table(table) for table in expected), flaw)

@@ -17,7 +17,7 @@ import numpy as np
 from attrs import define, field
 
 from ...types import Foot
-from ..trouble import RecordingError, Report, open_file, printable
+from ..errors import RecordingError, Report, open_file, printable
 from .table import QUANTITIES, FootTable
 
 _COLUMN = re.compile(r"(t|acc|gyro|pressure)(?:_(left|right))?(?:_([xyz]|[0-9]{1,4}))?(?:_(left|right))?")
@@ -142,8 +142,8 @@ def _check_components(foot: _FootColumns) -> None:
     for quantity, components in foot.places.items():
         if quantity == "pressure":
             first = min(1, *components) if len(components) > 1 else 0
-            wanted = range(first, first + len(components))
-            missing = [f"pressure_{c}{foot.suffix}" for c in wanted if c not in components]
+            expected = range(first, first + len(components))
+            missing = [f"pressure_{c}{foot.suffix}" for c in expected if c not in components]
         else:
             missing = [f"{quantity}_{axis}{foot.suffix}" for axis, c in _AXES.items() if c not in components]
         if missing:

@@ -17,19 +17,19 @@ from attrs import define
 from numpy.typing import NDArray
 
 from ...types import SITE_OF_FOOT, Foot, Sample
-from ..trouble import RecordingError, printable
+from ..errors import RecordingError, printable
 
 Floats = NDArray[np.float64]
 
 QUANTITIES = ("acc", "gyro", "pressure")
-BLOCK = 4096
+BLOCK_SIZE = 4096
 """Rows that are turned into samples at a time, so that memory holds the arrays and not a tuple for every sample."""
 
 ACC_AT_REST = (3.0, 30.0)
 """Median |acc| of anything worn on a foot, m/s^2. Recordings of standing, walking and running lie in 9.4 to 20."""
-GYRO_FASTEST = 40.0
+MAX_GYRO = 40.0
 """99th percentile of |gyro|, rad/s. Feet that run reach 17; 40 rad/s is beyond the 2000 deg/s range of most sensors."""
-SLOWEST, FASTEST = 0.5, 2e-4
+MAX_INTERVAL, MIN_INTERVAL = 0.5, 2e-4
 """Median time between samples, s: outside these the times are not seconds."""
 
 
@@ -58,9 +58,9 @@ class FootTable:
     def samples(self) -> Iterator[Sample]:
         """Every row as a Sample."""
         site = SITE_OF_FOOT[self.foot]
-        empty = [None] * BLOCK
-        for start in range(0, len(self), BLOCK):
-            rows = slice(start, start + BLOCK)
+        empty = [None] * BLOCK_SIZE
+        for start in range(0, len(self), BLOCK_SIZE):
+            rows = slice(start, start + BLOCK_SIZE)
             t = self.t[rows].tolist()
             acc, gyro, pressure = (
                 map(tuple, self.columns[q][rows].tolist()) if q in self.columns else iter(empty) for q in QUANTITIES
@@ -80,7 +80,7 @@ def as_floats(path: Path, name: str, value: NDArray[Any], width: int | None) -> 
     return value.astype(np.float64)
 
 
-def checked(table: FootTable) -> FootTable:
+def check_table(table: FootTable) -> FootTable:
     """The table, ended before its first row that cannot be used; RecordingError when the whole of it cannot be."""
     if not len(table):
         raise RecordingError(table.path, "holds no samples", table.names["t"])
@@ -107,9 +107,9 @@ def _first_bad_row(table: FootTable) -> tuple[int, str, str]:
             value = next(v for v in values[rows[0], ~sound[rows[0]]].tolist())
             when = f" (t = {table.t[rows[0]]:.6g} s)" if quantity != "t" else ""
             bad.append((int(rows[0]), f"is {value}, not a finite number{when}", quantity))
-    falls = np.flatnonzero(np.diff(table.t) < 0.0)  # false where a time is not a number: those were found above
-    if len(falls):
-        row = int(falls[0]) + 1
+    decreases = np.flatnonzero(np.diff(table.t) < 0.0)  # false where a time is not a number: those were found above
+    if len(decreases):
+        row = int(decreases[0]) + 1
         before, after = float(table.t[row - 1]), float(table.t[row])
         bad.append((row, f"time runs backwards, from {before!r} s to {after!r} s", "t"))
     return min(bad, key=itemgetter(0))
@@ -119,8 +119,10 @@ def _complaints(t: Floats, columns: Mapping[str, Floats]) -> Iterator[tuple[str,
     """Units that are plainly not SI: a wrong unit would give a track that looks like one."""
     if len(t) > 2:
         step = float(np.median(np.diff(t)))
-        if not FASTEST <= step <= SLOWEST:
-            likely = "this looks like milliseconds or sample numbers" if step > SLOWEST else "these are not seconds"
+        if not MIN_INTERVAL <= step <= MAX_INTERVAL:
+            likely = (
+                "this looks like milliseconds or sample numbers" if step > MAX_INTERVAL else "these are not seconds"
+            )
             if step == 0.0:
                 likely = "times repeat"
             yield "t", f"the median time between samples is {step:.3g} s: {likely}"
@@ -131,7 +133,7 @@ def _complaints(t: Floats, columns: Mapping[str, Floats]) -> Iterator[tuple[str,
             yield "acc", f"the median of |acc| is {median:.3g} m/s^2, not 9.8: this looks like {_acc_unit(median)}"
     if "gyro" in columns:
         high = float(np.percentile(_lengths(columns["gyro"]), 99.0))
-        if high > GYRO_FASTEST:
+        if high > MAX_GYRO:
             unit = "deg/s" if high < 4000.0 else "raw counts"
             yield "gyro", f"|gyro| reaches {high:.3g} rad/s, faster than a foot turns: this looks like {unit}"
 

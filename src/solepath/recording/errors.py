@@ -35,7 +35,7 @@ def printable(text: str, longest: int = 200) -> str:
     return clean if len(clean) <= longest else clean[: longest - 3] + "..."
 
 
-def why(error: OSError) -> str:
+def os_error_text(error: OSError) -> str:
     """What the system says of a failure, in its own words."""
     return (error.strerror or str(error)).lower()
 
@@ -47,4 +47,4 @@ def open_file(path: Path) -> BinaryIO:
             raise RecordingError(path, "is a directory, not a recording")
         return path.open("rb")
     except OSError as error:
-        raise RecordingError(path, why(error)) from error
+        raise RecordingError(path, os_error_text(error)) from error
