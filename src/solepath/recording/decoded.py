@@ -1,4 +1,4 @@
-"""The samples of a recording, whichever kind it is."""
+"""The samples of a recording of either kind."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from ..types import Foot, Layout, Packet, Sample, Site
 
 @frozen
 class DecodedRecording:
-    """`samples` in the order in which they became known; `layouts` of the insoles that said theirs."""
+    """Samples in the order in which they became known, and the layouts that the insoles reported."""
 
     samples: tuple[Sample, ...]
     layouts: dict[Foot, Layout]
 
 
 def decode_recording(items: Iterable[Packet | Sample]) -> DecodedRecording:
-    """What packets hold, decoded, and samples as they are. Packets that cannot be used are passed over."""
+    """Return the samples of packets, decoded, and samples as they are. Packets that cannot be used are skipped."""
     samples: list[Sample] = []
     layouts: dict[Foot, Layout] = {}
     decoders: dict[Site, Decoder] = {}

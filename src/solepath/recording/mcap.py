@@ -2,17 +2,18 @@
 
 Every message is JSON with a JSON schema, and has `t`, the exact time in s on the recording's clock. Topics:
 
-| topic | what | log time |
+| topic | content | log time |
 |---|---|---|
 | `/SITE/packets/CHANNEL` | the packets as they arrived, `data` in base64 | arrival |
 | `/SITE/samples` | the samples that the session took, SI units; `pressure` is the sum over the cells | when measured |
 | `/SITE/pose` | live position and velocity, world frame, phase by name and number | when measured |
 | `/SITE/gait` | heel-strikes, foot-flats, heel-offs, toe-offs | when it happened |
-| `/SITE/steps` | final steps | when the step ended |
+| `/SITE/steps` | final strides | when the stride ended |
 | `/events` | every event as in `events.jsonl` | when it happened |
 
-The publish time is when it was known. Log times count from 1970 where the recording says when it began, from the zero
-of the receiver's clock otherwise. The metadata record `solepath` holds the keys of the recording's header.
+The publish time is the time at which it was known. Log times count from 1970 where the recording has its start time,
+from the zero of the receiver's clock otherwise. The metadata record `solepath` holds the keys of the recording's
+header.
 """
 
 from __future__ import annotations
@@ -38,13 +39,19 @@ from .errors import RecordingError, os_error_text
 from .packets import FORMAT, VERSION, read_start_time
 
 CHUNK_SIZE = 8192
-"""Bytes before compression: a file that is torn loses about a second of two insoles, larger chunks lose more."""
+"""Size of a chunk before compression, bytes.
+
+A file that is torn loses about a second of two insoles; larger chunks lose more."""
 MAX_TOPICS = 1000
+"""Number of topics after which packets of new channels share one topic per site."""
 MAX_TIME = 1e11
-"""s; what a session takes for a time."""
+"""Largest magnitude of a time that a session accepts, s."""
 MAX_LOG_TIME = 2**63 - 1
-"""ns; a log time is an unsigned 64-bit number, and no reader wants the upper half."""
+"""Largest log time, ns.
+
+A log time is an unsigned 64-bit number, and no reader accepts the upper half."""
 PHASES = {phase: number for number, phase in enumerate(Phase)}
+"""Number of each phase."""
 EPOCH, MICROSECOND = datetime(1970, 1, 1, tzinfo=UTC), timedelta(microseconds=1)
 
 
@@ -80,10 +87,11 @@ SCHEMAS: dict[str, dict[str, Any]] = {
     ),
     "solepath.Event": _object(t=NUMBER, event=TEXT, foot=TEXT, site=TEXT),
 }
+"""JSON schema of each kind of message."""
 
 
 class _SampleKeepingSession(Session):
-    """A session that keeps the samples which it takes, until they are taken from `samples`."""
+    """A session that keeps the samples which it takes, until they are removed from `samples`."""
 
     __slots__ = ("samples",)
 
@@ -98,16 +106,17 @@ class _SampleKeepingSession(Session):
 
 
 class McapWriter:
-    """Writes packets, and what a session makes of them, as MCAP.
+    """Writes packets, and a session's results for them, as MCAP.
 
         with McapWriter("walk.mcap", read_header("walk.jsonl")) as writer:
             for packet in read_packets("walk.jsonl"):
                 writer.write(packet)
 
     An existing file is replaced. `header`: of the recording that the packets come from. `profiles`: devices of the
-    app's own, as for Session. `count`: packets written. `outside`: times that no log time can hold; the nearest that
-    can stands for them. RecordingError when the file cannot be written, ValueError for a packet whose time is not
-    finite. What a session holds back comes with `close`; a file never closed has no index, but whole chunks.
+    app's own, as for Session. `count`: packets written. `outside`: number of times that no log time can hold; the
+    nearest possible one replaces each. RecordingError when the file cannot be written, ValueError for a packet whose
+    time is not finite. Results that a session holds back come with `close`; a file never closed has no index, but whole
+    chunks.
     """
 
     def __init__(self, path: Path | str, header: Mapping[str, Any] = {}, *, profiles: Iterable[Driver] = ()) -> None:
@@ -118,7 +127,7 @@ class McapWriter:
         self._channels: dict[str, int] = {}
         self._sequences: dict[int, int] = {}
         self._zero: int | None = None
-        """ns since 1970 at `t` = 0; None until the first packet."""
+        """Time since 1970 at `t` = 0, ns; None until the first packet."""
         try:
             self._file = self.path.open("wb")  # noqa: SIM115 - this class is the context manager
         except OSError as error:
@@ -131,7 +140,7 @@ class McapWriter:
             self._writer.add_metadata("solepath", {_valid_utf8(key): _valid_utf8(text) for key, text in texts.items()})
 
     def write(self, packet: Packet) -> None:
-        """The packet, the samples in it and the events that it brings."""
+        """Write the packet, its samples and its events."""
         if not isfinite(packet.t):
             raise ValueError(f"a packet at {packet.t} s cannot be recorded")
         if self._zero is None:
@@ -143,14 +152,14 @@ class McapWriter:
         with self._as_recording_error():
             topic = f"/{site}/packets/{_valid_utf8(packet.channel)}"
             if topic not in self._channels and len(self._channels) >= MAX_TOPICS:
-                topic = f"/{site}/packets"  # a damaged recording may hold any number of channels
+                topic = f"/{site}/packets"  # the number of channels in a damaged recording is not limited
             about = {"site": site, "channel": _valid_utf8(packet.channel)}
             self._put(topic, "solepath.Packet", packet.t, packet.t, data, about)
             self.count += 1
             self._write_results(self._session.feed(packet))
 
     def close(self) -> None:
-        """What was held back, and the index."""
+        """Write the results that were held back, and the index."""
         if self._file.closed:
             return
         try:
@@ -159,7 +168,7 @@ class McapWriter:
                 self._writer.finish()  # type: ignore[no-untyped-call]
                 self._file.flush()
         finally:
-            with suppress(OSError):  # said already
+            with suppress(OSError):  # the error was reported before
                 self._file.close()
 
     def __enter__(self) -> McapWriter:
@@ -169,7 +178,7 @@ class McapWriter:
         self.close()
 
     def _write_results(self, events: list[Event]) -> None:
-        """What the session made of a packet, or of the end: the samples that it took, and then the events."""
+        """Write the samples that the session took from a packet, or at the end, and then its events."""
         samples, self._session.samples = self._session.samples, []
         for sample in samples:
             self._write_sample(sample)
@@ -221,7 +230,7 @@ class McapWriter:
         sequence = self._sequences[channel] = (self._sequences.get(channel, 0) + 1) & 0xFFFF_FFFF
         try:
             text = json.dumps(data, allow_nan=False)
-        except ValueError:  # a device may send a float that is no number
+        except ValueError:  # a device may send a float that is not finite
             text = json.dumps(json_ready(data))
         self._writer.add_message(channel, self._ns(t), text.encode(), self._ns(known_at), sequence)
 
@@ -234,7 +243,7 @@ class McapWriter:
 
     @contextmanager
     def _as_recording_error(self) -> Iterator[None]:
-        """What the system refuses, as a RecordingError."""
+        """Raise an error of the system as a RecordingError."""
         try:
             yield
         except OSError as error:
@@ -248,7 +257,10 @@ def _topic(foot: Foot, topic: str) -> str:
 
 
 def _zero(header: Mapping[str, Any], first: float) -> int:
-    """ns since 1970 at `t` = 0 of a recording whose first packet is at `first`; 0 when its header does not tell."""
+    """Return the time since 1970 at `t` = 0, ns, of a recording whose first packet is at `first`, s.
+
+    0 when its header has no start time.
+    """
     known = read_start_time(header)
     if known is None:
         return 0
@@ -262,5 +274,5 @@ def _xyz(vector: Vec3) -> dict[str, float]:
 
 
 def _valid_utf8(text: str) -> str:
-    """`text` without what UTF-8 cannot say: JSON can, by half a surrogate pair."""
+    """Return `text` without characters that UTF-8 cannot encode; JSON may hold half a surrogate pair."""
     return text.encode("utf-8", "replace").decode("utf-8")

@@ -1,8 +1,7 @@
-"""The attribute protocol as it goes by: which handle is which characteristic, and the values that were notified, read
-and written (Bluetooth Core, vol 3 part F, 3.4).
+"""The attribute protocol in a log: UUIDs of the handles, and the values notified, read and written.
 
-Either end of a link may be the server: in a phone's log the peer is, in the log of a device's own host the host is.
-Services are of no interest: a characteristic's UUID says enough.
+Source: Bluetooth Core, vol 3 part F, 3.4. Either end of a link may be the server: in a phone's log the peer is, in the
+log of a device's own host the host is. Services are not needed: a characteristic's UUID is enough.
 """
 
 from __future__ import annotations
@@ -20,7 +19,7 @@ from ...wire.fields import LONGEST_VALUE, malformed, parse_whole
 
 
 class AttOpcode(IntEnum):
-    """The first byte of a PDU; not all that there are."""
+    """First byte of a PDU; not all that exist."""
 
     ERROR = 0x01
     MTU_REQUEST = 0x02
@@ -49,16 +48,19 @@ class AttOpcode(IntEnum):
     SIGNED_WRITE_COMMAND = 0xD2
 
 
-REQUESTS = frozenset({AttOpcode.MTU_REQUEST, AttOpcode.FIND_INFORMATION, AttOpcode.FIND_BY_VALUE, AttOpcode.READ_BY_TYPE, AttOpcode.READ, AttOpcode.READ_BLOB,
-                      AttOpcode.READ_SEVERAL, AttOpcode.READ_BY_GROUP, AttOpcode.WRITE, AttOpcode.PREPARE_WRITE, AttOpcode.EXECUTE_WRITE,
-                      AttOpcode.READ_SEVERAL_VARIABLE})  # fmt: skip
-"""What a client sends to be answered, one at a time."""
+REQUESTS = frozenset({
+    AttOpcode.MTU_REQUEST, AttOpcode.FIND_INFORMATION, AttOpcode.FIND_BY_VALUE, AttOpcode.READ_BY_TYPE,
+    AttOpcode.READ, AttOpcode.READ_BLOB, AttOpcode.READ_SEVERAL, AttOpcode.READ_BY_GROUP, AttOpcode.WRITE,
+    AttOpcode.PREPARE_WRITE, AttOpcode.EXECUTE_WRITE, AttOpcode.READ_SEVERAL_VARIABLE,
+})  # fmt: skip
+"""Requests: PDUs that a client sends to be answered, one at a time."""
 FROM_CLIENT = REQUESTS | {AttOpcode.WRITE_COMMAND, AttOpcode.CONFIRMATION, AttOpcode.SIGNED_WRITE_COMMAND}
-"""And what is not answered: commands and confirmations."""
+"""All PDUs of a client: requests, and commands and confirmations, which are not answered."""
 
 DECLARATION_TYPE = "00002803-0000-1000-8000-00805f9b34fb"
-"""Of the attributes that declare a characteristic."""
+"""Type of the attributes that declare a characteristic."""
 SMALLEST_MTU = 23
+"""MTU of a link until another is agreed, bytes."""
 
 PDU = Struct("opcode" / Int8ul, "body" / GreedyBytes)
 ERROR_RESPONSE = Struct("request" / Int8ul, "handle" / Int16ul, "code" / Int8ul, Terminated)
@@ -74,7 +76,7 @@ REQUEST_BODIES: dict[int, Any] = {
     AttOpcode.READ_BLOB: BLOB_REQUEST,
     AttOpcode.WRITE: HANDLE_VALUE,
 }
-"""The bodies of the requests whose answers tell something."""
+"""Bodies of the requests whose answers are used."""
 
 
 INFORMATION = Struct(
@@ -93,7 +95,7 @@ SEVERAL_VALUES = Struct(
 
 
 class AttOperation(Enum):
-    """How a value went by."""
+    """Operation that transferred a value."""
 
     NOTIFIED = "notified"
     READ = "read"
@@ -110,7 +112,7 @@ class AttValue:
 
 
 def uuid_text(octets: bytes) -> str:
-    """A UUID of 16 or 128 bits in full, lower case. WireError when it is neither."""
+    """Return a UUID of 16 or 128 bits in full, lower case. WireError when it is neither."""
     if len(octets) == 2:
         return f"0000{octets[1]:02x}{octets[0]:02x}-0000-1000-8000-00805f9b34fb"
     if len(octets) != 16:
@@ -120,20 +122,23 @@ def uuid_text(octets: bytes) -> str:
 
 @define
 class Conversation:
-    """One client and one server on one link. `types`: handle -> UUID as discovered, shared by all with
-    the same server. `flaws` counts what was not understood."""
+    """The PDUs of one client and one server on one link.
+
+    `types`: UUID by handle as discovered, shared by all conversations with the same server. `flaws` counts PDUs that
+    were not understood.
+    """
 
     types: dict[int, str]
     flaws: Counter[str]
     mtu: int = SMALLEST_MTU
     _request: tuple[int, Any] | None = None
-    """The request that waits for its answer."""
+    """Request that waits for its answer."""
     _partial_read: AttValue | None = None
-    """A value that was read as far as one answer could hold; more of it may be asked for."""
+    """Value read so far, as much as the answers held; the client may request more of it."""
     _values: list[AttValue] = field(factory=list)
 
     def feed(self, data: bytes) -> list[AttValue]:
-        """What one PDU tells, of either direction."""
+        """Return the values in one PDU, of either direction."""
         self._values = []
         try:
             pdu = parse_whole(PDU, data)
@@ -146,7 +151,7 @@ class Conversation:
         return self._values
 
     def finish(self) -> list[AttValue]:
-        """The link is gone: what was read and not asked on was whole."""
+        """Return the value of an unfinished read, at the end of the link: a value that was not read further was whole."""
         self._values = []
         self._end_read()
         return self._values
@@ -181,7 +186,7 @@ class Conversation:
                     self._values.append(AttValue(AttOperation.NOTIFIED, parsed.handle, parsed.value))
                 return
         if self._request is None:
-            return  # asked before the log began
+            return  # the request came before the log started
         request, request_body = self._request
         self._request = None
         match opcode, request:
@@ -204,7 +209,7 @@ class Conversation:
                 self._values.append(AttValue(AttOperation.WRITTEN, request_body.handle, request_body.value))
 
     def _add_types(self, kind: str, answer: Any) -> None:
-        """Declarations of characteristics, or values of the characteristics of one kind."""
+        """Add declarations of characteristics, or values of the characteristics of one type."""
         for entry in answer.entries:
             if kind == DECLARATION_TYPE:
                 declared = parse_whole(DECLARATION, entry.value)
@@ -214,7 +219,10 @@ class Conversation:
                 self._values.append(AttValue(AttOperation.READ, entry.handle, entry.value))
 
     def _add_read(self, handle: int, value: bytes, newest: int | None = None) -> None:
-        """`newest`: bytes of the last answer, when it was not the first. One that is full may not be all."""
+        """Add an answer to a read; one that fills the MTU may not be the whole value.
+
+        `newest`: bytes of the last answer, when it was not the first.
+        """
         self._partial_read = AttValue(AttOperation.READ, handle, value)
         size = len(value) if newest is None else newest
         if size < self.mtu - 1 or len(value) >= LONGEST_VALUE:

@@ -1,4 +1,4 @@
-"""Which device of a log is what, which of its attributes are channels, and where it was worn."""
+"""Identification of the devices of a log, of their attributes' channels, and of their sites."""
 
 from __future__ import annotations
 
@@ -15,43 +15,54 @@ from .att import AttOperation
 from .evidence import ValueEvidence
 
 Handles = Mapping[tuple[str, int], str]
-"""(device, or "" for any; attribute handle) -> channel."""
+"""Channel by device (or "" for any) and attribute handle."""
 
 CHANNELS = frozenset(channel.name for profile in PROFILES for channel in profile.channels)
+"""Names of all channels of built-in devices."""
 CHARACTERISTICS = frozenset(channel.characteristic for profile in PROFILES for channel in profile.channels)
+"""UUIDs of all characteristics of built-in devices."""
 DRIVERS = {driver.name: driver for driver in DECLARED}
+"""Declared devices by name."""
 USES = {
     AttOperation.NOTIFIED: (Use.NOTIFY, Use.READ),
     AttOperation.READ: (Use.READ, Use.NOTIFY, Use.WRITE),
     AttOperation.WRITTEN: (Use.WRITE,),
 }
-"""How a value went by -> what its channel is used for, the likeliest first: a characteristic may be one channel where
-it is read and another where it is written, and what is subscribed or written may be read as well."""
+"""Uses of a channel that fit an operation on its value, the likeliest first.
+
+A characteristic may be one channel where it is read and another where it is written, and one that is subscribed or
+written may be read as well."""
 
 
 @define
 class LoggedDevice:
-    """One device of a log. `address`: or what else tells it from others. `profile`: None when its discovery is not in
-    the log, or it is of no use here. `channels`: attribute handle, and how the value went by -> channel."""
+    """One device of a log.
+
+    `address`: or another name that identifies it. `profile`: None when its discovery is not in the log, or it is no
+    known device. `channels`: channel by attribute handle and operation.
+    """
 
     address: str
     site: Site | None = None
     profile: Profile | None = None
     channels: dict[tuple[int, AttOperation], str] = field(factory=dict)
     seen: dict[int, ValueEvidence] = field(factory=dict)
-    """Attribute handle -> what its values are like."""
+    """Evidence from the values, by attribute handle."""
 
     @property
     def count(self) -> int:
-        """Notified values that are a channel's."""
+        """Number of notified values of channels."""
         return sum(
             evidence.count for handle, evidence in self.seen.items() if (handle, AttOperation.NOTIFIED) in self.channels
         )
 
 
 def name_attributes(device: LoggedDevice, types: Mapping[int, str], handles: Handles) -> set[tuple[str, int]]:
-    """Which of its attributes are channels: by what the caller says, by discovery, by proof. What of `handles` was of
-    use: what is said of any device counts where discovery says nothing, and no word makes one device of another."""
+    """Find the channels of the device's attributes: by `handles`, by discovery, by proof. Return the used `handles`.
+
+    An entry for any device counts only where discovery has no type for the attribute, and no entry turns one device
+    into another.
+    """
     device.profile = _profile(set(types.values()))
     used: set[tuple[str, int]] = set()
     for handle, evidence in device.seen.items():
@@ -76,7 +87,7 @@ def name_attributes(device: LoggedDevice, types: Mapping[int, str], handles: Han
 
 
 def _is_compatible(channel: str, hint: tuple[str, int], device: LoggedDevice, types: Mapping[int, str]) -> bool:
-    """Whether discovery leaves it open, or agrees, that the attribute is this channel."""
+    """Return whether discovery permits, or confirms, that the attribute is this channel."""
     address, handle = hint
     if device.profile is not None and channel not in device.profile.channel_names:
         return False
@@ -88,7 +99,7 @@ def _is_compatible(channel: str, hint: tuple[str, int], device: LoggedDevice, ty
 def explain_unused(
     hint: tuple[str, int], channel: str, devices: Mapping[str, LoggedDevice], types: Mapping[str, Mapping[int, str]]
 ) -> str:
-    """Why what was said of an attribute is of no use."""
+    """Return a sentence on why an entry of `handles` is of no use."""
     address, handle = hint
     there = [device for device in devices.values() if address in ("", device.address.upper())]
     if not there:
@@ -107,13 +118,13 @@ def explain_unused(
 
 
 def _same_characteristic(name: str) -> list[Channel]:
-    """The channels, of the device that has this one, that share its characteristic."""
+    """Return the channels, of the device that has this one, that share its characteristic."""
     profile = next(profile for profile in PROFILES if name in profile.channel_names)
     return [each for each in profile.channels if each.characteristic == profile.channel(name).characteristic]
 
 
 def _profile(uuids: set[str]) -> Profile | None:
-    """The device that has most of these characteristics, and at least one that streams; the first of equals."""
+    """Return the device that has most of these characteristics, and at least one stream; the first of equals."""
     best, most = None, 0
     for profile in PROFILES:
         matches = sum(channel.characteristic in uuids for channel in profile.channels)
@@ -123,7 +134,7 @@ def _profile(uuids: set[str]) -> Profile | None:
 
 
 def assign_site(device: LoggedDevice, places: Mapping[str, Site]) -> None:
-    """Where the caller says, else the foot that it says itself."""
+    """Set the device's site: the caller's, else that of the foot that the device reports."""
     device.site = places.get(device.address.upper())
     for (handle, operation), channel in device.channels.items():
         foot = _foot(channel, operation, device.seen[handle])
@@ -132,7 +143,7 @@ def assign_site(device: LoggedDevice, places: Mapping[str, Site]) -> None:
 
 
 def _foot(channel: str, operation: AttOperation, evidence: ValueEvidence) -> Foot | None:
-    """Whose insole it is, where a channel's values say it."""
+    """Return the foot of the insole, where a channel's values report it."""
     if channel in ("insole/frame", "insole/info"):
         return evidence.foot
     driver = DRIVERS.get(channel.partition("/")[0])
@@ -145,5 +156,5 @@ def _foot(channel: str, operation: AttOperation, evidence: ValueEvidence) -> Foo
 
 
 def with_article(noun: str) -> str:
-    """With its article."""
+    """Return the noun with its indefinite article."""
     return f"{'an' if noun[0] in 'aeiou' else 'a'} {noun}"

@@ -1,7 +1,7 @@
-"""HCI packets into connections and the attribute protocol's PDUs (Bluetooth Core, vol 4 part E; vol 3 part A).
+"""HCI packets to connections and PDUs of the attribute protocol (Bluetooth Core, vol 4 part E; vol 3 part A).
 
-What matters here of the two hundred commands and events: which connection handle is whose, and when that ends; and
-L2CAP PDUs put together again from the ACL packets that carry them in pieces.
+Of the two hundred commands and events only a few matter here: those that give the peer of a connection handle, and the
+end of a connection. L2CAP PDUs are reassembled from the ACL packets that carry their pieces.
 """
 
 from __future__ import annotations
@@ -27,29 +27,29 @@ LE_CONNECTION_COMPLETE = Struct(
     "peer" / Bytes(6),
     "rest" / GreedyBytes,
 )
-"""What the legacy event and both enhanced ones begin with; then come intervals, and addresses that are not its own."""
+"""Common start of the legacy event and both enhanced ones; intervals and other addresses follow."""
 DISCONNECTION_COMPLETE = Struct("status" / Int8ul, "handle" / Int16ul, "reason" / Int8ul)
 READ_ADDRESS_COMPLETE = Struct("packets" / Int8ul, "opcode" / Int16ul, "status" / Int8ul, "address" / Bytes(6))
 ACL = Fields("<HH")
-"""Handle (12 bits) with flags, length."""
+"""Header of an ACL packet: handle (12 bits) with flags, length."""
 L2CAP = Fields("<HH")
-"""Length, channel."""
+"""Header of an L2CAP PDU: length, channel."""
 
 RESET, READ_BD_ADDR, LE_SET_RANDOM_ADDRESS = 0x0C03, 0x1009, 0x2005
 DISCONNECTED, COMMAND_COMPLETE, LE_META = 0x05, 0x0E, 0x3E
 CONNECTION_SUBEVENTS = {0x01: 19, 0x0A: 31, 0x29: 34}
-"""LE Connection Complete, Enhanced v1, Enhanced v2 -> bytes of its parameters."""
+"""Size of the parameters of LE Connection Complete, Enhanced v1 and Enhanced v2, bytes."""
 HANDLE_BITS = 0x0FFF
-"""The others are flags, or reserved."""
+"""Mask of a connection handle; the other bits are flags, or reserved."""
 CONTINUING = 1
 ATT_CHANNEL = 4
 DYNAMIC_CHANNELS = 0x40
-"""And above: opened for a purpose, the enhanced attribute protocol among them."""
+"""First of the channels that are opened for a purpose, the enhanced attribute protocol among them."""
 
 
 @define
 class HciConnection:
-    """One connection, from its beginning (or the log's) to its end (or the log's).
+    """One connection, from its start (or the log's) to its end (or the log's).
 
     `number`: counted through the log. `address`: the peer's; "" when the connection is older than the log.
     """
@@ -59,17 +59,17 @@ class HciConnection:
     handle: int
     address: str
     pieces: dict[bool, bytearray] = field(factory=dict)
-    """Beginnings of L2CAP PDUs, by whether they are sent."""
+    """Incomplete L2CAP PDUs, by whether they are sent."""
 
     @property
     def peer(self) -> str:
-        """By what the peer can be told from others: its address, or the handle where nobody knows that."""
+        """Name of the peer: its address, or the connection handle where the address is unknown."""
         return self.address or f"connection-{self.handle:#06x}" + (f"-hci{self.adapter}" if self.adapter else "")
 
 
 @frozen
 class LinkChange:
-    """A connection that begins at `t`, or ends."""
+    """A connection that starts at `t`, us since 1970, or ends."""
 
     t: int
     link: HciConnection
@@ -78,7 +78,7 @@ class LinkChange:
 
 @frozen
 class Pdu:
-    """One PDU of the attribute protocol. `own`: the local host's address, "" when the log does not tell."""
+    """One PDU of the attribute protocol. `own`: the local host's address, "" when the log does not have it."""
 
     t: int
     link: HciConnection
@@ -88,13 +88,13 @@ class Pdu:
 
 
 def address_text(octets: bytes) -> str:
-    """As people write it: the most significant octet, which is sent last, in front."""
+    """Return an address in its usual form: the most significant octet, which is sent last, in front."""
     return ":".join(f"{octet:02X}" for octet in reversed(octets))
 
 
 @define
 class Controller:
-    """What a log tells of the connections of its adapters, record by record. `flaws` counts what was not understood."""
+    """The connections of a log's adapters, record by record. `flaws` counts records that were not understood."""
 
     flaws: Counter[str]
     _links: dict[tuple[int, int], HciConnection] = field(factory=dict)
@@ -103,6 +103,7 @@ class Controller:
     _count: int = 0
 
     def feed(self, record: HciRecord) -> Iterator[LinkChange | Pdu]:
+        """Yield the changes of connections and the PDUs of one record."""
         if record.kind is not RecordKind.OTHER and not record.whole:
             self.flaws["records that the logger cut short"] += 1
         try:
@@ -189,14 +190,14 @@ class Controller:
                 self.flaws["packets of channels that are not followed (EATT perhaps)"] += 1
 
     def _discard_pieces(self, link: HciConnection, sent: bool) -> None:
-        """What was begun will not be completed."""
+        """Discard the pieces of a PDU that will not be completed."""
         if link.pieces.pop(sent, None) is not None:
             self.flaws["packets of which a piece is missing"] += 1
 
     def own(self, adapter: int) -> str:
-        """The address by which peers know the adapter."""
+        """Return the address by which peers know the adapter; "" when it is unknown."""
         return self._random.get(adapter) or self._public.get(adapter, "")
 
     def links(self) -> list[HciConnection]:
-        """The connections that there are now."""
+        """Return the present connections."""
         return list(self._links.values())

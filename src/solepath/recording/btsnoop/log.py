@@ -1,7 +1,7 @@
-"""A btsnoop log as a recording of packets: every value that is a channel of a known device, at the site it was worn.
+"""A btsnoop log as a recording of packets: every value of a known device's channel, at the site of the device.
 
-The log is read twice: once to find out what is what, which may be said late in it or not at all, and once for the
-packets, so that an hour of a phone's log need not fit into memory.
+The log is read twice: once to identify devices and channels, which may be possible only late in the log or not at all,
+and once for the packets, so that an hour of a phone's log need not fit into memory.
 """
 
 from __future__ import annotations
@@ -27,10 +27,10 @@ from .values import Value, ValueListener
 
 @define
 class BtsnoopLog:
-    """What a btsnoop log holds for us. Iterating gives its packets in order of arrival.
+    """The usable content of a btsnoop log. Iterating gives its packets in order of arrival.
 
-    `started_at`: us since 1970 of the first record, which is `t` = 0 s of the packets. `total`, `done`: bytes. Iterating
-    raises RecordingError where the log is damaged, after everything before that.
+    `started_at`: us since 1970 of the first record, which is `t` = 0 s of the packets. `total`, `done`: bytes.
+    Iterating raises RecordingError where the log is damaged, after everything before that.
     """
 
     path: Path
@@ -41,7 +41,7 @@ class BtsnoopLog:
 
     @property
     def header(self) -> dict[str, Any]:
-        """For the recording: what o'clock it was, where the logger's clock said so."""
+        """Header for a recording: the time of day of its start, where the logger's clock had it."""
         try:
             moment = datetime(1970, 1, 1, tzinfo=UTC) + timedelta(microseconds=self.started_at)
         except OverflowError:
@@ -49,7 +49,7 @@ class BtsnoopLog:
         return {"began": moment.isoformat().replace("+00:00", "Z"), "began_t": 0.0, "source": "btsnoop"}
 
     def __iter__(self) -> Iterator[Packet]:
-        listener = ValueListener(self.path, lambda _: None)  # what is wrong was reported before
+        listener = ValueListener(self.path, lambda _: None)  # flaws were reported by open_btsnoop
         for item in listener.listen(partial(setattr, self, "done")):
             match item:
                 case Value():
@@ -61,7 +61,7 @@ class BtsnoopLog:
                     )
                 case LinkChange():
                     device = self.devices.get(item.link.peer)
-                    # the log does not say how the host heard of it, so neither name nor signal
+                    # the log does not tell how the host found the device, so there is neither name nor signal
                     channel = "receiver/connected" if item.connected else "receiver/disconnected"
                     data = build_connected(ConnectionFrame("", None)) if item.connected else b""
             if device is not None and device.site is not None and channel is not None:
@@ -71,12 +71,12 @@ class BtsnoopLog:
 def open_btsnoop(
     path: Path | str, *, sites: Mapping[str, Site] | None = None, handles: Handles | None = None, report: Report = warn
 ) -> BtsnoopLog:
-    """Find out what a btsnoop log holds.
+    """Return the usable content of a btsnoop log.
 
-    `sites`: where each device was worn, by address; insoles say themselves which foot they are of. `handles`: what
-    attributes are whose discovery the log does not hold, because the host knew them from earlier. `report` gets one
-    sentence about each thing that is left out. RecordingError for what is no btsnoop log, or holds no packets that can
-    be placed, or not what `sites` and `handles` name; ValueError for a channel that no device has.
+    `sites`: site of each device, by address; insoles report their foot themselves. `handles`: channels of attributes
+    whose discovery the log does not hold, because the host knew them from earlier. `report` gets one sentence about
+    each thing that is left out. RecordingError for a file that is no btsnoop log, or has no packets of a device whose
+    site is known, or not what `sites` and `handles` name; ValueError for a channel that no device has.
     """
     path = Path(path)
     reject_pipe(path)
@@ -96,7 +96,7 @@ def open_btsnoop(
                     item.att_value.operation, item.att_value.value
                 )
     except RecordingError as error:
-        damage = error  # told once more by the iteration, after the packets before it
+        damage = error  # the iteration raises it again, after the packets before it
     used: set[tuple[str, int]] = set()
     for device in devices.values():
         used |= name_attributes(device, listener.types.get(device.address, {}), handles)
@@ -120,7 +120,7 @@ def open_btsnoop(
 
 
 def _describe_left_out(devices: list[LoggedDevice], types: Mapping[str, Mapping[int, str]]) -> Iterator[str]:
-    """One sentence about each thing that does not become packets, and about what a session will not take."""
+    """Yield one sentence about each thing that does not become packets, or that a session will not take."""
     others = 0
     for device in devices:
         known = types.get(device.address, {})
@@ -150,7 +150,7 @@ def _count_text(count: int, noun: str) -> str:
 
 
 def _describe_handles(attributes: Mapping[int, ValueEvidence]) -> str:
-    """The handles with the lengths of their values, a few of them."""
+    """Return the handles with the lengths of their values, a few of them."""
     texts = [
         f"{handle:#06x} ({', '.join(map(str, sorted(evidence.lengths)[:3]))} bytes)"
         for handle, evidence in list(attributes.items())[:4]

@@ -1,4 +1,4 @@
-"""A log as values of attributes, each with the device that it is of."""
+"""A log as values of attributes, each with its device."""
 
 from __future__ import annotations
 
@@ -16,7 +16,10 @@ from .records import read_records
 
 @frozen
 class Value:
-    """One value. `t`: us since 1970. `device`: the address of the server, or what else tells it from others."""
+    """One value of a log.
+
+    `t`: us since 1970. `device`: the address of the server, or another name that identifies it.
+    """
 
     t: int
     link: HciConnection
@@ -26,9 +29,9 @@ class Value:
 
 @define
 class ValueListener:
-    """All values of a log, in order, with the beginnings and ends of the connections.
+    """Reads all values of a log, in order, with the starts and ends of the connections.
 
-    `types`: device -> attribute handle -> UUID, as discovered so far. It outlives a connection, since hosts remember
+    `types`: UUID by device and attribute handle, as discovered so far. It outlives a connection, since hosts remember
     what they discovered once and do not ask again.
     """
 
@@ -37,10 +40,13 @@ class ValueListener:
     flaws: Counter[str] = field(factory=Counter)
     types: dict[str, dict[int, str]] = field(factory=dict)
     _conversations: dict[tuple[int, bool], Conversation] = field(factory=dict)
-    """By connection and whether the peer is the server."""
+    """Conversations by connection and whether the peer is the server."""
 
     def listen(self, progress: Callable[[int], None] | None = None) -> Iterator[Value | LinkChange]:
-        """RecordingError, after everything before it, for what makes the log unusable."""
+        """Yield the values and changes of connections.
+
+        RecordingError, after everything before it, for a log that cannot be used.
+        """
         controller = Controller(self.flaws)
         t, failure = 0, None
         try:
@@ -62,7 +68,7 @@ class ValueListener:
             raise failure
 
     def _pdu(self, pdu: Pdu) -> Iterator[Value]:
-        # the peer is the server when the host speaks as a client, or the peer as a server
+        # the peer is the server when the host sends as a client, or the peer as a server
         of_peer = pdu.sent == (bool(pdu.data) and pdu.data[0] in FROM_CLIENT)
         device = pdu.link.peer if of_peer else pdu.own
         conversation = self._conversations.get((pdu.link.number, of_peer))
