@@ -151,7 +151,7 @@ class Conversation:
         return self._values
 
     def finish(self) -> list[AttValue]:
-        """Return the value of an unfinished read, at the end of the link: a value that was not read further was whole."""
+        """Return the value of an unfinished read, at the end of the link; a value not read further was whole."""
         self._values = []
         self._end_read()
         return self._values

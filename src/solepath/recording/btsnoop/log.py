@@ -132,7 +132,8 @@ def _describe_left_out(devices: list[LoggedDevice], types: Mapping[str, Mapping[
         }
         if nameless:
             count = sum(evidence.count for evidence in nameless.values())
-            yield f"{_count_text(count, 'value')} of {address} left out: no discovery says what is {_describe_handles(nameless)}"
+            handles = _describe_handles(nameless)
+            yield f"{_count_text(count, 'value')} of {address} left out: no discovery says what is {handles}"
         if device.site is None and device.count:
             kind = "a device" if device.profile is None else with_article(device.profile.name)
             yield f"{_count_text(device.count, 'value')} of {address}, {kind}, left out: nobody says where it was worn"
