@@ -91,7 +91,7 @@ def test_what_is_refused_beside_the_stream_under_any_name_is_told_with_its_chann
 
 
 def test_a_setting_that_is_refused_under_any_name_is_told_and_what_was_to_be_read_after_it_too() -> None:
-    more = evolve(STRAP.channel("strap/page"), name="strap/beside", how=Access.WRITE)
+    more = evolve(STRAP.channel("strap/page"), name="strap/beside", access=Access.WRITE)
     profile = evolve(
         READ_AFTER,
         channels=(*READ_AFTER.channels, more),

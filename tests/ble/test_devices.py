@@ -37,7 +37,7 @@ def test_a_device_is_read_then_subscribed_then_written() -> None:
     got(heard, DeviceConfig(LEFT, "F0:5E:00:00:00:01"), DeviceConfig(RIGHT, "F0:5E:00:00:00:02"))
     for device, profile in ((bench[LEFT], INSOLE), (bench[RIGHT], CC2650)):
         did = heard.of(device, "read", "subscribe", "write")
-        notify = {channel.name for channel in profile.channels if channel.how is Access.NOTIFY}
+        notify = {channel.name for channel in profile.channels if channel.access is Access.NOTIFY}
         assert {channel for what, channel in did if what == "subscribe"} == notify
         assert [what for what, _ in did] == sorted((what for what, _ in did), key=["read", "subscribe", "write"].index)
         assert [channel for what, channel in did if what == "write"] == [write.channel for write in profile.setup]

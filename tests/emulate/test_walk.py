@@ -160,7 +160,7 @@ def test_a_recording_begins_with_all_that_was_read_and_written(device: Device, p
     for write in profile.setup:
         expected += [write.channel, *write.then_read]
     assert [channel for channel, _ in said] == expected
-    read = {channel.name for channel in profile.channels if channel.how is not Access.WRITE}
+    read = {channel.name for channel in profile.channels if channel.access is not Access.WRITE}
     assert [(c, data) for c, data in said if c not in read] == [(w.channel, w.value) for w in profile.setup]
 
 

@@ -13,7 +13,7 @@ from walks import of
 
 from solepath.events import BatteryLevel, ClockReset, PacketRejected, Rejection, StreamResumed, StreamStale
 from solepath.link.catalogue import PROFILES
-from solepath.link.decoder import SET_BACK, Decoder
+from solepath.link.decoder import SET_BACK_PACKETS, Decoder
 from solepath.recipes import part_class
 from solepath.saving import codec as machine
 from solepath.types import Foot, Packet, Sample, Site
@@ -140,7 +140,7 @@ def test_one_wild_arrival_time_is_survived() -> None:
     decoder = walked()
     decoder.feed(packet(1e9, "device/battery", b"\x32"))
     outputs = feed(decoder, *[frame_packet(k) for k in range(5, 60)])
-    assert len(of(Sample, outputs)) == 55 - SET_BACK + 1
+    assert len(of(Sample, outputs)) == 55 - SET_BACK_PACKETS + 1
     assert of(Sample, outputs)[-1].t == pytest.approx(10.0 + 59 * STEP, abs=1e-3)
 
 

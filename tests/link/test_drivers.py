@@ -18,7 +18,7 @@ from solepath.events import Limitation
 from solepath.link.catalogue import PROFILES
 from solepath.link.devices import orphe
 from solepath.link.driver import Driver, Reading
-from solepath.link.known import KINDS, kinds
+from solepath.link.kinds import BUILT_IN_KINDS, make_kinds
 from solepath.link.profile import Write
 
 
@@ -82,9 +82,9 @@ def test_a_reader_that_is_wrong_itself_is_not_hidden() -> None:
 
 def test_an_app_adds_devices_and_may_replace_declared_ones_but_not_ours() -> None:
     for profile in PROFILES:
-        kind = KINDS.get(profile.name.removesuffix("-20hz"))
+        kind = BUILT_IN_KINDS.get(profile.name.removesuffix("-20hz"))
         assert kind is not None and kind.profile in PROFILES
-    assert KINDS.get("toy") is None and kinds([NUMBERED]).get("toy") is not None
+    assert BUILT_IN_KINDS.get("toy") is None and make_kinds([NUMBERED]).get("toy") is not None
     other = evolve(orphe.DRIVER, limitation="")
     assert not of(Limitation, Session(profiles=[other]).feed(mode_four()))
     assert of(Limitation, Session().feed(mode_four()))

@@ -72,7 +72,7 @@ def test_the_insole_has_the_documented_uuids() -> None:
             number = channel.characteristic[4:8]
             assert channel.characteristic == base[1] + number + base[2]
             assert channel.service == base[1] + "0001" + base[2]
-            assert channel.how.value in rows[number][1]
+            assert channel.access.value in rows[number][1]
     assert INSOLE.services == (base[1] + "0001" + base[2],)
 
 
@@ -102,7 +102,7 @@ def test_advertised_names_are_in_the_documents() -> None:
 
 
 def test_a_device_is_known_by_its_whole_name_or_by_how_it_begins() -> None:
-    known = {name: [p.name for p in PROFILES if p.answers_to(name)] for name in ("INS0123", "Thingy", "Thingy 2", "")}
+    known = {name: [p.name for p in PROFILES if p.matches_name(name)] for name in ("INS0123", "Thingy", "Thingy 2", "")}
     assert known == {"INS0123": ["orphe"], "Thingy": ["thingy"], "Thingy 2": [], "": []}
 
 
@@ -121,18 +121,18 @@ def test_a_declared_device_has_the_uuids_of_its_document(profile: Profile) -> No
             else:
                 assert short(uuid) == said
                 assert channel.name.startswith("device/") or uuid == f"{base[1]}{said}{base[2]}".lower()
-        assert channel.how.value in rows[channel.name][2]
+        assert channel.access.value in rows[channel.name][2]
 
 
 @pytest.mark.parametrize("profile", PROFILES, ids=lambda profile: profile.name)
 def test_a_profile_refers_only_to_its_own_channels_and_uses_them_as_they_can_be_used(profile: Profile) -> None:
     for write in profile.setup:
-        assert profile.channel(write.channel).how is Access.WRITE
-        assert all(profile.channel(name).how is Access.READ for name in write.then_read)
-    assert all(profile.channel(name).how in (Access.READ, Access.NOTIFY) for name in profile.reads)
-    assert all(profile.channel(name).how is Access.NOTIFY for name in profile.streams)
+        assert profile.channel(write.channel).access is Access.WRITE
+        assert all(profile.channel(name).access is Access.READ for name in write.then_read)
+    assert all(profile.channel(name).access in (Access.READ, Access.NOTIFY) for name in profile.reads)
+    assert all(profile.channel(name).access is Access.NOTIFY for name in profile.streams)
     uuids = [(channel.service, channel.characteristic) for channel in profile.channels]
-    assert len({(*pair, channel.how) for pair, channel in zip(uuids, profile.channels, strict=True)}) == len(uuids)
+    assert len({(*pair, channel.access) for pair, channel in zip(uuids, profile.channels, strict=True)}) == len(uuids)
     assert all(len(uuid) == 36 and uuid == uuid.lower() for pair in uuids for uuid in pair)
     assert BY_NAME[profile.name] is profile
     with pytest.raises(KeyError):

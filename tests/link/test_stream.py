@@ -30,7 +30,7 @@ from solepath.events import (
 from solepath.link.catalogue import DECLARED
 from solepath.link.decoder import Decoder
 from solepath.link.driver import TimeAxis
-from solepath.link.known import kinds
+from solepath.link.kinds import make_kinds
 from solepath.recipes import part_class
 from solepath.saving import codec as machine
 
@@ -112,7 +112,7 @@ def test_right_after_a_new_connection_nothing_is_overtaken() -> None:
         device = toy(KIND[name])
         for k in range(50):
             device.packet(k)
-        device.decoder.feed(Packet(10.6, LEFT, "receiver/connected", b"\x7fToy"), kinds([device.driver]))
+        device.decoder.feed(Packet(10.6, LEFT, "receiver/connected", b"\x7fToy"), make_kinds([device.driver]))
         told = device.say(10.7, 65_535, 2**32 - 2_400_000 if name != "coarse" else 76_000_500)
         assert times(told) == pytest.approx([10.7], abs=0.02), name
 
@@ -246,7 +246,7 @@ def test_silence_is_an_event_unless_the_device_said_that_it_may_be_silent() -> N
         device = toy(NUMBERED)
         device.tell(1.0, 2, silent)
         device.say(1.1, 1)
-        assert len(of(StreamStale, device.decoder.advance(5.0, kinds([NUMBERED])))) == stale
+        assert len(of(StreamStale, device.decoder.advance(5.0, make_kinds([NUMBERED])))) == stale
 
 
 def test_a_limitation_is_said_once_and_a_wrong_range_is_suspected() -> None:

@@ -42,7 +42,7 @@ def test_a_device_has_the_attributes_of_its_profile_and_what_else_it_has(device:
     for channel in known.channels:
         served = table[channel.service, channel.characteristic]
         assert served.channel == channel.name
-        assert ("write" if channel.how is Access.WRITE else channel.how.value) in served.properties
+        assert ("write" if channel.access is Access.WRITE else channel.access.value) in served.properties
     assert any(c.channel == "device/manufacturer" for c in table.values())
     assert len({c.channel for c in table.values()}) == len(table)
 
@@ -50,7 +50,7 @@ def test_a_device_has_the_attributes_of_its_profile_and_what_else_it_has(device:
 @pytest.mark.parametrize(("device", "known"), DEVICES)
 def test_what_was_set_up_decodes_to_samples_and_nothing_else_odd(device: Device, known: Profile) -> None:
     tag, decoder, out = worn(device), Decoder(site=LEFT), []
-    begin(tag, *(c.name for c in known.channels if c.how is Access.NOTIFY))
+    begin(tag, *(c.name for c in known.channels if c.access is Access.NOTIFY))
     said = [(name, tag.read(name, 0.0)) for name in known.reads]
     for write in known.setup:
         tag.write(write.channel, write.value, 0.0)

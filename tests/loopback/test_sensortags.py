@@ -151,7 +151,7 @@ def test_a_disconnected_tag_forgets_what_was_written() -> None:
 
 
 def test_each_sensor_has_a_period_of_its_own() -> None:
-    tag = begin(worn(CC2541()), *(c.name for c in cc2541.PROFILE.channels if c.how is Access.NOTIFY))
+    tag = begin(worn(CC2541()), *(c.name for c in cc2541.PROFILE.channels if c.access is Access.NOTIFY))
     tag.write("cc2541/accelerometer-period", b"\x05", 0.0)
     tag.write("cc2541/gyroscope-period", b"\x14", 0.0)
     for sensor, on in (("accelerometer", 3), ("gyroscope", 7), ("magnetometer", 1), ("barometer", 1)):

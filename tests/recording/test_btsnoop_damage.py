@@ -12,7 +12,7 @@ from snooped import BEGAN, FRAME, TAG, Log, begin, data_of, frames, info, read
 from solepath import Packet, Session
 from solepath.recording import RecordingError
 from solepath.recording.btsnoop import is_btsnoop, open_btsnoop
-from solepath.recording.btsnoop.att import Op
+from solepath.recording.btsnoop.att import AttOpcode
 
 
 def test_pieces_that_were_not_logged_cost_their_packet_and_are_counted(tmp_path):
@@ -122,7 +122,7 @@ def _eventful() -> Log:
     return log
 
 
-OPCODES = st.sampled_from([op.to_bytes() for op in Op])
+OPCODES = st.sampled_from([op.to_bytes() for op in AttOpcode])
 SIZES = st.sampled_from([b"", b"\x00", b"\x01", b"\x02", b"\x07", b"\x15", b"\x15\x00", b"\x00\x28", b"\x03\x28"])
 PDUS = st.builds(lambda *parts: b"".join(parts), OPCODES, SIZES, SIZES, st.binary(max_size=30)) | st.binary(max_size=30)
 

@@ -128,9 +128,13 @@ def heard_by_tshark(path: Path) -> list[tuple[int, int, int, bytes]]:
 
 def heard_by_us(path: Path) -> list[tuple[int, int, int, bytes]]:
     listener = ValueListener(path, pytest.fail)
-    values = [item for item in listener.listen() if isinstance(item, Value) and item.said.how is AttOperation.NOTIFIED]
+    values = [
+        item
+        for item in listener.listen()
+        if isinstance(item, Value) and item.att_value.operation is AttOperation.NOTIFIED
+    ]
     assert not listener.flaws
-    return [(value.t, value.link.handle, value.said.handle, value.said.value) for value in values]
+    return [(value.t, value.link.handle, value.att_value.handle, value.att_value.value) for value in values]
 
 
 @needs_tshark
@@ -177,9 +181,9 @@ def told_by_tshark(path: Path) -> list[tuple[AttOperation, int, bytes]]:
             case 0x0C:
                 offset = int(at)
             case 0x0D:
-                how, of, begun = told.pop()
-                assert (how, of, len(begun)) == (AttOperation.READ, handle, offset)
-                told.append((how, of, begun + data))
+                operation, of, begun = told.pop()
+                assert (operation, of, len(begun)) == (AttOperation.READ, handle, offset)
+                told.append((operation, of, begun + data))
             case 0x12:
                 pending = data
             case 0x13:
@@ -192,9 +196,9 @@ def told_by_tshark(path: Path) -> list[tuple[AttOperation, int, bytes]]:
 def told_to_us(path: Path) -> list[tuple[AttOperation, int, bytes]]:
     values = [item for item in ValueListener(path, pytest.fail).listen() if isinstance(item, Value)]
     return [
-        (value.said.how, value.said.handle, value.said.value)
+        (value.att_value.operation, value.att_value.handle, value.att_value.value)
         for value in values
-        if value.said.how is not AttOperation.NOTIFIED
+        if value.att_value.operation is not AttOperation.NOTIFIED
     ]
 
 
@@ -270,7 +274,7 @@ def test_of_real_traffic_of_a_host_every_value_is_what_tshark_says_it_is(bumble_
         ours = heard_by_us(path)
         assert len(ours) == 300 and ours == heard_by_tshark(path)
         told = told_to_us(path)
-        assert (AttOperation.READ, info()) in [(how, data) for how, _, data in told]
+        assert (AttOperation.READ, info()) in [(operation, data) for operation, _, data in told]
         assert told == told_by_tshark(path)
 
 

@@ -10,7 +10,7 @@ from datetime import UTC, datetime
 import pytest
 from recordings import PACKETS, recorded
 
-from solepath.recording import PacketWriter, RecordingError, began, read_header, read_packets
+from solepath.recording import PacketWriter, RecordingError, read_header, read_packets, read_start_time
 from solepath.types import Packet
 
 LIVE = """
@@ -117,7 +117,7 @@ def test_a_pipe_whose_reader_left_is_a_clear_error():
     ],
 )
 def test_a_header_may_say_what_oclock_it_was(tmp_path, keys, moment):
-    assert began(read_header(recorded(tmp_path / "walk.jsonl", [], keys))) == moment
+    assert read_start_time(read_header(recorded(tmp_path / "walk.jsonl", [], keys))) == moment
 
 
 def test_the_header_of_one_recording_can_be_that_of_another_whatever_its_keys(tmp_path):
@@ -143,7 +143,7 @@ def test_what_is_recorded_live_may_have_anothers_header_but_its_own_beginning(tm
     old = {"format": "solepath-packets", "version": 1, "began": "2001-01-01T00:00:00Z", "began_t": -1.0, "path": "x"}
     now, passed_on = asyncio.run(recorded(old))
     said = read_header(tmp_path / "walk.jsonl")
-    known = began(said)
+    known = read_start_time(said)
     assert passed_on == PACKETS == list(read_packets(tmp_path / "walk.jsonl"))
     assert said["path"] == "x" and known is not None
     assert known[0].year > 2001 and now <= known[1] < now + 10

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from recordings import PACKETS, recorded
 
-from solepath.recording import PacketWriter, RecordingError, began, read_header, read_packets
+from solepath.recording import PacketWriter, RecordingError, read_header, read_packets, read_start_time
 from solepath.types import Packet, Site
 
 HEADER = '{"format": "solepath-packets", "version": 1}\n'
@@ -64,7 +64,7 @@ def test_the_example_of_the_specification_is_read(tmp_path):
     battery, keys = read_packets(path)
     assert battery == Packet(12.5, Site.LEFT_FOOT, "device/battery", b"c")
     assert keys == Packet(12.75, Site.RIGHT_FOOT, "cc2650/keys", b"\x01", "C3:9F:02:5E:71:AA")
-    assert began(read_header(path)) == (datetime(2026, 11, 21, 9, 30, 0, 250_000, UTC), 12.5)
+    assert read_start_time(read_header(path)) == (datetime(2026, 11, 21, 9, 30, 0, 250_000, UTC), 12.5)
 
 
 def test_every_line_is_on_its_way_to_the_disk_before_the_next_packet(tmp_path):

@@ -83,4 +83,4 @@ def may_be_silent(site: Site, written: Sequence[Packet]) -> bool:
     decoder = Decoder(site)
     for packet in written:
         decoder.feed(packet)
-    return decoder.link is not None and decoder.link.silence_is_legal
+    return decoder.link is not None and decoder.link.may_be_silent

@@ -102,7 +102,7 @@ async def subscribe(client: BleakClient, profile: Profile, hearer: Callable[[str
     """Let `hearer`'s callbacks hear whatever the device can say. What it refuses beside its streams is told and passed
     over."""
     for channel in profile.channels:
-        if channel.how is not Access.NOTIFY or (one := speaking(client, channel)) is None:
+        if channel.access is not Access.NOTIFY or (one := speaking(client, channel)) is None:
             continue
         failure = f"{channel.name} cannot be subscribed"
         async with calling(ANSWER) if channel.name in profile.streams else asking(client, emitter, failure):

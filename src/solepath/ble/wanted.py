@@ -76,7 +76,7 @@ def check(wanted: Sequence[DeviceConfig]) -> None:
 
 def advertises(profile: Profile, name: str, services: Sequence[str]) -> bool:
     """Is this the advertisement of such a device?"""
-    return profile.answers_to(name) or not set(profile.services).isdisjoint(services)
+    return profile.matches_name(name) or not set(profile.services).isdisjoint(services)
 
 
 def identify(name: str, services: Sequence[str]) -> Profile | None:

@@ -79,11 +79,11 @@ def _add_noise(kinds: Any) -> None:
 
 def _noise(options: argparse.Namespace, known: Calibration) -> Learnt:
     from ..papers.kupt_dfpc.noise import pressure_noise
-    from ..recording.decoded import recorded
+    from ..recording.decoded import decode_recording
 
     if options.share == 0.0:
         raise Failure("--share 0: of no samples at all nothing is learnt")
-    learnt = pressure_noise(recorded(source_of(options.file, foot_of(options))).samples, options.share, known)
+    learnt = pressure_noise(decode_recording(source_of(options.file, foot_of(options))).samples, options.share, known)
     rows = [
         [foot.value, str(len(one.noise)), number(sum(one.noise) / len(one.noise)), number(max(one.noise))]
         for foot, one in learnt.insoles.items()
@@ -244,12 +244,13 @@ def _add_modes(kinds: Any) -> None:
 
 def _modes(options: argparse.Namespace, known: Calibration) -> Learnt:
     from ..papers.walking_modes.calibrate import fit_modes
-    from ..recording.decoded import recorded
+    from ..recording.decoded import decode_recording
 
     if len(options.files) % 2:
         raise Failure("calibrate modes takes two files for each walk: the recording, and the csv file of its marks")
     walks = [
-        (recorded(source_of(walk)), marks) for walk, marks in zip(options.files[::2], options.files[1::2], strict=True)
+        (decode_recording(source_of(walk)), marks)
+        for walk, marks in zip(options.files[::2], options.files[1::2], strict=True)
     ]
     learnt = fit_modes(walks, known, options.heading)
     rows = [

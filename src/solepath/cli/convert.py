@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from ..recording import PacketWriter, RecordingError, printable, read_header, read_packets, why
+from ..recording import PacketWriter, RecordingError, os_error_text, printable, read_header, read_packets
 from ..types import Packet, Site
 from .common.failure import Failure, note
 from .common.files import Replacing
@@ -182,7 +182,7 @@ def _write(
         except RecordingError as error:
             cause = error.__cause__
             raise Failure(
-                f"{printable(str(out))}: {why(cause) if isinstance(cause, OSError) else error.what}"
+                f"{printable(str(out))}: {os_error_text(cause) if isinstance(cause, OSError) else error.what}"
             ) from None
         if damage is not None and not writer.count:
             raise damage
@@ -205,6 +205,6 @@ def _replacing(out: Path) -> Iterator[Path]:
         yield files.beside(out, read_only=True)
         files.keep()
     except OSError as error:
-        raise Failure(f"{printable(str(out))}: {why(error)}") from None
+        raise Failure(f"{printable(str(out))}: {os_error_text(error)}") from None
     finally:
         files.drop()

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..calibration import Calibration
-from ..recording import RecordingError, Source, began, printable, read_header
+from ..recording import RecordingError, Source, printable, read_header, read_start_time
 from ..session import Session
 from ..types import Packet, Sample
 from .common.failure import note, recipe_named
@@ -109,7 +109,7 @@ def _when(source: Source) -> str:
     if source.samples is not None:
         return ""
     try:
-        moment = began(read_header(source.path))
+        moment = read_start_time(read_header(source.path))
     except RecordingError:
         return ""  # whatever is wrong with it is said when it is run
     return "" if moment is None else f"{moment[0]:%Y-%m-%d %H:%M} UTC"

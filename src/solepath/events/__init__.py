@@ -1,8 +1,8 @@
-"""Everything that a session can say.
+"""All events of a session.
 
-Every event is frozen, compares with == and carries the same three times of truth: `t`, when it happened (s, sample
-clock); `known_at`, when that was known (s, arrival of the packet that settled it); `final`, whether anything may still
-revise it. Final events never change, however much data follows.
+Every event is frozen, compares with == and has the same three times: `t`, when it happened (s, sample clock);
+`known_at`, when it was known (s, arrival of the packet that settled it); `final`, whether no later event may revise it.
+Final events never change, however much data follows.
 """
 
 from __future__ import annotations
@@ -47,6 +47,7 @@ __all__ = [
 ]  # fmt: skip
 
 GaitEvent = HeelStrike | FootFlat | HeelOff | ToeOff | StrideTaken
+"""Events of one foot's gait."""
 LinkEvent = (
     PacketRejected
     | SampleRejected
@@ -66,11 +67,16 @@ LinkEvent = (
     | KeysChanged
     | Limitation
 )
+"""Events of links and sensors."""
 BodyEvent = GaitCycleMeasured | StrideFused | TouchedDown | WalkingModeChanged
+"""Events measured from both feet."""
 ActivityEvent = ActivityChanged | LiftRidden | FlightClimbed | TurnMade
+"""Events of the wearer's activity."""
 PlaceEvent = Placed | PlaceLost
+"""Events of the wearer's place on a floor plan."""
 WearEvent = CellsFailed | InsoleNeverUnloads | FeetSwapped | FootSilent | FootResumed
+"""Events of how sensors are worn."""
 LiveEvent = FootMoved | FootPressed | WearerMoved
-"""Only for those who ask, at every sample or step: what is drawn, and not kept."""
+"""Events at every sample or step, for drawing, not for keeping; only on request."""
 Event = GaitEvent | LinkEvent | BodyEvent | ActivityEvent | PlaceEvent | WearEvent | LiveEvent
-"""All of them."""
+"""Any event of a session."""

@@ -1,4 +1,4 @@
-"""What the wearer does: activities, lift rides, flights of stairs, turns."""
+"""Events of the wearer's activity: activities, lift rides, flights of stairs, turns."""
 
 from __future__ import annotations
 
@@ -9,67 +9,69 @@ from .happening import Happening
 
 @frozen(kw_only=True)
 class ActivityChanged(Happening):
-    """From `t` on the wearer does `activity`, as the recipe's part for that has it.
+    """The wearer does `activity` from `t` on, by the recipe's activity part.
 
-    One that is not final may be replaced by a later one, which names it in `revises`; a final one never is. What the
-    wearer did at some time is the activity of the last event with `t` up to then, without those that were replaced.
+    An event that is not final may be replaced by a later one, which names it in `revises`; a final one never is. The
+    wearer's activity at some time is that of the last event with `t` up to then, without those that were replaced.
 
-    Latency of the default: told 1 to 1.5 s after `t`, final mostly seconds later; standing that may be a ride in a lift
-    stays open for up to a minute. Other recipes: the docstrings of their parts say it.
+    Latency of the default: reported 1 to 1.5 s after `t`, final mostly seconds later; standing that may be a ride in a
+    lift stays open for up to a minute. Other recipes: the docstrings of their parts say it.
     """
 
     activity: Activity
+    """The new activity."""
     probability: float | None
-    """Of the activity as against all others, when it was told; None where a method knows no probabilities."""
+    """Probability of the activity against all others when it was reported; None where a method has no probabilities."""
     revises: float | None = None
-    """`t` of the event that this one replaces, s, with all that came after it; None when it replaces none."""
+    """`t` of the event that this one replaces, with all that came after it, s; None when it replaces none."""
 
 
 @frozen(kw_only=True)
 class LiftRidden(Happening):
-    """A ride in a lift has ended; `t` is when the lift came to rest.
+    """A ride in a lift ended; `t` is when the lift came to rest.
 
     Known with the default once it is settled that this was its end, mostly seconds after `t` and up to 12 s; with
     `footstep-tracker` as soon as the jolt of its braking is over. Final.
     """
 
     t_start: float
-    """When it set off, s."""
+    """Start of the ride, s."""
     up: bool
+    """True for a ride upwards."""
     height: float | None
-    """How far, m, positive upwards; None when it cannot be told."""
+    """Height of the ride, m, positive upwards; None when it cannot be measured."""
 
 
 @frozen(kw_only=True)
 class FlightClimbed(Happening):
-    """A flight of stairs was climbed or descended; `t` is the end of its last step.
+    """A flight of stairs was climbed or descended; `t` is the end of its last stride.
 
-    Known when as many level strides as feet are heard have followed it, about a second after `t`, with the first stride
-    the other way, or when both feet have stood at one height for 3 s; where activities are told later than steps (the
-    default: by 1 to 1.5 s), as much later. Final.
+    Known when as many level strides as there are feet with data have followed it, about a second after `t`, with the
+    first stride the other way, or when both feet have stood at one height for 3 s; where activities are reported later
+    than strides (the default: by 1 to 1.5 s), as much later. Final.
     """
 
     t_start: float
-    """The beginning of its first step, s."""
+    """Start of its first stride, s."""
     up: bool
+    """True for a flight upwards."""
     steps: int
-    """Strides of all feet that were heard."""
+    """Number of strides of all feet with data."""
     height: float
-    """By the wearer's own track, m, positive upwards."""
+    """Height of the flight by the wearer's own track, m, positive upwards."""
 
 
 @frozen(kw_only=True)
 class TurnMade(Happening):
-    """The wearer has turned, over one step or several that follow each other; `t` is the end of the last of them (Liu
-    et al. 2015, IEEE MASS, section IV.D).
+    """The wearer turned, over one stride or several in a row; `t` is the end of the last of them.
 
-    Known when the feet have gone straight on for three steps (two where one foot is heard), or when none has come down
-    for 2 to 4 s. Final.
+    Source: Liu et al. 2015, IEEE MASS, section IV.D. Known when the feet have gone straight on for three strides (two
+    where only one foot has data), or when no foot has touched down for 2 to 4 s. Final.
     """
 
     t_start: float
-    """The beginning of the first, s."""
+    """Start of the first stride, s."""
     angle: float
-    """Counter-clockwise positive, rad; more than pi for one who turned further."""
+    """Angle of the turn, counter-clockwise positive, rad; more than pi for a longer turn."""
     turn: Turn | None
-    """None for a bend that is too slight to be one of them."""
+    """Class of the turn; None for a bend that is too slight for one."""

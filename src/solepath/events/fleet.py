@@ -1,6 +1,6 @@
-"""What the keyed step of a fleet says of a wearer beside what the session says: no session can know it.
+"""Events that the keyed step of a fleet reports beside those of the session, which cannot know them.
 
-They stand apart from `solepath.Event`, since an app with one session never sees them. Their time is that of the newest
+They are not part of `solepath.Event`, since an app with one session never sees them. Their time is that of the newest
 packet that was used before, 0 before any.
 """
 
@@ -13,64 +13,77 @@ from .happening import Happening
 
 
 class SentRejection(Enum):
-    """Why something that was sent is not used."""
+    """Reason why an item that was sent is not used."""
 
     UNREADABLE = "unreadable"
-    """Its row is none of protocol/fleet.md."""
+    """The row does not follow protocol/fleet.md."""
     NOT_SENT = "not sent"
-    """No Sent, of another wearer, or with a number or a run that cannot be."""
+    """The item is no Sent, is of another wearer, or has an impossible number or run."""
     MALFORMED = "malformed"
-    """What was sent has a field of another kind than it must be."""
+    """The item has a field of a wrong type."""
     OVERSIZED = "oversized"
     NOT_FINITE = "not finite"
     LATE = "late"
-    """Its number was given up before it came, or its run was left."""
+    """The number was given up before the item came, or its run was left."""
     AFTER_END = "after the end"
 
 
 @frozen(kw_only=True)
 class StateRejected(Happening):
-    """The state of a wearer cannot go on: it is damaged, of a release to come, of another recipe or floor plan. A fresh
-    session follows. Known with the first thing that is sent after it."""
+    """The state of a wearer cannot be used: it is damaged, of a later release, of another recipe or floor plan.
+
+    A fresh session follows. Known with the first item that is sent after it.
+    """
 
     detail: str
+    """Reason in words."""
 
 
 @frozen(kw_only=True)
 class NumbersMissing(Happening):
-    """What was sent under these numbers never came; it is waited for no longer. Known when too much waits behind it."""
+    """Items with these numbers never came and are no longer waited for. Known when too much waits behind them."""
 
     run: int
-    """Of the phone, which counts from 0 in each."""
+    """Run of the phone, which counts from 0 in each."""
     first: int
-    """The first number that is missing."""
+    """First number that is missing."""
     count: int
-    """How many are, at least 1."""
+    """Number of missing items, at least 1."""
 
 
 @frozen(kw_only=True)
 class SentRejected(Happening):
-    """Something that was sent is not used; it changed nothing. Known in its turn, or as soon as it comes where it has
-    none. What a packet's own format forbids is a PacketRejected."""
+    """An item that was sent is not used; it changed nothing.
+
+    Known in its turn, or as soon as it comes where it has none. A packet that its own format forbids is a
+    PacketRejected.
+    """
 
     reason: SentRejection
+    """Reason in one word."""
     run: int | None = None
-    """Of the phone; None where that cannot be read."""
+    """Run of the phone; None where it cannot be read."""
     number: int | None = None
-    """Which of the run it is; None where that cannot be read."""
+    """Number of the item in its run; None where it cannot be read."""
     detail: str = ""
+    """Reason in words."""
     count: int = 1
-    """LATE and AFTER_END: so many came of this run, this one among them. The first, the second, the fourth, the eighth
-    are told, and so on, until something of another run is late; 1 for all others."""
+    """Number of items of this run rejected as LATE or AFTER_END so far, with this one; 1 for other reasons.
+
+    The first, the second, the fourth, the eighth are reported, and so on, until an item of another run is late."""
 
 
 @frozen(kw_only=True)
 class WearerFailed(Happening):
-    """A reader or a detector of the app's own raised an exception, or held what cannot be saved when a state was taken.
-    This wearer begins afresh; no other notices. Known with the packet that did it, or the first after the state."""
+    """A reader or a detector of the app raised an exception, or held data that could not be saved.
+
+    This wearer restarts with a fresh session; no other wearer is affected. Known with the packet that caused it, or the
+    first after the state was taken.
+    """
 
     detail: str
+    """Description of the failure."""
 
 
 FleetEvent = StateRejected | NumbersMissing | SentRejected | WearerFailed
-"""All of them."""
+"""Any event of a fleet."""

@@ -1,4 +1,4 @@
-"""What one foot did: phases and steps."""
+"""Events of one foot: phases and strides."""
 
 from __future__ import annotations
 
@@ -10,13 +10,14 @@ from .happening import Happening
 @frozen(kw_only=True)
 class _Phase(Happening):
     foot: Foot
+    """Foot of the event."""
     inferred: bool = False
-    """True when no sample was there to see it: it is what this foot does as a rule, dated within a gap."""
+    """True when no sample showed the event: it follows from this foot's usual stride, dated within a gap."""
 
 
 @frozen(kw_only=True)
 class HeelStrike(_Phase):
-    """The foot touched the ground; LOADING begins. `t` is the middle of the impact, or when cells feel load.
+    """The foot touched the ground; LOADING starts. `t` is the middle of the impact, or when cells show load.
 
     Latency with the default cues: one sample with pressure cells, some 40 ms without; until the foot is still where no
     impact shows.
@@ -25,12 +26,12 @@ class HeelStrike(_Phase):
 
 @frozen(kw_only=True)
 class FootFlat(_Phase):
-    """The whole sole is on the ground and still; STATIONARY begins and a step may end. Latency: about 40 ms."""
+    """The whole sole is on the ground and still; STATIONARY starts and a stride may end. Latency: about 40 ms."""
 
 
 @frozen(kw_only=True)
 class HeelOff(_Phase):
-    """The heel lifted; PUSH_OFF begins. It comes off slowly and is dated back.
+    """The heel lifted; PUSH_OFF starts. The heel lifts slowly, so the event is dated back.
 
     Latency: 40 to 140 ms, in slow walking up to 320 ms.
     """
@@ -38,22 +39,22 @@ class HeelOff(_Phase):
 
 @frozen(kw_only=True)
 class ToeOff(_Phase):
-    """The toe left the ground; SWING begins. Latency: one sample, once this foot has pushed off the first time."""
+    """The toe left the ground; SWING starts. Latency: one sample, once this foot has pushed off the first time."""
 
 
 @frozen
 class StrideFeatures:
-    """What was measured along one step, for whoever compares steps; None where the sensors could not tell.
+    """Measurements along one stride, for comparing strides; None where the sensors cannot measure one.
 
-    `clearance`: highest rise of the sensor above the higher end of the step, m. `peak_speed`: m/s. `swing_pitch`:
-    range of the pitch angle over the step, rad. `contact_load`: mean load from foot-flat to toe-off, in the unit of the
-    samples. `cop`: centre-of-pressure path (x, y) in the foot frame over the same time, m, at most 32
-    points evenly spaced in samples. `error_index`: by how much the integrated velocity missed the known one at toe-off
-    and heel-strike, m/s (Chen et al. 2019, equation (10)); None where the velocity of the rolling shoe was not used.
-    `toe_off_angle`: how far the heel is up at toe-off, against the sole lying flat before, rad; `heel_strike_angle`:
-    how far the toe is up at heel-strike, against the sole lying flat after it, rad. Both are about the axis to the
-    wearer's left, which a foot shows by its first push-off. `rise`: the height of the step as integration has it,
-    before it is judged whether the step was level, m.
+    `clearance`: highest rise of the sensor above the higher end of the stride, m. `peak_speed`: m/s. `swing_pitch`:
+    range of the pitch angle over the stride, rad. `contact_load`: mean load from foot-flat to toe-off, in the unit of
+    the samples. `cop`: centre-of-pressure path (x, y) in the foot frame over the same time, m, at most 32 points evenly
+    spaced in samples. `error_index`: difference of the integrated velocity from the known one at toe-off and
+    heel-strike, m/s (Chen et al. 2019, equation (10)); None where the velocity of the rolling shoe was not used.
+    `toe_off_angle`: angle by which the heel is up at toe-off, against the sole lying flat before, rad;
+    `heel_strike_angle`: angle by which the toe is up at heel-strike, against the sole lying flat after it, rad. Both
+    are about the axis to the wearer's left, which a foot shows by its first push-off. `rise`: height of the stride as
+    integrated, before the decision whether the stride was level, m.
     """
 
     clearance: float
@@ -75,17 +76,20 @@ class StrideTaken(Happening):
     """
 
     foot: Foot
+    """Foot that took the stride."""
     number: int
-    """1 for the first step of this foot, and so on."""
+    """Number of the stride; 1 for the first stride of this foot."""
     t_start: float
-    """The foot-flat at which the step began, s."""
+    """Foot-flat at which the stride started, s."""
     t_end: float
-    """The foot-flat that ended it, s; the same as `t`."""
+    """Foot-flat that ended the stride, s; the same as `t`."""
     displacement: Vec3
-    """From the first to the second foot-flat, m."""
+    """Vector from the first to the second foot-flat, m."""
     position: Vec3
-    """Where the foot stands after the step, m. A body that hands corrections back to the feet (BothFeet) moves a track
-    between two steps: where this step began is `position` - `displacement`, and not always where the last one ended."""
+    """Position of the foot after the stride, m.
+
+    A body that returns corrections to the feet (BothFeet) moves a track between two strides: this stride started at
+    `position` - `displacement`, which is not always where the last one ended."""
     length: float
     """Horizontal length of `displacement`, m."""
     heading_change: float
@@ -93,11 +97,12 @@ class StrideTaken(Happening):
     height_change: float
     """Vertical part of `displacement`, m."""
     covariance: tuple[float, float, float, float, float, float]
-    """Of `displacement`: xx, xy, xz, yy, yz, zz in m^2."""
+    """Covariance of `displacement`: xx, xy, xz, yy, yz, zz in m^2."""
     t_toe_off: float | None = None
-    """Of this foot within it, s; None where none was seen."""
+    """Toe-off of this foot within the stride, s; None where none was found."""
     t_heel_strike: float | None = None
-    """Likewise, s."""
+    """Heel-strike of this foot within the stride, s; None where none was found."""
     degraded: bool = False
-    """True when samples were missing or saturated within the step."""
+    """True when samples were missing or saturated within the stride."""
     features: StrideFeatures
+    """Measurements along the stride."""

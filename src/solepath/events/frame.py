@@ -1,4 +1,4 @@
-"""Events as a table of pandas or polars, a row an event."""
+"""Events as a table of pandas or polars, one row per event."""
 
 from __future__ import annotations
 
@@ -8,14 +8,17 @@ from typing import Any
 from .happening import Happening
 
 AXES = {"position": "xyz", "velocity": "xyz", "displacement": "xyz", "compensation": "xyz", "centre": "xy"}
-"""Fields that are vectors: a column for each of their components."""
+"""Fields that are vectors: one column for each of their components."""
 
 
 def to_frame(events: Iterable[Happening]) -> Any:
-    """A data frame with one row an event, of pandas where that is installed, else of polars. Its columns are the keys
-    of `to_dict`, in the order in which they first come: a vector is one column a component (position_x, position_y,
-    position_z, m), a record within an event one column a field (features_clearance, m), any other list one column that
-    holds lists. What an event does not have is missing in its row. ImportError where neither library is installed."""
+    """Return a data frame with one row per event, of pandas where that is installed, else of polars.
+
+    Its columns are the keys of `to_dict`, in the order in which they first come: a vector is one column a component
+    (position_x, position_y, position_z, m), a record within an event one column a field (features_clearance, m), any
+    other list one column that holds lists. A value that an event does not have is missing in its row. ImportError where
+    neither library is installed.
+    """
     rows = [_flat(event.to_dict()) for event in events]
     names = {name: None for row in rows for name in row}
     columns = {name: [row.get(name) for row in rows] for name in names}
@@ -33,7 +36,7 @@ def to_frame(events: Iterable[Happening]) -> Any:
 
 
 def _flat(record: dict[str, Any]) -> dict[str, Any]:
-    """The record with its vectors and the records within it spread out."""
+    """Return the record with its vectors and the records within it as separate columns."""
     flat: dict[str, Any] = {}
     for name, value in record.items():
         if isinstance(value, dict):

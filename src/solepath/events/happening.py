@@ -1,4 +1,4 @@
-"""What every event carries, and events as JSON knows them."""
+"""The base class of all events, and their form in JSON."""
 
 from __future__ import annotations
 
@@ -12,23 +12,27 @@ from ..types import Site
 from ..types.attrs import fields, frozen
 
 FIRST_KEYS = ("t", "known_at", "final", "foot")
+"""Keys that come first in an event's JSON, in this order."""
 
 
 @frozen(kw_only=True)
 class Happening:
-    """The three times of truth of an event, which every one has."""
+    """The base of every event, with its three times."""
 
     t: float
-    """When it happened, s."""
+    """Time at which it happened, s."""
     known_at: float
-    """When it was known, s; never earlier than `t`."""
+    """Time at which it was known, s; never earlier than `t`."""
     final: bool = True
-    """False only for what a later event may revise."""
+    """False only for an event that a later event may revise."""
 
     def to_dict(self) -> dict[str, Any]:
-        """The event as plain data for strict JSON, the same as its line of events.jsonl: `event` (the class's name),
-        `t`, `known_at`, `final`, `foot` where it has one (also where an event of a link has a foot's site), then its
-        other fields in SI units; enums by their values, null for a number that is none."""
+        """Return the event as plain data for strict JSON, the same as its line of events.jsonl.
+
+        Keys are `event` (the class's name), `t`, `known_at`, `final`, `foot` where it has one (also where an event of a
+        link has a foot's site), then its other fields in SI units; enums by their values, null for a number that is not
+        finite.
+        """
         values = json_ready(self)
         site = getattr(self, "site", None)
         if isinstance(site, Site) and site.foot is not None:
@@ -38,8 +42,10 @@ class Happening:
 
 
 def json_ready(value: Any) -> Any:
-    """`value` as strict JSON knows it: records as objects, enums by what they are called, tuples as lists, bytes as
-    hex, and null for a number that is none."""
+    """Return `value` in the types of strict JSON.
+
+    Records become objects, enums their values, tuples lists, bytes hex digits, and numbers that are not finite null.
+    """
     match value:
         case Enum():
             return json_ready(value.value)

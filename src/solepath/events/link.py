@@ -1,4 +1,4 @@
-"""What became of packets and samples, and what a device says of itself."""
+"""Events of the links: packets and samples that were lost or rejected, and reports of the devices."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .happening import Happening
 
 
 class Rejection(Enum):
-    """Why a packet or a sample was not used."""
+    """Reason why a packet or a sample was not used."""
 
     TRUNCATED = "truncated"
     OVERSIZED = "oversized"
@@ -33,14 +33,19 @@ class PacketRejected(Happening):
 
     site: Site
     channel: str
+    """Channel of the packet."""
     reason: Rejection
+    """Reason in one word."""
     detail: str = ""
+    """Reason in words."""
 
 
 @frozen(kw_only=True)
 class SampleRejected(Happening):
-    """A sample that was fed could not be used; it changed nothing. Known when it is fed; `t` is the sample's, or that
-    of the one before where its own is no time."""
+    """A sample that was fed could not be used; it changed nothing.
+
+    Known when it is fed; `t` is the sample's, or that of the one before where its own time cannot be used.
+    """
 
     site: Site
     reason: Rejection
@@ -49,45 +54,52 @@ class SampleRejected(Happening):
 
 @frozen(kw_only=True)
 class PacketsLost(Happening):
-    """The device's counter says that packets never arrived, or for a device without one the time between arrivals.
-    `t` is where the first missing one belongs. Known at the arrival of the first packet after them."""
+    """Packets never arrived, by the device's counter, or by the time between arrivals where it has none.
+
+    `t` is the time of the first missing one. Known at the arrival of the first packet after them.
+    """
 
     site: Site
     channel: str
     count: int
-    """Packets, at least 1."""
+    """Number of packets, at least 1."""
 
 
 @frozen(kw_only=True)
 class SampleGap(Happening):
-    """No samples for longer than the sensor's rate allows; the step that this falls in is marked degraded.
+    """No samples came for longer than the sensor's rate allows; the stride that this falls in is marked degraded.
 
     `t` is the last sample before the gap. Known with the first sample after it.
     """
 
     site: Site
     duration: float
-    """From sample to sample, s."""
+    """Time from the sample before the gap to the one after it, s."""
 
 
 @frozen(kw_only=True)
 class ClockReset(Happening):
-    """The device's clock jumped or the device restarted; sample times start from a new fit. `t` is where they do.
-    Known at the arrival of the packet that shows it."""
+    """The device's clock jumped or the device restarted; sample times start from a new fit.
+
+    `t` is the start of the new fit. Known at the arrival of the packet that shows it.
+    """
 
     site: Site
     restarted: bool
-    """True when its sequence began anew as well."""
+    """True when the device's sequence restarted as well."""
 
 
 @frozen(kw_only=True)
 class StreamStale(Happening):
-    """Nothing came from a site for longer than its link allows (1 or 2 s, `Profile.stale_after`). `t` is when that was
-    up. Known with the first `Session.advance` or packet of the site after that: latency is how often one calls it."""
+    """Nothing came from a site for longer than its link allows (1 or 2 s, `Profile.stale_after`).
+
+    `t` is the end of that time. Known with the first `Session.advance` or packet of the site after that, so the latency
+    is the interval between these calls.
+    """
 
     site: Site
     silent_for: float
-    """From the arrival of the last data until it was known, s."""
+    """Time from the arrival of the last data until the event was known, s."""
 
 
 @frozen(kw_only=True)
@@ -96,101 +108,126 @@ class StreamResumed(Happening):
 
     site: Site
     silent_for: float
-    """From the arrival of the last data before it, s."""
+    """Time from the arrival of the last data before the silence to `t`, s."""
 
 
 @frozen(kw_only=True)
 class Connected(Happening):
-    """The receiver connected to a device, again perhaps; it is about to be set up. `t` is when, by the receiver's
-    clock; known at once."""
+    """The receiver connected to a device, for the first time or again; the device is about to be set up.
+
+    `t` is the time by the receiver's clock; known at once.
+    """
 
     site: Site
     device: str
-    """Its address, "" when nobody knows."""
+    """Address of the device; "" when it is unknown."""
     name: str
+    """Name of the device."""
     signal: int | None
-    """With which it was last heard before, dBm; None when nobody knows."""
+    """Newest signal strength before the connection, dBm; None when it is unknown."""
 
 
 @frozen(kw_only=True)
 class Disconnected(Happening):
-    """The connection to the device is gone; the receiver looks for it. `t` is when the receiver noticed, seconds after
-    the device went out of reach; known at once."""
+    """The connection to the device is lost; the receiver searches for it.
+
+    `t` is when the receiver noticed, seconds after the device went out of reach; known at once.
+    """
 
     site: Site
 
 
 @frozen(kw_only=True)
 class PacketsDropped(Happening):
-    """Packets arrived and were thrown away, the oldest first, since nobody took them in time. Known when the next one
-    is taken; `t` is the arrival of the newest of the site that was thrown away by then."""
+    """Packets arrived and were dropped, the oldest first, because they were not taken in time.
+
+    Known when the next one is taken; `t` is the arrival of the newest of the site that was dropped by then.
+    """
 
     site: Site
     count: int
-    """Packets, at least 1."""
+    """Number of packets, at least 1."""
 
 
 @frozen(kw_only=True)
 class StreamRestarted(Happening):
-    """A stream froze although the connection stands, and the receiver set the device up again. `t` is when; known at
-    once, after the silence that the device's profile allows (`Profile.stale_after`, s)."""
+    """A stream stopped although the connection stands, and the receiver set the device up again.
+
+    `t` is the time of the restart; known at once, after the silence that the device's profile allows
+    (`Profile.stale_after`, s).
+    """
 
     site: Site
     channel: str
+    """Channel of the stream."""
 
 
 @frozen(kw_only=True)
 class LinkTrouble(Happening):
-    """The receiver cannot do what it should, in a sentence for the person who can do something about it. `t` is when
-    it was noticed; known at once."""
+    """The receiver cannot do its work; `what` is a sentence for a person who can help.
+
+    `t` is when the trouble was noticed; known at once.
+    """
 
     site: Site
     what: str
+    """Description in one sentence."""
 
 
 @frozen(kw_only=True)
 class ScaleSuspect(Happening):
-    """The accelerometer does not read 1 g at rest, but 15 % more or less: its range or scale is not what was assumed.
-    Said once. Known at the end of a rest, which `t` is: of 1.5 s in packets, of 0.5 s in samples."""
+    """The accelerometer does not read 1 g at rest, but 15 % more or less: its assumed range or scale is wrong.
+
+    Reported once. Known at the end of a rest, which `t` is: of 1.5 s in packets, of 0.5 s in samples.
+    """
 
     site: Site
     magnitude: float
     """Mean |acc| at rest, m/s^2."""
     suggestion: str = ""
-    """What to multiply by, or which range the device may have, in words."""
+    """Factor to multiply by, or range that the device may have, in words."""
 
 
 @frozen(kw_only=True)
 class LayoutKnown(Happening):
-    """The device said how its pressure cells are laid out; or the calibration did, and samples have as many cells.
-    Known with the packet that says so or the first such sample, whose time `t` is."""
+    """The layout of the pressure cells is known, from the device or from the calibration.
+
+    A layout of the calibration applies when samples have as many cells. Known with the packet that has it or the first
+    such sample, whose time `t` is.
+    """
 
     site: Site
     layout: Layout
+    """The layout."""
 
 
 @frozen(kw_only=True)
 class BatteryLevel(Happening):
-    """The device said how full its battery is. Known with that packet, whose arrival `t` is."""
+    """The device reported its battery level. Known with that packet, whose arrival `t` is."""
 
     site: Site
     level: float
-    """0 to 1."""
+    """Battery level, 0 to 1."""
 
 
 @frozen(kw_only=True)
 class KeysChanged(Happening):
-    """Which of the device's keys are down now, by name (for instance "left", "right", "side"). Known with the packet
-    that says so, whose arrival `t` is."""
+    """The keys of the device that are down changed. Known with the packet that reports it, whose arrival `t` is."""
 
     site: Site
     down: tuple[str, ...]
+    """Names of the keys that are down (for instance "left", "right", "side")."""
 
 
 @frozen(kw_only=True)
 class Limitation(Happening):
-    """Said once: what the session must do without, given the sensors that there are. Known with the packet or sample
-    that shows it, whose time `t` is; what a sample lacks has to be lacking for a while."""
+    """A limitation of the session by the sensors that it has, reported once.
+
+    Known with the packet or sample that shows it, whose time `t` is; a value of a sample counts as missing when it has
+    been missing for a while.
+    """
 
     site: Site | None
+    """Site whose sensor is the reason; None for the whole session."""
     what: str
+    """Description in one sentence."""

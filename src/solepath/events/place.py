@@ -1,4 +1,4 @@
-"""Where on the floor plan the wearer is."""
+"""Events of the wearer's place on the floor plan."""
 
 from __future__ import annotations
 
@@ -14,35 +14,42 @@ class Candidate:
     level: str
     """Level.id of the plan."""
     position: Vec3
-    """Plan frame, m; z is the height above the plan's zero, or the track's own where the plan knows no heights."""
+    """Position in the plan frame, m; z is the height above the plan's zero, or the track's own if that is unknown."""
     heading: float | None
-    """Of the track's x axis in the plan frame, counter-clockwise from the plan's x axis, rad; None while unknown."""
+    """Direction of the track's x axis in the plan frame, rad; None while unknown.
+
+    Counter-clockwise from the plan's x axis."""
     weight: float
-    """Share of the belief, 0 to 1; the weights of all candidates add up to 1."""
+    """Share of the probability, 0 to 1; the weights of all candidates add up to 1."""
     origin: str
     """Name of the stairs, lift or start that it came from."""
 
 
 @frozen(kw_only=True)
 class Placed(Happening):
-    """Where the wearer is on the plan after a step, or after stairs or a lift (Liu et al. 2015, IEEE MASS, section
-    IV.E). Known with the StrideTaken, or the event that tells of the arrival; `t` is the newest sample then. Live:
-    more steps may show that it was somewhere else."""
+    """The wearer's place on the plan after a stride, or after stairs or a lift.
+
+    Source: Liu et al. 2015, IEEE MASS, section IV.E. Known with the StrideTaken, or the event that reports the arrival;
+    `t` is the newest sample then. Live: later strides may show another place.
+    """
 
     level: str
-    """Of the best candidate."""
+    """Level of the best candidate."""
     position: Vec3
-    """Mean over the best candidate, plan frame, m."""
+    """Mean of the best candidate, plan frame, m."""
     spread: float
-    """Root mean square distance of the whole belief from `position`, m."""
+    """Root mean square distance of all candidates' probability from `position`, m."""
     candidates: tuple[Candidate, ...]
-    """Heaviest first; one when it is decided."""
+    """Candidates, the heaviest first; only one when the place is certain."""
     final: bool = False
 
 
 @frozen(kw_only=True)
 class PlaceLost(Happening):
-    """The plan is of no use from here on; the track goes on without it. `what` says why, in a sentence. Known with the
-    sample or step that shows it; `t` is the newest sample then. A later Placed ends it."""
+    """The place on the plan is unknown from here on; the track goes on without the plan.
+
+    Known with the sample or stride that shows it; `t` is the newest sample then. A later Placed ends it.
+    """
 
     what: str
+    """Reason in one sentence."""

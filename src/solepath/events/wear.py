@@ -1,4 +1,4 @@
-"""What is wrong with how sensors are worn, or with their cells. The rest goes on."""
+"""Events of faults in how sensors are worn, or in their cells. The rest of the session goes on."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .happening import Happening
 
 
 class CellFault(Enum):
-    """What is wrong with a pressure cell."""
+    """Fault of a pressure cell."""
 
     DEAD = "dead"  # it shows no load where its neighbours do
     STUCK = "stuck"  # it shows one value, whatever happens
@@ -20,13 +20,17 @@ class CellFault(Enum):
 
 @frozen(kw_only=True)
 class CellsFailed(Happening):
-    """These cells are left out from now on. Said once for each fault and set of cells. Known at the end of the second
-    window of walking in a row that shows it (four swings each and 3 s at least), which `t` is; MISSING after 1 s."""
+    """Some cells are left out from now on. Reported once for each fault and set of cells.
+
+    Known at the end of the second window of walking in a row that shows it (four swings each and 3 s at least), which
+    `t` is; MISSING after 1 s.
+    """
 
     site: Site
     fault: CellFault
+    """Fault of the cells."""
     cells: tuple[int, ...]
-    """Their numbers in the layout's order, from 0."""
+    """Numbers of the cells in the layout's order, from 0."""
 
 
 @frozen(kw_only=True)
@@ -34,29 +38,35 @@ class InsoleNeverUnloads(Happening):
     """The foot walks and its insole shows load all the time: it is jammed, or the shoe presses on it too hard.
 
     Phases come from the inertial sensor as long as that lasts. Known at the end of the second window of walking in a
-    row in which the load never went (four swings each and 3 s at least), which `t` is.
+    row in which the load never ended (four swings each and 3 s at least), which `t` is.
     """
 
     site: Site
     seconds: float
-    """For how long already, s."""
+    """Time for which the load has lasted so far, s."""
 
 
 @frozen(kw_only=True)
 class FeetSwapped(Happening):
-    """What comes as the left foot looks like a right one, and the other way round. Said once; nothing is changed by it.
-    Known once the layouts of both insoles show it, else after 8 steps or more of each foot, by how they roll or how
-    load moves over them; late or never of who hardly rolls them. `t` is then."""
+    """The data of the left foot look like a right foot's, and the other way round. Reported once; it changes nothing.
+
+    Known once the layouts of both insoles show it, else after 8 strides or more of each foot, by how they roll or how
+    load moves over them; late or never for a wearer who hardly rolls the feet. `t` is that time.
+    """
 
 
 @frozen(kw_only=True)
 class FootSilent(Happening):
-    """One foot walks on and nothing comes from this one. Known with the other foot's sample by which it has taken three
-    steps and 3 s have passed since this one's last, which `t` is. `foot`: the silent one."""
+    """One foot walks on and no data come from the other.
+
+    Known with the walking foot's sample by which it has taken three strides and 3 s have passed since the silent foot's
+    last sample, which `t` is.
+    """
 
     foot: Foot
+    """The silent foot."""
     silent_for: float
-    """Since its last sample, s."""
+    """Time since its last sample, s."""
 
 
 @frozen(kw_only=True)
@@ -64,5 +74,6 @@ class FootResumed(Happening):
     """Samples of this foot came again after FootSilent. Known with the first of them, which `t` is."""
 
     foot: Foot
+    """The foot that was silent."""
     silent_for: float
-    """From its last sample before to that one, s."""
+    """Time from its last sample before the silence to the first after it, s."""

@@ -1,4 +1,4 @@
-"""Every device that is known without being told, for who looks for devices or names them: this loads all of them."""
+"""Every built-in device, for code that searches for devices or names them; importing it loads all of them."""
 
 from __future__ import annotations
 

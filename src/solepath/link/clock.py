@@ -1,23 +1,23 @@
-"""Device ticks to host seconds: a line under the arrivals.
+"""Conversion of device ticks to host seconds, with a line fitted below the packet arrivals.
 
-A packet arrives at `offset + slope * ticks + delay`, and radio delay is only ever positive. So the line that fits is
-not the one through the middle of the arrivals but the highest one that stays below all of them: of all lines under
-the points the one with the least sum of distances, which is the edge of the lower convex hull above the points' mean
-(S. Moon, P. Skelly, D. Towsley, "Estimation and removal of clock skew from network delay measurements", 1999).
+A packet arrives at `offset + slope * ticks + delay`, and radio delay is only ever positive. Therefore the fitted line
+does not pass through the middle of the arrivals: it stays below all of them. Of all lines under the points, the fit is
+the one with the least sum of distances. It is the edge of the lower convex hull above the points' mean (S. Moon, P.
+Skelly, D. Towsley, "Estimation and removal of clock skew from network delay measurements", 1999).
 
-Memory is bounded: of each window of device time only the earliest arrival is kept, at most 32 of them; when there
-are more the windows pair up, until a window is 16 s, and from then on the oldest is forgotten.
+Memory is bounded. The fit keeps only the earliest arrival of each window of device time, and at most 32 windows. When
+there are more, windows are merged in pairs until a window is 16 s long; from then on the oldest window is dropped.
 
 Times are assigned once and never revised. They follow the line by slewing, so that the time between two neighbouring
-samples stays true within 0.5 % (the cost: a first packet that came 50 ms late is made good over 10 s), unless the
-error is above 0.25 s, when up to 2 % is allowed. They strictly increase.
+samples stays true within 0.5 % (the cost: a first packet that came 50 ms late is corrected over 10 s), unless the error
+is above 0.25 s, when up to 2 % is allowed. Times strictly increase.
 
-Two clocks can only be compared once both are settled: a fit that began with a late packet, as at the start of a stream
-and after a device began anew, is behind until that is slewed away. A clock is settled when its times have been within
+Two clocks are comparable only when both are settled. A fit that starts with a late packet, as at the start of a stream
+or after a device restart, lags until slewing has removed the delay. A clock is settled when its times have been within
 5 ms of the line for 5 s of device time. Over radios of up to 50 ms of jitter, or connection intervals up to 50 ms, two
-settled clocks of 100 packets a second then agree within 5 ms. Nobody at this end can see what keeps *every* packet of
-one device late: where packets are nearly as far apart as the radio's connection events, that is up to one interval,
-until the two have drifted past one another.
+settled clocks of 100 packets a second then agree within 5 ms. A delay that *every* packet of one device has cannot be
+seen at the receiving end. Where packets are nearly as far apart as the radio's connection events, that delay is up to
+one interval, until the two have drifted past one another.
 """
 
 from __future__ import annotations
@@ -27,97 +27,111 @@ from copy import copy
 from ..types.attrs import define, field
 
 FIRST_WINDOW = 0.25
-"""Device seconds of which only the earliest arrival is kept, while the fit is young."""
+"""Length of a window while the fit is young, device seconds; only its earliest arrival is kept."""
 LAST_WINDOW = 16.0
-"""The same once it is old: 32 of them are about eight minutes, short beside a change of temperature."""
-WINDOWS = 32
-STEEPEST = 0.06
-"""A slope further from nominal than this is not believed (some insoles run 4 % fast by design)."""
-SLEW, SLEW_FAR, FAR = 0.005, 0.02, 0.25
-"""Largest relative slew; the same when the error (s) is above FAR."""
-SETTLE = 2.0
+"""Length of a window once the fit is old, device seconds.
+
+32 of them are about eight minutes, which is short beside a change of temperature."""
+MAX_WINDOWS = 32
+"""Number of windows that the fit keeps at most."""
+MAX_DRIFT = 0.06
+"""Largest deviation of the slope from nominal that the fit accepts (some insoles run 4 % fast by design)."""
+MAX_SLEW, MAX_SLEW_FAR, FAR_OFF = 0.005, 0.02, 0.25
+"""Largest relative slew, the largest slew far off the line, and the error (s) above which the latter holds."""
+SLEW_TIME = 2.0
 """Time constant in s with which a small error is slewed away."""
-AHEAD = 0.5
-"""A packet cannot arrive before it was measured; the fit may be wrong by this many s, not more."""
-WITHIN, SETTLED_FOR = 0.005, 5.0
-"""s that the times of a settled clock are from the line at the most, and device seconds for which they have been."""
-BEHIND_AT_ONCE, BEHIND, BEHIND_FOR = 30.0, 1.0, 20.0
-"""A delay (s) that no device buffers; and one that, kept up for so long (s), is a clock that stood still."""
+MAX_AHEAD = 0.5
+"""Time by which a packet may seem to arrive before it was measured, s.
+
+A packet cannot arrive before it was measured, but the fit may be wrong by this much, not more."""
+SETTLED_ERROR, SETTLED_FOR = 0.005, 5.0
+"""Largest distance of a settled clock's times from the line, s, and device seconds for which it must hold."""
+JUMP_DELAY, STOPPED_DELAY, STOPPED_FOR = 30.0, 1.0, 20.0
+"""Delay (s) that no device buffers; and the delay and duration (s) that show a clock that stood still.
+
+A packet later than JUMP_DELAY belongs to another clock. So does one when every packet for STOPPED_FOR seconds was later
+than STOPPED_DELAY."""
 
 
 @define
 class Clock:
-    """Fits one device clock to arrivals. `rate` is the nominal ticks per second; ticks must be unwrapped by the caller.
+    """The fit of one device clock to packet arrivals.
 
-    After `observe(ticks, arrival)` for a packet, `time(ticks)` assigns the time of each of its samples in order.
-    Latency none; error 5 ms after the time it takes to slew the first packet's delay away, plus the constant part of
-    the radio's delay, which nobody can see from one end.
+    The caller unwraps the ticks. After `observe(ticks, arrival)` for a packet, `assign_time(ticks)` gives the time of
+    each of its samples in order. Latency none. The error is 5 ms once the first packet's delay is slewed away, plus the
+    constant part of the radio's delay, which cannot be seen from one end.
     """
 
     rate: float
+    """Nominal ticks per second."""
     origin: float = 0.0
     """Arrival of the first packet, s; residuals are taken from here to keep numbers small."""
     first_tick: float = 0.0
+    """Ticks of the first packet."""
     xs: list[float] = field(factory=list)
-    """Device seconds since the first packet of each window's earliest arrival."""
+    """Time of each window's earliest arrival, device seconds since the first packet."""
     rs: list[float] = field(factory=list)
-    """Arrival minus device seconds of the same points, s."""
+    """Residual of each window's earliest arrival: arrival minus device time, s."""
     window: float = FIRST_WINDOW
-    begins: float = 0.0
-    """Device second at which the newest window began."""
+    """Present length of a window, device seconds."""
+    window_start: float = 0.0
+    """Device second at which the newest window starts."""
     drift: float = 0.0
     """Slope of the line minus 1."""
     offset: float = 0.0
     """Height of the line at x = 0, s."""
     behind_since: float | None = None
-    """Arrival since which every packet was more than BEHIND late."""
+    """Arrival since which every packet was more than STOPPED_DELAY late, s; None when the newest was not."""
     last_x: float | None = None
     """Device seconds of the newest time assigned."""
     last_t: float = 0.0
     """The newest time assigned, s."""
-    away: float = 0.0
-    """Device seconds of the newest time that was further than WITHIN from the line, or the first."""
+    last_off_line: float = 0.0
+    """Device seconds of the newest time that was further than SETTLED_ERROR from the line, or of the first time."""
     unsettled_until: float | None = None
-    """The newest time assigned while the clock was not settled, s; until then it is not to be compared with others."""
-    floor: float | None = None
-    """The first time assigned is not before this: a fit that follows another keeps the order of times."""
+    """Newest time assigned while the clock was unsettled, s; times up to it are not comparable with other clocks."""
+    t_min: float | None = None
+    """Lower bound of the first time assigned, s; a fit that follows another keeps the order of times."""
 
-    def fitted(self, ticks: float) -> float:
-        """Where the line puts `ticks`, s: unslewed, may still change."""
+    def fit_time(self, ticks: float) -> float:
+        """Return the time of `ticks` on the fitted line, s; it is not slewed and may still change."""
         x = (ticks - self.first_tick) / self.rate
         return self.origin + self.offset + x * (1.0 + self.drift)
 
-    def jumped(self, ticks: float, arrival: float) -> bool:
-        """Whether a packet measured at `ticks` that arrived at `arrival` must be of another clock. Changes nothing."""
+    def contradicts(self, ticks: float, arrival: float) -> bool:
+        """Return whether a packet measured at `ticks` that arrived at `arrival` (s) belongs to another clock.
+
+        Changes nothing.
+        """
         if not self.xs:
             return False
         x = (ticks - self.first_tick) / self.rate
         delay = arrival - (self.origin + self.offset + x * (1.0 + self.drift))
         if delay < 0.0:
-            return delay < -(AHEAD + 0.01 * max(0.0, x - self.xs[-1]))
-        if delay > BEHIND_AT_ONCE:
+            return delay < -(MAX_AHEAD + 0.01 * max(0.0, x - self.xs[-1]))
+        if delay > JUMP_DELAY:
             return True
-        return delay > BEHIND and self.behind_since is not None and arrival - self.behind_since > BEHIND_FOR
+        return delay > STOPPED_DELAY and self.behind_since is not None and arrival - self.behind_since > STOPPED_FOR
 
     def observe(self, ticks: float, arrival: float) -> None:
-        """Learn from a packet whose newest sample was measured at `ticks` and that arrived at `arrival` (s)."""
+        """Update the fit with a packet whose newest sample is of `ticks` and that arrived at `arrival` (s)."""
         if not self.xs:
-            self.origin, self.first_tick = arrival, float(ticks)  # as it is saved: a count may have 64 bits
+            self.origin, self.first_tick = arrival, float(ticks)  # a float, as it is saved: a count may have 64 bits
             self.xs, self.rs = [0.0], [0.0]
             return
         x = (ticks - self.first_tick) / self.rate
         r = arrival - self.origin - x
         above = r - self.offset - self.drift * x
-        if above > BEHIND:
+        if above > STOPPED_DELAY:
             if self.behind_since is None:
                 self.behind_since = arrival
         else:
             self.behind_since = None
-        if x >= self.begins + self.window:
-            self.begins = x
+        if x >= self.window_start + self.window:
+            self.window_start = x
             self.xs.append(x)
             self.rs.append(r)
-            if len(self.xs) > WINDOWS:
+            if len(self.xs) > MAX_WINDOWS:
                 self._thin()
             self._fit()
         elif above < self.rs[-1] - self.offset - self.drift * self.xs[-1]:
@@ -125,33 +139,34 @@ class Clock:
             if above < 0.0:
                 self._fit()
 
-    def time(self, ticks: float) -> float:
-        """The time of a sample measured at `ticks`, s; call once per sample, in order of ticks."""
+    def assign_time(self, ticks: float) -> float:
+        """Return the time of a sample measured at `ticks`, s; call it once per sample, in order of ticks."""
         x = (ticks - self.first_tick) / self.rate
         fitted = self.origin + self.offset + x * (1.0 + self.drift)
         if self.last_x is None:
-            t = fitted if self.floor is None else max(fitted, self.floor)
+            t = fitted if self.t_min is None else max(fitted, self.t_min)
         else:
-            step = x - self.last_x
-            straight = self.last_t + step * (1.0 + self.drift)
-            error = fitted - straight
-            limit = step * (SLEW if -FAR < error < FAR else SLEW_FAR)
-            slew = error * (step / SETTLE) if step < SETTLE else error
-            t = straight + max(-limit, min(limit, slew))
+            dx = x - self.last_x
+            t_unslewed = self.last_t + dx * (1.0 + self.drift)
+            error = fitted - t_unslewed
+            limit = dx * (MAX_SLEW if -FAR_OFF < error < FAR_OFF else MAX_SLEW_FAR)
+            slew = error * (dx / SLEW_TIME) if dx < SLEW_TIME else error
+            t = t_unslewed + max(-limit, min(limit, slew))
             if t <= self.last_t:  # below float resolution, or ticks that stand still
                 t = self.last_t + 1e-6
-        if self.last_x is None or not -WITHIN <= fitted - t <= WITHIN:
-            self.away = x
-        if x - self.away < SETTLED_FOR:
+        if self.last_x is None or not -SETTLED_ERROR <= fitted - t <= SETTLED_ERROR:
+            self.last_off_line = x
+        if x - self.last_off_line < SETTLED_FOR:
             self.unsettled_until = t
         self.last_x, self.last_t = x, t
         return t
 
-    def expected(self, ticks: float) -> float:
-        """What `time(ticks)` would assign. Changes nothing."""
-        return copy(self).time(ticks)
+    def preview_time(self, ticks: float) -> float:
+        """Return the time that `assign_time(ticks)` would assign, s. Changes nothing."""
+        return copy(self).assign_time(ticks)
 
     def _thin(self) -> None:
+        """Merge the windows in pairs, or drop the oldest when windows have their last length."""
         if self.window >= LAST_WINDOW:
             del self.xs[0], self.rs[0]
             return
@@ -164,26 +179,25 @@ class Clock:
         self.rs = [self.rs[i] for i in lower]
 
     def _fit(self) -> None:
+        """Fit the line to the windows' earliest arrivals."""
         xs, rs = self.xs, self.rs
         span = xs[-1] - xs[0]
-        drift = max(-STEEPEST, min(STEEPEST, _support_slope(xs, rs)))
+        drift = max(-MAX_DRIFT, min(MAX_DRIFT, _support_slope(xs, rs)))
         heights = [r - drift * x for x, r in zip(xs, rs, strict=True)]
-        # How far the slope can be trusted: the minima's mean height over the line, tilted across the span; few points
-        # lie close to any line, hence `free`. A drift no larger than its doubt stays near nominal, a device 4 % off
-        # is believed within about two seconds.
+        # Uncertainty of the slope: the minima's mean height over the line, tilted across the span. Few points lie
+        # close to any line, hence `free`. A drift no larger than its uncertainty stays near nominal; a device that is
+        # 4 % off is followed within about two seconds.
         free = len(xs) - 4
-        unsettled_until = (
+        drift_error = (
             4.0 * (sum(heights) / len(heights) - min(heights)) / span * (1.0 + 8.0 / free) if free > 0 else 0.0
         )
-        drift *= (
-            drift * drift / (drift * drift + unsettled_until * unsettled_until) if free > 0 and drift != 0.0 else 0.0
-        )
+        drift *= drift * drift / (drift * drift + drift_error * drift_error) if free > 0 and drift != 0.0 else 0.0
         heights = [r - drift * x for x, r in zip(xs, rs, strict=True)]
         self.drift, self.offset = drift, min(heights)
 
 
 def _support_slope(xs: list[float], rs: list[float]) -> float:
-    """Slope of the edge of the points' lower convex hull above their mean x. xs must increase."""
+    """Return the slope of the edge of the points' lower convex hull above their mean x. xs must increase."""
     hull: list[int] = []
     for i, (x, r) in enumerate(zip(xs, rs, strict=True)):
         while len(hull) >= 2:

@@ -1,18 +1,17 @@
-"""Packets of one site in, samples and link events out.
+"""The link of one site: packets in, samples and link events out.
 
-The device is known from the channel's prefix, the first time that a packet of it can be used. What all devices have
-in common is here: whether a packet's arrival time is sound and it comes from the device that this site is bound to,
-silence, battery and firmware. Bytes and clocks are the business of devices/ and, for declared devices, stream.py;
-known.py has the table of all. An app that adds devices hands over its own table with every call: it holds functions,
-and a decoder is data.
+The channel's prefix identifies the device, the first time that a packet of it can be used. This file does what all
+devices have in common: it checks the arrival time and the device's address, and handles silence, battery and firmware.
+Bytes and clocks are handled by devices/ and, for declared devices, by stream.py; kinds.py has the table of all. An app
+that adds devices passes its own table with every call: the table holds functions, and a decoder is data.
 
-A site is bound to the first device that says its address (`Packet.device`), or to the one that it was made for. From
-then on packets of other devices, and of devices that do not say, are rejected; upper and lower case are one address.
-What the receiver says of itself is of no device, and is heard all the same.
+A site is bound to the first device whose packets have its address (`Packet.device`), or to the one that it was made
+for. From then on packets of other devices, and packets without an address, are rejected; upper and lower case are one
+address. Packets about the receiver itself belong to no device and are always accepted.
 
-Arrival time must not run backwards: such packets are rejected, but a receiver's clock that was set back for good must
-not end the stream, so the twentieth in a row is taken as ClockReset and times begin anew there, before the old ones.
-That count is the only thing that a rejected packet changes.
+Arrival time must not run backwards: such packets are rejected. But a receiver's clock that was set back for good must
+not end the stream, so the twentieth such packet in a row gives ClockReset, and times restart there, before the old
+ones. That count is the only thing that a rejected packet changes.
 """
 
 from __future__ import annotations
@@ -25,91 +24,94 @@ from ..types import Packet, Site
 from ..types.attrs import define, fields
 from ..wire.error import WireError
 from .device_link import DeviceLink, Output
-from .known import KINDS, Kinds
+from .kinds import BUILT_IN_KINDS, DeviceKinds
 
-SET_BACK = 20
-"""Packets in a row from before the newest arrival, after which the receiver's clock is taken to have been set back."""
-LATEST = 1e11
-"""s; an arrival time beyond this (or before minus this) is no time."""
+SET_BACK_PACKETS = 20
+"""Number of packets in a row from before the newest arrival that show that the receiver's clock was set back."""
+MAX_TIME = 1e11
+"""Largest magnitude of an arrival time, s; a packet beyond it is rejected."""
 
 
 @define
 class Decoder:
     """The link of one site.
 
-    `feed` is total: whatever a packet holds gives events, never an exception, and a rejected one changes nothing (but
-    see above). Sample times strictly increase from one ClockReset to the next; `known_at` is the arrival that settled
-    the sample, or `t` where that is later.
+    `feed` is total: any packet gives events, never an exception, and a rejected one changes nothing (except the count
+    of packets whose time runs backwards). Sample times strictly increase from one ClockReset to the next; `known_at` is
+    the arrival that settled the sample, or `t` where that is later.
     """
 
     site: Site
+    """Site whose packets are decoded."""
     device: str = ""
-    """The address of the device that the site is bound to; "" until one is known."""
+    """Address of the device that the site is bound to; "" until one is known."""
     link: DeviceLink | None = None
-    """The device, once a packet of it was used."""
+    """Link of the device; None until a packet of it was used."""
     firmware: str = ""
+    """Firmware revision of the device; "" until it is known."""
     arrived: float | None = None
     """Newest arrival of a packet that was used, s."""
     backwards: int = 0
-    """Packets rejected in a row because their arrival was before it."""
-    heard: float | None = None
+    """Number of packets rejected in a row because their arrival was before the newest."""
+    stream_arrived: float | None = None
     """Newest arrival on a channel that must not fall silent, s."""
     stale: bool = False
+    """Whether the stream is silent and StreamStale was reported."""
 
-    def feed(self, packet: Packet, kinds: Kinds = KINDS) -> Output:
-        """Samples and events of one packet, in order of their being known."""
+    def feed(self, packet: Packet, kinds: DeviceKinds = BUILT_IN_KINDS) -> Output:
+        """Return the samples and events of one packet, in the order in which they become known."""
         t = packet.t
         if not isfinite(t):
             return self._reject(packet, Rejection.NOT_FINITE, f"arrival time {t}")
-        if not -LATEST <= t <= LATEST:
+        if not -MAX_TIME <= t <= MAX_TIME:
             return self._reject(packet, Rejection.ABSURD, f"arrival time {t:g} s")
         if packet.site is not self.site:
             return self._reject(packet, Rejection.WRONG_SITE, f"of {packet.site.value}, not {self.site.value}")
-        if packet.device != self.device and self._is_another(packet):
+        if packet.device != self.device and self._is_other_device(packet):
             return self._reject(packet, Rejection.WRONG_DEVICE, f"of {packet.device or 'nobody'}, not {self.device}")
         if self.arrived is not None and t < self.arrived:
-            if self.backwards + 1 < SET_BACK:
+            if self.backwards + 1 < SET_BACK_PACKETS:
                 self.backwards += 1
                 return self._reject(packet, Rejection.TIME_BACKWARDS, f"{self.arrived - t:.6g} s before the newest")
-            return self._begin_anew(packet, kinds)
+            return self._restart(packet, kinds)
         try:
             return self._use(packet, kinds)
         except WireError as error:
             return self._reject(packet, error.reason, error.detail)
 
-    def advance(self, now: float, kinds: Kinds = KINDS) -> Output:
-        """Let time pass to `now`, s, with nothing arriving. What is not a time is passed over."""
-        link, heard = self.link, self.heard
-        if link is None or heard is None or self.stale or link.silence_is_legal or not isfinite(now):
+    def advance(self, now: float, kinds: DeviceKinds = BUILT_IN_KINDS) -> Output:
+        """Let time pass to `now`, s, with nothing arriving. A time that is not finite is ignored."""
+        link, stream_arrived = self.link, self.stream_arrived
+        if link is None or stream_arrived is None or self.stale or link.may_be_silent or not isfinite(now):
             return []
         kind = kinds.loaded.get(link.name) or kinds.get(link.name)
-        if kind is None or now - heard <= kind.profile.stale_after:
+        if kind is None or now - stream_arrived <= kind.profile.stale_after:
             return []
         limit = kind.profile.stale_after
         self.stale = True
         out = link.flush(now)
-        out.append(StreamStale(t=heard + limit, known_at=now, site=self.site, silent_for=now - heard))
+        out.append(StreamStale(t=stream_arrived + limit, known_at=now, site=self.site, silent_for=now - stream_arrived))
         return out
 
     def finish(self) -> Output:
-        """What still waits, at the end of all data."""
+        """Return the samples that still wait, at the end of all data."""
         return [] if self.link is None or self.arrived is None else self.link.flush(self.arrived)
 
     def is_bound_to(self, device: str) -> bool:
-        """Is the site bound to just this address, in whatever case? "" asks whether it is bound to none."""
+        """Return whether the site is bound to just this address, in any case; "" asks whether it is bound to none."""
         return device == self.device or device.upper() == self.device.upper()
 
-    def _is_another(self, packet: Packet) -> bool:
-        """Whether a packet is of another device than the site is bound to. The receiver itself is of none."""
+    def _is_other_device(self, packet: Packet) -> bool:
+        """Return whether a packet is of another device than the site is bound to. The receiver itself is of none."""
         if self.device == "" or self.is_bound_to(packet.device):
             return False
         return packet.device != "" or packet.channel.partition("/")[0] != "receiver"
 
-    def _use(self, packet: Packet, kinds: Kinds) -> Output:
-        """WireError, before anything has changed, when the packet cannot be used."""
+    def _use(self, packet: Packet, kinds: DeviceKinds) -> Output:
+        """Use a packet. WireError, before anything has changed, when the packet cannot be used."""
         prefix = packet.channel.partition("/")[0]
         if prefix == "device" or prefix == "receiver":
-            out = self._standard(packet) if prefix == "device" else self._receiver(packet)
+            out = self._read_standard(packet) if prefix == "device" else self._read_receiver(packet)
             self.device = self.device or packet.device
             self.arrived, self.backwards = packet.t, 0
             return self.advance(packet.t, kinds) + out
@@ -118,7 +120,7 @@ class Decoder:
             raise WireError(Rejection.UNKNOWN_CHANNEL, f"no channel {packet.channel!r}")
         link = self.link
         if link is None:
-            link = kind.begin(self.site, self.firmware)
+            link = kind.make_link(self.site, self.firmware)
         elif link.name != prefix:
             detail = f"{packet.channel!r} at a site whose device is {link.name}"
             raise WireError(Rejection.UNKNOWN_CHANNEL, detail)
@@ -128,21 +130,23 @@ class Decoder:
         self.arrived, self.backwards = packet.t, 0
         if packet.channel not in kind.profile.streams:
             return self.advance(packet.t, kinds) + out
-        if self.stale or (self.heard is not None and packet.t - self.heard > kind.profile.stale_after):
-            out = self._after_silence(packet.t, kind.profile.stale_after) + out
-        self.heard = packet.t
+        if self.stale or (
+            self.stream_arrived is not None and packet.t - self.stream_arrived > kind.profile.stale_after
+        ):
+            out = self._end_silence(packet.t, kind.profile.stale_after) + out
+        self.stream_arrived = packet.t
         return out
 
-    def _receiver(self, packet: Packet) -> Output:
-        from .receiver import said
+    def _read_receiver(self, packet: Packet) -> Output:
+        from .receiver import parse_receiver_event
 
-        out = said(packet)
+        out = parse_receiver_event(packet)
         if self.link is not None and any([isinstance(event, Connected) for event in out]):
-            self.link.reconnected()
+            self.link.handle_reconnection()
         return [*out]
 
-    def _standard(self, packet: Packet) -> Output:
-        """Battery and firmware, which any device may have."""
+    def _read_standard(self, packet: Packet) -> Output:
+        """Read battery and firmware, which any device may have."""
         from ..wire.device import parse_battery, parse_firmware
 
         if packet.channel == "device/battery":
@@ -152,45 +156,45 @@ class Decoder:
             raise WireError(Rejection.UNKNOWN_CHANNEL, f"no channel {packet.channel!r}")
         self.firmware = parse_firmware(packet.data).rstrip("\0")
         if self.link is not None:
-            self.link.learn_firmware(self.firmware)
+            self.link.set_firmware(self.firmware)
         return []
 
-    def _after_silence(self, t: float, limit: float) -> Output:
-        """A packet of a stream arrived at `t` after more than `limit` s without any."""
+    def _end_silence(self, t: float, limit: float) -> Output:
+        """Return the events for a stream packet that arrived at `t` after more than `limit` s without any."""
         out: Output = []
-        if self.heard is None or self.link is None:
+        if self.stream_arrived is None or self.link is None:
             return out
-        silent_for = t - self.heard
-        if not self.stale and not self.link.silence_is_legal:
+        silent_for = t - self.stream_arrived
+        if not self.stale and not self.link.may_be_silent:
             self.stale = True
-            begun = self.heard + limit
-            out.append(StreamStale(t=begun, known_at=t, site=self.site, silent_for=silent_for))
+            t_stale = self.stream_arrived + limit
+            out.append(StreamStale(t=t_stale, known_at=t, site=self.site, silent_for=silent_for))
         if self.stale:
             self.stale = False
             out.append(StreamResumed(t=t, known_at=t, site=self.site, silent_for=silent_for))
         return out
 
-    def _begin_anew(self, packet: Packet, kinds: Kinds) -> Output:
-        """The receiver's clock was set back, if this packet can be used; if it cannot, nothing has happened."""
+    def _restart(self, packet: Packet, kinds: DeviceKinds) -> Output:
+        """Restart times, because the receiver's clock was set back. If the packet cannot be used, nothing changes."""
         trial = deepcopy(self)
-        out = trial._set_back(packet.t)
+        out = trial._reset_times(packet.t)
         try:
             out = out + trial._use(packet, kinds)
         except WireError as error:
             return self._reject(packet, error.reason, error.detail)
-        for one in fields(Decoder):
-            setattr(self, one.name, getattr(trial, one.name))
+        for attribute in fields(Decoder):
+            setattr(self, attribute.name, getattr(trial, attribute.name))
         return out
 
-    def _set_back(self, t: float) -> Output:
-        self.arrived, self.heard, self.stale, self.backwards = None, None, False, 0
+    def _reset_times(self, t: float) -> Output:
+        self.arrived, self.stream_arrived, self.stale, self.backwards = None, None, False, 0
         if self.link is not None:
-            self.link.forget_clock()
+            self.link.restart_clock()
         return [ClockReset(t=t, known_at=t, site=self.site, restarted=False)]
 
     def _reject(self, packet: Packet, reason: Rejection, detail: str) -> Output:
         newest = 0.0 if self.arrived is None else self.arrived
-        t = packet.t if -LATEST <= packet.t <= LATEST else newest
+        t = packet.t if -MAX_TIME <= packet.t <= MAX_TIME else newest
         return [
             PacketRejected(
                 t=t, known_at=max(t, newest), site=packet.site, channel=packet.channel, reason=reason, detail=detail

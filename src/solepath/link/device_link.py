@@ -1,4 +1,4 @@
-"""What a decoder asks of the link of one device, whichever it is."""
+"""The interface between the decoder and the link of one device."""
 
 from __future__ import annotations
 
@@ -8,36 +8,37 @@ from ..events import LinkEvent
 from ..types import Sample
 
 Output = list[Sample | LinkEvent]
+"""Samples and link events in the order in which they are returned."""
 
 
 class DeviceLink(Protocol):
-    """One device at one site: values of its channels in, samples on one clock out. A plain record."""
+    """A link of one device at one site: values of its channels in, samples on one clock out. A plain record."""
 
     @property
     def name(self) -> str:
-        """Of the device, as in its channels."""
+        """Name of the device, as in its channels."""
 
     @property
-    def silence_is_legal(self) -> bool:
+    def may_be_silent(self) -> bool:
         """Whether the device may send nothing for long."""
 
     @property
     def unsettled_until(self) -> float | None:
-        """The times of samples up to this one, s, cannot be compared with another device's; None where all can."""
+        """Time up to which sample times are not comparable with another device's, s; None where all are."""
 
     def flush(self, known_at: float) -> Output:
-        """What still waits for more, which will not come."""
+        """Return the samples that still wait for data which will not come."""
 
-    def forget_clock(self) -> None:
-        """The receiver's clock was set back: what was fitted to it is of no use."""
+    def restart_clock(self) -> None:
+        """Discard the clock fit, because the receiver's clock was set back."""
 
-    def reconnected(self) -> None:
-        """The device was connected anew."""
+    def handle_reconnection(self) -> None:
+        """Prepare for counters that restarted, because the device was connected again."""
 
-    def learn_firmware(self, firmware: str) -> None:
-        """The device said which firmware it has; most links have no use for that."""
+    def set_firmware(self, firmware: str) -> None:
+        """Set the firmware revision that the device reported; most links do not use it."""
         return
 
-    def stands_on(self) -> Any:
-        """What a declared device's saved link must find again in its driver (`Driver.basis`); None of others."""
+    def driver_signature(self) -> Any:
+        """Return the `Driver.signature` that a saved link must find again; None for devices without a driver."""
         return None

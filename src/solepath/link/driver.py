@@ -1,13 +1,14 @@
-"""A device that is declared, not programmed: its profile, the construct of each channel, and what a value means in SI.
+"""Declaration of a device by data: its profile, and the construct and the meaning in SI units of each channel's values.
 
-A declared device speaks plain numbers: a notification holds samples, and perhaps a sequence number and the device's own
-time. A `Driver` has, for each channel, the construct that reads and writes its values, and, where a value means
-something, a reader that turns it into a `Reading`. stream.py does the rest, the same for all. So a new device is one
+A declared device sends plain numbers: a notification holds samples, and perhaps a sequence number and the device's own
+time. A `Driver` has, for each channel, the construct that reads and writes its values, and, where a value has a meaning
+for the link, a reader that turns it into a `Reading`. stream.py does the rest, the same for all. So a new device is one
 file of constructs and data, and a file of vectors (vectors.py checks one with the other): link/devices/ has some,
 examples/own_device.py one of an app's own, which it hands to `Session(profiles=[...])`.
 
-A driver holds functions, so it is never saved: what is saved holds its name and its numbers (`Basis`), and whoever
-restores brings it again. Other numbers are refused then; whether the functions are the same, nobody can see.
+A driver holds functions and is never saved. A saved state holds its name and its numbers (`DriverSignature`), and the
+app supplies the driver again when it restores the state. A driver with other numbers is rejected then; whether its
+functions are the same cannot be checked.
 """
 
 from __future__ import annotations
@@ -25,23 +26,25 @@ from ..wire.error import WireError
 from ..wire.fields import Definition, build_whole, malformed, parse_whole
 from .profile import Profile, Write
 
-COUNTERS = 1 << 64
-"""No counter of a device has more than 64 bits."""
+MAX_COUNTER = 1 << 64
+"""Number of values of a 64-bit counter; no counter of a device has more bits."""
 UNREADABLE = (ValueError, LookupError, ArithmeticError, StructError)
-"""What a construct or a reader raises that can make nothing of a value."""
-FINE = 20.0
-"""Ticks that there must be in a sample's time, for ticks to be better than counting samples."""
+"""Exceptions that a construct or a reader raises when it cannot interpret a value."""
+FINE_TICKS = 20.0
+"""Ticks per sample from which on a device's time is better than its sequence numbers."""
 
-COARSEST = 2.0
-"""The same, for ticks to be better than arrivals where nothing is counted: with fewer, samples would share a tick."""
+MIN_TICKS = 2.0
+"""Ticks per sample from which on a device's time is better than arrivals, where it has no sequence numbers.
+
+With fewer ticks, samples would share a tick."""
 
 
 @frozen
 class Measured:
-    """One sample as its device sent it, in SI units (m/s^2, rad/s, T, Pa; pressure as types.Sample has it).
+    """One sample as its device sent it, in SI units (m/s^2, rad/s, T, Pa; pressure as in types.Sample).
 
-    `quat`: sensor to world, of any length; all zero where the device does not know. `saturated`: some sensor was at the
-    end of its range.
+    `quat`: sensor to world, of any length; all zero where the device does not know it. `saturated`: some sensor was at
+    the end of its range.
     """
 
     acc: Vec3 | None = None
@@ -55,16 +58,16 @@ class Measured:
 
 @frozen
 class Reading:
-    """What one value of a channel says; what it does not say is None.
+    """The content of one value of a channel; what the value does not hold is None.
 
-    `samples`: at equal distances, the oldest first. `sequence`: its number among the notifications of the stream.
-    `ticks`: the device's time of the first sample; `interval`: ticks from one sample to the next, where the packet says
-    so. `mag` (T), `air_pressure` (Pa): measured beside the stream; they ride on its next sample.
+    `samples`: at equal distances, the oldest first. `sequence`: number of the value among the notifications of the
+    stream. `ticks`: the device's time of the first sample; `interval`: ticks from one sample to the next, where the
+    packet has it. `mag` (T), `air_pressure` (Pa): measured beside the stream; they are attached to its next sample.
 
-    `battery`: 0 to 1. `keys`: which are down. `foot`: whose it is. `layout`: of the pressure cells. `rate`: samples a
-    second from this value on; or `period`: s from one notification to the next, where arrivals alone time them.
-    `silent`: whether the device may fall silent from now on (off, or waits for motion).
-    `known`: numbers that later values are read with; "acc_range" is the accelerometer's full scale in g.
+    `battery`: 0 to 1. `keys`: those that are down. `foot`: foot that wears the device. `layout`: of the pressure cells.
+    `rate`: samples a second from this value on; or `period`: s from one notification to the next, where only arrivals
+    time them. `silent`: whether the device may fall silent from now on (off, or waits for motion). `known`: numbers
+    that later values are read with; "acc_range" is the accelerometer's full scale in g.
     """
 
     samples: tuple[Measured, ...] = ()
@@ -84,14 +87,16 @@ class Reading:
 
 
 Known = Mapping[str, float]
+"""Numbers from earlier values of a device (`Reading.known`), by name."""
 Reader = Callable[[Any, Known], Reading]
-"""Makes of what the channel's construct has parsed, and of what earlier values said (`Reading.known`), a Reading. It
-holds nothing. ValueError, LookupError, ArithmeticError and struct.error say that the value is none; other exceptions,
-that the reader is wrong, and they are not hidden. What it returns is looked at by sound.py."""
+"""A function that turns a parsed value and the numbers of earlier values (`Reading.known`) into a Reading.
+
+It holds no state. ValueError, LookupError, ArithmeticError and struct.error mean that the value cannot be used; other
+exceptions mean that the reader is wrong, and they are not hidden. reading_check.py checks its result."""
 
 
 class TimeAxis(Enum):
-    """What sample times are made of, the best that the device has."""
+    """The source of sample times, the best that the device has."""
 
     TICKS = "the device's time"
     COUNT = "its sequence numbers"
@@ -99,11 +104,14 @@ class TimeAxis(Enum):
 
 
 @frozen
-class Basis:
-    """What the state of a link stands on in its driver: it is saved with it, and means nothing on another one."""
+class DriverSignature:
+    """The numbers of a driver on which the state of a link depends.
 
-    ours: bool
-    """A device of devices/, not one of an app's own."""
+    It is saved with the state, which has no meaning with other numbers.
+    """
+
+    built_in: bool
+    """Whether the device is one of devices/, not one of an app's own."""
     stream: str
     nominal_rate: float
     axis: TimeAxis
@@ -119,12 +127,12 @@ class Driver:
 
     `profile`: its name is the prefix of its own channels, and exactly one of them is a stream that carries samples.
     `formats`: by channel, the construct of its values, for every channel but the standard ones (device/...), written
-    ones too. It takes a whole value: bytes that it leaves over are refused, whether it ends in Terminated or not.
-    `readers`: for the channels that say something. `sequence`: where the sequence number wraps (65536 for u16); 0 when
-    there is none. `tick_rate`, `tick_modulus`: the device's time, in ticks a second, and where it wraps; 0 when there
-    is none. Without a sequence, ticks of which there are fewer than two in a sample's time are not used. `acc_range`:
-    full scale of the accelerometer in g until a value says otherwise. `limitation`: what an app must do without, said
-    once; "" for nothing. ValueError when these do not fit together.
+    ones too. It takes a whole value: bytes that it leaves over are rejected, whether it ends in Terminated or not.
+    `readers`: by channel, for the channels whose values are used. `sequence`: number at which the sequence wraps (65536
+    for u16); 0 when there is none. `tick_rate`, `tick_modulus`: ticks a second of the device's time, and number at
+    which it wraps; 0 when there is none. Without a sequence, ticks of which there are fewer than two in a sample's time
+    are not used. `acc_range`: full scale of the accelerometer in g until a value says otherwise. `limitation`: what an
+    app must do without, reported once; "" for nothing. ValueError when these do not fit together.
     """
 
     profile: Profile
@@ -148,7 +156,7 @@ class Driver:
             raise ValueError(f"{self.name}: one channel carries the samples, not {self.profile.streams}")
         if (self.tick_rate > 0.0) is not (self.tick_modulus > 0) or not 0.0 <= self.tick_rate < inf:
             raise ValueError(f"{self.name}: ticks have a rate and a modulus, both above 0")
-        if self.sequence == 1 or not (0 <= self.sequence <= COUNTERS and 0 <= self.tick_modulus <= COUNTERS):
+        if self.sequence == 1 or not (0 <= self.sequence <= MAX_COUNTER and 0 <= self.tick_modulus <= MAX_COUNTER):
             raise ValueError(f"{self.name}: counters wrap at 2 to 2**64")
         if not 0.0 < self.acc_range < inf:
             raise ValueError(f"{self.name}: the range of the accelerometer is above 0")
@@ -164,31 +172,33 @@ class Driver:
 
     @property
     def name(self) -> str:
+        """Name of the device, the prefix of its channels."""
         return self.profile.name
 
     @property
     def axis(self) -> TimeAxis:
-        """Ticks, unless they are so coarse beside the samples that counting these is better, or arrivals are."""
-        if self.tick_rate >= (FINE if self.sequence else COARSEST) * self.profile.nominal_rate:
+        """Source of sample times: ticks, unless they are too coarse; else sequence numbers, else arrivals."""
+        if self.tick_rate >= (FINE_TICKS if self.sequence else MIN_TICKS) * self.profile.nominal_rate:
             return TimeAxis.TICKS
         return TimeAxis.COUNT if self.sequence else TimeAxis.ARRIVAL
 
-    def basis(self, ours: bool) -> Basis:
+    def signature(self, built_in: bool) -> DriverSignature:
+        """Return the numbers on which a saved link depends; `built_in`: the device is one of devices/."""
         (stream,) = self.profile.streams
         rate, ticks = self.profile.nominal_rate, (self.tick_rate, self.tick_modulus)
-        return Basis(ours, stream, rate, self.axis, self.sequence, *ticks, self.acc_range)
+        return DriverSignature(built_in, stream, rate, self.axis, self.sequence, *ticks, self.acc_range)
 
     def parse(self, channel: str, data: bytes) -> Any:
-        """What the channel's construct makes of `data`, all of it. WireError when it is not that."""
+        """Return the value that the channel's construct reads from all of `data`. WireError when it does not fit."""
         try:
             return parse_whole(self.formats[channel], data)
         except WireError:
             raise
-        except UNREADABLE as error:  # of an adapter, a validator, or an expression over what was parsed before
+        except UNREADABLE as error:  # from an adapter, a validator, or an expression over values parsed before
             raise malformed(str(error) or type(error).__name__) from error
 
     def read(self, channel: str, data: bytes, known: Known) -> Reading:
-        """What `data` says. WireError when it cannot be read."""
+        """Return the content of `data`. WireError when it cannot be read."""
         parsed, reader = self.parse(channel, data), self.readers.get(channel)
         try:
             return Reading() if reader is None else reader(parsed, MappingProxyType(known))
@@ -198,7 +208,7 @@ class Driver:
             raise malformed(str(error) or type(error).__name__) from error
 
     def write(self, channel: str, value: Any) -> bytes:
-        """The bytes of a value, as its construct takes it. ValueError when it does not fit."""
+        """Return the bytes of a value, as its construct takes it. ValueError when it does not fit."""
         try:
             return build_whole(self.formats[channel], value)
         except (TypeError, AttributeError, *UNREADABLE) as error:  # a field is missing, or of another kind

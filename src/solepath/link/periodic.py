@@ -1,19 +1,21 @@
-"""A stream without counters: which period each notification belongs to, and when that was.
+"""Times of a stream without counters: the period to which each notification belongs.
 
 SensorTags send neither sequence nor ticks. Their notifications are the slots of a period that the host wrote or that
-the profile names; the slot number takes the place of ticks on the lower envelope (clock.py), and a hole in the arrivals
-is lost packets or late ones. Nothing on the wire tells which, so:
+the profile names. The slot number takes the place of ticks on the lower envelope (clock.py). A gap in the arrivals
+means lost packets or late ones; nothing in the packets tells which. The rules are:
 
-- a hole of 1.5 periods or more that leaves a packet 0.9 periods or more (and five times the usual jitter) later than
-  its slot is lost packets at once;
-- otherwise packets were only late, unless eight in a row stay 0.9 periods behind: then the loss is said at the eighth;
-- a packet that comes half a period too early says that a loss was none; its slot is not counted.
+- A gap of 1.5 periods or more means lost packets at once when the packet after it is later than its slot by 0.9
+  periods or more (and five times the usual jitter).
+- Otherwise packets were only late, unless eight in a row stay 0.9 periods behind: then the loss is reported at the
+  eighth.
+- A packet that comes half a period too early shows that a reported loss was none; its slot is not counted.
 
-A radio may hold back anything for some connection events. So with periods shorter than that a hole says nothing; only
-packets that stay behind by as much, and for a third of a second, are a sign of loss. A smaller loss cannot be told from
-lateness, and the fit makes it good.
+A radio may hold back anything for some connection events. With periods shorter than that, a gap is no evidence; only
+packets that stay behind by as much, and for a third of a second, are a sign of loss. A smaller loss cannot be
+distinguished from lateness, and the fit corrects it.
 
-A period that was never written is found by itself: arrivals clearly faster than the period, or six holes in a row.
+A period that was never written is estimated from the arrivals: they are clearly faster than the period, or there are
+six gaps in a row.
 """
 
 from __future__ import annotations
@@ -22,158 +24,170 @@ from math import floor
 
 from ..types.attrs import define
 from .clock import Clock
-from .counters import Taken
+from .counters import SampleTimes
 
-HOLE = 1.5
+LOSS_GAP = 1.5
 """Periods between two arrivals, from which on a loss is possible."""
-LATE = 0.9
-"""Periods behind its slot, from which on a packet may be one of a later slot."""
-QUIET = 5.0
-"""The same in mean jitters."""
-DOUBTFUL = 12
-"""Packets after a loss that may still show that there was none."""
-AHEAD = 0.15
-"""Seconds (and one period) by which a time given out may be after the arrival."""
-SETTLED = 40
-"""Packets until the fit is good enough to judge lateness by; before, only holes count."""
-SLIPPED, SLIPPED_FOR = 8, 0.32
-"""Packets in a row that stay behind before a slip is a loss, and s for which they do."""
-RADIO = 0.04
-"""What a radio may hold back at any time, s; with a shorter period a hole is no sign of loss by itself."""
-FAST = 0.24
+LATE_PERIODS = 0.9
+"""Periods behind its slot, from which on a packet may belong to a later slot."""
+LATE_JITTERS = 5.0
+"""Mean jitters behind its slot, from which on a packet may belong to a later slot."""
+REVISABLE_PACKETS = 12
+"""Number of packets after a loss that may still show that there was none."""
+MAX_AHEAD = 0.15
+"""Seconds (and one period) by which an assigned time may be after the arrival."""
+SETTLED_PACKETS = 40
+"""Number of packets until the fit is good enough to judge lateness; before, only gaps count."""
+SLIPPED_PACKETS, SLIPPED_FOR = 8, 0.32
+"""Number of packets in a row, and s, that must stay behind before a slip is a loss."""
+RADIO_DELAY = 0.04
+"""Delay that a radio may cause at any time, s; with a shorter period a gap alone is no sign of loss."""
+FAST_LEAD = 0.24
 """Seconds that arrivals must be ahead before the period is taken to be shorter (radio jitter is less)."""
-WIDE = 6
-"""Holes in a row before the period is taken to be longer."""
-NEW_PHASE = 5.0
-"""Seconds of silence after which the device may have begun to measure anew: slots are counted from there."""
+WIDE_GAPS = 6
+"""Number of gaps in a row before the period is taken to be longer."""
+NEW_PHASE_SILENCE = 5.0
+"""Silence after which the device may measure at a new phase, s; slots are then counted from the next packet."""
 
 
 @define
-class Periodic:
-    """Times of a periodic characteristic. `period`: s, as written to the device or from its profile.
+class PeriodicClock:
+    """The clock of a periodic characteristic, which has no counters.
 
-    `arrive(a)` assigns the time of the notification that arrived at `a`, s; in order, never revised. Latency none.
+    Times are assigned in order and never revised. Latency none.
     """
 
     period: float
+    """Period in s, as written to the device or from its profile."""
     clock: Clock
+    """Clock whose ticks are slots."""
     slot: float = 0.0
     """Slot of the newest packet."""
     arrived: float | None = None
-    """Its arrival, s."""
+    """Arrival of the newest packet, s; None before the first and after a change of period."""
     jitter: float = 0.0
-    """Running mean of how late packets are, s."""
+    """Running mean of the packets' lateness, s."""
     slipped: int = 0
-    """Packets in a row that were a period behind their slot."""
+    """Number of packets in a row that were a period behind their slot."""
     slip: float = 0.0
-    """The least that they were behind, s."""
-    calm: float = 0.0
-    """The jitter before them, s."""
-    doubtful: int = 0
-    """Packets for which the latest loss may still turn out to be none."""
-    settled: int = 0
-    """Packets since the fit began, up to SETTLED."""
-    began: float = 0.0
-    """Arrival from which the rate is watched, s."""
-    count: int = 0
-    """Packets since then."""
-    wide: int = 0
-    """Holes in a row."""
-    wide_since: float = 0.0
-    """Arrival before the first of them, s."""
+    """Least delay of those packets behind their slots, s."""
+    jitter_before_slip: float = 0.0
+    """Jitter before the first of those packets, s."""
+    revisable: int = 0
+    """Number of packets for which the latest loss may still turn out to be none."""
+    settled_packets: int = 0
+    """Number of packets since the fit started, up to SETTLED_PACKETS."""
+    rate_since: float = 0.0
+    """Arrival from which the rate is estimated, s."""
+    rate_count: int = 0
+    """Number of packets since `rate_since`."""
+    wide_gaps: int = 0
+    """Number of gaps in a row."""
+    wide_gaps_since: float = 0.0
+    """Arrival before the first gap in the row, s."""
 
-    def arrive(self, arrival: float, counts_losses: bool = True) -> Taken:
-        """The notification that arrived at `arrival` (s, not before the one before it).
+    def add_packet(self, arrival: float, counts_losses: bool = True) -> SampleTimes:
+        """Assign a time to the notification that arrived at `arrival` (s, not before the previous one).
 
         With `counts_losses` False silence is legal (wake on motion) and says nothing about losses.
         """
         if self.arrived is None:
-            return self._begin(arrival, 0, arrival)
-        hole = arrival - self.arrived
+            return self._restart(arrival, 0, arrival)
+        gap = arrival - self.arrived
         period = self.period * (1.0 + self.clock.drift)
-        t_missing = self.clock.expected(self.slot + 1.0)
-        if hole > NEW_PHASE or (not counts_losses and hole > HOLE * period):
-            lost = max(1, round(hole / period) - 1) if counts_losses else 0
+        t_missing = self.clock.preview_time(self.slot + 1.0)
+        if gap > NEW_PHASE_SILENCE or (not counts_losses and gap > LOSS_GAP * period):
+            lost = max(1, round(gap / period) - 1) if counts_losses else 0
             self.period = period
-            return self._begin(arrival, lost, t_missing)
-        if self._other_rate(arrival, hole):
-            return self._begin(arrival, 0, t_missing)
+            return self._restart(arrival, lost, t_missing)
+        if self._correct_period(arrival, gap):
+            return self._restart(arrival, 0, t_missing)
         self.arrived = arrival
-        behind = arrival - self.clock.fitted(self.slot + 1.0)
-        settled = self.settled >= SETTLED
-        if behind < -0.5 * period and (settled or self.doubtful) or arrival - t_missing < -(AHEAD + period):
-            self.doubtful = self.slipped = 0
-            return Taken([self.clock.time(self.slot + 0.25)])
-        lost = self._lost(hole, behind, period)
+        behind = arrival - self.clock.fit_time(self.slot + 1.0)
+        settled = self.settled_packets >= SETTLED_PACKETS
+        if behind < -0.5 * period and (settled or self.revisable) or arrival - t_missing < -(MAX_AHEAD + period):
+            self.revisable = self.slipped = 0
+            return SampleTimes([self.clock.assign_time(self.slot + 0.25)])
+        lost = self._count_lost(gap, behind, period)
         self.slot += 1.0 + lost
-        self.settled = min(self.settled + 1, SETTLED)
-        self.doubtful = DOUBTFUL if lost else max(0, self.doubtful - 1)
+        self.settled_packets = min(self.settled_packets + 1, SETTLED_PACKETS)
+        self.revisable = REVISABLE_PACKETS if lost else max(0, self.revisable - 1)
         if lost == 0 and (
-            not self.doubtful or behind >= (0.0 if settled else -0.3 * period)
-        ):  # a slot that may be a wrong guess teaches nothing
+            not self.revisable or behind >= (0.0 if settled else -0.3 * period)
+        ):  # the fit does not use a slot that may be a wrong guess
             self.clock.observe(self.slot, arrival)
             if settled:
-                late = max(0.0, min(4.0 * period, arrival - self.clock.fitted(self.slot)))
+                late = max(0.0, min(4.0 * period, arrival - self.clock.fit_time(self.slot)))
                 self.jitter += (late - self.jitter) / 16.0
-        return Taken([self.clock.time(self.slot)], lost, t_missing)
+        return SampleTimes([self.clock.assign_time(self.slot)], lost, t_missing)
 
-    def change(self, period: float) -> None:
-        """Another period (s) was written to the device; slots are counted anew from the next packet."""
+    def set_period(self, period: float) -> None:
+        """Set another period (s), which was written to the device; slots are counted from the next packet."""
         arrived = self.arrived
         self.period, self.arrived = period, None
         if arrived is None:
             self.clock = Clock(1.0 / period)
 
-    def _lost(self, hole: float, behind: float, period: float) -> int:
-        tells = period >= RADIO
-        if self.settled < SETTLED:  # how far behind cannot be told from a slow device yet; the hole alone must do
-            return round(hole / period) - 1 if tells and hole >= HOLE * period and behind >= 0.75 * period else 0
-        if tells and hole >= HOLE * period and behind >= LATE * period and behind >= QUIET * self.jitter:
+    def _count_lost(self, gap: float, behind: float, period: float) -> int:
+        """Return the number of packets lost before this one."""
+        gap_is_evidence = period >= RADIO_DELAY
+        if self.settled_packets < SETTLED_PACKETS:  # lateness may still be a slow device; only the gap is evidence
+            return (
+                round(gap / period) - 1
+                if gap_is_evidence and gap >= LOSS_GAP * period and behind >= 0.75 * period
+                else 0
+            )
+        if (
+            gap_is_evidence
+            and gap >= LOSS_GAP * period
+            and behind >= LATE_PERIODS * period
+            and behind >= LATE_JITTERS * self.jitter
+        ):
             self.slipped = 0
-            return floor(behind / period + 1.0 - LATE)
-        if behind < (LATE * period if tells else RADIO):
+            return floor(behind / period + 1.0 - LATE_PERIODS)
+        if behind < (LATE_PERIODS * period if gap_is_evidence else RADIO_DELAY):
             self.slipped = 0
             return 0
         if self.slipped == 0:
-            self.slip, self.calm = behind, self.jitter
+            self.slip, self.jitter_before_slip = behind, self.jitter
         self.slip = min(self.slip, behind)
         self.slipped += 1
-        if self.slipped < max(SLIPPED, SLIPPED_FOR / period):
+        if self.slipped < max(SLIPPED_PACKETS, SLIPPED_FOR / period):
             return 0
-        self.slipped, self.jitter = 0, self.calm
-        return floor(self.slip / period + 1.0 - LATE)
+        self.slipped, self.jitter = 0, self.jitter_before_slip
+        return floor(self.slip / period + 1.0 - LATE_PERIODS)
 
-    def _other_rate(self, arrival: float, hole: float) -> bool:
-        """Whether the period was wrong; then it is put right."""
-        self.count += 1
-        expected, found = self.count * self.period, arrival - self.began
-        if found < 0.6 * expected and expected - found > FAST:
-            self.period = max(0.01, round(found / self.count, 2))
+    def _correct_period(self, arrival: float, gap: float) -> bool:
+        """Correct the period if it is wrong, and return whether it was."""
+        self.rate_count += 1
+        expected, found = self.rate_count * self.period, arrival - self.rate_since
+        if found < 0.6 * expected and expected - found > FAST_LEAD:
+            self.period = max(0.01, round(found / self.rate_count, 2))
             return True
-        if self.count >= 50:  # a short memory, or a quick start would be averaged away
-            self.began, self.count = arrival, 0
-        if hole < 1.4 * self.period:
-            self.wide = 0
+        if self.rate_count >= 50:  # a short memory, or a quick start would be averaged away
+            self.rate_since, self.rate_count = arrival, 0
+        if gap < 1.4 * self.period:
+            self.wide_gaps = 0
             return False
-        if self.wide == 0:
-            self.wide_since = arrival - hole
-        self.wide += 1
-        if self.wide < WIDE:
+        if self.wide_gaps == 0:
+            self.wide_gaps_since = arrival - gap
+        self.wide_gaps += 1
+        if self.wide_gaps < WIDE_GAPS:
             return False
-        self.period = round((arrival - self.wide_since) / self.wide, 2)
+        self.period = round((arrival - self.wide_gaps_since) / self.wide_gaps, 2)
         return True
 
-    def _begin(self, arrival: float, lost: int, t_missing: float) -> Taken:
+    def _restart(self, arrival: float, lost: int, t_missing: float) -> SampleTimes:
         """Count slots from here, in a new fit whose times come after those of the old one."""
-        times_from = None if self.clock.last_x is None else self.clock.last_t + 0.5 * self.period
-        self.clock = Clock(1.0 / self.period, floor=times_from)
+        t_min = None if self.clock.last_x is None else self.clock.last_t + 0.5 * self.period
+        self.clock = Clock(1.0 / self.period, t_min=t_min)
         self.clock.observe(0.0, arrival)
         self.slot, self.arrived = 0.0, arrival
-        self.slipped = self.doubtful = self.settled = self.count = self.wide = 0
-        self.began = arrival
-        return Taken([self.clock.time(0.0)], lost, t_missing)
+        self.slipped = self.revisable = self.settled_packets = self.rate_count = self.wide_gaps = 0
+        self.rate_since = arrival
+        return SampleTimes([self.clock.assign_time(0.0)], lost, t_missing)
 
 
-def periodic(period: float) -> Periodic:
-    """A fresh stream with this nominal period, s."""
-    return Periodic(period, Clock(1.0 / period))
+def make_periodic_clock(period: float) -> PeriodicClock:
+    """Return a fresh clock with this nominal period, s."""
+    return PeriodicClock(period, Clock(1.0 / period))

@@ -1,10 +1,10 @@
-"""What there is to know about a device before it is connected: GATT ids, channels, setup writes, rates. Only data.
+"""Declaration of a device before it is connected: GATT ids, channels, setup writes, rates. Only data.
 
-Each file of devices/ has the profile of its device, as its document in protocol/ says it. To start a device: read
-`reads`, subscribe to every `notify` channel that is wanted, then make the writes of `setup` in order, each followed by
-its own reads. In this order, because a characteristic that is read while it is subscribed gives its value twice on
-some systems. What was read and written is recorded as packets of the same channels, so that a decoder (and a
-recording) knows the ranges and periods in force.
+Each file of devices/ has the profile of its device, as its document in protocol/ describes it. To start a device: read
+`reads`, subscribe to every required `notify` channel, then make the writes of `setup` in order, each followed by its
+own reads. The order matters, because a characteristic that is read while it is subscribed gives its value twice on some
+systems. Values read and written are recorded as packets of the same channels, so that a decoder (and a recording) knows
+the ranges and periods in force.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from ..types.attrs import frozen
 
 
 class Access(Enum):
-    """What a host does with a characteristic."""
+    """The way in which a host uses a characteristic."""
 
     NOTIFY = "notify"
     READ = "read"
@@ -26,12 +26,12 @@ class Access(Enum):
 
 @frozen
 class Channel:
-    """One characteristic and the name that its packets carry. UUIDs in full, lower case."""
+    """One characteristic and the channel name of its packets. UUIDs in full, lower case."""
 
     name: str
     service: str
     characteristic: str
-    how: Access
+    access: Access
 
 
 @frozen
@@ -47,11 +47,10 @@ class Write:
 class Profile:
     """One kind of device.
 
-    `names`, `services`: what its advertisement may say (complete names; service UUIDs); `prefixes`: what its name may
-    begin with instead. `setup`: writes in order.
-    `reads`: channels to be read once after connecting, where the device has them. `nominal_rate`: samples a second
-    after `setup`. `streams`: the channels that must not fall silent, and `stale_after`: s after which they have.
-    ValueError when these do not fit together.
+    `names`, `services`: values of its advertisement (complete names; service UUIDs); `prefixes`: possible starts of its
+    name instead. `setup`: writes in order. `reads`: channels to be read once after connecting, where the device has
+    them. `nominal_rate`: samples a second after `setup`. `streams`: the channels that must not fall silent, and
+    `stale_after`: s after which one counts as silent. ValueError when these do not fit together.
     """
 
     name: str
@@ -67,7 +66,7 @@ class Profile:
 
     @cached_property
     def channel_names(self) -> frozenset[str]:
-        """Of all its channels."""
+        """Names of all its channels."""
         return frozenset(channel.name for channel in self.channels)
 
     def __attrs_post_init__(self) -> None:
@@ -78,34 +77,35 @@ class Profile:
         named = {*self.streams, *self.reads}.union(*[(write.channel, *write.then_read) for write in self.setup])
         if named - self.channel_names:
             raise ValueError(f"{self.name}: no channel of its own: {sorted(named - self.channel_names)}")
-        silent = [name for name in self.streams if self.channel(name).how is not Access.NOTIFY]
+        silent = [name for name in self.streams if self.channel(name).access is not Access.NOTIFY]
         if silent:
             raise ValueError(f"{self.name}: a stream is notified, and {silent} are not")
         if not (0.0 < self.nominal_rate < inf and 0.0 < self.stale_after < inf):
             raise ValueError(f"{self.name}: nominal_rate and stale_after are finite and above 0")
 
-    def answers_to(self, name: str) -> bool:
-        """Whether a device of this kind may advertise this name."""
+    def matches_name(self, name: str) -> bool:
+        """Return whether a device of this kind may advertise this name."""
         return name in self.names or (name != "" and name.startswith(self.prefixes))
 
     def channel(self, name: str) -> Channel:
-        """The channel of this name. KeyError when there is none."""
+        """Return the channel of this name. KeyError when there is none."""
         for channel in self.channels:
             if channel.name == name:
                 return channel
         raise KeyError(name)
 
 
-def ti(short: int) -> str:
-    """A UUID of Texas Instruments' own."""
+def ti_uuid(short: int) -> str:
+    """Return the full UUID of a 16-bit id of Texas Instruments."""
     return f"f000{short:04x}-0451-4000-b000-000000000000"
 
 
-def standard(short: int) -> str:
-    """A UUID that the Bluetooth SIG has assigned."""
+def standard_uuid(short: int) -> str:
+    """Return the full UUID of a 16-bit id that the Bluetooth SIG has assigned."""
     return f"0000{short:04x}-0000-1000-8000-00805f9b34fb"
 
 
-FIRMWARE = Channel("device/firmware", standard(0x180A), standard(0x2A26), Access.READ)
-BATTERY = Channel("device/battery", standard(0x180F), standard(0x2A19), Access.NOTIFY)
-"""What any device may have."""
+FIRMWARE = Channel("device/firmware", standard_uuid(0x180A), standard_uuid(0x2A26), Access.READ)
+"""Channel of the firmware revision, which any device may have."""
+BATTERY = Channel("device/battery", standard_uuid(0x180F), standard_uuid(0x2A19), Access.NOTIFY)
+"""Channel of the battery level, which any device may have."""

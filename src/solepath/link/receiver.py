@@ -1,4 +1,4 @@
-"""What the receiver says of itself, as events (protocol/receiver.md)."""
+"""Events from the packets in which the receiver reports its own state (protocol/receiver.md)."""
 
 from __future__ import annotations
 
@@ -9,16 +9,23 @@ from ..wire.fields import parse_text
 from ..wire.receiver import parse_connected, parse_dropped, parse_nothing
 
 
-def said(packet: Packet) -> list[LinkEvent]:
-    """The event of a packet of a channel receiver/...; none of a tick. WireError when it cannot be used."""
+def parse_receiver_event(packet: Packet) -> list[LinkEvent]:
+    """Return the event of a packet of a channel receiver/..., or none for a tick.
+
+    WireError when the packet cannot be used.
+    """
     t, site = packet.t, packet.site
     match packet.channel:
         case "receiver/tick":
             parse_nothing(packet.data)
             return []
         case "receiver/connected":
-            made = parse_connected(packet.data)
-            return [Connected(t=t, known_at=t, site=site, device=packet.device, name=made.name, signal=made.signal)]
+            connection = parse_connected(packet.data)
+            return [
+                Connected(
+                    t=t, known_at=t, site=site, device=packet.device, name=connection.name, signal=connection.signal
+                )
+            ]
         case "receiver/disconnected":
             parse_nothing(packet.data)
             return [Disconnected(t=t, known_at=t, site=site)]

@@ -1,4 +1,4 @@
-"""Does the accelerometer read 1 g at rest? The one check that tells a wrong range or scale from a right one."""
+"""Check that the accelerometer reads 1 g at rest, which tells a wrong range or scale from a right one."""
 
 from __future__ import annotations
 
@@ -9,64 +9,73 @@ from ..types import Sample, Vec3
 from ..types.attrs import define
 from ..types.vector import GRAVITY
 
-WINDOW = 1.5
-"""Seconds without motion that count as rest."""
-STILL = 0.06
-"""How far each axis may range in a still window, as a fraction of the reading's magnitude."""
+STILL_FOR = 1.5
+"""Time without motion that counts as rest, s."""
+STILL_RANGE = 0.06
+"""Range of each axis in a still window at most, as a fraction of the reading's magnitude."""
 TOLERANCE = 0.15
-"""Of 1 g; more than this off and the scale is suspect (ranges differ by factors of two)."""
+"""Deviation from 1 g above which the scale is suspect, as a fraction (ranges differ by factors of two)."""
 RANGES = (2, 4, 8, 16)
-"""Full scales of accelerometers, g."""
+"""Usual full scales of accelerometers, g."""
 
 
 @define
 class RestCheck:
-    """Finds one still window, compares its mean with 1 g, and is done. `grain`: the size of one count, m/s^2."""
+    """Finds one still window, compares its mean with 1 g, and is done."""
 
     grain: float
+    """Size of one count, m/s^2."""
     done: bool = False
+    """Whether a still window was found; then no more samples are needed."""
     started: float = 0.0
+    """Start of the present window, s."""
     count: int = 0
-    low: Vec3 = (0.0, 0.0, 0.0)
-    high: Vec3 = (0.0, 0.0, 0.0)
-    total: Vec3 = (0.0, 0.0, 0.0)
+    """Number of samples in the present window."""
+    acc_min: Vec3 = (0.0, 0.0, 0.0)
+    """Smallest value of each axis in the window, m/s^2."""
+    acc_max: Vec3 = (0.0, 0.0, 0.0)
+    """Largest value of each axis in the window, m/s^2."""
+    acc_sum: Vec3 = (0.0, 0.0, 0.0)
+    """Sum of the samples in the window, m/s^2."""
 
-    def suspect(self, sample: Sample, assumed: float) -> list[ScaleSuspect]:
-        """The event when this sample, which has `acc`, shows that it is wrong; a full scale of `assumed` g is taken for
-        granted. Call with every such sample until `done`."""
-        magnitude = None if sample.acc is None else self.feed(sample.t, sample.acc)
+    def check(self, sample: Sample, assumed: float) -> list[ScaleSuspect]:
+        """Return a ScaleSuspect event when this sample, which has `acc`, shows that the scale is wrong.
+
+        `assumed`: full scale that the sample was computed with, g. Call it with every such sample until `done`.
+        """
+        magnitude = None if sample.acc is None else self.add_acc(sample.t, sample.acc)
         if magnitude is None:
             return []
-        t, known_at, words = sample.t, sample.known_at, suggestion(magnitude, assumed)
+        t, known_at, words = sample.t, sample.known_at, suggest_range(magnitude, assumed)
         return [ScaleSuspect(t=t, known_at=known_at, site=sample.site, magnitude=magnitude, suggestion=words)]
 
-    def feed(self, t: float, acc: Vec3) -> float | None:
-        """Mean |acc| in m/s^2 when it is known to be wrong, else None."""
+    def add_acc(self, t: float, acc: Vec3) -> float | None:
+        """Return the mean |acc| of the still window in m/s^2 when it shows a wrong scale, else None."""
         x, y, z = acc
         if self.count == 0:
-            self._begin(t, acc)
+            self._restart_window(t, acc)
             return None
-        (lx, ly, lz), (hx, hy, hz), (sx, sy, sz) = self.low, self.high, self.total
-        self.low = lx, ly, lz = (min(lx, x), min(ly, y), min(lz, z))
-        self.high = hx, hy, hz = (max(hx, x), max(hy, y), max(hz, z))
-        self.total = sx, sy, sz = (sx + x, sy + y, sz + z)
+        (lx, ly, lz), (hx, hy, hz), (sx, sy, sz) = self.acc_min, self.acc_max, self.acc_sum
+        self.acc_min = lx, ly, lz = (min(lx, x), min(ly, y), min(lz, z))
+        self.acc_max = hx, hy, hz = (max(hx, x), max(hy, y), max(hz, z))
+        self.acc_sum = sx, sy, sz = (sx + x, sy + y, sz + z)
         self.count += 1
         magnitude = sqrt(sx * sx + sy * sy + sz * sz) / self.count
-        if max(hx - lx, hy - ly, hz - lz) > STILL * magnitude + 2.5 * self.grain:
-            self._begin(t, acc)
+        if max(hx - lx, hy - ly, hz - lz) > STILL_RANGE * magnitude + 2.5 * self.grain:
+            self._restart_window(t, acc)
             return None
-        if t - self.started < WINDOW or self.count < 8:
+        if t - self.started < STILL_FOR or self.count < 8:
             return None
         self.done = True
         return magnitude if abs(magnitude - GRAVITY) > TOLERANCE * GRAVITY else None
 
-    def _begin(self, t: float, acc: Vec3) -> None:
+    def _restart_window(self, t: float, acc: Vec3) -> None:
         self.started, self.count = t, 1
-        self.low = self.high = self.total = acc
+        self.acc_min = self.acc_max = self.acc_sum = acc
 
 
-def suggestion(magnitude: float, assumed: float) -> str:
-    """What a reading of `magnitude` m/s^2 at rest says, when a full scale of `assumed` g was taken for granted."""
+def suggest_range(magnitude: float, assumed: float) -> str:
+    """Return a sentence on a reading of `magnitude` m/s^2 at rest with an assumed full scale of `assumed` g."""
     if magnitude < 0.05 * GRAVITY:
         return "reads nothing at rest: is the accelerometer switched on?"
     ratio = magnitude / GRAVITY

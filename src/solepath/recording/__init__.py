@@ -1,25 +1,25 @@
 """Recordings of every format: packets, samples, btsnoop logs, MCAP."""
 
-from .packets import FORMAT, LONGEST_LINE, VERSION, PacketWriter, began, read_header, read_packets
+from .errors import RecordingError, RecordingWarning, Report, open_file, os_error_text, printable, warn
+from .packets import FORMAT, LONGEST_LINE, VERSION, PacketWriter, read_header, read_packets, read_start_time
 from .source import Source, open_source, read_samples
-from .trouble import RecordingError, RecordingWarning, Report, open_file, printable, warn, why
 
 __all__ = [
     "FORMAT",
     "LONGEST_LINE",
+    "VERSION",
     "PacketWriter",
     "RecordingError",
     "RecordingWarning",
     "Report",
     "Source",
-    "VERSION",
-    "began",
     "open_file",
     "open_source",
+    "os_error_text",
     "printable",
     "read_header",
     "read_packets",
     "read_samples",
+    "read_start_time",
     "warn",
-    "why",
 ]

@@ -1,4 +1,4 @@
-"""The samples of a recording, whichever kind it is."""
+"""The samples of a recording of either kind."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from ..types import Foot, Layout, Packet, Sample, Site
 
 
 @frozen
-class Recorded:
-    """`samples` in the order in which they became known; `layouts` of the insoles that said theirs."""
+class DecodedRecording:
+    """Samples in the order in which they became known, and the layouts that the insoles reported."""
 
     samples: tuple[Sample, ...]
     layouts: dict[Foot, Layout]
 
 
-def recorded(items: Iterable[Packet | Sample]) -> Recorded:
-    """What packets hold, decoded, and samples as they are. Packets that cannot be used are passed over."""
+def decode_recording(items: Iterable[Packet | Sample]) -> DecodedRecording:
+    """Return the samples of packets, decoded, and samples as they are. Packets that cannot be used are skipped."""
     samples: list[Sample] = []
     layouts: dict[Foot, Layout] = {}
     decoders: dict[Site, Decoder] = {}
 
-    def take(found: Iterable[object]) -> None:
+    def add_all(found: Iterable[object]) -> None:
         for one in found:
             if isinstance(one, Sample):
                 samples.append(one)
@@ -36,7 +36,7 @@ def recorded(items: Iterable[Packet | Sample]) -> Recorded:
         if isinstance(item, Sample):
             samples.append(item)
         else:
-            take(decoders.setdefault(item.site, Decoder(item.site)).feed(item))
+            add_all(decoders.setdefault(item.site, Decoder(item.site)).feed(item))
     for decoder in decoders.values():
-        take(decoder.finish())
-    return Recorded(tuple(samples), layouts)
+        add_all(decoder.finish())
+    return DecodedRecording(tuple(samples), layouts)

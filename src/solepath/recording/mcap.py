@@ -2,17 +2,18 @@
 
 Every message is JSON with a JSON schema, and has `t`, the exact time in s on the recording's clock. Topics:
 
-| topic | what | log time |
+| topic | content | log time |
 |---|---|---|
 | `/SITE/packets/CHANNEL` | the packets as they arrived, `data` in base64 | arrival |
 | `/SITE/samples` | the samples that the session took, SI units; `pressure` is the sum over the cells | when measured |
 | `/SITE/pose` | live position and velocity, world frame, phase by name and number | when measured |
 | `/SITE/gait` | heel-strikes, foot-flats, heel-offs, toe-offs | when it happened |
-| `/SITE/steps` | final steps | when the step ended |
+| `/SITE/steps` | final strides | when the stride ended |
 | `/events` | every event as in `events.jsonl` | when it happened |
 
-The publish time is when it was known. Log times count from 1970 where the recording says when it began, from the zero
-of the receiver's clock otherwise. The metadata record `solepath` holds the keys of the recording's header.
+The publish time is the time at which it was known. Log times count from 1970 where the recording has its start time,
+from the zero of the receiver's clock otherwise. The metadata record `solepath` holds the keys of the recording's
+header.
 """
 
 from __future__ import annotations
@@ -34,17 +35,23 @@ from ..events.happening import json_ready
 from ..link.driver import Driver
 from ..session import Session
 from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Vec3
-from .packets import FORMAT, VERSION, began
-from .trouble import RecordingError, why
+from .errors import RecordingError, os_error_text
+from .packets import FORMAT, VERSION, read_start_time
 
-CHUNK = 8192
-"""Bytes before compression: a file that is torn loses about a second of two insoles, larger chunks lose more."""
-MOST_TOPICS = 1000
-LONGEST = 1e11
-"""s; what a session takes for a time."""
-LATEST = 2**63 - 1
-"""ns; a log time is an unsigned 64-bit number, and no reader wants the upper half."""
+CHUNK_SIZE = 8192
+"""Size of a chunk before compression, bytes.
+
+A file that is torn loses about a second of two insoles; larger chunks lose more."""
+MAX_TOPICS = 1000
+"""Number of topics after which packets of new channels share one topic per site."""
+MAX_TIME = 1e11
+"""Largest magnitude of a time that a session accepts, s."""
+MAX_LOG_TIME = 2**63 - 1
+"""Largest log time, ns.
+
+A log time is an unsigned 64-bit number, and no reader accepts the upper half."""
 PHASES = {phase: number for number, phase in enumerate(Phase)}
+"""Number of each phase."""
 EPOCH, MICROSECOND = datetime(1970, 1, 1, tzinfo=UTC), timedelta(microseconds=1)
 
 
@@ -80,10 +87,11 @@ SCHEMAS: dict[str, dict[str, Any]] = {
     ),
     "solepath.Event": _object(t=NUMBER, event=TEXT, foot=TEXT, site=TEXT),
 }
+"""JSON schema of each kind of message."""
 
 
-class _Overheard(Session):
-    """A session that keeps the samples which it takes, until they are taken from `samples`."""
+class _SampleKeepingSession(Session):
+    """A session that keeps the samples which it takes, until they are removed from `samples`."""
 
     __slots__ = ("samples",)
 
@@ -98,40 +106,41 @@ class _Overheard(Session):
 
 
 class McapWriter:
-    """Writes packets, and what a session makes of them, as MCAP.
+    """Writes packets, and a session's results for them, as MCAP.
 
         with McapWriter("walk.mcap", read_header("walk.jsonl")) as writer:
             for packet in read_packets("walk.jsonl"):
                 writer.write(packet)
 
     An existing file is replaced. `header`: of the recording that the packets come from. `profiles`: devices of the
-    app's own, as for Session. `count`: packets written. `outside`: times that no log time can hold; the nearest that
-    can stands for them. RecordingError when the file cannot be written, ValueError for a packet whose time is not
-    finite. What a session holds back comes with `close`; a file never closed has no index, but whole chunks.
+    app's own, as for Session. `count`: packets written. `outside`: number of times that no log time can hold; the
+    nearest possible one replaces each. RecordingError when the file cannot be written, ValueError for a packet whose
+    time is not finite. Results that a session holds back come with `close`; a file never closed has no index, but whole
+    chunks.
     """
 
     def __init__(self, path: Path | str, header: Mapping[str, Any] = {}, *, profiles: Iterable[Driver] = ()) -> None:
         self.path, self.count, self.outside = Path(path), 0, 0
         self._header = dict(header)
-        self._session = _Overheard(profiles)
+        self._session = _SampleKeepingSession(profiles)
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}
         self._sequences: dict[int, int] = {}
         self._zero: int | None = None
-        """ns since 1970 at `t` = 0; None until the first packet."""
+        """Time since 1970 at `t` = 0, ns; None until the first packet."""
         try:
             self._file = self.path.open("wb")  # noqa: SIM115 - this class is the context manager
         except OSError as error:
-            raise RecordingError(self.path, why(error)) from error
-        self._writer = Writer(self._file, chunk_size=CHUNK, compression=CompressionType.ZSTD)
-        with self._told():
+            raise RecordingError(self.path, os_error_text(error)) from error
+        self._writer = Writer(self._file, chunk_size=CHUNK_SIZE, compression=CompressionType.ZSTD)
+        with self._as_recording_error():
             self._writer.start(profile="", library=f"solepath {version('solepath')}")
             about = {"format": FORMAT, "version": VERSION, **self._header}
             texts = {key: value if isinstance(value, str) else json.dumps(value) for key, value in about.items()}
-            self._writer.add_metadata("solepath", {_sound(key): _sound(text) for key, text in texts.items()})
+            self._writer.add_metadata("solepath", {_valid_utf8(key): _valid_utf8(text) for key, text in texts.items()})
 
     def write(self, packet: Packet) -> None:
-        """The packet, the samples in it and the events that it brings."""
+        """Write the packet, its samples and its events."""
         if not isfinite(packet.t):
             raise ValueError(f"a packet at {packet.t} s cannot be recorded")
         if self._zero is None:
@@ -140,26 +149,26 @@ class McapWriter:
         data: dict[str, Any] = {"t": packet.t, "data": b64encode(packet.data).decode()}
         if packet.device:
             data["device"] = packet.device
-        with self._told():
-            topic = f"/{site}/packets/{_sound(packet.channel)}"
-            if topic not in self._channels and len(self._channels) >= MOST_TOPICS:
-                topic = f"/{site}/packets"  # a damaged recording may hold any number of channels
-            about = {"site": site, "channel": _sound(packet.channel)}
+        with self._as_recording_error():
+            topic = f"/{site}/packets/{_valid_utf8(packet.channel)}"
+            if topic not in self._channels and len(self._channels) >= MAX_TOPICS:
+                topic = f"/{site}/packets"  # the number of channels in a damaged recording is not limited
+            about = {"site": site, "channel": _valid_utf8(packet.channel)}
             self._put(topic, "solepath.Packet", packet.t, packet.t, data, about)
             self.count += 1
-            self._made(self._session.feed(packet))
+            self._write_results(self._session.feed(packet))
 
     def close(self) -> None:
-        """What was held back, and the index."""
+        """Write the results that were held back, and the index."""
         if self._file.closed:
             return
         try:
-            with self._told():
-                self._made(self._session.finish())
+            with self._as_recording_error():
+                self._write_results(self._session.finish())
                 self._writer.finish()  # type: ignore[no-untyped-call]
                 self._file.flush()
         finally:
-            with suppress(OSError):  # said already
+            with suppress(OSError):  # the error was reported before
                 self._file.close()
 
     def __enter__(self) -> McapWriter:
@@ -168,15 +177,15 @@ class McapWriter:
     def __exit__(self, *error: object) -> None:
         self.close()
 
-    def _made(self, events: list[Event]) -> None:
-        """What the session made of a packet, or of the end: the samples that it took, and then the events."""
+    def _write_results(self, events: list[Event]) -> None:
+        """Write the samples that the session took from a packet, or at the end, and then its events."""
         samples, self._session.samples = self._session.samples, []
         for sample in samples:
-            self._sample(sample)
+            self._write_sample(sample)
         for event in events:
-            self._event(event)
+            self._write_event(event)
 
-    def _sample(self, item: Sample) -> None:
+    def _write_sample(self, item: Sample) -> None:
         data: dict[str, Any] = {"t": item.t}
         vectors: dict[str, Vec3 | None] = {"acc": item.acc, "gyro": item.gyro, "mag": item.mag}
         data |= {name: _xyz(vector) for name, vector in vectors.items() if vector is not None}
@@ -190,7 +199,7 @@ class McapWriter:
             data["saturated"] = True
         self._put(f"/{item.site.value}/samples", "solepath.Sample", item.t, item.known_at, data)
 
-    def _event(self, event: Event) -> None:
+    def _write_event(self, event: Event) -> None:
         name, data = type(event).__name__, dict[str, Any](t=event.t)
         if not isinstance(event, LiveEvent):
             self._put("/events", "solepath.Event", event.t, event.known_at, event.to_dict())
@@ -198,15 +207,15 @@ class McapWriter:
             case FootMoved(phase=phase):
                 data |= {"position": _xyz(event.position), "velocity": _xyz(event.velocity)}
                 data |= {"phase": phase.value, "phase_number": PHASES[phase]}
-                self._put(_of(event.foot, "pose"), "solepath.Pose", event.t, event.known_at, data)
+                self._put(_topic(event.foot, "pose"), "solepath.Pose", event.t, event.known_at, data)
             case HeelStrike() | FootFlat() | HeelOff() | ToeOff():
                 data["event"] = name
-                self._put(_of(event.foot, "gait"), "solepath.Gait", event.t, event.known_at, data)
+                self._put(_topic(event.foot, "gait"), "solepath.Gait", event.t, event.known_at, data)
             case StrideTaken(final=True):
                 data |= {"number": event.number, "t_start": event.t_start, "stride_length": event.length}
                 data |= {"heading_change": event.heading_change, "height_change": event.height_change}
                 data |= {"position": _xyz(event.position), "degraded": event.degraded}
-                self._put(_of(event.foot, "steps"), "solepath.Step", event.t, event.known_at, data)
+                self._put(_topic(event.foot, "steps"), "solepath.Step", event.t, event.known_at, data)
 
     def _put(
         self, topic: str, schema: str, t: float, known_at: float, data: Any, about: dict[str, str] | None = None
@@ -221,46 +230,49 @@ class McapWriter:
         sequence = self._sequences[channel] = (self._sequences.get(channel, 0) + 1) & 0xFFFF_FFFF
         try:
             text = json.dumps(data, allow_nan=False)
-        except ValueError:  # a device may send a float that is no number
+        except ValueError:  # a device may send a float that is not finite
             text = json.dumps(json_ready(data))
         self._writer.add_message(channel, self._ns(t), text.encode(), self._ns(known_at), sequence)
 
     def _ns(self, t: float) -> int:
-        ns = (self._zero or 0) + round(max(-LONGEST, min(LONGEST, t)) * 1e9)
-        if 0 <= ns <= LATEST:
+        ns = (self._zero or 0) + round(max(-MAX_TIME, min(MAX_TIME, t)) * 1e9)
+        if 0 <= ns <= MAX_LOG_TIME:
             return ns
         self.outside += 1
-        return max(0, min(LATEST, ns))
+        return max(0, min(MAX_LOG_TIME, ns))
 
     @contextmanager
-    def _told(self) -> Iterator[None]:
-        """What the system refuses, as a RecordingError."""
+    def _as_recording_error(self) -> Iterator[None]:
+        """Raise an error of the system as a RecordingError."""
         try:
             yield
         except OSError as error:
             with suppress(OSError):
                 self._file.close()
-            raise RecordingError(self.path, f"{why(error)}; {self.count} packets were taken") from error
+            raise RecordingError(self.path, f"{os_error_text(error)}; {self.count} packets were taken") from error
 
 
-def _of(foot: Foot, topic: str) -> str:
+def _topic(foot: Foot, topic: str) -> str:
     return f"/{SITE_OF_FOOT[foot].value}/{topic}"
 
 
 def _zero(header: Mapping[str, Any], first: float) -> int:
-    """ns since 1970 at `t` = 0 of a recording whose first packet is at `first`; 0 when its header does not tell."""
-    known = began(header)
+    """Return the time since 1970 at `t` = 0, ns, of a recording whose first packet is at `first`, s.
+
+    0 when its header has no start time.
+    """
+    known = read_start_time(header)
     if known is None:
         return 0
     moment, t = known
     at = first if t is None else t
-    return (moment - EPOCH) // MICROSECOND * 1000 - round(max(-LONGEST, min(LONGEST, at)) * 1e9)
+    return (moment - EPOCH) // MICROSECOND * 1000 - round(max(-MAX_TIME, min(MAX_TIME, at)) * 1e9)
 
 
 def _xyz(vector: Vec3) -> dict[str, float]:
     return {"x": vector[0], "y": vector[1], "z": vector[2]}
 
 
-def _sound(text: str) -> str:
-    """`text` without what UTF-8 cannot say: JSON can, by half a surrogate pair."""
+def _valid_utf8(text: str) -> str:
+    """Return `text` without characters that UTF-8 cannot encode; JSON may hold half a surrogate pair."""
     return text.encode("utf-8", "replace").decode("utf-8")

@@ -18,7 +18,7 @@ from ..events import Event, PacketRejected, Placed, SampleRejected
 from ..foot.phase import SUPPORT
 from ..foot.tracker import FootTracker
 from ..link.decoder import Decoder
-from ..link.known import Kinds, kinds
+from ..link.kinds import DeviceKinds, make_kinds
 from ..recipes import DEFAULT, Recipe, own
 from ..types import Activity, Foot, Packet, Phase, Sample, Site, Support
 from ..types.attrs import evolve
@@ -67,7 +67,7 @@ class Session:
         floorplan: FloorPlan | IndexedPlan | None = None,
         start: Start | None = None,
     ) -> None:
-        self._kinds: Kinds = kinds(profiles)
+        self._kinds: DeviceKinds = make_kinds(profiles)
         known = Calibration() if calibration is None else sound(calibration)
         self._plan = indexed(floorplan)
         plan = None if self._plan is None else self._plan.fingerprint
@@ -288,7 +288,7 @@ class Session:
         from .snapshot import must_fit
 
         session = cls.__new__(cls)
-        session._kinds = kinds(profiles)
+        session._kinds = make_kinds(profiles)
         session._plan = indexed(floorplan)
         session._state = state
         must_fit(state, session._kinds, session._plan)

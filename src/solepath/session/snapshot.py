@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from ..link.known import Kinds
+from ..link.kinds import DeviceKinds
 from ..recipes import PARTS, Recipe, own, part_class
 from ..saving.codec import Classes, Json, SnapshotError, checksum, load, save
 from ..saving.schema import is_record
@@ -63,7 +63,7 @@ def by_name(parts: Iterable[type]) -> Classes:
     return lambda name: named.get(name) or part_class(name)
 
 
-def must_fit(state: SessionState, known: Kinds, plan: IndexedPlan | None) -> None:
+def must_fit(state: SessionState, known: DeviceKinds, plan: IndexedPlan | None) -> None:
     """SnapshotError where the state needs another floor plan than `plan`, or a device that is not `known`."""
     had = state.wearer.settings.plan
     if had != (None if plan is None else plan.fingerprint):
@@ -75,5 +75,5 @@ def must_fit(state: SessionState, known: Kinds, plan: IndexedPlan | None) -> Non
         kind = known.get(decoder.link.name)
         if kind is None:
             raise SnapshotError(f"a snapshot of a device {decoder.link.name!r}: restore it with its profile")
-        if not kind.fits(decoder.link):
+        if not kind.accepts(decoder.link):
             raise SnapshotError(f"a snapshot of a device {decoder.link.name!r} as another driver declared it")

@@ -27,7 +27,7 @@ from ..events import (
     StreamResumed,
     StreamStale,
 )
-from ..link.known import KINDS
+from ..link.kinds import BUILT_IN_KINDS
 from ..types import Packet
 from ..wire.fragment import is_fragment
 
@@ -47,7 +47,7 @@ STRAY = 1.0
 
 def streamed(channel: str) -> bool:
     """Whether samples come on this channel of a device that solepath knows."""
-    kind = KINDS.get(channel.partition("/")[0])
+    kind = BUILT_IN_KINDS.get(channel.partition("/")[0])
     return kind is not None and channel in kind.profile.streams
 
 

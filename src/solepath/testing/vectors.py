@@ -9,7 +9,7 @@ from typing import Any
 import attrs
 
 from ..link.driver import Driver, Reading
-from ..link.sound import check
+from ..link.reading_check import check_reading
 from ..wire.error import WireError
 
 SCHEMA = "solepath vectors 1"
@@ -65,7 +65,7 @@ def _differs(driver: Driver, channel: str, vector: Mapping[str, Any]) -> Iterato
         return
     try:
         parsed = plain(driver.parse(channel, data))
-        reading = check(driver.read(channel, data, physical.get("known", {})))
+        reading = check_reading(driver.read(channel, data, physical.get("known", {})))
     except WireError as error:
         if result == "valid" or error.reason.value != vector["reason"]:
             yield str(error)

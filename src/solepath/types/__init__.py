@@ -1,4 +1,4 @@
-"""What all rooms share: feet, sites, phases and activities; packets, samples and layouts of cells; vectors."""
+"""Types that all packages share: feet, sites, phases and activities; packets, samples and layouts of cells; vectors."""
 
 from .records import (
     OTHER,

@@ -1,4 +1,4 @@
-"""The nouns that every room shares: feet and sites, packets and samples, vectors and layouts.
+"""Records that every package shares: feet and sites, packets and samples, vectors and layouts.
 
 Units are SI (s, m/s^2, rad/s, N, Pa, T); times are floats in seconds on one clock.
 """
@@ -13,15 +13,18 @@ from typing import Any, SupportsIndex
 from .attrs import field, frozen
 
 Vec3 = tuple[float, float, float]
-"""(x, y, z) in the frame that the docstring names."""
+"""Vector (x, y, z) in the frame that the docstring of its user names."""
 
 Quat = tuple[float, float, float, float]
-"""Unit quaternion (w, x, y, z), turning sensor coordinates into world coordinates."""
+"""Unit quaternion (w, x, y, z) that turns sensor coordinates into world coordinates."""
 
 
 class Word(Enum):
-    """A closed set of words. Each is one object, so that is its hash: Enum's own is a call of Python at every look-up,
-    and what is done with a sample looks up feet, sites and phases all the time."""
+    """A closed set of words.
+
+    Each member is one object, and its identity is its hash: Enum's own hash is a call of Python code at every look-up,
+    and the code that runs per sample looks up feet, sites and phases all the time.
+    """
 
     __hash__ = object.__hash__
 
@@ -37,18 +40,18 @@ class Foot(Word):
 
 
 OTHER = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
-"""The foot beside it."""
+"""The other foot of each foot."""
 
 
 class OnBody(Word):
     """A place on the body."""
 
     foot: Foot | None
-    """The foot that this site is, or None for the sites above the ankle."""
+    """Foot that this site is, or None for the sites above the ankle."""
 
 
 class Site(OnBody):
-    """Where on the body a sensor sits."""
+    """Place on the body at which a sensor sits."""
 
     LEFT_FOOT = "left_foot"
     RIGHT_FOOT = "right_foot"
@@ -68,10 +71,11 @@ for _site in Site:
     _site.foot = {"left_foot": Foot.LEFT, "right_foot": Foot.RIGHT}.get(_site.value)
 
 SITE_OF_FOOT = {Foot.LEFT: Site.LEFT_FOOT, Foot.RIGHT: Site.RIGHT_FOOT}
+"""Site of each foot."""
 
 
 class Phase(Word):
-    """What one foot is doing; each phase begins with the event in brackets."""
+    """Phase of one foot; each phase starts with the event in brackets."""
 
     LOADING = "LOADING"  # HeelStrike
     STATIONARY = "STATIONARY"  # FootFlat
@@ -80,7 +84,7 @@ class Phase(Word):
 
 
 class Support(Word):
-    """Which feet carry the body."""
+    """Feet that are on the ground: both, left, right, or none (flight)."""
 
     DOUBLE = "DOUBLE"
     LEFT = "LEFT"
@@ -89,7 +93,7 @@ class Support(Word):
 
 
 class WalkingMode(Word):
-    """How the wearer walks: straight on, round a wide (4 m) or a tight (2 m) bend, or not at all."""
+    """Mode of walking: straight on, round a wide (4 m) or a tight (2 m) bend, or standing."""
 
     STRAIGHT = "STRAIGHT"
     LEFT_WIDE = "LEFT_WIDE"
@@ -100,10 +104,10 @@ class WalkingMode(Word):
 
 
 class Activity(Word):
-    """What the wearer does."""
+    """Activity of the wearer."""
 
     STANDING = "STANDING"
-    """Sitting as well: a foot on the ground cannot tell."""
+    """Standing, or sitting: sensors on a foot cannot distinguish them."""
     WALKING = "WALKING"
     RUNNING = "RUNNING"
     STAIRS_UP = "STAIRS_UP"
@@ -114,7 +118,7 @@ class Activity(Word):
 
 
 class Turn(Word):
-    """Where the wearer turned to."""
+    """Direction in which the wearer turned."""
 
     LEFT = "LEFT"
     RIGHT = "RIGHT"
@@ -125,9 +129,9 @@ class Turn(Word):
 class Packet:
     """One notification (or one value read from a device) as it came in.
 
-    `t` is the arrival time in s on the receiver's clock; `channel` names the format of `data`
-    ("insole/frame", "cc2650/movement", ...), so that a recording describes itself. `device`: the address of the device
-    that it came from, "" when nobody knows.
+    `t` is the arrival time in s on the receiver's clock; `channel` names the format of `data` ("insole/frame",
+    "cc2650/movement", ...), so that a recording describes itself. `device`: the address of the device that it came
+    from, "" when it is unknown.
     """
 
     t: float
@@ -137,7 +141,7 @@ class Packet:
     device: str = ""
 
     def __reduce_ex__(self, protocol: SupportsIndex) -> str | tuple[Any, ...]:
-        # a fifth of the time of attrs' own way: stream engines pickle every packet that changes processes
+        # takes a fifth of attrs' own time: stream engines pickle every packet that changes processes
         if type(self) is Packet:
             return Packet, (self.t, self.site, self.channel, self.data, self.device)
         return super().__reduce_ex__(protocol)
@@ -145,13 +149,13 @@ class Packet:
 
 @frozen
 class Sample:
-    """What the sensors of one site measured at one instant; what was not measured is None.
+    """The measurements of the sensors of one site at one instant; a value that was not measured is None.
 
-    `t`: when it was measured, s. `known_at`: when it was known, s; `t` where nobody says.
-    `acc`: specific force in m/s^2, sensor frame (+9.81 upwards at rest). `gyro`: rad/s, sensor frame.
-    `pressure`: one value per cell in the layout's order and unit (N when the device declares a scale, otherwise
-    counts; more is more load). `quat`: the device's own attitude, where it sends one. `mag`: T, sensor frame.
-    `air_pressure`: Pa. `saturated`: the device says that a sensor was at the end of its range.
+    `t`: time of the measurement, s. `known_at`: time at which it was known, s; `t` when it is not given. `acc`:
+    specific force in m/s^2, sensor frame (+9.81 upwards at rest). `gyro`: rad/s, sensor frame. `pressure`: one value
+    per cell in the layout's order and unit (N when the device declares a scale, otherwise counts; more is more load).
+    `quat`: the device's own attitude, where it sends one. `mag`: T, sensor frame. `air_pressure`: Pa. `saturated`: the
+    device says that a sensor was at the end of its range.
     """
 
     t: float
@@ -172,8 +176,10 @@ class Sample:
 
 @frozen
 class Cell:
-    """One pressure cell: its centre in the foot frame (x to the toe, y to the left, m; origin at the heel's rear end
-    on the insole's midline) and its area in m^2."""
+    """One pressure cell: its centre in the foot frame, m, and its area, m^2.
+
+    The foot frame has x to the toe, y to the left, and its origin at the heel's rear end on the insole's midline.
+    """
 
     x: float
     y: float
@@ -182,11 +188,11 @@ class Cell:
 
 @frozen
 class Layout:
-    """The pressure cells of one insole, in the order in which samples carry them.
+    """The pressure cells of one insole, in the order in which samples have them.
 
-    `length`: heel to toe in m. `scale`: N per count of the wire (1.0 when the values are newtons already, None when
-    nobody knows: then loads are in counts). `full_scale`: the largest value that a cell can report, in the unit of
-    the samples.
+    `length`: heel to toe in m. `scale`: N per count of the wire (1.0 when the values are newtons already, None when it
+    is unknown: then loads are in counts). `full_scale`: the largest value that a cell can report, in the unit of the
+    samples.
     """
 
     id: int
@@ -198,31 +204,34 @@ class Layout:
 
     @cached_property
     def xs(self) -> tuple[float, ...]:
-        """How far ahead each cell is, m."""
+        """Place of each cell along the foot's x axis, to the toe, m."""
         return tuple([cell.x for cell in self.cells])
 
     @cached_property
     def ys(self) -> tuple[float, ...]:
-        """How far to the left each cell is, m."""
+        """Place of each cell along the foot's y axis, to the left, m."""
         return tuple([cell.y for cell in self.cells])
 
 
 def shared(layout: Layout) -> Layout:
-    """A layout that is the same to the bit: one object for all wearers of one kind of insole, who hold it for hours."""
+    """Return the one object for all layouts that are the same to the bit.
+
+    All wearers of one kind of insole share it, and hold it for hours.
+    """
     numbers = [layout.length, layout.full_scale, 0.0 if layout.scale is None else layout.scale]
     for cell in layout.cells:
         numbers += (cell.x, cell.y, cell.area)
-    # -0.0 and 0.0 are equal, and not the same
+    # -0.0 and 0.0 are equal, but their bits differ
     bits = pack(f"<{len(numbers)}d", *numbers)
-    return _first(_Bits((layout.id, layout.foot, layout.scale is None, bits), layout))
+    return _intern(_Bits((layout.id, layout.foot, layout.scale is None, bits), layout))
 
 
 @frozen
 class _Bits:
-    told: tuple[int, Foot, bool, bytes]
+    key: tuple[int, Foot, bool, bytes]
     layout: Layout = field(eq=False)
 
 
 @lru_cache(maxsize=256)
-def _first(bits: _Bits) -> Layout:
+def _intern(bits: _Bits) -> Layout:
     return bits.layout

@@ -1,4 +1,4 @@
-"""3-vectors and quaternions on plain tuples: at this size numpy's call costs more than the arithmetic."""
+"""3-vectors and quaternions as plain tuples: at this size a numpy call costs more than the arithmetic."""
 
 from __future__ import annotations
 
@@ -10,31 +10,39 @@ GRAVITY = 9.80665
 """Standard gravity, m/s^2 (ISO 80000-3)."""
 
 TIE = 1e-6
-"""s; spans of time are as long as they should be when they lack no more than this. Samples are often taken at round
-times, and rounding must not decide which of them ends a span, or a walk at another hour would be another walk."""
+"""Tolerance of a time span, s: a span is long enough when it is shorter by no more than this.
+
+Samples are often taken at round times. Rounding must not decide which of them ends a span, or the same walk at another
+hour would give other results."""
 
 IDENTITY: Quat = (1.0, 0.0, 0.0, 0.0)
+"""Quaternion of no rotation."""
 ZERO: Vec3 = (0.0, 0.0, 0.0)
+"""Zero vector."""
 
 
 SPLIT = 2.0**29 + 1.0
-"""Takes the lower 29 bits off a float of 53 (`single`)."""
+"""Factor that removes the lower 29 bits of a float of 53 (`single`)."""
 
 
 def single(x: float) -> float:
-    """`x` rounded to the 24 bits of a float32, which a packed state writes in half the bytes: for what is remembered,
-    not for what goes on (a covariance, a place). 60 ns. Where it is below 1e-38 nothing is gained; it is to be below
-    1e290 (T. J. Dekker, "A floating-point technique for extending the available precision", 1971)."""
+    """Return `x` rounded to the 24 bits of a float32, which a packed state writes in half the bytes.
+
+    Use it for values that are remembered, not for values that are propagated (a covariance, a position). 60 ns. Below
+    1e-38 nothing is gained; `x` must be below 1e290 (T. J. Dekker, "A floating-point technique for extending the
+    available precision", 1971).
+    """
     high = SPLIT * x
     return high - (high - x)
 
 
 def sub(a: Vec3, b: Vec3) -> Vec3:
+    """Return a - b."""
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
 def multiply(p: Quat, q: Quat) -> Quat:
-    """Hamilton product p q: first turn by q, then by p."""
+    """Return the Hamilton product p q: a rotation by q, then by p."""
     pw, px, py, pz = p
     qw, qx, qy, qz = q
     return (
@@ -46,24 +54,26 @@ def multiply(p: Quat, q: Quat) -> Quat:
 
 
 def conjugate(q: Quat) -> Quat:
+    """Return the conjugate of q, which is the inverse rotation."""
     return (q[0], -q[1], -q[2], -q[3])
 
 
 def normalise(q: Quat) -> Quat:
+    """Return q scaled to length 1."""
     w, x, y, z = q
     k = 1.0 / sqrt(w * w + x * x + y * y + z * z)
     return (w * k, x * k, y * k, z * k)
 
 
 def unit(q: Quat) -> Quat | None:
-    """A quaternion as a device sends it, of any length, at length 1; None for zero."""
+    """Return a quaternion from a device, of any length, scaled to length 1; None for zero."""
     w, x, y, z = q
     length = sqrt(w * w + x * x + y * y + z * z)
     return (w / length, x / length, y / length, z / length) if length > 0.0 else None
 
 
 def rotate(q: Quat, v: Vec3) -> Vec3:
-    """q v q*: sensor coordinates into world coordinates when q is sensor to world."""
+    """Return q v q*: sensor coordinates to world coordinates when q is sensor to world."""
     w, x, y, z = q
     vx, vy, vz = v
     tx = 2.0 * (y * vz - z * vy)
@@ -73,7 +83,7 @@ def rotate(q: Quat, v: Vec3) -> Vec3:
 
 
 def rotate_back(q: Quat, v: Vec3) -> Vec3:
-    """q* v q: world coordinates into sensor coordinates when q is sensor to world."""
+    """Return q* v q: world coordinates to sensor coordinates when q is sensor to world."""
     w, x, y, z = q
     vx, vy, vz = v
     tx = 2.0 * (z * vy - y * vz)
@@ -83,13 +93,13 @@ def rotate_back(q: Quat, v: Vec3) -> Vec3:
 
 
 def turned(v: Vec3, yaw: float) -> Vec3:
-    """Turned about the vertical by `yaw` rad."""
+    """Return v rotated about the vertical by `yaw` rad."""
     c, s = cos(yaw), sin(yaw)
     return (c * v[0] - s * v[1], s * v[0] + c * v[1], v[2])
 
 
 def from_rotation_vector(r: Vec3) -> Quat:
-    """The turn by |r| rad about r."""
+    """Return the rotation by |r| rad about r."""
     x, y, z = r
     angle = sqrt(x * x + y * y + z * z)
     if angle < 1e-9:
@@ -99,30 +109,31 @@ def from_rotation_vector(r: Vec3) -> Quat:
 
 
 def from_yaw(yaw: float) -> Quat:
+    """Return the rotation about the vertical by `yaw` rad."""
     return (cos(0.5 * yaw), 0.0, 0.0, sin(0.5 * yaw))
 
 
 def tipped(q: Quat, tx: float, ty: float) -> Quat:
-    """q after a small turn in the world about the horizontal (2 tx, 2 ty, 0), rad."""
+    """Return q after a small rotation in the world about the horizontal (2 tx, 2 ty, 0), rad."""
     w, x, y, z = q
     return normalise((w - tx * x - ty * y, x + tx * w + ty * z, y + ty * w - tx * z, z + tx * y - ty * x))
 
 
 def levelling(acc: Vec3) -> Quat:
-    """The smallest turn that takes the specific force `acc` at rest to straight up; heading is left as it is."""
+    """Return the smallest rotation that takes the specific force `acc` at rest to straight up; heading stays."""
     x, y, z = acc
     length = sqrt(x * x + y * y + z * z)
     if length == 0.0:
         return IDENTITY
     x, y, z = x / length, y / length, z / length
-    if z < -0.999999:  # upside down: any horizontal axis will do
+    if z < -0.999999:  # upside down: any horizontal axis works
         return (0.0, 1.0, 0.0, 0.0)
     # half-way quaternion of z-up and the measured up: (1 + cos, sensor_up x world_up)
     return normalise((1.0 + z, y, -x, 0.0))
 
 
 def heading_turned(before: Quat, after: Quat) -> float:
-    """The twist about the vertical of the turn from one attitude to another, in (-pi, pi], rad."""
+    """Return the twist about the vertical of the rotation between two attitudes, in (-pi, pi], rad."""
     aw, ax, ay, az = after
     w, x, y, z = before
     turn = 2.0 * atan2(-aw * z - ax * y + ay * x + az * w, aw * w + ax * x + ay * y + az * z)

@@ -1,4 +1,4 @@
-"""Twelve-bit values packed least significant bit first, as pressure cells travel.
+"""Twelve-bit values packed least significant bit first, the format of pressure cells in a frame.
 
 Value i occupies the bits 12 i .. 12 i + 11 of the block, where bit b is bit (b mod 8) of byte b // 8. Two values share
 three bytes; an odd count leaves the high nibble of the last byte zero.
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from typing import IO
 
 MAX_VALUE = 4095
+"""Largest value of 12 bits."""
 
 _LOW_NIBBLE = bytes(b & 15 for b in range(256))
 _HIGH_NIBBLE = bytes(b >> 4 for b in range(256))
@@ -25,12 +26,15 @@ _LOW_NIBBLE_RAISED = bytes((b & 15) << 4 for b in range(256))
 
 
 def packed_size(count: int) -> int:
-    """Bytes that `count` values take."""
+    """Return the number of bytes that `count` values take."""
     return (12 * count + 7) // 8
 
 
 def unpack12(data: bytes, count: int) -> tuple[int, ...]:
-    """`count` values from the `packed_size(count)` bytes of `data`. WireError when the unused nibble is not zero."""
+    """Return `count` values from the `packed_size(count)` bytes of `data`.
+
+    WireError when the unused nibble is not zero.
+    """
     # A pair lies in the bytes x, y, z as x | low(y) << 8 and high(y) | z << 4. All pairs are spread into 16-bit
     # words at once by slices and translation tables: 3 us for 96 cells, where a loop over cells takes 15 us.
     if count & 1:
@@ -51,7 +55,7 @@ def unpack12(data: bytes, count: int) -> tuple[int, ...]:
 
 
 def pack12(values: Sequence[int]) -> bytes:
-    """The `packed_size(len(values))` bytes of `values`, each 0 to 4095. ValueError when one is not."""
+    """Return the `packed_size(len(values))` bytes of `values`, each 0 to 4095. ValueError when one is not."""
     bits = 0
     for value in reversed(values):
         if not 0 <= value <= MAX_VALUE:
@@ -61,7 +65,7 @@ def pack12(values: Sequence[int]) -> bytes:
 
 
 class Packed12(Definition):
-    """A block of 12-bit values; `count` reads how many from the context."""
+    """A block of 12-bit values; `count` reads their number from the context."""
 
     def __init__(self, count: Callable[[Any], int]) -> None:
         super().__init__()

@@ -1,4 +1,4 @@
-"""What any device tells by the standard GATT services: battery level and firmware revision."""
+"""The standard GATT values that any device may have: battery level and firmware revision."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _BATTERY = Struct("percent" / Int8ul, Terminated)
 
 
 def parse_battery(data: bytes) -> int:
-    """Battery level (2A19) in percent, 0 to 100. WireError when it is not one."""
+    """Return the battery level (2A19) in percent, 0 to 100. WireError when the bytes are not one."""
     percent: int = parse_whole(_BATTERY, bytes(data)).percent
     if percent > 100:
         raise malformed(f"{percent} percent")
@@ -18,17 +18,17 @@ def parse_battery(data: bytes) -> int:
 
 
 def build_battery(percent: int) -> bytes:
-    """The bytes of a battery level. ValueError unless it is 0 to 100."""
+    """Return the bytes of a battery level. ValueError unless it is 0 to 100."""
     if not 0 <= percent <= 100:
         raise ValueError(f"{percent} percent")
     return build_whole(_BATTERY, {"percent": percent})
 
 
 def parse_firmware(data: bytes) -> str:
-    """Firmware revision (2A26), UTF-8, as sent: a trailing NUL stays. WireError when it is none."""
+    """Return the firmware revision (2A26), UTF-8, as sent: a trailing NUL stays. WireError when it is none."""
     return parse_text(data)
 
 
 def build_firmware(firmware: str) -> bytes:
-    """The bytes of a firmware revision. ValueError when it is empty or too long."""
+    """Return the bytes of a firmware revision. ValueError when it is empty or too long."""
     return build_text(firmware)

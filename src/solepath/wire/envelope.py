@@ -1,4 +1,4 @@
-"""What every record of the insole protocol has around it: magic, version and type in front, CRC-16 behind."""
+"""The envelope of every record of the insole protocol: magic, version and type in front, CRC-16 behind."""
 
 from __future__ import annotations
 
@@ -9,17 +9,20 @@ from .error import WireError
 from .fields import LONGEST_VALUE, malformed
 
 MAGIC = 0xF5
+"""First byte of every record."""
 FRAME = 0x10
-"""Version 1, type 0."""
+"""Second byte of a frame: version 1, type 0."""
 INFO = 0x11
-"""Version 1, type 1."""
+"""Second byte of an INFO record: version 1, type 1."""
 
 CRC_SIZE, CRC_START = 2, 0xFFFF
-"""CRC-16/CCITT-FALSE: polynomial 0x1021, start 0xFFFF, not reflected, no final XOR; "123456789" gives 0x29B1."""
+"""Size in bytes and start value of the CRC.
+
+CRC-16/CCITT-FALSE: polynomial 0x1021, start 0xFFFF, not reflected, no final XOR; "123456789" gives 0x29B1."""
 
 
 def check_start(data: bytes, kind: int, header_size: int) -> None:
-    """WireError unless `data` begins as a record of `kind` and has its whole header."""
+    """Raise WireError unless `data` starts as a record of `kind` and has its whole header."""
     if len(data) > 0 and data[0] != MAGIC:
         raise malformed(f"begins with {data[0]:#04x}, not {MAGIC:#04x}")
     if len(data) > 1 and data[1] != kind:
@@ -29,7 +32,7 @@ def check_start(data: bytes, kind: int, header_size: int) -> None:
 
 
 def check_end(data: bytes, size: int) -> None:
-    """WireError unless `data` is as long as its header says and its CRC is right."""
+    """Raise WireError unless `data` is as long as its header says and its CRC is right."""
     if len(data) < size:
         raise WireError(Rejection.TRUNCATED, f"{len(data)} of {size} bytes")
     if len(data) > min(size, LONGEST_VALUE):
@@ -40,7 +43,7 @@ def check_end(data: bytes, size: int) -> None:
 
 
 def seal(body: bytes) -> bytes:
-    """`body` and its CRC. ValueError when that is longer than any attribute value may be."""
+    """Return `body` with its CRC. ValueError when that is longer than any attribute value may be."""
     if len(body) + CRC_SIZE > LONGEST_VALUE:
         raise ValueError(f"{len(body) + CRC_SIZE} bytes, an attribute value has at most {LONGEST_VALUE}")
     return body + crc_hqx(body, CRC_START).to_bytes(CRC_SIZE, "little")

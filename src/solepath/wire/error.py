@@ -1,4 +1,4 @@
-"""The one exception of this room."""
+"""The exception of the wire package."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from ..events import Rejection
 
 
 class WireError(ValueError):
-    """Bytes that are not what their channel says. `reason` is one word for events, `detail` says what was wrong."""
+    """Error for bytes that do not fit their channel. `reason` is one word for events, `detail` says what is wrong."""
 
     def __init__(self, reason: Rejection, detail: str) -> None:
         super().__init__(f"{reason.value}: {detail}")

@@ -1,7 +1,7 @@
-"""What this room adds to construct: packed fields at one stroke, bytes as digits, whole-value parsing.
+"""Additions to construct: packed fields in one call, bytes as digits, parsing of whole values.
 
-`Fields` stands for a run of plain numbers: one struct call instead of one construct per number, which is what makes an
-insole frame affordable at 100 Hz. `parse_whole` and `build_whole` turn construct's exceptions into ours.
+`Fields` is a run of plain numbers: one struct call instead of one construct per number, which makes an insole frame
+affordable at 100 Hz. `parse_whole` and `build_whole` turn construct's exceptions into WireError and ValueError.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ else:
     AnyAdapter = Adapter
 
 LONGEST_VALUE = 512
-"""Bytes; no attribute value is longer (Bluetooth Core, vol 3 part F, 3.2.9), so no frame, record or string is."""
+"""Longest attribute value, bytes (Bluetooth Core, vol 3 part F, 3.2.9); no frame, record or string is longer."""
 
 
 class Fields(Definition):
-    """A run of numbers in `struct` notation; parses to a tuple, or to what `make` makes of them.
+    """A run of numbers in `struct` notation; parses to a tuple, or to the result of `make` for these numbers.
 
-    Builds from an attrs record when `make` is an attrs class, from a tuple otherwise.
+    It builds from an attrs record when `make` is an attrs class, from a tuple otherwise.
     """
 
     def __init__(self, layout: str, make: Callable[..., Any] | None = None) -> None:
@@ -52,7 +52,7 @@ class Fields(Definition):
         values = obj if self._make is None else attrs.astuple(obj, recurse=False)
         try:
             stream.write(self._struct.pack(*values))
-        except (struct.error, OverflowError) as error:  # the latter: a float beyond binary32
+        except (struct.error, OverflowError) as error:  # OverflowError: a float beyond binary32
             raise FormatFieldError(f"{values} do not fit: {error}", path=path) from error
         return obj
 
@@ -61,7 +61,7 @@ class Fields(Definition):
 
 
 class Hex(AnyAdapter):
-    """Bytes that say nothing here, kept as hexadecimal digits."""
+    """Bytes without a meaning here, kept as hexadecimal digits."""
 
     def _decode(self, obj: Any, context: Any, path: str) -> str:
         return bytes(obj).hex()
@@ -71,7 +71,7 @@ class Hex(AnyAdapter):
 
 
 def parse_whole(definition: Definition, data: bytes) -> Any:
-    """What `definition` makes of `data`, all of it. WireError when it is not that."""
+    """Return the value that `definition` parses from all of `data`. WireError when it does not fit."""
     try:
         stream = BytesIO(data)
         parsed = definition.parse_stream(stream)
@@ -81,25 +81,26 @@ def parse_whole(definition: Definition, data: bytes) -> Any:
         raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes are too many") from error
     except ConstructError as error:
         raise WireError(Rejection.MALFORMED, str(error).strip().splitlines()[-1]) from error
-    if stream.read(1):  # it does not end in Terminated
+    if stream.read(1):  # bytes are left when the definition does not end in Terminated
         raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes are too many")
     return parsed
 
 
 def build_whole(definition: Definition, value: Any) -> bytes:
-    """The bytes of `value`. ValueError when it does not fit."""
+    """Return the bytes of `value`. ValueError when it does not fit."""
     try:
         return bytes(definition.build(value))
-    except (ConstructError, OverflowError) as error:  # the latter: an infinite number, rounded
+    except (ConstructError, OverflowError) as error:  # OverflowError: an infinite number, rounded
         raise ValueError(str(error).strip().splitlines()[-1]) from error
 
 
 def malformed(detail: str) -> WireError:
+    """Return a WireError for a malformed packet."""
     return WireError(Rejection.MALFORMED, detail)
 
 
 def parse_text(data: bytes) -> str:
-    """UTF-8 of 1 to LONGEST_VALUE bytes, as sent: a trailing NUL stays. WireError when it is none."""
+    """Return the text of 1 to LONGEST_VALUE bytes of UTF-8; a trailing NUL stays. WireError when it is none."""
     if not data:
         raise WireError(Rejection.TRUNCATED, "no text")
     if len(data) > LONGEST_VALUE:
@@ -111,7 +112,7 @@ def parse_text(data: bytes) -> str:
 
 
 def build_text(text: str) -> bytes:
-    """The bytes of a text. ValueError when it is empty or too long."""
+    """Return the bytes of a text. ValueError when it is empty or too long."""
     data = text.encode("utf-8")
     if not 0 < len(data) <= LONGEST_VALUE:
         raise ValueError(f"a text of {len(data)} bytes")

@@ -1,4 +1,4 @@
-"""Frames cut to fit a small MTU (protocol/insole.md, "Fragments")."""
+"""Fragments of frames that do not fit a small MTU (protocol/insole.md, "Fragments")."""
 
 from __future__ import annotations
 
@@ -10,13 +10,16 @@ from .error import WireError
 from .fields import LONGEST_VALUE, build_whole, malformed, parse_whole
 
 FRAME_IDS = 7
-"""Ids run from 0 to 6. With 7, a fragment could begin with 0xF5 as a whole frame does."""
+"""Number of frame ids, which run from 0 to 6.
+
+With 7, a fragment could start with 0xF5 as a whole frame does."""
 MAX_FRAGMENTS = 16
+"""Number of fragments of a frame at most."""
 
 
 @frozen
 class Fragment:
-    """A piece of a frame: `frame_id` 0 to 6, `index` 0 to 15, `last` on the one that ends the frame."""
+    """A part of a frame: `frame_id` 0 to 6, `index` 0 to 15, `last` on the one that ends the frame."""
 
     frame_id: int
     last: bool
@@ -30,12 +33,12 @@ _FRAGMENT = Struct(
 
 
 def is_fragment(data: bytes) -> bool:
-    """True when the first byte says fragment rather than whole frame."""
+    """Return whether the first byte marks a fragment rather than a whole frame."""
     return len(data) > 0 and data[0] >> 5 < FRAME_IDS
 
 
 def parse_fragment(data: bytes) -> Fragment:
-    """The fragment in `data`. WireError when it is not one, whatever the bytes."""
+    """Return the fragment in `data`. WireError when it is not one, whatever the bytes."""
     data = bytes(data)
     if data and not is_fragment(data):
         raise malformed(f"frame id {data[0] >> 5}: not a fragment")
@@ -48,7 +51,7 @@ def parse_fragment(data: bytes) -> Fragment:
 
 
 def build_fragment(fragment: Fragment) -> bytes:
-    """The bytes of `fragment`. ValueError when it does not fit the format."""
+    """Return the bytes of `fragment`. ValueError when it does not fit the format."""
     if not 0 <= fragment.frame_id < FRAME_IDS:
         raise ValueError(f"frame id {fragment.frame_id}, 0 to {FRAME_IDS - 1} are allowed")
     if not 0 < len(fragment.body) <= LONGEST_VALUE - 1:
@@ -58,9 +61,9 @@ def build_fragment(fragment: Fragment) -> bytes:
 
 
 def split(frame: bytes, payload: int, frame_id: int) -> list[bytes]:
-    """`frame` as notifications of at most `payload` bytes (ATT MTU - 3): itself if it fits, else its fragments.
+    """Return `frame` as notifications of at most `payload` bytes (ATT MTU - 3): itself if it fits, else its fragments.
 
-    `frame_id` is 0 to 6, another one than that of the frame before. ValueError when 16 fragments do not suffice.
+    `frame_id` is 0 to 6 and differs from that of the frame before. ValueError when 16 fragments do not suffice.
     """
     if len(frame) <= payload:
         return [frame]

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from typing import IO
 
 MAX_CELLS = 128
+"""Number of cells of an insole at most."""
 
 _RIGHT, _IMU, _QUAT, _SATURATED, _RETRANSMITTED = 1, 2, 4, 8, 16
 _RESERVED_FLAGS = 0xE0
@@ -40,9 +41,9 @@ class InsoleSample:
 class InsoleFrame:
     """One notification: samples of one foot at equal distances.
 
-    `layout`: id of the cell layout that INFO describes. `sequence`: u16, +1 a frame. `ticks`: u32, when the first
-    sample was taken; `interval`: ticks from one sample to the next, 1 to 65535. `saturated`: at least one IMU axis or
-    cell was at its limit. `retransmitted`: sent again on request. All samples have the same cells and sensors.
+    `layout`: id of the cell layout that INFO describes. `sequence`: u16, +1 a frame. `ticks`: u32, time of the first
+    sample; `interval`: ticks from one sample to the next, 1 to 65535. `saturated`: at least one IMU axis or cell was at
+    its limit. `retransmitted`: sent again on request. All samples have the same cells and sensors.
     """
 
     foot: Foot
@@ -56,10 +57,10 @@ class InsoleFrame:
 
 
 class _Samples(Definition):
-    """The samples of a frame, one after the other: cells, then IMU, then quaternion, as far as its flags have them.
+    """The samples of a frame in a row: cells, then IMU, then quaternion, as far as its flags have them.
 
-    To parse, the context has their `count`, their `cells`, the bytes `packed` that these take, and `flags`. One step
-    for all of them: an insole frame comes 100 times a second.
+    To parse, the context has their `count`, their `cells`, the bytes `packed` that these take, and `flags`. One
+    construct handles all of them, because an insole frame comes 100 times a second.
     """
 
     def _parse(self, stream: IO[bytes], context: Any, path: str) -> tuple[InsoleSample, ...]:
@@ -85,17 +86,17 @@ class _Samples(Definition):
 
 
 _HEADER = Fields("<BBBBHIHBB")
-"""Magic, kind, flags, layout, sequence, ticks, interval, samples, cells."""
+"""Header: magic, kind, flags, layout, sequence, ticks, interval, samples, cells."""
 _HEADER_SIZE = 14
 _IMU_COUNTS, _QUAT_COUNTS = Struct("<6h"), Struct("<4h")
 _SAMPLES = _Samples()
-"""What lies between the header and the CRC."""
+"""Construct of the bytes between the header and the CRC."""
 _PACKED = tuple(map(packed_size, range(256)))
-"""Bytes of so many cells."""
+"""Bytes that cells take, by their number."""
 
 
 def parse_frame(data: bytes) -> InsoleFrame:
-    """The frame in `data`. WireError when it is not one, whatever the bytes."""
+    """Return the frame in `data`. WireError when it is not one, whatever the bytes."""
     data = bytes(data)
     check_start(data, FRAME, _HEADER_SIZE)
     _, _, flags, layout, sequence, ticks, interval, count, cells = _HEADER.parse(data)
@@ -119,7 +120,7 @@ def parse_frame(data: bytes) -> InsoleFrame:
 
 
 def build_frame(frame: InsoleFrame) -> bytes:
-    """The bytes of `frame`, the inverse of `parse_frame`. ValueError when it does not fit the format."""
+    """Return the bytes of `frame`, the inverse of `parse_frame`. ValueError when it does not fit the format."""
     if not frame.samples:
         raise ValueError("a frame without samples")
     first = frame.samples[0]
@@ -142,7 +143,7 @@ def build_frame(frame: InsoleFrame) -> bytes:
 
 
 def _problem(flags: int, interval: int, count: int, cells: int) -> str:
-    """What contradicts the format although length and CRC are right; "" when nothing does."""
+    """Return a contradiction to the format that length and CRC do not show; "" when there is none."""
     if flags & _RESERVED_FLAGS:
         return f"reserved flags are set: {flags:#04x}"
     if count == 0:

@@ -1,4 +1,4 @@
-"""What a host writes to an insole's control point (protocol/insole.md)."""
+"""Commands that a host writes to an insole's control point (protocol/insole.md)."""
 
 from __future__ import annotations
 
@@ -10,30 +10,31 @@ from .fields import Fields, build_whole, malformed, parse_whole
 
 @frozen
 class StartSampling:
-    """Begin to sample and notify."""
+    """Command to start to sample and notify."""
 
 
 @frozen
 class StopSampling:
-    """Cease to sample."""
+    """Command to stop sampling."""
 
 
 @frozen
 class SetInterval:
-    """Sample every `interval` ticks (1 to 65535) from the next frame on."""
+    """Command to sample every `interval` ticks (1 to 65535) from the next frame on."""
 
     interval: int
 
 
 @frozen
 class Resend:
-    """Send `count` (1 to 255) frames from sequence `first` again, as far as the device still has them."""
+    """Command to send `count` (1 to 255) frames from sequence `first` again, as far as the device still has them."""
 
     first: int
     count: int
 
 
 Command = StartSampling | StopSampling | SetInterval | Resend
+"""Any command of the control point."""
 
 _FORMATS: dict[int, tuple[type[Command], Fields]] = {
     1: (StartSampling, Fields("<B")),
@@ -41,11 +42,11 @@ _FORMATS: dict[int, tuple[type[Command], Fields]] = {
     3: (SetInterval, Fields("<BH")),
     4: (Resend, Fields("<BHB")),
 }
-"""Opcode -> command; its numbers after the opcode."""
+"""Class and number format of each command, by opcode."""
 
 
 def parse_control(data: bytes) -> Command:
-    """The command in `data`. WireError when it is not one, whatever the bytes."""
+    """Return the command in `data`. WireError when it is not one, whatever the bytes."""
     data = bytes(data)
     if not data:
         raise WireError(Rejection.TRUNCATED, "no opcode")
@@ -61,7 +62,7 @@ def parse_control(data: bytes) -> Command:
 
 
 def build_control(command: Command) -> bytes:
-    """The bytes of `command`. ValueError when it does not fit the format."""
+    """Return the bytes of `command`. ValueError when it does not fit the format."""
     problem = _problem(command)
     if problem:
         raise ValueError(problem)
@@ -70,6 +71,7 @@ def build_control(command: Command) -> bytes:
 
 
 def _problem(command: Command) -> str:
+    """Return a contradiction to the format; "" when there is none."""
     match command:
         case SetInterval(interval=0):
             return "an interval of no ticks"

@@ -1,4 +1,4 @@
-"""The insole's INFO record (protocol/insole.md): which cells where, what a count is worth, how fast it ticks."""
+"""The insole's INFO record (protocol/insole.md): places of the cells, scales of the counts, tick rate."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ _PER_SQUARE_METRE = 10_000_000  # areas count 0.1 mm^2
 
 @frozen
 class InsoleInfo:
-    """What an insole says of itself.
+    """The INFO record of an insole.
 
     `tick_rate`: ticks per second, nominal. `interval`: ticks between samples. `acc_scale`: m/s^2 per count.
     `gyro_scale`: rad/s per count. `pressure_scale`: N per count. A scale of 0 means that there is no such sensor, or
-    for pressure that nobody calibrated it. `length`: heel to toe, m. `cells`: in the order of the samples, in the foot
+    for pressure that it is not calibrated. `length`: heel to toe, m. `cells`: in the order of the samples, in the foot
     frame; x 0 to 0.4095 m, y -0.2048 to 0.2047 m, area up to 6.5535e-3 m^2, 0 where unknown.
     """
 
@@ -64,13 +64,13 @@ class _InfoHeader:
 
     @property
     def size(self) -> int:
-        """Of the whole record with its CRC."""
+        """Size of the whole record with its CRC, bytes."""
         return _HEADER_SIZE + packed_size(2 * self.cells) + 3 * self.runs + self.firmware_size + CRC_SIZE
 
 
 @frozen
 class _Run:
-    """So many cells in a row have this area."""
+    """A run of neighbouring cells that have the same area."""
 
     cells: int
     area: int
@@ -98,11 +98,11 @@ _BODY = Struct(
     "firmware" / Bytes(_firmware_size),
     Terminated,
 )
-"""Everything but the CRC that follows it."""
+"""Construct of the record without the CRC that follows it."""
 
 
 def parse_info(data: bytes) -> InsoleInfo:
-    """The INFO record in `data`. WireError when it is not one, whatever the bytes."""
+    """Return the INFO record in `data`. WireError when it is not one, whatever the bytes."""
     data = bytes(data)
     check_start(data, INFO, _HEADER_SIZE)
     header: _InfoHeader = _HEADER.parse(data)
@@ -135,9 +135,9 @@ def parse_info(data: bytes) -> InsoleInfo:
 
 
 def build_info(info: InsoleInfo) -> bytes:
-    """The bytes of `info`, the inverse of `parse_info` for values on the record's grid; others go to the nearest.
+    """Return the bytes of `info`, the inverse of `parse_info` for values on the record's grid; others are rounded.
 
-    ValueError when something does not fit: too many cells, a cell too far out, a firmware name too long.
+    ValueError when a value does not fit: too many cells, a cell too far out, a firmware name too long.
     """
     coordinates = [
         c for cell in info.cells for c in (_counts(cell.x, _PER_METRE), _counts(cell.y, _PER_METRE) + _Y_ZERO)
@@ -175,7 +175,7 @@ def _counts(value: float, per_unit: int) -> int:
 
 
 def _problem(header: _InfoHeader, runs: list[_Run]) -> str:
-    """What contradicts the format although length and CRC are right; "" when nothing does."""
+    """Return a contradiction to the format that length and CRC do not show; "" when there is none."""
     scales = (header.acc_scale, header.gyro_scale, header.pressure_scale)
     if header.flags & _RESERVED_FLAGS:
         return f"reserved flags are set: {header.flags:#04x}"

@@ -1,6 +1,6 @@
-"""What a receiver says of itself (protocol/receiver.md): connections, packets that it dropped, time passing.
+"""Packets about the receiver itself (protocol/receiver.md): connections, dropped packets, time.
 
-receiver/restarted (a channel's name) and receiver/trouble (a sentence) are texts, as fields.py reads and writes them.
+receiver/restarted (a channel's name) and receiver/trouble (a sentence) are texts, which fields.py parses and builds.
 """
 
 from __future__ import annotations
@@ -13,9 +13,9 @@ from .error import WireError
 from .fields import build_whole, malformed, parse_whole
 
 UNKNOWN_SIGNAL = 127
-"""dBm that no receiver measures: the signal strength is not known (as in the Bluetooth HCI)."""
+"""Value for an unknown signal strength, dBm, which no receiver measures (as in the Bluetooth HCI)."""
 LONGEST_NAME = 248
-"""Bytes; no device name is longer (Bluetooth Core, vol 3 part C, 12.1)."""
+"""Longest device name, bytes (Bluetooth Core, vol 3 part C, 12.1)."""
 
 _SIGNAL = Struct("signal" / Int8sl)
 _COUNT = Struct("count" / Int32ul, Terminated)
@@ -23,14 +23,14 @@ _COUNT = Struct("count" / Int32ul, Terminated)
 
 @frozen
 class ConnectionFrame:
-    """A device is connected and about to be set up: its name, and the signal in dBm that it was last heard with."""
+    """A device that is connected and about to be set up: its name, and its newest signal strength in dBm."""
 
     name: str
     signal: int | None
 
 
 def parse_connected(data: bytes) -> ConnectionFrame:
-    """receiver/connected. WireError when it is not that."""
+    """Return the content of receiver/connected. WireError when the bytes do not fit."""
     data = bytes(data)
     if not data:
         raise WireError(Rejection.TRUNCATED, "no signal strength")
@@ -45,7 +45,7 @@ def parse_connected(data: bytes) -> ConnectionFrame:
 
 
 def build_connected(connection: ConnectionFrame) -> bytes:
-    """The bytes of a connection. ValueError when the name is too long or the signal is no i8."""
+    """Return the bytes of a connection. ValueError when the name is too long or the signal is no i8."""
     name = connection.name.encode("utf-8")
     if len(name) > LONGEST_NAME or connection.signal == UNKNOWN_SIGNAL:
         raise ValueError(f"a name of {len(name)} bytes, a signal of {connection.signal} dBm")
@@ -54,7 +54,7 @@ def build_connected(connection: ConnectionFrame) -> bytes:
 
 
 def parse_dropped(data: bytes) -> int:
-    """receiver/dropped: how many packets the receiver had no room for, at least 1. WireError when it is not that."""
+    """Return the number of packets that receiver/dropped reports, at least 1. WireError when the bytes do not fit."""
     count: int = parse_whole(_COUNT, bytes(data)).count
     if count == 0:
         raise malformed("nothing was dropped")
@@ -62,13 +62,13 @@ def parse_dropped(data: bytes) -> int:
 
 
 def build_dropped(count: int) -> bytes:
-    """The bytes of that count. ValueError unless it is 1 to 2^32 - 1."""
+    """Return the bytes of a number of dropped packets. ValueError unless it is 1 to 2^32 - 1."""
     if count < 1:
         raise ValueError(f"{count} packets dropped")
     return build_whole(_COUNT, {"count": count})
 
 
 def parse_nothing(data: bytes) -> None:
-    """receiver/tick and receiver/disconnected: no bytes. WireError when there are some."""
+    """Check that receiver/tick or receiver/disconnected has no bytes. WireError when there are some."""
     if data:
         raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes, none expected")

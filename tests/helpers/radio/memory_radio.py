@@ -29,13 +29,13 @@ from memory_link import LoopbackLink
 from solepath.ble.air import Backend
 from solepath.emulate.devices.attributes import SMALLEST_MTU, AttCode, Characteristic
 from solepath.emulate.devices.peripheral import Peripheral
-from solepath.link.profile import standard
+from solepath.link.profile import standard_uuid
 
 ADVERTISING = 0.1
 """s between advertisements of a device."""
 SIGNAL = -50
 """dBm with which every device is heard."""
-_SUBSCRIPTION = standard(0x2902)
+_SUBSCRIPTION = standard_uuid(0x2902)
 
 
 class MemoryRadio:

@@ -11,7 +11,7 @@ from walks import of
 from solepath import Packet, Sample, Site
 from solepath.link.decoder import Decoder
 from solepath.link.driver import Driver, Measured, Reading
-from solepath.link.known import kinds
+from solepath.link.kinds import make_kinds
 from solepath.link.profile import BATTERY, Access, Channel, Profile, Write
 from solepath.types import Cell, Foot, Layout
 from solepath.wire.fields import Fields
@@ -92,7 +92,7 @@ class Toy:
     decoder: Decoder
 
     def hear(self, t: float, name: str, value: bytes, site: Site = LEFT) -> list[Any]:
-        return self.decoder.feed(Packet(t, site, f"toy/{name}", value), kinds([self.driver]))
+        return self.decoder.feed(Packet(t, site, f"toy/{name}", value), make_kinds([self.driver]))
 
     def say(self, t: float, number: int = 0, ticks: int = 0, count: int = 1, up: float = 9.80665) -> list[Any]:
         fields = {"number": number % 65536, "ticks": ticks % 2**32, "count": count, "up": [up]}

@@ -21,7 +21,7 @@ from solepath.papers.pressure_contour.bias_zupt import BiasZupt, BiasZuptSetting
 from solepath.papers.pressure_contour.recipe import GYROSCOPE
 from solepath.papers.pressure_contour.square import CornerMark, check, fitted, read_marks, square_drift
 from solepath.recipes import DEFAULT, Recipe
-from solepath.recording.decoded import recorded
+from solepath.recording.decoded import decode_recording
 from solepath.types import Foot, Packet, Sample, Site, Vec3
 
 LEFT = Foot.LEFT
@@ -47,7 +47,7 @@ def laps() -> EmulatedWalk:
 @cache
 def samples() -> tuple[Packet | Sample, ...]:
     """The samples, without what the cells say: the gyroscope alone is asked here."""
-    return tuple(evolve(sample, pressure=None) for sample in recorded(laps().packets).samples)
+    return tuple(evolve(sample, pressure=None) for sample in decode_recording(laps().packets).samples)
 
 
 def drifting(x: float, y: float) -> Recipe:

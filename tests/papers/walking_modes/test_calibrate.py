@@ -24,7 +24,7 @@ from solepath.papers.walking_modes.calibrate import (
     without_heading,
 )
 from solepath.papers.walking_modes.newton import fit_gauge
-from solepath.recording.decoded import Recorded
+from solepath.recording.decoded import DecodedRecording
 from solepath.types import SITE_OF_FOOT, Foot, WalkingMode
 
 
@@ -170,11 +170,11 @@ def test_marks_may_be_told_by_the_number_of_the_step(tmp_path: Path) -> None:
 
 
 @cache
-def walked(mode: WalkingMode) -> tuple[Recorded, Walker]:
+def walked(mode: WalkingMode) -> tuple[DecodedRecording, Walker]:
     walker = Walker(marked(mode, steps=24), seed=103)
     layouts = {SITE_OF_FOOT[foot]: layout(99, foot) for foot in Foot}
     samples = limb_samples(walker, 50.0, seed=103, layouts=layouts)
-    return Recorded(tuple(samples), {foot: layout(99, foot) for foot in Foot}), walker
+    return DecodedRecording(tuple(samples), {foot: layout(99, foot) for foot in Foot}), walker
 
 
 def test_a_marked_walk_teaches_both_feet_some_centimetres(tmp_path: Path) -> None:

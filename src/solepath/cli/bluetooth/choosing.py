@@ -88,7 +88,7 @@ def chosen(found: list[Found], kind: str | None) -> list[DeviceConfig]:
 
     told = None if kind is None else BY_NAME[kind]
     if told is not None:
-        known = [one for one in found if told.answers_to(one.name) or not {*told.services}.isdisjoint(one.services)]
+        known = [one for one in found if told.matches_name(one.name) or not {*told.services}.isdisjoint(one.services)]
     else:
         known = [one for one in found if one.profile is not None]
     if any(one.profile is INSOLE for one in known):

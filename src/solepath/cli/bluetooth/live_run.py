@@ -18,7 +18,7 @@ from ...events import Event
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Start
 from ...recipes import Recipe
-from ...recording import PacketWriter, RecordingError, printable, why
+from ...recording import PacketWriter, RecordingError, os_error_text, printable
 from ...session import Session
 from ...show.observer import Observer
 from ...show.output import EVENTS, GAIT_CYCLES, PLACES, STRIDES, TRACK, TrackFiles
@@ -170,7 +170,7 @@ def check_all_writable(record: Path | None, out: Path | None, places: bool = Fal
 def _words(error: RecordingError | OSError) -> str:
     if isinstance(error, RecordingError):
         return str(error)
-    return f"{error.filename}: {why(error)}" if error.filename else why(error)
+    return f"{error.filename}: {os_error_text(error)}" if error.filename else os_error_text(error)
 
 
 REPORT_EVERY = 5.0

@@ -8,7 +8,7 @@ from math import ceil, floor, inf
 
 from attrs import frozen
 
-from ...link.profile import Profile, standard
+from ...link.profile import Profile, standard_uuid
 from ...wire.device import build_battery, build_firmware
 
 
@@ -101,8 +101,8 @@ def services(
     table = [(c.service, Characteristic(c.characteristic, c.name, properties[c.name])) for c in profile.channels]
     table += more
     for name in information:
-        what = Characteristic(standard(_INFORMATION[name]), f"device/{name}", READ)
-        table.append((standard(_DEVICE_INFORMATION), what))
+        what = Characteristic(standard_uuid(_INFORMATION[name]), f"device/{name}", READ)
+        table.append((standard_uuid(_DEVICE_INFORMATION), what))
     found: dict[str, list[Characteristic]] = {}
     for service, characteristic in table:
         found.setdefault(service, []).append(characteristic)

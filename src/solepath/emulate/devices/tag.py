@@ -9,7 +9,7 @@ from math import ceil, inf
 
 from attrs import define, evolve, frozen
 
-from ...link.profile import Profile, ti
+from ...link.profile import Profile, ti_uuid
 from ..sensors.device import DeviceClock, device_numbers, foot_of
 from ..sensors.sensortags import CC2541, CC2650, PRESS
 from ..sensors.tag_signals import HANDLING, Series, WornTag
@@ -192,7 +192,7 @@ def _table(sensor: str) -> list[tuple[str, Characteristic]]:
     """Data, configuration and period, in a row as TI numbers them."""
     service = SERVICES[sensor.partition("/")[2]]
     rows = ((1, "", READ | NOTIFY), (2, "-config", READ | WRITE), (3, "-period", READ | WRITE))
-    return [(ti(service), Characteristic(ti(service + k), sensor + end, may)) for k, end, may in rows]
+    return [(ti_uuid(service), Characteristic(ti_uuid(service + k), sensor + end, may)) for k, end, may in rows]
 
 
 def shortest(rate: float) -> int:

@@ -15,7 +15,7 @@ from attrs import frozen
 
 from ...events.fleet import SentRejection
 from ...link.decoder import Decoder
-from ...link.known import kinds
+from ...link.kinds import make_kinds
 from ...types import Packet, Sample, Site
 from ..step.sent import LONGEST_DATA, End, Tick
 
@@ -161,7 +161,7 @@ def _bundles(items: Iterable[Item], every: float) -> tuple[tuple[Item, ...], ...
 @cache
 def samples_of(sending: Sending) -> int:
     """How many samples links make of it."""
-    known, links, found = kinds(()), dict[Site, Decoder](), 0
+    known, links, found = make_kinds(()), dict[Site, Decoder](), 0
     for packet in sending.ordered:
         if not isinstance(packet, Packet):
             continue

@@ -30,7 +30,7 @@ from ...papers.walking_modes.calibrate import MODES, ModeMark, mean_errors, step
 from ...papers.walking_modes.modes import Modes
 from ...papers.walking_modes.recipe import TOUCHDOWN_ACCELERATION, TOUCHDOWN_HEIGHT, TOUCHDOWN_PRESSURE, WALKING_MODES
 from ...recipes import Recipe
-from ...recording.decoded import Recorded
+from ...recording.decoded import DecodedRecording
 from ...types import SITE_OF_FOOT, Foot, Sample
 from ...types.vector import GRAVITY
 from ..processes import Progress, each
@@ -170,7 +170,7 @@ def learn(job: Learning) -> Calibration:
                 for n, mark in enumerate(marks_of(walker), 1)
                 if mark.mode is mode
             ]
-            down = touchdowns(Recorded(tuple(worn(walker, known, strapped)), {}), known, heading=0.0)
+            down = touchdowns(DecodedRecording(tuple(worn(walker, known, strapped)), {}), known, heading=0.0)
             errors += step_errors(marks, down)
     return merged(known, Calibration(modes=mean_errors(errors)))
 

@@ -14,7 +14,7 @@ from ...emulate.wearers.walker import Walker
 from ...events import Event
 from ...floorplan.plan import FloorPlan
 from ...recipes import Recipe
-from ...recording.decoded import recorded
+from ...recording.decoded import decode_recording
 from ...session import Session
 from ...types import Packet, Sample
 from ..measures.alignment import Floats, align
@@ -46,7 +46,7 @@ class WalkParts:
 
 def cut(walk: EmulatedWalk, t: float) -> WalkParts:
     """The samples of a walk's packets, measured before and after `t` s."""
-    heard = recorded(walk.packets)
+    heard = decode_recording(walk.packets)
     insoles = {foot: InsoleCalibration(layout=layout) for foot, layout in heard.layouts.items()}
     before, after = (tuple([one for one in heard.samples if (one.t < t) is first]) for first in (True, False))
     return WalkParts(before, after, Calibration(insoles=insoles))

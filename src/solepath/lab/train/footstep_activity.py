@@ -28,7 +28,7 @@ from ...papers.footstep_tracker.activity import window_model
 from ...papers.footstep_tracker.activity.two_second_windows import MOVING
 from ...papers.footstep_tracker.activity.window_model import LEAST_VARIANCE, Gaussian, WindowModel, seen
 from ...papers.footstep_tracker.activity.windows import HOP, WINDOW, FootWindow, FootWindows
-from ...recording.decoded import recorded
+from ...recording.decoded import decode_recording
 from ...recording.samples import load_samples
 from ...types import Activity, Foot, Sample
 from . import emulated
@@ -207,7 +207,7 @@ def of_emulated(seed: int) -> Taught:
     walked = emulated.walk(seed, jogging=True)
     truth = walked.truth
     t = np.arange(0.0, truth.duration, 1.0 / emulated.RATE)
-    return features("emulated", recorded(walked.packets).samples, t, [truth.activity(float(at)) for at in t])
+    return features("emulated", decode_recording(walked.packets).samples, t, [truth.activity(float(at)) for at in t])
 
 
 def main(folder: Path) -> None:

@@ -1,7 +1,7 @@
 """TI CC2541 SensorTag (protocol/cc2541.md): five separate sensors in raw axes, each with a characteristic of its own.
 
-It has a link of its own, no Driver: accelerometer and gyroscope are two streams on two clocks, which assembler.py puts
-together, and what a count is worth depends on the firmware.
+It has a link of its own, no Driver: accelerometer and gyroscope are two streams on two clocks, which assembler.py
+combines, and the scale of a count depends on the firmware.
 """
 
 from __future__ import annotations
@@ -18,19 +18,19 @@ from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields, parse_whole
 from ...wire.sensortag import ON_OFF, PERIOD
 from ..device_link import DeviceLink, Output
-from ..periodic import Periodic, periodic
-from ..profile import FIRMWARE, Access, Channel, Profile, Write, standard, ti
+from ..periodic import PeriodicClock, make_periodic_clock
+from ..profile import FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_uuid
 from ..rest import RestCheck
 from .assembler import Assembler
 
-STOCK = 0.1
-"""s, what the stock profile writes; 20 Hz firmware is known by its period packet, or by its arrivals."""
+STOCK_PERIOD = 0.1
+"""Period that the stock profile writes, s; 20 Hz firmware is known by its period packet, or by its arrivals."""
 GYRO = radians(500.0 / 65536.0)
-"""rad/s per count (TI, SensorTag user's guide: v * 500 / 65536 degrees/s)."""
+"""Gyroscope scale, rad/s per count (TI, SensorTag user's guide: v * 500 / 65536 degrees/s)."""
 MAG = 2000.0 / 65536.0 * 1e-6
-"""T per count (the same: v * 2000 / 65536 uT)."""
-APART = 1.0
-"""Seconds without inertial samples after which air pressure no longer waits for one to ride on."""
+"""Magnetometer scale, T per count (TI, SensorTag user's guide: v * 2000 / 65536 uT)."""
+MAX_WAIT = 1.0
+"""Time without inertial samples after which air pressure no longer waits for one, s."""
 
 
 def _profile(name: str, period: bytes, nominal_rate: float) -> Profile:
@@ -39,25 +39,25 @@ def _profile(name: str, period: bytes, nominal_rate: float) -> Profile:
         names=("SensorTag", "TI BLE Sensor Tag"),
         services=(),
         channels=(
-            Channel("cc2541/accelerometer", ti(0xAA10), ti(0xAA11), Access.NOTIFY),
-            Channel("cc2541/accelerometer-config", ti(0xAA10), ti(0xAA12), Access.WRITE),
-            Channel("cc2541/accelerometer-period", ti(0xAA10), ti(0xAA13), Access.WRITE),
-            Channel("cc2541/magnetometer", ti(0xAA30), ti(0xAA31), Access.NOTIFY),
-            Channel("cc2541/magnetometer-config", ti(0xAA30), ti(0xAA32), Access.WRITE),
-            Channel("cc2541/magnetometer-period", ti(0xAA30), ti(0xAA33), Access.WRITE),
-            Channel("cc2541/barometer", ti(0xAA40), ti(0xAA41), Access.NOTIFY),
-            Channel("cc2541/barometer-config", ti(0xAA40), ti(0xAA42), Access.WRITE),
-            Channel("cc2541/barometer-calibration", ti(0xAA40), ti(0xAA43), Access.READ),
-            Channel("cc2541/barometer-period", ti(0xAA40), ti(0xAA44), Access.WRITE),
-            Channel("cc2541/gyroscope", ti(0xAA50), ti(0xAA51), Access.NOTIFY),
-            Channel("cc2541/gyroscope-config", ti(0xAA50), ti(0xAA52), Access.WRITE),
-            Channel("cc2541/gyroscope-period", ti(0xAA50), ti(0xAA53), Access.WRITE),
-            Channel("cc2541/keys", standard(0xFFE0), standard(0xFFE1), Access.NOTIFY),
+            Channel("cc2541/accelerometer", ti_uuid(0xAA10), ti_uuid(0xAA11), Access.NOTIFY),
+            Channel("cc2541/accelerometer-config", ti_uuid(0xAA10), ti_uuid(0xAA12), Access.WRITE),
+            Channel("cc2541/accelerometer-period", ti_uuid(0xAA10), ti_uuid(0xAA13), Access.WRITE),
+            Channel("cc2541/magnetometer", ti_uuid(0xAA30), ti_uuid(0xAA31), Access.NOTIFY),
+            Channel("cc2541/magnetometer-config", ti_uuid(0xAA30), ti_uuid(0xAA32), Access.WRITE),
+            Channel("cc2541/magnetometer-period", ti_uuid(0xAA30), ti_uuid(0xAA33), Access.WRITE),
+            Channel("cc2541/barometer", ti_uuid(0xAA40), ti_uuid(0xAA41), Access.NOTIFY),
+            Channel("cc2541/barometer-config", ti_uuid(0xAA40), ti_uuid(0xAA42), Access.WRITE),
+            Channel("cc2541/barometer-calibration", ti_uuid(0xAA40), ti_uuid(0xAA43), Access.READ),
+            Channel("cc2541/barometer-period", ti_uuid(0xAA40), ti_uuid(0xAA44), Access.WRITE),
+            Channel("cc2541/gyroscope", ti_uuid(0xAA50), ti_uuid(0xAA51), Access.NOTIFY),
+            Channel("cc2541/gyroscope-config", ti_uuid(0xAA50), ti_uuid(0xAA52), Access.WRITE),
+            Channel("cc2541/gyroscope-period", ti_uuid(0xAA50), ti_uuid(0xAA53), Access.WRITE),
+            Channel("cc2541/keys", standard_uuid(0xFFE0), standard_uuid(0xFFE1), Access.NOTIFY),
             FIRMWARE,
         ),
         setup=(
             Write("cc2541/accelerometer-period", period),
-            Write("cc2541/accelerometer-config", b"\x03"),  # 8 g: the one value on which drivers agree most
+            Write("cc2541/accelerometer-config", b"\x03"),  # 8 g: the value on which published drivers agree most
             Write("cc2541/gyroscope-period", period),
             Write("cc2541/gyroscope-config", b"\x07"),
             Write("cc2541/magnetometer-period", b"\x64"),
@@ -75,7 +75,7 @@ def _profile(name: str, period: bytes, nominal_rate: float) -> Profile:
 
 PROFILE = _profile("cc2541", b"\x0a", 10.0)
 PROFILE_20HZ = _profile("cc2541-20hz", b"\x05", 20.0)
-"""Firmware rebuilt with a lower minimum period; from its advertisement it cannot be told from the stock one."""
+"""Profile of firmware rebuilt with a lower minimum period; its advertisement is the same as the stock one's."""
 
 FORMATS: dict[str, Definition] = {
     "cc2541/accelerometer": Struct("acc" / Fields("<3b")),
@@ -88,7 +88,7 @@ FORMATS: dict[str, Definition] = {
     "cc2541/magnetometer": Struct("mag" / Fields("<3h")),
     "cc2541/magnetometer-config": Struct("on" / ON_OFF),
     "cc2541/magnetometer-period": PERIOD,
-    # Of the T5400, uncompensated: it needs the calibration.
+    # Raw values of the T5400, which need the calibration.
     "cc2541/barometer": Struct("temperature" / Int16sl, "pressure" / Int16ul),
     # 0 off, 1 on, 2 fetch the coefficients so that they can be read.
     "cc2541/barometer-config": Struct("code" / OneOf(Int8ul, range(3))),
@@ -102,8 +102,8 @@ FORMATS: dict[str, Definition] = {
 
 COUNTS_PER_G = {
     # (firmware revision contains, value of AA12) -> counts of the KXTJ9's 8 bits per g: protocol/cc2541.md's table.
-    # Published drivers contradict each other (16 always, 64 always, opposite tests of the revision), so this is what
-    # the firmware itself does: since 1.5, AA12 = 1, 2, 3 sets 2, 4, 8 g; before, it only switches on, at 2 g.
+    # Published drivers contradict each other (16 always, 64 always, opposite tests of the revision), so the table
+    # follows the firmware: since 1.5, AA12 = 1, 2, 3 sets 2, 4, 8 g; before, it only switches on, at 2 g.
     ("1.4", 1): 64,
     ("1.4", 2): 64,
     ("1.4", 3): 64,
@@ -111,12 +111,15 @@ COUNTS_PER_G = {
     ("", 2): 32,
     ("", 3): 16,
 }
-WRITTEN = 3
-"""AA12 as the profile writes it, until a packet says otherwise."""
+WRITTEN_CODE = 3
+"""Value of AA12 as the profile writes it, until a packet says otherwise."""
 
 
 def counts_per_g(firmware: str, code: int) -> int:
-    """The accelerometer's scale by firmware revision and AA12 (1 to 3); "" in the table is any other revision."""
+    """Return the accelerometer's scale by firmware revision and AA12 (1 to 3), counts per g.
+
+    "" in the table is any other revision.
+    """
     return COUNTS_PER_G["1.4" if "1.4" in firmware else "", code]
 
 
@@ -134,12 +137,14 @@ class BarometerCalibration:
     c8: int
 
     def celsius(self, temperature: int) -> float:
-        """Temperature in degrees Celsius: c1 t / 2^24 + c2 / 2^10."""
+        """Return the temperature in degrees Celsius: c1 t / 2^24 + c2 / 2^10."""
         return self.c1 * temperature / 2**24 + self.c2 / 2**10
 
     def pascal(self, temperature: int, pressure: int) -> float:
-        """Air pressure in Pa: (S p + O) / 2^14, where S = c3 + c4 t / 2^17 + c5 t^2 / 2^34 and
-        O = c6 2^14 + c7 t / 2^3 + c8 t^2 / 2^19."""
+        """Return the air pressure in Pa: (S p + O) / 2^14.
+
+        S = c3 + c4 t / 2^17 + c5 t^2 / 2^34 and O = c6 2^14 + c7 t / 2^3 + c8 t^2 / 2^19.
+        """
         t = temperature
         sensitivity = self.c3 + self.c4 * t / 2**17 + self.c5 * t * t / 2**34
         offset = self.c6 * 2**14 + self.c7 * t / 2**3 + self.c8 * t * t / 2**19
@@ -148,10 +153,11 @@ class BarometerCalibration:
 
 @define
 class Cc2541Link(DeviceLink):
-    """Feeds on the channels cc2541/... of one site.
+    """The link of a CC2541 at one site.
 
-    `feed` raises WireError for what cannot be used, and then nothing has changed. Latency: see assembler.py.
-    Losses of accelerometer and gyroscope are estimated by their periods (periodic.py); those of slower channels not.
+    `feed` raises WireError for values that cannot be used, and then nothing has changed. Latency: see assembler.py.
+    Losses of accelerometer and gyroscope are estimated by their periods (periodic.py); those of slower channels are
+    not.
     """
 
     name: ClassVar[str] = "cc2541"
@@ -159,114 +165,115 @@ class Cc2541Link(DeviceLink):
     site: Site
     assembler: Assembler
     firmware: str = ""
-    code: int = WRITTEN
-    acc: Periodic = field(factory=lambda: periodic(STOCK))
-    gyro: Periodic = field(factory=lambda: periodic(STOCK))
+    code: int = WRITTEN_CODE
+    """Newest value of AA12 that is not 0; it selects the accelerometer's scale."""
+    acc: PeriodicClock = field(factory=lambda: make_periodic_clock(STOCK_PERIOD))
+    gyro: PeriodicClock = field(factory=lambda: make_periodic_clock(STOCK_PERIOD))
     acc_on: bool = True
     gyro_on: bool = True
     calibration: BarometerCalibration | None = None
-    told: bool = False
-    """The Limitation about the barometer was said."""
-    rest: RestCheck = field(factory=lambda: RestCheck(GRAVITY / COUNTS_PER_G["", WRITTEN]))
+    limitation_reported: bool = False
+    """Whether the Limitation about the barometer was reported."""
+    rest: RestCheck = field(factory=lambda: RestCheck(GRAVITY / COUNTS_PER_G["", WRITTEN_CODE]))
 
     @property
-    def silence_is_legal(self) -> bool:
+    def may_be_silent(self) -> bool:
         return not (self.acc_on or self.gyro_on)
 
     @property
     def unsettled_until(self) -> float | None:
-        """The newest time that is not to be compared with those of other devices (clock.py), s."""
+        """Newest time that is not comparable with those of other devices (clock.py), s."""
         return self.acc.clock.unsettled_until if self.acc.clock.last_x is not None else self.gyro.clock.unsettled_until
 
     def feed(self, channel: str, data: bytes, arrival: float) -> Output:
         sent = parse_whole(FORMATS[channel], data)
         match channel:
             case "cc2541/accelerometer":
-                return self._acc(sent.acc, arrival)
+                return self._read_acc(sent.acc, arrival)
             case "cc2541/gyroscope":
-                return self._gyro(sent.gyro, arrival)
+                return self._read_gyro(sent.gyro, arrival)
             case "cc2541/magnetometer":
                 self.assembler.mag = _scaled(sent.mag, MAG)
             case "cc2541/barometer":
-                return self._barometer(sent.temperature, sent.pressure, arrival)
+                return self._read_barometer(sent.temperature, sent.pressure, arrival)
             case "cc2541/barometer-calibration":
                 self.calibration = BarometerCalibration(*[sent[f"c{n}"] for n in range(1, 9)])
             case "cc2541/accelerometer-config":
-                self._configure(sent.code)
+                self._set_acc_config(sent.code)
             case "cc2541/gyroscope-config":
                 self.gyro_on = any(sent.axes)
             case "cc2541/accelerometer-period":
-                self._change(self.acc, sent.period)
+                self._set_period(self.acc, sent.period)
             case "cc2541/gyroscope-period":
-                self._change(self.gyro, sent.period)
+                self._set_period(self.gyro, sent.period)
             case "cc2541/keys":
                 down = tuple([name for name in ("left", "right", "side") if sent[name]])
                 return [KeysChanged(t=arrival, known_at=arrival, site=self.site, down=down)]
         return []
 
-    def learn_firmware(self, firmware: str) -> None:
-        """The firmware revision decides on the accelerometer's scale."""
+    def set_firmware(self, firmware: str) -> None:
+        """Set the firmware revision, which decides on the accelerometer's scale."""
         before = counts_per_g(self.firmware, self.code)
         self.firmware = firmware
         if counts_per_g(firmware, self.code) != before:
-            self._check_again()
+            self._restart_scale_check()
 
-    def forget_clock(self) -> None:
-        """The receiver's clock was set back: fit anew, and let times begin anew too."""
-        self.acc, self.gyro = periodic(self.acc.period), periodic(self.gyro.period)
+    def restart_clock(self) -> None:
+        """Restart the clock fits and the times, because the receiver's clock was set back."""
+        self.acc, self.gyro = make_periodic_clock(self.acc.period), make_periodic_clock(self.gyro.period)
         self.assembler = Assembler(self.site)
 
-    def reconnected(self) -> None:
-        """A new connection: nothing was under way that could end with the old one."""
+    def handle_reconnection(self) -> None:
+        """Do nothing: no state ends with the old connection."""
 
     def flush(self, known_at: float) -> Output:
         return [*self.assembler.flush(known_at)]
 
-    def _configure(self, code: int) -> None:
+    def _set_acc_config(self, code: int) -> None:
         self.acc_on = code != 0
         if code and code != self.code:
             before = counts_per_g(self.firmware, self.code)
             self.code = code
             if counts_per_g(self.firmware, code) != before:
-                self._check_again()
+                self._restart_scale_check()
 
-    def _check_again(self) -> None:
+    def _restart_scale_check(self) -> None:
         self.rest = RestCheck(GRAVITY / counts_per_g(self.firmware, self.code))
 
-    def _change(self, stream: Periodic, period: float) -> None:
+    def _set_period(self, stream: PeriodicClock, period: float) -> None:
         if period != stream.period:
-            stream.change(period)
+            stream.set_period(period)
 
-    def _acc(self, counts: tuple[int, int, int], arrival: float) -> Output:
+    def _read_acc(self, counts: tuple[int, int, int], arrival: float) -> Output:
         per_g = counts_per_g(self.firmware, self.code)
         acc = _scaled(counts, GRAVITY / per_g)
-        taken = self.acc.arrive(arrival)
+        taken = self.acc.add_packet(arrival)
         (t,) = taken.times
-        out: Output = [*taken.events(self.site, "cc2541/accelerometer", arrival)]
-        out += self.assembler.acc(t, acc, self.acc.period, arrival)
+        out: Output = [*taken.make_events(self.site, "cc2541/accelerometer", arrival)]
+        out += self.assembler.add_acc(t, acc, self.acc.period, arrival)
         if not self.rest.done:
-            out += self.rest.suspect(Sample(t, self.site, acc, known_at=max(arrival, t)), 128.0 / per_g)
+            out += self.rest.check(Sample(t, self.site, acc, known_at=max(arrival, t)), 128.0 / per_g)
         return out
 
-    def _gyro(self, counts: tuple[int, int, int], arrival: float) -> Output:
-        taken = self.gyro.arrive(arrival)
+    def _read_gyro(self, counts: tuple[int, int, int], arrival: float) -> Output:
+        taken = self.gyro.add_packet(arrival)
         (t,) = taken.times
-        out: Output = [*taken.events(self.site, "cc2541/gyroscope", arrival)]
-        out += self.assembler.gyro(t, _scaled(counts, GYRO), self.gyro.period, arrival)
+        out: Output = [*taken.make_events(self.site, "cc2541/gyroscope", arrival)]
+        out += self.assembler.add_gyro(t, _scaled(counts, GYRO), self.gyro.period, arrival)
         return out
 
-    def _barometer(self, temperature: int, raw: int, arrival: float) -> Output:
+    def _read_barometer(self, temperature: int, raw: int, arrival: float) -> Output:
         if self.calibration is None:
-            if self.told:
+            if self.limitation_reported:
                 return []
-            self.told = True
+            self.limitation_reported = True
             what = "no barometer calibration (AA43) from the CC2541: no air pressure"
             return [Limitation(t=arrival, known_at=arrival, site=self.site, what=what)]
         pressure = self.calibration.pascal(temperature, raw)
-        if any(s.arrived is not None and arrival - s.arrived <= APART for s in (self.acc, self.gyro)):
+        if any(s.arrived is not None and arrival - s.arrived <= MAX_WAIT for s in (self.acc, self.gyro)):
             self.assembler.air_pressure = pressure
             return []
-        return [*self.assembler.pressure_alone(arrival, pressure)]
+        return [*self.assembler.add_pressure_alone(arrival, pressure)]
 
 
 def _scaled(counts: tuple[int, int, int], scale: float) -> Vec3:
@@ -274,12 +281,12 @@ def _scaled(counts: tuple[int, int, int], scale: float) -> Vec3:
     return (x * scale, y * scale, z * scale)
 
 
-def cc2541_link(site: Site, firmware: str) -> Cc2541Link:
-    """A fresh tag at `site`."""
+def make_cc2541_link(site: Site, firmware: str) -> Cc2541Link:
+    """Return a fresh link of a tag at `site`."""
     link = Cc2541Link(site, Assembler(site))
-    link.learn_firmware(firmware)
+    link.set_firmware(firmware)
     return link
 
 
-LINK = cc2541_link, Cc2541Link.feed
-"""How a link of its own begins, and how it is fed."""
+LINK = make_cc2541_link, Cc2541Link.feed
+"""Function that makes the device's own link, and function that feeds it."""

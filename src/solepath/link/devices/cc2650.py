@@ -1,5 +1,7 @@
-"""TI CC2650 SensorTag (protocol/cc2650.md): nine axes in one notification without any counter, 10 Hz at stock firmware;
-air pressure and keys beside them."""
+"""TI CC2650 SensorTag (protocol/cc2650.md): nine axes in one notification without any counter, 10 Hz at stock firmware.
+
+It sends air pressure and keys as well.
+"""
 
 from __future__ import annotations
 
@@ -13,29 +15,29 @@ from ...types.vector import GRAVITY
 from ...wire.fields import Definition, Fields
 from ...wire.sensortag import ON_OFF, PERIOD
 from ..driver import Driver, Known, Measured, Reading
-from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write, standard, ti
+from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_uuid
 
-RANGE = 8.0
-"""g, what the profile writes."""
+ACC_RANGE = 8.0
+"""Full scale of the accelerometer that the profile writes, g."""
 GYRO = radians(500.0 / 65536.0)
-"""rad/s per count: +-250 degrees/s (TI, CC2650 SensorTag user's guide)."""
+"""Gyroscope scale, rad/s per count: +-250 degrees/s (TI, CC2650 SensorTag user's guide)."""
 MAG = 4912.0 / 32760.0 * 1e-6
-"""T per count (InvenSense, MPU-9250 product specification: 4912 uT full scale, 32760 counts)."""
-END = 32767
-"""Counts at which a sensor is at the end of its range."""
+"""Magnetometer scale, T per count (InvenSense, MPU-9250 product specification: 4912 uT full scale, 32760 counts)."""
+END_COUNTS = 32767
+"""Counts at the end of a sensor's range."""
 
 PROFILE = Profile(
     name="cc2650",
     names=("CC2650 SensorTag", "SensorTag 2.0"),
-    services=(standard(0xAA80),),
+    services=(standard_uuid(0xAA80),),
     channels=(
-        Channel("cc2650/movement", ti(0xAA80), ti(0xAA81), Access.NOTIFY),
-        Channel("cc2650/movement-config", ti(0xAA80), ti(0xAA82), Access.WRITE),
-        Channel("cc2650/movement-period", ti(0xAA80), ti(0xAA83), Access.WRITE),
-        Channel("cc2650/barometer", ti(0xAA40), ti(0xAA41), Access.NOTIFY),
-        Channel("cc2650/barometer-config", ti(0xAA40), ti(0xAA42), Access.WRITE),
-        Channel("cc2650/barometer-period", ti(0xAA40), ti(0xAA44), Access.WRITE),
-        Channel("cc2650/keys", standard(0xFFE0), standard(0xFFE1), Access.NOTIFY),
+        Channel("cc2650/movement", ti_uuid(0xAA80), ti_uuid(0xAA81), Access.NOTIFY),
+        Channel("cc2650/movement-config", ti_uuid(0xAA80), ti_uuid(0xAA82), Access.WRITE),
+        Channel("cc2650/movement-period", ti_uuid(0xAA80), ti_uuid(0xAA83), Access.WRITE),
+        Channel("cc2650/barometer", ti_uuid(0xAA40), ti_uuid(0xAA41), Access.NOTIFY),
+        Channel("cc2650/barometer-config", ti_uuid(0xAA40), ti_uuid(0xAA42), Access.WRITE),
+        Channel("cc2650/barometer-period", ti_uuid(0xAA40), ti_uuid(0xAA44), Access.WRITE),
+        Channel("cc2650/keys", standard_uuid(0xFFE0), standard_uuid(0xFFE1), Access.NOTIFY),
         BATTERY,
         FIRMWARE,
     ),
@@ -96,7 +98,7 @@ FORMATS: dict[str, Definition] = {
 
 
 def _movement(sent: Any, known: Known) -> Reading:
-    a = known.get("acc_range", RANGE) * GRAVITY / 32768
+    a = known.get("acc_range", ACC_RANGE) * GRAVITY / 32768
     ax, ay, az = sent.acc
     gx, gy, gz = sent.gyro
     mx, my, mz = sent.mag
@@ -105,13 +107,13 @@ def _movement(sent: Any, known: Known) -> Reading:
         gyro=(gx * GYRO, gy * GYRO, gz * GYRO) if known.get("has_gyro", True) else None,
         # The MPU-9250's magnetometer has axes of its own: (y, x, -z) in those of its accelerometer and gyroscope.
         mag=(my * MAG, mx * MAG, -mz * MAG) if known.get("has_mag", True) else None,
-        saturated=max(map(abs, (*sent.acc, *sent.gyro))) >= END,
+        saturated=max(map(abs, (*sent.acc, *sent.gyro))) >= END_COUNTS,
     )
     return Reading((sample,))
 
 
 def _movement_config(sent: Any, known: Known) -> Reading:
-    """With wake on motion the tag is silent while it lies still."""
+    """Read the configuration; with wake on motion the tag is silent while it lies still."""
     measures = any(sent.acc_axes) or any(sent.gyro_axes) or sent.mag
     return Reading(
         silent=sent.wake_on_motion or not measures,
@@ -146,5 +148,5 @@ DRIVER = Driver(
         "cc2650/barometer": _barometer,
         "cc2650/keys": _keys,
     },
-    acc_range=RANGE,
+    acc_range=ACC_RANGE,
 )

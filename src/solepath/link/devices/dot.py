@@ -1,7 +1,7 @@
-"""Movella DOT, formerly Xsens DOT (protocol/dot.md), in its mode "rate quantities": acceleration and angular velocity
-at 60 Hz with the device's own microseconds. dot_orientation.py is its mode "orientation". Never tried on hardware.
+"""Movella DOT, formerly Xsens DOT (protocol/dot.md), in its mode "rate quantities". Never tried on hardware.
 
-Source: Movella DOT BLE Service Specification, document XD0506P, revision C, July 2023.
+It sends acceleration and angular velocity at 60 Hz with the device's own microseconds. dot_orientation.py is its mode
+"orientation". Source: Movella DOT BLE Service Specification, document XD0506P, revision C, July 2023.
 """
 
 from __future__ import annotations
@@ -17,20 +17,22 @@ from ..driver import Driver, Known, Measured, Reading
 from ..profile import Access, Channel, Profile, Write
 
 RATES = 21
-"""Payload mode: timestamp, acceleration, angular velocity."""
+"""Number of the payload mode: timestamp, acceleration, angular velocity."""
 OUTPUT_RATES = (1, 4, 10, 12, 15, 20, 30, 60, 120)
-"""Hz; the last only for recording in the device."""
+"""Output rates, Hz; the last only for recording in the device."""
 VISIT_RATE = 0x10
-"""The bit that says that the output rate is to be set."""
+"""Bit that marks the output rate as a value to be set."""
 FULL_ACC, FULL_GYRO = 0.99 * 16.0 * GRAVITY, 0.99 * radians(2000.0)
-"""Ends of the ranges (Movella DOT User Manual), less what calibration may take off."""
+"""Ends of the ranges (Movella DOT User Manual), m/s^2 and rad/s, less what calibration may take off."""
 
 
 def uuid(short: int) -> str:
+    """Return the full UUID of a 16-bit id of the device."""
     return f"1517{short:04x}-4947-11e9-8646-d663bd873d93"
 
 
 def all_finite(values: Any, _: Any) -> bool:
+    """Return whether all values are finite."""
     return all(map(isfinite, values))
 
 
@@ -100,10 +102,12 @@ def _control(sent: Any, known: Known) -> Reading:
 
 
 def device_control(sent: Any, known: Known) -> Reading:
+    """Read the output rate, where the value sets it."""
     return Reading(rate=float(sent.rate)) if sent.visit & VISIT_RATE else Reading()
 
 
 def battery(sent: Any, known: Known) -> Reading:
+    """Read the battery level."""
     return Reading(battery=sent.percent / 100.0)
 
 

@@ -1,7 +1,7 @@
-"""Movella DOT (dot.py) in its mode "orientation (quaternion)": the device's own attitude at 60 Hz, for the sites of a
-lower-limb chain, which needs nothing else (protocol/dot-orientation.md). Never tried on hardware.
+"""Movella DOT (dot.py) in its mode "orientation (quaternion)": its own attitude at 60 Hz. Never tried on hardware.
 
-Source: Movella DOT BLE Service Specification, document XD0506P, revision C, July 2023.
+It serves the sites of a lower-limb chain, which needs only attitudes (protocol/dot-orientation.md). Source: Movella DOT
+BLE Service Specification, document XD0506P, revision C, July 2023.
 """
 
 from __future__ import annotations
@@ -17,10 +17,12 @@ from ..profile import Access, Channel, Write
 from . import dot
 
 QUATERNION = 5
-"""Payload mode: timestamp, orientation as a quaternion."""
+"""Number of the payload mode: timestamp, orientation as a quaternion."""
 NAME = "dot-orientation"
 LENGTH_ERROR = 0.01
-"""A unit quaternion in binary32 is as long as this allows; another mode's numbers are not."""
+"""Largest deviation of a quaternion's length from 1.
+
+Rounding to binary32 stays within it; the numbers of another mode do not."""
 
 
 def _of_length_one(quat: tuple[float, ...], _: Any) -> bool:
@@ -28,7 +30,7 @@ def _of_length_one(quat: tuple[float, ...], _: Any) -> bool:
 
 
 def _named(channel: str) -> str:
-    """A channel of dot.py under this profile's name."""
+    """Return the name of a channel of dot.py under this profile's name."""
     return channel.replace(dot.PROFILE.name, NAME, 1)
 
 

@@ -21,25 +21,26 @@ from ...wire.fragment import is_fragment, parse_fragment
 from ...wire.insole import InsoleFrame, parse_frame
 from ...wire.insole_control import parse_control
 from ...wire.insole_info import InsoleInfo, parse_info
-from ..counters import Counted, PacketRun
+from ..counters import PacketPosition, PacketRun
 from ..device_link import DeviceLink, Output
 from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write
 from ..rest import RestCheck
 from .reassembly import Reassembly
 
-COUNTS = 32768
-"""Counts of a full scale, IMU."""
-ASSUMED_ACC = 16.0 * GRAVITY / COUNTS
-"""m/s^2 per count until INFO says otherwise."""
-ASSUMED_GYRO = radians(2000.0) / COUNTS
-"""rad/s per count until INFO says otherwise."""
+FULL_SCALE_COUNTS = 32768
+"""Counts of a full scale of the inertial sensor."""
+ASSUMED_ACC = 16.0 * GRAVITY / FULL_SCALE_COUNTS
+"""Accelerometer scale until INFO says otherwise, m/s^2 per count."""
+ASSUMED_GYRO = radians(2000.0) / FULL_SCALE_COUNTS
+"""Gyroscope scale until INFO says otherwise, rad/s per count."""
 TICK_RATE = 32768
 """Ticks per second until INFO says otherwise."""
-SEQUENCES, ALL_TICKS = 1 << 16, 1 << 32
-"""Where the counters of a frame wrap."""
-WHOLE = bytes([MAGIC])
-"""What a frame that was not cut begins with."""
+SEQUENCE_MODULUS, TICK_MODULUS = 1 << 16, 1 << 32
+"""Number of values of the two counters of a frame, at which they wrap."""
+WHOLE_FRAME = bytes([MAGIC])
+"""First byte of a frame that is not fragmented."""
 FULL_PRESSURE = 4095.0
+"""Counts of a cell at full scale."""
 
 
 def _uuid(short: int) -> str:
@@ -67,88 +68,88 @@ PROFILE = Profile(
 
 @define
 class InsoleLink(DeviceLink):
-    """Feeds on the channels insole/frame, insole/info and insole/control of one foot.
+    """The link of an insole: channels insole/frame, insole/info and insole/control of one foot.
 
-    `feed` raises WireError for what cannot be used, and then nothing has changed but the fragments under way.
-    Latency none. Before INFO came, counts are taken for 16 g and 2000 degrees/s full scale and pressure stays in
+    `feed` raises WireError for values that cannot be used, and then nothing has changed but the fragments under way.
+    Latency none. Before INFO comes, counts are taken for 16 g and 2000 degrees/s full scale and pressure stays in
     counts; the layout of the first frame is then the only one accepted.
     """
 
     name: ClassVar[str] = "insole"
-    silence_is_legal: ClassVar[bool] = False
+    may_be_silent: ClassVar[bool] = False
 
     site: Site
-    info: bytes = b""
-    """Eight bytes that tell the INFO record in force from others; none before any."""
+    info_digest: bytes = b""
+    """Digest (eight bytes) of the INFO record in force; empty before the first."""
     layout: int | None = None
     cells: int = 0
     rate: int = TICK_RATE
     acc_scale: float = ASSUMED_ACC
     gyro_scale: float = ASSUMED_GYRO
     pressure_scale: float = 0.0
-    told: bool = False
-    """The Limitation was said."""
+    limitation_reported: bool = False
+    """Whether the Limitation was reported."""
     run: PacketRun = field(factory=PacketRun)
     fragments: Reassembly = field(factory=Reassembly)
     rest: RestCheck = field(factory=lambda: RestCheck(ASSUMED_ACC))
 
     @property
     def unsettled_until(self) -> float | None:
-        """The newest time that is not to be compared with those of other devices (clock.py), s."""
+        """Newest time that is not comparable with those of other devices (clock.py), s."""
         return None if self.run.clock is None else self.run.clock.unsettled_until
 
     def feed(self, channel: str, data: bytes, arrival: float) -> Output:
         if channel == "insole/frame":
-            if data[:1] != WHOLE and is_fragment(data):
-                return self._fragment(data, arrival)
-            out = self._frame(parse_frame(data), arrival)
+            if data[:1] != WHOLE_FRAME and is_fragment(data):
+                return self._read_fragment(data, arrival)
+            out = self._read_frame(parse_frame(data), arrival)
             if self.fragments.newest is None:
                 return out
-            return self._dropped(self.fragments.drop(), arrival) + out
+            return self._report_dropped(self.fragments.drop(), arrival) + out
         if channel == "insole/info":
-            return self._info(data, arrival)
-        parse_control(data)  # insole/control, as it was written: frames and INFO say what became of it
+            return self._read_info(data, arrival)
+        parse_control(data)  # insole/control as written: its effect shows in frames and INFO
         return []
 
-    def forget_clock(self) -> None:
-        """The receiver's clock was set back: fit anew, and let times begin anew too."""
+    def restart_clock(self) -> None:
+        """Discard the clock fit, because the receiver's clock was set back."""
         self.run.clock = None
 
-    def reconnected(self) -> None:
-        """A new connection: the rest of a frame in fragments will not come, and nothing can be overtaken."""
+    def handle_reconnection(self) -> None:
+        """Discard an incomplete frame in fragments; after a new connection nothing can be overtaken."""
         self.fragments.drop()
-        self.run.fresh = True
+        self.run.after_reconnection = True
 
     def flush(self, known_at: float) -> Output:
         return []
 
-    def _fragment(self, data: bytes, arrival: float) -> Output:
+    def _read_fragment(self, data: bytes, arrival: float) -> Output:
         whole, dropped = self.fragments.feed(parse_fragment(data))
-        out = self._dropped(dropped, arrival)
+        out = self._report_dropped(dropped, arrival)
         if whole is not None:
             try:
-                out += self._frame(parse_frame(whole), arrival)
+                out += self._read_frame(parse_frame(whole), arrival)
             except WireError as error:
-                out.append(self._rejected(error.reason, error.detail, arrival))
+                out.append(self._report_rejected(error.reason, error.detail, arrival))
         return out
 
-    def _dropped(self, detail: str | None, arrival: float) -> Output:
-        return [] if detail is None else [self._rejected(Rejection.TRUNCATED, detail, arrival)]
+    def _report_dropped(self, detail: str | None, arrival: float) -> Output:
+        return [] if detail is None else [self._report_rejected(Rejection.TRUNCATED, detail, arrival)]
 
-    def _rejected(self, reason: Rejection, detail: str, arrival: float) -> PacketRejected:
+    def _report_rejected(self, reason: Rejection, detail: str, arrival: float) -> PacketRejected:
         return PacketRejected(
             t=arrival, known_at=arrival, site=self.site, channel="insole/frame", reason=reason, detail=detail
         )
 
-    def _info(self, data: bytes, arrival: float) -> Output:
+    def _read_info(self, data: bytes, arrival: float) -> Output:
         info = parse_info(data)
         if info.foot is not self.site.foot:
             raise WireError(Rejection.WRONG_SITE, f"INFO of a {info.foot.value} insole")
         _check_scales(info)
         digest = blake2b(data, digest_size=8).digest()
-        if digest == self.info:
+        if digest == self.info_digest:
             return []
-        self.info = digest
+        self.info_digest = digest
         self.layout, self.cells, self.rate = info.layout, len(info.cells), info.tick_rate
         if info.acc_scale != self.acc_scale:
             self.rest = RestCheck(info.acc_scale)
@@ -164,7 +165,7 @@ class InsoleLink(DeviceLink):
         )
         return [LayoutKnown(t=arrival, known_at=arrival, site=self.site, layout=shared(layout))]
 
-    def _frame(self, frame: InsoleFrame, arrival: float) -> Output:
+    def _read_frame(self, frame: InsoleFrame, arrival: float) -> Output:
         if frame.foot is not self.site.foot:
             raise WireError(Rejection.WRONG_SITE, f"a frame of a {frame.foot.value} insole")
         cells = len(frame.samples[0].cells)
@@ -174,17 +175,19 @@ class InsoleLink(DeviceLink):
                 f"layout {frame.layout} of {cells} cells, not layout {self.layout} of {self.cells}",
             )
         run = self.run
-        e = (frame.ticks - run.ticks + ALL_TICKS // 2) % ALL_TICKS - ALL_TICKS // 2  # nearest to zero
-        d, m = run.packets(frame.sequence, SEQUENCES, e / run.covers)
-        counted = Counted(frame.sequence, frame.ticks, frame.interval, len(frame.samples), d, m, e, frame.retransmitted)
-        taken = run.take(counted, float(self.rate), arrival)
+        e = (frame.ticks - run.ticks + TICK_MODULUS // 2) % TICK_MODULUS - TICK_MODULUS // 2  # nearest to zero
+        d, m = run.count_packets(frame.sequence, SEQUENCE_MODULUS, e / run.packet_ticks)
+        counted = PacketPosition(
+            frame.sequence, frame.ticks, frame.interval, len(frame.samples), d, m, e, frame.retransmitted
+        )
+        taken = run.accept(counted, float(self.rate), arrival)
         out: Output = []
         if taken.lost or taken.restarted is not None:
-            out += taken.events(self.site, "insole/frame", arrival)
+            out += taken.make_events(self.site, "insole/frame", arrival)
         if self.layout is None:
             self.layout, self.cells = frame.layout, cells
-        if not self.info and not self.told:
-            self.told = True
+        if not self.info_digest and not self.limitation_reported:
+            self.limitation_reported = True
             what = "no INFO from the insole: 16 g and 2000 degrees/s full scale assumed, pressure in counts"
             out.append(Limitation(t=arrival, known_at=arrival, site=self.site, what=what))
         a, g, n = self.acc_scale, self.gyro_scale, self.pressure_scale
@@ -204,15 +207,18 @@ class InsoleLink(DeviceLink):
             sample = Sample(t, self.site, acc, gyro, pressure, quat, known_at=known_at, saturated=frame.saturated)
             out.append(sample)
             if acc is not None and not self.rest.done:
-                out += self.rest.suspect(sample, a * COUNTS / GRAVITY)
+                out += self.rest.check(sample, a * FULL_SCALE_COUNTS / GRAVITY)
         return out
 
 
 def _check_scales(info: InsoleInfo) -> None:
-    """WireError for what no insole is: full scales out of 1 to 1000 g, 10 to 100,000 degrees/s, over 100 kN, a tick
-    rate under 100 Hz. Zero is legal and says that there is no such sensor, or no calibration."""
-    full_acc = info.acc_scale * COUNTS / GRAVITY
-    full_gyro = info.gyro_scale * COUNTS
+    """Raise WireError for values that no insole has.
+
+    Full scales must be from 1 to 1000 g and from 10 to 100,000 degrees/s, pressure up to 100 kN, the tick rate at least
+    100 Hz. Zero is legal and means that there is no such sensor, or no calibration.
+    """
+    full_acc = info.acc_scale * FULL_SCALE_COUNTS / GRAVITY
+    full_gyro = info.gyro_scale * FULL_SCALE_COUNTS
     if (
         (full_acc != 0.0 and not 0.99 <= full_acc <= 1000.0)
         or (full_gyro != 0.0 and not radians(10.0) <= full_gyro <= radians(1e5))
@@ -226,10 +232,10 @@ def _check_scales(info: InsoleInfo) -> None:
         )
 
 
-def insole_link(site: Site, firmware: str) -> InsoleLink:
-    """A fresh insole at `site`."""
+def make_insole_link(site: Site, firmware: str) -> InsoleLink:
+    """Return a fresh link of an insole at `site`."""
     return InsoleLink(site)
 
 
-LINK = insole_link, InsoleLink.feed
-"""How a link of its own begins, and how it is fed."""
+LINK = make_insole_link, InsoleLink.feed
+"""Function that makes the device's own link, and function that feeds it."""

@@ -1,5 +1,6 @@
-"""ORPHE INSOLE (protocol/orphe.md): inertial sensor, attitude and six pressure cells, two or four samples a
-notification, numbered, at 104 or 208 Hz. Never tried on hardware.
+"""ORPHE INSOLE (protocol/orphe.md): inertial sensor, attitude and six pressure cells. Never tried on hardware.
+
+Notifications have two or four samples and a number, at 104 or 208 Hz.
 
 Source: the maker's library ORPHE-INSOLE.js, 1.3.4 (its parser, its tests and docs/SENSOR_SPEC.md); facts only.
 """
@@ -31,14 +32,19 @@ from ..driver import Driver, Known, Measured, Reading
 from ..profile import FIRMWARE, Access, Channel, Profile, Write
 
 RATES = {50: 208.0, 54: 208.0, 55: 208.0, 56: 104.0}
-"""Samples a second by header. The maker says 200 and 100; the part (LSM6DSOX) has 208, which was measured too."""
+"""Samples a second by header.
+
+The maker says 200 and 100; the part (LSM6DSOX) has 208, which was measured too."""
 ACC_RANGES, GYRO_RANGES = (2.0, 4.0, 8.0, 16.0), (250.0, 500.0, 1000.0, 2000.0)
-"""g, degrees/s; by the numbers in INFO."""
+"""Full scales by the numbers in INFO, g and degrees/s."""
 GYRO = radians(35e-6)
-"""rad/s per count and degree/s of range: 70 mdps per count at 2000 (ST, LSM6DSOX), and not 2000 / 32768."""
-END = 32767
+"""Gyroscope scale, rad/s per count and degree/s of range.
+
+It is 70 mdps per count at 2000 (ST, LSM6DSOX), and not 2000 / 32768."""
+END_COUNTS = 32767
+"""Counts at the end of a sensor's range."""
 LONGEST_INFO = 32
-"""Bytes; the maker's tests have 20."""
+"""Longest INFO that is accepted, bytes; the maker's tests have 20."""
 
 _INFORMATION = "01a9d6b5-ff6e-444a-b266-0be75e85c064"
 _OTHER = "db1b7aca-cda5-4453-a49b-33a53d3f0833"
@@ -117,7 +123,7 @@ def _values(sent: Any, known: Known) -> Reading:
                 gyro=(gx * g, gy * g, gz * g),
                 pressure=tuple(map(float, one.pressure)) if "pressure" in one else None,
                 quat=one.get("quat"),
-                saturated=max(map(abs, (*one.acc, *one.gyro))) >= END,
+                saturated=max(map(abs, (*one.acc, *one.gyro))) >= END_COUNTS,
             )
         )
     ms = ((sent.hour * 60 + sent.minute) * 60 + sent.second) * 1000 + sent.millisecond

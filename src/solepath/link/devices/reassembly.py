@@ -1,4 +1,4 @@
-"""Fragments of an insole frame put together again (protocol/insole.md, "Fragments")."""
+"""Reassembly of an insole frame from its fragments (protocol/insole.md, "Fragments")."""
 
 from __future__ import annotations
 
@@ -11,19 +11,21 @@ from ...wire.fragment import Fragment
 
 @define
 class Reassembly:
-    """Collects the fragments of one frame; whatever does not follow drops the frame. Never more than 512 bytes."""
+    """Collects the fragments of one frame; a fragment out of order drops the frame. Never more than 512 bytes."""
 
     frame_id: int = 0
+    """Id of the newest frame."""
     expected: int = 0
     """Index of the next fragment; 0 when no frame is under way."""
     skipping: bool = False
-    """The frame `frame_id` was dropped; the rest of it is passed over without a word."""
+    """Whether the frame `frame_id` was dropped; the rest of it is then skipped without an event."""
     body: bytes = b""
+    """Bytes of the frame so far."""
     newest: Fragment | None = None
-    """The fragment joined last, as long as nothing else came."""
+    """Fragment joined last, as long as nothing else came."""
 
     def drop(self) -> str | None:
-        """Forget a frame under way, because something else came; says what was dropped."""
+        """Drop a frame under way, because something else came; return a description of it, or None."""
         self.newest = None
         if self.expected == 0:
             return None
@@ -32,7 +34,7 @@ class Reassembly:
         return detail
 
     def feed(self, fragment: Fragment) -> tuple[bytes | None, str | None]:
-        """(the whole frame when this was its last fragment, what had to be dropped or None).
+        """Return the whole frame when this was its last fragment, and a description of a dropped frame; or None.
 
         WireError, and nothing has changed, when the fragment is the newest one again, body and all.
         """

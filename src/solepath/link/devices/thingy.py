@@ -1,7 +1,7 @@
-"""Nordic Thingy:52 (protocol/thingy.md): nine axes at up to 200 Hz without any counter, and air pressure. Never tried
-on hardware.
+"""Nordic Thingy:52 (protocol/thingy.md): nine axes at up to 200 Hz without any counter, and air pressure.
 
-Source: the published firmware, Nordic-Thingy52-FW 2.2.0 (m_motion.c, drv_motion.c, ble_tms.h, ble_tes.h).
+Never tried on hardware. Source: the published firmware, Nordic-Thingy52-FW 2.2.0 (m_motion.c, drv_motion.c, ble_tms.h,
+ble_tes.h).
 """
 
 from __future__ import annotations
@@ -17,13 +17,13 @@ from ..driver import Driver, Known, Measured, Reading
 from ..profile import BATTERY, Access, Channel, Profile, Write
 
 ACC = GRAVITY / 1024.0
-"""m/s^2 per count."""
+"""Accelerometer scale, m/s^2 per count."""
 GYRO = radians(1.0 / 32.0)
-"""rad/s per count."""
+"""Gyroscope scale, rad/s per count."""
 MAG = 1e-6 / 16.0
-"""T per count."""
+"""Magnetometer scale, T per count."""
 END_ACC, END_GYRO = 31 << 10, 1023 << 5
-"""Counts at which the firmware cuts what is larger: 31 g, 1023 degrees/s."""
+"""Counts at which the firmware limits larger values: 31 g, 1023 degrees/s."""
 
 
 def _uuid(short: int) -> str:
@@ -77,7 +77,7 @@ FORMATS = {
 
 
 def _motion(sent: Any, known: Known) -> Reading:
-    # The firmware turns the accelerometer's signs, and not the gyroscope's: it counts what is directed downwards.
+    # The firmware inverts the accelerometer's signs, not the gyroscope's: accelerometer counts are positive downwards.
     ax, ay, az = sent.acc
     gx, gy, gz = sent.gyro
     mx, my, mz = sent.mag

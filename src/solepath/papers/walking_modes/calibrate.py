@@ -20,7 +20,7 @@ from ...events import TouchedDown
 from ...foot.navigate.error_state import ErrorStateFilter
 from ...foot.stance.cycle import Cycle
 from ...recipes import Recipe, usual
-from ...recording.decoded import Recorded
+from ...recording.decoded import DecodedRecording
 from ...session import Session
 from ...types import Foot, WalkingMode
 from ...types.attrs import evolve, frozen
@@ -79,7 +79,7 @@ def read_marks(path: Path | str) -> list[ModeMark]:
     return marks
 
 
-def touchdowns(walk: Recorded, known: Calibration, heading: float | None = None) -> list[TouchedDown]:
+def touchdowns(walk: DecodedRecording, known: Calibration, heading: float | None = None) -> list[TouchedDown]:
     """What method III makes of a walk without compensation, in the order of time. `heading`: as in `ModesSettings`."""
     insoles = dict(known.insoles)
     for foot, layout in walk.layouts.items():
@@ -159,7 +159,7 @@ def without_heading(means: dict[Foot, dict[WalkingMode, tuple[float, float]]]) -
 
 
 def fit_modes(
-    walks: Iterable[tuple[Recorded, Path | str]], known: Calibration | None = None, heading: float | None = None
+    walks: Iterable[tuple[DecodedRecording, Path | str]], known: Calibration | None = None, heading: float | None = None
 ) -> Calibration:
     """A calibration with the compensation that marked walks show, each a recording and its csv file of marks
     (`read_marks`). `known`: limbs and insoles of the wearer. `heading`: where the wearer looks at the start of each

@@ -1,12 +1,12 @@
-"""Import of btsnoop logs, such as an Android phone's HCI snoop log: what a phone heard of insoles and SensorTags.
+"""Import of btsnoop logs, such as an Android phone's HCI snoop log of insoles and SensorTags.
 
     log = open_btsnoop("btsnoop_hci.log", sites={"F0:12:34:56:78:9A": Site.LEFT_FOOT})
     with PacketWriter("walk.jsonl", log.header) as writer:
         for packet in log:
             writer.write(packet)
 
-records.py: the file; hci.py: connections and L2CAP; att.py: attributes; values.py, evidence.py, devices.py: what is
-what; log.py: the whole.
+records.py: the file; hci.py: connections and L2CAP; att.py: attributes; values.py, evidence.py, devices.py: the devices
+and their channels; log.py: the packets.
 """
 
 from .devices import LoggedDevice

@@ -1,8 +1,7 @@
-"""The attribute protocol as it goes by: which handle is which characteristic, and the values that were notified, read
-and written (Bluetooth Core, vol 3 part F, 3.4).
+"""The attribute protocol in a log: UUIDs of the handles, and the values notified, read and written.
 
-Either end of a link may be the server: in a phone's log the peer is, in the log of a device's own host the host is.
-Services are of no interest: a characteristic's UUID says enough.
+Source: Bluetooth Core, vol 3 part F, 3.4. Either end of a link may be the server: in a phone's log the peer is, in the
+log of a device's own host the host is. Services are not needed: a characteristic's UUID is enough.
 """
 
 from __future__ import annotations
@@ -19,8 +18,8 @@ from ...wire.error import WireError
 from ...wire.fields import LONGEST_VALUE, malformed, parse_whole
 
 
-class Op(IntEnum):
-    """The first byte of a PDU; not all that there are."""
+class AttOpcode(IntEnum):
+    """First byte of a PDU; not all that exist."""
 
     ERROR = 0x01
     MTU_REQUEST = 0x02
@@ -49,16 +48,19 @@ class Op(IntEnum):
     SIGNED_WRITE_COMMAND = 0xD2
 
 
-REQUESTS = frozenset({Op.MTU_REQUEST, Op.FIND_INFORMATION, Op.FIND_BY_VALUE, Op.READ_BY_TYPE, Op.READ, Op.READ_BLOB,
-                      Op.READ_SEVERAL, Op.READ_BY_GROUP, Op.WRITE, Op.PREPARE_WRITE, Op.EXECUTE_WRITE,
-                      Op.READ_SEVERAL_VARIABLE})  # fmt: skip
-"""What a client sends to be answered, one at a time."""
-FROM_CLIENT = REQUESTS | {Op.WRITE_COMMAND, Op.CONFIRMATION, Op.SIGNED_WRITE_COMMAND}
-"""And what is not answered: commands and confirmations."""
+REQUESTS = frozenset({
+    AttOpcode.MTU_REQUEST, AttOpcode.FIND_INFORMATION, AttOpcode.FIND_BY_VALUE, AttOpcode.READ_BY_TYPE,
+    AttOpcode.READ, AttOpcode.READ_BLOB, AttOpcode.READ_SEVERAL, AttOpcode.READ_BY_GROUP, AttOpcode.WRITE,
+    AttOpcode.PREPARE_WRITE, AttOpcode.EXECUTE_WRITE, AttOpcode.READ_SEVERAL_VARIABLE,
+})  # fmt: skip
+"""Requests: PDUs that a client sends to be answered, one at a time."""
+FROM_CLIENT = REQUESTS | {AttOpcode.WRITE_COMMAND, AttOpcode.CONFIRMATION, AttOpcode.SIGNED_WRITE_COMMAND}
+"""All PDUs of a client: requests, and commands and confirmations, which are not answered."""
 
 DECLARATION_TYPE = "00002803-0000-1000-8000-00805f9b34fb"
-"""Of the attributes that declare a characteristic."""
+"""Type of the attributes that declare a characteristic."""
 SMALLEST_MTU = 23
+"""MTU of a link until another is agreed, bytes."""
 
 PDU = Struct("opcode" / Int8ul, "body" / GreedyBytes)
 ERROR_RESPONSE = Struct("request" / Int8ul, "handle" / Int16ul, "code" / Int8ul, Terminated)
@@ -67,14 +69,14 @@ HANDLE = Struct("handle" / Int16ul, Terminated)
 HANDLE_VALUE = Struct("handle" / Int16ul, "value" / GreedyBytes)
 BLOB_REQUEST = Struct("handle" / Int16ul, "offset" / Int16ul, Terminated)
 TYPE_REQUEST = Struct("first" / Int16ul, "last" / Int16ul, "type" / GreedyBytes)
-ASKED: dict[int, Any] = {
-    Op.MTU_REQUEST: MTU,
-    Op.READ_BY_TYPE: TYPE_REQUEST,
-    Op.READ: HANDLE,
-    Op.READ_BLOB: BLOB_REQUEST,
-    Op.WRITE: HANDLE_VALUE,
+REQUEST_BODIES: dict[int, Any] = {
+    AttOpcode.MTU_REQUEST: MTU,
+    AttOpcode.READ_BY_TYPE: TYPE_REQUEST,
+    AttOpcode.READ: HANDLE,
+    AttOpcode.READ_BLOB: BLOB_REQUEST,
+    AttOpcode.WRITE: HANDLE_VALUE,
 }
-"""The bodies of the requests whose answers tell something."""
+"""Bodies of the requests whose answers are used."""
 
 
 INFORMATION = Struct(
@@ -93,7 +95,7 @@ SEVERAL_VALUES = Struct(
 
 
 class AttOperation(Enum):
-    """How a value went by."""
+    """Operation that transferred a value."""
 
     NOTIFIED = "notified"
     READ = "read"
@@ -104,13 +106,13 @@ class AttOperation(Enum):
 class AttValue:
     """One value of the attribute with this handle."""
 
-    how: AttOperation
+    operation: AttOperation
     handle: int
     value: bytes
 
 
 def uuid_text(octets: bytes) -> str:
-    """A UUID of 16 or 128 bits in full, lower case. WireError when it is neither."""
+    """Return a UUID of 16 or 128 bits in full, lower case. WireError when it is neither."""
     if len(octets) == 2:
         return f"0000{octets[1]:02x}{octets[0]:02x}-0000-1000-8000-00805f9b34fb"
     if len(octets) != 16:
@@ -120,91 +122,94 @@ def uuid_text(octets: bytes) -> str:
 
 @define
 class Conversation:
-    """One client and one server on one link. `types`: handle -> UUID as discovered, shared by all with
-    the same server. `flaws` counts what was not understood."""
+    """The PDUs of one client and one server on one link.
+
+    `types`: UUID by handle as discovered, shared by all conversations with the same server. `flaws` counts PDUs that
+    were not understood.
+    """
 
     types: dict[int, str]
     flaws: Counter[str]
     mtu: int = SMALLEST_MTU
-    _asked: tuple[int, Any] | None = None
-    """The request that waits for its answer."""
-    _begun: AttValue | None = None
-    """A value that was read as far as one answer could hold; more of it may be asked for."""
+    _request: tuple[int, Any] | None = None
+    """Request that waits for its answer."""
+    _partial_read: AttValue | None = None
+    """Value read so far, as much as the answers held; the client may request more of it."""
     _values: list[AttValue] = field(factory=list)
 
     def feed(self, data: bytes) -> list[AttValue]:
-        """What one PDU tells, of either direction."""
+        """Return the values in one PDU, of either direction."""
         self._values = []
         try:
             pdu = parse_whole(PDU, data)
             if pdu.opcode in FROM_CLIENT:
-                self._client(pdu.opcode, pdu.body)
+                self._handle_client_pdu(pdu.opcode, pdu.body)
             else:
-                self._server(pdu.opcode, pdu.body)
+                self._handle_server_pdu(pdu.opcode, pdu.body)
         except WireError:
             self.flaws["PDUs that are not of the attribute protocol"] += 1
         return self._values
 
     def finish(self) -> list[AttValue]:
-        """The link is gone: what was read and not asked on was whole."""
+        """Return the value of an unfinished read, at the end of the link; a value not read further was whole."""
         self._values = []
         self._end_read()
         return self._values
 
-    def _client(self, opcode: int, body: bytes) -> None:
-        if opcode == Op.WRITE_COMMAND:
-            said = parse_whole(HANDLE_VALUE, body)
-            self._values.append(AttValue(AttOperation.WRITTEN, said.handle, said.value))
-        if opcode == Op.PREPARE_WRITE:
+    def _handle_client_pdu(self, opcode: int, body: bytes) -> None:
+        if opcode == AttOpcode.WRITE_COMMAND:
+            parsed = parse_whole(HANDLE_VALUE, body)
+            self._values.append(AttValue(AttOperation.WRITTEN, parsed.handle, parsed.value))
+        if opcode == AttOpcode.PREPARE_WRITE:
             self.flaws["long writes, which are passed over"] += 1
         if opcode not in REQUESTS:
             return
-        asked: Any = parse_whole(ASKED[opcode], body) if opcode in ASKED else None
-        begun = self._begun
-        goes_on = (
-            opcode == Op.READ_BLOB
-            and begun is not None
-            and (asked.handle, asked.offset) == (begun.handle, len(begun.value))
+        request_body: Any = parse_whole(REQUEST_BODIES[opcode], body) if opcode in REQUEST_BODIES else None
+        partial = self._partial_read
+        continues_read = (
+            opcode == AttOpcode.READ_BLOB
+            and partial is not None
+            and (request_body.handle, request_body.offset) == (partial.handle, len(partial.value))
         )
-        if not goes_on:
+        if not continues_read:
             self._end_read()
-        self._asked = opcode, asked
+        self._request = opcode, request_body
 
-    def _server(self, opcode: int, body: bytes) -> None:
+    def _handle_server_pdu(self, opcode: int, body: bytes) -> None:
         match opcode:
-            case Op.NOTIFICATION | Op.INDICATION:
-                said = parse_whole(HANDLE_VALUE, body)
-                self._values.append(AttValue(AttOperation.NOTIFIED, said.handle, said.value))
+            case AttOpcode.NOTIFICATION | AttOpcode.INDICATION:
+                parsed = parse_whole(HANDLE_VALUE, body)
+                self._values.append(AttValue(AttOperation.NOTIFIED, parsed.handle, parsed.value))
                 return
-            case Op.NOTIFICATIONS:
-                for said in parse_whole(SEVERAL_VALUES, body).entries:
-                    self._values.append(AttValue(AttOperation.NOTIFIED, said.handle, said.value))
+            case AttOpcode.NOTIFICATIONS:
+                for parsed in parse_whole(SEVERAL_VALUES, body).entries:
+                    self._values.append(AttValue(AttOperation.NOTIFIED, parsed.handle, parsed.value))
                 return
-        if self._asked is None:
-            return  # asked before the log began
-        request, asked = self._asked
-        self._asked = None
+        if self._request is None:
+            return  # the request came before the log started
+        request, request_body = self._request
+        self._request = None
         match opcode, request:
-            case Op.ERROR, _:
-                if parse_whole(ERROR_RESPONSE, body).request == Op.WRITE:
+            case AttOpcode.ERROR, _:
+                if parse_whole(ERROR_RESPONSE, body).request == AttOpcode.WRITE:
                     self.flaws["writes that were refused"] += 1
                 self._end_read()
-            case Op.MTU_RESPONSE, Op.MTU_REQUEST:
-                self.mtu = max(SMALLEST_MTU, min(parse_whole(MTU, body).mtu, asked.mtu))
-            case Op.INFORMATION, Op.FIND_INFORMATION:
+            case AttOpcode.MTU_RESPONSE, AttOpcode.MTU_REQUEST:
+                self.mtu = max(SMALLEST_MTU, min(parse_whole(MTU, body).mtu, request_body.mtu))
+            case AttOpcode.INFORMATION, AttOpcode.FIND_INFORMATION:
                 for entry in parse_whole(INFORMATION, body).entries:
                     self.types[entry.handle] = uuid_text(entry.type)
-            case Op.VALUES_BY_TYPE, Op.READ_BY_TYPE:
-                self._found(uuid_text(asked.type), parse_whole(TYPE_RESPONSE, body))
-            case Op.VALUE, Op.READ:
-                self._read(asked.handle, body)
-            case Op.BLOB, Op.READ_BLOB if self._begun is not None:
-                self._read(asked.handle, self._begun.value + body, len(body))
-            case Op.WRITTEN, Op.WRITE:
-                self._values.append(AttValue(AttOperation.WRITTEN, asked.handle, asked.value))
+            case AttOpcode.VALUES_BY_TYPE, AttOpcode.READ_BY_TYPE:
+                self._add_types(uuid_text(request_body.type), parse_whole(TYPE_RESPONSE, body))
+            case AttOpcode.VALUE, AttOpcode.READ:
+                self._add_read(request_body.handle, body)
+            case AttOpcode.BLOB, AttOpcode.READ_BLOB if self._partial_read is not None:
+                self._add_read(request_body.handle, self._partial_read.value + body, len(body))
+            case AttOpcode.WRITTEN, AttOpcode.WRITE:
+                self._values.append(AttValue(AttOperation.WRITTEN, request_body.handle, request_body.value))
 
-    def _found(self, kind: str, answer: Any) -> None:
-        """Declarations of characteristics, or values of the characteristics of one kind."""
+    def _add_types(self, kind: str, answer: Any) -> None:
+        """Add declarations of characteristics, or values of the characteristics of one type."""
         for entry in answer.entries:
             if kind == DECLARATION_TYPE:
                 declared = parse_whole(DECLARATION, entry.value)
@@ -213,14 +218,17 @@ class Conversation:
                 self.types[entry.handle] = kind
                 self._values.append(AttValue(AttOperation.READ, entry.handle, entry.value))
 
-    def _read(self, handle: int, value: bytes, newest: int | None = None) -> None:
-        """`newest`: bytes of the last answer, when it was not the first. One that is full may not be all."""
-        self._begun = AttValue(AttOperation.READ, handle, value)
+    def _add_read(self, handle: int, value: bytes, newest: int | None = None) -> None:
+        """Add an answer to a read; one that fills the MTU may not be the whole value.
+
+        `newest`: bytes of the last answer, when it was not the first.
+        """
+        self._partial_read = AttValue(AttOperation.READ, handle, value)
         size = len(value) if newest is None else newest
         if size < self.mtu - 1 or len(value) >= LONGEST_VALUE:
             self._end_read()
 
     def _end_read(self) -> None:
-        if self._begun is not None:
-            self._values.append(self._begun)
-            self._begun = None
+        if self._partial_read is not None:
+            self._values.append(self._partial_read)
+            self._partial_read = None

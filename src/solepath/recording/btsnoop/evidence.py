@@ -1,7 +1,7 @@
-"""What an attribute that nobody declared may be: told from its values, as far as they prove it.
+"""Identification of an attribute without discovery, from its values, as far as they prove it.
 
-Only an insole's do: its frames and its INFO carry a magic and a CRC. Of other devices the length is all that there is
-to go by, which proves nothing; those must be named by whoever knows.
+Only an insole's values do: its frames and its INFO have a magic and a CRC. Of other devices only the length is known,
+which proves nothing; the caller must name their attributes.
 """
 
 from __future__ import annotations
@@ -18,38 +18,44 @@ from ...wire.insole import parse_frame
 from ...wire.insole_info import parse_info
 from .att import AttOperation
 
-LOOKED_AT = 300
-"""Values of one attribute; the sixteen fragments of a frame are among them many times."""
-PROOF = 2
-"""Frames with a sound CRC: one in 2^16 arbitrary values that begin with the magic has it by chance."""
+MAX_VALUES = 300
+"""Number of values of one attribute that are examined; it covers the sixteen fragments of a frame many times."""
+PROVING_FRAMES = 2
+"""Number of frames with a correct CRC that prove an insole.
+
+One in 2^16 arbitrary values that start with the magic has a correct CRC by chance."""
 
 
 @define
 class ValueEvidence:
-    """The values of one attribute: how many, how long, and what the first ones decode as."""
+    """The values of one attribute: their number, their lengths, and what the first ones decode as."""
 
     count: int = 0
-    """Values that were notified."""
+    """Number of values that were notified."""
     lengths: set[int] = field(factory=set)
+    """Lengths of the values examined, bytes."""
     frames: int = 0
+    """Number of values or fragments that completed an insole frame."""
     foot: Foot | None = None
-    """Whose insole it is, by its own word."""
+    """Foot of the insole, as its values report it."""
     is_info: bool = False
+    """Whether a value was an INFO record."""
     read: bytes | None = None
     """The value that was read last."""
     _pieces: Reassembly = field(factory=Reassembly)
 
-    def see(self, how: AttOperation, data: bytes) -> None:
-        if how is AttOperation.WRITTEN:
+    def add_value(self, operation: AttOperation, data: bytes) -> None:
+        """Add a value and examine it."""
+        if operation is AttOperation.WRITTEN:
             return
-        if how is AttOperation.READ:
+        if operation is AttOperation.READ:
             self.read = data
             with suppress(WireError):
                 self.foot = parse_info(data).foot
                 self.is_info = True
             return
         self.count += 1
-        if self.count > LOOKED_AT:
+        if self.count > MAX_VALUES:
             return
         self.lengths.add(len(data))
         with suppress(WireError):
@@ -62,7 +68,7 @@ class ValueEvidence:
 
     @property
     def channel(self) -> str | None:
-        """What the values prove the attribute to be."""
+        """Channel that the values prove the attribute to be; None without proof."""
         if self.is_info:
             return "insole/info"
-        return "insole/frame" if self.frames >= PROOF else None
+        return "insole/frame" if self.frames >= PROVING_FRAMES else None

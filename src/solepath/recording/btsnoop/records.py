@@ -1,6 +1,7 @@
 """The btsnoop file: a header, then records of HCI packets, each with the time at which it was logged.
 
-The format is RFC 1761's with other datalinks, as Symbian, BlueZ and Android write it. Big-endian, unlike what is in it.
+The format is that of RFC 1761 with other datalinks, as Symbian, BlueZ and Android write it. It is big-endian, unlike
+the packets in it.
 """
 
 from __future__ import annotations
@@ -16,44 +17,47 @@ from construct import Const, Int32ub, Struct
 
 from ...wire.error import WireError
 from ...wire.fields import Fields, parse_whole
-from ..trouble import RecordingError, Report, open_file, printable
+from ..errors import RecordingError, Report, open_file, printable
 
 MAGIC = b"btsnoop\0"
 VERSION = 1
 YEAR_1970 = 0x00DCDDB30F2F8000
-"""us from the beginning of the year 0, from which btsnoop counts, to that of 1970."""
-LONGEST = 0x1_0000 + 64
-"""Bytes of a record: the longest ACL packet and whatever stands before it. No HCI packet is longer."""
+"""Time from the start of the year 0, from which btsnoop counts, to that of 1970, us."""
+MAX_RECORD_SIZE = 0x1_0000 + 64
+"""Size of a record at most, bytes: the longest ACL packet and its headers. No HCI packet is longer."""
 
 FILE_HEADER = Struct("magic" / Const(MAGIC), "version" / Int32ub, "datalink" / Int32ub)
 HEADER_SIZE = 16
 
 
 class Datalink(Enum):
-    """How the packets are wrapped."""
+    """Format of the packets in the records."""
 
     H1 = 1001
-    """Not at all: the record's flags tell what it is."""
+    """No wrapping: the record's flags give the kind of packet."""
     H4 = 1002
-    """One byte in front tells: Android, bumble, hcidump."""
+    """One byte in front gives the kind: Android, bumble, hcidump."""
     MONITOR = 2001
     """The record's flags hold the adapter and an opcode: BlueZ's btmon."""
 
 
 class RecordKind(Enum):
-    """What a record holds."""
+    """Kind of a record's content."""
 
     COMMAND = 1
     ACL = 2
     EVENT = 4
     OTHER = 0
-    """Voice, isochronous data, the logger's own remarks."""
+    """Voice, isochronous data, or the logger's own remarks."""
 
 
 @frozen
 class HciRecord:
-    """One HCI packet. `t`: us since 1970, UTC, as the logger's clock had it. `sent`: by the host to its controller.
-    `whole`: False when the logger kept only the beginning."""
+    """One HCI packet of the log.
+
+    `t`: us since 1970, UTC, by the logger's clock. `sent`: by the host to its controller. `whole`: False when the
+    logger kept only the start of the packet.
+    """
 
     t: int
     adapter: int
@@ -65,7 +69,11 @@ class HciRecord:
 
 @frozen
 class RecordHeader:
-    """`original`, `included`: bytes of the packet, and of it in the file. `drops`: records lost since the log began."""
+    """The header of a record.
+
+    `original`, `included`: size of the packet, and of its part in the file, bytes. `drops`: records lost since the log
+    started.
+    """
 
     original: int
     included: int
@@ -84,19 +92,21 @@ _MONITOR = {
     4: (RecordKind.ACL, True),
     5: (RecordKind.ACL, False),
 }
-"""btmon's opcode -> kind, sent."""
+"""Kind of a record and whether it was sent, by btmon's opcode."""
 
 
 def is_btsnoop(path: Path) -> bool:
-    """True when the file begins as a btsnoop log does. RecordingError when it cannot be read, or only once: a look at
-    the beginning of a pipe would take it away."""
-    refuse_pipe(path)
+    """Return whether the file starts as a btsnoop log does.
+
+    RecordingError when it cannot be read, or only once: reading the start of a pipe would remove it.
+    """
+    reject_pipe(path)
     with open_file(path) as file:
         return file.read(len(MAGIC)) == MAGIC
 
 
-def refuse_pipe(path: Path) -> None:
-    """RecordingError for what is there but can be read only once."""
+def reject_pipe(path: Path) -> None:
+    """Raise RecordingError for a file that exists but can be read only once."""
     if path.exists() and not path.is_file() and not path.is_dir():
         raise RecordingError(path, "is a pipe or a device; it is read more than once, so it has to be a file")
 
@@ -104,9 +114,10 @@ def refuse_pipe(path: Path) -> None:
 def read_records(
     path: Path, *, report: Report, flaws: Counter[str], progress: Callable[[int], None] | None = None
 ) -> Iterator[HciRecord]:
-    """The records of a log in order. `report` hears of a torn last record, `flaws` counts what the logger left out.
+    """Yield the records of a log in order.
 
-    RecordingError, after everything before it, for what is no btsnoop log and for a record that cannot be one.
+    `report` gets a sentence about a torn last record; `flaws` counts what the logger left out. RecordingError, after
+    everything before it, for a file that is no btsnoop log and for an impossible record.
     """
     with open_file(path) as file:
         datalink = _datalink(path, file.read(HEADER_SIZE))
@@ -118,7 +129,7 @@ def read_records(
                 report(torn)
                 return
             header: RecordHeader = RECORD_HEADER.parse(start)
-            if header.included > min(LONGEST, header.original):
+            if header.included > min(MAX_RECORD_SIZE, header.original):
                 what = f"is damaged: it claims {header.included} of {header.original} bytes"
                 raise RecordingError(path, what, f"record {number}")
             data = file.read(header.included)

@@ -1,4 +1,4 @@
-"""A log as values of attributes, each with the device that it is of."""
+"""A log as values of attributes, each with its device."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pathlib import Path
 
 from attrs import define, field, frozen
 
-from ..trouble import RecordingError, Report
+from ..errors import RecordingError, Report
 from .att import FROM_CLIENT, AttValue, Conversation
 from .hci import Controller, HciConnection, LinkChange, Pdu
 from .records import read_records
@@ -16,19 +16,22 @@ from .records import read_records
 
 @frozen
 class Value:
-    """One value. `t`: us since 1970. `device`: the address of the server, or what else tells it from others."""
+    """One value of a log.
+
+    `t`: us since 1970. `device`: the address of the server, or another name that identifies it.
+    """
 
     t: int
     link: HciConnection
     device: str
-    said: AttValue
+    att_value: AttValue
 
 
 @define
 class ValueListener:
-    """All values of a log, in order, with the beginnings and ends of the connections.
+    """Reads all values of a log, in order, with the starts and ends of the connections.
 
-    `types`: device -> attribute handle -> UUID, as discovered so far. It outlives a connection, since hosts remember
+    `types`: UUID by device and attribute handle, as discovered so far. It outlives a connection, since hosts remember
     what they discovered once and do not ask again.
     """
 
@@ -36,11 +39,14 @@ class ValueListener:
     report: Report
     flaws: Counter[str] = field(factory=Counter)
     types: dict[str, dict[int, str]] = field(factory=dict)
-    _talks: dict[tuple[int, bool], Conversation] = field(factory=dict)
-    """By connection and whether the peer is the server."""
+    _conversations: dict[tuple[int, bool], Conversation] = field(factory=dict)
+    """Conversations by connection and whether the peer is the server."""
 
     def listen(self, progress: Callable[[int], None] | None = None) -> Iterator[Value | LinkChange]:
-        """RecordingError, after everything before it, for what makes the log unusable."""
+        """Yield the values and changes of connections.
+
+        RecordingError, after everything before it, for a log that cannot be used.
+        """
         controller = Controller(self.flaws)
         t, failure = 0, None
         try:
@@ -51,7 +57,7 @@ class ValueListener:
                         case Pdu():
                             yield from self._pdu(item)
                         case LinkChange():
-                            if not item.begins:
+                            if not item.connected:
                                 yield from self._finish(t, item.link, controller.own(item.link.adapter))
                             yield item
         except RecordingError as error:
@@ -62,17 +68,17 @@ class ValueListener:
             raise failure
 
     def _pdu(self, pdu: Pdu) -> Iterator[Value]:
-        # the peer is the server when the host speaks as a client, or the peer as a server
+        # the peer is the server when the host sends as a client, or the peer as a server
         of_peer = pdu.sent == (bool(pdu.data) and pdu.data[0] in FROM_CLIENT)
         device = pdu.link.peer if of_peer else pdu.own
-        talk = self._talks.get((pdu.link.number, of_peer))
-        if talk is None:
+        conversation = self._conversations.get((pdu.link.number, of_peer))
+        if conversation is None:
             types = self.types.setdefault(device, {})
-            talk = self._talks[pdu.link.number, of_peer] = Conversation(types, self.flaws)
-        yield from (Value(pdu.t, pdu.link, device, one) for one in talk.feed(pdu.data))
+            conversation = self._conversations[pdu.link.number, of_peer] = Conversation(types, self.flaws)
+        yield from (Value(pdu.t, pdu.link, device, one) for one in conversation.feed(pdu.data))
 
     def _finish(self, t: int, link: HciConnection, own: str) -> Iterator[Value]:
         for of_peer, device in ((True, link.peer), (False, own)):
-            talk = self._talks.pop((link.number, of_peer), None)
-            if talk is not None:
-                yield from (Value(t, link, device, one) for one in talk.finish())
+            conversation = self._conversations.pop((link.number, of_peer), None)
+            if conversation is not None:
+                yield from (Value(t, link, device, one) for one in conversation.finish())

@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...types import Foot
-from ..trouble import RecordingError, open_file, printable
+from ..errors import RecordingError, open_file, printable
 from .table import QUANTITIES, Floats, FootTable, as_floats
 
 UNREADABLE = (
-    ValueError,  # pickled objects, a header that lies about its array
+    ValueError,  # pickled objects, a header that does not fit its array
     EOFError,
     OSError,
     KeyError,
@@ -30,10 +30,14 @@ UNREADABLE = (
     zipfile.BadZipFile,
     zlib.error,
 )
+"""Exceptions of a damaged archive."""
 
 
 def read_npz(path: Path, one_foot: Foot) -> list[FootTable]:
-    """The tables of the feet in the file, unchecked but for shapes; `one_foot` is who a file without names is of."""
+    """Return the tables of the feet in the file; only their shapes are checked.
+
+    `one_foot` is the foot of a file whose keys name no foot.
+    """
     with open_file(path) as file:
         start = file.read(4)
     if not start:

@@ -10,12 +10,13 @@ from pathlib import Path
 from attrs import frozen
 
 from ...types import Foot, Sample
-from ..trouble import RecordingError, Report, warn
+from ..errors import RecordingError, Report, warn
 from .npz import read_npz
 from .sheet import read_csv
-from .table import FootTable, checked
+from .table import FootTable, check_table
 
 KINDS = (".npz", ".csv")
+"""Endings of the names of files that hold samples."""
 
 
 @frozen
@@ -29,7 +30,7 @@ class SampleRecording:
     path: Path
     tables: tuple[FootTable, ...]
     flaw: RecordingError | None = None
-    """Why the file could not be read beyond its last row here."""
+    """Reason why the file could not be read beyond its last row here; None at the end of the file."""
 
     def __len__(self) -> int:
         return sum(map(len, self.tables))
@@ -51,9 +52,9 @@ class SampleRecording:
 
 
 def load_samples(path: Path | str, foot: Foot | None = None, *, report: Report = warn) -> SampleRecording:
-    """The samples in an .npz or .csv file, all read into memory.
+    """Return the samples in an .npz or .csv file, all read into memory.
 
-    `foot`: whose a file of one foot is (the right one's when None); of a file that names its feet, the only foot to
+    `foot`: the foot of a file of one foot (the right one when None); of a file that names its feet, the only foot to
     read. `report` gets one sentence about a last line that was cut off. RecordingError when nothing can be used.
     """
     path = Path(path)
@@ -65,9 +66,9 @@ def load_samples(path: Path | str, foot: Foot | None = None, *, report: Report =
         tables, flaw = read_npz(path, one_foot), None
     else:
         tables, flaw = read_csv(path, one_foot, report)
-    wanted = [table for table in tables if foot in (None, table.foot)]
+    expected = [table for table in tables if foot in (None, table.foot)]
     if not tables:
         raise flaw or RecordingError(path, "holds no samples")
-    if not wanted and foot is not None:
+    if not expected and foot is not None:
         raise RecordingError(path, f"holds nothing of the {foot.value} foot")
-    return SampleRecording(path, tuple(checked(table) for table in wanted), flaw)
+    return SampleRecording(path, tuple(check_table(table) for table in expected), flaw)

@@ -1,10 +1,10 @@
-"""Samples in a .csv file: one row an instant, the first line names the columns.
+"""Samples in a .csv file: one row per instant; the first line names the columns.
 
     t,acc_x,acc_y,acc_z,gyro_x,gyro_y,gyro_z,pressure_0,pressure_1
     t,acc_x_left,...,gyro_z_left,pressure_0_left,...,acc_x_right,...       (or t_left and t_right instead of t)
 
-The foot may also stand before the component (acc_left_x), and 0, 1, 2 do for x, y, z. Other columns are ignored. In a
-file of both feet, a row in which all cells of one foot are blank holds no sample of that foot.
+The foot may also stand before the component (acc_left_x), and 0, 1, 2 may replace x, y, z. Other columns are ignored.
+In a file of both feet, a row in which all cells of one foot are blank holds no sample of that foot.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 from attrs import define, field
 
 from ...types import Foot
-from ..trouble import RecordingError, Report, open_file, printable
+from ..errors import RecordingError, Report, open_file, printable
 from .table import QUANTITIES, FootTable
 
 _COLUMN = re.compile(r"(t|acc|gyro|pressure)(?:_(left|right))?(?:_([xyz]|[0-9]{1,4}))?(?:_(left|right))?")
@@ -27,32 +27,32 @@ _AXES = {"x": 0, "y": 1, "z": 2}
 
 @define
 class _FootColumns:
-    """Where one foot's values stand in a row."""
+    """The columns of one foot's values."""
 
     foot: Foot
     suffix: str
     time: int
     time_name: str
     places: dict[str, dict[int, int]] = field(factory=dict)
-    """quantity -> component -> column number."""
+    """Column number by quantity and component."""
 
     def order(self) -> list[int]:
-        """The column numbers of t and then of every quantity's components in order."""
+        """Return the column numbers of t and then of every quantity's components in order."""
         ordered = [self.places[q][c] for q in QUANTITIES if q in self.places for c in sorted(self.places[q])]
         return [self.time, *ordered]
 
 
 def read_csv(path: Path, one_foot: Foot, report: Report) -> tuple[list[FootTable], RecordingError | None]:
-    """The tables of the feet in the file as far as its rows can be read, and why they end where they do.
+    """Return the tables of the feet in the file up to the first bad row, and the reason why they end there, or None.
 
     A last line that was cut off goes to `report` and is left out. (A cut within the digits of the last column leaves a
-    whole row; nobody can see that.)
+    whole row, which cannot be detected.)
     """
     with open_file(path) as file:
         data = file.read()
     if not data.strip():
         raise RecordingError(path, "is empty")
-    # what is not text shows in the names of the columns, or as a number that is none, and is reported there
+    # bytes that are not text appear in a column's name or as a bad number, and are reported there
     lines = data.decode("utf-8-sig", errors="replace").splitlines()
     cut_off = not data.endswith((b"\n", b"\r"))
     try:
@@ -84,7 +84,7 @@ def read_csv(path: Path, one_foot: Foot, report: Report) -> tuple[list[FootTable
 
 
 def _cells(line: str) -> list[str]:
-    """One line's cells. A quote that is never closed spoils this line only."""
+    """Return the cells of one line. A quote that is never closed spoils this line only."""
     try:
         return next(csv.reader([line]))
     except csv.Error as error:
@@ -92,7 +92,7 @@ def _cells(line: str) -> list[str]:
 
 
 def _columns(header: list[str], one_foot: Foot) -> list[_FootColumns]:
-    """Which column is what, for each foot; ValueError says what is wrong with the names."""
+    """Return the columns of each foot; ValueError describes a fault of the names."""
     found: dict[tuple[str, str, int], int] = {}
     for number, name in enumerate(header):
         match = _COLUMN.fullmatch(name)
@@ -128,7 +128,7 @@ def _columns(header: list[str], one_foot: Foot) -> list[_FootColumns]:
 
 
 def _guess(header: list[str]) -> str:
-    """What the first line may be, where it names nothing that is needed."""
+    """Return a guess at the content of the first line, where it names nothing that is needed."""
     if len(header) == 1 and re.search("[;\t]", header[0]):
         return "its columns are not separated by commas"
     if any(_NUMBER.fullmatch(name) for name in header):
@@ -142,8 +142,8 @@ def _check_components(foot: _FootColumns) -> None:
     for quantity, components in foot.places.items():
         if quantity == "pressure":
             first = min(1, *components) if len(components) > 1 else 0
-            wanted = range(first, first + len(components))
-            missing = [f"pressure_{c}{foot.suffix}" for c in wanted if c not in components]
+            expected = range(first, first + len(components))
+            missing = [f"pressure_{c}{foot.suffix}" for c in expected if c not in components]
         else:
             missing = [f"{quantity}_{axis}{foot.suffix}" for axis, c in _AXES.items() if c not in components]
         if missing:
@@ -153,7 +153,7 @@ def _check_components(foot: _FootColumns) -> None:
 
 
 def _parse(row: list[str], header: list[str], orders: list[list[int]]) -> list[list[float] | None]:
-    """The numbers of each foot in this row, None where it has none; ValueError says what is wrong with the row."""
+    """Return the numbers of each foot in this row, None where it has none; ValueError describes a fault of the row."""
     if len(row) != len(header):
         raise ValueError(f"has {len(row)} columns instead of {len(header)}")
     parsed: list[list[float] | None] = []

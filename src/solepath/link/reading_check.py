@@ -1,5 +1,7 @@
-"""Is a Reading (driver.py) one that a device can mean, and that a machine can hold? An app's readers are not trusted:
-whatever they return is looked at here, before anything changes."""
+"""Check of a Reading (driver.py) before it changes anything, because the readers of an app are not trusted.
+
+A reading must be one that a device can mean and that the core can hold.
+"""
 
 from __future__ import annotations
 
@@ -10,17 +12,20 @@ from ..events import Rejection
 from ..types import Foot, Layout
 from ..wire.error import WireError
 from ..wire.fields import LONGEST_VALUE, malformed
-from .driver import COUNTERS, Measured, Reading
+from .driver import MAX_COUNTER, Measured, Reading
 
-LARGEST = 1e8
-"""Nothing that a sensor of a foot says is more, in SI units: 24 bits of Pa are 1.7e7."""
-SLOWEST, FASTEST = 0.1, 10_000.0
-"""Samples a second."""
+MAX_VALUE = 1e8
+"""Largest magnitude of a sensor value in SI units; no sensor of a foot gives more: 24 bits of Pa are 1.7e7."""
+MIN_RATE, MAX_RATE = 0.1, 10_000.0
+"""Smallest and largest rate, samples a second."""
 
 
-def check(reading: object) -> Reading:
-    """The same reading. WireError when it is none, or holds what no device can mean: other shapes than it is declared
-    with, numbers that are none or beyond any sensor, no rate, no range."""
+def check_reading(reading: object) -> Reading:
+    """Return the same reading, checked.
+
+    WireError when it is no Reading, or holds values that no device can mean: other shapes than declared, numbers that
+    are not finite or beyond any sensor, an impossible rate or range.
+    """
     if not isinstance(reading, Reading):
         raise malformed(f"a reader gave a {type(reading).__name__}, not a Reading")
     samples = _tuple("samples", reading.samples)
@@ -38,9 +43,9 @@ def check(reading: object) -> Reading:
     if reading.battery is not None:
         _check_between("battery", reading.battery, 0.0, 1.0)
     if reading.rate is not None:
-        _check_between("rate", reading.rate, SLOWEST, FASTEST)
+        _check_between("rate", reading.rate, MIN_RATE, MAX_RATE)
     if reading.period is not None:
-        _check_between("period", reading.period, 1.0 / FASTEST, 1.0 / SLOWEST)
+        _check_between("period", reading.period, 1.0 / MAX_RATE, 1.0 / MIN_RATE)
     if reading.keys is not None:
         for key in _tuple("keys", reading.keys):
             _check_type("keys", key, str)
@@ -85,7 +90,7 @@ def _check_known(known: object) -> None:
 
 
 def _tuple(name: str, values: object) -> tuple[object, ...]:
-    """`values`, when they are a tuple of no more things than a value has bytes."""
+    """Return `values` when they are a tuple of no more items than a value has bytes."""
     if not isinstance(values, tuple):
         raise malformed(f"{name} is a {type(values).__name__}, not a tuple")
     if len(values) > LONGEST_VALUE:
@@ -98,17 +103,17 @@ def _check_numbers(name: str, values: object, count: int | None) -> None:
     if count is not None and len(numbers) != count:
         raise malformed(f"{name} has {len(numbers)} numbers, not {count}")
     for number in numbers:
-        if type(number) is not float or not -LARGEST <= number <= LARGEST:
+        if type(number) is not float or not -MAX_VALUE <= number <= MAX_VALUE:
             _check_number(name, number)
 
 
 def _check_number(name: str, number: object) -> None:
     if not isinstance(number, float | int):
         raise malformed(f"{name} is a {type(number).__name__}, not a number")
-    if not -LARGEST <= number <= LARGEST:  # an integer may be too large for a float: it is compared, not converted
+    if not -MAX_VALUE <= number <= MAX_VALUE:  # an integer may be too large for a float: it is compared, not converted
         if isinstance(number, float) and not isfinite(number):
             raise WireError(Rejection.NOT_FINITE, f"{name} of {number}")
-        raise WireError(Rejection.ABSURD, f"{name} beyond {LARGEST:g}")
+        raise WireError(Rejection.ABSURD, f"{name} beyond {MAX_VALUE:g}")
 
 
 def _check_between(name: str, number: object, low: float, high: float) -> None:
@@ -120,7 +125,7 @@ def _check_between(name: str, number: object, low: float, high: float) -> None:
 def _check_counter(name: str, counter: object) -> None:
     if not isinstance(counter, int) or isinstance(counter, bool):
         raise malformed(f"{name} is a {type(counter).__name__}, not an integer")
-    if not -COUNTERS < counter < COUNTERS:
+    if not -MAX_COUNTER < counter < MAX_COUNTER:
         raise WireError(Rejection.ABSURD, f"{name} of more than 64 bits")
 
 

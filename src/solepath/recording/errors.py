@@ -1,4 +1,4 @@
-"""What is wrong with a recording, in a sentence; and files of any format opened so that the sentence names them."""
+"""Errors of recordings, in one sentence; and files opened so that the sentence names them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import BinaryIO
 
 
 class RecordingError(Exception):
-    """A recording cannot be used, or not beyond a place: one sentence naming the file, the place and what is wrong."""
+    """A recording cannot be used, or not beyond a place: one sentence with the file, the place and the fault."""
 
     def __init__(self, path: Path | str, what: str, where: str = "") -> None:
         self.path, self.where, self.what = Path(path), where, what
@@ -17,34 +17,37 @@ class RecordingError(Exception):
 
 
 class RecordingWarning(UserWarning):
-    """A recording has a flaw that costs nothing but what is missing (a torn last line)."""
+    """A recording has a flaw whose only effect is missing data (a torn last line)."""
 
 
 Report = Callable[[str], None]
-"""Takes one sentence about a flaw that does not stop the reading."""
+"""A function that receives one sentence about a flaw that does not stop the reading."""
 
 
 def warn(sentence: str) -> None:
-    """The report of those who give none: a RecordingWarning."""
+    """Report a sentence as a RecordingWarning; the default report."""
     warnings.warn(sentence, RecordingWarning, stacklevel=3)
 
 
 def printable(text: str, longest: int = 200) -> str:
-    """`text` on one line and without control codes, whatever a file or its name holds."""
+    """Return `text` on one line and without control codes, whatever a file or its name holds."""
     clean = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
     return clean if len(clean) <= longest else clean[: longest - 3] + "..."
 
 
-def why(error: OSError) -> str:
-    """What the system says of a failure, in its own words."""
+def os_error_text(error: OSError) -> str:
+    """Return the system's own text of a failure, in lower case."""
     return (error.strerror or str(error)).lower()
 
 
 def open_file(path: Path) -> BinaryIO:
-    """The file opened for reading bytes; RecordingError when there is none, it is a directory or may not be read."""
+    """Return the file opened for reading bytes.
+
+    RecordingError when there is none, it is a directory or may not be read.
+    """
     try:
         if path.is_dir():
             raise RecordingError(path, "is a directory, not a recording")
         return path.open("rb")
     except OSError as error:
-        raise RecordingError(path, why(error)) from error
+        raise RecordingError(path, os_error_text(error)) from error
