@@ -43,7 +43,7 @@ BUS = "DBUS_SYSTEM_BUS_ADDRESS"
 def bench(faults: str = "", **devices: Device) -> Bench:
     worn = {Site(site): device for site, device in devices.items()} or {LEFT: Insole()}
     began = monotonic() - 0.5 * DRAIN  # of whatever the machine's clock shows: no battery changes while a test lasts
-    found = Bench(Route().walk(20.0), devices=worn, began=began, faults=parse_faults(faults))
+    found = Bench(Route().walk(20.0), devices=worn, started_at=began, faults=parse_faults(faults))
     found.prepare()
     return found
 

@@ -20,7 +20,7 @@ from solepath.ble import Backend, DeviceConfig
 from solepath.emulate import Route
 from solepath.emulate.devices.attributes import AttError
 from solepath.emulate.devices.bench import Bench
-from solepath.emulate.devices.faults import Fault, What, parse_faults
+from solepath.emulate.devices.faults import Fault, FaultKind, parse_faults
 from solepath.types import Site
 from solepath.wire.fields import parse_text
 
@@ -68,7 +68,7 @@ class Odd(Strap):
 
 def weak(every, seconds):
     """What is heard over a link that breaks so often, s."""
-    cuts = [Fault(1.0 + every * k, Site.PELVIS, What.DISCONNECT) for k in range(int(seconds / every))]
+    cuts = [Fault(1.0 + every * k, Site.PELVIS, FaultKind.DISCONNECT) for k in range(int(seconds / every))]
 
     device = Strap("strap 1", address(1), faults=cuts)
     return received(asked(device).backend, ONE, seconds=seconds)

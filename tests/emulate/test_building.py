@@ -87,7 +87,7 @@ def test_the_case_study_goes_down_by_the_lift_at_the_bottom_left_and_away_by_ano
     walker, t, places = walked(way, 3)
     truth = walker.truth()
     assert [ride.height for ride in truth.rides] == pytest.approx([-STOREY, STOREY])
-    on_floor = (t > truth.rides[0].end) & (t < truth.rides[1].begin)
+    on_floor = (t > truth.rides[0].end) & (t < truth.rides[1].start)
     assert {place[0] for place, there in zip(places, on_floor, strict=True) if there} == {way.level}
     (ax, ay), (bx, by) = CABINS[0].middle, CABINS[1].middle
     first, last = np.array(places[0][1:]), np.array(places[-1][1:])

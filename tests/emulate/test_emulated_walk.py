@@ -211,8 +211,8 @@ def cut(walk: EmulatedWalk, seed: int, share: float) -> list[Packet]:
     random = Random(seed)
     holes: dict[Site, list[tuple[float, float]]] = {LEFT: [], RIGHT: []}
     for _ in range(round(share * walk.truth.duration)):
-        begin = random.uniform(8.0, walk.truth.duration)
-        holes[random.choice((LEFT, RIGHT))].append((begin, begin + random.uniform(0.1, 0.6)))
+        start = random.uniform(8.0, walk.truth.duration)
+        holes[random.choice((LEFT, RIGHT))].append((start, start + random.uniform(0.1, 0.6)))
     return [
         packet
         for packet in walk.packets

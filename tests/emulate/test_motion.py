@@ -118,14 +118,14 @@ def test_the_shoe_rolls_without_slip_over_heel_and_forefoot(straight: Walker) ->
     motion = straight.motions[Foot.LEFT]
     for stride in straight.plan.strides[Foot.LEFT]:
         spans = ((stride.heel_off, stride.toe_off), (stride.heel_strike + IMPACT, stride.foot_flat))
-        for begin, end in spans:
-            t = np.linspace(begin + 1e-6, end - 1e-6, 25)
+        for start, end in spans:
+            t = np.linspace(start + 1e-6, end - 1e-6, 25)
             sensor = motion.at(t, IN_SOLE)
             touched = motion.contact(t)
             pitch = motion.pitch(t)
             # The same material point of the sole that touches the ground now, as if a sensor sat there.
             for k in range(len(t)):
-                arc = straight.wearer.shoe.heel if begin == spans[1][0] else straight.wearer.shoe.forefoot
+                arc = straight.wearer.shoe.heel if start == spans[1][0] else straight.wearer.shoe.forefoot
                 height = arc.radius * (1.0 - np.cos(pitch[k]))
                 point = motion.at(t[k : k + 1], Mounting((float(touched[k]), 0.0, float(height))))
                 assert point.position[0, 2] == pytest.approx(0.0, abs=1e-9)

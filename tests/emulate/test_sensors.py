@@ -24,15 +24,15 @@ from solepath.emulate.sensors.parts import (
 )
 from solepath.emulate.sensors.sensors import (
     air_pressure,
-    attitude_read,
-    counted,
     errors,
     instants,
     low_pass,
     measure,
+    read_attitudes,
     read_barometer,
     read_cells,
     sample,
+    to_counts,
     wander,
 )
 from solepath.emulate.wearers.walker import Walker
@@ -81,10 +81,10 @@ def test_counts_are_rounded_and_stop_at_full_scale() -> None:
     when = instants(0.0, 0.01, 5)
     ramp = np.outer(np.ones(len(when.fine)), [1.26, -50.0, 39.9])
     eight = Triad(density=0.0, bias=0.0, wander=0.0, scale=0.0, cross=0.0, bandwidth=1e9, bits=8)
-    found = counted(measure(ramp, when, eight, np.random.default_rng(1)), eight, 0.25)
+    found = to_counts(measure(ramp, when, eight, np.random.default_rng(1)), eight, 0.25)
     assert found.counts.tolist() == [[5, -128, 127]] * 5
     assert found.saturated.all()
-    quiet = counted(measure(0.1 * ramp, when, eight, np.random.default_rng(1)), eight, 0.25)
+    quiet = to_counts(measure(0.1 * ramp, when, eight, np.random.default_rng(1)), eight, 0.25)
     assert not quiet.saturated.any()
 
 
@@ -131,7 +131,7 @@ def test_cells_have_gain_preload_noise_and_an_end() -> None:
 def test_an_attitude_is_off_by_what_its_sheet_says_slowly_and_from_the_start(part: AttitudePart) -> None:
     t = np.arange(0.0, 20.0, 0.1)
     true = np.tile((1.0, 0.0, 0.0, 0.0), (len(t), 1))
-    read = np.stack([attitude_read(true, t, part, 0.0, np.random.default_rng(k)) for k in range(300)])
+    read = np.stack([read_attitudes(true, t, part, 0.0, np.random.default_rng(k)) for k in range(300)])
     assert np.linalg.norm(read, axis=2) == pytest.approx(1.0)
     for moment in (0, -1):
         tilt, heading = 2.0 * read[:, moment, 1:3].std(), 2.0 * read[:, moment, 3].std()
@@ -142,7 +142,7 @@ def test_an_attitude_is_off_by_what_its_sheet_says_slowly_and_from_the_start(par
 def test_a_device_with_another_north_turns_the_world_about_the_vertical() -> None:
     part = AttitudePart("ideal", tilt=0.0, heading=0.0)
     true = np.array([[0.8, 0.6, 0.0, 0.0]])
-    w, x, y, z = attitude_read(true, np.zeros(1), part, 0.5, np.random.default_rng(1))[0].tolist()
+    w, x, y, z = read_attitudes(true, np.zeros(1), part, 0.5, np.random.default_rng(1))[0].tolist()
     assert (w, x, y, z) == pytest.approx(multiply(from_rotation_vector((0.0, 0.0, -0.5)), (0.8, 0.6, 0.0, 0.0)))
 
 

@@ -10,7 +10,7 @@ from strides import in_order
 
 from solepath.emulate.routes.path import Flight
 from solepath.emulate.routes.route import Route
-from solepath.emulate.routes.styles import Manner
+from solepath.emulate.routes.styles import StrideKind
 from solepath.emulate.sensors.sensortags import CC2541, CC2650
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.gait import SUBJECTS, PlannedStride, Wearer
@@ -108,7 +108,7 @@ def test_a_foot_in_stationary_is_still_at_the_height_of_its_tread(storey: Walker
 
 
 def test_the_load_of_a_descending_foot_begins_under_the_forefoot(storey: Walker) -> None:
-    stride = next(s for s in climbing(storey, Foot.LEFT) if s.manner is Manner.DOWN and s.number > 20)
+    stride = next(s for s in climbing(storey, Foot.LEFT) if s.manner is StrideKind.DOWN and s.number > 20)
     heel, _, front, toes = storey.loads.shares(Foot.LEFT, np.array([stride.heel_strike + 0.01]))
     assert front[0] + toes[0] > 0.6 > heel[0] + 0.3
 
@@ -119,9 +119,9 @@ def test_stairs_are_told_as_such_from_the_first_foot_up_to_both_feet_above(store
     up, down = Activity.STAIRS_UP, Activity.STAIRS_DOWN
     assert [what for what in told if what in (up, down)] == [up, up, down, down]
     for flight in truth.flights:
-        before, after = truth.elevation(np.array([flight.begin, flight.end]))
+        before, after = truth.elevation(np.array([flight.start, flight.end]))
         assert after - before == pytest.approx(flight.height, abs=1e-9)
-        assert truth.activity(flight.begin + 0.1) is (up if flight.up else down)
+        assert truth.activity(flight.start + 0.1) is (up if flight.up else down)
 
 
 @pytest.mark.parametrize("device", [CC2650(), CC2541(rate=20.0)])

@@ -209,7 +209,7 @@ SENT = [Notification(0.01 * k, "insole/frame", bytes([k % 256]) * 20) for k in r
 
 
 def carried(radio: Radio, seed: int = 1) -> list[Packet]:
-    return radio.carry(SENT, Site.LEFT_FOOT, np.random.default_rng(seed))
+    return radio.transmit(SENT, Site.LEFT_FOOT, np.random.default_rng(seed))
 
 
 def test_so_much_is_lost_as_was_asked() -> None:
@@ -255,7 +255,7 @@ def test_connection_events_deliver_in_bunches() -> None:
 
 def test_what_was_read_or_written_always_gets_through() -> None:
     setup = [Notification(0.01 * k, "insole/info", b"info", acknowledged=True) for k in range(50)]
-    found = Radio(loss=1.0, corrupt=1.0, truncate=1.0).carry(setup, Site.LEFT_FOOT, np.random.default_rng(1))
+    found = Radio(loss=1.0, corrupt=1.0, truncate=1.0).transmit(setup, Site.LEFT_FOOT, np.random.default_rng(1))
     assert [p.data for p in found] == [b"info"] * 50
 
 

@@ -9,7 +9,7 @@ from benches import LEFT, RIGHT, Heard, played, refusal, set_up, worn
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.emulate.devices.faults import Fault, What, parse_faults
+from solepath.emulate.devices.faults import Fault, FaultKind, parse_faults
 from solepath.emulate.devices.peripheral import Peripheral
 from solepath.emulate.sensors.sensortags import CC2650
 from solepath.link.devices import cc2650
@@ -40,15 +40,15 @@ def test_a_script_is_read_line_by_line_in_its_order() -> None:
     0 left_foot pairing; 3 left_foot refuse pairing
     """
     assert parse_faults(script) == (
-        Fault(12.5, LEFT, What.DISCONNECT),
-        Fault(20.0, RIGHT, What.VANISH, 60.0),
-        Fault(5.0, None, What.DROP, 3.0),
-        Fault(15.0, LEFT, What.FREEZE, inf),
-        Fault(0.0, LEFT, What.MTU, 23.0),
-        Fault(0.0, LEFT, What.REFUSE, 2.0, "cc2650/movement-config"),
-        Fault(0.0, None, What.NAME, 1.0, "Sensor #2 Tag"),
-        Fault(0.0, LEFT, What.PAIRING),
-        Fault(3.0, LEFT, What.REFUSE, 1.0, "pairing"),
+        Fault(12.5, LEFT, FaultKind.DISCONNECT),
+        Fault(20.0, RIGHT, FaultKind.VANISH, 60.0),
+        Fault(5.0, None, FaultKind.DROP, 3.0),
+        Fault(15.0, LEFT, FaultKind.FREEZE, inf),
+        Fault(0.0, LEFT, FaultKind.MTU, 23.0),
+        Fault(0.0, LEFT, FaultKind.REJECT, 2.0, "cc2650/movement-config"),
+        Fault(0.0, None, FaultKind.NAME, 1.0, "Sensor #2 Tag"),
+        Fault(0.0, LEFT, FaultKind.PAIRING),
+        Fault(3.0, LEFT, FaultKind.REJECT, 1.0, "pairing"),
     )
     assert parse_faults("") == parse_faults("# nothing\n\n;") == ()
 
@@ -147,12 +147,12 @@ def test_seconds_count_from_the_walks_beginning() -> None:
 def test_a_walk_that_begins_anew_has_the_faults_of_its_script_again() -> None:
     device = tag("1 left_foot drop 3; 2 left_foot disconnect")
     assert sum(t < 2.0 for t, _ in movements(device, 5.0)) > 5
-    assert device.suffered == 2 and not device.is_connected
+    assert device.fault_count == 2 and not device.is_connected
     device.walk_from(10.0)
-    assert device.suffered == 0
+    assert device.fault_count == 0
     set_up(device, cc2650.PROFILE, now=9.0)
     again = movements(device, 20.0)
-    assert device.suffered == 2 and not device.is_connected
+    assert device.fault_count == 2 and not device.is_connected
     assert max(t for t, _ in again) < 12.0
     assert max(b - a for (a, _), (b, _) in zip(again, again[1:], strict=False)) > 0.35, "three were dropped again"
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from attrs import evolve
-from benches import LEFT, RIGHT, ROUTE, Heard, begin, played, refusal, set_up, walker, worn
+from benches import LEFT, RIGHT, ROUTE, Heard, played, refusal, set_up, start, walker, worn
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -50,7 +50,7 @@ def test_a_device_has_the_attributes_of_its_profile_and_what_else_it_has(device:
 @pytest.mark.parametrize(("device", "known"), DEVICES)
 def test_what_was_set_up_decodes_to_samples_and_nothing_else_odd(device: Device, known: Profile) -> None:
     tag, decoder, out = worn(device), Decoder(site=LEFT), []
-    begin(tag, *(c.name for c in known.channels if c.how is Access.NOTIFY))
+    start(tag, *(c.name for c in known.channels if c.how is Access.NOTIFY))
     said = [(name, tag.read(name, 0.0)) for name in known.reads]
     for write in known.setup:
         tag.write(write.channel, write.value, 0.0)
@@ -80,13 +80,13 @@ def test_only_what_is_subscribed_is_sent_and_only_while_connected(device: Device
     assert len(again) == pytest.approx(2.0 * known.nominal_rate, abs=1.5), "what was missed does not come later"
     tag.disconnected(7.0)
     assert tag.next_due() is None
-    begin(tag, stream, now=7.5)
+    start(tag, stream, now=7.5)
     assert not played(tag, 9.0, stream), "a new connection begins with everything off"
 
 
 @pytest.mark.parametrize(("device", "known"), DEVICES)
 def test_attributes_refuse_what_they_are_not_made_for(device: Device, known: Profile) -> None:
-    tag = begin(worn(device))
+    tag = start(worn(device))
     assert refusal(tag, "device/firmware", b"x") == 0x03
     assert refusal(tag, "no such channel") == 0x02
     with pytest.raises(Exception, match="0x06"):
@@ -203,7 +203,7 @@ def test_an_interval_set_while_it_runs_goes_on_in_sequence_and_on_the_same_clock
 
 
 def test_an_interval_that_is_too_short_becomes_the_shortest_and_info_says_so() -> None:
-    tag = begin(worn(Insole(cells=24)))
+    tag = start(worn(Insole(cells=24)))
     tag.write("insole/control", build_control(SetInterval(1)), 0.0)
     assert parse_info(tag.read("insole/info", 0.0) or b"").interval == 82
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from benches import ROUTE, begin, played, refusal, set_up, worn
+from benches import ROUTE, played, refusal, set_up, start, worn
 
 from solepath.emulate.devices.peripheral import Peripheral
 from solepath.emulate.routes.route import Route
@@ -28,7 +28,7 @@ def movements(tag: Peripheral, until: float) -> list[tuple[float, Any]]:
 
 
 def configured(config: bytes, device: CC2650 | None = None, route: Route = ROUTE) -> Peripheral:
-    tag = begin(worn(device or CC2650(), route=route), "cc2650/movement")
+    tag = start(worn(device or CC2650(), route=route), "cc2650/movement")
     tag.write("cc2650/movement-period", b"\x0a", 0.0)
     tag.write("cc2650/movement-config", config, 0.0)
     return tag
@@ -80,7 +80,7 @@ def test_with_wake_on_motion_the_tag_is_silent_until_it_moves_and_ten_seconds_af
     assert all(b - a < 0.11 for a, b in zip(times, times[1:], strict=False))
 
 
-REFUSED: dict[Device, list[tuple[str, bytes, int]]] = {
+APPLICATION_ERROR: dict[Device, list[tuple[str, bytes, int]]] = {
     Insole(): [
         ("insole/control", b"", 0x81),
         ("insole/control", b"\x00", 0x80),
@@ -103,15 +103,15 @@ REFUSED: dict[Device, list[tuple[str, bytes, int]]] = {
 }
 
 
-@pytest.mark.parametrize("device", REFUSED, ids=lambda device: type(device).__name__)
+@pytest.mark.parametrize("device", APPLICATION_ERROR, ids=lambda device: type(device).__name__)
 def test_values_of_wrong_length_or_meaning_are_refused_with_the_codes_of_the_device(device: Device) -> None:
-    tag = begin(worn(device))
-    for channel, value, code in REFUSED[device]:
+    tag = start(worn(device))
+    for channel, value, code in APPLICATION_ERROR[device]:
         assert refusal(tag, channel, value) == code, (channel, value)
 
 
 def test_the_barometer_says_the_air_pressure_at_its_own_period() -> None:
-    tag = begin(worn(CC2650()), "cc2650/barometer")
+    tag = start(worn(CC2650()), "cc2650/barometer")
     tag.write("cc2650/barometer-period", b"\x14", 0.0)
     assert tag.next_due() is None
     tag.write("cc2650/barometer-config", b"\x01", 0.0)
@@ -123,15 +123,15 @@ def test_the_barometer_says_the_air_pressure_at_its_own_period() -> None:
 def test_keys_are_told_when_they_go_down_and_when_they_come_up() -> None:
     presses = (4.0, 1.0)
     for device, keys in ((CC2650(presses=presses), "cc2650/keys"), (CC2541(presses=presses), "cc2541/keys")):
-        heard = played(begin(worn(device), keys), 10.0)
+        heard = played(start(worn(device), keys), 10.0)
         expected = [(1.0, True), (1.25, False), (4.0, True), (4.25, False)]
         assert [(round(t, 3), said(keys, o.value).left) for t, o in heard] == expected
-        assert not played(begin(worn(device), keys, now=5.0), 10.0), "what is over is not told later"
+        assert not played(start(worn(device), keys, now=5.0), 10.0), "what is over is not told later"
 
 
 @pytest.mark.parametrize(("device", "full"), [(Insole(), 87), (CC2650(), 91)])
 def test_a_battery_empties_and_says_so(device: Device, full: int) -> None:
-    tag = begin(worn(device), "device/battery")
+    tag = start(worn(device), "device/battery")
     assert tag.read("device/battery", 0.0) == bytes([full])
     heard = played(tag, 1900.0)
     assert [(round(t), o.value[0]) for t, o in heard] == [(600, full - 1), (1200, full - 2), (1800, full - 3)]
@@ -141,7 +141,7 @@ def test_a_battery_empties_and_says_so(device: Device, full: int) -> None:
 def test_a_disconnected_tag_forgets_what_was_written() -> None:
     tag = set_up(worn(CC2650()), cc2650.PROFILE)
     tag.disconnected(3.0)
-    begin(tag, "cc2650/movement", now=4.0)
+    start(tag, "cc2650/movement", now=4.0)
     assert tag.read("cc2650/movement-config", 4.0) == b"\x00\x00"
     assert tag.read("cc2650/movement-period", 4.0) == b"\x64"
     assert tag.next_due() is None
@@ -151,7 +151,7 @@ def test_a_disconnected_tag_forgets_what_was_written() -> None:
 
 
 def test_each_sensor_has_a_period_of_its_own() -> None:
-    tag = begin(worn(CC2541()), *(c.name for c in cc2541.PROFILE.channels if c.how is Access.NOTIFY))
+    tag = start(worn(CC2541()), *(c.name for c in cc2541.PROFILE.channels if c.how is Access.NOTIFY))
     tag.write("cc2541/accelerometer-period", b"\x05", 0.0)
     tag.write("cc2541/gyroscope-period", b"\x14", 0.0)
     for sensor, on in (("accelerometer", 3), ("gyroscope", 7), ("magnetometer", 1), ("barometer", 1)):
@@ -164,7 +164,7 @@ def test_each_sensor_has_a_period_of_its_own() -> None:
 
 
 def test_coefficients_can_be_read_after_they_were_fetched_and_not_before() -> None:
-    tag = begin(worn(CC2541()), "cc2541/barometer")
+    tag = start(worn(CC2541()), "cc2541/barometer")
     assert refusal(tag, "cc2541/barometer-calibration") == 0x02
     tag.write("cc2541/barometer-config", b"\x02", 0.0)
     assert not played(tag, 3.0), "fetching does not switch it on"

@@ -41,7 +41,7 @@ class Radio:
     interval: float = 0.0
     in_order: bool = True
 
-    def carry(self, sent: list[Notification], site: Site, rng: Rng) -> list[Packet]:
+    def transmit(self, sent: list[Notification], site: Site, rng: Rng) -> list[Packet]:
         """What arrives of what was sent, by time of arrival."""
         chances = rng.uniform(size=(len(sent), 6))
         phase = self.interval * float(rng.uniform())

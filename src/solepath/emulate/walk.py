@@ -58,7 +58,7 @@ def emulate(
     for site in sorted(devices, key=sites.index):
         device = devices[site]
         sent = device.emit(walker, site, device_numbers(seed, site))
-        packets += radio.carry(sent, site, np.random.default_rng([seed, 3, sites.index(site)]))
+        packets += radio.transmit(sent, site, np.random.default_rng([seed, 3, sites.index(site)]))
     packets.sort(key=attrgetter("t"))
     mountings = {site.foot: device.mounting for site, device in devices.items() if site.foot is not None}
     return EmulatedWalk(tuple(packets), walker.truth(mountings), walker)

@@ -32,7 +32,7 @@ def walker() -> Walker:
     return Walker(ROUTE, seed=3)
 
 
-def begin(device: Peripheral, *channels: str, now: float = 0.0, mtu: int = 247) -> Peripheral:
+def start(device: Peripheral, *channels: str, now: float = 0.0, mtu: int = 247) -> Peripheral:
     """Connect and subscribe."""
     device.connected(now, min(mtu, device.mtu))
     for channel in channels:
@@ -42,7 +42,7 @@ def begin(device: Peripheral, *channels: str, now: float = 0.0, mtu: int = 247) 
 
 def set_up(device: Peripheral, profile: Profile, now: float = 0.0, mtu: int = 247) -> Peripheral:
     """Connect, subscribe and write as the profile says."""
-    begin(device, *(c.name for c in profile.channels if c.how is Access.NOTIFY), now=now, mtu=mtu)
+    start(device, *(c.name for c in profile.channels if c.how is Access.NOTIFY), now=now, mtu=mtu)
     for write in profile.setup:
         assert device.write(write.channel, write.value, now)
     return device

@@ -204,7 +204,7 @@ class Bluez(bus.Service):
         if path not in self._links:
             await self._connect(path)
         device = self._devices[path]
-        if not await self._links[path].request(device.agrees_to_pair):
+        if not await self._links[path].request(device.accepts_pairing):
             raise Refused("org.bluez.Error.AuthenticationFailed", "Authentication Failed")
         device.is_encrypted = True
         self.change(path, _DEVICE, Paired=Variant("b", True))

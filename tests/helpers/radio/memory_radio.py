@@ -135,7 +135,7 @@ class _MemoryClient(BaseBleakClient):
         link, device = self._up()
         if device.address in self.air.paired:
             return
-        if not await link.request(device.agrees_to_pair):
+        if not await link.request(device.accepts_pairing):
             raise BleakError("the device refused to be paired")
         await link.request(lambda now: _encrypted(device))
         self.air.paired.add(device.address)

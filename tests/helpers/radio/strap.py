@@ -12,7 +12,7 @@ from attrs import frozen
 
 from solepath.emulate.controllers.tcp import serve
 from solepath.emulate.devices.attributes import AttCode, AttError, Characteristic, Service
-from solepath.emulate.devices.peripheral import Peripheral, Worn
+from solepath.emulate.devices.peripheral import Peripheral, Placement
 from solepath.types import Site
 
 
@@ -61,7 +61,7 @@ class Strap(Peripheral):
     size = 20
 
     def __init__(self, name: str, address: str, *, advertised: Sequence[str] = (HEART_RATE,), **given: Any) -> None:
-        super().__init__(Worn(Site.PELVIS, address, **given), name, SERVICES, advertised)
+        super().__init__(Placement(Site.PELVIS, address, **given), name, SERVICES, advertised)
         self.rate = 0
 
     def value(self, channel: str, t: float) -> bytes:

@@ -31,7 +31,7 @@ _T = TypeVar("_T")
 _SMALLEST_MTU = 23
 _PAIRING = 30.0
 """s after which a pairing has failed (Bluetooth Core, vol 3 part H, 3.4)."""
-_REFUSALS: dict[tuple[str, int | None], str] = {
+_PAIRING_ERRORS: dict[tuple[str, int | None], str] = {
     ("smp", int(smp.ErrorCode.PAIRING_NOT_SUPPORTED)): "the device refused to be paired",
     ("hci", int(hci.HCI_ErrorCode.PIN_OR_KEY_MISSING_ERROR)): "the device has forgotten the pairing: unpair it here "
     "too, and pair anew",
@@ -78,21 +78,22 @@ class RadioScanner(BaseBleakScanner):
 
     async def start(self) -> None:
         self.seen_devices = {}
-        await self.radio.listen(self.heard)
+        await self.radio.listen(self.on_advertisement)
 
     async def stop(self) -> None:
-        await self.radio.ignore(self.heard)
+        await self.radio.ignore(self.on_advertisement)
 
-    def heard(self, advertisement: Advertisement) -> None:
+    def on_advertisement(self, advertisement: Advertisement) -> None:
         """Called by the radio for each advertisement."""
-        said = advertisement.data
-        lists = [listed for kind in _SERVICE_LISTS for listed in said.get_all(kind) if isinstance(listed, list)]
+        fields = advertisement.data
+        lists = [listed for kind in _SERVICE_LISTS for listed in fields.get_all(kind) if isinstance(listed, list)]
         services = [_uuid(uuid) for listed in lists for uuid in listed if isinstance(uuid, core.UUID)]
-        name = said.get(AdvertisingData.COMPLETE_LOCAL_NAME) or said.get(AdvertisingData.SHORTENED_LOCAL_NAME)
+        name = fields.get(AdvertisingData.COMPLETE_LOCAL_NAME) or fields.get(AdvertisingData.SHORTENED_LOCAL_NAME)
         data = AdvertisementData(
             local_name=name,
             manufacturer_data={
-                int(company): bytes(body) for company, body in said.get_all(AdvertisingData.MANUFACTURER_SPECIFIC_DATA)
+                int(company): bytes(body)
+                for company, body in fields.get_all(AdvertisingData.MANUFACTURER_SPECIFIC_DATA)
             },
             service_data={},
             service_uuids=list(dict.fromkeys(services)),
@@ -119,7 +120,7 @@ class RadioClient(BaseBleakClient):
     def __init__(self, address_or_ble_device: BLEDevice | str, services: set[str] | None = None, **kwargs: Any) -> None:
         super().__init__(address_or_ble_device, **kwargs)
         self._device = address_or_ble_device if isinstance(address_or_ble_device, BLEDevice) else None
-        self._wanted = services
+        self._requested_services = services
         self._link: Connection | None = None
         self._established = False
         self._subscriptions: dict[int, Callable[[bytes], None]] = {}
@@ -172,14 +173,19 @@ class RadioClient(BaseBleakClient):
     async def _discover(self, peer: Peer) -> BleakGATTServiceCollection:
         found = BleakGATTServiceCollection()
         for service in await peer.discover_services():
-            if self._wanted and _uuid(service.uuid) not in self._wanted:
+            if self._requested_services and _uuid(service.uuid) not in self._requested_services:
                 continue
             ours = BleakGATTService(service, service.handle, _uuid(service.uuid))
             found.add_service(ours)
             for characteristic in await service.discover_characteristics():
                 properties = list(gatt_char_props_to_strs(int(characteristic.properties)))
                 of_ours = BleakGATTCharacteristic(
-                    characteristic, characteristic.handle, _uuid(characteristic.uuid), properties, self._room, ours
+                    characteristic,
+                    characteristic.handle,
+                    _uuid(characteristic.uuid),
+                    properties,
+                    self._payload_size,
+                    ours,
                 )
                 found.add_characteristic(of_ours)
                 for descriptor in await characteristic.discover_descriptors():
@@ -188,7 +194,7 @@ class RadioClient(BaseBleakClient):
                     )
         return found
 
-    def _room(self) -> int:
+    def _payload_size(self) -> int:
         """Bytes of a value that fit in one ATT packet."""
         return self.mtu_size - 3
 
@@ -239,7 +245,7 @@ class RadioClient(BaseBleakClient):
             await self.disconnect()
             raise BleakError("the device did not answer") from error
         except core.ProtocolError as error:
-            known = _REFUSALS.get((error.error_namespace, error.error_code))
+            known = _PAIRING_ERRORS.get((error.error_namespace, error.error_code))
             raise BleakError(known or str(error)) from error
         except (core.BaseBumbleError, TimeoutError) as error:
             raise BleakError(str(error)) from error
@@ -252,8 +258,8 @@ class RadioClient(BaseBleakClient):
 
     async def write_gatt_char(self, characteristic: BleakGATTCharacteristic, data: SizedBuffer, response: bool) -> None:
         value = bytes(data)
-        if not response and len(value) > self._room():
-            raise BleakError(f"{len(value)} bytes do not fit in a write without response ({self._room()} do)")
+        if not response and len(value) > self._payload_size():
+            raise BleakError(f"{len(value)} bytes do not fit in a write without response ({self._payload_size()} do)")
         await self._request(partial(characteristic.obj.write_value, value, with_response=response))
 
     async def write_gatt_descriptor(self, descriptor: BleakGATTDescriptor, data: SizedBuffer) -> None:

@@ -17,9 +17,9 @@ from bumble import core, hci, ll
 from bumble.controller import Connection, Controller
 from bumble.link import LocalLink
 
-_NOISY = logging.getLogger("bumble")
-if _NOISY.level == logging.NOTSET:  # it warns of much that is no trouble: packets in flight when their link ends, ...
-    _NOISY.setLevel(logging.CRITICAL)
+_LOGGER = logging.getLogger("bumble")
+if _LOGGER.level == logging.NOTSET:  # it warns of much that is no trouble: packets in flight when their link ends, ...
+    _LOGGER.setLevel(logging.CRITICAL)
 
 RSSI = -50  # dBm; there are no distances in this air
 
@@ -33,13 +33,13 @@ class VirtualAir(LocalLink):
     def __init__(self, interval: float | None = None) -> None:
         super().__init__()  # type: ignore[no-untyped-call]
         self._interval = interval
-        self._events: dict[frozenset[hci.Address], Events] = {}
+        self._events: dict[frozenset[hci.Address], ConnectionEvents] = {}
 
     def send_advertising_pdu(self, sender_controller: Controller, packet: ll.AdvertisingPdu) -> None:
         if self._interval is not None and isinstance(packet, ll.ConnectInd):
             self._end(packet.initiator_address, packet.advertiser_address)
             ends = frozenset((packet.initiator_address, packet.advertiser_address))
-            self._events[ends] = Events(self._interval)
+            self._events[ends] = ConnectionEvents(self._interval)
         super().send_advertising_pdu(sender_controller, packet)
 
     def send_acl_data(
@@ -175,11 +175,11 @@ class VirtualController(Controller):
         return hci.HCI_StatusReturnParameters(hci.HCI_ErrorCode.SUCCESS)
 
 
-_SLACK = 1e-6
+_TOLERANCE = 1e-6
 """Of an interval: what the sums of floats may be out by."""
 
 
-class Events:
+class ConnectionEvents:
     """One link's. The first is `interval` s after it was made, and the others at the same distance.
 
     At an event everything goes that is ready by then, in its order, however much it is: a radio that can send no more
@@ -189,7 +189,7 @@ class Events:
     def __init__(self, interval: float) -> None:
         self.interval = interval
         self._loop = asyncio.get_running_loop()
-        self._began = self._loop.time()
+        self._t_start = self._loop.time()
         self._done = 0
         """The number of the last event at which anything went."""
         self._ready: list[Callable[[], None]] = []
@@ -199,8 +199,8 @@ class Events:
         """Call it at the next event."""
         self._ready.append(packet)
         if self._timer is None:
-            number = max(self._done + 1, ceil((self._loop.time() - self._began) / self.interval - _SLACK))
-            self._timer = self._loop.call_at(self._began + number * self.interval, self._event, number)
+            number = max(self._done + 1, ceil((self._loop.time() - self._t_start) / self.interval - _TOLERANCE))
+            self._timer = self._loop.call_at(self._t_start + number * self.interval, self._event, number)
 
     def flush(self) -> None:
         """Send what is ready without waiting any longer: the link ends in an orderly way."""

@@ -24,12 +24,12 @@ class AttributeServer(Server):
         if found or not 0 < first <= last:
             super().on_att_read_by_type_request(bearer, request)
             return
-        refusal = att.ATT_Error_Response(
+        response = att.ATT_Error_Response(
             request_opcode_in_error=request.op_code,
             attribute_handle_in_error=first,
             error_code=att.ATT_ATTRIBUTE_NOT_FOUND_ERROR,
         )
-        self.send_response(bearer, refusal)
+        self.send_response(bearer, response)
 
 
 def short_or_long(uuid: str) -> core.UUID:
@@ -44,12 +44,12 @@ def advertisement(name: str, services: Sequence[str]) -> bytes:
     uuids = [short_or_long(uuid) for uuid in services]
     short = [uuid for uuid in uuids if len(uuid.to_pdu_bytes()) == 2]
     long = [uuid for uuid in uuids if len(uuid.to_pdu_bytes()) == 16]
-    said: list[core.DataType] = []
+    entries: list[core.DataType] = []
     if short:
-        said.append(data_types.IncompleteListOf16BitServiceUUIDs(short))
+        entries.append(data_types.IncompleteListOf16BitServiceUUIDs(short))
     if long:
-        said.append(data_types.IncompleteListOf128BitServiceUUIDs(long))
-    said.append(data_types.CompleteLocalName(name))
+        entries.append(data_types.IncompleteListOf128BitServiceUUIDs(long))
+    entries.append(data_types.CompleteLocalName(name))
     flags = AdvertisingData.Flags.LE_GENERAL_DISCOVERABLE_MODE | AdvertisingData.Flags.BR_EDR_NOT_SUPPORTED
-    full = bytes(AdvertisingData([data_types.Flags(flags), *said]))
-    return full if len(full) <= emulated.ADVERTISEMENT else bytes(AdvertisingData(said))
+    full = bytes(AdvertisingData([data_types.Flags(flags), *entries]))
+    return full if len(full) <= emulated.ADVERTISEMENT else bytes(AdvertisingData(entries))

@@ -21,11 +21,11 @@ from bumble.transport.common import Transport
 
 _T = TypeVar("_T")
 
-TURN = 2.0
+ATTEMPT_TIMEOUT = 2.0
 """s that one attempt to connect may hold the controller; devices advertise about every 0.1 s."""
-PATIENCE = 5.0
+CONTROLLER_TIMEOUT = 5.0
 """s that a controller may take to be started or to end a link."""
-RETURN = 1.0
+RETRY_INTERVAL = 1.0
 """s between attempts to reach a lost controller again while somebody scans."""
 
 ScanListener = Callable[[Advertisement], None]
@@ -78,14 +78,14 @@ class VirtualRadio:
         device.keystore = self.keys
         just_works(device, lambda: False)  # a central begins pairings, and answers none
         try:
-            async with asyncio.timeout(PATIENCE):
+            async with asyncio.timeout(CONTROLLER_TIMEOUT):
                 await device.power_on()
         except BaseException as error:
             await transport.close()
             if isinstance(error, Exception):  # bumble trusts controllers, and raises whatever comes of their answers
                 raise BleakError(f"no Bluetooth controller answers at {self.where}") from error
             raise
-        device.on(Device.EVENT_ADVERTISEMENT, self._heard)
+        device.on(Device.EVENT_ADVERTISEMENT, self._on_advertisement)
         self._device, self._transport = device, transport
         transport.source.terminated.add_done_callback(lambda _: self._lost(device))
         if self._listeners:
@@ -99,14 +99,14 @@ class VirtualRadio:
             for task in self._tasks:
                 task.cancel()
             if self._listeners and not self._closed:
-                self.task(self._return())
+                self.task(self._reopen())
 
-    async def _return(self) -> None:
+    async def _reopen(self) -> None:
         while self._listeners and not self._closed:
             try:
                 await self.device()
             except BleakError:
-                await asyncio.sleep(RETURN)
+                await asyncio.sleep(RETRY_INTERVAL)
             else:
                 return
 
@@ -131,7 +131,7 @@ class VirtualRadio:
 
     async def _scan(self, device: Device, on: bool) -> None:
         try:
-            async with asyncio.timeout(PATIENCE):
+            async with asyncio.timeout(CONTROLLER_TIMEOUT):
                 await self.finish(device.start_scanning(legacy=True) if on else device.stop_scanning(legacy=True))
         except TimeoutError:
             transport = self._transport
@@ -142,7 +142,7 @@ class VirtualRadio:
         except core.BaseBumbleError as error:
             raise BleakError(f"{self.where}: {error}") from error
 
-    def _heard(self, advertisement: Advertisement) -> None:
+    def _on_advertisement(self, advertisement: Advertisement) -> None:
         for listener in list(self._listeners):
             listener(advertisement)
 
@@ -151,10 +151,10 @@ class VirtualRadio:
         while True:
             device = await self.device()
             async with self._connecting:
-                attempt = self.task(device.connect(peer, timeout=TURN))
+                attempt = self.task(device.connect(peer, timeout=ATTEMPT_TIMEOUT))
                 try:
                     link = await asyncio.shield(attempt)
-                    if not stands(link):
+                    if not is_up(link):
                         raise BleakError(f"the link to {peer.to_string(False)} was lost as soon as it was made")
                     return link
                 except core.TimeoutError:
@@ -164,13 +164,13 @@ class VirtualRadio:
                 except asyncio.CancelledError:
                     if attempt.cancelled() and not _cancelled():
                         raise BleakError(f"{self.where}: the connection to the controller was lost") from None
-                    await self._take_back(device, attempt)
+                    await self._cancel_attempt(device, attempt)
                     raise
 
-    async def _take_back(self, device: Device, attempt: asyncio.Task[Connection]) -> None:
+    async def _cancel_attempt(self, device: Device, attempt: asyncio.Task[Connection]) -> None:
         """The caller gave up: neither a request nor a link without an owner may stay behind."""
         try:
-            async with asyncio.timeout(PATIENCE):
+            async with asyncio.timeout(CONTROLLER_TIMEOUT):
                 if not attempt.done():
                     await device.cancel_connection()  # type: ignore[no-untyped-call]
                 link = await attempt
@@ -210,7 +210,7 @@ class VirtualRadio:
             for link in list(device.connections.values()):
                 await end_link(link)
             with suppress(TimeoutError):
-                async with asyncio.timeout(PATIENCE):
+                async with asyncio.timeout(CONTROLLER_TIMEOUT):
                     await device.power_off()
             device.host.ready = False  # deaf to what is still in flight: nobody waits for it any more
         tasks = list(self._tasks)
@@ -222,17 +222,17 @@ class VirtualRadio:
             self._transport = None
 
 
-def stands(link: Connection) -> bool:
+def is_up(link: Connection) -> bool:
     """Whether it is a link still. One that fails to be established may be over before anybody could listen for it."""
     return link.device.connections.get(link.handle) is link
 
 
 async def end_link(link: Connection) -> None:
     """Disconnects; returns when both ends know, or when the link is gone anyhow."""
-    if not stands(link):
+    if not is_up(link):
         return
     try:
-        async with asyncio.timeout(PATIENCE):
+        async with asyncio.timeout(CONTROLLER_TIMEOUT):
             await link.disconnect()
     except (TimeoutError, core.BaseBumbleError):
         pass
@@ -251,7 +251,7 @@ _KEYS = PairingDelegate.KeyDistribution.DISTRIBUTE_ENCRYPTION_KEY
 """No identities are exchanged: the addresses are static."""
 
 
-class Consent(PairingDelegate):
+class PairingConsent(PairingDelegate):
     """`agrees` is asked whether a pairing that the other end begins is welcome."""
 
     def __init__(self, agrees: Callable[[], bool]) -> None:
@@ -265,9 +265,9 @@ class Consent(PairingDelegate):
 def just_works(device: Device, agrees: Callable[[], bool]) -> None:
     """From now on the device pairs by LE Secure Connections, Just Works, and the keys are kept (bonding), if `agrees`
     says so when the other end begins."""
-    consent = Consent(agrees)
+    pairing_consent = PairingConsent(agrees)
 
     def config(link: Connection) -> PairingConfig:
-        return PairingConfig(sc=True, mitm=False, bonding=True, delegate=consent)
+        return PairingConfig(sc=True, mitm=False, bonding=True, delegate=pairing_consent)
 
     device.pairing_config_factory = config

@@ -102,7 +102,7 @@ class Server:
             gatt_service_enabled=False,
         )
         self._device = Device(config=config, host=Host(self._controller, AsyncPipeSink(self._controller)))
-        just_works(self._device, lambda: self.peripheral.agrees_to_pair(self._loop.time()))
+        just_works(self._device, lambda: self.peripheral.accepts_pairing(self._loop.time()))
         self._device.gatt_server = AttributeServer(self._device)
         self._device.add_service(GenericAccessService(peripheral.name))
         self._served: dict[str, Characteristic[bytes]] = {}
@@ -113,21 +113,23 @@ class Server:
             self._served |= found
         self._device.on(Device.EVENT_CONNECTION, self._connected)
 
-    def _characteristic(self, said: emulated.Characteristic, described: bool) -> Characteristic[bytes]:
+    def _characteristic(self, attribute: emulated.Characteristic, described: bool) -> Characteristic[bytes]:
         properties = Characteristic.Properties(0)
-        for name in said.properties:
+        for name in attribute.properties:
             properties |= Characteristic.Properties[name.upper().replace("-", "_")]
         description = Descriptor(
-            GATT_CHARACTERISTIC_USER_DESCRIPTION_DESCRIPTOR, att.Attribute.READABLE, said.channel.encode()
+            GATT_CHARACTERISTIC_USER_DESCRIPTION_DESCRIPTOR, att.Attribute.READABLE, attribute.channel.encode()
         )
         served: Characteristic[bytes] = Characteristic(
-            short_or_long(said.uuid),
+            short_or_long(attribute.uuid),
             properties,
             att.Attribute.READABLE | att.Attribute.WRITEABLE,  # the device itself says what is not permitted
-            CharacteristicValue(read=partial(self.read, said.channel), write=partial(self.write, said.channel)),
+            CharacteristicValue(
+                read=partial(self.read, attribute.channel), write=partial(self.write, attribute.channel)
+            ),
             [description] if described else [],
         )
-        subscribed: Callable[[Connection, bool, bool], None] = partial(self.subscribe, said.channel)
+        subscribed: Callable[[Connection, bool, bool], None] = partial(self.subscribe, attribute.channel)
         served.on(Characteristic.EVENT_SUBSCRIPTION, subscribed)
         return served
 
@@ -164,12 +166,12 @@ class Server:
         self._silence = self._loop.create_future()
         self._device.gatt_server.max_mtu = self.peripheral.mtu
         link.on(Connection.EVENT_DISCONNECTION, partial(self._disconnected, link))
-        link.on(Connection.EVENT_CONNECTION_ATT_MTU_UPDATE, lambda: self._tell(link))
-        link.on(Connection.EVENT_CONNECTION_ENCRYPTION_CHANGE, lambda: self._tell(link))
+        link.on(Connection.EVENT_CONNECTION_ATT_MTU_UPDATE, lambda: self._update_link_state(link))
+        link.on(Connection.EVENT_CONNECTION_ENCRYPTION_CHANGE, lambda: self._update_link_state(link))
         self.peripheral.connected(self._loop.time(), link.att_mtu)
         self._arm()
 
-    def _tell(self, link: Connection) -> None:
+    def _update_link_state(self, link: Connection) -> None:
         if self._link is link:
             self.peripheral.agreed_mtu, self.peripheral.is_encrypted = link.att_mtu, link.is_encrypted
 
@@ -187,29 +189,29 @@ class Server:
     # requests; the channel comes first, since it is bound when the table of attributes is made
 
     async def read(self, channel: str, link: Connection) -> bytes:
-        value = self._ask(partial(self.peripheral.read, channel))
-        return value if value is not None else await self._never()
+        value = self._request(partial(self.peripheral.read, channel))
+        return value if value is not None else await self._no_answer()
 
     async def write(self, channel: str, link: Connection, value: bytes) -> None:
-        if not self._ask(partial(self.peripheral.write, channel, value)):
-            await self._never()
+        if not self._request(partial(self.peripheral.write, channel, value)):
+            await self._no_answer()
 
     def subscribe(self, channel: str, link: Connection, notify: bool, indicate: bool) -> None:
-        self._ask(partial(self.peripheral.subscribe, channel, notify))
+        self._request(partial(self.peripheral.subscribe, channel, notify))
 
-    def _ask(self, request: Callable[[float], _T]) -> _T:
+    def _request(self, request: Callable[[float], _T]) -> _T:
         """The device's answer, or its refusal as an ATT error; afterwards it may have something to send sooner."""
         try:
             return request(self._loop.time())
-        except AttError as refusal:
-            raise att.ATT_Error(refusal.code) from None
+        except AttError as error:
+            raise att.ATT_Error(error.code) from None
         except Exception as error:
             self._loop.call_exception_handler({"message": f"{self.peripheral.name} failed", "exception": error})
             raise att.ATT_Error(att.ATT_UNLIKELY_ERROR_ERROR) from error
         finally:
             self._arm()
 
-    async def _never(self) -> bytes:
+    async def _no_answer(self) -> bytes:
         """An answer that never comes; it is given up with the link."""
         if self._silence is None:
             raise att.ATT_Error(att.ATT_UNLIKELY_ERROR_ERROR)

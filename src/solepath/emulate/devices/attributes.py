@@ -20,7 +20,7 @@ class AttCode(IntEnum):
     NOT_PAIRED = 0x05
     REQUEST_NOT_SUPPORTED = 0x06
     WRONG_LENGTH = 0x0D
-    REFUSED = 0x80
+    APPLICATION_ERROR = 0x80
     """The first of the codes that an application may give a meaning."""
 
 
@@ -83,7 +83,7 @@ READ = frozenset({"read"})
 NOTIFY = frozenset({"notify"})
 WRITE = frozenset({"write"})
 
-DRAIN = 600.0
+BATTERY_STEP = 600.0
 """s in which the battery loses one percent."""
 
 _INFORMATION = {"manufacturer": 0x2A29, "model": 0x2A24, "hardware": 0x2A27, "software": 0x2A28}
@@ -111,8 +111,8 @@ def services(
 
 def information(firmware: str, **more: str) -> dict[str, bytes]:
     """What Device Information says, by channel."""
-    said = {"device/firmware": build_firmware(firmware)}
-    return said | {f"device/{name}": text.encode() for name, text in more.items()}
+    found = {"device/firmware": build_firmware(firmware)}
+    return found | {f"device/{name}": text.encode() for name, text in more.items()}
 
 
 @frozen
@@ -122,13 +122,13 @@ class Battery:
     percent: int
 
     def level(self, t: float) -> bytes:
-        return build_battery(max(0, self.percent - max(0, floor(t / DRAIN))))
+        return build_battery(max(0, self.percent - max(0, floor(t / BATTERY_STEP))))
 
     def after(self, t: float) -> int:
-        return max(1, ceil(t / DRAIN))
+        return max(1, ceil(t / BATTERY_STEP))
 
     def due(self, number: int) -> float:
-        return number * DRAIN if number <= self.percent else inf
+        return number * BATTERY_STEP if number <= self.percent else inf
 
     def values(self, number: int, mtu: int) -> Sequence[bytes]:
-        return (self.level(number * DRAIN),)
+        return (self.level(number * BATTERY_STEP),)

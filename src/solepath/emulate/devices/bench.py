@@ -16,7 +16,7 @@ from .cc2541 import CC2541Peripheral
 from .cc2650 import CC2650Peripheral
 from .faults import Fault
 from .insole import InsolePeripheral
-from .peripheral import Peripheral, Worn
+from .peripheral import Peripheral, Placement
 
 
 class Bench:
@@ -35,7 +35,7 @@ class Bench:
         wearer: Wearer | None = None,
         seed: int = 1,
         mtu: int = 247,
-        began: float = 0.0,
+        started_at: float = 0.0,
         faults: Iterable[Fault] = (),
     ) -> None:
         if devices is None:
@@ -44,7 +44,9 @@ class Bench:
         self.devices = {site: devices[site] for site in Site if site in devices}
         script = tuple(faults)
         self.peripherals: tuple[Peripheral, ...] = tuple(
-            _peripheral(device, self.walker, seed, Worn(site, f"F0:5E:00:00:00:{number:02X}", mtu, began, script))
+            _peripheral(
+                device, self.walker, seed, Placement(site, f"F0:5E:00:00:00:{number:02X}", mtu, started_at, script)
+            )
             for number, (site, device) in enumerate(self.devices.items(), 1)
         )
 
@@ -54,10 +56,10 @@ class Bench:
                 return peripheral
         raise KeyError(site)
 
-    def walk_from(self, began: float) -> None:
+    def walk_from(self, started_at: float) -> None:
         """The walk begins anew at this time of the loop."""
         for peripheral in self.peripherals:
-            peripheral.walk_from(began)
+            peripheral.walk_from(started_at)
 
     def prepare(self) -> None:
         """Work out now what the devices send after their usual setup, so that nobody waits for it on the link."""
@@ -69,7 +71,7 @@ class Bench:
         return self.walker.truth({foot_of(site): device.mounting for site, device in self.devices.items()})
 
 
-def _peripheral(device: Device, walker: Walker, seed: int, worn: Worn) -> Peripheral:
+def _peripheral(device: Device, walker: Walker, seed: int, worn: Placement) -> Peripheral:
     match device:
         case Insole():
             return InsolePeripheral(device, walker, seed, worn)

@@ -14,21 +14,21 @@ import numpy as np
 
 from ...link.devices.cc2650 import DRIVER, PROFILE
 from ...types.vector import GRAVITY
-from ..sensors.device import device_numbers, started
+from ..sensors.device import device_numbers, draw_clock
 from ..sensors.parts import AK8963, BMP280
 from ..sensors.sensortags import BATTERY, CC2650, CC2650_KEYS, cc2650_air
-from ..sensors.tag_signals import LATE_AIR, Series
+from ..sensors.tag_signals import BAROMETER_DELAY, Series
 from ..wearers.walker import Walker
 from .attributes import Battery
-from .peripheral import Worn
-from .tag import STOCK, Make, Presses, Sensor, Tag, room, shortest, switch
+from .peripheral import Placement
+from .tag import STOCK, Encoder, Presses, Sensor, Tag, checked_code, constant_sensors, shortest
 
-WAKES = 0.040 * GRAVITY
+WAKE_CHANGE = 0.040 * GRAVITY
 """m/s^2 from one sample to the next that wake a tag which lies still."""
-AWAKE = 10.0
+AWAKE_TIME = 10.0
 """s for which it stays awake after that."""
 
-_MEANT, _AXES = 0x03FF, 0x007F
+_CONFIG_BITS, _AXIS_BITS = 0x03FF, 0x007F
 """The bits of AA82 that the firmware looks at, and those of them that switch axes on."""
 
 # What the sensors say that measure nothing of the wearer: 24 degrees, half the air's moisture, a lit room.
@@ -42,14 +42,14 @@ _ROOM = {
 class CC2650Peripheral(Tag):
     """A CC2650 on a foot."""
 
-    def __init__(self, device: CC2650, walker: Walker, seed: int, worn: Worn) -> None:
+    def __init__(self, device: CC2650, walker: Walker, seed: int, worn: Placement) -> None:
         self.device = device
-        clock = started(device_numbers(seed, worn.site), 1.0 / device.rate, device.ppm)
+        clock = draw_clock(device_numbers(seed, worn.site), 1.0 / device.rate, device.ppm)
         self._shortest = shortest(device.rate)
         sensors = (
             Sensor("cc2650/movement", 100, self._shortest, bytes(18), size=2),
             Sensor("cc2650/barometer", 100, STOCK, bytes(6)),
-            *room(_ROOM),
+            *constant_sensors(_ROOM),
         )
         super().__init__(device, walker, seed, worn, clock, PROFILE, sensors, "CC2650 SensorTag")
         self._moved: dict[float, list[int]] = {}
@@ -59,23 +59,23 @@ class CC2650Peripheral(Tag):
         self.series("cc2650/movement", 0.01 * self._shortest)
         self.series("cc2650/barometer", 1.0)
 
-    def begin(self, t: float) -> None:
+    def start(self, t: float) -> None:
         self.flow("cc2650/keys", Presses(self.device.presses, *CC2650_KEYS), t)
         self.flow("device/battery", self._battery, t)
 
     def value(self, channel: str, t: float) -> bytes:
         return self._battery.level(t) if channel == "device/battery" else super().value(channel, t)
 
-    def make(self, sensor: str, config: bytes, period: float) -> Make | None:
+    def encoder(self, sensor: str, config: bytes, period: float) -> Encoder | None:
         if sensor == "cc2650/movement":
-            bits = int.from_bytes(config, "little") & _MEANT
+            bits = int.from_bytes(config, "little") & _CONFIG_BITS
             parsed = DRIVER.parse("cc2650/movement-config", bits.to_bytes(2, "little"))
-            return (0.0, partial(self._say_movement, parsed, period)) if bits & _AXES else None
-        if not switch(config, 1):
+            return (0.0, partial(self._encode_movement, parsed, period)) if bits & _AXIS_BITS else None
+        if not checked_code(config, 1):
             return None
-        return LATE_AIR, lambda number: cc2650_air(float(self.series(sensor, period)[0].value(number)[0, 0]))
+        return BAROMETER_DELAY, lambda number: cc2650_air(float(self.series(sensor, period)[0].value(number)[0, 0]))
 
-    def _say_movement(self, config: Any, period: float, number: int) -> bytes | None:
+    def _encode_movement(self, config: Any, period: float, number: int) -> bytes | None:
         acc, gyro, mag = self.series("cc2650/movement", period)
         if config.wake_on_motion and not self._awake(acc, period, number):
             return None
@@ -98,6 +98,6 @@ class CC2650Peripheral(Tag):
         moved = self._moved.get(period)
         if moved is None:
             change = np.abs(np.diff(acc.values, axis=0)).max(axis=1)
-            moved = self._moved[period] = [int(k) + 1 for k in np.flatnonzero(change > WAKES)]
+            moved = self._moved[period] = [int(k) + 1 for k in np.flatnonzero(change > WAKE_CHANGE)]
         before = bisect_right(moved, number)
-        return before > 0 and (number - moved[before - 1]) * period <= AWAKE
+        return before > 0 and (number - moved[before - 1]) * period <= AWAKE_TIME

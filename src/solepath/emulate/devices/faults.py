@@ -44,7 +44,7 @@ PAIRING = "pairing"
 _E = TypeVar("_E", bound=Enum)
 
 
-class What(Enum):
+class FaultKind(Enum):
     """What goes wrong; the words are those of the script."""
 
     DISCONNECT = "disconnect"
@@ -55,7 +55,7 @@ class What(Enum):
     FLIP = "flip"
     FREEZE = "freeze"
     MTU = "mtu"
-    REFUSE = "refuse"
+    REJECT = "refuse"
     HANG = "hang"
     RESTART = "restart"
     NAME = "name"
@@ -72,14 +72,14 @@ class Fault:
 
     at: float
     site: Site | None
-    what: What
+    kind: FaultKind
     amount: float = 1.0
     argument: str = ""
 
 
-_COUNTED = {What.DROP, What.DUPLICATE, What.TRUNCATE, What.FLIP, What.REFUSE}
-_LASTING = {What.VANISH, What.FREEZE}
-_NAMING = {What.REFUSE: "a channel", What.NAME: "a name"}
+_COUNTED = {FaultKind.DROP, FaultKind.DUPLICATE, FaultKind.TRUNCATE, FaultKind.FLIP, FaultKind.REJECT}
+_LASTING = {FaultKind.VANISH, FaultKind.FREEZE}
+_NAMING = {FaultKind.REJECT: "a channel", FaultKind.NAME: "a name"}
 
 
 def parse_faults(text: str) -> tuple[Fault, ...]:
@@ -109,41 +109,41 @@ def _words(line: str) -> list[list[str]]:
 def _fault(words: list[str]) -> Fault:
     if len(words) < 3:
         raise ValueError("a fault is SECONDS SITE WHAT [AMOUNT]")
-    at, what = _number(words[0], "seconds"), _one_of(What, words[2], "fault")
+    at, kind = _number(words[0], "seconds"), _one_of(FaultKind, words[2], "fault")
     site = None if words[1] == "*" else _one_of(Site, words[1], "site", "* and ")
     rest = words[3:]
     argument = ""
-    if what in _NAMING:
+    if kind in _NAMING:
         if not rest:
-            raise ValueError(f"{what.value} needs {_NAMING[what]}")
+            raise ValueError(f"{kind.value} needs {_NAMING[kind]}")
         argument, rest = rest[0], rest[1:]
-    takes = what in _COUNTED | _LASTING | {What.MTU}
+    takes = kind in _COUNTED | _LASTING | {FaultKind.MTU}
     if len(rest) > takes:
-        raise ValueError(f"too many words after {what.value}")
-    return Fault(at, site, what, _amount(what, rest), argument)
+        raise ValueError(f"too many words after {kind.value}")
+    return Fault(at, site, kind, _amount(kind, rest), argument)
 
 
-def _amount(what: What, rest: list[str]) -> float:
-    if what is What.MTU:
+def _amount(kind: FaultKind, rest: list[str]) -> float:
+    if kind is FaultKind.MTU:
         amount = _number(rest[0], "MTU") if rest else 0.0
         if amount != int(amount) or not 23 <= amount <= 517:
             raise ValueError("mtu needs a whole number from 23 to 517")
         return amount
     if not rest:
-        return inf if what in _LASTING else 1.0
+        return inf if kind in _LASTING else 1.0
     amount = _number(rest[0], "amount")
-    if what in _COUNTED and (amount != int(amount) or amount < 1):
-        raise ValueError(f"{what.value} needs a whole number, at least 1")
+    if kind in _COUNTED and (amount != int(amount) or amount < 1):
+        raise ValueError(f"{kind.value} needs a whole number, at least 1")
     return amount
 
 
-def _number(word: str, what: str) -> float:
+def _number(word: str, kind: str) -> float:
     try:
         value = float(word)
     except ValueError:
-        raise ValueError(f"{what}: {word!r} is not a number") from None
+        raise ValueError(f"{kind}: {word!r} is not a number") from None
     if not isfinite(value) or value < 0.0:
-        raise ValueError(f"{what}: {word} is out of range")
+        raise ValueError(f"{kind}: {word} is out of range")
     return value
 
 
@@ -155,15 +155,15 @@ def _one_of(kind: type[_E], word: str, called: str, also: str = "") -> _E:
         raise ValueError(f"no {called} {word!r}; there are {also}{there}") from None
 
 
-class Misfortune:
+class FaultState:
     """The faults of one device as time passes. `t` is everywhere the time of the walk, s, and never goes back."""
 
     def __init__(self, faults: Iterable[Fault], site: Site) -> None:
         mine = [fault for fault in faults if fault.site in (None, site)]
         self._coming = sorted(mine, key=attrgetter("at"))
         self._random = random.Random(f"faults {site.value}")
-        self._left = dict.fromkeys(_COUNTED - {What.REFUSE}, 0)
-        self._refusing: dict[str, int] = {}
+        self._left = dict.fromkeys(_COUNTED - {FaultKind.REJECT}, 0)
+        self._rejections: dict[str, int] = {}
         self._hidden_until = -inf
         self._frozen_until = -inf
         self._hang = False
@@ -173,7 +173,7 @@ class Misfortune:
         """The link is to be lost now."""
         self.mtu: int | None = None
         """The largest MTU that the device now agrees to, None when no fault says so."""
-        self.restarted: float | None = None
+        self.restarted_at: float | None = None
         """When the device began anew the last time, None when it never did."""
         self.name: str | None = None
         """What the device now calls itself, None when no fault says so."""
@@ -187,7 +187,7 @@ class Misfortune:
     def advance(self, t: float) -> None:
         """Let happen what is to happen until `t`."""
         while self._coming and self._coming[0].at <= t:
-            self._happen(self._coming.pop(0))
+            self._start_fault(self._coming.pop(0))
         if self._lost_at <= t:
             self.cut, self._lost_at = True, inf
 
@@ -204,10 +204,10 @@ class Misfortune:
     def thaw(self) -> None:
         self._frozen_until = -inf
 
-    def refuses(self, channel: str) -> bool:
+    def rejects(self, channel: str) -> bool:
         """Whether a request to the channel is refused; asked once for each request."""
-        left = self._refusing.get(channel, 0)
-        self._refusing[channel] = max(0, left - 1)
+        left = self._rejections.get(channel, 0)
+        self._rejections[channel] = max(0, left - 1)
         return left > 0
 
     def hangs(self, t: float) -> bool:
@@ -216,44 +216,44 @@ class Misfortune:
             self._hang, self._lost_at = False, t + HANGING
         return self._lost_at < inf
 
-    def carry(self, value: bytes) -> list[bytes]:
+    def apply(self, value: bytes) -> list[bytes]:
         """What is really sent in place of a notification."""
-        if self._spend(What.DROP):
+        if self._spend(FaultKind.DROP):
             return []
-        if self._spend(What.TRUNCATE):
+        if self._spend(FaultKind.TRUNCATE):
             value = value[: self._random.randrange(len(value))] if value else value
-        if self._spend(What.FLIP):
+        if self._spend(FaultKind.FLIP):
             value = self._flip(value)
-        return [value, value] if self._spend(What.DUPLICATE) else [value]
+        return [value, value] if self._spend(FaultKind.DUPLICATE) else [value]
 
-    def _happen(self, fault: Fault) -> None:
+    def _start_fault(self, fault: Fault) -> None:
         self.happened += 1
-        match fault.what:
-            case What.DISCONNECT:
+        match fault.kind:
+            case FaultKind.DISCONNECT:
                 self.cut = True
-            case What.RESTART:
-                self.cut, self.restarted = True, fault.at
-            case What.VANISH:
+            case FaultKind.RESTART:
+                self.cut, self.restarted_at = True, fault.at
+            case FaultKind.VANISH:
                 self.cut, self._hidden_until = True, fault.at + fault.amount
-            case What.FREEZE:
+            case FaultKind.FREEZE:
                 self._frozen_until = fault.at + fault.amount
-            case What.MTU:
+            case FaultKind.MTU:
                 self.mtu = int(fault.amount)
-            case What.REFUSE:
-                self._refusing[fault.argument] = self._refusing.get(fault.argument, 0) + int(fault.amount)
-            case What.HANG:
+            case FaultKind.REJECT:
+                self._rejections[fault.argument] = self._rejections.get(fault.argument, 0) + int(fault.amount)
+            case FaultKind.HANG:
                 self._hang = True
-            case What.NAME:
+            case FaultKind.NAME:
                 self.name = fault.argument
-            case What.PAIRING:
+            case FaultKind.PAIRING:
                 self.needs_pairing = True
             case _:
-                self._left[fault.what] += int(fault.amount)
+                self._left[fault.kind] += int(fault.amount)
 
-    def _spend(self, what: What) -> bool:
-        if self._left[what] == 0:
+    def _spend(self, kind: FaultKind) -> bool:
+        if self._left[kind] == 0:
             return False
-        self._left[what] -= 1
+        self._left[kind] -= 1
         return True
 
     def _flip(self, value: bytes) -> bytes:

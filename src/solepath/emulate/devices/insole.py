@@ -19,7 +19,7 @@ from ..sensors.device import device_numbers, foot_of
 from ..sensors.insole_device import BATTERY, TICK_RATE, Insole, InsoleSignal
 from ..wearers.walker import Walker
 from .attributes import NOTIFY, READ, WRITE, AttError, Battery, information, services
-from .peripheral import Peripheral, Worn
+from .peripheral import Peripheral, Placement
 
 UNKNOWN_OPCODE = 0x80
 WRONG_VALUE = 0x81
@@ -60,7 +60,7 @@ class _Frames:
     sequence: int = 0
     ticks: int = 0
     kept: deque[int] = Factory(deque)
-    again: deque[int] = Factory(deque)
+    to_resend: deque[int] = Factory(deque)
 
     def after(self, t: float) -> int:
         return ceil((t - self.signal.first) / (self.signal.step * self.batch))
@@ -70,8 +70,8 @@ class _Frames:
 
     def values(self, number: int, mtu: int) -> Sequence[bytes]:
         found = self._pieces(number, False, mtu)
-        for _ in range(min(_BURST, len(self.again))):
-            found += self._pieces(self.again.popleft(), True, mtu)
+        for _ in range(min(_BURST, len(self.to_resend))):
+            found += self._pieces(self.to_resend.popleft(), True, mtu)
         self.kept.append(number)
         while len(self.kept) * self.signal.step * self.batch > KEPT:
             self.kept.popleft()
@@ -92,13 +92,13 @@ class _Frames:
 
     def resend(self, command: Resend) -> None:
         """Those asked for that are still kept will go with the next frames."""
-        asked = {(command.first + i) % 2**16 for i in range(command.count)}
+        requested = {(command.first + i) % 2**16 for i in range(command.count)}
         offset = self.signal.sequence + self.sequence
-        self.again += [n for n in self.kept if (offset + n) % 2**16 in asked and n not in self.again]
+        self.to_resend += [n for n in self.kept if (offset + n) % 2**16 in requested and n not in self.to_resend]
 
-    def _pieces(self, number: int, again: bool, mtu: int) -> list[bytes]:
+    def _pieces(self, number: int, retransmitted: bool, mtu: int) -> list[bytes]:
         frame = self.frame(number)
-        return split(build_frame(evolve(frame, retransmitted=again)), mtu - 3, number % FRAME_IDS)
+        return split(build_frame(evolve(frame, retransmitted=retransmitted)), mtu - 3, number % FRAME_IDS)
 
 
 class InsolePeripheral(Peripheral):
@@ -109,7 +109,7 @@ class InsolePeripheral(Peripheral):
     whole walk is worth is worked out once for each interval, when it is first needed or by `prepare`.
     """
 
-    def __init__(self, device: Insole, walker: Walker, seed: int, worn: Worn) -> None:
+    def __init__(self, device: Insole, walker: Walker, seed: int, worn: Placement) -> None:
         name = f"solepath {'L' if foot_of(worn.site) is Foot.LEFT else 'R'}"
         super().__init__(worn, name, _SERVICES, INSOLE.services)
         self.device, self._walker, self._seed = device, walker, seed
@@ -117,7 +117,7 @@ class InsolePeripheral(Peripheral):
         self._signals: dict[int, InsoleSignal] = {}
         self._frames: _Frames | None = None
         self._battery = Battery(BATTERY)
-        self._said = information(device.firmware, manufacturer="solepath", model="emulated insole")
+        self._device_information = information(device.firmware, manufacturer="solepath", model="emulated insole")
 
     def prepare(self) -> None:
         self.signal()
@@ -135,7 +135,7 @@ class InsolePeripheral(Peripheral):
             self._signals[self._interval] = found
         return found
 
-    def begin(self, t: float) -> None:
+    def start(self, t: float) -> None:
         self.flow("device/battery", self._battery, t)
 
     def stop(self) -> None:
@@ -147,7 +147,7 @@ class InsolePeripheral(Peripheral):
                 return build_info(self.device.info(self.signal()))
             case "device/battery":
                 return self._battery.level(t)
-        return self._said[channel]
+        return self._device_information[channel]
 
     def take(self, channel: str, value: bytes, t: float) -> None:
         try:
@@ -164,7 +164,7 @@ class InsolePeripheral(Peripheral):
             case SetInterval(interval=interval):
                 self._interval = max(SHORTEST, interval)
                 if self._frames is not None:
-                    self._measure(self._following(self._frames, t), t)
+                    self._measure(self._continued_frames(self._frames, t), t)
             case Resend():
                 if self._frames is None:
                     raise AttError(NOT_NOW)
@@ -177,10 +177,10 @@ class InsolePeripheral(Peripheral):
     def _frames_from(self, t: float) -> _Frames:
         """Frames from `t` on; after a restart they count from 0, and the ticks from then."""
         frames = _Frames(self.signal(), self._batch())
-        if self.restarted is not None:
+        if self.restarted_at is not None:
             number = frames.after(t)
             frames.sequence = -(frames.signal.sequence + number) % 2**16
-            frames.ticks = (frames.elapsed(number, self.restarted) - frames.own_ticks(number)) % 2**32
+            frames.ticks = (frames.elapsed(number, self.restarted_at) - frames.own_ticks(number)) % 2**32
         return frames
 
     def _batch(self) -> int:
@@ -189,7 +189,7 @@ class InsolePeripheral(Peripheral):
         room = min(_LONGEST, max(self.agreed_mtu - 3, MAX_FRAGMENTS * (self.agreed_mtu - 4)))
         return max(1, min(self.device.batch, (room - _HEADER_AND_CRC) // one))
 
-    def _following(self, old: _Frames, t: float) -> _Frames:
+    def _continued_frames(self, old: _Frames, t: float) -> _Frames:
         """Frames at the interval in force whose first, at `t`, continues the sequence and the clock of the old ones."""
         new = _Frames(self.signal(), old.batch)
         number = new.after(t)

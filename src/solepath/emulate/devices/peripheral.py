@@ -22,7 +22,7 @@ from attrs import frozen
 
 from ...types import Site
 from .attributes import SMALLEST_MTU, AttCode, AttError, Outgoing, Service, check_fits
-from .faults import PAIRING, Fault, Misfortune, What
+from .faults import PAIRING, Fault, FaultKind, FaultState
 from .flows import Flows, ValueSource
 
 _AT_ONCE = 2e-6
@@ -30,7 +30,7 @@ _AT_ONCE = 2e-6
 
 
 @frozen
-class Worn:
+class Placement:
     """Where a device is worn, its address, and what befalls it.
 
     `mtu`: the largest that it agrees to. `began`: the loop's time at which its wearer's walk begins; until then he
@@ -40,7 +40,7 @@ class Worn:
     site: Site
     address: str
     mtu: int = 247
-    began: float = 0.0
+    started_at: float = 0.0
     faults: tuple[Fault, ...] = ()
 
 
@@ -50,17 +50,17 @@ class Peripheral:
     `sent` counts the notifications that were handed over by channel, and `log` has them all once a list is put there.
     """
 
-    def __init__(self, worn: Worn, name: str, services: Iterable[Service], advertised: Iterable[str]) -> None:
+    def __init__(self, worn: Placement, name: str, services: Iterable[Service], advertised: Iterable[str]) -> None:
         self.site, self.address = worn.site, worn.address
         self.services = tuple(services)
         self.advertised = tuple(advertised)
         self.sent: dict[str, int] = {}
         self.log: list[Outgoing] | None = None
         self.changed: Callable[[], None] | None = None
-        for said in (name, *(fault.argument for fault in worn.faults if fault.what is What.NAME)):
-            check_fits(said, self.advertised)
-        self._name, self._mtu, self._began, self._faults = name, worn.mtu, worn.began, worn.faults
-        self._misfortune = Misfortune(worn.faults, worn.site)
+        for text in (name, *(fault.argument for fault in worn.faults if fault.kind is FaultKind.NAME)):
+            check_fits(text, self.advertised)
+        self._name, self._mtu, self._started_at, self._faults = name, worn.mtu, worn.started_at, worn.faults
+        self._fault_state = FaultState(worn.faults, worn.site)
         self._properties = {c.channel: c.properties for service in self.services for c in service.characteristics}
         self._flows = Flows()
         self._now = -inf
@@ -83,7 +83,7 @@ class Peripheral:
     def stop(self) -> None:
         """Do as the device does when its link is gone. The flows have been stopped already."""
 
-    def begin(self, t: float) -> None:
+    def start(self, t: float) -> None:
         """Do as the device does when it is connected at `t` of the walk."""
 
     def prepare(self) -> None:
@@ -97,54 +97,54 @@ class Peripheral:
 
     @property
     def name(self) -> str:
-        return self._name if self._misfortune.name is None else self._misfortune.name
+        return self._name if self._fault_state.name is None else self._fault_state.name
 
     @property
     def mtu(self) -> int:
-        return self._mtu if self._misfortune.mtu is None else min(self._mtu, self._misfortune.mtu)
+        return self._mtu if self._fault_state.mtu is None else min(self._mtu, self._fault_state.mtu)
 
     @property
-    def restarted(self) -> float | None:
+    def restarted_at(self) -> float | None:
         """When it began anew the last time, in time of the walk; None when it never did."""
-        return self._misfortune.restarted
+        return self._fault_state.restarted_at
 
     @property
-    def suffered(self) -> int:
+    def fault_count(self) -> int:
         """Faults of the script that have happened in this walk."""
-        return self._misfortune.happened
+        return self._fault_state.happened
 
     @property
     def needs_pairing(self) -> bool:
         """Whether it refuses requests on a link that is not encrypted, but for Device Information and battery."""
-        return self._misfortune.needs_pairing
+        return self._fault_state.needs_pairing
 
-    def walk_from(self, began: float) -> None:
+    def walk_from(self, started_at: float) -> None:
         """The walk begins anew, and the script of its faults with it: nothing of an earlier one holds over."""
-        self._began = began
-        self._misfortune = Misfortune(self._faults, self.site)
-        self._flows.go_to(self._now - began)
-        self._tell()
+        self._started_at = started_at
+        self._fault_state = FaultState(self._faults, self.site)
+        self._flows.go_to(self._now - started_at)
+        self._notify_changed()
 
     def visible(self, now: float) -> bool:
         """Whether it advertises, if it is not connected."""
-        return not self._misfortune.hidden(self._pass(now))
+        return not self._fault_state.hidden(self._advance(now))
 
     def connected(self, now: float, mtu: int) -> None:
         """A link begins, with the MTU that is agreed so far."""
-        t = self._pass(now)
-        self._misfortune.connected()
+        t = self._advance(now)
+        self._fault_state.connected()
         self.is_connected, self.is_encrypted, self.agreed_mtu = True, False, mtu
-        self.begin(t)
-        self._tell()
+        self.start(t)
+        self._notify_changed()
 
-    def agrees_to_pair(self, now: float) -> bool:
+    def accepts_pairing(self, now: float) -> bool:
         """Whether it takes part in a pairing that the host begins."""
-        self._pass(now)
-        return not self._misfortune.refuses(PAIRING)
+        self._advance(now)
+        return not self._fault_state.rejects(PAIRING)
 
     def disconnected(self, now: float) -> None:
         """The link is gone, whoever ended it: subscriptions are forgotten, the device does what its protocol says."""
-        self._pass(now)
+        self._advance(now)
         self.is_connected = self.is_encrypted = False
         self._flows.clear()
         self.agreed_mtu = SMALLEST_MTU
@@ -154,14 +154,14 @@ class Peripheral:
         """AttError for a channel that does not notify."""
         if "notify" not in self._properties.get(channel, ()):
             raise AttError(AttCode.REQUEST_NOT_SUPPORTED)
-        t = self._pass(now)
+        t = self._advance(now)
         self._check_paired(channel)
         self._flows.subscribe(channel, on, t)
-        self._tell()
+        self._notify_changed()
 
     def read(self, channel: str, now: float) -> bytes | None:
         """The value; None when the answer never comes. AttError."""
-        t = self._pass(now)
+        t = self._advance(now)
         if self._fails(channel, t):
             return None
         if "read" not in self._properties.get(channel, ()):
@@ -170,36 +170,36 @@ class Peripheral:
 
     def write(self, channel: str, value: bytes, now: float) -> bool:
         """Obey; False when the answer never comes. AttError."""
-        t = self._pass(now)
+        t = self._advance(now)
         if self._fails(channel, t):
             return False
         if not self._properties.get(channel, frozenset()) & {"write", "write-without-response"}:
             raise AttError(AttCode.WRITE_NOT_PERMITTED)
         self.take(channel, bytes(value), t)
-        self._misfortune.thaw()
-        self._tell()
+        self._fault_state.thaw()
+        self._notify_changed()
         return True
 
     def next_due(self) -> float | None:
         """When `poll` or `hang_up` have something next; None when nothing is foreseeable."""
         if not self.is_connected:
             return None
-        soonest = min(self._flows.first(inf)[1], self._misfortune.next_at())
-        return None if soonest == inf else max(self._now, self._began + soonest)
+        soonest = min(self._flows.first(inf)[1], self._fault_state.next_at())
+        return None if soonest == inf else max(self._now, self._started_at + soonest)
 
     def poll(self, now: float) -> list[Outgoing]:
         """The notifications that are due by now, after the faults, in order of their time."""
         found: list[Outgoing] = []
         while self.is_connected:
-            channel, due = self._flows.first(now - self._began + _AT_ONCE)
-            t = self._pass(now) if channel is None else self._happen(due)
-            if channel is None or self._misfortune.cut:
+            channel, due = self._flows.first(now - self._started_at + _AT_ONCE)
+            t = self._advance(now) if channel is None else self._advance_faults(due)
+            if channel is None or self._fault_state.cut:
                 break
             source, number = self._flows.take(channel)
-            if self._misfortune.frozen(t) or self._is_closed(channel):
+            if self._fault_state.frozen(t) or self._is_closed(channel):
                 continue
             for value in source.values(number, self.agreed_mtu):
-                found += [Outgoing(channel, sent) for sent in self._misfortune.carry(value)]
+                found += [Outgoing(channel, sent) for sent in self._fault_state.apply(value)]
         for outgoing in found:
             self.sent[outgoing.channel] = self.sent.get(outgoing.channel, 0) + 1
         if self.log is not None:
@@ -208,16 +208,16 @@ class Peripheral:
 
     def hang_up(self, now: float) -> bool:
         """True once when the link is to be lost now as by a supervision timeout (0x08)."""
-        self._pass(now)
-        cut, self._misfortune.cut = self._misfortune.cut and self.is_connected, False
+        self._advance(now)
+        cut, self._fault_state.cut = self._fault_state.cut and self.is_connected, False
         return cut
 
     def _fails(self, channel: str, t: float) -> bool:
-        if self._misfortune.hangs(t):
-            self._tell()
+        if self._fault_state.hangs(t):
+            self._notify_changed()
             return True
-        if self._misfortune.refuses(channel):
-            raise AttError(AttCode.REFUSED)
+        if self._fault_state.rejects(channel):
+            raise AttError(AttCode.APPLICATION_ERROR)
         self._check_paired(channel)
         return False
 
@@ -229,15 +229,15 @@ class Peripheral:
         if self._is_closed(channel):
             raise AttError(AttCode.NOT_PAIRED)
 
-    def _pass(self, now: float) -> float:
+    def _advance(self, now: float) -> float:
         """Time passes; returns the time of the walk."""
         self._now = max(self._now, now)
-        return self._happen(now - self._began + _AT_ONCE) - _AT_ONCE
+        return self._advance_faults(now - self._started_at + _AT_ONCE) - _AT_ONCE
 
-    def _happen(self, t: float) -> float:
-        self._misfortune.advance(t)
+    def _advance_faults(self, t: float) -> float:
+        self._fault_state.advance(t)
         return t
 
-    def _tell(self) -> None:
+    def _notify_changed(self) -> None:
         if self.changed is not None:
             self.changed()

@@ -15,18 +15,18 @@ from ..sensors.sensortags import CC2541, CC2650, PRESS
 from ..sensors.tag_signals import HANDLING, Series, WornTag
 from ..wearers.walker import Walker
 from .attributes import NOTIFY, READ, WRITE, AttCode, AttError, Characteristic, information, services
-from .peripheral import Peripheral, Worn
+from .peripheral import Peripheral, Placement
 
 MTU = 23
 """Stock firmware agrees to no larger one."""
 STOCK = 10
 """The shortest period of stock firmware, in units of 10 ms."""
-SLUGGISH = 30
+STOCK_INFRARED = 30
 """The same of the infrared thermometer."""
 SERVICES = {"infrared": 0xAA00, "humidity": 0xAA20, "light": 0xAA70}
 """Of the sensors that the profiles leave out."""
 
-Make = tuple[float, Callable[[int], bytes | None]]
+Encoder = tuple[float, Callable[[int], bytes | None]]
 """How many s after the clock's first sample a sensor begins, and what it says."""
 
 
@@ -56,7 +56,7 @@ class TimedSource:
 
     first: float
     step: float
-    make: Callable[[int], bytes | None]
+    encode: Callable[[int], bytes | None]
 
     def after(self, t: float) -> int:
         return ceil((t - self.first) / self.step)
@@ -65,7 +65,7 @@ class TimedSource:
         return self.first + self.step * number + HANDLING
 
     def values(self, number: int, mtu: int) -> Sequence[bytes]:
-        value = self.make(number)
+        value = self.encode(number)
         return () if value is None else (value,)
 
 
@@ -98,7 +98,7 @@ class Tag(Peripheral, ABC):
         device: CC2541 | CC2650,
         walker: Walker,
         seed: int,
-        worn: Worn,
+        worn: Placement,
         clock: DeviceClock,
         profile: Profile,
         sensors: Iterable[Sensor],
@@ -109,7 +109,7 @@ class Tag(Peripheral, ABC):
         allowed = {channel.name: self._allowed(channel.name) for channel in profile.channels}
         table = services(profile, allowed, more, ("manufacturer", "model"))
         super().__init__(evolve(worn, mtu=MTU), name, table, profile.services)
-        self._said = information(device.firmware, manufacturer="Texas Instruments", model=name)
+        self._device_information = information(device.firmware, manufacturer="Texas Instruments", model=name)
         self.clock = clock
         self._numbers = partial(device_numbers, seed, worn.site)
         self._worn = WornTag(walker, foot_of(worn.site), device.mounting, clock)
@@ -128,10 +128,10 @@ class Tag(Peripheral, ABC):
             found = self._series[sensor, period] = self.measure(sensor, period)
         return found
 
-    def make(self, sensor: str, config: bytes, period: float) -> Make | None:
+    def encoder(self, sensor: str, config: bytes, period: float) -> Encoder | None:
         """What a sensor says that is configured like this; None when that is off. AttError for a configuration that the
         firmware does not take."""
-        raise AttError(AttCode.REFUSED)
+        raise AttError(AttCode.APPLICATION_ERROR)
 
     def stop(self) -> None:
         """Everything is off and as it was when the tag was switched on."""
@@ -141,13 +141,13 @@ class Tag(Peripheral, ABC):
         name, kind = _split(channel)
         state = self._states.get(name)
         if state is None:
-            return self._said[channel]
+            return self._device_information[channel]
         if kind == "config":
             return state.config
         if kind == "period":
             return bytes([state.period])
         source = self._source(name, state)
-        value = None if source is None else source.make(source.after(t) - 1)
+        value = None if source is None else source.encode(source.after(t) - 1)
         return self._sensors[name].blank if value is None else value
 
     def take(self, channel: str, value: bytes, t: float) -> None:
@@ -166,9 +166,9 @@ class Tag(Peripheral, ABC):
         period = 0.01 * state.period
         always = self._sensors[name].always
         if always:
-            made: Make | None = (0.0, lambda number: always) if switch(state.config, 1) else None
+            made: Encoder | None = (0.0, lambda number: always) if checked_code(state.config, 1) else None
         else:
-            made = self.make(name, state.config, period)
+            made = self.encoder(name, state.config, period)
         return None if made is None else TimedSource(self.clock.first + made[0], self.clock.interval(period), made[1])
 
     def _allowed(self, channel: str) -> frozenset[str]:
@@ -200,14 +200,14 @@ def shortest(rate: float) -> int:
     return min(STOCK, max(1, round(100.0 / rate)))
 
 
-def switch(config: bytes, most: int) -> int:
+def checked_code(config: bytes, most: int) -> int:
     """A configuration of one byte. AttError when it is more than `most`."""
     if config[0] > most:
-        raise AttError(AttCode.REFUSED)
+        raise AttError(AttCode.APPLICATION_ERROR)
     return config[0]
 
 
-def room(values: Mapping[str, bytes]) -> list[Sensor]:
+def constant_sensors(values: Mapping[str, bytes]) -> list[Sensor]:
     """Sensors that measure nothing of the wearer and always say the same."""
-    slow = {name: SLUGGISH if name.endswith("infrared") else STOCK for name in values}
-    return [Sensor(name, 100, slow[name], bytes(len(said)), always=said) for name, said in values.items()]
+    slow = {name: STOCK_INFRARED if name.endswith("infrared") else STOCK for name in values}
+    return [Sensor(name, 100, slow[name], bytes(len(constant)), always=constant) for name, constant in values.items()]

@@ -11,7 +11,7 @@ from .building import APPROACH, GOING, GROUND, LANE, RISE, STEPS, STOREY, UPPER
 from .path import ahead
 from .route import TIGHT_TURN, Route
 
-STILL = 2.0
+STAND_TIME = 2.0
 """s of standing at the beginning and at the end."""
 SPEED = 1.3
 """m/s."""
@@ -19,7 +19,7 @@ CORNER = 0.9
 """m: radius at which corners of corridors are walked."""
 TURNING = 5.6
 """m inside the door of a stairwell where the turn on its landing begins."""
-OTHER = {GROUND: UPPER, UPPER: GROUND}
+OTHER_LEVEL = {GROUND: UPPER, UPPER: GROUND}
 
 
 @define
@@ -33,12 +33,12 @@ class Course:
     route: Route = Route(speed=SPEED)
 
     def stand(self) -> None:
-        self.route = self.route.stand(STILL)
+        self.route = self.route.stand(STAND_TIME)
 
     def ride(self) -> None:
         """To the other floor."""
         self.route = self.route.lift(STOREY if self.level == GROUND else -STOREY)
-        self.level = OTHER[self.level]
+        self.level = OTHER_LEVEL[self.level]
 
     def face(self, heading: float) -> None:
         """Turn on the spot."""
@@ -82,7 +82,7 @@ class Course:
         self.bend(pi if up else -pi, LANE)
         self.ahead(TURNING - (far + edge))
         self.flight(up)
-        self.level = OTHER[self.level]
+        self.level = OTHER_LEVEL[self.level]
 
     def flight(self, up: bool) -> None:
         self.route = self.route.stairs(STEPS, up, RISE, GOING)

@@ -149,9 +149,9 @@ def field_walk(
     points: list[Point] = [(0.4 * field[0], 0.0)]
     behind: Point = (0.0, 0.0)
     way = points[0][0]
-    while way + hypot(*points[-1]) < speed * duration or not _easy(behind, points[-1], (0.0, 0.0)):
+    while way + hypot(*points[-1]) < speed * duration or not _is_walkable(behind, points[-1], (0.0, 0.0)):
         there = (float(rng.uniform(-half[0], half[0])), float(rng.uniform(-half[1], half[1])))
-        if _easy(behind, points[-1], there):
+        if _is_walkable(behind, points[-1], there):
             way += hypot(there[0] - points[-1][0], there[1] - points[-1][1])
             behind = points[-1]
             points.append(there)
@@ -210,8 +210,8 @@ def marks(walker: Walker, per_lap: int | None = None) -> tuple[FloorMark, ...]:
     exact = evolve(walker.wearer, width_variation=0.0, angle_variation=0.0, aim=0.0)
     meant = plan(walker.route, exact, np.random.default_rng(0))
     closing = {
-        max(s.heel_strike for foot in Foot for s in walker.plan.strides[foot] if begun <= s.heel_strike <= ended)
-        for begun, ended in walker.plan.bouts
+        max(s.heel_strike for foot in Foot for s in walker.plan.strides[foot] if start <= s.heel_strike <= end)
+        for start, end in walker.plan.bouts
     }
     found = []
     for foot in Foot:
@@ -256,7 +256,7 @@ def write_marks(path: Path | str, found: Iterable[FloorMark]) -> None:
                 rows.writerow((mark.foot.value, f"{mark.x:.4f}", f"{mark.y:.4f}", mark.mode.name, f"{mark.t:.3f}"))
 
 
-def _easy(behind: Point, here: Point, there: Point) -> bool:
+def _is_walkable(behind: Point, here: Point, there: Point) -> bool:
     """Whether one can walk on to `there`: it is 6 m or more away, and not back."""
     way, toward = (there[0] - here[0], there[1] - here[1]), atan2(here[1] - behind[1], here[0] - behind[0])
     return hypot(*way) >= 6.0 and abs(wrapped(atan2(way[1], way[0]) - toward)) < 2.1

@@ -22,9 +22,9 @@ SHAKE = (0.012, 0.012, 0.018)
 WAVES = 3
 BAND = (2.0, 12.0)
 """Hz."""
-GENTLE = 0.5
+FADE_TIME = 0.5
 """s in which the shaking comes and goes."""
-CREEPING = 1.0
+CREEP_TIME = 1.0
 """s for which a car creeps, if it does."""
 HALVINGS = 60
 """Of the interval in which the top speed of a short ride is sought."""
@@ -55,7 +55,7 @@ class CarRide:
     `waves` (3, WAVES, 3) amplitude in m/s^2, angular frequency and phase of what shakes it along x, y and z.
     """
 
-    begin: float
+    start: float
     end: float
     height: float
     knots: Array
@@ -64,8 +64,8 @@ class CarRide:
 
     def at(self, t: Array) -> tuple[Array, Array, Array]:
         """How far the car is from where it began, m, its velocity and acceleration at instants `t`, (N, 3) each."""
-        since = np.asarray(t, dtype=np.float64) - self.begin
-        inside = (since > 0.0) & (since < self.end - self.begin)
+        since = np.asarray(t, dtype=np.float64) - self.start
+        inside = (since > 0.0) & (since < self.end - self.start)
         position, velocity, acceleration = (np.zeros((len(since), 3)) for _ in range(3))
         k = np.clip(np.searchsorted(self.knots, since, side="right") - 1, 0, len(self.knots) - 1)
         s = since - self.knots[k]
@@ -86,17 +86,17 @@ class CarRide:
 
     def _fade(self, since: Array) -> tuple[Array, Array, Array]:
         """From 0 to 1 within GENTLE s and back to 0 at the end, with its first two derivatives."""
-        away = np.minimum(since, self.end - self.begin - since)
-        sign = np.where(since < self.end - self.begin - since, 1.0, -1.0)
-        u = np.minimum(away / GENTLE, 1.0)
+        away = np.minimum(since, self.end - self.start - since)
+        sign = np.where(since < self.end - self.start - since, 1.0, -1.0)
+        u = np.minimum(away / FADE_TIME, 1.0)
         return (
             u**3 * (10.0 - 15.0 * u + 6.0 * u**2),
-            sign * 30.0 * u**2 * (1.0 - u) ** 2 / GENTLE,
-            60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / GENTLE**2,
+            sign * 30.0 * u**2 * (1.0 - u) ** 2 / FADE_TIME,
+            60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / FADE_TIME**2,
         )
 
 
-def ride(lift: Lift, begin: float, rng: Rng) -> CarRide:
+def ride(lift: Lift, start: float, rng: Rng) -> CarRide:
     """The ride of `lift` when the car starts at `begin` s; `rng` draws how it shakes."""
     up = 1.0 if lift.height > 0.0 else -1.0
     knots, rows = [0.0], [(0.0, 0.0, 0.0, 0.0)]
@@ -111,7 +111,7 @@ def ride(lift: Lift, begin: float, rng: Rng) -> CarRide:
     turning = 2.0 * np.pi * np.asarray(rng.uniform(*BAND, (3, WAVES)))
     phase = np.asarray(rng.uniform(0.0, 2.0 * np.pi, (3, WAVES)))
     waves = np.stack((size, turning, phase), axis=2)
-    return CarRide(begin, begin + knots[-1], lift.height, np.array(knots), up * np.array(rows), waves)
+    return CarRide(start, start + knots[-1], lift.height, np.array(knots), up * np.array(rows), waves)
 
 
 def _ramps(lift: Lift) -> list[_Ramp]:
@@ -127,7 +127,7 @@ def _ramps(lift: Lift) -> list[_Ramp]:
         top = low
     slow, stop = _change(top - creep, lift), _change(creep, lift)
     found = [*_change(top, lift), ((way - _covered(top, creep, lift)) / top, 0.0), *((d, -j) for d, j in slow)]
-    found += [(CREEPING if creep > 0.0 else 0.0, 0.0), *((d, -j) for d, j in stop)]
+    found += [(CREEP_TIME if creep > 0.0 else 0.0, 0.0), *((d, -j) for d, j in stop)]
     return [ramp for ramp in found if ramp[0] > 0.0]
 
 
@@ -135,7 +135,7 @@ def _covered(top: float, creep: float, lift: Lift) -> float:
     """m of the way that a ride up to `top` m/s takes at least."""
     lasts = [sum(duration for duration, _ in _change(by, lift)) for by in (top, top - creep, creep)]
     # A change of speed is as long before its middle as after it: its mean speed is that of its ends.
-    return 0.5 * (top * lasts[0] + (top + creep) * lasts[1] + creep * lasts[2]) + creep * CREEPING
+    return 0.5 * (top * lasts[0] + (top + creep) * lasts[1] + creep * lasts[2]) + creep * CREEP_TIME
 
 
 def _change(by: float, lift: Lift) -> list[_Ramp]:

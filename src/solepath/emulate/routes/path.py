@@ -9,7 +9,7 @@ from attrs import evolve, frozen
 
 from ..wearers.curves import Array
 from .lift import Lift
-from .styles import GETTING_GOING, RUNNING_FROM
+from .styles import RUN_ACCELERATION, RUNNING_FROM
 
 UP, DOWN = 0.25, 0.17
 """m from the ankle of who stands before a flight, and on every tread, to the next edge ahead. Upwards the heel is over
@@ -69,7 +69,7 @@ class Flight:
         return np.asarray(self.z + self.rise * np.clip(np.floor(u / self.going) + 1.0, 0.0, self.steps))
 
 
-TURNING_POINT = 1.2
+RUN_START_SPEED = 1.2
 """m/s: of a runner's first step from a halt and the last one to it."""
 
 
@@ -159,10 +159,10 @@ class WalkPath:
         if not piece.running:
             return piece.speed, False
         k = self.pieces.index(piece)
-        before = self.pieces[k - 1].speed if k else TURNING_POINT
-        after = self.pieces[k + 1].speed if k + 1 < len(self.pieces) else TURNING_POINT
-        gained = sqrt(before**2 + 2.0 * GETTING_GOING * max(rest, 0.0))
-        left = sqrt(after**2 + 2.0 * GETTING_GOING * max(piece.length - rest, 0.0))
+        before = self.pieces[k - 1].speed if k else RUN_START_SPEED
+        after = self.pieces[k + 1].speed if k + 1 < len(self.pieces) else RUN_START_SPEED
+        gained = sqrt(before**2 + 2.0 * RUN_ACCELERATION * max(rest, 0.0))
+        left = sqrt(after**2 + 2.0 * RUN_ACCELERATION * max(piece.length - rest, 0.0))
         speed = min(piece.speed, gained, left)
         return speed, speed >= RUNNING_FROM
 

@@ -12,13 +12,13 @@ from attrs import evolve, frozen
 
 from ...types import Foot
 from ..wearers.curves import Rng
-from ..wearers.gait import SETTLING, Climb, PlannedStride, WalkPlan, Wearer, double_support
+from ..wearers.gait import SETTLE_TIME, Climb, PlannedStride, WalkPlan, Wearer, double_support
 from .lift import CarRide, ride
 from .path import Flight, Lifted, Piece, Pivot, Pose, WalkPath
 from .route import Leg, Route, Stand, legs
-from .styles import Manner, running_cadence, style_of
+from .styles import StrideKind, running_cadence, style_of
 
-LEVEL = 1e-6
+SAME_LEVEL = 1e-6
 """m: floors that differ by less are the same."""
 
 
@@ -36,7 +36,7 @@ class _Footfall:
     speed: float
     duration: float
     curvature: float = 0.0
-    manner: Manner = Manner.WALK
+    manner: StrideKind = StrideKind.WALK
     flight: Flight | None = None
 
 
@@ -47,7 +47,7 @@ class _Planner:
         self.t = 0.0
         self.moving = wearer.first  # the foot that goes next
         self.struck: float | None = None  # the last heel-strike while walking goes on; None while standing
-        self.began = 0.0
+        self.bout_start = 0.0
         self.running: float | None = None  # the speed of the last step if it was run
         self.flight: Flight | None = None  # the one that a foot is on
         self.climbing: float | None = None  # since when
@@ -85,8 +85,8 @@ class _Planner:
 
     def _halt(self) -> None:
         if self.struck is not None:
-            self.t = self.struck + SETTLING
-            self.bouts.append((self.began, self.t))
+            self.t = self.struck + SETTLE_TIME
+            self.bouts.append((self.bout_start, self.t))
             self.struck = None
             self.running = None
 
@@ -102,7 +102,7 @@ class _Planner:
             else:
                 falls += self._naturally(section)
         # The closing half step: beside the foot that arrived.
-        return [*falls, evolve(falls[-1], manner=Manner.WALK)]
+        return [*falls, evolve(falls[-1], manner=StrideKind.WALK)]
 
     def _naturally(self, path: WalkPath) -> list[_Footfall]:
         """Steps of natural length with a few per cent of variation, stretched to end exactly at the path's end."""
@@ -125,7 +125,7 @@ class _Planner:
             pose = path.at(end)[0]
             speed, running = path.pace(end)
             usual = 60.0 / running_cadence(speed) if running else 60.0 / self.wearer.cadence(speed)
-            manner = Manner.RUN if running else Manner.WALK
+            manner = StrideKind.RUN if running else StrideKind.WALK
             falls.append(_Footfall(pose, speed, usual, path.curvature(end), manner))
         return falls
 
@@ -141,7 +141,7 @@ class _Planner:
 
     def _on_stairs(self, piece: Piece, flight: Flight) -> list[_Footfall]:
         """One step for every riser."""
-        manner = Manner.UP if flight.rise > 0.0 else Manner.DOWN
+        manner = StrideKind.UP if flight.rise > 0.0 else StrideKind.DOWN
         falls = []
         for k in range(1, flight.steps + 1):
             hit = flight.going * k + self.wearer.aim * float(np.clip(self.rng.standard_normal(), -2.0, 2.0))
@@ -167,7 +167,7 @@ class _Planner:
         for fall in falls:
             step = fall.duration * self._vary(self.wearer.time_variation)
             if self.struck is None:
-                self.began = self.t
+                self.bout_start = self.t
                 # As if the other foot had just landed: the weight needs that long to leave the foot that goes first.
                 self.struck = self.t + 0.32 * step
             foot = self.moving
@@ -182,17 +182,17 @@ class _Planner:
         manner = fall.manner
         if fall.flight is not None and fall.flight is not self.flight:
             self.flight, self.climbing = fall.flight, None
-        if abs(fall.pose.z - start.z) > LEVEL:
-            manner = Manner.UP if fall.pose.z > start.z else Manner.DOWN
-        style = None if manner is Manner.WALK else style_of(manner, fall.speed)
+        if abs(fall.pose.z - start.z) > SAME_LEVEL:
+            manner = StrideKind.UP if fall.pose.z > start.z else StrideKind.DOWN
+        style = None if manner is StrideKind.WALK else style_of(manner, fall.speed)
         double, early, flat = double_support(fall.speed), 0.12, 0.095
         if style is not None:
             flat = style.flat
-            if manner is not Manner.RUN:
+            if manner is not StrideKind.RUN:
                 double, early = style.double, style.early
         if self.running is not None:
             # Who runs is in the air before the other foot comes down.
-            run = style_of(Manner.RUN, self.running)
+            run = style_of(StrideKind.RUN, self.running)
             double, early = run.double, run.early
         toe_off = struck + double * 2.0 * step
         earliest = before[-1].foot_flat + 0.04 if before else 0.0
@@ -231,11 +231,11 @@ class _Planner:
                 curvature=fall.curvature,
                 pace=0.5 * moved / step,
                 manner=manner,
-                flight=self.flight if manner in (Manner.UP, Manner.DOWN) else None,
+                flight=self.flight if manner in (StrideKind.UP, StrideKind.DOWN) else None,
             )
         )
         self.at[foot] = end
-        self.running = fall.speed if manner is Manner.RUN else None
+        self.running = fall.speed if manner is StrideKind.RUN else None
         self._step_off(before[-1])
 
     def _step_off(self, stride: PlannedStride) -> None:
@@ -245,7 +245,7 @@ class _Planner:
             return
         if self.climbing is None:
             self.climbing = stride.toe_off
-        if all(abs(at.z - flight.z - flight.height) < LEVEL for at in self.at.values()):
+        if all(abs(at.z - flight.z - flight.height) < SAME_LEVEL for at in self.at.values()):
             self.climbs.append(Climb(self.climbing, stride.heel_strike, flight))
             self.flight = None
 

@@ -30,7 +30,7 @@ PITCHES = tuple(radians(value) for value in (10.0, 22.0, 34.0, 46.0, 58.0))
 REPEATED = 3
 RULER = 0.001
 """m: a ruler is read to the millimetre."""
-UNSTEADY = radians(1.5)
+POSTURE_ERROR = radians(1.5)
 """rad: how far a posture differs from the one that was meant (assumed)."""
 PITCH_ERROR = radians(0.5)
 """rad: of the pitch that a sensor shows at rest: an accelerometer's bias of 0.01 g or so."""
@@ -68,7 +68,7 @@ def postures(
     for pitch in pitches:
         for _ in range(repeated):
             held, shown = (float(value) for value in rng.standard_normal(2))
-            true = posture(pitch + UNSTEADY * held, shoe, mounting)
+            true = posture(pitch + POSTURE_ERROR * held, shoe, mounting)
             found.append(Posture(true.pitch + PITCH_ERROR * shown, _read(true.radius), _read(true.to_toe)))
     return tuple(found)
 

@@ -18,13 +18,13 @@ from attrs import frozen
 
 RUNNING_FROM = 1.95
 """m/s: slower than this one walks (Hreljac 1993, J. Sports Sci. 11: walk to run at about 2 m/s)."""
-GETTING_GOING = 2.0
+RUN_ACCELERATION = 2.0
 """m/s^2 by which a runner speeds up and slows down (assumed)."""
 SPEED_UP, SPEED_DOWN = 0.50, 0.55
 """m/s along the treads when a flight names no speed."""
 
 
-class Manner(Enum):
+class StrideKind(Enum):
     """What kind of stride it is."""
 
     WALK = "walk"
@@ -89,9 +89,9 @@ DESCENDING = Style(
 )
 
 
-def style_of(manner: Manner, speed: float) -> Style:
+def style_of(manner: StrideKind, speed: float) -> Style:
     """For any but walking, at `speed` m/s along."""
-    if manner is Manner.RUN:
+    if manner is StrideKind.RUN:
         share = min(max(0.38 - 0.03 * (speed - 2.6), 0.25), 0.44)
         return Style(
             double=share - 0.5,
@@ -104,7 +104,7 @@ def style_of(manner: Manner, speed: float) -> Style:
             clearance=0.15,
             weave=2.0,
         )
-    return CLIMBING if manner is Manner.UP else DESCENDING
+    return CLIMBING if manner is StrideKind.UP else DESCENDING
 
 
 def running_cadence(speed: float) -> float:

@@ -36,11 +36,11 @@ from .building import (
     Well,
     in_well,
 )
-from .course import OTHER, Course
+from .course import OTHER_LEVEL, Course
 from .path import ahead
 from .route import Route
 
-ASTRAY = 0.3
+MAX_OFFSET = 0.3
 """m: how far off the middle of the corridors a wanderer walks, at the most."""
 FEWEST, MOST = 3, 7
 """Corners of a wandering before it turns to the way out."""
@@ -112,11 +112,11 @@ def wandering(seed: int) -> Way:
     level = (GROUND, UPPER)[int(rng.integers(2))]
     exits: list[Exit] = [*CABINS, *WELLS]
     one, other = (exits[int(k)] for k in rng.choice(len(exits), 2, replace=False))
-    off = rng.uniform(-ASTRAY, ASTRAY, 2)
+    off = rng.uniform(-MAX_OFFSET, MAX_OFFSET, 2)
     dx, dy = float(off[0]), float(off[1])
     course = _arriving(one, level, dx, dy)
-    begin, end = _beside(one, level, dx, dy), _beside(other, level, dx, dy)
-    course.along([*_strolled(_network(dx, dy, begin, end), begin, end, rng), _inside(other, level)])
+    start, end = _beside(one, level, dx, dy), _beside(other, level, dx, dy)
+    course.along([*_strolled(_network(dx, dy, start, end), start, end, rng), _inside(other, level)])
     _leaving(course, other, level, dx, dy)
     course.stand()
     return Way(course.route, course.start, level, one.name, other.name)
@@ -153,9 +153,9 @@ def _network(dx: float, dy: float, *turnings: Point) -> dict[Point, list[Point]]
     return nodes
 
 
-def _strolled(nodes: dict[Point, list[Point]], begin: Point, end: Point, rng: Rng) -> list[Point]:
+def _strolled(nodes: dict[Point, list[Point]], start: Point, end: Point, rng: Rng) -> list[Point]:
     """From turning to turning without going back: at random for some corners, and then by the fewest places."""
-    path = [begin, nodes[begin][int(rng.integers(len(nodes[begin])))]]
+    path = [start, nodes[start][int(rng.integers(len(nodes[start])))]]
     corners = int(rng.integers(FEWEST, MOST + 1))
     while corners > 0 or path[-1] == end:
         onward = _onward(nodes, path)
@@ -184,15 +184,15 @@ def _straight(a: Point, b: Point, c: Point) -> bool:
 def _arriving(one: Exit, level: str, dx: float, dy: float) -> Course:
     """From the other floor to this one; the course then is where one comes out."""
     if isinstance(one, Cabin):
-        course = Course(OTHER[level], one.middle, one.out)
+        course = Course(OTHER_LEVEL[level], one.middle, one.out)
         course.stand()
         course.ride()
         return course
-    inside, turning = _inside(one, OTHER[level]), _beside(one, OTHER[level], dx, dy)
+    inside, turning = _inside(one, OTHER_LEVEL[level]), _beside(one, OTHER_LEVEL[level], dx, dy)
     if one.inward == pi:
-        course = Course(OTHER[level], (turning[0], turning[1] - RUN_UP), 0.5 * pi)
+        course = Course(OTHER_LEVEL[level], (turning[0], turning[1] - RUN_UP), 0.5 * pi)
     else:
-        course = Course(OTHER[level], (turning[0] - RUN_UP, turning[1]), 0.0)
+        course = Course(OTHER_LEVEL[level], (turning[0] - RUN_UP, turning[1]), 0.0)
     course.stand()
     course.along([turning, inside])
     course.climb(up=level == UPPER)
@@ -206,5 +206,5 @@ def _leaving(course: Course, other: Exit, level: str, dx: float, dy: float) -> N
         course.ride()
         return
     course.climb(up=level == GROUND)
-    x, y = _beside(other, OTHER[level], dx, dy)
+    x, y = _beside(other, OTHER_LEVEL[level], dx, dy)
     course.along([(x, y), (x, y - RUN_UP) if other.inward == pi else (x - RUN_UP, y)])

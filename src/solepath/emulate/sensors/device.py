@@ -56,17 +56,17 @@ class Device(Protocol):
         """All that the device sends over the walk, in the order of sending."""
 
 
-def prepared(profile: Profile, own: Mapping[str, bytes]) -> list[Notification]:
+def setup_notifications(profile: Profile, own: Mapping[str, bytes]) -> list[Notification]:
     """What a host reads and writes by `profile` before measuring begins, spread evenly over the time until `SETUP`.
 
     `own`: by channel, the values that the device is read for, and those written otherwise than in `profile.setup`.
     """
-    said = [(channel, own[channel]) for channel in profile.reads]
+    values = [(channel, own[channel]) for channel in profile.reads]
     for write in profile.setup:
-        said.append((write.channel, own.get(write.channel, write.value)))
-        said += [(channel, own[channel]) for channel in write.then_read]
-    each = SETUP / (len(said) + 1)
-    return [Notification(each * k, channel, data, True) for k, (channel, data) in enumerate(said, 1)]
+        values.append((write.channel, own.get(write.channel, write.value)))
+        values += [(channel, own[channel]) for channel in write.then_read]
+    each = SETUP / (len(values) + 1)
+    return [Notification(each * k, channel, data, True) for k, (channel, data) in enumerate(values, 1)]
 
 
 def device_numbers(seed: int, site: Site, *more: int) -> Rng:
@@ -81,23 +81,23 @@ def foot_of(site: Site) -> Foot:
     return site.foot
 
 
-def started(rng: Rng, interval: float, ppm: float | None = None) -> DeviceClock:
+def draw_clock(rng: Rng, interval: float, ppm: float | None = None) -> DeviceClock:
     """A clock that begins to sample at some moment within one `interval` after the setup."""
     drawn = CRYSTAL_PPM * float(rng.standard_normal())
     return DeviceClock(drawn if ppm is None else ppm, SETUP + interval * float(rng.uniform()))
 
 
-def samplings(walker: Walker, clock: DeviceClock, nominal: float, first: float | None = None) -> Instants:
+def sampling_instants(walker: Walker, clock: DeviceClock, nominal: float, first: float | None = None) -> Instants:
     """The instants of a sensor that measures every `nominal` s of the device's time until the walk ends."""
-    begin, interval = clock.first if first is None else first, clock.interval(nominal)
-    return instants(begin, interval, max(2, int((walker.duration - begin) / interval)))
+    start, interval = clock.first if first is None else first, clock.interval(nominal)
+    return instants(start, interval, max(2, int((walker.duration - start) / interval)))
 
 
 FIELD: Array = np.array([16e-6, 12e-6, -43e-6])
 """The earth's magnetic field in the world frame, T: 20 uT horizontal, 43 uT down, as in Central Europe."""
 
 
-def seen_from(attitude: Array, vector: Array) -> Array:
+def in_sensor_frame(attitude: Array, vector: Array) -> Array:
     """A world vector in the axes of sensors with these attitudes (N, 4): q* v q, (N, 3)."""
     axis = -attitude[:, 1:]
     twice = 2.0 * np.cross(axis, vector)

@@ -11,9 +11,9 @@ from ...types import Site
 from ..wearers.curves import Rng
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
-from .device import Notification, prepared, samplings, started
+from .device import Notification, draw_clock, sampling_instants, setup_notifications
 from .parts import CRE_CC02, AttitudePart
-from .sensors import attitude_read
+from .sensors import read_attitudes
 from .tag_signals import HANDLING
 
 RATE = 60.0
@@ -39,16 +39,16 @@ class Dot:
     ticks: int | None = None
 
     def emit(self, walker: Walker, site: Site, rng: Rng) -> list[Notification]:
-        clock = started(rng, 1.0 / RATE, self.ppm)
+        clock = draw_clock(rng, 1.0 / RATE, self.ppm)
         drawn = int(rng.integers(0, 2**32))
-        begun = drawn if self.ticks is None else self.ticks
-        t = samplings(walker, clock, 1.0 / RATE).taken
+        first_ticks = drawn if self.ticks is None else self.ticks
+        t = sampling_instants(walker, clock, 1.0 / RATE).taken
         true = walker.body.at(site, t, self.mounting).attitude
-        said = attitude_read(true, t, self.attitude, self.north, rng)
-        sent = prepared(DRIVER.profile, {"dot-orientation/battery": BATTERY})
+        attitudes = read_attitudes(true, t, self.attitude, self.north, rng)
+        sent = setup_notifications(DRIVER.profile, {"dot-orientation/battery": BATTERY})
         (stream,) = DRIVER.profile.streams
-        for k, (when, quat) in enumerate(zip(t.tolist(), said.tolist(), strict=True)):
-            ticks = (begun + round(k * TICK_RATE / RATE)) % 2**32
+        for k, (when, quat) in enumerate(zip(t.tolist(), attitudes.tolist(), strict=True)):
+            ticks = (first_ticks + round(k * TICK_RATE / RATE)) % 2**32
             data = DRIVER.write(stream, {"ticks": ticks, "quat": struct.unpack("<4f", struct.pack("<4f", *quat))})
             sent.append(Notification(when + HANDLING, stream, data))
         return sent

@@ -17,10 +17,10 @@ from ...wire.insole_info import InsoleInfo, build_info
 from ..wearers.curves import Array, Rng
 from ..wearers.shoe import IN_SOLE, ON_HEEL, Mounting, Shoe
 from ..wearers.walker import Walker
-from .device import Notification, foot_of, prepared, samplings, started
+from .device import Notification, draw_clock, foot_of, sampling_instants, setup_notifications
 from .insoles import SCALE, heel_array, layout
 from .parts import HEEL_ARRAY, INERTIACUBE3, LSM6DSOX, RESISTIVE, AttitudePart, CellPart, Imu
-from .sensors import attitude_read, counted, measure_imu, read_cells, sample, samples_of
+from .sensors import measure_imu, read_attitudes, read_cells, sample, samples_of, to_counts
 
 HANDLING = 1e-3
 """s from a frame's last sample until the radio has it."""
@@ -120,7 +120,7 @@ class Insole:
     ppm: float | None = None
     ticks: int | None = None
     firmware: str = "emulated 1"
-    tells_full: bool = True
+    reports_saturation: bool = True
     broken: tuple[tuple[int, int], ...] = ()
 
     def emit(self, walker: Walker, site: Site, rng: Rng) -> list[Notification]:
@@ -130,7 +130,7 @@ class Insole:
             "device/firmware": build_firmware(self.firmware),
             "device/battery": build_battery(BATTERY),
         }
-        sent = prepared(INSOLE, own)
+        sent = setup_notifications(INSOLE, own)
         for number in range(signal.frames(self.batch)):
             frame, ready = build_frame(signal.frame(number, self.batch)), signal.ready(number, self.batch)
             for piece in split(frame, self.mtu - 3, number % FRAME_IDS):
@@ -140,14 +140,14 @@ class Insole:
     def measure(self, walker: Walker, site: Site, rng: Rng) -> InsoleSignal:
         """All that the insole measures over the walk."""
         foot = foot_of(site)
-        clock = started(rng, self.interval / TICK_RATE, self.ppm)
-        when = samplings(walker, clock, self.interval / TICK_RATE)
+        clock = draw_clock(rng, self.interval / TICK_RATE, self.ppm)
+        when = sampling_instants(walker, clock, self.interval / TICK_RATE)
         drawn, sequence, serial = (int(n) for n in rng.integers(0, (2**32, 2**16, 2**24)))
         shape = self._layout(foot, walker.wearer.shoe)
 
         motion = walker.kinematics(foot, when.fine, self.mounting)
-        felt, turned = measure_imu(motion, when, self.part, rng, 0.5 * self.rate)
-        acc, gyro = counted(felt, self.part.acc, ACC_COUNT), counted(turned, self.part.gyro, GYRO_COUNT)
+        measured, turned = measure_imu(motion, when, self.part, rng, 0.5 * self.rate)
+        acc, gyro = to_counts(measured, self.part.acc, ACC_COUNT), to_counts(turned, self.part.gyro, GYRO_COUNT)
         lift = sample(motion.force, when) @ np.array(rotate_back(self.mounting.attitude, (0.0, 0.0, 1.0)))
         loads = read_cells(
             walker.cell_loads(shape, when.taken), when.taken, self.cell_part, shape.scale or SCALE, rng, lift=lift
@@ -168,7 +168,7 @@ class Insole:
             cells=loads.counts.astype(np.int16),
             imu=np.concatenate((acc.counts, gyro.counts), axis=1).astype(np.int16) if self.imu else None,
             quats=attitude,
-            full=acc.saturated | gyro.saturated | (full & self.tells_full),
+            full=acc.saturated | gyro.saturated | (full & self.reports_saturation),
         )
 
     def samples(self, walker: Walker, site: Site, rng: Rng) -> list[Sample]:
@@ -215,12 +215,12 @@ class Insole:
         if not self.quaternion:
             return None
         if self.attitude is not None:
-            felt = attitude_read(true, t, self.attitude, self.north, rng)
+            measured = read_attitudes(true, t, self.attitude, self.north, rng)
         else:
             tilt = radians(0.5) * rng.standard_normal(2)
             off = from_rotation_vector((float(tilt[0]), float(tilt[1]), float(rng.uniform(-3.0, 3.0))))
-            felt = np.array([multiply(off, (w, x, y, z)) for w, x, y, z in true.tolist()])
-        quats: Counts = np.rint(16384 * felt).astype(np.int16)
+            measured = np.array([multiply(off, (w, x, y, z)) for w, x, y, z in true.tolist()])
+        quats: Counts = np.rint(16384 * measured).astype(np.int16)
         return quats
 
 
@@ -235,5 +235,5 @@ def boot(foot: Foot, rate: float = 100.0) -> Insole:
         attitude=INERTIACUBE3,
         mounting=ON_HEEL,
         cell_part=HEEL_ARRAY,
-        tells_full=False,
+        reports_saturation=False,
     )

@@ -40,7 +40,7 @@ class Triad:
     memory: float = 300.0
     bits: int = 16
     g_effect: float = 0.0
-    most: float = inf
+    bias_limit: float = inf
 
 
 @frozen
@@ -105,7 +105,7 @@ KXTJ9_IMU3000 = Imu(
         cross=0.010,
         bandwidth=25.0,
         bits=8,
-        most=125 * _MG,
+        bias_limit=125 * _MG,
     ),
     # InvenSense PS-IMU-3000A rev. 1.1 (*): 0.01 dps/sqrt(Hz), initial ZRO +-20 dps, +-0.03 dps/K, scale +-3 %,
     # cross axis 2 %, linear acceleration sensitivity 0.1 dps/g, low pass up to 256 Hz.

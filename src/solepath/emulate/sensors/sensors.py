@@ -68,8 +68,8 @@ def measure(
     `force` is the specific force at the same instants, for gyroscopes that feel it. `bandwidth` (Hz) is that of a
     device's own low pass, where it is below the part's.
     """
-    felt = errors(true, when, part, rng, force)
-    return sample(low_pass(felt, when.rate, min(part.bandwidth, bandwidth)), when)
+    measured = errors(true, when, part, rng, force)
+    return sample(low_pass(measured, when.rate, min(part.bandwidth, bandwidth)), when)
 
 
 def measure_imu(true: Kinematics, when: Instants, part: Imu, rng: Rng, bandwidth: float) -> tuple[Array, Array]:
@@ -78,7 +78,7 @@ def measure_imu(true: Kinematics, when: Instants, part: Imu, rng: Rng, bandwidth
     return acc, measure(true.rate, when, part.gyro, rng, true.force, bandwidth)
 
 
-def counted(measured: Array, part: Triad, count: float) -> CountReading:
+def to_counts(measured: Array, part: Triad, count: float) -> CountReading:
     """The counts of what a triad measured, as far as its bits go."""
     limit = 2 ** (part.bits - 1)
     counts = np.rint(measured / count)
@@ -91,7 +91,7 @@ def errors(true: Array, when: Instants, part: Triad, rng: Rng, force: Array | No
     mixing = np.eye(3) + np.diag(part.scale * rng.standard_normal(3))
     mixing += part.cross * rng.standard_normal((3, 3)) * (1.0 - np.eye(3))
     signal = true @ mixing.T
-    signal += np.clip(part.bias * rng.standard_normal(3), -part.most, part.most)
+    signal += np.clip(part.bias * rng.standard_normal(3), -part.bias_limit, part.bias_limit)
     signal += part.wander * wander(when.fine, part.memory, 3, rng)
     if force is not None and part.g_effect:
         signal += part.g_effect * force * rng.choice([-1.0, 1.0], 3)
@@ -186,14 +186,14 @@ def read_barometer(height: Array, t: Array, part: BarometerPart, rng: Rng) -> Ar
     return np.asarray(pressure + part.noise * rng.standard_normal(len(t)))
 
 
-def attitude_read(true: Array, t: Array, part: AttitudePart, north: float, rng: Rng) -> Array:
+def read_attitudes(true: Array, t: Array, part: AttitudePart, north: float, rng: Rng) -> Array:
     """What a device says of its attitudes `true` (N, 4) at instants `t`, (N, 4): sensor to its own world.
 
     That world is the walk's turned about the vertical by `north` rad and by the part's errors, a Gauss-Markov process
     about each axis that is as large at the start as later.
     """
-    begun = np.exp(-(t - t[0]) / part.memory)[:, None] * rng.standard_normal(3)
-    turned = (begun + wander(t, part.memory, 3, rng)) * (part.tilt, part.tilt, part.heading)
+    initial = np.exp(-(t - t[0]) / part.memory)[:, None] * rng.standard_normal(3)
+    turned = (initial + wander(t, part.memory, 3, rng)) * (part.tilt, part.tilt, part.heading)
     angle = np.linalg.norm(turned, axis=1, keepdims=True)
     axis = 0.5 * np.sinc(angle / (2.0 * pi)) * turned  # sin(angle / 2) / angle
     about = np.array([[cos(0.5 * north), 0.0, 0.0, -sin(0.5 * north)]])

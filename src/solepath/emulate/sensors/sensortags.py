@@ -17,9 +17,9 @@ from ...wire.sensortag import PERIOD
 from ..wearers.curves import Array, Rng
 from ..wearers.shoe import ON_INSTEP, Mounting
 from ..wearers.walker import Walker
-from .device import Notification, foot_of, prepared, started
+from .device import Notification, draw_clock, foot_of, setup_notifications
 from .parts import AK8963, BMP280, KXTJ9_IMU3000, MAG3110, MPU9250, T5400, Imu
-from .tag_signals import LATE_AIR, LATE_MAG, SLOW, Series, WornTag, counts
+from .tag_signals import BAROMETER_DELAY, MAG_DELAY, SLOW, Series, WornTag, counts
 
 GYRO_COUNT = radians(500.0 / 65536.0)
 """rad/s per count of both tags: +-250 degrees/s, which a swinging foot exceeds."""
@@ -58,7 +58,7 @@ class CC2650:
 
     def emit(self, walker: Walker, site: Site, rng: Rng) -> list[Notification]:
         period = 1.0 / self.rate
-        worn = WornTag(walker, foot_of(site), self.mounting, started(rng, period, self.ppm))
+        worn = WornTag(walker, foot_of(site), self.mounting, draw_clock(rng, period, self.ppm))
         moving = worn.moving(period)
         acc, gyro, mag = moving.acc(self.part, rng), moving.gyro(self.part, rng), moving.mag(AK8963, rng)
         air = worn.air(SLOW, BMP280, rng)
@@ -73,7 +73,7 @@ class CC2650:
         moved = self.movement(
             cc2650.DRIVER.parse("cc2650/movement-config", config), acc.values, gyro.values, mag.values
         )
-        sent = prepared(cc2650.PROFILE, own) + acc.notified("cc2650/movement", moved)
+        sent = setup_notifications(cc2650.PROFILE, own) + acc.notified("cc2650/movement", moved)
         sent += air.notified("cc2650/barometer", map(cc2650_air, air.values[:, 0].tolist()))
         sent += _keys("cc2650/keys", self.presses, *CC2650_KEYS)
         return sorted(sent, key=attrgetter("t"))
@@ -93,11 +93,11 @@ T5400_CALIBRATION = cc2541.BarometerCalibration(
     c1=45697, c2=25592, c3=48894, c4=36174, c5=7001, c6=1990, c7=-2364, c8=-9363
 )
 """Made up, of the size of real coefficients."""
-LATE = {
+DELAYS = {
     "cc2541/accelerometer": 0.0,
     "cc2541/gyroscope": 0.0,
-    "cc2541/magnetometer": LATE_MAG,
-    "cc2541/barometer": LATE_AIR,
+    "cc2541/magnetometer": MAG_DELAY,
+    "cc2541/barometer": BAROMETER_DELAY,
 }
 """s after the tag's first sample at which a sensor begins; the gyroscope anywhere within its first period."""
 ALL_AXES = 7
@@ -122,8 +122,8 @@ class CC2541:
 
     def emit(self, walker: Walker, site: Site, rng: Rng) -> list[Notification]:
         period = 1.0 / self.rate
-        worn = WornTag(walker, foot_of(site), self.mounting, started(rng, period, self.ppm))
-        begins = {**LATE, "cc2541/gyroscope": period * float(rng.uniform())}
+        worn = WornTag(walker, foot_of(site), self.mounting, draw_clock(rng, period, self.ppm))
+        delays = {**DELAYS, "cc2541/gyroscope": period * float(rng.uniform())}
         written = build_whole(PERIOD, {"period": period})
         slow = build_whole(PERIOD, {"period": SLOW})
         own = {
@@ -135,30 +135,30 @@ class CC2541:
             "cc2541/barometer-period": slow,
             "cc2541/barometer-calibration": CALIBRATION,
         }
-        sent = prepared(cc2541.PROFILE, own)
+        sent = setup_notifications(cc2541.PROFILE, own)
         for channel, every, code in (
             ("cc2541/accelerometer", period, self.code),
             ("cc2541/gyroscope", period, ALL_AXES),
             ("cc2541/magnetometer", SLOW, 1),
             ("cc2541/barometer", SLOW, 1),
         ):
-            series = self.measure(channel, worn, every, begins[channel], rng)
-            sent += series.notified(channel, self.said(channel, series.values, code))
+            series = self.measure(channel, worn, every, delays[channel], rng)
+            sent += series.notified(channel, self.encode(channel, series.values, code))
         sent += _keys("cc2541/keys", self.presses, *CC2541_KEYS)
         return sorted(sent, key=attrgetter("t"))
 
-    def measure(self, channel: str, worn: WornTag, period: float, late: float, rng: Rng) -> Series:
+    def measure(self, channel: str, worn: WornTag, period: float, delay: float, rng: Rng) -> Series:
         """What the sensor of a channel measures every `period` s, `late` s after the tag's first sample."""
         match channel:
             case "cc2541/accelerometer":
-                return worn.moving(period, late).acc(self.part, rng)
+                return worn.moving(period, delay).acc(self.part, rng)
             case "cc2541/gyroscope":
-                return worn.moving(period, late).gyro(self.part, rng)
+                return worn.moving(period, delay).gyro(self.part, rng)
             case "cc2541/magnetometer":
-                return worn.moving(period, late).mag(MAG3110, rng)
+                return worn.moving(period, delay).mag(MAG3110, rng)
         return worn.air(period, T5400, rng)
 
-    def said(self, channel: str, measured: Array, code: int) -> list[bytes]:
+    def encode(self, channel: str, measured: Array, code: int) -> list[bytes]:
         """What the sensor of a channel says of the rows of what it measured, when `code` configured it."""
         rows: list[dict[str, Any]]
         match channel:

@@ -19,13 +19,13 @@ from .dot import Dot
 from .insole_device import Insole
 from .insoles import SCALE
 from .parts import CRE_CC02, MPU9250, WORN_RESISTIVE, AttitudePart, CellPart, Imu
-from .sensors import attitude_read, instants, measure_imu, read_cells, sample, samples_of
+from .sensors import instants, measure_imu, read_attitudes, read_cells, sample, samples_of
 
-TURNED = 0.15
+MISALIGNMENT = 0.15
 """rad: how sensors that are strapped on by hand differ from the segment's axes about each axis (assumed)."""
 
 
-def strapped(site: Site, limbs: Limbs, seed: int, turned: float = TURNED) -> Mounting:
+def limb_mounting(site: Site, limbs: Limbs, seed: int, turned: float = MISALIGNMENT) -> Mounting:
     """Where the sensor of a site sits on its segment, and how it is turned there: at random, but for good.
 
     In the segment's frame: the pelvis' on the small of the back, those of thigh and shank on the front half-way down,
@@ -51,7 +51,7 @@ def limb_samples(
     attitude: AttitudePart | None = CRE_CC02,
     errors: Imu | None = MPU9250,
     north: float = 0.0,
-    turned: float = TURNED,
+    turned: float = MISALIGNMENT,
     layouts: Mapping[Site, Layout] | None = None,
     cell_part: CellPart | None = None,
 ) -> list[Sample]:
@@ -73,7 +73,7 @@ def limb_samples(
     found: list[Sample] = []
     for order, site in enumerate(Site):
         rng = np.random.default_rng([seed, 6, order])
-        mounting = strapped(site, limbs, seed, turned)
+        mounting = limb_mounting(site, limbs, seed, turned)
         if errors is None:
             true = made.at(site, when.taken, mounting)
             acc, gyro, turn = true.force, true.rate, true.attitude
@@ -82,7 +82,7 @@ def limb_samples(
             acc, gyro = measure_imu(true, when, errors, rng, 0.5 * rate)
             turn = sample(true.attitude, when)
         if attitude is not None:
-            turn = attitude_read(turn, when.taken, attitude, north, rng)
+            turn = read_attitudes(turn, when.taken, attitude, north, rng)
         cells = None
         if site.foot is not None and layouts is not None and site in layouts:
             cells = _pressed(walker, layouts[site], when.taken, cell_part, rng)
@@ -97,7 +97,7 @@ def suit(
     DOTs, each strapped on as `strapped` has it."""
     worn: dict[Site, Device] = {}
     for site in Site:
-        mounting = strapped(site, limbs, seed)
+        mounting = limb_mounting(site, limbs, seed)
         if site.foot is None:
             worn[site] = Dot(mounting, attitude, north)
         else:

@@ -11,16 +11,16 @@ from ..wearers.curves import Array, Rng
 from ..wearers.motion import Kinematics
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
-from .device import FIELD, DeviceClock, Notification, samplings, seen_from
+from .device import FIELD, DeviceClock, Notification, in_sensor_frame, sampling_instants
 from .parts import BarometerPart, Imu, Triad
-from .sensors import Instants, counted, measure, read_barometer
+from .sensors import Instants, measure, read_barometer, to_counts
 
 HANDLING = 2e-3
 """s from a measurement until the radio has it."""
 SLOW = 1.0
 """s between readings of the barometer, and of the CC2541's magnetometer, after the usual setup."""
-LATE_MAG = 0.3
-LATE_AIR = 0.5
+MAG_DELAY = 0.3
+BAROMETER_DELAY = 0.5
 """s after the first sample of the others."""
 
 Counts = tuple[int, int, int]
@@ -46,14 +46,14 @@ class Series:
         row = min(max(number, 0), len(self.values) - 1)
         return self.values[row : row + 1]
 
-    def notified(self, channel: str, said: Iterable[bytes]) -> list[Notification]:
+    def notified(self, channel: str, payloads: Iterable[bytes]) -> list[Notification]:
         """What is said of each value, as it is sent."""
-        return [Notification(self.taken(k) + HANDLING, channel, data) for k, data in enumerate(said)]
+        return [Notification(self.taken(k) + HANDLING, channel, data) for k, data in enumerate(payloads)]
 
 
 def counts(measured: Array, part: Triad, count: float, axes: Sequence[bool] = (True, True, True)) -> list[Counts]:
     """The rows of what a triad measured, (N, 3), as it counts them; axes that are off read 0."""
-    x, y, z = (counted(measured, part, count).counts * axes).T.tolist()
+    x, y, z = (to_counts(measured, part, count).counts * axes).T.tolist()
     return list(zip(x, y, z, strict=True))
 
 
@@ -75,7 +75,7 @@ class TagMotion:
 
     def mag(self, part: Triad, rng: Rng) -> Series:
         """T."""
-        return self._series(measure(seen_from(self.motion.attitude, FIELD), self.when, part, rng))
+        return self._series(measure(in_sensor_frame(self.motion.attitude, FIELD), self.when, part, rng))
 
     def _series(self, values: Array) -> Series:
         return Series(float(self.when.taken[0]), self.step, values)
@@ -90,14 +90,14 @@ class WornTag:
     mounting: Mounting
     clock: DeviceClock
 
-    def moving(self, period: float, late: float = 0.0) -> TagMotion:
+    def moving(self, period: float, delay: float = 0.0) -> TagMotion:
         """For a sensor that measures every `period` s, `late` s after the first sample."""
-        when = samplings(self.walker, self.clock, period, self.clock.first + late)
+        when = sampling_instants(self.walker, self.clock, period, self.clock.first + delay)
         motion = self.walker.kinematics(self.foot, when.fine, self.mounting)
         return TagMotion(when, self.clock.interval(period), motion)
 
     def air(self, period: float, part: BarometerPart, rng: Rng) -> Series:
         """Pa, (N, 1), measured every `period` s."""
-        t = samplings(self.walker, self.clock, period, self.clock.first + LATE_AIR).taken
+        t = sampling_instants(self.walker, self.clock, period, self.clock.first + BAROMETER_DELAY).taken
         height = self.walker.kinematics(self.foot, t, self.mounting).position[:, 2]
         return Series(float(t[0]), self.clock.interval(period), read_barometer(height, t, part, rng)[:, None])

@@ -15,11 +15,11 @@ from ...calibration import Limbs
 from ...types import Foot
 from ..routes.lift import CarRide
 from ..routes.path import Flight, Pose
-from ..routes.styles import Manner
+from ..routes.styles import StrideKind
 from .curves import Rng
 from .shoe import Rocker, Shoe
 
-SETTLING = 0.45
+SETTLE_TIME = 0.45
 """How long the weight takes to come to rest on two feet, and to roll on in a foot that has stood, s."""
 
 
@@ -91,7 +91,7 @@ class PlannedStride:
     """Of the path where the foot comes down, 1/m; positive to the left."""
     pace: float
     """Of the body over this step, m/s: half of the foot's way in the step's time."""
-    manner: Manner = Manner.WALK
+    manner: StrideKind = StrideKind.WALK
     flight: Flight | None = None
     """That it begins or ends on."""
 
@@ -100,7 +100,7 @@ class PlannedStride:
 class Climb:
     """A flight that was walked, from when the first foot leaves the one floor until both are on the other, s."""
 
-    begin: float
+    start: float
     end: float
     flight: Flight
 
@@ -170,7 +170,7 @@ def wearer(stature: float, mass: float, foot_length: float) -> Wearer:
     )
 
 
-def anybody(rng: Rng) -> tuple[Wearer, float]:
+def random_wearer(rng: Rng) -> tuple[Wearer, float]:
     """Somebody between 1.55 m and 1.92 m tall, neither thin nor fat, and the stature, m."""
     stature = float(rng.uniform(1.55, 1.92))
     return wearer(stature, float(rng.uniform(21.0, 28.0)) * stature**2, 0.153 * stature), stature

@@ -27,7 +27,7 @@ from attrs import frozen
 from ...calibration import Limbs
 from ...types import Foot, Site, Vec3
 from ...types.vector import GRAVITY
-from ..routes.styles import Manner
+from ..routes.styles import StrideKind
 from .curves import Array
 from .gait import WalkPlan
 from .load import Loads
@@ -38,13 +38,13 @@ from .zones import FOREFOOT, HEEL, MIDFOOT, TOES
 
 STEP = 0.01
 """s between the instants at which the pelvis is worked out; cubic B-splines join them."""
-STRETCH = 0.998
+MAX_REACH = 0.998
 """Of a leg, at the most: nobody walks on a straight knee."""
-RUNNING_STRETCH = 0.97
+MAX_REACH_RUNNING = 0.97
 """The same of a runner, who lands with the knee bent by some 20 degrees (Novacheck 1998, Gait & Posture 7)."""
-FOLLOWING = 0.2
+FOLLOW_TIME = 0.2
 """s over which the pelvis follows the legs' reach, and turns and sinks with them."""
-TURNING = 1.1
+TURN_TIME = 1.1
 """s over which it turns with the feet: about a stride."""
 ROTATION = 0.10
 """rad that the pelvis turns for every metre that one foot is ahead of the other: 4 degrees each way at 1.3 m/s."""
@@ -52,13 +52,13 @@ DROP = 0.07
 """rad that it sinks on the side of the leg in the air."""
 SLACK = (0.006, 0.004)
 """m by which a foot slides in its shoe forward and back, left and right, at the most (assumed)."""
-YIELD = 2.0
+SLACK_ACCELERATION = 2.0
 """m/s^2 of the body's acceleration at which it has slid three quarters of that."""
-_AROUND = 4.0
+_MARGIN = 4.0
 """s before the first and after the last instant for which the pelvis is worked out, too."""
-_APART = 1e-3
+_DIFFERENCE_STEP = 1e-3
 """s."""
-_BARE = Mounting((0.0, 0.0, 0.0))
+_NO_MOUNTING = Mounting((0.0, 0.0, 0.0))
 
 SIDES = {Foot.LEFT: 1.0, Foot.RIGHT: -1.0}
 SEGMENTS = {
@@ -95,7 +95,7 @@ class Body:
     limbs: Limbs
     shoe: Shoe
     motions: dict[Foot, FootMotion]
-    begin: float
+    t_start: float
     track: Array
     slips: dict[Foot, Array]
 
@@ -118,7 +118,7 @@ class Body:
         at, turn = self.pelvis(t)
         hip = at + turn[:, :, 1] * (0.5 * SIDES[foot] * self.limbs.hip_width)
         ankle = self.ankle(foot, t)
-        look = _level(turn[:, :, 0]) + _ahead(matrices(self.motions[foot].at(t, _BARE).attitude))
+        look = _level(turn[:, :, 0]) + _ahead(matrices(self.motions[foot].at(t, _NO_MOUNTING).attitude))
         thigh, shank = self.limbs.thigh, self.limbs.shank
         down = ankle - hip
         reach = np.linalg.norm(down, axis=1, keepdims=True)
@@ -136,7 +136,7 @@ class Body:
             return self.pelvis(t)
         foot = SEGMENTS[site]
         if site.foot is not None:
-            found = self.motions[foot].at(t, _BARE)
+            found = self.motions[foot].at(t, _NO_MOUNTING)
             return found.position, matrices(found.attitude)
         leg = self.leg(foot, t)
         return (leg.hip, leg.thigh) if site in _THIGHS else (leg.knee, leg.shank)
@@ -149,18 +149,18 @@ class Body:
         return joined([self._at(site, t[k : k + BLOCK], mounting) for k in range(0, max(len(t), 1), BLOCK)])
 
     def _at(self, site: Site, t: Array, mounting: Mounting) -> Kinematics:
-        (p0, r0), (p1, r1), (p2, r2) = (self.segment(site, t + k * _APART) for k in (-1, 0, 1))
+        (p0, r0), (p1, r1), (p2, r2) = (self.segment(site, t + k * _DIFFERENCE_STEP) for k in (-1, 0, 1))
         arm = np.array(mounting.position)
         before, position, after = p0 + r0 @ arm, p1 + r1 @ arm, p2 + r2 @ arm
-        acceleration = (before - 2.0 * position + after) / _APART**2
-        turn = np.einsum("nji,njk->nik", r0, r2) / (4.0 * _APART)
+        acceleration = (before - 2.0 * position + after) / _DIFFERENCE_STEP**2
+        turn = np.einsum("nji,njk->nik", r0, r2) / (4.0 * _DIFFERENCE_STEP)
         rate = np.stack([turn[:, j, i] - turn[:, i, j] for i, j in ((1, 2), (2, 0), (0, 1))], axis=1)
         force = np.einsum("nji,nj->ni", r1, acceleration + (0.0, 0.0, GRAVITY))
         mount = matrices(np.array([mounting.attitude]))[0]
         return Kinematics(
             t=t,
             position=position,
-            velocity=(after - before) / (2.0 * _APART),
+            velocity=(after - before) / (2.0 * _DIFFERENCE_STEP),
             acceleration=acceleration,
             attitude=multiplied(quaternions(r1), np.array([mounting.attitude])),
             rate=rate @ mount,
@@ -169,7 +169,7 @@ class Body:
 
     def _joined(self, track: Array, t: Array) -> Array:
         """Values of a track at any instants: its rows as the coefficients of uniform cubic B-splines."""
-        place = np.clip((t - self.begin) / STEP, 1.0, len(track) - 3.0)
+        place = np.clip((t - self.t_start) / STEP, 1.0, len(track) - 3.0)
         k = place.astype(np.intp)
         u = (place - k)[:, None]
         return np.asarray(
@@ -189,8 +189,8 @@ def body(
     plan: WalkPlan, motions: dict[Foot, FootMotion], loads: Loads, shoe: Shoe, height: float, limbs: Limbs
 ) -> Body:
     """The body that goes with a plan; its centre of mass stands `height` m high."""
-    t = np.arange(-_AROUND, plan.duration + _AROUND, STEP)
-    pressed = _pressed(plan, loads, shoe, t)
+    t = np.arange(-_MARGIN, plan.duration + _MARGIN, STEP)
+    pressed = _pressure_point(plan, loads, shoe, t)
     w = sqrt(GRAVITY / height)
     centre = _weighted(pressed, np.exp(-w * STEP * np.abs(np.arange(-round(3.0 / STEP), round(3.0 / STEP) + 1))))
     pull = w * w * (centre - pressed)
@@ -198,42 +198,42 @@ def body(
     feet = {foot: motions[foot].at(t, Mounting(ankle_place(shoe, limbs))) for foot in Foot}
     turns = {foot: matrices(feet[foot].attitude) for foot in Foot}
     share = {foot: loads.share(foot, t) for foot in Foot}
-    slips = {foot: _hanned(_slips(turns[foot], pull, share[foot]), 0.5 * FOLLOWING) for foot in Foot}
+    slips = {foot: _smoothed(_slips(turns[foot], pull, share[foot]), 0.5 * FOLLOW_TIME) for foot in Foot}
     ankles = {foot: feet[foot].position + _slid(turns[foot], slips[foot]) for foot in Foot}
 
     looks = [_ahead(turn) for turn in turns.values()]
     yaws = [np.unwrap(np.arctan2(look[:, 1], look[:, 0])) for look in looks]
-    yaw = _hanned(0.5 * (yaws[0] + yaws[1])[:, None], TURNING)[:, 0]
+    yaw = _smoothed(0.5 * (yaws[0] + yaws[1])[:, None], TURN_TIME)[:, 0]
     apart = ankles[Foot.LEFT] - ankles[Foot.RIGHT]
     lead = apart[:, 0] * np.cos(yaw) + apart[:, 1] * np.sin(yaw)
     swing = np.stack((-ROTATION * lead, DROP * (share[Foot.LEFT] - share[Foot.RIGHT])), axis=1)
-    swing = _hanned(swing, FOLLOWING)
+    swing = _smoothed(swing, FOLLOW_TIME)
     yaw, roll = yaw + swing[:, 0], swing[:, 1]
 
-    reach = _stretch(plan, t) * (limbs.thigh + limbs.shank)
+    reach = _reach_limit(plan, t) * (limbs.thigh + limbs.shank)
     half = 0.5 * limbs.hip_width * turned(yaw, roll)[:, :, 1]
     highest = np.full(len(t), np.inf)
     for foot in Foot:
         away = ankles[foot][:, :2] - centre - SIDES[foot] * half[:, :2]
         rise = np.sqrt(np.maximum(reach**2 - np.sum(away**2, axis=1), 0.0))
         highest = np.minimum(highest, ankles[foot][:, 2] + rise - SIDES[foot] * half[:, 2])
-    z = _hanned(_least(highest, round(0.5 * FOLLOWING / STEP) + 2)[:, None], FOLLOWING)
+    z = _smoothed(_running_minimum(highest, round(0.5 * FOLLOW_TIME / STEP) + 2)[:, None], FOLLOW_TIME)
     track = np.concatenate((centre, z, yaw[:, None], roll[:, None]), axis=1)
     return Body(limbs, shoe, motions, float(t[0]), track, slips)
 
 
-def _stretch(plan: WalkPlan, t: Array) -> Array:
+def _reach_limit(plan: WalkPlan, t: Array) -> Array:
     """How much of a leg's length hip and ankle are apart, at the most."""
-    least = np.full(len(t), STRETCH)
-    runs = [s for foot in Foot for s in plan.strides[foot] if s.manner is Manner.RUN]
+    least = np.full(len(t), MAX_REACH)
+    runs = [s for foot in Foot for s in plan.strides[foot] if s.manner is StrideKind.RUN]
     if not runs:
         return least
     for stride in runs:
-        least[(t > stride.toe_off - FOLLOWING) & (t < stride.foot_flat + FOLLOWING)] = RUNNING_STRETCH
-    return np.asarray(np.minimum(_hanned(least[:, None], 2.0 * FOLLOWING)[:, 0], least))
+        least[(t > stride.toe_off - FOLLOW_TIME) & (t < stride.foot_flat + FOLLOW_TIME)] = MAX_REACH_RUNNING
+    return np.asarray(np.minimum(_smoothed(least[:, None], 2.0 * FOLLOW_TIME)[:, 0], least))
 
 
-def _pressed(plan: WalkPlan, loads: Loads, shoe: Shoe, t: Array) -> Array:
+def _pressure_point(plan: WalkPlan, loads: Loads, shoe: Shoe, t: Array) -> Array:
     """Where the load of both feet together presses on the ground, (N, 2), m."""
     total = np.zeros((len(t), 2))
     for foot in Foot:
@@ -249,8 +249,8 @@ def _pressed(plan: WalkPlan, loads: Loads, shoe: Shoe, t: Array) -> Array:
 
 def _slips(turn: Array, pull: Array, share: Array) -> Array:
     ahead, left = _ahead(turn)[:, :2], _level(turn[:, :, 1])[:, :2]
-    felt = np.stack((np.sum(ahead * pull, axis=1), np.sum(left * pull, axis=1)), axis=1)
-    return np.asarray(-share[:, None] * np.tanh(felt / YIELD) * SLACK)
+    local_pull = np.stack((np.sum(ahead * pull, axis=1), np.sum(left * pull, axis=1)), axis=1)
+    return np.asarray(-share[:, None] * np.tanh(local_pull / SLACK_ACCELERATION) * SLACK)
 
 
 def _slid(turn: Array, slip: Array) -> Array:
@@ -265,12 +265,12 @@ def _weighted(track: Array, kernel: Array) -> Array:
     return np.stack([np.convolve(column, kernel / kernel.sum(), mode="valid") for column in padded.T], axis=1)
 
 
-def _hanned(track: Array, over: float) -> Array:
+def _smoothed(track: Array, over: float) -> Array:
     """Smoothed over so many s."""
     return _weighted(track, np.hanning(2 * round(0.5 * over / STEP) + 3)[1:-1])
 
 
-def _least(values: Array, half: int) -> Array:
+def _running_minimum(values: Array, half: int) -> Array:
     """The least of each value and `half` neighbours on either side."""
     padded = np.pad(values, half, mode="edge")
     return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, 2 * half + 1).min(axis=1))

@@ -29,17 +29,17 @@ from numpy.typing import NDArray
 from ...types import Foot, Layout
 from ...types.vector import GRAVITY
 from ..routes.lift import CarRide
-from ..routes.styles import Manner, style_of
+from ..routes.styles import StrideKind, style_of
 from .curves import Array, Rng
-from .gait import SETTLING, PlannedStride, WalkPlan, Wearer
+from .gait import SETTLE_TIME, PlannedStride, WalkPlan, Wearer
 from .motion import FootMotion
 from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, pattern
 
 BOUNCE = 0.17
 """Amplitude of the force's swing about the weight at 1.3 m/s; it grows with the square of the speed."""
-CATCHING = 0.13
+CATCH_TIME = 0.13
 """How long the closing foot takes to catch the weight, s."""
-TAKEN = 0.3
+LOAD_SHIFT_SHARE = 0.3
 """Share of h v^2 / (r g) by which the load moves under a foot (assumed). At 1.1 m/s it is 18 mm at r = 2 m; the ankle
 can move the load sideways by about 20 mm (Hof et al. 2007, Gait & Posture 25)."""
 _EVER = 1e6
@@ -61,7 +61,7 @@ class Loads:
     """
 
     weight: float
-    begin: Array
+    start: Array
     end: Array
     before: Array
     after: Array
@@ -79,12 +79,12 @@ class Loads:
 
     def body(self, t: Array) -> Array:
         """Load under both feet together, N."""
-        load = self._borne(t)
+        load = self._on_still_floor(t)
         for car in self.rides:
             load *= 1.0 + car.at(t)[2][:, 2] / GRAVITY
         return load
 
-    def _borne(self, t: Array) -> Array:
+    def _on_still_floor(self, t: Array) -> Array:
         """The same on a floor that does not move."""
         if len(self.beat) < 2:
             return np.full_like(t, self.weight)
@@ -94,10 +94,10 @@ class Loads:
         swing = (self.bounce[k] + (self.bounce[k + 1] - self.bounce[k]) * phase) * np.cos(2.0 * np.pi * phase)
         load = np.asarray(self.weight * (1.0 + swing))
         if self.runs.any():
-            self._leap(load, k, t)
+            self._apply_flight(load, k, t)
         return load
 
-    def _leap(self, load: Array, k: NDArray[np.intp], t: Array) -> None:
+    def _apply_flight(self, load: Array, k: NDArray[np.intp], t: Array) -> None:
         """Where the body leaves the ground before a beat or after it, the load goes to nothing."""
         strike, off = self.runs[k, 0], self.runs[k, 1]
         both = (strike > 0.0) & (off > 0.0)
@@ -106,9 +106,9 @@ class Loads:
         half = np.sin(np.pi * np.clip((t - strike) / lasts, 0.0, 1.0))
         load[both] = (self.weight * 0.5 * np.pi * step / lasts * half)[both]
         landing = (strike > 0.0) & ~both
-        load[landing] *= hand_over((t - strike)[landing] / CATCHING)
+        load[landing] *= hand_over((t - strike)[landing] / CATCH_TIME)
         leaving = (off > 0.0) & ~both
-        load[leaving] *= hand_over((off - t)[leaving] / CATCHING)
+        load[leaving] *= hand_over((off - t)[leaving] / CATCH_TIME)
 
     def cells(self, layout: Layout, width: float, motion: FootMotion, t: Array) -> Array:
         """Load on every cell of `layout`, (N, cells), N; a row's sum is the foot's total.
@@ -127,9 +127,9 @@ class Loads:
         still = np.zeros_like(t)
         moves = ((HEEL, heel, still), (MIDFOOT, still, still), (FOREFOOT, fore, inward), (TOES, fore, still))
         for (zone, ahead, aside), share in zip(moves, shares, strict=True):
-            busy = np.flatnonzero(share * total > 0.0)
-            for begin in range(0, len(busy), _BLOCK):
-                some = busy[begin : begin + _BLOCK]
+            loaded = np.flatnonzero(share * total > 0.0)
+            for start in range(0, len(loaded), _BLOCK):
+                some = loaded[start : start + _BLOCK]
                 borne = pattern(layout, width, zone, ahead[some], aside[some], lean[some])
                 found[some] += (share * total)[some, None] * borne
         return found
@@ -137,16 +137,16 @@ class Loads:
     def lean(self, foot: Foot, t: Array) -> Array:
         """How far the load is asked to move to the left under a foot, m; away from the inside of a bend."""
         rows = np.maximum(np.searchsorted(self.stances[foot][:, 0], t, side="right") - 1, 0)
-        asked, over = self.leans[foot][rows].T
-        return np.asarray(asked * (1.0 - hand_over((t - over) / SETTLING)))
+        shift, over = self.leans[foot][rows].T
+        return np.asarray(shift * (1.0 - hand_over((t - over) / SETTLE_TIME)))
 
     def share(self, foot: Foot, t: Array) -> Array:
         """Share of a foot in the body's load."""
-        if not len(self.begin):
+        if not len(self.start):
             return np.full_like(t, 0.5)
-        k = np.searchsorted(self.begin, t, side="right") - 1
+        k = np.searchsorted(self.start, t, side="right") - 1
         known = np.maximum(k, 0)
-        s = (t - self.begin[known]) / (self.end[known] - self.begin[known])
+        s = (t - self.start[known]) / (self.end[known] - self.start[known])
         share = self.before[known] + (self.after[known] - self.before[known]) * hand_over(s)
         left = np.where(k < 0, self.before[0], share)
         return left if foot is Foot.LEFT else np.asarray(1.0 - left)
@@ -157,7 +157,7 @@ class Loads:
         rows = np.maximum(np.searchsorted(stances[:, 0], t, side="right") - 1, 0)
         row = stances[rows]
         flat, lift, off = row[:, 1], row[:, 2], row[:, 3]
-        ramp = np.minimum(lift - flat, SETTLING)
+        ramp = np.minimum(lift - flat, SETTLE_TIME)
         rolled = 0.45 * hand_over((t - flat) / ramp) + 0.55 * hand_over((t - lift + ramp) / ramp)
         if self.fronts[foot].any():
             front = self.fronts[foot][rows]
@@ -175,7 +175,7 @@ def loads(plan: WalkPlan, wearer: Wearer, rng: Rng) -> Loads:
     beat = np.array(beats).reshape(-1, 4)
     return Loads(
         weight=wearer.mass * GRAVITY,
-        begin=table[:, 0],
+        start=table[:, 0],
         end=table[:, 1],
         before=table[:, 2],
         after=table[:, 3],
@@ -191,12 +191,12 @@ def loads(plan: WalkPlan, wearer: Wearer, rng: Rng) -> Loads:
 
 def _front(stride: PlannedStride) -> float:
     """Share of the load that lands on the forefoot."""
-    return 0.0 if stride.manner is Manner.WALK else style_of(stride.manner, stride.speed).front
+    return 0.0 if stride.manner is StrideKind.WALK else style_of(stride.manner, stride.speed).front
 
 
-def _like(stride: PlannedStride) -> float:
+def _equivalent_speed(stride: PlannedStride) -> float:
     """The walking speed at which the load swings as it does in a stride, m/s."""
-    if stride.manner is Manner.WALK or stride.manner is Manner.RUN:
+    if stride.manner is StrideKind.WALK or stride.manner is StrideKind.RUN:
         return stride.speed
     return 1.3 * float(np.sqrt(style_of(stride.manner, stride.speed).bounce / BOUNCE))
 
@@ -214,12 +214,12 @@ def _hand_overs(plan: WalkPlan) -> tuple[list[tuple[float, ...]], list[tuple[flo
     hand_overs: list[tuple[float, ...]] = []
     beats: list[tuple[float, ...]] = []
     level = 0.5
-    for began, ended in plan.bouts:
-        bout = [(stride, foot) for stride, foot in steps if began <= stride.heel_strike <= ended]
+    for start, end in plan.bouts:
+        bout = [(stride, foot) for stride, foot in steps if start <= stride.heel_strike <= end]
         first, mover = bout[0]
         away = 0.0 if mover is Foot.LEFT else 1.0
-        hand_overs.append((began, first.toe_off, level, away))
-        beats.append((began, 0.0, 0.0, 0.0))
+        hand_overs.append((start, first.toe_off, level, away))
+        beats.append((start, 0.0, 0.0, 0.0))
         level = away
         for (stride, foot), (following, _) in zip(bout, bout[1:], strict=False):
             onto = 1.0 if foot is Foot.LEFT else 0.0
@@ -229,15 +229,15 @@ def _hand_overs(plan: WalkPlan) -> tuple[list[tuple[float, ...]], list[tuple[flo
             if flown:
                 # Nobody stands at this beat: the one before leaves the ground, and the next begins with a landing.
                 beats[-1] = (*beats[-1][:3], off)
-            beats.append((0.5 * (strike + off), _like(stride), strike if flown else 0.0, 0.0))
+            beats.append((0.5 * (strike + off), _equivalent_speed(stride), strike if flown else 0.0, 0.0))
             level = onto
         last, _ = bout[-1]
         # The closing foot catches the weight as in a step, a little too much of it, and then half remains.
-        caught, settled = last.heel_strike + CATCHING, last.heel_strike + SETTLING
+        caught, settled = last.heel_strike + CATCH_TIME, last.heel_strike + SETTLE_TIME
         most = 0.6 if level == 0.0 else 0.4
         hand_overs.append((last.heel_strike, caught, level, most))
         hand_overs.append((caught, settled, most, 0.5))
-        beats.append((last.heel_strike + 0.5 * SETTLING, 0.0, 0.0, 0.0))
+        beats.append((last.heel_strike + 0.5 * SETTLE_TIME, 0.0, 0.0, 0.0))
         level = 0.5
     return hand_overs, beats
 
@@ -253,7 +253,7 @@ def _leans(plan: WalkPlan, foot: Foot, wearer: Wearer, rng: Rng) -> Array:
     """For every stance: the way asked of the load, and the last heel-strike of its walk."""
     rows = [(0.0, -_EVER)]
     for stride in plan.strides[foot]:
-        over = next(ended for began, ended in plan.bouts if began <= stride.heel_strike <= ended) - SETTLING
-        asked = -TAKEN * wearer.centre_height * stride.pace**2 * stride.curvature / GRAVITY
-        rows.append((asked + wearer.load_variation * float(rng.standard_normal()), over))
+        over = next(end for start, end in plan.bouts if start <= stride.heel_strike <= end) - SETTLE_TIME
+        shift = -LOAD_SHIFT_SHARE * wearer.centre_height * stride.pace**2 * stride.curvature / GRAVITY
+        rows.append((shift + wearer.load_variation * float(rng.standard_normal()), over))
     return np.array(rows)

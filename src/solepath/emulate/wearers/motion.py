@@ -62,10 +62,10 @@ class FootMotion:
     that of the arc that rolls, 0 in the air; `phase` (rows) indexes Phase.
     """
 
-    begin: Array
+    start: Array
     duration: Array
     curves: Array
-    carried: Array
+    reference: Array
     radius: Array
     phase: Array
     rides: tuple[CarRide, ...] = ()
@@ -77,13 +77,13 @@ class FootMotion:
     def pitch(self, t: Array) -> Array:
         """Toe-up angle of the sole, rad."""
         row = self._piece(t)
-        return self._curve(row, (t - self.begin[row]) / self.duration[row], PITCH, 0)
+        return self._curve(row, (t - self.start[row]) / self.duration[row], PITCH, 0)
 
     def contact(self, t: Array) -> Array:
         """Where along the foot the rolling sole touches the ground, as x in the foot frame, m; nan in the air."""
         row = self._piece(t)
         radius = self.radius[row]
-        touched = self.carried[row, 0] - radius * np.sin(self.pitch(t))
+        touched = self.reference[row, 0] - radius * np.sin(self.pitch(t))
         return np.where(radius > 0.0, touched, np.nan)
 
     def at(self, t: Array, mounting: Mounting) -> Kinematics:
@@ -93,7 +93,7 @@ class FootMotion:
 
     def _block(self, t: Array, mounting: Mounting) -> Kinematics:
         row = self._piece(t)
-        s = (t - self.begin[row]) / self.duration[row]
+        s = (t - self.start[row]) / self.duration[row]
         per = 1.0 / self.duration[row]
         value, first, second = (
             [self._curve(row, s, channel, order) * per**order for channel in range(6)] for order in range(3)
@@ -111,14 +111,14 @@ class FootMotion:
 
         # The sensor on the rigid foot: v = v_c + w x r, a = a_c + w' x r + w x (w x r), in the foot frame.
         x, y, z = mounting.position
-        arm = np.stack([x - self.carried[row, 0], np.full_like(t, y), z - self.carried[row, 1]], axis=1)
+        arm = np.stack([x - self.reference[row, 0], np.full_like(t, y), z - self.reference[row, 1]], axis=1)
         swing = np.cross(rate, arm)
         position = centre + _apply(turn, arm)
         velocity = centre_v + _apply(turn, swing)
         acceleration = centre_a + _apply(turn, np.cross(rate_change, arm) + np.cross(rate, swing))
 
         for car in self.rides:
-            aboard = np.flatnonzero((t >= car.begin) & (t < car.end))
+            aboard = np.flatnonzero((t >= car.start) & (t < car.end))
             for total, added in zip((position, velocity, acceleration), car.at(t[aboard]), strict=True):
                 total[aboard] += added
 
@@ -137,7 +137,7 @@ class FootMotion:
         )
 
     def _piece(self, t: Array) -> Rows:
-        return np.clip(np.searchsorted(self.begin, t, side="right") - 1, 0, len(self.begin) - 1)
+        return np.clip(np.searchsorted(self.start, t, side="right") - 1, 0, len(self.start) - 1)
 
     def _curve(self, row: Rows, s: Array, channel: int, order: int) -> Array:
         factors = np.asarray(np.polynomial.polynomial.polyder(self.curves[:, channel, :], order, axis=1))

@@ -18,7 +18,7 @@ from attrs import evolve
 from ...types import Foot, Phase
 from ..routes.lift import CarRide
 from ..routes.path import Flight, Pose
-from ..routes.styles import Manner, style_of
+from ..routes.styles import StrideKind, style_of
 from .curves import BUMP, EVEN_OUT, Array, End, constant, evaluate, join, part
 from .gait import PlannedStride, WalkPlan
 from .motion import PHASES, FootMotion
@@ -41,9 +41,9 @@ REVERSAL = 0.22
 """Share of the swing in which the pitch rate turns from that of push-off to that of swinging through."""
 SWING_UP = 1.1
 """Pitch rate after the reversal, relative to the mean rate from there to heel-strike."""
-KICK, KICKED = -1.50, 0.34
+KICK_PITCH, KICK_SHARE = -1.50, 0.34
 """A runner's heel is up by so many rad, after this share of the swing."""
-KICKING = 4.0
+KICK_ACCELERATION = 4.0
 """Pitch acceleration there, in units of the way that is left per square of the time that is left."""
 _EVER = 1e6
 """s: how long a foot stands before the first and after the last stride."""
@@ -74,16 +74,16 @@ class _Pieces:
             self.swing(stride)
             self.land(stride)
             self.stand(stride.end, stride.foot_flat, leave, stride.settle if leave < _EVER else 0.0)
-        begin, duration, curves, carried, radius, phase = map(np.array, zip(*self.rows, strict=True))
-        return FootMotion(begin, duration, curves, carried, radius, phase.astype(np.intp), self.rides)
+        t_start, duration, curves, reference, radius, phase = map(np.array, zip(*self.rows, strict=True))
+        return FootMotion(t_start, duration, curves, reference, radius, phase.astype(np.intp), self.rides)
 
-    def stand(self, at: Pose, begin: float, end: float, settle: float) -> None:
+    def stand(self, at: Pose, t_start: float, end: float, settle: float) -> None:
         for car in self.rides:
-            if begin <= car.begin and car.end <= end:
+            if t_start <= car.t_start and car.end <= end:
                 # FootMotion adds the way of the car while it goes.
-                self._roll(Phase.STATIONARY, self.shoe.heel, at, begin, car.end, 0.0 * BUMP)
-                at, begin, settle = evolve(at, z=at.z + car.height), car.end, 0.0
-        self._roll(Phase.STATIONARY, self.shoe.heel, at, begin, end, settle * BUMP)
+                self._roll(Phase.STATIONARY, self.shoe.heel, at, t_start, car.end, 0.0 * BUMP)
+                at, t_start, settle = evolve(at, z=at.z + car.height), car.end, 0.0
+        self._roll(Phase.STATIONARY, self.shoe.heel, at, t_start, end, settle * BUMP)
 
     def push_off(self, stride: PlannedStride) -> None:
         pitch = -stride.toe_off_pitch * _from_rest(PUSH)
@@ -91,13 +91,13 @@ class _Pieces:
 
     def land(self, stride: PlannedStride) -> None:
         """From heel-strike to foot-flat, first the impact and then the pure roll."""
-        begin, end = stride.heel_strike, stride.foot_flat
+        t_start, end = stride.heel_strike, stride.foot_flat
         pitch = _landing(stride)
-        cut = IMPACT / (end - begin)
+        cut = IMPACT / (end - t_start)
         give = [_give(speed) for speed in _residual(stride)]
         arc = self._lands_on(stride)
-        self._roll(Phase.LOADING, arc, stride.end, begin, begin + IMPACT, part(pitch, 0.0, cut), give)
-        self._roll(Phase.LOADING, arc, stride.end, begin + IMPACT, end, part(pitch, cut, 1.0))
+        self._roll(Phase.LOADING, arc, stride.end, t_start, t_start + IMPACT, part(pitch, 0.0, cut), give)
+        self._roll(Phase.LOADING, arc, stride.end, t_start + IMPACT, end, part(pitch, cut, 1.0))
 
     def _lands_on(self, stride: PlannedStride) -> Rocker:
         """The arc that touches the ground first."""
@@ -119,7 +119,7 @@ class _Pieces:
         cruise = CRUISE if stride.flight is None else 0.0
         x += -sin(sideways) * stride.weave[2] * BUMP + cruise * (p1[0] - p0[0]) * EVEN_OUT
         y += cos(sideways) * stride.weave[2] * BUMP + cruise * (p1[1] - p0[1]) * EVEN_OUT
-        swung = _kicked_pitch if stride.manner is Manner.RUN else _swing_pitch
+        swung = _kicked_pitch if stride.manner is StrideKind.RUN else _swing_pitch
         pitches = swung(off, strike, duration)
         if stride.flight is not None:
             style = style_of(stride.manner, stride.speed)
@@ -133,11 +133,11 @@ class _Pieces:
             z += self._lift(stride, z, pitches, roll) * BUMP
         ankle = (shoe.ankle[0], shoe.ankle[2])
         turn = stride.toe_off + _reversal(stride) * duration
-        for begin, end, pitch in ((stride.toe_off, turn, pitches[0]), (turn, stride.heel_strike, pitches[1])):
-            low, high = ((t - stride.toe_off) / duration for t in (begin, end))
+        for t_start, end, pitch in ((stride.toe_off, turn, pitches[0]), (turn, stride.heel_strike, pitches[1])):
+            low, high = ((t - stride.toe_off) / duration for t in (t_start, end))
             curves = [part(curve, low, high) for curve in (x, y, z)]
             curves += [pitch, part(yaw, low, high), part(roll, low, high)]
-            self._add(begin, end, curves, ankle, 0.0, Phase.SWING)
+            self._add(t_start, end, curves, ankle, 0.0, Phase.SWING)
 
     def _lift(self, stride: PlannedStride, z: Array, pitches: tuple[Array, Array], roll: Array) -> float:
         """The height of the bump with which the sole's lowest point just keeps the clearance (itself a bump)."""
@@ -201,7 +201,7 @@ class _Pieces:
         phase: Phase,
         arc: Rocker,
         at: Pose,
-        begin: float,
+        t_start: float,
         end: float,
         pitch: Array,
         give: list[Array] | None = None,
@@ -210,12 +210,18 @@ class _Pieces:
         if give is not None:
             place = [a + b for a, b in zip(place, give, strict=True)]
         curves = [*place, pitch, constant(at.heading), constant(0.0)]
-        self._add(begin, end, curves, (arc.x, arc.radius), arc.radius, phase)
+        self._add(t_start, end, curves, (arc.x, arc.radius), arc.radius, phase)
 
     def _add(
-        self, begin: float, end: float, curves: list[Array], carried: tuple[float, float], radius: float, phase: Phase
+        self,
+        t_start: float,
+        end: float,
+        curves: list[Array],
+        reference: tuple[float, float],
+        radius: float,
+        phase: Phase,
     ) -> None:
-        self.rows.append((begin, end - begin, curves, carried, radius, PHASES.index(phase)))
+        self.rows.append((t_start, end - t_start, curves, reference, radius, PHASES.index(phase)))
 
 
 def _from_rest(end: tuple[float, float]) -> Array:
@@ -242,13 +248,13 @@ def _swing_pitch(off: End, strike: End, duration: float) -> tuple[Array, Array]:
 
 def _kicked_pitch(off: End, strike: End, duration: float) -> tuple[Array, Array]:
     """Pitch in a runner's swing: the heel goes up to KICK, and then the foot swings through."""
-    a, b = KICKED * duration, (1.0 - KICKED) * duration
-    top = (KICK, 0.0, KICKING * (strike[0] - KICK) / b**2)
+    a, b = KICK_SHARE * duration, (1.0 - KICK_SHARE) * duration
+    top = (KICK_PITCH, 0.0, KICK_ACCELERATION * (strike[0] - KICK_PITCH) / b**2)
     return join(off, top, a), join(top, strike, b)
 
 
 def _reversal(stride: PlannedStride) -> float:
-    return KICKED if stride.manner is Manner.RUN else REVERSAL
+    return KICK_SHARE if stride.manner is StrideKind.RUN else REVERSAL
 
 
 def _pitch_at(pitches: tuple[Array, Array], s: Array, turn: float) -> Array:
@@ -266,7 +272,7 @@ def _ends(curve: Array, s: float, duration: float) -> End:
 def _residual(stride: PlannedStride) -> tuple[float, float, float]:
     """What the heel still moves by, beyond its roll, when it touches the ground, m/s in the world."""
     slide, sink = SLIDE * stride.speed, SINK * stride.speed
-    if stride.manner is not Manner.WALK:
+    if stride.manner is not StrideKind.WALK:
         style = style_of(stride.manner, stride.speed)
         slide, sink = style.slide, style.sink
     return (slide * cos(stride.end.heading), slide * sin(stride.end.heading), -sink)

@@ -14,7 +14,7 @@ from attrs import evolve, frozen
 
 from ...types import Activity, Foot, Phase, Vec3
 from ..routes.lift import CarRide
-from ..routes.styles import Manner
+from ..routes.styles import StrideKind
 from .curves import Array
 from .gait import Climb, WalkPlan
 from .motion import FootMotion, Kinematics
@@ -24,27 +24,27 @@ from .shoe import Mounting
 def activities(plan: WalkPlan) -> tuple[tuple[float, float, Activity], ...]:
     """One after the other from 0 to the plan's end. Turning on the spot is walking. Running lasts from where its first
     swing begins to where its last foot comes down, so that stretches of walking in between count as walking."""
-    found = [(begin, end, Activity.WALKING) for begin, end in plan.bouts]
+    found = [(start, end, Activity.WALKING) for start, end in plan.bouts]
     found += _runs(plan)
     for climb in plan.climbs:
-        found.append((climb.begin, climb.end, Activity.STAIRS_UP if climb.up else Activity.STAIRS_DOWN))
+        found.append((climb.start, climb.end, Activity.STAIRS_UP if climb.up else Activity.STAIRS_DOWN))
     for car in plan.rides:
-        found.append((car.begin, car.end, Activity.ELEVATOR_UP if car.height > 0.0 else Activity.ELEVATOR_DOWN))
-    told: list[tuple[float, float, Activity]] = []
-    marks = sorted({0.0, plan.duration, *(t for begin, end, _ in found for t in (begin, end))})
-    for begin, end in zip(marks, marks[1:], strict=False):
-        middle = 0.5 * (begin + end)
+        found.append((car.start, car.end, Activity.ELEVATOR_UP if car.height > 0.0 else Activity.ELEVATOR_DOWN))
+    found_spans: list[tuple[float, float, Activity]] = []
+    marks = sorted({0.0, plan.duration, *(t for start, end, _ in found for t in (start, end))})
+    for start, end in zip(marks, marks[1:], strict=False):
+        middle = 0.5 * (start + end)
         # What is told later is more special.
         what = next((a for b, e, a in reversed(found) if b <= middle < e), Activity.STANDING)
-        if told and told[-1][2] is what:
-            told[-1] = (told[-1][0], end, what)
+        if found_spans and found_spans[-1][2] is what:
+            found_spans[-1] = (found_spans[-1][0], end, what)
         else:
-            told.append((begin, end, what))
-    return tuple(told)
+            found_spans.append((start, end, what))
+    return tuple(found_spans)
 
 
 def _runs(plan: WalkPlan) -> list[tuple[float, float, Activity]]:
-    steps = sorted((s.heel_strike, s.toe_off, s.manner is Manner.RUN) for foot in Foot for s in plan.strides[foot])
+    steps = sorted((s.heel_strike, s.toe_off, s.manner is StrideKind.RUN) for foot in Foot for s in plan.strides[foot])
     found: list[tuple[float, float, Activity]] = []
     running = False
     for strike, off, run in steps:
@@ -57,7 +57,7 @@ def _runs(plan: WalkPlan) -> list[tuple[float, float, Activity]]:
 
 
 @frozen
-class TrueStep:
+class TrueStride:
     """One foot from foot-flat to its next foot-flat; for the first step from t = 0, when it stood already."""
 
     foot: Foot
@@ -84,7 +84,7 @@ class FootTruth:
     foot_flats: tuple[float, ...]
     heel_offs: tuple[float, ...]
     toe_offs: tuple[float, ...]
-    steps: tuple[TrueStep, ...]
+    steps: tuple[TrueStride, ...]
     origin: Vec3
     motion: FootMotion
     mounting: Mounting
@@ -117,12 +117,12 @@ class Truth:
         """Everything about a foot's sensor at any instants, its position relative to the foot's first."""
         return self.feet[foot].pose(t)
 
-    def steps(self, foot: Foot) -> tuple[TrueStep, ...]:
+    def steps(self, foot: Foot) -> tuple[TrueStride, ...]:
         return self.feet[foot].steps
 
     def activity(self, t: float) -> Activity:
         """What the wearer does at `t` s."""
-        return next((what for begin, end, what in self.activities if begin <= t < end), Activity.STANDING)
+        return next((what for start, end, what in self.activities if start <= t < end), Activity.STANDING)
 
     def elevation(self, t: Array | float) -> Array:
         """How much higher than at t = 0 the wearer is at instants `t`, (N), m: the mean of the floors or treads that
@@ -150,7 +150,7 @@ def foot_truth(foot: Foot, plan: WalkPlan, motion: FootMotion, mounting: Mountin
         dx, dy, dz = (float(v) for v in places[k + 1] - places[k])
         turned = stride.end.heading - stride.start.heading
         steps.append(
-            TrueStep(
+            TrueStride(
                 foot=foot,
                 number=k + 1,
                 t_start=float(marks[k]),

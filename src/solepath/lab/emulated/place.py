@@ -86,7 +86,7 @@ def score(way: Way, walker: Walker, truth: Truth, events: Sequence[Event]) -> Pl
 
 def on_a_floor(truth: Truth, t: float) -> bool:
     """Whether a step at `t` s is scored."""
-    moved = [(one.begin, one.end) for one in truth.flights] + [(one.begin, one.end) for one in truth.rides]
+    moved = [(one.start, one.end) for one in truth.flights] + [(one.start, one.end) for one in truth.rides]
     return not any([begin <= t <= end + PAUSE for begin, end in moved])
 
 
