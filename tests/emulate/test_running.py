@@ -23,7 +23,7 @@ def jogger() -> Walker:
 
 def run(walker: Walker, foot: Foot) -> list[PlannedStride]:
     """Strides at full speed."""
-    return [s for s in walker.plan.strides[foot] if s.manner is StrideKind.RUN and s.speed > 2.59]
+    return [s for s in walker.plan.strides[foot] if s.kind is StrideKind.RUN and s.speed > 2.59]
 
 
 def test_there_is_a_flight_between_the_steps_of_a_jogger(jogger: Walker) -> None:
@@ -31,7 +31,7 @@ def test_there_is_a_flight_between_the_steps_of_a_jogger(jogger: Walker) -> None
     flights = [
         one.heel_strike - two.toe_off
         for (_, one, _), (_, two, _) in pairwise(steps)
-        if one.manner is StrideKind.RUN and one.speed > 2.59
+        if one.kind is StrideKind.RUN and one.speed > 2.59
     ]
     assert len(flights) > 20
     assert min(flights) > 0.03 and max(flights) < 0.16

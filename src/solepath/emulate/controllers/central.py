@@ -1,4 +1,4 @@
-"""bleak's client and scanner over a virtual central, for `BleakClient(..., backend=)`: all above is as for a radio."""
+"""bleak's client and scanner over a virtual central, for `BleakClient(..., backend=)`, as with a real adapter."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _T = TypeVar("_T")
 
 _SMALLEST_MTU = 23
 _PAIRING = 30.0
-"""s after which a pairing has failed (Bluetooth Core, vol 3 part H, 3.4)."""
+"""Time after which a pairing has failed, s (Bluetooth Core, vol 3 part H, 3.4)."""
 _PAIRING_ERRORS: dict[tuple[str, int | None], str] = {
     ("smp", int(smp.ErrorCode.PAIRING_NOT_SUPPORTED)): "the device refused to be paired",
     ("hci", int(hci.HCI_ErrorCode.PIN_OR_KEY_MISSING_ERROR)): "the device has forgotten the pairing: unpair it here "
@@ -45,7 +45,7 @@ _SERVICE_LISTS = (
 
 
 def backend_of(radio: VirtualRadio) -> Backend:
-    """The classes that bleak is given to use this radio."""
+    """Return the classes that make bleak use this radio."""
 
     class VirtualScanner(RadioScanner):
         pass
@@ -63,7 +63,7 @@ def _uuid(uuid: core.UUID) -> str:
 
 
 class RadioScanner(BaseBleakScanner):
-    """Hears what the devices on the air advertise."""
+    """Scanner of the advertisements on the virtual link."""
 
     radio: ClassVar[VirtualRadio]
 
@@ -84,7 +84,7 @@ class RadioScanner(BaseBleakScanner):
         await self.radio.ignore(self.on_advertisement)
 
     def on_advertisement(self, advertisement: Advertisement) -> None:
-        """Called by the radio for each advertisement."""
+        """Report one advertisement to the callbacks of bleak."""
         fields = advertisement.data
         lists = [listed for kind in _SERVICE_LISTS for listed in fields.get_all(kind) if isinstance(listed, list)]
         services = [_uuid(uuid) for listed in lists for uuid in listed if isinstance(uuid, core.UUID)]
@@ -108,10 +108,10 @@ class RadioScanner(BaseBleakScanner):
 
 
 class RadioClient(BaseBleakClient):
-    """One GATT client.
+    """A GATT client on the virtual link.
 
-    The disconnected callback is called once for every link that came to stand, whoever ended it and however. A request
-    that is pending then ends with a BleakError.
+    The disconnected callback is called once for every established link, whichever side ended it. A pending request then
+    ends with a BleakError.
     """
 
     radio: ClassVar[VirtualRadio]
@@ -138,11 +138,11 @@ class RadioClient(BaseBleakClient):
         return self._link is not None
 
     async def connect(self, pair: bool, **kwargs: Any) -> None:
-        """Connects, agrees on an MTU and discovers what the device has. The link is encrypted if there are keys of an
-        earlier pairing; if there are none and `pair`, the device is paired with.
+        """Connect, exchange the MTU and discover the services.
 
-        `timeout`: s. TimeoutError when the device does not answer; BleakDeviceNotFoundError when only an address was
-        given and nobody advertised it for so long; BleakError when the link is lost at once, or pairing fails.
+        With the keys of an earlier pairing the link is encrypted; without keys and with `pair` the device is paired.
+        `timeout`, s: a device that does not answer raises TimeoutError; an address that no device advertises raises
+        BleakDeviceNotFoundError; a link that is lost at once, or a failed pairing, raises BleakError.
         """
         if self._link is not None:
             raise BleakError("already connected")
@@ -195,7 +195,7 @@ class RadioClient(BaseBleakClient):
         return found
 
     def _payload_size(self) -> int:
-        """Bytes of a value that fit in one ATT packet."""
+        """Return the size of a value that fits in one ATT packet, bytes."""
         return self.mtu_size - 3
 
     def _lost(self, link: Connection, reason: int) -> None:
@@ -214,7 +214,7 @@ class RadioClient(BaseBleakClient):
             self._lost(link, 0)
 
     async def pair(self, *args: Any, **kwargs: Any) -> None:
-        """LE Secure Connections, Just Works: nobody is asked. The keys are kept as long as the backend."""
+        """Pair by LE Secure Connections, Just Works, without user input; the backend keeps the keys while it lives."""
         link = self._link
         if link is None:
             raise BleakError("not connected")
@@ -228,7 +228,7 @@ class RadioClient(BaseBleakClient):
             raise BleakError("the device did not answer when it was to be paired") from error
 
     async def unpair(self) -> None:
-        """Forgets the keys, which ends the link."""
+        """Delete the keys of the pairing and end the link."""
         await self.radio.keys.delete(self.address)
         await self.disconnect()
 
@@ -282,12 +282,12 @@ class RadioClient(BaseBleakClient):
     async def stop_notify(self, characteristic: BleakGATTCharacteristic) -> None:
         subscriber = self._subscriptions.pop(characteristic.handle, None)
         if subscriber is not None:
-            with suppress(BleakGATTProtocolError):  # off is off, whatever the device says
+            with suppress(BleakGATTProtocolError):  # notifications are off here, also when the device answers an error
                 await self._request(partial(characteristic.obj.unsubscribe, subscriber))
 
 
 def _deliver(callback: NotifyCallback, value: bytes) -> None:
-    """An app's mistake is reported by the loop, as for any callback, and not taken for a packet that cannot be read."""
+    """Call the app's callback; its exception goes to the loop's handler and does not look like an unreadable packet."""
     try:
         callback(bytearray(value))
     except Exception as error:

@@ -1,6 +1,6 @@
 """The emulated CC2541 SensorTag as a GATT server: protocol/cc2541.md from the device's side.
 
-Like the CC2650 it does as it is told, and each sensor keeps its own errors whatever its period.
+Like the CC2650 it accepts any configuration, and each sensor keeps its own errors for every period.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from .attributes import AttCode, AttError
 from .peripheral import Placement
 from .tag import STOCK, Encoder, Presses, Sensor, Tag, checked_code, constant_sensors, shortest
 
-# What the sensors say that measure nothing of the wearer: 24 degrees, half the air's moisture.
+# Constant values of the sensors that do not measure the wearer: 24 degrees Celsius, half of the air's moisture.
 _ROOM = {"cc2541/infrared": bytes.fromhex("0000000c"), "cc2541/humidity": bytes.fromhex("3867b072")}
 
 

@@ -1,7 +1,7 @@
 """The emulated CC2650 SensorTag as a GATT server: protocol/cc2650.md from the device's side.
 
-It does as it is told, also when it is not what one wants: another range, other axes or another period than those of the
-profile give data as the tag would give them. Each sensor keeps its own errors whatever its period.
+It accepts any configuration: with another range, other axes or another period than the profile's it sends the data that
+the tag would send. Each sensor keeps its own errors for every period.
 """
 
 from __future__ import annotations
@@ -24,14 +24,15 @@ from .peripheral import Placement
 from .tag import STOCK, Encoder, Presses, Sensor, Tag, checked_code, constant_sensors, shortest
 
 WAKE_CHANGE = 0.040 * GRAVITY
-"""m/s^2 from one sample to the next that wake a tag which lies still."""
+"""Change of specific force from one sample to the next that wakes a tag at rest, m/s^2."""
 AWAKE_TIME = 10.0
-"""s for which it stays awake after that."""
+"""Time for which the tag stays awake after such a change, s."""
 
 _CONFIG_BITS, _AXIS_BITS = 0x03FF, 0x007F
-"""The bits of AA82 that the firmware looks at, and those of them that switch axes on."""
+"""Bits of AA82 that the firmware uses, and those of them that switch axes on."""
 
-# What the sensors say that measure nothing of the wearer: 24 degrees, half the air's moisture, a lit room.
+# Constant values of the sensors that do not measure the wearer: 24 degrees Celsius, half of the air's moisture, a lit
+# room.
 _ROOM = {
     "cc2650/infrared": bytes.fromhex("000c000c"),
     "cc2650/humidity": bytes.fromhex("a6630080"),
@@ -82,7 +83,7 @@ class CC2650Peripheral(Tag):
         return self.device.movement(config, acc.value(number), gyro.value(number), mag.value(number))[0]
 
     def measure(self, sensor: str, period: float) -> tuple[Series, ...]:
-        """Of movement: accelerometer, gyroscope and magnetometer."""
+        """Return the series of the sensor; for movement those of accelerometer, gyroscope and magnetometer."""
         worn, part = self._worn, self.device.part
         if sensor == "cc2650/barometer":
             return (worn.air(period, BMP280, self._numbers(3)),)
@@ -94,7 +95,7 @@ class CC2650Peripheral(Tag):
         )
 
     def _awake(self, acc: Series, period: float, number: int) -> bool:
-        """Whether the tag has been moved in the last `AWAKE` s."""
+        """Return whether the tag has been moved in the last `AWAKE_TIME` s."""
         moved = self._moved.get(period)
         if moved is None:
             change = np.abs(np.diff(acc.values, axis=0)).max(axis=1)

@@ -1,24 +1,24 @@
-"""What is to go wrong: a script of faults, and its effect on one emulated device.
+"""Scripted faults of emulated devices: the syntax of a script, and its effect on one device.
 
-A script is text, one fault a line, `SECONDS SITE WHAT [AMOUNT]`; `#` begins a comment, `*` means every site and a
-semicolon ends a fault as a line does:
+A script is text, one fault a line, `SECONDS SITE WHAT [AMOUNT]`; `#` starts a comment, `*` means every site and a
+semicolon ends a fault as the end of a line does:
 
     12.5 left_foot disconnect         # the link is lost, the device advertises again at once
-    20 right_foot vanish 60           # the link is lost and the device is not to be seen for so many s
+    20 right_foot vanish 60           # the link is lost and the device does not advertise for 60 s
     5 left_foot drop 3                # the next notifications are lost
     5 * duplicate 2                   # ... arrive twice
     8 left_foot truncate 4            # ... arrive cut short
-    8 left_foot flip 2                # ... arrive with one to three bits turned
-    15 left_foot freeze 5             # nothing is sent for so many s though the link stands; a setup write thaws it
-    0 left_foot mtu 23                # the device agrees to no larger MTU from its next connection on
+    8 left_foot flip 2                # ... arrive with one to three inverted bits
+    15 left_foot freeze 5             # nothing is sent for 5 s although the link is up; a setup write ends this
+    0 left_foot mtu 23                # the device accepts no larger MTU from its next connection on
     0 left_foot refuse cc2650/movement-config 2   # the next requests to the channel get the ATT error 0x80
     30 left_foot hang                 # the next request is never answered, and 1 s later the link is lost
-    40 left_foot restart              # the link is lost and the device begins anew, its counters too
-    0 * name "SensorTag"              # the device goes by another name
-    0 left_foot pairing               # from now on the device must be paired with before it says anything of the foot
-    0 left_foot refuse pairing        # the next attempt to pair is refused
+    40 left_foot restart              # the link is lost and the device restarts with its counters at 0
+    0 * name "SensorTag"              # the device has another name
+    0 left_foot pairing               # from now on the device sends and answers only on a link that is paired
+    0 left_foot refuse pairing        # the next attempt to pair is rejected
 
-Seconds count from the walk's beginning. The same script does the same every time.
+Seconds count from the start of the walk. The same script has the same effect every time.
 """
 
 from __future__ import annotations
@@ -36,16 +36,16 @@ from attrs import frozen
 from ...types import Site
 
 HANGING = 1.0
-"""s from a request that is never answered until the link is lost."""
+"""Time from a request that is never answered until the link is lost, s."""
 PAIRING = "pairing"
-"""What is refused, in place of a channel, when it is an attempt to pair."""
+"""Argument of the fault "refuse" that rejects an attempt to pair instead of a request to a channel."""
 
 
 _E = TypeVar("_E", bound=Enum)
 
 
 class FaultKind(Enum):
-    """What goes wrong; the words are those of the script."""
+    """Kinds of faults; the values are the words of the script."""
 
     DISCONNECT = "disconnect"
     VANISH = "vanish"
@@ -64,17 +64,18 @@ class FaultKind(Enum):
 
 @frozen
 class Fault:
-    """One fault at `at` s of the walk, at `site` (None: at every site).
-
-    `amount`: s for VANISH and FREEZE (inf without), the MTU for MTU, a number of notifications or requests otherwise.
-    `argument`: the channel for REFUSE, or PAIRING; the name for NAME.
-    """
+    """One scripted fault."""
 
     at: float
+    """Time of the walk at which the fault happens, s."""
     site: Site | None
+    """Site of the device; None: every site."""
     kind: FaultKind
+    """Kind of the fault."""
     amount: float = 1.0
+    """Duration in s for VANISH and FREEZE (inf by default), MTU for MTU, else a number of notifications or requests."""
     argument: str = ""
+    """Channel, or PAIRING, for REJECT; name for NAME."""
 
 
 _COUNTED = {FaultKind.DROP, FaultKind.DUPLICATE, FaultKind.TRUNCATE, FaultKind.FLIP, FaultKind.REJECT}
@@ -83,7 +84,10 @@ _NAMING = {FaultKind.REJECT: "a channel", FaultKind.NAME: "a name"}
 
 
 def parse_faults(text: str) -> tuple[Fault, ...]:
-    """The faults of a script, in its order. ValueError names the line that cannot be understood, and why."""
+    """Return the faults of a script, in its order.
+
+    A line with an error raises ValueError, which names the line and the reason.
+    """
     found = []
     for number, line in enumerate(text.splitlines(), 1):
         try:
@@ -94,7 +98,7 @@ def parse_faults(text: str) -> tuple[Fault, ...]:
 
 
 def _words(line: str) -> list[list[str]]:
-    """The words of each fault on the line."""
+    """Return the words of each fault on the line."""
     lexer = shlex.shlex(line, posix=True, punctuation_chars=";")
     lexer.whitespace_split = True
     faults: list[list[str]] = [[]]
@@ -156,7 +160,7 @@ def _one_of(kind: type[_E], word: str, called: str, also: str = "") -> _E:
 
 
 class FaultState:
-    """The faults of one device as time passes. `t` is everywhere the time of the walk, s, and never goes back."""
+    """The faults of one device over time; `t` is always the time of the walk, s, and never decreases."""
 
     def __init__(self, faults: Iterable[Fault], site: Site) -> None:
         mine = [fault for fault in faults if fault.site in (None, site)]
@@ -170,54 +174,57 @@ class FaultState:
         self._lost_at = inf
         self.happened = 0
         self.cut = False
-        """The link is to be lost now."""
+        """True when the link must be lost now."""
         self.mtu: int | None = None
-        """The largest MTU that the device now agrees to, None when no fault says so."""
+        """Largest MTU that the device accepts; None when no fault sets it."""
         self.restarted_at: float | None = None
-        """When the device began anew the last time, None when it never did."""
+        """Time of the last restart of the device, s; None when it never restarted."""
         self.name: str | None = None
-        """What the device now calls itself, None when no fault says so."""
+        """Name of the device; None when no fault sets it."""
         self.needs_pairing = False
-        """Whether the device wants to be paired with."""
+        """True when the device accepts requests only on a paired link."""
 
     def next_at(self) -> float:
-        """When something happens by itself, s; inf when nothing is to come."""
+        """Return the time of the next fault, s; inf when there is none."""
         return min(self._coming[0].at if self._coming else inf, self._lost_at)
 
     def advance(self, t: float) -> None:
-        """Let happen what is to happen until `t`."""
+        """Apply all faults up to `t`."""
         while self._coming and self._coming[0].at <= t:
             self._start_fault(self._coming.pop(0))
         if self._lost_at <= t:
             self.cut, self._lost_at = True, inf
 
     def connected(self) -> None:
-        """A new link: what was to end the old one ends no other. A request that hangs may still be to come."""
+        """Start a new link: a pending loss of the old link does not end it; a pending HANG stays."""
         self.cut, self._lost_at = False, inf
 
     def hidden(self, t: float) -> bool:
+        """Return whether the device does not advertise at `t`."""
         return t < self._hidden_until
 
     def frozen(self, t: float) -> bool:
+        """Return whether the device sends nothing at `t`."""
         return t < self._frozen_until
 
     def thaw(self) -> None:
+        """End a FREEZE."""
         self._frozen_until = -inf
 
     def rejects(self, channel: str) -> bool:
-        """Whether a request to the channel is refused; asked once for each request."""
+        """Return whether the device rejects a request to the channel; call it once for each request."""
         left = self._rejections.get(channel, 0)
         self._rejections[channel] = max(0, left - 1)
         return left > 0
 
     def hangs(self, t: float) -> bool:
-        """Whether a request at `t` is never answered. No other is either until the link is lost."""
+        """Return whether a request at `t` is never answered; later ones are not answered either until the link ends."""
         if self._hang:
             self._hang, self._lost_at = False, t + HANGING
         return self._lost_at < inf
 
     def apply(self, value: bytes) -> list[bytes]:
-        """What is really sent in place of a notification."""
+        """Return the notifications that are sent in place of one notification."""
         if self._spend(FaultKind.DROP):
             return []
         if self._spend(FaultKind.TRUNCATE):

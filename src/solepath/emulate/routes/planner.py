@@ -36,7 +36,7 @@ class _Footfall:
     speed: float
     duration: float
     curvature: float = 0.0
-    manner: StrideKind = StrideKind.WALK
+    kind: StrideKind = StrideKind.WALK
     flight: Flight | None = None
 
 
@@ -102,7 +102,7 @@ class _Planner:
             else:
                 falls += self._naturally(section)
         # The closing half step: beside the foot that arrived.
-        return [*falls, evolve(falls[-1], manner=StrideKind.WALK)]
+        return [*falls, evolve(falls[-1], kind=StrideKind.WALK)]
 
     def _naturally(self, path: WalkPath) -> list[_Footfall]:
         """Steps of natural length with a few per cent of variation, stretched to end exactly at the path's end."""
@@ -125,8 +125,8 @@ class _Planner:
             pose = path.at(end)[0]
             speed, running = path.pace(end)
             usual = 60.0 / running_cadence(speed) if running else 60.0 / self.wearer.cadence(speed)
-            manner = StrideKind.RUN if running else StrideKind.WALK
-            falls.append(_Footfall(pose, speed, usual, path.curvature(end), manner))
+            kind = StrideKind.RUN if running else StrideKind.WALK
+            falls.append(_Footfall(pose, speed, usual, path.curvature(end), kind))
         return falls
 
     def _on_marks(self, path: WalkPath, spacing: float) -> list[_Footfall]:
@@ -141,13 +141,13 @@ class _Planner:
 
     def _on_stairs(self, piece: Piece, flight: Flight) -> list[_Footfall]:
         """One step for every riser."""
-        manner = StrideKind.UP if flight.rise > 0.0 else StrideKind.DOWN
+        kind = StrideKind.UP if flight.rise > 0.0 else StrideKind.DOWN
         falls = []
         for k in range(1, flight.steps + 1):
             hit = flight.going * k + self.wearer.aim * float(np.clip(self.rng.standard_normal(), -2.0, 2.0))
             pose = evolve(piece.start.ahead(hit, 0.0), z=flight.z + flight.rise * k)
             duration = flight.going / piece.speed
-            falls.append(_Footfall(pose, piece.speed, duration, 0.0, manner, flight))
+            falls.append(_Footfall(pose, piece.speed, duration, 0.0, kind, flight))
         return falls
 
     def _on_the_spot(self, pivot: Pivot) -> list[_Footfall]:
@@ -179,16 +179,16 @@ class _Planner:
     def _stride(self, foot: Foot, fall: _Footfall, struck: float, step: float) -> None:
         wearer, before = self.wearer, self.strides[foot]
         start = self.at[foot]
-        manner = fall.manner
+        kind = fall.kind
         if fall.flight is not None and fall.flight is not self.flight:
             self.flight, self.climbing = fall.flight, None
         if abs(fall.pose.z - start.z) > SAME_LEVEL:
-            manner = StrideKind.UP if fall.pose.z > start.z else StrideKind.DOWN
-        style = None if manner is StrideKind.WALK else style_of(manner, fall.speed)
+            kind = StrideKind.UP if fall.pose.z > start.z else StrideKind.DOWN
+        style = None if kind is StrideKind.WALK else style_of(kind, fall.speed)
         double, early, flat = double_support(fall.speed), 0.12, 0.095
         if style is not None:
             flat = style.flat
-            if manner is not StrideKind.RUN:
+            if kind is not StrideKind.RUN:
                 double, early = style.double, style.early
         if self.running is not None:
             # Who runs is in the air before the other foot comes down.
@@ -230,12 +230,12 @@ class _Planner:
                 settle=4e-4 * float(np.clip(self.rng.standard_normal(), -1.0, 1.0)),
                 curvature=fall.curvature,
                 pace=0.5 * moved / step,
-                manner=manner,
-                flight=self.flight if manner in (StrideKind.UP, StrideKind.DOWN) else None,
+                kind=kind,
+                flight=self.flight if kind in (StrideKind.UP, StrideKind.DOWN) else None,
             )
         )
         self.at[foot] = end
-        self.running = fall.speed if manner is StrideKind.RUN else None
+        self.running = fall.speed if kind is StrideKind.RUN else None
         self._step_off(before[-1])
 
     def _step_off(self, stride: PlannedStride) -> None:

@@ -89,9 +89,9 @@ DESCENDING = Style(
 )
 
 
-def style_of(manner: StrideKind, speed: float) -> Style:
+def style_of(kind: StrideKind, speed: float) -> Style:
     """For any but walking, at `speed` m/s along."""
-    if manner is StrideKind.RUN:
+    if kind is StrideKind.RUN:
         share = min(max(0.38 - 0.03 * (speed - 2.6), 0.25), 0.44)
         return Style(
             double=share - 0.5,
@@ -104,7 +104,7 @@ def style_of(manner: StrideKind, speed: float) -> Style:
             clearance=0.15,
             weave=2.0,
         )
-    return CLIMBING if manner is StrideKind.UP else DESCENDING
+    return CLIMBING if kind is StrideKind.UP else DESCENDING
 
 
 def running_cadence(speed: float) -> float:

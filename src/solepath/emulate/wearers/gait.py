@@ -91,7 +91,7 @@ class PlannedStride:
     """Of the path where the foot comes down, 1/m; positive to the left."""
     pace: float
     """Of the body over this step, m/s: half of the foot's way in the step's time."""
-    manner: StrideKind = StrideKind.WALK
+    kind: StrideKind = StrideKind.WALK
     flight: Flight | None = None
     """That it begins or ends on."""
 

@@ -225,7 +225,7 @@ def body(
 def _reach_limit(plan: WalkPlan, t: Array) -> Array:
     """How much of a leg's length hip and ankle are apart, at the most."""
     least = np.full(len(t), MAX_REACH)
-    runs = [s for foot in Foot for s in plan.strides[foot] if s.manner is StrideKind.RUN]
+    runs = [s for foot in Foot for s in plan.strides[foot] if s.kind is StrideKind.RUN]
     if not runs:
         return least
     for stride in runs:

@@ -191,14 +191,14 @@ def loads(plan: WalkPlan, wearer: Wearer, rng: Rng) -> Loads:
 
 def _front(stride: PlannedStride) -> float:
     """Share of the load that lands on the forefoot."""
-    return 0.0 if stride.manner is StrideKind.WALK else style_of(stride.manner, stride.speed).front
+    return 0.0 if stride.kind is StrideKind.WALK else style_of(stride.kind, stride.speed).front
 
 
 def _equivalent_speed(stride: PlannedStride) -> float:
     """The walking speed at which the load swings as it does in a stride, m/s."""
-    if stride.manner is StrideKind.WALK or stride.manner is StrideKind.RUN:
+    if stride.kind is StrideKind.WALK or stride.kind is StrideKind.RUN:
         return stride.speed
-    return 1.3 * float(np.sqrt(style_of(stride.manner, stride.speed).bounce / BOUNCE))
+    return 1.3 * float(np.sqrt(style_of(stride.kind, stride.speed).bounce / BOUNCE))
 
 
 def hand_over(s: Array) -> Array:

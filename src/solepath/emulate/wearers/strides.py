@@ -79,7 +79,7 @@ class _Pieces:
 
     def stand(self, at: Pose, t_start: float, end: float, settle: float) -> None:
         for car in self.rides:
-            if t_start <= car.t_start and car.end <= end:
+            if t_start <= car.start and car.end <= end:
                 # FootMotion adds the way of the car while it goes.
                 self._roll(Phase.STATIONARY, self.shoe.heel, at, t_start, car.end, 0.0 * BUMP)
                 at, t_start, settle = evolve(at, z=at.z + car.height), car.end, 0.0
@@ -119,10 +119,10 @@ class _Pieces:
         cruise = CRUISE if stride.flight is None else 0.0
         x += -sin(sideways) * stride.weave[2] * BUMP + cruise * (p1[0] - p0[0]) * EVEN_OUT
         y += cos(sideways) * stride.weave[2] * BUMP + cruise * (p1[1] - p0[1]) * EVEN_OUT
-        swung = _kicked_pitch if stride.manner is StrideKind.RUN else _swing_pitch
+        swung = _kicked_pitch if stride.kind is StrideKind.RUN else _swing_pitch
         pitches = swung(off, strike, duration)
         if stride.flight is not None:
-            style = style_of(stride.manner, stride.speed)
+            style = style_of(stride.kind, stride.speed)
             way = p1 - p0
             hold = style.hold * min(1.0, 2.0 * stride.flight.going / hypot(way[0], way[1]))
             x += hold * way[0] * BUMP
@@ -254,7 +254,7 @@ def _kicked_pitch(off: End, strike: End, duration: float) -> tuple[Array, Array]
 
 
 def _reversal(stride: PlannedStride) -> float:
-    return KICK_SHARE if stride.manner is StrideKind.RUN else REVERSAL
+    return KICK_SHARE if stride.kind is StrideKind.RUN else REVERSAL
 
 
 def _pitch_at(pitches: tuple[Array, Array], s: Array, turn: float) -> Array:
@@ -272,8 +272,8 @@ def _ends(curve: Array, s: float, duration: float) -> End:
 def _residual(stride: PlannedStride) -> tuple[float, float, float]:
     """What the heel still moves by, beyond its roll, when it touches the ground, m/s in the world."""
     slide, sink = SLIDE * stride.speed, SINK * stride.speed
-    if stride.manner is not StrideKind.WALK:
-        style = style_of(stride.manner, stride.speed)
+    if stride.kind is not StrideKind.WALK:
+        style = style_of(stride.kind, stride.speed)
         slide, sink = style.slide, style.sink
     return (slide * cos(stride.end.heading), slide * sin(stride.end.heading), -sink)
 

@@ -44,7 +44,7 @@ def activities(plan: WalkPlan) -> tuple[tuple[float, float, Activity], ...]:
 
 
 def _runs(plan: WalkPlan) -> list[tuple[float, float, Activity]]:
-    steps = sorted((s.heel_strike, s.toe_off, s.manner is StrideKind.RUN) for foot in Foot for s in plan.strides[foot])
+    steps = sorted((s.heel_strike, s.toe_off, s.kind is StrideKind.RUN) for foot in Foot for s in plan.strides[foot])
     found: list[tuple[float, float, Activity]] = []
     running = False
     for strike, off, run in steps:
