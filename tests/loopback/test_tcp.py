@@ -148,7 +148,7 @@ async def test_a_scan_that_goes_on_hears_the_devices_of_a_server_that_was_restar
 
 @really
 async def test_a_server_that_hangs_is_an_error_until_it_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(radio, "PATIENCE", 0.3)
+    monkeypatch.setattr(radio, "CONTROLLER_TIMEOUT", 0.3)
     async with program("strap.py", "0") as server:
         port = await line(server)
         async with reach(f"tcp:127.0.0.1:{port}") as backend:

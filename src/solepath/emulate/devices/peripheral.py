@@ -163,7 +163,7 @@ class Peripheral:
         self._notify_changed()
 
     def read(self, channel: str, now: float) -> bytes | None:
-        """Return the value of a channel; None when the device never answers. Raise AttError when it rejects the read."""
+        """Return the value of a channel; None when it never answers. Raise AttError when it rejects the read."""
         t = self._advance(now)
         if self._fails(channel, t):
             return None
