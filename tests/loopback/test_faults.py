@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf
 
 import pytest
-from benches import LEFT, RIGHT, Heard, played, refusal, set_up, worn
+from benches import LEFT, RIGHT, Received, played, refusal, set_up, worn
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -21,7 +21,7 @@ def tag(faults: str = "") -> Peripheral:
     return set_up(worn(CC2650(), faults=faults), cc2650.PROFILE)
 
 
-def movements(device: Peripheral, until: float) -> Heard:
+def movements(device: Peripheral, until: float) -> Received:
     return played(device, until, MOVEMENT)
 
 
@@ -119,8 +119,8 @@ def test_a_loss_while_there_is_no_link_ends_no_later_one() -> None:
 
 
 def test_a_frozen_stream_thaws_by_itself_or_when_it_is_set_up_again() -> None:
-    heard = movements(tag("2 left_foot freeze 3"), 9.0)
-    assert max(b - a for (a, _), (b, _) in zip(heard, heard[1:], strict=False)) == pytest.approx(3.1, abs=0.11)
+    received = movements(tag("2 left_foot freeze 3"), 9.0)
+    assert max(b - a for (a, _), (b, _) in zip(received, received[1:], strict=False)) == pytest.approx(3.1, abs=0.11)
     device = tag("2 left_foot freeze")
     assert all(t <= 2.1 for t, _ in movements(device, 9.0))
     assert device.is_connected
@@ -139,7 +139,7 @@ def test_a_name_may_be_another_one() -> None:
 
 
 def test_seconds_count_from_the_walks_beginning() -> None:
-    device = worn(CC2650(), faults="2 left_foot disconnect", began=100.0)
+    device = worn(CC2650(), faults="2 left_foot disconnect", started_at=100.0)
     set_up(device, cc2650.PROFILE, now=90.0)
     assert played(device, 200.0)[-1][0] == pytest.approx(102.0, abs=0.11)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from attrs import evolve
-from benches import LEFT, RIGHT, ROUTE, Heard, played, refusal, set_up, start, walker, worn
+from benches import LEFT, RIGHT, ROUTE, Received, played, refusal, set_up, start, walker, worn
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -29,8 +29,8 @@ DEVICES: list[tuple[Device, Profile]] = [
 ]
 
 
-def frames(heard: Heard) -> list[InsoleFrame]:
-    return [parse_frame(outgoing.value) for _, outgoing in heard if outgoing.channel == "insole/frame"]
+def frames(received: Received) -> list[InsoleFrame]:
+    return [parse_frame(outgoing.value) for _, outgoing in received if outgoing.channel == "insole/frame"]
 
 
 # every device
@@ -97,14 +97,14 @@ def test_attributes_refuse_what_they_are_not_made_for(device: Device, known: Pro
 
 @pytest.mark.parametrize(("device", "known"), DEVICES)
 def test_the_streams_never_dry_up_before_and_after_the_walk(device: Device, known: Profile) -> None:
-    tag = set_up(worn(device, began=1000.0), known, now=900.0)
+    tag = set_up(worn(device, started_at=1000.0), known, now=900.0)
     stream = known.streams[0]
     assert len(played(tag, 910.0, stream)) == pytest.approx(10.0 * known.nominal_rate, rel=0.02)
     tag.disconnected(910.0)
     set_up(tag, known, now=5000.0)
-    heard = played(tag, 5010.0, stream)
-    assert len(heard) == pytest.approx(10.0 * known.nominal_rate, rel=0.02)
-    assert all(5000.0 <= t <= 5010.0 for t, _ in heard)
+    received = played(tag, 5010.0, stream)
+    assert len(received) == pytest.approx(10.0 * known.nominal_rate, rel=0.02)
+    assert all(5000.0 <= t <= 5010.0 for t, _ in received)
 
 
 @pytest.mark.parametrize(("device", "known"), DEVICES)
@@ -134,7 +134,7 @@ def _lasting(device: Device) -> Peripheral:
 
 
 def test_a_walk_may_be_begun_when_the_devices_run_already() -> None:
-    tag = set_up(worn(Insole(), began=1e6), insole.PROFILE)
+    tag = set_up(worn(Insole(), started_at=1e6), insole.PROFILE)
     still = frames(played(tag, 3.0))
     tag.walk_from(3.0)
     walk = frames(played(tag, 3.0 + walker().duration))
@@ -174,8 +174,8 @@ def test_frames_are_byte_for_byte_those_that_the_emulator_emits(device: Insole, 
     emitted = [n for n in device.emit(walker(), site, device_numbers(3, site)) if n.channel == "insole/frame"]
     tag = set_up(worn(device, site), insole.PROFILE, now=-1.0, mtu=device.mtu)
     assert tag.read("insole/info", -1.0) in [n.data for n in device.emit(walker(), site, device_numbers(3, site))]
-    heard = played(tag, walker().duration + 1.0, "insole/frame")
-    walked = [(t, outgoing.value) for t, outgoing in heard if emitted[0].t - 1e-6 <= t <= emitted[-1].t + 1e-6]
+    received = played(tag, walker().duration + 1.0, "insole/frame")
+    walked = [(t, outgoing.value) for t, outgoing in received if emitted[0].t - 1e-6 <= t <= emitted[-1].t + 1e-6]
     assert [value for _, value in walked] == [n.data for n in emitted]
     assert [t for t, _ in walked] == pytest.approx([n.t for n in emitted], abs=1e-9)
 
@@ -229,9 +229,9 @@ def test_frames_older_than_twenty_seconds_are_gone() -> None:
 
 def test_with_a_small_mtu_frames_go_in_fragments_and_large_batches_shrink() -> None:
     tag = set_up(worn(Insole(batch=8)), insole.PROFILE, mtu=23)
-    heard = played(tag, 1.0, "insole/frame")
-    assert max(len(outgoing.value) for _, outgoing in heard) == 20
+    received = played(tag, 1.0, "insole/frame")
+    assert max(len(outgoing.value) for _, outgoing in received) == 20
     decoder, samples = Decoder(site=LEFT), []
-    for t, outgoing in heard:
+    for t, outgoing in received:
         samples += [o for o in decoder.feed(Packet(t, LEFT, outgoing.channel, outgoing.value)) if isinstance(o, Sample)]
     assert len(samples) > 90

@@ -115,17 +115,17 @@ def test_the_barometer_says_the_air_pressure_at_its_own_period() -> None:
     tag.write("cc2650/barometer-period", b"\x14", 0.0)
     assert tag.next_due() is None
     tag.write("cc2650/barometer-config", b"\x01", 0.0)
-    heard = [said("cc2650/barometer", o.value) for _, o in played(tag, 8.0)]
-    assert len(heard) == pytest.approx(40, abs=3)
-    assert all(one.pressure == pytest.approx(101325.0, abs=300.0) for one in heard)
+    received = [said("cc2650/barometer", o.value) for _, o in played(tag, 8.0)]
+    assert len(received) == pytest.approx(40, abs=3)
+    assert all(one.pressure == pytest.approx(101325.0, abs=300.0) for one in received)
 
 
 def test_keys_are_told_when_they_go_down_and_when_they_come_up() -> None:
     presses = (4.0, 1.0)
     for device, keys in ((CC2650(presses=presses), "cc2650/keys"), (CC2541(presses=presses), "cc2541/keys")):
-        heard = played(start(worn(device), keys), 10.0)
+        received = played(start(worn(device), keys), 10.0)
         expected = [(1.0, True), (1.25, False), (4.0, True), (4.25, False)]
-        assert [(round(t, 3), said(keys, o.value).left) for t, o in heard] == expected
+        assert [(round(t, 3), said(keys, o.value).left) for t, o in received] == expected
         assert not played(start(worn(device), keys, now=5.0), 10.0), "what is over is not told later"
 
 
@@ -133,8 +133,8 @@ def test_keys_are_told_when_they_go_down_and_when_they_come_up() -> None:
 def test_a_battery_empties_and_says_so(device: Device, full: int) -> None:
     tag = start(worn(device), "device/battery")
     assert tag.read("device/battery", 0.0) == bytes([full])
-    heard = played(tag, 1900.0)
-    assert [(round(t), o.value[0]) for t, o in heard] == [(600, full - 1), (1200, full - 2), (1800, full - 3)]
+    received = played(tag, 1900.0)
+    assert [(round(t), o.value[0]) for t, o in received] == [(600, full - 1), (1200, full - 2), (1800, full - 3)]
     assert tag.read("device/battery", 1900.0) == bytes([full - 3])
 
 
@@ -172,9 +172,9 @@ def test_coefficients_can_be_read_after_they_were_fetched_and_not_before() -> No
     calibration = cc2541.BarometerCalibration(*[read[f"c{n}"] for n in range(1, 9)])
     tag.write("cc2541/barometer-config", b"\x01", 3.0)
     raw = [said("cc2541/barometer", o.value) for _, o in played(tag, 8.0)]
-    heard = [calibration.pascal(one.temperature, one.pressure) for one in raw]
-    assert len(heard) in (4, 5, 6)
-    assert heard == pytest.approx([101325.0] * len(heard), abs=300.0)
+    received = [calibration.pascal(one.temperature, one.pressure) for one in raw]
+    assert len(received) in (4, 5, 6)
+    assert received == pytest.approx([101325.0] * len(received), abs=300.0)
     tag.disconnected(8.0)
     tag.connected(9.0, 23)
     assert refusal(tag, "cc2541/barometer-calibration", now=9.0) == 0x02

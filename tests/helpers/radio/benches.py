@@ -16,14 +16,14 @@ from solepath.types import Site
 
 ROUTE = Route().stand(2.0).walk(8.0, 1.2).stop(2.0)
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
-Heard = list[tuple[float, Outgoing]]
+Received = list[tuple[float, Outgoing]]
 
 
 def worn(
-    device: Device, site: Site = LEFT, *, faults: str = "", route: Route = ROUTE, began: float = 0.0
+    device: Device, site: Site = LEFT, *, faults: str = "", route: Route = ROUTE, started_at: float = 0.0
 ) -> Peripheral:
     """One device, on the walk that begins at `began`."""
-    return Bench(route, devices={site: device}, seed=3, began=began, faults=parse_faults(faults))[site]
+    return Bench(route, devices={site: device}, seed=3, started_at=started_at, faults=parse_faults(faults))[site]
 
 
 @cache
@@ -48,14 +48,14 @@ def set_up(device: Peripheral, profile: Profile, now: float = 0.0, mtu: int = 24
     return device
 
 
-def played(device: Peripheral, until: float, channel: str = "") -> Heard:
+def played(device: Peripheral, until: float, channel: str = "") -> Received:
     """What the device sends until `until`, with the time of each; of one channel where it is named."""
-    heard: Heard = []
+    received: Received = []
     while (due := device.next_due()) is not None and due <= until:
-        heard += [(due, outgoing) for outgoing in device.poll(due)]
+        received += [(due, outgoing) for outgoing in device.poll(due)]
         if device.hang_up(due):
             device.disconnected(due)
-    return [(t, outgoing) for t, outgoing in heard if channel in ("", outgoing.channel)]
+    return [(t, outgoing) for t, outgoing in received if channel in ("", outgoing.channel)]
 
 
 def refusal(device: Peripheral, channel: str, value: bytes | None = None, now: float = 0.0) -> int:
