@@ -289,7 +289,7 @@ def _level(v: Array) -> Array:
 
 
 def _ahead(turn: Array) -> Array:
-    """Return the horizontal forward directions of feet; the sign changes where a runner's sole points backwards and up."""
+    """Return the horizontal forward directions of feet, also where a runner's sole points backwards and up."""
     return np.asarray(_level(turn[:, :, 0]) * np.where(turn[:, 2, 2] < 0.0, -1.0, 1.0)[:, None])
 
 
