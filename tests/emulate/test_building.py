@@ -60,7 +60,7 @@ def walked(way: Way, seed: int) -> tuple[Walker, np.ndarray, list[tuple[str, flo
 
 
 @pytest.mark.parametrize("way", [case_study(), corridor(), *map(wandering, SEEDS)], ids=["case", "corridor", *SEEDS])
-def test_nobody_walks_through_a_wall(plan: IndexedPlan, way: Way) -> None:
+def test_no_walk_crosses_a_wall(plan: IndexedPlan, way: Way) -> None:
     _, _, places = walked(way, 7)
     for (level, x0, y0), (_, x1, y1) in pairwise(places):
         assert not plan.crosses(LEVEL[level], x0, y0, x1, y1)

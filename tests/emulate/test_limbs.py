@@ -86,8 +86,8 @@ def test_rates_and_forces_of_body_sensors_are_those_of_their_motion(walker: Walk
     assert 2.0 * turned[:, 1:] / 0.001 == pytest.approx(middle, abs=0.03)  # differences of 1 ms
     moved = found.position[-1] - found.position[0]
     assert np.trapezoid(found.velocity, t, axis=0) == pytest.approx(moved, abs=1e-4)
-    felt = np.einsum("nij,nj->ni", matrices(found.attitude), found.force) - (0.0, 0.0, GRAVITY)
-    assert np.trapezoid(felt, t, axis=0) == pytest.approx(found.velocity[-1] - found.velocity[0], abs=0.02)
+    acceleration = np.einsum("nij,nj->ni", matrices(found.attitude), found.force) - (0.0, 0.0, GRAVITY)
+    assert np.trapezoid(acceleration, t, axis=0) == pytest.approx(found.velocity[-1] - found.velocity[0], abs=0.02)
 
 
 def by_site(samples: list[Sample]) -> dict[Site, list[Sample]]:
@@ -129,8 +129,8 @@ def test_seven_devices_feed_their_decoders_with_attitudes_of_the_segments() -> N
     assert {packet.site for packet in walk.packets} == set(Site)
     for site in Site:
         decoder = Decoder(site)
-        told = [item for packet in walk.packets if packet.site is site for item in decoder.feed(packet)]
-        samples = [item for item in told + decoder.finish() if isinstance(item, Sample)]
+        outputs = [item for packet in walk.packets if packet.site is site for item in decoder.feed(packet)]
+        samples = [item for item in outputs + decoder.finish() if isinstance(item, Sample)]
         assert len(samples) == pytest.approx(walk.truth.duration * (60.0 if site.foot is None else 50.0), rel=0.03)
         t = np.array([sample.t for sample in samples]) - 0.002
         true = walk.walker.body.at(site, t, worn[site].mounting).attitude

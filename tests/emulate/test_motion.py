@@ -65,7 +65,7 @@ def strapdown(walker: Walker, foot: Foot, mounting: Mounting, rate: float) -> tu
 
 @pytest.mark.parametrize("mounting", [IN_SOLE, ON_INSTEP, TILTED])
 @pytest.mark.parametrize("foot", list(Foot))
-def test_what_the_sensor_feels_integrates_to_where_it_goes(winding: Walker, foot: Foot, mounting: Mounting) -> None:
+def test_the_measured_motion_integrates_to_the_true_track(winding: Walker, foot: Foot, mounting: Mounting) -> None:
     t, found = strapdown(winding, foot, mounting, 1000.0)
     true = winding.kinematics(foot, t, mounting).position
     steps = winding.truth({foot: mounting}).steps(foot)
@@ -189,13 +189,13 @@ ends = st.tuples(values, values, values)
 
 
 @given(ends, ends, st.floats(0.05, 2.0))
-def test_a_join_has_the_value_velocity_and_acceleration_asked_for_at_both_ends(
+def test_a_join_has_the_given_value_velocity_and_acceleration_at_both_ends(
     start: tuple[float, float, float], end: tuple[float, float, float], duration: float
 ) -> None:
     curve = join(start, end, duration)
-    for s, wanted in ((0.0, start), (1.0, end)):
+    for s, expected in ((0.0, start), (1.0, end)):
         found = [float(evaluate(curve, s, order)) / duration**order for order in range(3)]
-        assert found == pytest.approx(wanted, abs=1e-6, rel=1e-6)
+        assert found == pytest.approx(expected, abs=1e-6, rel=1e-6)
 
 
 @given(st.lists(values, min_size=DEGREE + 1, max_size=DEGREE + 1), st.floats(0.0, 1.0), st.floats(0.0, 1.0))
@@ -205,7 +205,7 @@ def test_a_part_of_a_curve_is_the_curve(factors: list[float], start: float, end:
 
 
 @pytest.mark.parametrize("shape", [BUMP, EVEN_OUT])
-def test_what_is_added_in_between_changes_nothing_at_the_ends(shape: np.ndarray) -> None:
+def test_added_shapes_change_nothing_at_the_ends(shape: np.ndarray) -> None:
     for s in (0.0, 1.0):
         assert [float(evaluate(shape, s, order)) for order in range(3)] == pytest.approx([0.0] * 3, abs=1e-9)
     assert float(evaluate(BUMP, 0.5)) == pytest.approx(1.0)

@@ -84,9 +84,9 @@ def test_each_foot_of_a_jogger_bears_twice_the_weight_and_in_flight_none_does(jo
 
 
 def test_a_jogger_walks_runs_and_walks_without_a_halt(jogger: Walker) -> None:
-    told = [what for _, _, what in jogger.truth().activities]
+    kinds = [what for _, _, what in jogger.truth().activities]
     walking, running, standing = Activity.WALKING, Activity.RUNNING, Activity.STANDING
-    assert told == [standing, walking, running, walking, standing]
+    assert kinds == [standing, walking, running, walking, standing]
     assert jogger.truth().pose(Foot.LEFT, jogger.duration).position[0, 0] == pytest.approx(40.0, abs=0.06)
 
 

@@ -84,8 +84,8 @@ def test_counts_are_rounded_and_stop_at_full_scale() -> None:
     found = to_counts(measure(ramp, when, eight, np.random.default_rng(1)), eight, 0.25)
     assert found.counts.tolist() == [[5, -128, 127]] * 5
     assert found.saturated.all()
-    quiet = to_counts(measure(0.1 * ramp, when, eight, np.random.default_rng(1)), eight, 0.25)
-    assert not quiet.saturated.any()
+    unsaturated = to_counts(measure(0.1 * ramp, when, eight, np.random.default_rng(1)), eight, 0.25)
+    assert not unsaturated.saturated.any()
 
 
 def test_a_low_pass_keeps_what_is_slow_and_halves_the_power_at_its_corner() -> None:
@@ -96,7 +96,7 @@ def test_a_low_pass_keeps_what_is_slow_and_halves_the_power_at_its_corner() -> N
         assert passed.std() / wave.std() == pytest.approx(gain, abs=0.03)
 
 
-def test_samples_are_taken_where_the_clock_says() -> None:
+def test_samples_are_taken_at_the_times_of_the_clock() -> None:
     when = instants(0.0123, 0.031, 50)
     assert sample(when.fine[:, None], when)[:, 0] == pytest.approx(when.taken)
     assert when.rate >= 800.0
@@ -128,7 +128,7 @@ def test_cells_have_gain_preload_noise_and_an_end() -> None:
 
 
 @pytest.mark.parametrize("part", [INERTIACUBE3, CRE_CC02, MOVELLA_DOT])
-def test_an_attitude_is_off_by_what_its_sheet_says_slowly_and_from_the_start(part: AttitudePart) -> None:
+def test_an_attitude_has_the_slow_errors_of_its_sheet_from_the_start(part: AttitudePart) -> None:
     t = np.arange(0.0, 20.0, 0.1)
     true = np.tile((1.0, 0.0, 0.0, 0.0), (len(t), 1))
     read = np.stack([read_attitudes(true, t, part, 0.0, np.random.default_rng(k)) for k in range(300)])
@@ -147,7 +147,7 @@ def test_a_device_with_another_north_turns_the_world_about_the_vertical() -> Non
 
 
 @pytest.mark.parametrize("part", [BMP280, T5400])
-def test_a_barometer_tells_three_metres_by_36_pascal(part: BarometerPart) -> None:
+def test_three_metres_change_a_barometer_by_36_pascal(part: BarometerPart) -> None:
     assert air_pressure(np.array([0.0]))[0] == 101325.0
     t = np.arange(0.0, 60.0, 1.0)
     low, high = (read_barometer(np.full(60, h), t, part, np.random.default_rng(4)) for h in (0.0, 3.0))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import inf
 
 import pytest
-from benches import LEFT, RIGHT, Received, played, refusal, set_up, worn
+from benches import LEFT, RIGHT, Received, error_code, played, set_up, worn
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -124,7 +124,7 @@ def test_a_frozen_stream_thaws_by_itself_or_when_it_is_set_up_again() -> None:
     device = tag("2 left_foot freeze")
     assert all(t <= 2.1 for t, _ in movements(device, 9.0))
     assert device.is_connected
-    assert refusal(device, "cc2650/movement-config", b"\x7f", 9.0), "what is refused thaws nothing"
+    assert error_code(device, "cc2650/movement-config", b"\x7f", 9.0), "what is refused thaws nothing"
     assert not movements(device, 10.0)
     device.write("cc2650/movement-config", b"\x7f\x02", 10.0)
     assert len(movements(device, 12.0)) == pytest.approx(20, abs=1)
@@ -144,7 +144,7 @@ def test_seconds_count_from_the_walks_beginning() -> None:
     assert played(device, 200.0)[-1][0] == pytest.approx(102.0, abs=0.11)
 
 
-def test_a_walk_that_begins_anew_has_the_faults_of_its_script_again() -> None:
+def test_a_restarted_walk_has_the_faults_of_its_script_again() -> None:
     device = tag("1 left_foot drop 3; 2 left_foot disconnect")
     assert sum(t < 2.0 for t, _ in movements(device, 5.0)) > 5
     assert device.fault_count == 2 and not device.is_connected
@@ -157,7 +157,7 @@ def test_a_walk_that_begins_anew_has_the_faults_of_its_script_again() -> None:
     assert max(b - a for (a, _), (b, _) in zip(again, again[1:], strict=False)) > 0.35, "three were dropped again"
 
 
-def test_what_was_to_last_in_an_earlier_walk_does_not_last_in_the_next() -> None:
+def test_lasting_faults_of_an_earlier_walk_end_with_it() -> None:
     device = tag("1 left_foot vanish 1000; 3 left_foot freeze; 2 left_foot name gone; 2 left_foot pairing")
     assert not device.visible(5.0) and device.name == "gone" and device.needs_pairing
     device.disconnected(5.0)

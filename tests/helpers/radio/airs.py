@@ -43,23 +43,23 @@ def bumble(bench: Bench, interval: float | None = None) -> AbstractAsyncContextM
 TIERS = {"memory": memory, "bumble": bumble}
 
 
-async def hear(devices: Devices, seconds: float) -> list[Packet]:
+async def collect(devices: Devices, seconds: float) -> list[Packet]:
     """Everything that comes within so many seconds."""
     end = asyncio.get_running_loop().time() + seconds
-    heard = []
+    packets = []
     async for packet in devices:
         if packet.t > end:
             break
-        heard.append(packet)
-    return heard
+        packets.append(packet)
+    return packets
 
 
-def received(backend: Backend, *wanted: DeviceConfig, seconds: float, **more: Any) -> list[Packet]:
+def received(backend: Backend, *configs: DeviceConfig, seconds: float, **more: Any) -> list[Packet]:
     """What an app gets that wants these, in so many seconds of virtual time; it leaves nothing running."""
 
     async def main() -> list[Packet]:
-        async with Devices(wanted, backend=backend, **more) as devices:
-            found = await hear(devices, seconds)
+        async with Devices(configs, backend=backend, **more) as devices:
+            found = await collect(devices, seconds)
         assert not others()
         return found
 

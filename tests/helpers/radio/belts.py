@@ -47,7 +47,7 @@ def strap(number: int = 1, name: str | None = None, faults: str = "", **given: A
 
 
 @define
-class Asked:
+class LoggedRadio:
     """An in-memory Bluetooth, and every request that was made of it: (address, what, channel)."""
 
     air: MemoryRadio
@@ -59,41 +59,41 @@ class Asked:
 
     @property
     def backend(self) -> Backend:
-        asked, beneath = self, self.air.backend
+        logged_radio, beneath = self, self.air.backend
         client, scanner = beneath.client, beneath.scanner
         assert client is not None and scanner is not None
 
         class Client(client):  # type: ignore[valid-type,misc]
             async def connect(self, pair: bool, **more: Any) -> None:
-                asked.log.append((self.address, "connect", ""))
-                asked.paired.append(pair)
+                logged_radio.log.append((self.address, "connect", ""))
+                logged_radio.paired.append(pair)
                 await super().connect(pair, **more)
 
             async def disconnect(self) -> None:
-                asked.log.append((self.address, "disconnect", ""))
+                logged_radio.log.append((self.address, "disconnect", ""))
                 await super().disconnect()
 
             async def read_gatt_char(self, one: BleakGATTCharacteristic, **more: Any) -> bytearray:
-                asked.log.append((self.address, "read", one.obj.channel))
+                logged_radio.log.append((self.address, "read", one.obj.channel))
                 return await super().read_gatt_char(one, **more)
 
             async def write_gatt_char(self, one: BleakGATTCharacteristic, data: Any, response: bool) -> None:
-                asked.log.append((self.address, "write" if response else "command", one.obj.channel))
+                logged_radio.log.append((self.address, "write" if response else "command", one.obj.channel))
                 await super().write_gatt_char(one, data, response)
 
             async def start_notify(self, one: BleakGATTCharacteristic, callback: Any, **more: Any) -> None:
-                asked.log.append((self.address, "subscribe", one.obj.channel))
+                logged_radio.log.append((self.address, "subscribe", one.obj.channel))
                 await super().start_notify(one, callback, **more)
 
         class Scanner(scanner):  # type: ignore[valid-type,misc]
             async def start(self) -> None:
                 await super().start()
-                asked.scanning += 1
-                asked.most = max(asked.most, asked.scanning)
+                logged_radio.scanning += 1
+                logged_radio.most = max(logged_radio.most, logged_radio.scanning)
 
             async def stop(self) -> None:
                 await super().stop()
-                asked.scanning -= 1
+                logged_radio.scanning -= 1
 
         return Backend(Client, Scanner)
 
@@ -102,8 +102,8 @@ class Asked:
         return [(what, channel) for at, what, channel in self.log if at == device.address and what in kinds]
 
 
-def asked(*devices: Peripheral) -> Asked:
-    return Asked(MemoryRadio(devices))
+def logged_radio(*devices: Peripheral) -> LoggedRadio:
+    return LoggedRadio(MemoryRadio(devices))
 
 
 PELVIS = Site.PELVIS

@@ -58,7 +58,7 @@ def played(device: Peripheral, until: float, channel: str = "") -> Received:
     return [(t, outgoing) for t, outgoing in received if channel in ("", outgoing.channel)]
 
 
-def refusal(device: Peripheral, channel: str, value: bytes | None = None, now: float = 0.0) -> int:
+def error_code(device: Peripheral, channel: str, value: bytes | None = None, now: float = 0.0) -> int:
     """The ATT error code that a write (or, without a value, a read) is answered with; 0 when it is not refused."""
     try:
         if value is None:

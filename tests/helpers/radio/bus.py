@@ -57,7 +57,7 @@ async def message_bus(directory: Path) -> AsyncIterator[str]:
         await daemon.wait()
 
 
-class Refused(Exception):
+class DBusError(Exception):
     """A call is answered with this error."""
 
     def __init__(self, name: str, words: str) -> None:
@@ -71,7 +71,7 @@ class Service(ABC):
 
     def __init__(self) -> None:
         self.objects: dict[str, dict[str, dict[str, Variant]]] = {}
-        self.refusals: dict[str, list[Refused]] = {}
+        self.errors: dict[str, list[DBusError]] = {}
         self.calls: list[str] = []
         self._answers: set[asyncio.Task[None]] = set()
         self._bus: MessageBus | None = None
@@ -109,13 +109,13 @@ class Service(ABC):
         self.objects[path] = {interface: properties}
         self._emit("/", _OBJECTS, "InterfacesAdded", "oa{sa{sv}}", [path, self.objects[path]])
 
-    def change(self, path: str, interface: str, *gone: str, **properties: Variant) -> None:
+    def change(self, path: str, interface: str, *removed: str, **properties: Variant) -> None:
         """Properties have new values, or are `gone`."""
         held = self.objects[path][interface]
         held.update(properties)
-        for name in gone:
+        for name in removed:
             held.pop(name, None)
-        self._emit(path, _PROPERTIES, "PropertiesChanged", "sa{sv}as", [interface, properties, list(gone)])
+        self._emit(path, _PROPERTIES, "PropertiesChanged", "sa{sv}as", [interface, properties, list(removed)])
 
     def _emit(self, path: str, interface: str, member: str, signature: str, body: list[Any]) -> None:
         if self._bus is not None and self._bus.connected:
@@ -135,10 +135,10 @@ class Service(ABC):
         method = f"{(call.interface or '').rpartition('.')[2]}.{call.member}"
         self.calls.append(method)
         try:
-            if self.refusals.get(method):
-                raise self.refusals[method].pop(0)
+            if self.errors.get(method):
+                raise self.errors[method].pop(0)
             signature, body = await self._result(method, call)
-        except Refused as error:
+        except DBusError as error:
             reply = Message.new_error(call, error.name, error.words)
         else:
             reply = Message.new_method_return(call, signature, body)
@@ -150,5 +150,5 @@ class Service(ABC):
         if method == "ObjectManager.GetManagedObjects":
             return "a{oa{sa{sv}}}", [self.objects]
         if path not in self.objects:
-            raise Refused("org.freedesktop.DBus.Error.UnknownObject", f"there is no {path}")
+            raise DBusError("org.freedesktop.DBus.Error.UnknownObject", f"there is no {path}")
         return await self.call(method, path, call.sender or "", call.body)

@@ -23,7 +23,7 @@ class LoopbackLink:
         self.callbacks: dict[str, NotifyCallback] = {}
         self._device, self._round_trip, self._lost = device, round_trip, lost
         self._loop = asyncio.get_running_loop()
-        self._gone = self._loop.create_future()
+        self._closed = self._loop.create_future()
         self._turn = asyncio.Lock()
         self._timer: asyncio.TimerHandle | None = None
         device.changed = self._schedule
@@ -31,12 +31,12 @@ class LoopbackLink:
 
     @property
     def is_up(self) -> bool:
-        return not self._gone.done()
+        return not self._closed.done()
 
     async def request(self, do: Callable[[float], T | None]) -> T:
         """What the device answers. BleakGATTProtocolError when it refuses, BleakError when the link is lost first."""
         async with self._turn:
-            await asyncio.wait([self._gone], timeout=self._round_trip)
+            await asyncio.wait([self._closed], timeout=self._round_trip)
             if self.is_up:
                 try:
                     answer = do(self._loop.time())
@@ -44,7 +44,7 @@ class LoopbackLink:
                     raise BleakGATTProtocolError(error.code) from None
                 if answer is not None:
                     return answer
-                await asyncio.wait([self._gone])
+                await asyncio.wait([self._closed])
             raise BleakError("disconnected")
 
     def command(self, do: Callable[[float], object]) -> None:
@@ -59,7 +59,7 @@ class LoopbackLink:
         """The link is lost, or ended."""
         if not self.is_up:
             return
-        self._gone.set_result(None)
+        self._closed.set_result(None)
         if self._timer is not None:
             self._timer.cancel()
         self._device.changed = None

@@ -65,9 +65,9 @@ class _MemoryClient(BaseBleakClient):
     air: ClassVar[MemoryRadio]
 
     def __init__(self, address_or_ble_device: BLEDevice | str, **kwargs: Any) -> None:
-        wanted: set[str] | None = kwargs.pop("services", None)
+        requested: set[str] | None = kwargs.pop("services", None)
         super().__init__(address_or_ble_device, **kwargs)
-        self._wanted = wanted
+        self._requested_services = requested
         self._name = address_or_ble_device.name if isinstance(address_or_ble_device, BLEDevice) else None
         self._link: LoopbackLink | None = None
         self._established = False
@@ -96,7 +96,7 @@ class _MemoryClient(BaseBleakClient):
         except BaseException:
             link.lose()
             raise
-        self.services = _collection(device, self._wanted, link.mtu)
+        self.services = _collection(device, self._requested_services, link.mtu)
         self._established = True
 
     async def _found(self, timeout: float) -> Peripheral:
@@ -221,7 +221,7 @@ class _Scanner(BaseBleakScanner):
         loop = asyncio.get_running_loop()
         self._timer = loop.call_later(ADVERTISING, self._listen)
         for device in self.air.advertising(loop.time()):
-            said = AdvertisementData(
+            advertisement = AdvertisementData(
                 local_name=device.name,
                 manufacturer_data={},
                 service_data={},
@@ -230,18 +230,18 @@ class _Scanner(BaseBleakScanner):
                 rssi=SIGNAL,
                 platform_data=(device,),
             )
-            if self.is_allowed_uuid(said.service_uuids):
-                seen = self.create_or_update_device(device.address, device.address, device.name, device, said)
-                self.call_detection_callbacks(seen, said)
+            if self.is_allowed_uuid(advertisement.service_uuids):
+                seen = self.create_or_update_device(device.address, device.address, device.name, device, advertisement)
+                self.call_detection_callbacks(seen, advertisement)
 
 
-def _collection(device: Peripheral, wanted: set[str] | None, mtu: int) -> BleakGATTServiceCollection:
+def _collection(device: Peripheral, requested: set[str] | None, mtu: int) -> BleakGATTServiceCollection:
     """The device's attributes as discovery finds them, their handles counted through."""
     found = BleakGATTServiceCollection()
     handle = 0
     for service in device.services:
         handle += 1
-        if wanted and service.uuid not in wanted:
+        if requested and service.uuid not in requested:
             continue
         group = BleakGATTService(service, handle, service.uuid)
         found.add_service(group)

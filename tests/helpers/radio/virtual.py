@@ -65,19 +65,19 @@ class Host:
 
     def __init__(self, backend: Backend, device: BLEDevice | str) -> None:
         self.lost: list[float] = []
-        self.heard: list[tuple[float, bytes]] = []
-        self.client = BleakClient(device, self._gone, backend=backend.client)
+        self.received: list[tuple[float, bytes]] = []
+        self.client = BleakClient(device, self._on_disconnect, backend=backend.client)
 
-    def _gone(self, client: BleakClient) -> None:
+    def _on_disconnect(self, client: BleakClient) -> None:
         self.lost.append(now())
 
     async def count(self, rate: int) -> None:
-        await self.client.start_notify(BEAT, lambda _, value: self.heard.append((now(), bytes(value))))
+        await self.client.start_notify(BEAT, lambda _, value: self.received.append((now(), bytes(value))))
         await self.client.write_gatt_char(CONTROL, bytes([rate]), response=True)
 
     @property
     def numbers(self) -> list[int]:
-        return [int.from_bytes(value[:4], "little") for _, value in self.heard]
+        return [int.from_bytes(value[:4], "little") for _, value in self.received]
 
 
 @asynccontextmanager
