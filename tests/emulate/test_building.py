@@ -1,4 +1,4 @@
-"""The emulator's building is a plan that can be used, and nobody who walks in it goes through a wall."""
+"""The emulated building is a valid plan, and no walk in it crosses a wall."""
 
 from itertools import pairwise
 from math import hypot

@@ -1,4 +1,4 @@
-"""Bytes to track, against the truth of emulated walks: every step found, none invented, events and lengths right."""
+"""Bytes to track, compared with the truth: every step found, none invented, events and lengths right."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ BAD = Radio(loss=0.05, jitter=0.05)
 
 
 def compared_walk(walk: EmulatedWalk) -> tuple[list[Event], dict[Foot, FootComparison]]:
-    """What a session says of a walk, and how that compares with the truth, foot by foot."""
+    """Return the events of a session for a walk, and their comparison with the truth, foot by foot."""
     session = Session(poses=True)
     events = session.feed(walk.packets) + session.finish()
     gathering = Gathering()
@@ -48,7 +48,7 @@ def long_walk(seed: int) -> tuple[list[Event], dict[Foot, FootComparison]]:
 
 
 def found_all(compared: Mapping[Foot, FootComparison], least: int) -> None:
-    """Every true step found, none invented."""
+    """Check that every true step is found and none invented."""
     assert set(compared) == set(Foot)
     for one in compared.values():
         assert one.steps_true >= least
@@ -56,7 +56,7 @@ def found_all(compared: Mapping[Foot, FootComparison], least: int) -> None:
 
 
 AGAIN = pytest.mark.soak
-"""The same once more, with other errors of the sensors or an easier radio."""
+"""Mark of a repetition with other sensor errors or an easier radio."""
 SEEDS = [1, pytest.param(2, marks=AGAIN)]
 
 
@@ -177,7 +177,7 @@ def tagged(name: str) -> dict[tuple[int, Foot], FootComparison]:
 
 
 def f1(compared: Mapping[object, FootComparison]) -> float:
-    """Of the steps: 2 found / (true + found + invented)."""
+    """Return the F1 score of the steps: 2 found / (true + found + invented)."""
     found = sum(one.steps_found for one in compared.values())
     total = sum(one.steps_true + one.steps_found + one.steps_invented for one in compared.values())
     return 2.0 * found / total
@@ -208,8 +208,7 @@ def test_sensor_tags_know_when_the_foot_struck_and_left_the_ground(name: str) ->
 
 
 def cut(walk: EmulatedWalk, seed: int, share: float) -> list[Packet]:
-    """What is left of a walk's packets when frames of either foot are missing for 0.1 to 0.6 s at random times,
-    `share` times a second in all."""
+    """Return a walk's packets without the frames of random gaps of 0.1 to 0.6 s, `share` gaps a second in all."""
     random = Random(seed)
     holes: dict[Site, list[tuple[float, float]]] = {LEFT: [], RIGHT: []}
     for _ in range(round(share * walk.truth.duration)):

@@ -1,4 +1,4 @@
-"""The ways of published experiments: they close, marks lie under steps, and every step has its mode."""
+"""Routes of published experiments: they close, marks lie under steps, and every step has its mode."""
 
 from itertools import pairwise
 from math import hypot, pi

@@ -1,4 +1,4 @@
-"""A lift's car keeps its limits, carries whoever stands in it, and makes them heavier and lighter meanwhile."""
+"""A lift's car keeps its limits, moves the wearer, and changes the load under the feet by its acceleration."""
 
 import numpy as np
 import pytest
@@ -30,7 +30,7 @@ lifts = st.builds(
 
 
 def moved(car: CarRide, t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Height, speed and acceleration without what shakes the car."""
+    """Return height, speed and acceleration without the vibration of the car."""
     still = CarRide(car.start, car.end, car.height, car.knots, car.state, np.zeros((3, 1, 3)) + (0.0, 1.0, 0.0))
     position, velocity, acceleration = still.at(t)
     return position[:, 2], velocity[:, 2], acceleration[:, 2]

@@ -1,4 +1,4 @@
-"""Pelvis, thighs and shanks go with the feet: joined at the joints, of constant length, without a jump."""
+"""Pelvis, thighs and shanks move with the feet: connected at the joints, of constant length, without a jump."""
 
 from math import pi, radians
 

@@ -1,4 +1,4 @@
-"""Body weight on the feet: how much, on which foot, under which part of the sole, and in a bend on its outside."""
+"""Body weight on the feet: its size, its share on each foot and each part of the sole, and its shift in a bend."""
 
 from math import copysign
 
@@ -132,7 +132,7 @@ def bend(radius: float, speed: float = 1.1, wearer: Wearer | None = None) -> Wal
 
 
 def places(walker: Walker, cells: Layout) -> Array:
-    """Mean place of the load across a foot, of every stance in full walk, m to the left."""
+    """Return the mean lateral position of the load in every stance of a full walk, m to the left."""
     y = np.array([cell.y for cell in cells.cells])
     found = []
     strides = walker.plan.strides[cells.foot]

@@ -1,4 +1,4 @@
-"""Jogging: nobody stands between the steps, feet land harder, go faster and rise higher than in walking."""
+"""Jogging: both feet are in the air between the steps; feet land harder, are faster and rise higher than in walking."""
 
 from itertools import pairwise
 

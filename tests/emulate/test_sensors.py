@@ -1,4 +1,4 @@
-"""What parts make of a signal is what their data sheets say."""
+"""Emulated parts have the errors of their data sheets."""
 
 from math import pi, radians, sqrt
 

@@ -1,4 +1,4 @@
-"""Stairs foot over foot: the feet stand on treads, clear the edges, and climb exactly what the flight does."""
+"""Stairs foot over foot: the feet stand on treads, clear the edges, and rise exactly by the height of the flight."""
 
 from math import radians
 
@@ -33,7 +33,7 @@ def climbing(walker: Walker, foot: Foot) -> list[PlannedStride]:
 
 
 def room_below(walker: Walker, foot: Foot, flight: Flight, t: np.ndarray) -> np.ndarray:
-    """m from the sole to the nearest tread or edge below it: the sole is the hull of its two arcs."""
+    """Return the distance from the sole to the nearest tread or edge below it, m; the sole is the hull of its arcs."""
     shoe, motion = walker.wearer.shoe, walker.motions[foot]
     room = np.full(len(t), np.inf)
     for share in np.linspace(0.0, 1.0, 9):
@@ -126,7 +126,7 @@ def test_stairs_last_from_the_first_foot_up_to_both_feet_above(storey: Walker) -
 
 @pytest.mark.parametrize("device", [CC2650(), CC2541(rate=20.0)])
 def test_the_barometer_of_a_tag_follows_the_stairs(device: CC2650 | CC2541) -> None:
-    """12 Pa a metre: 4.8 m of stairs are 57 Pa, beyond a barometer's noise and its wander."""
+    """At 12 Pa a metre 4.8 m of stairs are 57 Pa, more than a barometer's noise and variation."""
     route = Route().stand(4.0).walk(2.0).stairs(15).walk(1.5).stairs(15).walk(2.0).stop(4.0)
     walk = emulate(route, devices={SITE_OF_FOOT[foot]: device for foot in Foot}, seed=6)
     for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT):

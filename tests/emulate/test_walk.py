@@ -1,4 +1,4 @@
-"""Emulated devices send real bytes of what truly happened, and the radio does to them what it was asked to."""
+"""Emulated devices send real bytes of the true motion, and the radio loses and damages the set shares of them."""
 
 from collections import Counter
 from itertools import pairwise

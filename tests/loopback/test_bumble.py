@@ -1,4 +1,4 @@
-"""Devices on the virtual air, reached by plain bleak: what they advertise, their attributes, their notifications."""
+"""Devices on the virtual radio, reached by plain bleak: advertisements, attributes and notifications."""
 
 from __future__ import annotations
 
@@ -158,7 +158,7 @@ async def test_a_link_with_an_interval_sends_everything_at_its_events_in_order()
                 assert (t - first) / interval == pytest.approx(round((t - first) / interval), abs=1e-3)
                 assert -1e-3 < t - number / 100 < interval + 1e-3
             await host.client.write_gatt_char(CONTROL, b"\x00", response=False)
-        # what was said before the link ended was heard
+        # packets that were sent before the link ended have arrived
         assert len(host.lost) == 1
         received = len(host.received)
         async with host.client:

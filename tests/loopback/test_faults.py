@@ -1,4 +1,4 @@
-"""What a fault script says, and what it does to an emulated device."""
+"""Fault scripts: their syntax, and their effect on an emulated device."""
 
 from __future__ import annotations
 

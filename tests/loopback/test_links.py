@@ -1,4 +1,4 @@
-"""Links on the virtual air: how they begin, how they end, and what is left of them."""
+"""Links on the virtual radio: start, end, and no remains after it."""
 
 from __future__ import annotations
 

@@ -127,7 +127,7 @@ _BENCHES: dict[str, Peripheral] = {}
 
 
 def _lasting(device: Device) -> Peripheral:
-    """One device for all examples, so that each signal is worked out once."""
+    """Return one device for all examples, so that each signal is computed once."""
     return _BENCHES.setdefault(type(device).__name__, worn(device))
 
 

@@ -1,4 +1,4 @@
-"""The virtual air between processes, in real time: both ends are killed, and the other one notices and goes on."""
+"""The virtual radio between processes, in real time: when one side is killed, the other one notices and continues."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ asyncio.run(main())
 
 
 def really(test: Callable[..., Awaitable[None]]) -> Callable[..., None]:
-    """An async test, run in real time; nothing may be left running when it is over."""
+    """Run an async test in real time; no task may be left running at the end."""
 
     @wraps(test)
     def run_it(**given: Any) -> None:
@@ -61,7 +61,7 @@ def really(test: Callable[..., Awaitable[None]]) -> Callable[..., None]:
 
 @asynccontextmanager
 async def program(*arguments: str) -> AsyncIterator[asyncio.subprocess.Process]:
-    """Python with these arguments; killed in the end."""
+    """Run Python with these arguments and kill it at the end."""
     process = await asyncio.create_subprocess_exec(
         sys.executable, *arguments, cwd=HERE, stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.PIPE
     )
@@ -80,7 +80,7 @@ async def line(process: asyncio.subprocess.Process) -> str:
 
 
 async def connected(backend: Backend) -> tuple[BleakClient, asyncio.Event]:
-    """A client, and whether it has lost its link."""
+    """Return a client, and an event that is set when it loses its link."""
     lost = asyncio.Event()
     client = BleakClient(await find(backend), lambda _: lost.set(), backend=backend.client)
     await client.connect()
@@ -88,7 +88,7 @@ async def connected(backend: Backend) -> tuple[BleakClient, asyncio.Event]:
 
 
 async def beats(client: BleakClient, count: int = 50) -> list[int]:
-    """The numbers that are heard until there are `count`."""
+    """Return the first `count` received numbers."""
     numbers: list[int] = []
     enough = asyncio.Event()
 

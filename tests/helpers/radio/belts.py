@@ -1,4 +1,4 @@
-"""Straps for the adapter's tests: their profile, and a Bluetooth that remembers what it was asked."""
+"""Straps for the adapter's tests: their profile, and a radio that logs every request."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from solepath.link.profile import Access, Channel, Profile, Write
 from solepath.types import Packet, Site
 
 RATE = 10
-"""Hz that the profile asks for."""
+"""Rate that the profile sets, Hz."""
 STRAP = Profile(
     name="strap",
     names=(),
@@ -35,7 +35,7 @@ STRAP = Profile(
     stale_after=1.0,
 )
 READ_AFTER = evolve(STRAP, setup=(Write("strap/control", bytes([RATE]), then_read=("strap/page",)),))
-"""The same, and its page is read once it counts."""
+"""Profile of a strap whose page is read after the setup write."""
 
 
 def address(number: int) -> str:
@@ -48,14 +48,14 @@ def strap(number: int = 1, name: str | None = None, faults: str = "", **given: A
 
 @define
 class LoggedRadio:
-    """An in-memory Bluetooth, and every request that was made of it: (address, what, channel)."""
+    """An in-memory radio with a log of every request: (address, kind, channel)."""
 
     air: MemoryRadio
     log: list[tuple[str, str, str]] = field(factory=list)
     paired: list[bool] = field(factory=list)
     scanning: int = 0
     most: int = 0
-    """Scanners that were at work at once."""
+    """Largest number of scanners at the same time."""
 
     @property
     def backend(self) -> Backend:
@@ -98,7 +98,7 @@ class LoggedRadio:
         return Backend(Client, Scanner)
 
     def of(self, device: Peripheral, *kinds: str) -> list[tuple[str, str]]:
-        """What was asked of a device, in order: (what, channel)."""
+        """Return the requests of these kinds to a device, in order: (kind, channel)."""
         return [(what, channel) for at, what, channel in self.log if at == device.address and what in kinds]
 
 
@@ -115,7 +115,7 @@ def times(packets: list[Packet], channel: str) -> list[float]:
 
 
 def failing(beneath: Backend, errors: list[Exception | None]) -> Backend:
-    """A Bluetooth whose scans begin with these, in turn."""
+    """Return a backend whose scans start with these errors, in turn."""
     scanner: Any = beneath.scanner
 
     class Scanner(scanner):

@@ -1,8 +1,7 @@
-"""An org.bluez with emulated devices in reach: what bleak's own backend for Linux, untouched, talks to where there is
-no radio.
+"""An org.bluez service with emulated devices, for bleak's unchanged backend for Linux without a radio.
 
-It does what BlueZ 5 says of itself (doc/org.bluez.Adapter.rst, .Device.rst and .GattCharacteristic.rst; for refusals
-create_gatt_dbus_error of src/gatt-client.c) as far as a central can tell.
+It behaves as BlueZ 5 documents (doc/org.bluez.Adapter.rst, .Device.rst and .GattCharacteristic.rst; for errors
+create_gatt_dbus_error of src/gatt-client.c), as far as a central can see.
 """
 
 from __future__ import annotations
@@ -23,9 +22,9 @@ from solepath.emulate.devices.peripheral import Peripheral
 
 ADAPTER = "/org/bluez/hci0"
 ADVERTISING = 0.1
-"""s between the advertisements of a device."""
+"""Time between the advertisements of a device, s."""
 SIGNAL = -60
-"""dBm."""
+"""Received signal strength, dBm."""
 NOT_PAIRED = DBusError("org.bluez.Error.NotPermitted", "Not paired")
 
 _ADAPTER = "org.bluez.Adapter1"
@@ -45,16 +44,16 @@ T = TypeVar("T")
 
 
 class Bluez(bus.Service):
-    """`adapter`: whether there is one at all; `powered`: whether it is on."""
+    """The service org.bluez; `adapter`: there is an adapter, `powered`: it is on."""
 
     def __init__(self, peripherals: Iterable[Peripheral], *, adapter: bool = True, powered: bool = True) -> None:
         super().__init__()
         self._devices = {f"{ADAPTER}/dev_{one.address.replace(':', '_')}": one for one in peripherals}
         self._links: dict[str, LoopbackLink] = {}
         self._channels: dict[str, tuple[str, str]] = {}
-        """Of a characteristic, the device's path and the channel."""
+        """Path of the device and channel, by the path of the characteristic."""
         self._scanning: set[str] = set()
-        """The names on the bus of who discovers."""
+        """Bus names of the programs that discover."""
         if adapter:
             self.objects[ADAPTER] = {
                 _ADAPTER: {
@@ -70,7 +69,7 @@ class Bluez(bus.Service):
 
     @asynccontextmanager
     async def serving(self, address: str) -> AsyncIterator[Bluez]:
-        """While this lasts it is org.bluez on the bus."""
+        """Serve org.bluez on the bus until the block is left."""
         async with self.owning("org.bluez", address):
             radio = asyncio.create_task(self._scan())
             try:
@@ -81,22 +80,22 @@ class Bluez(bus.Service):
 
     @property
     def is_idle(self) -> bool:
-        """Nobody discovers, and nothing is connected."""
+        """True when no program discovers and no device is connected."""
         return not self._scanning and not self._links
 
     def lose(self) -> None:
-        """All links, as if their devices were carried away and back."""
+        """Lose all links, as if the devices left the range and came back."""
         for link in tuple(self._links.values()):
             link.lose()
 
     def power(self, on: bool) -> None:
-        """As the switch of a desktop does."""
+        """Switch the adapter on or off."""
         if not on:
             self._scanning.clear()
             self.lose()
         self.change(ADAPTER, _ADAPTER, Powered=Variant("b", on))
 
-    # what the radio does
+    # advertisements and links
 
     async def _scan(self) -> None:
         loop = asyncio.get_running_loop()
@@ -128,7 +127,7 @@ class Bluez(bus.Service):
         del self._links[path]
         self.change(path, _DEVICE, Connected=Variant("b", False), ServicesResolved=Variant("b", False))
 
-    # what is called
+    # D-Bus methods
 
     async def call(self, method: str, path: str, sender: str, body: list[Any]) -> tuple[str, list[Any]]:
         match method:
@@ -150,7 +149,7 @@ class Bluez(bus.Service):
                 self.change(path, interface, **{name: value})
             case "GattCharacteristic1.ReadValue":
                 value = await self._request(path, Peripheral.read)
-                self._notified(path, value)  # the true one tells it to those who listen as well
+                self._notified(path, value)  # BlueZ notifies subscribers too
                 return "ay", [value]
             case "GattCharacteristic1.WriteValue":
                 value = bytes(body[0])
@@ -210,7 +209,7 @@ class Bluez(bus.Service):
         self.change(path, _DEVICE, Paired=Variant("b", True))
 
     async def _request(self, path: str, do: Callable[[Peripheral, str, float], T | None]) -> T:
-        """What the device answers about the characteristic. Refused."""
+        """Return the device's answer to a request to the characteristic; raise DBusError when it rejects it."""
         at, channel = self._channels[path]
         device, link = self._devices[at], self._links.get(at)
         if link is None:
@@ -238,7 +237,7 @@ def _channel(services: Iterable[Service], uuid: str) -> str:
 
 
 def _attributes(device: str, services: Iterable[Service]) -> Iterator[tuple[str, str, dict[str, Variant]]]:
-    """Path, interface and properties of what discovery finds, the handles counted through."""
+    """Yield path, interface and properties of the attributes that discovery finds, with consecutive handles."""
     handle = 0
     for service in services:
         handle += 1

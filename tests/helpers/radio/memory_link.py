@@ -1,4 +1,4 @@
-"""A connection to an emulated device in one process: requests in turn, notifications when they are due."""
+"""A connection to an emulated device in one process: requests one by one, notifications when they are due."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ T = TypeVar("T")
 
 
 class LoopbackLink:
-    """A connection: carries requests one after the other, and notifications when they are due."""
+    """A connection that delivers requests one after the other, and notifications when they are due."""
 
     def __init__(self, device: Peripheral, mtu: int, round_trip: float, lost: Callable[[], None]) -> None:
         self.mtu = mtu
@@ -34,7 +34,7 @@ class LoopbackLink:
         return not self._closed.done()
 
     async def request(self, do: Callable[[float], T | None]) -> T:
-        """What the device answers. BleakGATTProtocolError when it refuses, BleakError when the link is lost first."""
+        """Return the device's answer; raise BleakGATTProtocolError when it rejects, BleakError when the link ends."""
         async with self._turn:
             await asyncio.wait([self._closed], timeout=self._round_trip)
             if self.is_up:
@@ -48,7 +48,7 @@ class LoopbackLink:
             raise BleakError("disconnected")
 
     def command(self, do: Callable[[float], object]) -> None:
-        """A write without response: nobody hears what becomes of it."""
+        """Write without response: errors are not reported."""
         if self.is_up:
             try:
                 do(self._loop.time())
@@ -56,7 +56,7 @@ class LoopbackLink:
                 return
 
     def lose(self) -> None:
-        """The link is lost, or ended."""
+        """End the link."""
         if not self.is_up:
             return
         self._closed.set_result(None)
