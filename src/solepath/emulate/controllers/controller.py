@@ -25,7 +25,7 @@ RSSI = -50
 """Received signal strength of every advertisement, dBm; the virtual link has no distances."""
 
 
-class VirtualAir(LocalLink):
+class VirtualMedium(LocalLink):
     """The radio medium that virtual controllers share.
 
     `interval` is the time between the connection events of every link, s; None: packets do not wait.
@@ -107,7 +107,7 @@ class VirtualController(Controller):
         | hci.LeFeatureMask.LL_PRIVACY
     )
 
-    def __init__(self, name: str, link: VirtualAir, advertisement: Callable[[], bytes | None] | None = None) -> None:
+    def __init__(self, name: str, link: VirtualMedium, advertisement: Callable[[], bytes | None] | None = None) -> None:
         super().__init__(name, link=link)
         self.air = link
         self.advertisement = advertisement

@@ -29,7 +29,7 @@ from ..devices import attributes as emulated
 from ..devices.attributes import AttError
 from ..devices.peripheral import Peripheral
 from .central import backend_of
-from .controller import VirtualAir, VirtualController
+from .controller import VirtualController, VirtualMedium
 from .gatt import AttributeServer, advertisement, short_or_long
 from .radio import VirtualRadio, end_link, just_works
 
@@ -55,7 +55,7 @@ async def virtual_air(
     connection events of each link, s: all ready packets go then, requests and answers too (0.0075 to 4 s on a real
     link, often 0.03). None: packets do not wait.
     """
-    link = VirtualAir(interval)
+    link = VirtualMedium(interval)
     controller = VirtualController("central", link)
 
     async def reach() -> Transport:
@@ -71,7 +71,7 @@ async def virtual_air(
 
 
 @asynccontextmanager
-async def on_air(peripherals: Iterable[Peripheral], link: VirtualAir) -> AsyncIterator[None]:
+async def on_air(peripherals: Iterable[Peripheral], link: VirtualMedium) -> AsyncIterator[None]:
     """Let the devices advertise and serve on this link until the block is left."""
     servers = [Server(device, link) for device in peripherals]
     try:
@@ -86,7 +86,7 @@ async def on_air(peripherals: Iterable[Peripheral], link: VirtualAir) -> AsyncIt
 class Server:
     """GATT server of one Peripheral: calls it at the times that it returns, and sends what it returns."""
 
-    def __init__(self, peripheral: Peripheral, air: VirtualAir) -> None:
+    def __init__(self, peripheral: Peripheral, air: VirtualMedium) -> None:
         self.peripheral, self.air = peripheral, air
         self._loop = asyncio.get_running_loop()
         self._link: Connection | None = None

@@ -21,7 +21,7 @@ from bumble.transport.common import PacketParser, StreamPacketSink, Transport
 from ...ble.air import Backend
 from ..devices.peripheral import Peripheral
 from .central import backend_of
-from .controller import VirtualAir, VirtualController
+from .controller import VirtualController, VirtualMedium
 from .radio import VirtualRadio
 from .server import on_air
 
@@ -38,7 +38,7 @@ async def serve(peripherals: Iterable[Peripheral], host: str, port: int) -> Asyn
     disconnects, its links are lost as by a supervision timeout, and its devices advertise again. An address that cannot
     be used raises OSError.
     """
-    link = VirtualAir()
+    link = VirtualMedium()
     clients: set[_TcpClient] = set()
     async with on_air(peripherals, link):
         listening = await asyncio.get_running_loop().create_server(lambda: _TcpClient(link, clients), host, port)
@@ -55,7 +55,7 @@ async def serve(peripherals: Iterable[Peripheral], host: str, port: int) -> Asyn
 class _TcpClient(asyncio.Protocol):
     """One client's controller, at the other end of its TCP connection."""
 
-    def __init__(self, link: VirtualAir, clients: set[_TcpClient]) -> None:
+    def __init__(self, link: VirtualMedium, clients: set[_TcpClient]) -> None:
         self._air = link
         self._clients = clients
         self._parser = PacketParser(self)

@@ -52,7 +52,7 @@ Exit = Cabin | Well
 
 
 @frozen
-class Way:
+class BuildingWalk:
     """A route through the building."""
 
     route: Route
@@ -61,9 +61,9 @@ class Way:
     """Start on the plan."""
     level: str
     """Id of the level of the walk."""
-    came: str = ""
+    entry: str = ""
     """Name of the lift or stairs by which the wearer comes to the level; "" when the walk starts there."""
-    left: str = ""
+    exit: str = ""
     """Name of the lift or stairs by which the wearer leaves the level; "" when the walk ends there."""
 
     def places(self, walker: Walker, t: Array | float) -> list[tuple[str, float, float]]:
@@ -86,7 +86,7 @@ class Way:
         return np.asarray(middle @ np.array([[c, s], [-s, c]]) + np.array(self.start.place))
 
 
-def case_study() -> Way:
+def case_study() -> BuildingWalk:
     """Return the walk of section V-F of Liu et al. 2015.
 
     It goes down by the lift at the bottom left, along corridors, and away by another lift. The paper gives no lengths;
@@ -103,19 +103,19 @@ def case_study() -> Way:
     course.face(b.out)
     course.ride()
     course.stand()
-    return Way(course.route, course.start, GROUND, a.name, b.name)
+    return BuildingWalk(course.route, course.start, GROUND, a.name, b.name)
 
 
-def corridor() -> Way:
+def corridor() -> BuildingWalk:
     """Return 63 m straight on from door to door, as the long corridor of section V-D of Liu et al. 2015."""
     course = Course(GROUND, (COLUMNS[0], 0.0), 0.5 * pi)
     course.stand()
     course.along([(COLUMNS[0], NORTH)])
     course.stand()
-    return Way(course.route, course.start, GROUND)
+    return BuildingWalk(course.route, course.start, GROUND)
 
 
-def wandering(seed: int) -> Way:
+def wandering(seed: int) -> BuildingWalk:
     """Return a random walk that comes to a floor by a lift or stairs, follows corridors and leaves by another exit."""
     rng = np.random.default_rng([seed, 5])
     level = (GROUND, UPPER)[int(rng.integers(2))]
@@ -128,7 +128,7 @@ def wandering(seed: int) -> Way:
     course.along([*_strolled(_network(dx, dy, start, end), start, end, rng), _inside(other, level)])
     _leaving(course, other, level, dx, dy)
     course.stand()
-    return Way(course.route, course.start, level, one.name, other.name)
+    return BuildingWalk(course.route, course.start, level, one.name, other.name)
 
 
 def _inside(one: Exit, level: str) -> Point:

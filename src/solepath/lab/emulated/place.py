@@ -13,7 +13,7 @@ import numpy as np
 from attrs import field, frozen
 
 from ...emulate.routes.building import BUILDING
-from ...emulate.routes.ways import Way
+from ...emulate.routes.ways import BuildingWalk
 from ...emulate.wearers.truth import Truth
 from ...emulate.wearers.walker import Walker
 from ...events import Event, Placed, PlaceLost, TurnMade
@@ -51,7 +51,7 @@ class PlaceScore:
     """... and all candidates of the time before."""
 
 
-def score(way: Way, walker: Walker, truth: Truth, events: Sequence[Event]) -> PlaceScore:
+def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Event]) -> PlaceScore:
     """What `events` told of the walk of `walker` along `way`."""
     placed = [event for event in events if isinstance(event, Placed)]
     lost = [event.t for event in events if isinstance(event, PlaceLost) and placed and event.t > placed[0].t]

@@ -13,7 +13,7 @@ from attrs import frozen
 from ...calibration import Calibration, CalibrationError
 from ...emulate.routes.building import BUILDING
 from ...emulate.routes.route import Route
-from ...emulate.routes.ways import Way, case_study, corridor, wandering
+from ...emulate.routes.ways import BuildingWalk, case_study, corridor, wandering
 from ...emulate.sensors.sensortags import CC2541
 from ...emulate.walk import EmulatedWalk, emulate
 from ...emulate.wearers.gait import Wearer, random_wearer
@@ -169,7 +169,7 @@ def _turn(known: Wears, calibration: Calibration, angle: float, rng: np.random.G
     return [event for event in heard(FOOTSTEP_TRACKER, walk.packets, calibration) if isinstance(event, TurnMade)]
 
 
-def _placed(known: Wears, calibration: Calibration, way: Way, seed: int) -> PlaceScore:
+def _placed(known: Wears, calibration: Calibration, way: BuildingWalk, seed: int) -> PlaceScore:
     walk = _worn(known, way.route, seed)
     events = heard(FOOTSTEP_TRACKER, walk.packets, calibration, BUILDING)
     return emulated_place.score(way, walk.walker, walk.truth, events)
