@@ -1,4 +1,4 @@
-"""Polynomials over a unit interval, as coefficient arrays (constant first), and how to join them smoothly."""
+"""Polynomials over a unit interval, as coefficient arrays (constant first), and functions that join them smoothly."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ DEGREE = 7
 """Degree of every curve here: a quintic joins the two ends, and two more degrees shape what lies between."""
 
 BUMP: Array = np.array([0.0, 0.0, 0.0, 64.0, -192.0, 192.0, -64.0, 0.0])
-"""64 s^3 (1 - s)^3: 1 in the middle; value, slope and curvature are 0 at both ends."""
+"""Curve 64 s^3 (1 - s)^3: 1 in the middle; value, slope and curvature are 0 at both ends."""
 
 EVEN_OUT: Array = np.array([0.0, 0.0, 0.0, 1.0, -5.0, 9.0, -7.0, 2.0])
-"""s^3 (1 - s)^3 (1 - 2 s): added to a curve, makes it start earlier, move slower in the middle and stop later.
+"""Curve s^3 (1 - s)^3 (1 - 2 s); added to a curve, it makes it start earlier, move slower in the middle, stop later.
 
 Value, slope and curvature are 0 at both ends.
 """

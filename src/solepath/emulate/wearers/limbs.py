@@ -138,7 +138,7 @@ class Body:
         return Leg(hip, knee, ankle, _frame(hip - knee, left), _frame(knee - ankle, left))
 
     def segment(self, site: Site, t: Array) -> tuple[Array, Array]:
-        """Origin (N, 3), m, and attitude (N, 3, 3), segment to world, of what wears the sensor of a site."""
+        """Return origin (N, 3), m, and attitude (N, 3, 3), segment to world, of the segment of a site."""
         if site is Site.PELVIS:
             return self.pelvis(t)
         foot = SEGMENTS[site]

@@ -36,7 +36,7 @@ from .motion import FootMotion
 from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, pattern
 
 BOUNCE = 0.17
-"""Amplitude of the force's swing about the weight at 1.3 m/s; it grows with the square of the speed."""
+"""Amplitude of the load about the weight at 1.3 m/s, as a share of it; it grows with the square of the speed."""
 CATCH_TIME = 0.13
 """Time that the closing foot takes to take over the weight, s."""
 LOAD_SHIFT_SHARE = 0.3
