@@ -1,4 +1,4 @@
-"""bleak's client and scanner over a virtual central, for `BleakClient(..., backend=)`, as with a real adapter."""
+"""Client and scanner of bleak over a virtual central, for `BleakClient(..., backend=)`, as with a real adapter."""
 
 from __future__ import annotations
 

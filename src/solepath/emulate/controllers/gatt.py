@@ -12,7 +12,7 @@ from ..devices import attributes as emulated
 
 
 class AttributeServer(Server):
-    """bumble's GATT server, without its side effect on the program's logging.
+    """The GATT server of bumble, without its side effect on the program's logging.
 
     In every discovery bumble reports with `logging.debug` that there is no further attribute of a type. That function
     configures the root logger of a program that has not done so itself.

@@ -112,7 +112,7 @@ class Piece:
     start: Pose
     """Pose at the start."""
     length: float
-    """Length, m."""
+    """Length of the piece, m."""
     curvature: float
     """Curvature, 1/m; positive to the left."""
     speed: float

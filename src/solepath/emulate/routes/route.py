@@ -30,7 +30,7 @@ class Stand:
     """An action: stand still with the feet side by side."""
 
     duration: float
-    """Duration, s."""
+    """Duration of standing, s."""
 
 
 @frozen
@@ -38,9 +38,9 @@ class Walk:
     """An action: walk or run straight on."""
 
     distance: float
-    """Distance, m."""
+    """Distance of the move, m."""
     speed: float
-    """Speed, m/s."""
+    """Speed of the move, m/s."""
     spacing: float | None = None
     """Distance between marks to step on, m; None: no marks."""
     running: bool = False
@@ -52,11 +52,11 @@ class TurnAction:
     """An action: turn along an arc or on the spot."""
 
     angle: float
-    """Angle, rad; counter-clockwise positive."""
+    """Angle of the turn, rad; counter-clockwise positive."""
     radius: float
     """Radius of the arc, m; 0: on the spot."""
     speed: float
-    """Speed, m/s."""
+    """Speed of the move, m/s."""
     spacing: float | None = None
     """Distance between marks to step on, m; None: no marks."""
 

@@ -30,7 +30,7 @@ class Notification:
     channel: str
     """Name of the channel."""
     data: bytes
-    """Encoded value."""
+    """Value as the device encodes it."""
     acknowledged: bool = False
     """True for a value that was read or written, not notified: the link layer repeats it until it arrives."""
 

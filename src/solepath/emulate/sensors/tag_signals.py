@@ -67,7 +67,7 @@ class TagMotion:
     """The motion of a tag at the sampling instants of a sensor."""
 
     when: Instants
-    """Sampling instants."""
+    """Sampling instants of the sensor."""
     step: float
     """True time between samples, s."""
     motion: Kinematics

@@ -90,7 +90,7 @@ class FootTruth:
     """The ground truth of one foot; the stand before the first stride has no events."""
 
     foot: Foot
-    """The foot."""
+    """Foot that this is the truth of."""
     heel_strikes: tuple[float, ...]
     """True times of the heel-strikes, s."""
     foot_flats: tuple[float, ...]
