@@ -145,9 +145,7 @@ async def test_a_link_with_an_interval_sends_everything_at_its_events_in_order()
             for _ in range(5):
                 t_start = now()
                 assert await host.client.read_gatt_char(LEVEL) == b"\x57"
-                assert (
-                    interval < now() - t_start < 2.1 * interval
-                )  # request and answer at two events
+                assert interval < now() - t_start < 2.1 * interval  # request and answer at two events
                 await asyncio.sleep(0.011)
             await host.count(100)
             await asyncio.sleep(9.0)
