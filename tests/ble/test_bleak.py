@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from airs import received, troubles
 from attrs import evolve
-from belts import RATE, READ_AFTER, STRAP, address, asked, strap
+from belts import RATE, READ_AFTER, STRAP, address, logged_radio, strap
 from benches import LEFT, RIGHT
 from bleak.exc import BleakDBusError, BleakError
 from memory_radio import MemoryRadio
@@ -57,7 +57,7 @@ def test_a_fault_of_bleak_in_one_foots_client_is_told_and_outlived_and_the_other
     request_: str, error: Exception, caplog: pytest.LogCaptureFixture
 ) -> None:
     devices = strap(1, faults="1 * disconnect"), strap(2)
-    backend = raising(asked(*devices).backend, request_, error, at=address(1), until=3.0)
+    backend = raising(logged_radio(*devices).backend, request_, error, at=address(1), until=3.0)
     with caplog.at_level(logging.ERROR, "solepath.ble"):
         packets = received(
             backend, DeviceConfig(LEFT, address(1), STRAP), DeviceConfig(RIGHT, address(2), STRAP), seconds=14.0
@@ -97,7 +97,7 @@ def test_a_setting_that_is_refused_under_any_name_is_told_and_what_was_to_be_rea
         channels=(*READ_AFTER.channels, more),
         setup=(evolve(READ_AFTER.setup[0], channel="strap/beside"), *READ_AFTER.setup),
     )
-    backend = raising(asked(strap()).backend, "write_gatt_char", REFUSALS[0], where="strap/page")
+    backend = raising(logged_radio(strap()).backend, "write_gatt_char", REFUSALS[0], where="strap/page")
     packets = received(backend, DeviceConfig(PELVIS, address(1), profile), seconds=5.0)
     [words] = troubles(packets)
     assert words.startswith("strap/beside was not set to 0a: ")
@@ -106,7 +106,7 @@ def test_a_setting_that_is_refused_under_any_name_is_told_and_what_was_to_be_rea
 
 @pytest.mark.parametrize("error", REFUSALS, ids=["winrt", "bluez"])
 def test_a_stream_that_is_refused_is_no_connection(error: Exception) -> None:
-    backend = raising(asked(strap()).backend, "start_notify", error, where="strap/beat", until=3.0)
+    backend = raising(logged_radio(strap()).backend, "start_notify", error, where="strap/beat", until=3.0)
     packets = received(backend, DeviceConfig(PELVIS, address(1), STRAP), seconds=12.0)
     assert len([packet for packet in packets if packet.channel == "receiver/connected"]) > 2
     assert [packet for packet in packets if packet.channel == "strap/beat"]

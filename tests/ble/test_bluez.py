@@ -19,7 +19,7 @@ from bus import DAEMON, message_bus
 from solepath import Connected, Disconnected, Session
 from solepath.ble import BluetoothError, DeviceConfig, Devices, scan
 from solepath.emulate import Route
-from solepath.emulate.devices.attributes import DRAIN
+from solepath.emulate.devices.attributes import BATTERY_STEP
 from solepath.emulate.devices.bench import Bench
 from solepath.emulate.devices.faults import parse_faults
 from solepath.emulate.sensors.device import Device
@@ -42,8 +42,8 @@ BUS = "DBUS_SYSTEM_BUS_ADDRESS"
 
 def bench(faults: str = "", **devices: Device) -> Bench:
     worn = {Site(site): device for site, device in devices.items()} or {LEFT: Insole()}
-    began = monotonic() - 0.5 * DRAIN  # of whatever the machine's clock shows: no battery changes while a test lasts
-    found = Bench(Route().walk(20.0), devices=worn, began=began, faults=parse_faults(faults))
+    began = monotonic() - 0.5 * BATTERY_STEP  # no battery changes while a test lasts
+    found = Bench(Route().walk(20.0), devices=worn, started_at=began, faults=parse_faults(faults))
     found.prepare()
     return found
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from airs import received
-from belts import ONE, PELVIS, RATE, STRAP, address, asked, failing, strap, times
+from belts import ONE, PELVIS, RATE, STRAP, address, failing, logged_radio, strap, times
 from benches import LEFT
 from bleak.exc import BleakDBusError, BleakError
 from memory_radio import MemoryRadio
@@ -20,7 +20,7 @@ from solepath.ble import Backend, DeviceConfig
 from solepath.emulate import Route
 from solepath.emulate.devices.attributes import AttError
 from solepath.emulate.devices.bench import Bench
-from solepath.emulate.devices.faults import Fault, What, parse_faults
+from solepath.emulate.devices.faults import Fault, FaultKind, parse_faults
 from solepath.types import Site
 from solepath.wire.fields import parse_text
 
@@ -37,7 +37,7 @@ def test_a_device_that_left_before_it_was_connected_is_soon_looked_for_again():
 
 def test_a_device_that_is_heard_and_does_not_answer_is_told_when_patience_ends_not_some_attempts_later():
     """As when another program holds it, on systems that go on telling of it."""
-    beneath = asked(Strap("strap 1", address(1))).backend
+    beneath = logged_radio(Strap("strap 1", address(1))).backend
 
     class Client(beneath.client):
         async def connect(self, pair, **more):
@@ -53,7 +53,7 @@ def test_attempts_that_fail_do_not_begin_patience_anew():
     """The device refuses its stream for a while, then is heard no more."""
     device = Odd("strap 1", address(1), faults=parse_faults("5 * vanish"))
 
-    packets = received(asked(device).backend, ONE, seconds=30.0)
+    packets = received(logged_radio(device).backend, ONE, seconds=30.0)
     told = [(p.t, p.data.decode()) for p in packets if p.channel == "receiver/trouble"]
     unheard = [t for t, words in told if words.startswith("no strap")]
     assert told[0][0] < 1.0 and len(unheard) == 1 and unheard[0] == pytest.approx(10.5, abs=2.0)
@@ -68,10 +68,10 @@ class Odd(Strap):
 
 def weak(every, seconds):
     """What is heard over a link that breaks so often, s."""
-    cuts = [Fault(1.0 + every * k, Site.PELVIS, What.DISCONNECT) for k in range(int(seconds / every))]
+    cuts = [Fault(1.0 + every * k, Site.PELVIS, FaultKind.DISCONNECT) for k in range(int(seconds / every))]
 
     device = Strap("strap 1", address(1), faults=cuts)
-    return received(asked(device).backend, ONE, seconds=seconds)
+    return received(logged_radio(device).backend, ONE, seconds=seconds)
 
 
 @pytest.mark.parametrize(("every", "share"), [(1.0, 0.5), (2.0, 0.75)])

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from airs import received, troubles
 from attrs import evolve
-from belts import ONE, PELVIS, RATE, READ_AFTER, STRAP, Asked, address, asked, strap, times
+from belts import ONE, PELVIS, RATE, READ_AFTER, STRAP, LoggedRadio, address, logged_radio, strap, times
 from benches import LEFT, RIGHT, ROUTE
 from strap import BATTERY, BEAT, CONTROL, HEART_RATE, LEVEL, Strap
 
@@ -23,7 +23,7 @@ from solepath.link.profile import Access, Write
 from solepath.types import Packet, Site
 
 
-def got(heard: Asked, *wanted: DeviceConfig, seconds: float = 5.0, **more: Any) -> list[Packet]:
+def got(heard: LoggedRadio, *wanted: DeviceConfig, seconds: float = 5.0, **more: Any) -> list[Packet]:
     return received(heard.backend, *wanted, seconds=seconds, **more)
 
 
@@ -33,7 +33,7 @@ def channels(packets: list[Packet], *, but: str = "receiver/tick") -> list[str]:
 
 def test_a_device_is_read_then_subscribed_then_written() -> None:
     bench = Bench(ROUTE, devices={LEFT: Insole(), RIGHT: Tag()}, seed=3)
-    heard = asked(*bench.peripherals)
+    heard = logged_radio(*bench.peripherals)
     got(heard, DeviceConfig(LEFT, "F0:5E:00:00:00:01"), DeviceConfig(RIGHT, "F0:5E:00:00:00:02"))
     for device, profile in ((bench[LEFT], INSOLE), (bench[RIGHT], CC2650)):
         did = heard.of(device, "read", "subscribe", "write")
@@ -47,7 +47,7 @@ def test_a_device_is_read_then_subscribed_then_written() -> None:
 @pytest.mark.parametrize("faults", ["", "2 * disconnect", "2 * freeze", "2 * refuse strap/control; 2 * disconnect"])
 def test_nothing_is_ever_read_that_is_subscribed(faults: str) -> None:
     device = strap(faults=faults)
-    heard = asked(device)
+    heard = logged_radio(device)
     got(heard, DeviceConfig(PELVIS, address(1), READ_AFTER), seconds=12.0)
     subscribed: set[str] = set()
     for what, channel in heard.of(device, "connect", "read", "subscribe"):
@@ -61,7 +61,7 @@ def test_nothing_is_ever_read_that_is_subscribed(faults: str) -> None:
 
 def test_what_was_read_and_written_comes_as_packets_before_the_stream() -> None:
     bench = Bench(ROUTE, devices={LEFT: Insole()}, seed=3)
-    packets = got(asked(*bench.peripherals), DeviceConfig(LEFT, "F0:5E:00:00:00:01"))
+    packets = got(logged_radio(*bench.peripherals), DeviceConfig(LEFT, "F0:5E:00:00:00:01"))
     expected = ["receiver/connected", *INSOLE.reads, "insole/control", "insole/frame"]
     assert channels(packets)[: len(expected)] == expected
     assert next(p.data for p in packets if p.channel == "insole/info") == bench[LEFT].value("insole/info", 0.0)
@@ -72,14 +72,14 @@ def test_what_was_read_and_written_comes_as_packets_before_the_stream() -> None:
 
 
 def test_what_is_to_be_read_after_a_write_comes_right_after_it() -> None:
-    packets = got(asked(strap()), DeviceConfig(PELVIS, address(1), READ_AFTER))
+    packets = got(logged_radio(strap()), DeviceConfig(PELVIS, address(1), READ_AFTER))
     order = [channel for channel in channels(packets) if channel != "strap/beat"]
     assert order[:4] == ["receiver/connected", "device/battery", "strap/control", "strap/page"]
 
 
 def test_a_battery_that_can_only_be_read_is_read_and_keeps_nobody_from_listening() -> None:
     device = strap()
-    heard = asked(device)
+    heard = logged_radio(device)
     packets = got(heard, ONE)
     assert times(packets, "device/battery") and len(times(packets, "strap/beat")) > 4 * RATE
     assert ("subscribe", "device/battery") not in heard.of(device, "subscribe")
@@ -100,7 +100,7 @@ class Odd(Strap):
 
 def test_a_device_that_takes_only_commands_and_has_a_service_twice_is_listened_to() -> None:
     device = Odd()
-    heard = asked(device)
+    heard = logged_radio(device)
     packets = got(heard, ONE)
     assert len(times(packets, "strap/beat")) > 4 * RATE
     assert ("command", "strap/control") in heard.of(device, "write", "command")
@@ -112,7 +112,7 @@ def test_what_a_device_does_not_have_to_be_set_is_told_and_passed_over() -> None
     more = evolve(STRAP.channel("strap/control"), name="strap/nothing", characteristic=BATTERY)
     setup = (Write("strap/nothing", b"\x01"), *STRAP.setup)
     profile = evolve(READ_AFTER, channels=(*READ_AFTER.channels, more), setup=setup)
-    packets = got(asked(device), DeviceConfig(PELVIS, address(1), profile))
+    packets = got(logged_radio(device), DeviceConfig(PELVIS, address(1), profile))
     assert troubles(packets) == ["strap/nothing is not there to be set: the device keeps to its own"]
     assert len(times(packets, "strap/beat")) > 4 * RATE
 
@@ -120,7 +120,7 @@ def test_what_a_device_does_not_have_to_be_set_is_told_and_passed_over() -> None
 def test_every_packet_says_when_it_arrived_and_from_which_device() -> None:
     device = strap()
     device.log = []
-    packets = got(asked(device), ONE)
+    packets = got(logged_radio(device), ONE)
     beats = [packet for packet in packets if packet.channel == "strap/beat"]
     assert [packet.data for packet in beats] == [one.value for one in device.log[: len(beats)]]
     for packet in beats:
@@ -130,7 +130,7 @@ def test_every_packet_says_when_it_arrived_and_from_which_device() -> None:
 
 
 def test_while_nothing_comes_time_is_told_to_pass_five_times_a_second() -> None:
-    packets = got(asked(), ONE, seconds=5.0, patience=100.0)
+    packets = got(logged_radio(), ONE, seconds=5.0, patience=100.0)
     assert set(channels(packets, but="")) == {"receiver/tick"}
     assert len(packets) in (24, 25)
     steps = [b.t - a.t for a, b in zip(packets, packets[1:], strict=False)]
@@ -139,7 +139,7 @@ def test_while_nothing_comes_time_is_told_to_pass_five_times_a_second() -> None:
 
 
 def test_seven_devices_stream_at_once_each_at_its_site() -> None:
-    heard = asked(*(strap(n) for n in range(1, 8)))
+    heard = logged_radio(*(strap(n) for n in range(1, 8)))
     wanted = [DeviceConfig(site, address(n), STRAP) for n, site in enumerate(Site, 1)]
     packets = got(heard, *wanted)
     for n, site in enumerate(Site, 1):
@@ -152,9 +152,9 @@ def test_seven_devices_stream_at_once_each_at_its_site() -> None:
 
 def test_a_device_that_does_not_answer_never_delays_another() -> None:
     quick = strap(2)
-    alone = got(asked(quick), DeviceConfig(LEFT, address(2), STRAP))
+    alone = got(logged_radio(quick), DeviceConfig(LEFT, address(2), STRAP))
     hanging = strap(1, faults="0 * hang; 5 * hang; 9 * hang")
-    both = got(asked(hanging, strap(2)), ONE, DeviceConfig(LEFT, address(2), STRAP))
+    both = got(logged_radio(hanging, strap(2)), ONE, DeviceConfig(LEFT, address(2), STRAP))
     assert times(both, "receiver/trouble")
     mine = [packet for packet in both if packet.site is LEFT and packet.channel != "receiver/tick"]
     assert mine == [packet for packet in alone if packet.channel != "receiver/tick"]

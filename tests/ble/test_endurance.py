@@ -19,7 +19,7 @@ from solepath import Connected, Disconnected, FootMoved, PacketRejected, SampleG
 from solepath.ble import DeviceConfig, Devices
 from solepath.emulate import Route, emulate
 from solepath.emulate.devices.bench import Bench
-from solepath.emulate.devices.faults import Fault, What
+from solepath.emulate.devices.faults import Fault, FaultKind
 from solepath.emulate.sensors.device import Device
 from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.wearers.truth import Truth
@@ -112,7 +112,7 @@ def advertises(task: asyncio.Task[Any]) -> bool:
 
 @cache
 def walk(seed: int, cuts: int = 200) -> Walked:
-    faults = [Fault(FIRST + APART * k, FEET[k % 2], What.DISCONNECT) for k in range(cuts)]
+    faults = [Fault(FIRST + APART * k, FEET[k % 2], FaultKind.DISCONNECT) for k in range(cuts)]
     bench = Bench(ROUTES[cuts], devices=worn(), seed=seed, faults=faults)
     truth = bench.truth()
     assert truth.duration - 2.0 > FIRST + APART * cuts

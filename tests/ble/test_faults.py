@@ -6,7 +6,7 @@ from functools import cache
 from typing import TypeVar
 
 import pytest
-from airs import TIERS, hear, in_virtual_time, whole
+from airs import TIERS, collect, in_virtual_time, whole
 from attrs import evolve
 from benches import LEFT, RIGHT
 
@@ -61,7 +61,7 @@ def heard(
 
     async def main() -> list[Packet]:
         async with TIERS[tier](bench) as backend, Devices(wanted, backend=backend, patience=5.0) as devices:
-            return await hear(devices, seconds)
+            return await collect(devices, seconds)
 
     return in_virtual_time(main)
 

@@ -6,7 +6,7 @@ import asyncio
 from collections.abc import Callable
 
 import pytest
-from airs import TIERS, hear, in_virtual_time, troubles
+from airs import TIERS, collect, in_virtual_time, troubles
 from bleak import BleakClient, BleakScanner
 from bleak.exc import BleakGATTProtocolError, BleakGATTProtocolErrorCode
 from virtual import virtually
@@ -51,7 +51,7 @@ def heard(tier: str, faults: str, pair: bool, seconds: float, kind: str = "insol
         worn.walk_from(asyncio.get_running_loop().time())
         wanted = [DeviceConfig(LEFT, worn[LEFT].address, profile)]
         async with TIERS[tier](worn) as backend, Devices(wanted, backend=backend, pair=pair) as devices:
-            return await hear(devices, seconds)
+            return await collect(devices, seconds)
 
     return in_virtual_time(listen)
 

@@ -12,7 +12,7 @@ import asyncio
 import os
 
 import pytest
-from airs import hear
+from airs import collect
 
 from solepath import Disconnected, FootMoved, PacketRejected, Session
 from solepath.ble import DeviceConfig, Devices, scan
@@ -49,7 +49,7 @@ async def heard() -> list[Packet]:
                 packets.append(packet)
                 if streamed(packet.channel):
                     break
-        return packets + await hear(devices, LISTENED)
+        return packets + await collect(devices, LISTENED)
 
 
 def test_a_real_device_is_found_connected_set_up_and_heard_in_order() -> None:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
-from airs import hear, received, troubles
-from belts import STRAP, address, asked, strap
+from airs import collect, received, troubles
+from belts import STRAP, address, logged_radio, strap
 from benches import LEFT, RIGHT, ROUTE
 from memory_radio import MemoryRadio
 from virtual import now, virtually
@@ -181,7 +181,7 @@ def test_a_device_of_a_kind_that_nobody_knows_is_told_and_left() -> None:
 
 @pytest.mark.parametrize("which", [address(1), "strap 1"])
 def test_a_device_of_another_kind_than_was_said_is_told_and_left(which: str) -> None:
-    heard = asked(strap())
+    heard = logged_radio(strap())
     packets = received(heard.backend, DeviceConfig(LEFT, which, CC2650), seconds=20.0)
     assert not connected(packets)
     assert troubles(packets) == ["strap 1 is no cc2650: it has no cc2650/movement"]
@@ -236,13 +236,13 @@ def test_an_absent_device_never_delays_another() -> None:
 
 @virtually
 async def test_only_one_scanner_works_at_a_time_and_none_once_all_are_found() -> None:
-    heard = asked(*(strap(number, faults=f"{4 + number} * disconnect") for number in range(1, 5)))
+    heard = logged_radio(*(strap(number, faults=f"{4 + number} * disconnect") for number in range(1, 5)))
     wanted = [DeviceConfig(site, address(n), STRAP) for n, site in enumerate(list(Site)[:4], 1)]
     async with Devices(wanted, backend=heard.backend) as devices:
-        await hear(devices, 3.0)
+        await collect(devices, 3.0)
         assert {one.state for one in devices.connections} == {ConnectionState.LISTENING}
         assert heard.scanning == 0
-        await hear(devices, 10.0)
+        await collect(devices, 10.0)
     assert heard.scanning == 0
     assert heard.most == 1
 

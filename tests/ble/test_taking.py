@@ -8,8 +8,8 @@ from functools import cache
 from typing import Any
 
 import pytest
-from airs import hear, in_virtual_time, others
-from belts import ONE, PELVIS, STRAP, address, asked, failing, strap, times
+from airs import collect, in_virtual_time, others
+from belts import ONE, PELVIS, STRAP, address, failing, logged_radio, strap, times
 from benches import LEFT, RIGHT
 from bleak.exc import BleakError
 from memory_radio import MemoryRadio
@@ -60,7 +60,7 @@ def test_what_an_app_is_too_slow_for_goes_from_the_oldest_on_and_is_counted() ->
 async def test_an_app_that_takes_a_packet_every_now_and_then_gets_them_in_order() -> None:
     device, packets = strap(), list[Packet]()
     device.log = []
-    async with Devices([ONE], backend=asked(device).backend, capacity=5) as devices:
+    async with Devices([ONE], backend=logged_radio(device).backend, capacity=5) as devices:
         async for packet in devices:
             packets.append(packet)
             await asyncio.sleep(0.35)
@@ -85,7 +85,7 @@ async def test_to_leave_disconnects_and_leaves_no_task_behind() -> None:
         DeviceConfig(PELVIS, "absent", STRAP),
     ]
     async with Devices(wanted, backend=MemoryRadio(devices).backend) as heard:
-        await hear(heard, 3.0)
+        await collect(heard, 3.0)
         assert all(device.is_connected for device in devices)
     assert not any(device.is_connected for device in devices)
     assert not others()
@@ -100,7 +100,7 @@ async def test_to_leave_disconnects_and_leaves_no_task_behind() -> None:
 @virtually
 async def test_to_leave_at_any_moment_leaves_nothing_behind(moment: float) -> None:
     device = strap()
-    heard = asked(device)
+    heard = logged_radio(device)
     async with Devices([ONE], backend=heard.backend):
         await asyncio.sleep(moment)
     assert not others() and not device.is_connected and heard.scanning == 0
@@ -111,7 +111,7 @@ async def test_devices_that_were_left_can_be_entered_again_but_not_twice_at_once
     devices = Devices([ONE], backend=MemoryRadio([strap()]).backend)
     for _ in range(2):
         async with devices:
-            packets = await hear(devices, 2.0)
+            packets = await collect(devices, 2.0)
             with pytest.raises(RuntimeError, match="in use"):
                 await devices.__aenter__()
         assert times(packets, "strap/beat")
@@ -120,7 +120,7 @@ async def test_devices_that_were_left_can_be_entered_again_but_not_twice_at_once
 
 @virtually
 async def test_two_who_wait_for_the_next_packet_at_once_are_told_that_only_one_may() -> None:
-    async with Devices([ONE], backend=asked().backend) as devices:
+    async with Devices([ONE], backend=logged_radio().backend) as devices:
         first = asyncio.create_task(anext(devices))
         await asyncio.sleep(0.1)
         with pytest.raises(RuntimeError, match="somebody else"):
@@ -131,7 +131,7 @@ async def test_two_who_wait_for_the_next_packet_at_once_are_told_that_only_one_m
 @virtually
 async def test_who_gives_up_waiting_loses_no_packet() -> None:
     found = []
-    async with Devices([ONE], backend=asked(strap()).backend) as devices:
+    async with Devices([ONE], backend=logged_radio(strap()).backend) as devices:
         while now() < 10.0:
             with suppress(TimeoutError):
                 async with asyncio.timeout(0.013):
@@ -150,9 +150,9 @@ async def test_a_fault_of_the_program_itself_is_raised_to_whoever_takes_packets(
         def is_address(self, address: str) -> bool:
             raise ZeroDivisionError("a fault")
 
-    async with Devices([Faulty(LEFT, address(2), STRAP)], backend=asked(strap(2)).backend) as devices:
+    async with Devices([Faulty(LEFT, address(2), STRAP)], backend=logged_radio(strap(2)).backend) as devices:
         with pytest.raises(ZeroDivisionError, match="a fault"):
-            await hear(devices, 5.0)
+            await collect(devices, 5.0)
         with pytest.raises(ZeroDivisionError, match="a fault"):
             await anext(devices)
     assert not others()
@@ -161,25 +161,25 @@ async def test_a_fault_of_the_program_itself_is_raised_to_whoever_takes_packets(
 @virtually
 async def test_devices_that_were_never_entered_do_not_end_silently() -> None:
     with pytest.raises(RuntimeError, match="entered"):
-        await anext(Devices([ONE], backend=asked().backend))
+        await anext(Devices([ONE], backend=logged_radio().backend))
 
 
 @virtually
 async def test_of_two_who_enter_at_once_one_is_told_that_they_are_in_use() -> None:
     """Also while the first is still waiting for Bluetooth; and an entry that failed is none."""
     device = strap()
-    heard = asked(device)
+    heard = logged_radio(device)
     devices = Devices([ONE], backend=slowly(heard.backend))
     first, second = await asyncio.gather(devices.__aenter__(), devices.__aenter__(), return_exceptions=True)
     assert first is devices and isinstance(second, RuntimeError)
-    await hear(devices, 3.0)
+    await collect(devices, 3.0)
     await devices.__aexit__(None, None, None)
     assert not others() and heard.scanning == 0 and not device.is_connected
     broken = Devices([ONE], backend=failing(heard.backend, [BleakError("odd")]))
     with pytest.raises(BluetoothError):
         await broken.__aenter__()
     async with broken:
-        assert times(await hear(broken, 3.0), "strap/beat")
+        assert times(await collect(broken, 3.0), "strap/beat")
 
 
 def slowly(beneath: Backend) -> Backend:

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from airs import others, received, troubles
-from belts import ONE, PELVIS, address, asked, times
+from belts import ONE, PELVIS, address, logged_radio, times
 from bleak.exc import (
     BleakBluetoothNotAvailableError,
     BleakBluetoothNotAvailableReason,
@@ -108,7 +108,7 @@ class Fleeting(Strap):
 
 def test_a_device_that_fails_again_and_again_is_tried_less_and_less_often_and_never_given_up() -> None:
     device = Fleeting()
-    packets = received(asked(device).backend, DeviceConfig(PELVIS, address(1), CC2650), seconds=120.0)
+    packets = received(logged_radio(device).backend, DeviceConfig(PELVIS, address(1), CC2650), seconds=120.0)
     pauses = device.pauses()
     assert pauses[0] < 0.6
     assert pauses[:5] == sorted(pauses[:5])
@@ -120,7 +120,7 @@ def test_a_device_that_fails_again_and_again_is_tried_less_and_less_often_and_ne
 def test_links_that_break_before_anything_comes_are_made_less_and_less_often_until_one_holds() -> None:
     device = Fleeting(*[0.3] * 5, 3.0, 3.0)
     device.silent = 5
-    received(asked(device).backend, ONE, seconds=30.0)
+    received(logged_radio(device).backend, ONE, seconds=30.0)
     pauses = device.pauses()
     assert pauses[0] < pauses[1] < pauses[2] < pauses[3] < pauses[4] < 5.0
     assert pauses[5:] == [pytest.approx(3.1, abs=0.3)] * 2
@@ -132,6 +132,6 @@ def test_a_request_that_is_never_answered_ends_the_attempt() -> None:
         def read(self, channel: str, now: float) -> bytes | None:
             return None if now < 8.0 else super().read(channel, now)
 
-    packets = received(asked(Mute("strap 1", address(1))).backend, ONE, seconds=20.0)
+    packets = received(logged_radio(Mute("strap 1", address(1))).backend, ONE, seconds=20.0)
     assert troubles(packets) == [NOT_IN_TIME]
     assert times(packets, "strap/beat")

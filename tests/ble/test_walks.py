@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 import pytest
-from airs import bumble, hear, in_virtual_time, whole
+from airs import bumble, collect, in_virtual_time, whole
 from attrs import evolve
 from walks import said
 
@@ -48,7 +48,7 @@ def heard(
         bench.walk_from(began)
         bench.prepare()
         async with bumble(bench, interval) as backend, Devices(wanted, backend=backend) as devices:
-            return await hear(devices, 5.0 + seconds), began
+            return await collect(devices, 5.0 + seconds), began
 
     return in_virtual_time(listen)
 

@@ -94,7 +94,7 @@ def test_a_ride_is_reported_with_its_times_and_its_height() -> None:
     (ride,) = [event for event in events if isinstance(event, LiftRidden)]
     (true,) = walker(HOUSE).truth().rides
     assert not ride.up
-    assert abs(ride.t_start - true.begin) < 1.0 and abs(ride.t - true.end) < 1.0
+    assert abs(ride.t_start - true.start) < 1.0 and abs(ride.t - true.end) < 1.0
     assert ride.height is not None and abs(ride.height - true.height) < 1.0
 
 

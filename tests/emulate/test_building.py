@@ -1,4 +1,4 @@
-"""The emulator's building is a plan that can be used, and nobody who walks in it goes through a wall."""
+"""The emulated building is a valid plan, and no walk in it crosses a wall."""
 
 from itertools import pairwise
 from math import hypot
@@ -8,7 +8,7 @@ import pytest
 from here import EXAMPLES
 
 from solepath.emulate.routes.building import BUILDING, CABINS, EAST, NORTH, STOREY
-from solepath.emulate.routes.ways import Way, case_study, corridor, wandering
+from solepath.emulate.routes.ways import BuildingWalk, case_study, corridor, wandering
 from solepath.emulate.wearers.walker import Walker
 from solepath.floorplan.checks import unusable, warnings
 from solepath.floorplan.importers.reading import read_floorplan
@@ -53,14 +53,14 @@ def test_rooms_are_closed_but_for_their_doors(plan: IndexedPlan) -> None:
         assert plan.crosses(number, 9.0, 13.5, 12.0, 13.5) and plan.crosses(number, 5.0, 28.5, 5.0, 29.5)
 
 
-def walked(way: Way, seed: int) -> tuple[Walker, np.ndarray, list[tuple[str, float, float]]]:
+def walked(way: BuildingWalk, seed: int) -> tuple[Walker, np.ndarray, list[tuple[str, float, float]]]:
     walker = Walker(way.route, seed=seed)
     t = np.arange(0.0, walker.duration, 0.2)
     return walker, t, way.places(walker, t)
 
 
 @pytest.mark.parametrize("way", [case_study(), corridor(), *map(wandering, SEEDS)], ids=["case", "corridor", *SEEDS])
-def test_nobody_walks_through_a_wall(plan: IndexedPlan, way: Way) -> None:
+def test_no_walk_crosses_a_wall(plan: IndexedPlan, way: BuildingWalk) -> None:
     _, _, places = walked(way, 7)
     for (level, x0, y0), (_, x1, y1) in pairwise(places):
         assert not plan.crosses(LEVEL[level], x0, y0, x1, y1)
@@ -73,10 +73,10 @@ def test_nobody_walks_through_a_wall(plan: IndexedPlan, way: Way) -> None:
 def test_a_wanderer_comes_by_one_connector_and_leaves_by_another(seed: int) -> None:
     way = wandering(seed)
     truth = Walker(way.route, seed=seed).truth()
-    assert way.came != way.left and {way.came, way.left} <= {one.name for one in BUILDING.connectors}
+    assert way.entry != way.exit and {way.entry, way.exit} <= {one.name for one in BUILDING.connectors}
     lifts = {cabin.name for cabin in CABINS}
-    assert len(truth.rides) == (way.came in lifts) + (way.left in lifts)
-    assert len(truth.flights) == 2 * ((way.came not in lifts) + (way.left not in lifts))
+    assert len(truth.rides) == (way.entry in lifts) + (way.exit in lifts)
+    assert len(truth.flights) == 2 * ((way.entry not in lifts) + (way.exit not in lifts))
     climbed = sum(ride.height for ride in truth.rides) + sum(flight.height for flight in truth.flights)
     assert climbed == pytest.approx(0.0)  # to the other floor and back
     assert way.start.level != way.level
@@ -87,7 +87,7 @@ def test_the_case_study_goes_down_by_the_lift_at_the_bottom_left_and_away_by_ano
     walker, t, places = walked(way, 3)
     truth = walker.truth()
     assert [ride.height for ride in truth.rides] == pytest.approx([-STOREY, STOREY])
-    on_floor = (t > truth.rides[0].end) & (t < truth.rides[1].begin)
+    on_floor = (t > truth.rides[0].end) & (t < truth.rides[1].start)
     assert {place[0] for place, there in zip(places, on_floor, strict=True) if there} == {way.level}
     (ax, ay), (bx, by) = CABINS[0].middle, CABINS[1].middle
     first, last = np.array(places[0][1:]), np.array(places[-1][1:])

@@ -1,4 +1,4 @@
-"""What is measured by hand for a calibration is what is true of the emulated shoe, to a hand's accuracy."""
+"""Measurements by hand for a calibration agree with the emulated shoe, within the accuracy of a ruler."""
 
 from math import cos, radians, sin
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Bytes to track, against the truth of emulated walks: every step found, none invented, events and lengths right."""
+"""Bytes to track, compared with the truth: every step found, none invented, events and lengths right."""
 
 from __future__ import annotations
 
@@ -30,25 +30,25 @@ BAD = Radio(loss=0.05, jitter=0.05)
 """5 % of the notifications are lost, the others up to 50 ms late."""
 
 
-def heard(walk: EmulatedWalk) -> tuple[list[Event], dict[Foot, FootComparison]]:
-    """What a session says of a walk, and how that compares with the truth, foot by foot."""
+def compared_walk(walk: EmulatedWalk) -> tuple[list[Event], dict[Foot, FootComparison]]:
+    """Return the events of a session for a walk, and their comparison with the truth, foot by foot."""
     session = Session(poses=True)
-    told = session.feed(walk.packets) + session.finish()
+    events = session.feed(walk.packets) + session.finish()
     gathering = Gathering()
-    for event in told:
+    for event in events:
         gathering.add(event)
     feet = {packet.site.foot for packet in walk.packets}
     compared = compare(walk.truth, {foot: gathering.foot(foot) for foot in Foot if foot in feet})
-    return told, {one.foot: one for one in compared}
+    return events, {one.foot: one for one in compared}
 
 
 @cache
 def long_walk(seed: int) -> tuple[list[Event], dict[Foot, FootComparison]]:
-    return heard(emulate(WALK, radio=BAD, seed=seed))
+    return compared_walk(emulate(WALK, radio=BAD, seed=seed))
 
 
 def found_all(compared: Mapping[Foot, FootComparison], least: int) -> None:
-    """Every true step found, none invented."""
+    """Check that every true step is found and none invented."""
     assert set(compared) == set(Foot)
     for one in compared.values():
         assert one.steps_true >= least
@@ -56,18 +56,18 @@ def found_all(compared: Mapping[Foot, FootComparison], least: int) -> None:
 
 
 AGAIN = pytest.mark.soak
-"""The same once more, with other errors of the sensors or an easier radio."""
+"""Mark of a repetition with other sensor errors or an easier radio."""
 SEEDS = [1, pytest.param(2, marks=AGAIN)]
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_of_100_m_over_a_bad_radio_every_step_is_found_and_none_invented(seed: int) -> None:
+def test_every_step_of_100_m_over_a_bad_radio_is_found_and_none_invented(seed: int) -> None:
     found_all(long_walk(seed)[1], 65)
 
 
 @pytest.mark.parametrize("kind", ["heel_strike", "foot_flat", "heel_off", "toe_off"])
 @pytest.mark.parametrize("seed", SEEDS)
-def test_of_100_m_over_a_bad_radio_phase_events_are_within_40_ms(seed: int, kind: str) -> None:
+def test_phase_events_of_100_m_over_a_bad_radio_are_within_40_ms(seed: int, kind: str) -> None:
     for one in long_walk(seed)[1].values():
         matched = one.events[kind]
         assert matched.f1 == pytest.approx(1.0, abs=0.01)
@@ -77,16 +77,18 @@ def test_of_100_m_over_a_bad_radio_phase_events_are_within_40_ms(seed: int, kind
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_of_100_m_over_a_bad_radio_strides_are_as_long_as_they_were(seed: int) -> None:
+def test_strides_of_100_m_over_a_bad_radio_have_their_true_length(seed: int) -> None:
     for one in long_walk(seed)[1].values():
         assert one.length_errors.mean <= 0.03
 
 
 @pytest.mark.parametrize("seed", SEEDS)
-def test_steps_with_lost_packets_in_them_say_that_they_are_degraded(seed: int) -> None:
+def test_strides_with_lost_packets_are_degraded(seed: int) -> None:
     steps = of(StrideTaken, long_walk(seed)[0])
     assert sum(step.degraded for step in steps) > 0.9 * len(steps)  # one packet in twenty, a hundred in a step
-    clean = of(StrideTaken, heard(emulate(Route().stand(2.0).walk(8.0, 1.3).stop(1.0), radio=CLEAN, seed=seed))[0])
+    clean = of(
+        StrideTaken, compared_walk(emulate(Route().stand(2.0).walk(8.0, 1.3).stop(1.0), radio=CLEAN, seed=seed))[0]
+    )
     assert clean and not any(step.degraded for step in clean)
 
 
@@ -106,7 +108,7 @@ RADIOS = pytest.mark.parametrize("radio", [BAD, pytest.param(CLEAN, marks=AGAIN)
 
 @cache
 def routed(name: str, radio: Radio) -> tuple[list[Event], dict[Foot, FootComparison]]:
-    return heard(emulate(ROUTES[name], radio=radio, seed=4))
+    return compared_walk(emulate(ROUTES[name], radio=radio, seed=4))
 
 
 @pytest.mark.parametrize("name", ["slow", "fast", "left", "right", "halts"])
@@ -122,14 +124,14 @@ def test_slow_fast_and_turning_walks_have_all_their_steps(name: str, radio: Radi
 @pytest.mark.parametrize(("name", "turned"), [("left", 90), ("right", -90), ("slow", 0), ("about", 180)])
 @RADIOS
 def test_the_steps_add_up_to_the_turn(name: str, turned: float, radio: Radio) -> None:
-    told, _ = routed(name, radio)
+    events, _ = routed(name, radio)
     for foot in Foot:
-        sums = sum(step.heading_change for step in of(StrideTaken, told) if step.foot is foot)
+        sums = sum(step.heading_change for step in of(StrideTaken, events) if step.foot is foot)
         assert sums == pytest.approx(radians(turned), abs=radians(8))
 
 
 @RADIOS
-def test_a_wearer_who_turns_about_on_the_spot_ends_where_he_began(radio: Radio) -> None:
+def test_a_wearer_who_turns_round_on_the_spot_ends_at_the_start(radio: Radio) -> None:
     _, compared = routed("about", radio)
     for one in compared.values():
         assert one.steps_found >= one.steps_true - 1 and one.steps_invented <= 1
@@ -137,10 +139,10 @@ def test_a_wearer_who_turns_about_on_the_spot_ends_where_he_began(radio: Radio) 
 
 
 @RADIOS
-def test_who_stands_for_a_minute_takes_no_step(radio: Radio) -> None:
+def test_a_minute_of_standing_has_no_step(radio: Radio) -> None:
     few = {site: Insole(cells=24, rate=50.0) for site in (LEFT, RIGHT)}
-    told, compared = heard(emulate(Route().stand(60.0), devices=few, radio=radio, seed=1))
-    assert of(StrideTaken | HeelStrike | FootFlat | HeelOff | ToeOff, told) == []
+    events, compared = compared_walk(emulate(Route().stand(60.0), devices=few, radio=radio, seed=1))
+    assert of(StrideTaken | HeelStrike | FootFlat | HeelOff | ToeOff, events) == []
     assert all(one.steps_true == one.steps_invented == 0 for one in compared.values())
 
 
@@ -158,7 +160,7 @@ THIRTY = Route().stand(3.0).walk(30.0, 1.2).stop(3.0)
     ids=["fragments", "four a frame", "50 Hz", "200 Hz"],
 )
 def test_insoles_of_any_kind_find_every_step(device: Insole) -> None:
-    found_all(heard(emulate(THIRTY, devices={LEFT: device, RIGHT: device}, seed=3))[1], 20)
+    found_all(compared_walk(emulate(THIRTY, devices={LEFT: device, RIGHT: device}, seed=3))[1], 20)
 
 
 @cache
@@ -170,12 +172,12 @@ def tagged(name: str) -> dict[tuple[int, Foot], FootComparison]:
         "CC2541 at 20 Hz": CC2541(rate=20.0),
     }
     sites: dict[Site, Device] = {LEFT: devices[name], RIGHT: devices[name]}
-    walks = {seed: heard(emulate(THIRTY, devices=sites, seed=seed))[1] for seed in (1, 2, 3)}
+    walks = {seed: compared_walk(emulate(THIRTY, devices=sites, seed=seed))[1] for seed in (1, 2, 3)}
     return {(seed, foot): one for seed, feet in walks.items() for foot, one in feet.items()}
 
 
 def f1(compared: Mapping[object, FootComparison]) -> float:
-    """Of the steps: 2 found / (true + found + invented)."""
+    """Return the F1 score of the steps: 2 found / (true + found + invented)."""
     found = sum(one.steps_found for one in compared.values())
     total = sum(one.steps_true + one.steps_found + one.steps_invented for one in compared.values())
     return 2.0 * found / total
@@ -206,13 +208,12 @@ def test_sensor_tags_know_when_the_foot_struck_and_left_the_ground(name: str) ->
 
 
 def cut(walk: EmulatedWalk, seed: int, share: float) -> list[Packet]:
-    """What is left of a walk's packets when frames of either foot are missing for 0.1 to 0.6 s at random times,
-    `share` times a second in all."""
+    """Return a walk's packets without the frames of random gaps of 0.1 to 0.6 s, `share` gaps a second in all."""
     random = Random(seed)
     holes: dict[Site, list[tuple[float, float]]] = {LEFT: [], RIGHT: []}
     for _ in range(round(share * walk.truth.duration)):
-        begin = random.uniform(8.0, walk.truth.duration)
-        holes[random.choice((LEFT, RIGHT))].append((begin, begin + random.uniform(0.1, 0.6)))
+        start = random.uniform(8.0, walk.truth.duration)
+        holes[random.choice((LEFT, RIGHT))].append((start, start + random.uniform(0.1, 0.6)))
     return [
         packet
         for packet in walk.packets
@@ -223,15 +224,15 @@ def cut(walk: EmulatedWalk, seed: int, share: float) -> list[Packet]:
 @pytest.mark.parametrize("seed", SEEDS)
 def test_a_link_cut_nearly_once_a_second_loses_no_step_and_little_of_its_length(seed: int) -> None:
     walk = emulate(Route().stand(3.0).walk(60.0, 1.3).stop(2.0), seed=seed)
-    told, compared = heard(evolve(walk, packets=tuple(cut(walk, seed, 0.9))))
+    events, compared = compared_walk(evolve(walk, packets=tuple(cut(walk, seed, 0.9))))
     assert f1(compared) >= 0.98
-    assert of(SampleGap, told)
-    assert sum(step.degraded for step in of(StrideTaken, told)) > 20
+    assert of(SampleGap, events)
+    assert sum(step.degraded for step in of(StrideTaken, events)) > 20
     for one in compared.values():
         assert one.length_errors.mean <= 0.05
 
 
-def test_broken_cells_of_a_device_say_the_same_in_every_frame() -> None:
+def test_broken_cells_of_a_device_have_the_same_count_in_every_frame() -> None:
     route = Route().stand(1.0).walk(3.0, 1.2).stop(1.0)
     device = Insole(cells=24, broken=((2, 0), (9, 300)))
     walk = emulate(route, devices={LEFT: device}, radio=Radio(), seed=2)
@@ -270,7 +271,7 @@ def decoded(walk: EmulatedWalk) -> tuple[list[Sample], list[object]]:
         (CC2541(rate=20.0), 20.0),
     ],
 )
-def test_decoded_samples_have_the_true_rate_and_feel_the_true_motion(device: Device, rate: float) -> None:
+def test_decoded_samples_have_the_true_rate_and_the_true_motion(device: Device, rate: float) -> None:
     walk = emulate(DECODED, devices={Site.LEFT_FOOT: device}, radio=Radio(latency=0.001, jitter=0.002), seed=4)
     samples, _ = decoded(walk)
     t = np.array([s.t for s in samples])

@@ -83,7 +83,7 @@ def test_a_turn_on_the_spot_is_made_in_small_steps_around_the_body() -> None:
     assert all(step.length < 0.45 for step in steps)
 
 
-def test_walks_begin_and_end_with_half_steps() -> None:
+def test_walks_start_and_end_with_half_steps() -> None:
     for foot_first in Foot:
         walker = Walker(Route().stand(1).walk(12.0, 1.3).stop(1), Wearer(first=foot_first), seed=3)
         assert all_steps(walker)[0][1] is foot_first
@@ -102,8 +102,8 @@ def test_speed_is_step_length_times_cadence() -> None:
     assert 105 < Wearer().cadence(1.3) < 115
     walker = Walker(Route().stand(1).walk(60.0, 1.3).stop(1), seed=6)
     one, two = (walker.truth().steps(Foot.LEFT)[k] for k in (3, -3))
-    gone = walker.truth().pose(Foot.LEFT, [one.t_end, two.t_end]).position[:, 0]
-    assert (gone[1] - gone[0]) / (two.t_end - one.t_end) == pytest.approx(1.3, rel=0.02)
+    positions = walker.truth().pose(Foot.LEFT, [one.t_end, two.t_end]).position[:, 0]
+    assert (positions[1] - positions[0]) / (two.t_end - one.t_end) == pytest.approx(1.3, rel=0.02)
 
 
 def test_a_route_knows_its_length_and_its_halts() -> None:
@@ -118,7 +118,7 @@ def test_a_route_knows_its_length_and_its_halts() -> None:
 
 
 @pytest.mark.parametrize("bad", [0.0, -1.0, float("nan"), float("inf")])
-def test_nonsense_in_a_route_is_refused(bad: float) -> None:
+def test_invalid_values_in_a_route_are_rejected(bad: float) -> None:
     with pytest.raises(ValueError):
         Route().stand(bad)
     with pytest.raises(ValueError):

@@ -1,4 +1,4 @@
-"""The ways of published experiments: they close, marks lie under steps, and every step has its mode."""
+"""Routes of published experiments: they close, marks lie under steps, and every step has its mode."""
 
 from itertools import pairwise
 from math import hypot, pi
@@ -31,7 +31,7 @@ def laps() -> Walker:
 
 
 @pytest.mark.parametrize("route", [square(laps=2), corridor(), field_walk(120.0, 1.0), rectangle()])
-def test_rounds_end_where_they_began(route: Route) -> None:
+def test_laps_end_at_their_start(route: Route) -> None:
     end = route.end
     assert hypot(end.x, end.y) == pytest.approx(0.0, abs=1e-9)
     walker = Walker(route, seed=2)
@@ -54,15 +54,15 @@ def test_a_lap_of_the_square_has_forty_marks_for_each_foot(laps: Walker) -> None
 
 
 @pytest.mark.parametrize("mode", [None, WalkingMode.STRAIGHT, *RADII])
-def test_feet_come_down_on_their_marks_within_centimetres(laps: Walker, mode: WalkingMode | None) -> None:
+def test_feet_land_on_their_marks_within_centimetres(laps: Walker, mode: WalkingMode | None) -> None:
     walker = laps if mode is None else Walker(marked(mode), seed=5)
     found = marks(walker)
-    missed = []
+    errors = []
     for mark in found:
         stride = walker.plan.strides[mark.foot][mark.step - 1]
         assert mark.t == stride.foot_flat == walker.truth().steps(mark.foot)[mark.step - 1].t_end
-        missed.append(hypot(stride.end.x - mark.x, stride.end.y - mark.y))
-    assert max(missed) < 0.06 and np.sqrt(np.mean(np.square(missed))) == pytest.approx(0.0156, rel=0.3)
+        errors.append(hypot(stride.end.x - mark.x, stride.end.y - mark.y))
+    assert max(errors) < 0.06 and np.sqrt(np.mean(np.square(errors))) == pytest.approx(0.0156, rel=0.3)
     if mode is not None:
         assert len(found) == MARK_STEPS
         assert {mark.mode for mark in found} == {mode}
@@ -70,7 +70,7 @@ def test_feet_come_down_on_their_marks_within_centimetres(laps: Walker, mode: Wa
         assert np.mean(apart) == pytest.approx(MARKS_APART, abs=0.04)
 
 
-def test_steps_are_labelled_by_the_bend_they_come_down_in() -> None:
+def test_steps_are_labelled_by_the_bend_in_which_they_land() -> None:
     route = (
         Route().stand(1.0).walk(6.0, 1.1).turn(pi, 2.0).walk(4.0).turn(-pi / 2, 4.0).walk(4.0).turn(pi / 2).stop(1.0)
     )

@@ -1,4 +1,4 @@
-"""A lift's car keeps its limits, carries whoever stands in it, and makes them heavier and lighter meanwhile."""
+"""A lift's car keeps its limits, moves the wearer, and changes the load under the feet by its acceleration."""
 
 import numpy as np
 import pytest
@@ -30,17 +30,17 @@ lifts = st.builds(
 
 
 def moved(car: CarRide, t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Height, speed and acceleration without what shakes the car."""
-    still = CarRide(car.begin, car.end, car.height, car.knots, car.state, np.zeros((3, 1, 3)) + (0.0, 1.0, 0.0))
+    """Return height, speed and acceleration without the vibration of the car."""
+    still = CarRide(car.start, car.end, car.height, car.knots, car.state, np.zeros((3, 1, 3)) + (0.0, 1.0, 0.0))
     position, velocity, acceleration = still.at(t)
     return position[:, 2], velocity[:, 2], acceleration[:, 2]
 
 
 @settings(max_examples=30)
 @given(lifts)
-def test_whatever_its_limits_a_car_keeps_them_and_stops_at_its_floor(lift: Lift) -> None:
+def test_a_car_keeps_its_limits_and_stops_at_its_floor(lift: Lift) -> None:
     car = ride(lift, 3.0, np.random.default_rng(1))
-    t = np.linspace(car.begin - 1.0, car.end + 1.0, 4001)
+    t = np.linspace(car.start - 1.0, car.end + 1.0, 4001)
     height, speed, acceleration = moved(car, t)
     assert height[0] == 0.0 and height[-1] == lift.height
     before, _, _ = moved(car, np.array([car.end - 1e-9]))
@@ -64,37 +64,35 @@ def test_the_acceleration_of_a_lift_integrates_to_its_height(lift: Lift) -> None
 
 
 @pytest.mark.parametrize("foot", list(Foot))
-def test_the_wearer_is_carried_to_the_floor_and_stands_there(up_and_down: Walker, foot: Foot) -> None:
+def test_the_lift_moves_the_wearer_to_the_floor_and_stops_there(up_and_down: Walker, foot: Foot) -> None:
     truth = up_and_down.truth()
     assert [one.height for one in truth.rides] == [7.0, -3.5]
-    for begin, end in ((truth.rides[0], 7.0), (truth.rides[1], 3.5)):
-        t = np.array([begin.end + 0.5])
+    for start, end in ((truth.rides[0], 7.0), (truth.rides[1], 3.5)):
+        t = np.array([start.end + 0.5])
         assert truth.pose(foot, t).position[0, 2] == pytest.approx(end, abs=1e-9)
         assert np.linalg.norm(truth.pose(foot, t).velocity) == pytest.approx(0.0, abs=1e-9)
     assert truth.elevation(up_and_down.duration)[0] == pytest.approx(3.5)
 
 
-def test_a_foot_in_a_lift_feels_more_than_its_weight_first_on_the_way_up_and_less_on_the_way_down(
-    up_and_down: Walker,
-) -> None:
+def test_specific_force_in_a_lift_first_grows_on_the_way_up_and_falls_on_the_way_down(up_and_down: Walker) -> None:
     for one in up_and_down.truth().rides:
-        t = np.linspace(one.begin, one.end, 2000)
-        felt = np.linalg.norm(up_and_down.kinematics(Foot.LEFT, t, ON_INSTEP).force, axis=1) - GRAVITY
+        t = np.linspace(one.start, one.end, 2000)
+        net_force = np.linalg.norm(up_and_down.kinematics(Foot.LEFT, t, ON_INSTEP).force, axis=1) - GRAVITY
         sign = np.sign(one.height)
-        first, last = sign * felt[:600], sign * felt[-900:]
+        first, last = sign * net_force[:600], sign * net_force[-900:]
         assert first.max() > 0.6 and last.min() < -0.6
-        assert np.argmax(sign * felt) < np.argmin(sign * felt)
+        assert np.argmax(sign * net_force) < np.argmin(sign * net_force)
 
 
 def test_the_load_goes_with_the_acceleration_of_the_car(up_and_down: Walker) -> None:
     for car in up_and_down.plan.rides:
-        t = np.linspace(car.begin - 1.0, car.end + 1.0, 500)
+        t = np.linspace(car.start - 1.0, car.end + 1.0, 500)
         total = sum(up_and_down.loads.total(foot, t) for foot in Foot)
         assert total == pytest.approx(up_and_down.loads.weight * (1.0 + car.at(t)[2][:, 2] / GRAVITY))
         assert np.ptp(total) > 0.1 * up_and_down.loads.weight
 
 
-@pytest.mark.parametrize("asked", [{"height": 0.1}, {"height": 3.0, "speed": 0.0}, {"height": 3.0, "creep": 0.9}])
-def test_a_lift_that_does_not_move_is_refused(asked: dict[str, float]) -> None:
+@pytest.mark.parametrize("limits", [{"height": 0.1}, {"height": 3.0, "speed": 0.0}, {"height": 3.0, "creep": 0.9}])
+def test_a_lift_that_does_not_move_is_rejected(limits: dict[str, float]) -> None:
     with pytest.raises(ValueError, match="lift"):
-        Route().lift(**asked)
+        Route().lift(**limits)

@@ -1,4 +1,4 @@
-"""Pelvis, thighs and shanks go with the feet: joined at the joints, of constant length, without a jump."""
+"""Pelvis, thighs and shanks move with the feet: connected at the joints, of constant length, without a jump."""
 
 from math import pi, radians
 
@@ -10,7 +10,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.dot import Dot
 from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.sensors.parts import CRE_CC02, WORN_RESISTIVE
-from solepath.emulate.sensors.suit import limb_samples, strapped, suit
+from solepath.emulate.sensors.suit import limb_mounting, limb_samples, suit
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.curves import Array
 from solepath.emulate.wearers.gait import Wearer
@@ -77,7 +77,7 @@ def test_no_segment_jumps_or_spins(walker: Walker, body: Body, site: Site) -> No
 
 @pytest.mark.parametrize("site", ABOVE)
 def test_rates_and_forces_of_body_sensors_are_those_of_their_motion(walker: Walker, body: Body, site: Site) -> None:
-    mounting = strapped(site, walker.wearer.limbs, 4)
+    mounting = limb_mounting(site, walker.wearer.limbs, 4)
     t = np.arange(3.0, 6.0, 0.001)
     found = body.at(site, t, mounting)
     half = found.attitude[:-1]
@@ -86,8 +86,8 @@ def test_rates_and_forces_of_body_sensors_are_those_of_their_motion(walker: Walk
     assert 2.0 * turned[:, 1:] / 0.001 == pytest.approx(middle, abs=0.03)  # differences of 1 ms
     moved = found.position[-1] - found.position[0]
     assert np.trapezoid(found.velocity, t, axis=0) == pytest.approx(moved, abs=1e-4)
-    felt = np.einsum("nij,nj->ni", matrices(found.attitude), found.force) - (0.0, 0.0, GRAVITY)
-    assert np.trapezoid(felt, t, axis=0) == pytest.approx(found.velocity[-1] - found.velocity[0], abs=0.02)
+    acceleration = np.einsum("nij,nj->ni", matrices(found.attitude), found.force) - (0.0, 0.0, GRAVITY)
+    assert np.trapezoid(acceleration, t, axis=0) == pytest.approx(found.velocity[-1] - found.velocity[0], abs=0.02)
 
 
 def by_site(samples: list[Sample]) -> dict[Site, list[Sample]]:
@@ -113,8 +113,8 @@ def test_attitudes_are_off_by_the_paper_s_sensor_and_mountings_stay(walker: Walk
     off = [angle_between_quats(a.quat, b.quat) for site in Site for a, b in zip(exact[site], read[site], strict=True)]
     assert np.sqrt(np.mean(np.square(off))) == pytest.approx(radians(0.81) * np.sqrt(3.0), rel=0.5)
     for site in ABOVE:
-        mounting = strapped(site, walker.wearer.limbs, 7)
-        assert mounting == strapped(site, walker.wearer.limbs, 7) != strapped(site, walker.wearer.limbs, 8)
+        mounting = limb_mounting(site, walker.wearer.limbs, 7)
+        assert mounting == limb_mounting(site, walker.wearer.limbs, 7) != limb_mounting(site, walker.wearer.limbs, 8)
         t = np.array([sample.t for sample in exact[site]])
         turn = walker.body.segment(site, t)[1]
         expected = multiplied(quaternions(turn), np.array([mounting.attitude]))
@@ -129,8 +129,8 @@ def test_seven_devices_feed_their_decoders_with_attitudes_of_the_segments() -> N
     assert {packet.site for packet in walk.packets} == set(Site)
     for site in Site:
         decoder = Decoder(site)
-        told = [item for packet in walk.packets if packet.site is site for item in decoder.feed(packet)]
-        samples = [item for item in told + decoder.finish() if isinstance(item, Sample)]
+        outputs = [item for packet in walk.packets if packet.site is site for item in decoder.feed(packet)]
+        samples = [item for item in outputs + decoder.finish() if isinstance(item, Sample)]
         assert len(samples) == pytest.approx(walk.truth.duration * (60.0 if site.foot is None else 50.0), rel=0.03)
         t = np.array([sample.t for sample in samples]) - 0.002
         true = walk.walker.body.at(site, t, worn[site].mounting).attitude

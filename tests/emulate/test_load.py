@@ -1,4 +1,4 @@
-"""Body weight on the feet: how much, on which foot, under which part of the sole, and in a bend on its outside."""
+"""Body weight on the feet: its size, its share on each foot and each part of the sole, and its shift in a bend."""
 
 from math import copysign
 
@@ -31,13 +31,13 @@ def spans(walker: Walker, foot: Foot) -> list[tuple[float, float, float, float]]
     return [(a.heel_strike, a.foot_flat, b.heel_off, b.toe_off) for a, b in zip(strides, strides[1:], strict=False)]
 
 
-def test_standing_feet_carry_half_the_weight_each(walker: Walker) -> None:
+def test_standing_feet_bear_half_the_weight_each(walker: Walker) -> None:
     t = np.concatenate([np.linspace(0.1, 1.9, 20), walker.duration - np.linspace(0.1, 1.5, 20)])
     for foot in Foot:
         assert walker.loads.total(foot, t) == pytest.approx(0.5 * 75.0 * GRAVITY, rel=0.01)
 
 
-def test_both_feet_together_carry_the_weight_over_every_step(walker: Walker) -> None:
+def test_both_feet_together_bear_the_weight_over_every_step(walker: Walker) -> None:
     weight = 75.0 * GRAVITY
     together = walker.loads.total(Foot.LEFT, T) + walker.loads.total(Foot.RIGHT, T)
     assert together == pytest.approx(walker.loads.body(T), rel=1e-12)
@@ -59,7 +59,7 @@ def test_a_stance_has_two_humps_over_the_weight_and_a_trough_below(walker: Walke
 
 
 @pytest.mark.parametrize("foot", list(Foot))
-def test_the_load_tells_heel_strike_and_toe_off_within_a_sample(walker: Walker, foot: Foot) -> None:
+def test_the_load_shows_heel_strike_and_toe_off_within_a_sample(walker: Walker, foot: Foot) -> None:
     t = np.arange(0.0, walker.duration, 0.01)
     on = walker.loads.total(foot, t) > 20.0
     rises, falls = t[1:][on[1:] & ~on[:-1]], t[1:][~on[1:] & on[:-1]]
@@ -115,7 +115,7 @@ def test_a_layout_has_its_cells_on_the_sole_and_mirrored_for_the_other_foot(coun
     assert left.scale == SCALE
 
 
-def test_a_layout_of_too_many_or_too_few_cells_is_refused() -> None:
+def test_a_layout_of_too_many_or_too_few_cells_is_rejected() -> None:
     for count in (0, 7, 129):
         with pytest.raises(ValueError):
             layout(count, Foot.LEFT)
@@ -132,7 +132,7 @@ def bend(radius: float, speed: float = 1.1, wearer: Wearer | None = None) -> Wal
 
 
 def places(walker: Walker, cells: Layout) -> Array:
-    """Mean place of the load across a foot, of every stance in full walk, m to the left."""
+    """Return the mean lateral position of the load in every stance of a full walk, m to the left."""
     y = np.array([cell.y for cell in cells.cells])
     found = []
     strides = walker.plan.strides[cells.foot]
@@ -190,7 +190,7 @@ def test_a_heel_array_has_its_cells_under_the_heel_and_a_range_of_140_kilopascal
 
 
 @pytest.mark.parametrize("way", ["straight", "bend"])
-def test_a_heel_array_bears_what_lies_over_it_and_no_more(way: str) -> None:
+def test_a_heel_array_bears_only_the_load_above_it(way: str) -> None:
     walker = Walker(STRAIGHT, seed=3) if way == "straight" else bend(2.0)
     foot = Foot.LEFT
     t = np.arange(0.0, walker.duration, 0.01)
@@ -212,7 +212,7 @@ def test_the_contour_of_a_heel_shrinks_as_the_load_goes_forward() -> None:
     assert above[0] == 24 and above[-1] < 12 and (np.diff(above) <= 0).all()
 
 
-def test_an_insole_with_a_layout_says_it_in_its_info_and_is_worn_on_that_foot_alone() -> None:
+def test_an_insole_with_a_layout_reports_it_in_info_and_fits_only_that_foot() -> None:
     walk = emulate(STRAIGHT, devices={Site.LEFT_FOOT: boot(Foot.LEFT)}, seed=3)
     info = parse_info(next(p.data for p in walk.packets if p.channel == "insole/info"))
     assert info.pressure_scale == pytest.approx(heel_array(Foot.LEFT).scale, rel=1e-6)

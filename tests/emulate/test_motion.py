@@ -1,4 +1,4 @@
-"""The emulated foot obeys mechanics: what its sensors feel integrates to where it goes, and its rockers do not slip."""
+"""The emulated foot obeys mechanics: its sensor signals integrate to its track, and its rockers do not slip."""
 
 from math import radians, sqrt
 
@@ -65,7 +65,7 @@ def strapdown(walker: Walker, foot: Foot, mounting: Mounting, rate: float) -> tu
 
 @pytest.mark.parametrize("mounting", [IN_SOLE, ON_INSTEP, TILTED])
 @pytest.mark.parametrize("foot", list(Foot))
-def test_what_the_sensor_feels_integrates_to_where_it_goes(winding: Walker, foot: Foot, mounting: Mounting) -> None:
+def test_the_measured_motion_integrates_to_the_true_track(winding: Walker, foot: Foot, mounting: Mounting) -> None:
     t, found = strapdown(winding, foot, mounting, 1000.0)
     true = winding.kinematics(foot, t, mounting).position
     steps = winding.truth({foot: mounting}).steps(foot)
@@ -118,14 +118,14 @@ def test_the_shoe_rolls_without_slip_over_heel_and_forefoot(straight: Walker) ->
     motion = straight.motions[Foot.LEFT]
     for stride in straight.plan.strides[Foot.LEFT]:
         spans = ((stride.heel_off, stride.toe_off), (stride.heel_strike + IMPACT, stride.foot_flat))
-        for begin, end in spans:
-            t = np.linspace(begin + 1e-6, end - 1e-6, 25)
+        for start, end in spans:
+            t = np.linspace(start + 1e-6, end - 1e-6, 25)
             sensor = motion.at(t, IN_SOLE)
             touched = motion.contact(t)
             pitch = motion.pitch(t)
             # The same material point of the sole that touches the ground now, as if a sensor sat there.
             for k in range(len(t)):
-                arc = straight.wearer.shoe.heel if begin == spans[1][0] else straight.wearer.shoe.forefoot
+                arc = straight.wearer.shoe.heel if start == spans[1][0] else straight.wearer.shoe.forefoot
                 height = arc.radius * (1.0 - np.cos(pitch[k]))
                 point = motion.at(t[k : k + 1], Mounting((float(touched[k]), 0.0, float(height))))
                 assert point.position[0, 2] == pytest.approx(0.0, abs=1e-9)
@@ -189,13 +189,13 @@ ends = st.tuples(values, values, values)
 
 
 @given(ends, ends, st.floats(0.05, 2.0))
-def test_a_join_has_the_value_velocity_and_acceleration_asked_for_at_both_ends(
+def test_a_join_has_the_given_value_velocity_and_acceleration_at_both_ends(
     start: tuple[float, float, float], end: tuple[float, float, float], duration: float
 ) -> None:
     curve = join(start, end, duration)
-    for s, wanted in ((0.0, start), (1.0, end)):
+    for s, expected in ((0.0, start), (1.0, end)):
         found = [float(evaluate(curve, s, order)) / duration**order for order in range(3)]
-        assert found == pytest.approx(wanted, abs=1e-6, rel=1e-6)
+        assert found == pytest.approx(expected, abs=1e-6, rel=1e-6)
 
 
 @given(st.lists(values, min_size=DEGREE + 1, max_size=DEGREE + 1), st.floats(0.0, 1.0), st.floats(0.0, 1.0))
@@ -205,7 +205,7 @@ def test_a_part_of_a_curve_is_the_curve(factors: list[float], start: float, end:
 
 
 @pytest.mark.parametrize("shape", [BUMP, EVEN_OUT])
-def test_what_is_added_in_between_changes_nothing_at_the_ends(shape: np.ndarray) -> None:
+def test_added_shapes_change_nothing_at_the_ends(shape: np.ndarray) -> None:
     for s in (0.0, 1.0):
         assert [float(evaluate(shape, s, order)) for order in range(3)] == pytest.approx([0.0] * 3, abs=1e-9)
     assert float(evaluate(BUMP, 0.5)) == pytest.approx(1.0)

@@ -1,4 +1,4 @@
-"""Jogging: nobody stands between the steps, feet land harder, go faster and rise higher than in walking."""
+"""Jogging: both feet are in the air between the steps; feet land harder, are faster and rise higher than in walking."""
 
 from itertools import pairwise
 
@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from strides import in_order
 
 from solepath.emulate.routes.route import Route
-from solepath.emulate.routes.styles import Manner
+from solepath.emulate.routes.styles import StrideKind
 from solepath.emulate.wearers.gait import PlannedStride
 from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP
 from solepath.emulate.wearers.walker import Walker
@@ -23,7 +23,7 @@ def jogger() -> Walker:
 
 def run(walker: Walker, foot: Foot) -> list[PlannedStride]:
     """Strides at full speed."""
-    return [s for s in walker.plan.strides[foot] if s.manner is Manner.RUN and s.speed > 2.59]
+    return [s for s in walker.plan.strides[foot] if s.kind is StrideKind.RUN and s.speed > 2.59]
 
 
 def test_there_is_a_flight_between_the_steps_of_a_jogger(jogger: Walker) -> None:
@@ -31,7 +31,7 @@ def test_there_is_a_flight_between_the_steps_of_a_jogger(jogger: Walker) -> None
     flights = [
         one.heel_strike - two.toe_off
         for (_, one, _), (_, two, _) in pairwise(steps)
-        if one.manner is Manner.RUN and one.speed > 2.59
+        if one.kind is StrideKind.RUN and one.speed > 2.59
     ]
     assert len(flights) > 20
     assert min(flights) > 0.03 and max(flights) < 0.16
@@ -84,9 +84,9 @@ def test_each_foot_of_a_jogger_bears_twice_the_weight_and_in_flight_none_does(jo
 
 
 def test_a_jogger_walks_runs_and_walks_without_a_halt(jogger: Walker) -> None:
-    told = [what for _, _, what in jogger.truth().activities]
+    kinds = [what for _, _, what in jogger.truth().activities]
     walking, running, standing = Activity.WALKING, Activity.RUNNING, Activity.STANDING
-    assert told == [standing, walking, running, walking, standing]
+    assert kinds == [standing, walking, running, walking, standing]
     assert jogger.truth().pose(Foot.LEFT, jogger.duration).position[0, 0] == pytest.approx(40.0, abs=0.06)
 
 

@@ -1,4 +1,4 @@
-"""What parts make of a signal is what their data sheets say."""
+"""Emulated parts have the errors of their data sheets."""
 
 from math import pi, radians, sqrt
 
@@ -24,15 +24,15 @@ from solepath.emulate.sensors.parts import (
 )
 from solepath.emulate.sensors.sensors import (
     air_pressure,
-    attitude_read,
-    counted,
     errors,
     instants,
     low_pass,
     measure,
+    read_attitudes,
     read_barometer,
     read_cells,
     sample,
+    to_counts,
     wander,
 )
 from solepath.emulate.wearers.walker import Walker
@@ -81,11 +81,11 @@ def test_counts_are_rounded_and_stop_at_full_scale() -> None:
     when = instants(0.0, 0.01, 5)
     ramp = np.outer(np.ones(len(when.fine)), [1.26, -50.0, 39.9])
     eight = Triad(density=0.0, bias=0.0, wander=0.0, scale=0.0, cross=0.0, bandwidth=1e9, bits=8)
-    found = counted(measure(ramp, when, eight, np.random.default_rng(1)), eight, 0.25)
+    found = to_counts(measure(ramp, when, eight, np.random.default_rng(1)), eight, 0.25)
     assert found.counts.tolist() == [[5, -128, 127]] * 5
     assert found.saturated.all()
-    quiet = counted(measure(0.1 * ramp, when, eight, np.random.default_rng(1)), eight, 0.25)
-    assert not quiet.saturated.any()
+    unsaturated = to_counts(measure(0.1 * ramp, when, eight, np.random.default_rng(1)), eight, 0.25)
+    assert not unsaturated.saturated.any()
 
 
 def test_a_low_pass_keeps_what_is_slow_and_halves_the_power_at_its_corner() -> None:
@@ -96,7 +96,7 @@ def test_a_low_pass_keeps_what_is_slow_and_halves_the_power_at_its_corner() -> N
         assert passed.std() / wave.std() == pytest.approx(gain, abs=0.03)
 
 
-def test_samples_are_taken_where_the_clock_says() -> None:
+def test_samples_are_taken_at_the_times_of_the_clock() -> None:
     when = instants(0.0123, 0.031, 50)
     assert sample(when.fine[:, None], when)[:, 0] == pytest.approx(when.taken)
     assert when.rate >= 800.0
@@ -128,10 +128,10 @@ def test_cells_have_gain_preload_noise_and_an_end() -> None:
 
 
 @pytest.mark.parametrize("part", [INERTIACUBE3, CRE_CC02, MOVELLA_DOT])
-def test_an_attitude_is_off_by_what_its_sheet_says_slowly_and_from_the_start(part: AttitudePart) -> None:
+def test_an_attitude_has_the_slow_errors_of_its_sheet_from_the_start(part: AttitudePart) -> None:
     t = np.arange(0.0, 20.0, 0.1)
     true = np.tile((1.0, 0.0, 0.0, 0.0), (len(t), 1))
-    read = np.stack([attitude_read(true, t, part, 0.0, np.random.default_rng(k)) for k in range(300)])
+    read = np.stack([read_attitudes(true, t, part, 0.0, np.random.default_rng(k)) for k in range(300)])
     assert np.linalg.norm(read, axis=2) == pytest.approx(1.0)
     for moment in (0, -1):
         tilt, heading = 2.0 * read[:, moment, 1:3].std(), 2.0 * read[:, moment, 3].std()
@@ -142,12 +142,12 @@ def test_an_attitude_is_off_by_what_its_sheet_says_slowly_and_from_the_start(par
 def test_a_device_with_another_north_turns_the_world_about_the_vertical() -> None:
     part = AttitudePart("ideal", tilt=0.0, heading=0.0)
     true = np.array([[0.8, 0.6, 0.0, 0.0]])
-    w, x, y, z = attitude_read(true, np.zeros(1), part, 0.5, np.random.default_rng(1))[0].tolist()
+    w, x, y, z = read_attitudes(true, np.zeros(1), part, 0.5, np.random.default_rng(1))[0].tolist()
     assert (w, x, y, z) == pytest.approx(multiply(from_rotation_vector((0.0, 0.0, -0.5)), (0.8, 0.6, 0.0, 0.0)))
 
 
 @pytest.mark.parametrize("part", [BMP280, T5400])
-def test_a_barometer_tells_three_metres_by_36_pascal(part: BarometerPart) -> None:
+def test_three_metres_change_a_barometer_by_36_pascal(part: BarometerPart) -> None:
     assert air_pressure(np.array([0.0]))[0] == 101325.0
     t = np.arange(0.0, 60.0, 1.0)
     low, high = (read_barometer(np.full(60, h), t, part, np.random.default_rng(4)) for h in (0.0, 3.0))

@@ -1,4 +1,4 @@
-"""Stairs foot over foot: the feet stand on treads, clear the edges, and climb exactly what the flight does."""
+"""Stairs foot over foot: the feet stand on treads, clear the edges, and rise exactly by the height of the flight."""
 
 from math import radians
 
@@ -10,7 +10,7 @@ from strides import in_order
 
 from solepath.emulate.routes.path import Flight
 from solepath.emulate.routes.route import Route
-from solepath.emulate.routes.styles import Manner
+from solepath.emulate.routes.styles import StrideKind
 from solepath.emulate.sensors.sensortags import CC2541, CC2650
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.gait import SUBJECTS, PlannedStride, Wearer
@@ -33,7 +33,7 @@ def climbing(walker: Walker, foot: Foot) -> list[PlannedStride]:
 
 
 def room_below(walker: Walker, foot: Foot, flight: Flight, t: np.ndarray) -> np.ndarray:
-    """m from the sole to the nearest tread or edge below it: the sole is the hull of its two arcs."""
+    """Return the distance from the sole to the nearest tread or edge below it, m; the sole is the hull of its arcs."""
     shoe, motion = walker.wearer.shoe, walker.motions[foot]
     room = np.full(len(t), np.inf)
     for share in np.linspace(0.0, 1.0, 9):
@@ -81,7 +81,7 @@ flights = st.tuples(st.integers(1, 6), st.booleans(), st.floats(0.12, 0.2), st.f
 
 @settings(max_examples=25)
 @given(flights, st.sampled_from([Wearer(), *SUBJECTS]), st.integers(0, 2**16))
-def test_whoever_walks_whatever_flight_keeps_clear_of_its_edges_and_ends_level(
+def test_every_walker_on_every_flight_clears_its_edges_and_ends_level(
     flight: tuple[int, bool, float, float, float], wearer: Wearer, seed: int
 ) -> None:
     steps, up, rise, going, speed = flight
@@ -107,26 +107,26 @@ def test_a_foot_in_stationary_is_still_at_the_height_of_its_tread(storey: Walker
             assert np.linalg.norm(found.velocity) < 1e-2
 
 
-def test_the_load_of_a_descending_foot_begins_under_the_forefoot(storey: Walker) -> None:
-    stride = next(s for s in climbing(storey, Foot.LEFT) if s.manner is Manner.DOWN and s.number > 20)
+def test_the_load_of_a_descending_foot_starts_under_the_forefoot(storey: Walker) -> None:
+    stride = next(s for s in climbing(storey, Foot.LEFT) if s.kind is StrideKind.DOWN and s.number > 20)
     heel, _, front, toes = storey.loads.shares(Foot.LEFT, np.array([stride.heel_strike + 0.01]))
     assert front[0] + toes[0] > 0.6 > heel[0] + 0.3
 
 
-def test_stairs_are_told_as_such_from_the_first_foot_up_to_both_feet_above(storey: Walker) -> None:
+def test_stairs_last_from_the_first_foot_up_to_both_feet_above(storey: Walker) -> None:
     truth = storey.truth()
-    told = [what for _, _, what in truth.activities]
+    kinds = [what for _, _, what in truth.activities]
     up, down = Activity.STAIRS_UP, Activity.STAIRS_DOWN
-    assert [what for what in told if what in (up, down)] == [up, up, down, down]
+    assert [what for what in kinds if what in (up, down)] == [up, up, down, down]
     for flight in truth.flights:
-        before, after = truth.elevation(np.array([flight.begin, flight.end]))
+        before, after = truth.elevation(np.array([flight.start, flight.end]))
         assert after - before == pytest.approx(flight.height, abs=1e-9)
-        assert truth.activity(flight.begin + 0.1) is (up if flight.up else down)
+        assert truth.activity(flight.start + 0.1) is (up if flight.up else down)
 
 
 @pytest.mark.parametrize("device", [CC2650(), CC2541(rate=20.0)])
 def test_the_barometer_of_a_tag_follows_the_stairs(device: CC2650 | CC2541) -> None:
-    """12 Pa a metre: 4.8 m of stairs are 57 Pa, beyond a barometer's noise and its wander."""
+    """At 12 Pa a metre 4.8 m of stairs are 57 Pa, more than a barometer's noise and variation."""
     route = Route().stand(4.0).walk(2.0).stairs(15).walk(1.5).stairs(15).walk(2.0).stop(4.0)
     walk = emulate(route, devices={SITE_OF_FOOT[foot]: device for foot in Foot}, seed=6)
     for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT):
@@ -139,11 +139,11 @@ def test_the_barometer_of_a_tag_follows_the_stairs(device: CC2650 | CC2541) -> N
 
 
 @pytest.mark.parametrize(("steps", "rise", "going"), [(0, 0.16, 0.3), (4, 0.0, 0.3), (4, 0.4, 0.3), (4, 0.16, 0.2)])
-def test_stairs_nobody_could_walk_are_refused(steps: int, rise: float, going: float) -> None:
+def test_impossible_stairs_are_rejected(steps: int, rise: float, going: float) -> None:
     with pytest.raises(ValueError, match="stairs"):
         Route().stairs(steps, rise=rise, going=going)
 
 
-def test_two_flights_without_a_landing_are_refused() -> None:
+def test_two_flights_without_a_landing_are_rejected() -> None:
     with pytest.raises(ValueError, match="landing"):
         Route().stairs(4).stairs(4)

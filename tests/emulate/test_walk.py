@@ -1,4 +1,4 @@
-"""Emulated devices send real bytes of what truly happened, and the radio does to them what it was asked to."""
+"""Emulated devices send real bytes of the true motion, and the radio loses and damages the set shares of them."""
 
 from collections import Counter
 from itertools import pairwise
@@ -36,7 +36,7 @@ IDEAL_CELL = CellPart("ideal", gain=0.0, preload=0.0, noise=0.0, lag=1e-6)
 PROMPT = Radio(latency=0.0, jitter=0.0)
 
 
-def said_by_tag(packet: Packet) -> Any:
+def parsed(packet: Packet) -> Any:
     return parse_whole({**cc2650.FORMATS, **cc2541.FORMATS}[packet.channel], packet.data)
 
 
@@ -96,7 +96,7 @@ def test_an_ideal_insole_reports_the_truth_to_the_count(mounting: Mounting) -> N
     assert still > 40
 
 
-def test_what_an_insole_sends_sums_up_to_the_load() -> None:
+def test_the_counts_of_an_insole_sum_up_to_the_load() -> None:
     device = Insole(cells=99, cell_part=IDEAL_CELL, ppm=0.0)
     walk = emulate(SHORT, devices={Site.RIGHT_FOOT: device}, radio=PROMPT, seed=2)
     info = parse_info(next(p.data for p in walk.packets if p.channel == "insole/info"))
@@ -117,11 +117,11 @@ def test_a_sampled_walk_has_what_a_perfect_link_makes_of_the_packets() -> None:
     for site in insoles:
         decoder = Decoder(site)
         packets = emulate(SHORT, devices=insoles, radio=PROMPT, seed=4).packets
-        heard = [item for packet in packets if packet.site is site for item in decoder.feed(packet)]
-        heard = [item for item in heard + decoder.finish() if isinstance(item, Sample)]
+        decoded = [item for packet in packets if packet.site is site for item in decoder.feed(packet)]
+        decoded = [item for item in decoded + decoder.finish() if isinstance(item, Sample)]
         own = [s for s in found.samples if s.site is site]
-        assert len(own) == len(heard)
-        for one, other in zip(own, heard, strict=True):
+        assert len(own) == len(decoded)
+        for one, other in zip(own, decoded, strict=True):
             assert one.t == pytest.approx(other.t, abs=2e-3)
             assert one.acc == pytest.approx(other.acc) and one.gyro == pytest.approx(other.gyro)
             assert one.pressure == pytest.approx(other.pressure) and one.saturated is other.saturated
@@ -153,18 +153,18 @@ def test_frames_too_long_for_the_link_come_in_fragments() -> None:
     ],
     ids=["insole", "cc2650", "cc2541", "cc2541 at 20 Hz"],
 )
-def test_a_recording_begins_with_all_that_was_read_and_written(device: Device, profile: Profile) -> None:
+def test_a_recording_starts_with_all_reads_and_writes(device: Device, profile: Profile) -> None:
     walk = emulate(SHORT, devices={Site.LEFT_FOOT: device}, seed=2)
-    said = [(p.channel, p.data) for p in walk.packets if p.t < SETUP]
+    setup = [(p.channel, p.data) for p in walk.packets if p.t < SETUP]
     expected: list[str] = [*profile.reads]
     for write in profile.setup:
         expected += [write.channel, *write.then_read]
-    assert [channel for channel, _ in said] == expected
+    assert [channel for channel, _ in setup] == expected
     read = {channel.name for channel in profile.channels if channel.access is not Access.WRITE}
-    assert [(c, data) for c, data in said if c not in read] == [(w.channel, w.value) for w in profile.setup]
+    assert [(c, data) for c, data in setup if c not in read] == [(w.channel, w.value) for w in profile.setup]
 
 
-def test_a_device_that_is_set_otherwise_says_so() -> None:
+def test_a_device_reports_other_settings() -> None:
     def value(device: Device, channel: str) -> bytes:
         walk = emulate(SHORT, devices={Site.LEFT_FOOT: device}, seed=2)
         return next(p.data for p in walk.packets if p.channel == channel)
@@ -185,10 +185,10 @@ def test_a_cc2541_sends_each_sensor_at_its_own_time(rate: float) -> None:
         assert np.diff(found) == pytest.approx(1.0 / rate, rel=1e-3)
     apart = (times["gyroscope"][0] - times["accelerometer"][0]) % (1.0 / rate)
     assert 0.0 < apart < 1.0 / rate
-    values = [said_by_tag(p).acc for p in walk.packets if p.channel == "cc2541/accelerometer"]
+    values = [parsed(p).acc for p in walk.packets if p.channel == "cc2541/accelerometer"]
     rest = np.array(values[: int(0.8 * rate)]) * GRAVITY / 16
     assert np.linalg.norm(rest, axis=1) == pytest.approx(GRAVITY, rel=0.25)
-    turns = [said_by_tag(p).gyro for p in walk.packets if p.channel == "cc2541/gyroscope"]
+    turns = [parsed(p).gyro for p in walk.packets if p.channel == "cc2541/gyroscope"]
     assert np.abs(turns).max() * TAG_GYRO_COUNT > radians(150)
 
 
@@ -200,7 +200,7 @@ def test_the_raw_air_of_a_t5400_gives_the_pressure_back() -> None:
         assert T5400_CALIBRATION.celsius(raw["temperature"]) == pytest.approx(24.0, abs=0.1)
 
 
-def test_a_device_above_the_ankle_is_refused() -> None:
+def test_a_device_above_the_ankle_is_rejected() -> None:
     with pytest.raises(ValueError):
         emulate(SHORT, devices={Site.PELVIS: CC2650()})
 
@@ -208,30 +208,30 @@ def test_a_device_above_the_ankle_is_refused() -> None:
 SENT = [Notification(0.01 * k, "insole/frame", bytes([k % 256]) * 20) for k in range(20000)]
 
 
-def carried(radio: Radio, seed: int = 1) -> list[Packet]:
-    return radio.carry(SENT, Site.LEFT_FOOT, np.random.default_rng(seed))
+def transmitted(radio: Radio, seed: int = 1) -> list[Packet]:
+    return radio.transmit(SENT, Site.LEFT_FOOT, np.random.default_rng(seed))
 
 
-def test_so_much_is_lost_as_was_asked() -> None:
-    assert len(carried(Radio(loss=0.05))) / len(SENT) == pytest.approx(0.95, abs=0.006)
-    assert carried(Radio(loss=1.0)) == []
-    assert [p.data for p in carried(Radio())] == [n.data for n in SENT]
+def test_the_set_share_is_lost() -> None:
+    assert len(transmitted(Radio(loss=0.05))) / len(SENT) == pytest.approx(0.95, abs=0.006)
+    assert transmitted(Radio(loss=1.0)) == []
+    assert [p.data for p in transmitted(Radio())] == [n.data for n in SENT]
 
 
-def test_so_much_comes_twice_or_damaged_or_cut_as_was_asked() -> None:
-    assert len(carried(Radio(duplicate=0.04))) / len(SENT) == pytest.approx(1.04, abs=0.006)
-    damaged = carried(Radio(corrupt=0.03))
+def test_the_set_shares_are_duplicated_damaged_and_cut() -> None:
+    assert len(transmitted(Radio(duplicate=0.04))) / len(SENT) == pytest.approx(1.04, abs=0.006)
+    damaged = transmitted(Radio(corrupt=0.03))
     changed = [(n.data, p.data) for n, p in zip(SENT, damaged, strict=True) if n.data != p.data]
     assert len(changed) / len(SENT) == pytest.approx(0.03, abs=0.006)
     for was, now in changed:
         bits = sum((a ^ b).bit_count() for a, b in zip(was, now, strict=True))
         assert len(was) == len(now) and 1 <= bits <= 3
-    cut = [p for p in carried(Radio(truncate=0.02)) if len(p.data) < 20]
+    cut = [p for p in transmitted(Radio(truncate=0.02)) if len(p.data) < 20]
     assert len(cut) / len(SENT) == pytest.approx(0.02, abs=0.005)
 
 
 def test_packets_are_late_by_latency_and_jitter_and_never_overtake() -> None:
-    found = carried(Radio(latency=0.01, jitter=0.05))
+    found = transmitted(Radio(latency=0.01, jitter=0.05))
     late = np.array([p.t for p in found]) - np.array([n.t for n in SENT])
     assert late.min() >= 0.01 and late.max() <= 0.0601
     assert late.min() < 0.013 and late.max() > 0.059
@@ -239,7 +239,7 @@ def test_packets_are_late_by_latency_and_jitter_and_never_overtake() -> None:
 
 
 def test_without_order_packets_overtake() -> None:
-    found = carried(Radio(jitter=0.05, in_order=False))
+    found = transmitted(Radio(jitter=0.05, in_order=False))
     assert all(a.t <= b.t for a, b in pairwise(found))
     order = [p.data[0] for p in found]
     assert order != [n.data[0] for n in SENT]
@@ -247,19 +247,19 @@ def test_without_order_packets_overtake() -> None:
 
 
 def test_connection_events_deliver_in_bunches() -> None:
-    found = carried(Radio(interval=0.03, latency=0.0, jitter=0.0))
+    found = transmitted(Radio(interval=0.03, latency=0.0, jitter=0.0))
     moments = sorted({p.t for p in found})
     assert np.diff(moments) == pytest.approx(0.03)
     assert len(moments) == pytest.approx(ceil(len(SENT) / 3), abs=2)
 
 
-def test_what_was_read_or_written_always_gets_through() -> None:
+def test_read_and_written_values_always_arrive() -> None:
     setup = [Notification(0.01 * k, "insole/info", b"info", acknowledged=True) for k in range(50)]
-    found = Radio(loss=1.0, corrupt=1.0, truncate=1.0).carry(setup, Site.LEFT_FOOT, np.random.default_rng(1))
+    found = Radio(loss=1.0, corrupt=1.0, truncate=1.0).transmit(setup, Site.LEFT_FOOT, np.random.default_rng(1))
     assert [p.data for p in found] == [b"info"] * 50
 
 
 @pytest.mark.parametrize("bad", [-0.1, 1.1, float("nan")])
-def test_a_share_that_is_none_is_refused(bad: float) -> None:
+def test_an_invalid_share_is_rejected(bad: float) -> None:
     with pytest.raises(ValueError):
         Radio(loss=bad)

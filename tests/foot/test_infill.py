@@ -12,7 +12,7 @@ from walks import of
 
 from solepath import Event, Foot, FootFlat, HeelOff, HeelStrike, Sample, SampleGap, StrideTaken, ToeOff
 from solepath.emulate.routes.route import Route
-from solepath.emulate.wearers.truth import TrueStep
+from solepath.emulate.wearers.truth import TrueStride
 from solepath.foot.gaps.straight import StraightOn
 
 GENTLE = {
@@ -160,7 +160,7 @@ def turned(events: list[Event]) -> float:
     return float(sum(step.heading_change for step in of(StrideTaken, events)))
 
 
-def gapped(samples: tuple[Sample, ...], steps: tuple[TrueStep, ...], duration: float, every: int) -> list[Sample]:
+def gapped(samples: tuple[Sample, ...], steps: tuple[TrueStride, ...], duration: float, every: int) -> list[Sample]:
     """Return the samples with a gap in each `every`-th swing from the fourth on, each in another part of it."""
     gaps = []
     for k, step in enumerate(steps):

@@ -119,7 +119,7 @@ def walked(worn: Worn, route: Route, radio: Radio, seed: int = 7) -> tuple[Packe
     both = [
         packet
         for foot in Foot
-        for packet in radio.carry(
+        for packet in radio.transmit(
             sent(worn, walker, foot), SITE_OF_FOOT[foot], np.random.default_rng([seed, list(Foot).index(foot)])
         )
     ]

@@ -7,7 +7,7 @@ from functools import cache
 from solepath import Cell, Event, Foot, FootFlat, HeelOff, HeelStrike, Layout, Sample, Session, ToeOff
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import LSM6DSOX
-from solepath.emulate.wearers.truth import TrueStep
+from solepath.emulate.wearers.truth import TrueStride
 from solepath.emulate.wearers.walker import Walker
 
 PHASES = HeelStrike | FootFlat | HeelOff | ToeOff
@@ -24,7 +24,7 @@ def above(*loads: float) -> tuple[float, ...]:
 
 
 @cache
-def walked(route: Route = STRAIGHT, seed: int = 5) -> tuple[tuple[Sample, ...], tuple[TrueStep, ...]]:
+def walked(route: Route = STRAIGHT, seed: int = 5) -> tuple[tuple[Sample, ...], tuple[TrueStride, ...]]:
     """The left foot at 100 Hz without cells, and its true steps."""
     walker = Walker(route, seed=seed)
     return tuple(walker.samples(Foot.LEFT, 100.0, LSM6DSOX)), walker.truth().steps(Foot.LEFT)

@@ -1,4 +1,4 @@
-"""Devices on the virtual air, reached by plain bleak: what they advertise, their attributes, their notifications."""
+"""Devices on the virtual radio, reached by plain bleak: advertisements, attributes and notifications."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from solepath.emulate.controllers.server import virtual_air
 
 
 @virtually
-async def test_a_scan_hears_names_services_and_addresses_of_all_who_advertise() -> None:
+async def test_a_scan_finds_names_services_and_addresses_of_all_advertisers() -> None:
     async with virtual_air([strap(), strap("two", TWO, advertised=[HEART_RATE, LOG])]) as backend:
-        heard = await BleakScanner.discover(1.0, return_adv=True, backend=backend.scanner)
-        assert {address: said.local_name for address, (_, said) in heard.items()} == {ONE: "one", TWO: "two"}
-        assert heard[ONE][1].service_uuids == [HEART_RATE]
-        assert set(heard[TWO][1].service_uuids) == {HEART_RATE, LOG}
+        received = await BleakScanner.discover(1.0, return_adv=True, backend=backend.scanner)
+        assert {address: data.local_name for address, (_, data) in received.items()} == {ONE: "one", TWO: "two"}
+        assert received[ONE][1].service_uuids == [HEART_RATE]
+        assert set(received[TWO][1].service_uuids) == {HEART_RATE, LOG}
         only = await BleakScanner.discover(1.0, service_uuids=[LOG], backend=backend.scanner)
         assert [device.address for device in only] == [TWO]
 
@@ -31,10 +31,10 @@ async def test_a_scan_hears_names_services_and_addresses_of_all_who_advertise() 
 def test_an_advertisement_is_legal_with_and_without_room_for_flags(services: list[str]) -> None:
     flags = b"\x02\x01\x06"
     for size in range(1, 30):
-        said = advertisement("n" * size, services)
-        bare = said.removeprefix(flags)
+        data = advertisement("n" * size, services)
+        bare = data.removeprefix(flags)
         assert bare.endswith(bytes([size + 1, 0x09]) + b"n" * size)
-        assert (bare != said) == (len(flags + bare) <= 31), "flags wherever there is room"
+        assert (bare != data) == (len(flags + bare) <= 31), "flags wherever there is room"
 
 
 @virtually
@@ -56,7 +56,7 @@ async def test_discovery_shows_the_services_characteristics_and_descriptors_of_t
 
 @pytest.mark.parametrize(("of_device", "of_host", "agreed"), [(247, 185, 185), (185, 247, 185), (23, 247, 23)])
 @virtually
-async def test_the_smaller_mtu_holds_and_a_longer_notification_is_cut_without_a_word(
+async def test_the_smaller_mtu_holds_and_a_longer_notification_is_cut_without_an_error(
     of_device: int, of_host: int, agreed: int
 ) -> None:
     device = strap(mtu=of_device)
@@ -66,8 +66,8 @@ async def test_the_smaller_mtu_holds_and_a_longer_notification_is_cut_without_a_
         assert await host.client.read_gatt_char(PAGE) == BOOK
         await host.count(50)
         await asyncio.sleep(1.0)
-        assert len(host.heard) >= 50
-        assert {len(value) for _, value in host.heard} == {agreed - 3}
+        assert len(host.received) >= 50
+        assert {len(value) for _, value in host.received} == {agreed - 3}
 
 
 @virtually
@@ -77,17 +77,17 @@ async def test_the_device_obeys_writes_with_and_without_response() -> None:
         await host.count(10)
         assert await host.client.read_gatt_char(CONTROL) == b"\x0a"
         await asyncio.sleep(10.0)
-        assert len(host.heard) in (100, 101)
+        assert len(host.received) in (100, 101)
         await host.client.write_gatt_char(CONTROL, b"\x00", response=False)
         await asyncio.sleep(10.0)
-        assert len(host.heard) in (100, 101)
+        assert len(host.received) in (100, 101)
         assert device.rate == 0
         with pytest.raises(BleakError, match="do not fit"):
             await host.client.write_gatt_char(CONTROL, bytes(245), response=False)
 
 
 @virtually
-async def test_notifications_stop_when_they_are_no_longer_wanted() -> None:
+async def test_notifications_stop_after_unsubscribing() -> None:
     async with linked(strap()) as (host, _):
         await host.count(10)
         with pytest.raises(BleakError):
@@ -96,16 +96,16 @@ async def test_notifications_stop_when_they_are_no_longer_wanted() -> None:
             await host.client.start_notify(LEVEL, lambda *_: None)
         await asyncio.sleep(2.0)
         await host.client.stop_notify(BEAT)
-        heard = len(host.heard)
+        received = len(host.received)
         await asyncio.sleep(2.0)
-        assert len(host.heard) == heard >= 20
-        await host.client.start_notify(BEAT, lambda _, value: host.heard.append((now(), bytes(value))))
+        assert len(host.received) == received >= 20
+        await host.client.start_notify(BEAT, lambda _, value: host.received.append((now(), bytes(value))))
         await asyncio.sleep(2.0)
-        assert len(host.heard) >= heard + 20
+        assert len(host.received) >= received + 20
 
 
 @virtually
-async def test_a_refusal_is_an_att_error_and_the_link_goes_on() -> None:
+async def test_a_rejected_request_is_an_att_error_and_the_link_stays_up() -> None:
     async with linked(strap(faults="0 * refuse strap/control 2")) as (host, _):
         codes = []
         requests: list[Callable[[], Awaitable[object]]] = [
@@ -116,9 +116,9 @@ async def test_a_refusal_is_an_att_error_and_the_link_goes_on() -> None:
             lambda: host.client.read_gatt_char(BEAT),
         ]
         for request in requests:
-            with pytest.raises(BleakGATTProtocolError) as refused:
+            with pytest.raises(BleakGATTProtocolError) as rejected:
                 await request()
-            codes.append(int(refused.value.code))
+            codes.append(int(rejected.value.code))
         assert codes == [0x80, 0x80, 0x0D, 0x03, 0x02]
         assert await host.client.read_gatt_char(LEVEL) == b"\x57"
         assert not host.lost
@@ -137,31 +137,31 @@ async def test_an_error_of_the_apps_callback_is_reported_and_the_next_notificati
 
 
 @virtually
-async def test_a_link_with_an_interval_says_everything_at_its_events_in_order() -> None:
+async def test_a_link_with_an_interval_sends_everything_at_its_events_in_order() -> None:
     interval = 0.03
     async with virtual_air([strap()], interval=interval) as backend:
         host = Host(backend, await find(backend))
         async with host.client:
             for _ in range(5):
-                begun = now()
+                t_start = now()
                 assert await host.client.read_gatt_char(LEVEL) == b"\x57"
-                assert interval < now() - begun < 2.1 * interval  # goes at the next event, is answered at the one after
+                assert interval < now() - t_start < 2.1 * interval  # request and answer at two events
                 await asyncio.sleep(0.011)
             await host.count(100)
             await asyncio.sleep(9.0)
-            assert len(host.heard) in range(890, 901)
-            assert host.numbers == list(range(host.numbers[0], host.numbers[0] + len(host.heard)))
-            first = host.heard[0][0]
-            for (t, _), number in zip(host.heard, host.numbers, strict=True):
+            assert len(host.received) in range(890, 901)
+            assert host.numbers == list(range(host.numbers[0], host.numbers[0] + len(host.received)))
+            first = host.received[0][0]
+            for (t, _), number in zip(host.received, host.numbers, strict=True):
                 assert (t - first) / interval == pytest.approx(round((t - first) / interval), abs=1e-3)
                 assert -1e-3 < t - number / 100 < interval + 1e-3
             await host.client.write_gatt_char(CONTROL, b"\x00", response=False)
-        # what was said before the link ended was heard
+        # packets that were sent before the link ended have arrived
         assert len(host.lost) == 1
-        heard = len(host.heard)
+        received = len(host.received)
         async with host.client:
             assert await host.client.read_gatt_char(CONTROL) == b"\0"
-            assert len(host.heard) == heard
+            assert len(host.received) == received
 
 
 @pytest.mark.parametrize("at", [1.15, 1.2, 1.25, 1.3, 1.4])

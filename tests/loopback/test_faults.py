@@ -1,15 +1,15 @@
-"""What a fault script says, and what it does to an emulated device."""
+"""Fault scripts: their syntax, and their effect on an emulated device."""
 
 from __future__ import annotations
 
 from math import inf
 
 import pytest
-from benches import LEFT, RIGHT, Heard, played, refusal, set_up, worn
+from benches import LEFT, RIGHT, Received, error_code, played, set_up, worn
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.emulate.devices.faults import Fault, What, parse_faults
+from solepath.emulate.devices.faults import Fault, FaultKind, parse_faults
 from solepath.emulate.devices.peripheral import Peripheral
 from solepath.emulate.sensors.sensortags import CC2650
 from solepath.link.devices import cc2650
@@ -21,7 +21,7 @@ def tag(faults: str = "") -> Peripheral:
     return set_up(worn(CC2650(), faults=faults), cc2650.PROFILE)
 
 
-def movements(device: Peripheral, until: float) -> Heard:
+def movements(device: Peripheral, until: float) -> Received:
     return played(device, until, MOVEMENT)
 
 
@@ -40,15 +40,15 @@ def test_a_script_is_read_line_by_line_in_its_order() -> None:
     0 left_foot pairing; 3 left_foot refuse pairing
     """
     assert parse_faults(script) == (
-        Fault(12.5, LEFT, What.DISCONNECT),
-        Fault(20.0, RIGHT, What.VANISH, 60.0),
-        Fault(5.0, None, What.DROP, 3.0),
-        Fault(15.0, LEFT, What.FREEZE, inf),
-        Fault(0.0, LEFT, What.MTU, 23.0),
-        Fault(0.0, LEFT, What.REFUSE, 2.0, "cc2650/movement-config"),
-        Fault(0.0, None, What.NAME, 1.0, "Sensor #2 Tag"),
-        Fault(0.0, LEFT, What.PAIRING),
-        Fault(3.0, LEFT, What.REFUSE, 1.0, "pairing"),
+        Fault(12.5, LEFT, FaultKind.DISCONNECT),
+        Fault(20.0, RIGHT, FaultKind.VANISH, 60.0),
+        Fault(5.0, None, FaultKind.DROP, 3.0),
+        Fault(15.0, LEFT, FaultKind.FREEZE, inf),
+        Fault(0.0, LEFT, FaultKind.MTU, 23.0),
+        Fault(0.0, LEFT, FaultKind.REJECT, 2.0, "cc2650/movement-config"),
+        Fault(0.0, None, FaultKind.NAME, 1.0, "Sensor #2 Tag"),
+        Fault(0.0, LEFT, FaultKind.PAIRING),
+        Fault(3.0, LEFT, FaultKind.REJECT, 1.0, "pairing"),
     )
     assert parse_faults("") == parse_faults("# nothing\n\n;") == ()
 
@@ -119,12 +119,12 @@ def test_a_loss_while_there_is_no_link_ends_no_later_one() -> None:
 
 
 def test_a_frozen_stream_thaws_by_itself_or_when_it_is_set_up_again() -> None:
-    heard = movements(tag("2 left_foot freeze 3"), 9.0)
-    assert max(b - a for (a, _), (b, _) in zip(heard, heard[1:], strict=False)) == pytest.approx(3.1, abs=0.11)
+    received = movements(tag("2 left_foot freeze 3"), 9.0)
+    assert max(b - a for (a, _), (b, _) in zip(received, received[1:], strict=False)) == pytest.approx(3.1, abs=0.11)
     device = tag("2 left_foot freeze")
     assert all(t <= 2.1 for t, _ in movements(device, 9.0))
     assert device.is_connected
-    assert refusal(device, "cc2650/movement-config", b"\x7f", 9.0), "what is refused thaws nothing"
+    assert error_code(device, "cc2650/movement-config", b"\x7f", 9.0), "what is refused thaws nothing"
     assert not movements(device, 10.0)
     device.write("cc2650/movement-config", b"\x7f\x02", 10.0)
     assert len(movements(device, 12.0)) == pytest.approx(20, abs=1)
@@ -139,25 +139,25 @@ def test_a_name_may_be_another_one() -> None:
 
 
 def test_seconds_count_from_the_walks_beginning() -> None:
-    device = worn(CC2650(), faults="2 left_foot disconnect", began=100.0)
+    device = worn(CC2650(), faults="2 left_foot disconnect", started_at=100.0)
     set_up(device, cc2650.PROFILE, now=90.0)
     assert played(device, 200.0)[-1][0] == pytest.approx(102.0, abs=0.11)
 
 
-def test_a_walk_that_begins_anew_has_the_faults_of_its_script_again() -> None:
+def test_a_restarted_walk_has_the_faults_of_its_script_again() -> None:
     device = tag("1 left_foot drop 3; 2 left_foot disconnect")
     assert sum(t < 2.0 for t, _ in movements(device, 5.0)) > 5
-    assert device.suffered == 2 and not device.is_connected
+    assert device.fault_count == 2 and not device.is_connected
     device.walk_from(10.0)
-    assert device.suffered == 0
+    assert device.fault_count == 0
     set_up(device, cc2650.PROFILE, now=9.0)
     again = movements(device, 20.0)
-    assert device.suffered == 2 and not device.is_connected
+    assert device.fault_count == 2 and not device.is_connected
     assert max(t for t, _ in again) < 12.0
     assert max(b - a for (a, _), (b, _) in zip(again, again[1:], strict=False)) > 0.35, "three were dropped again"
 
 
-def test_what_was_to_last_in_an_earlier_walk_does_not_last_in_the_next() -> None:
+def test_lasting_faults_of_an_earlier_walk_end_with_it() -> None:
     device = tag("1 left_foot vanish 1000; 3 left_foot freeze; 2 left_foot name gone; 2 left_foot pairing")
     assert not device.visible(5.0) and device.name == "gone" and device.needs_pairing
     device.disconnected(5.0)

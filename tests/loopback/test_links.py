@@ -1,4 +1,4 @@
-"""Links on the virtual air: how they begin, how they end, and what is left of them."""
+"""Links on the virtual radio: start, end, and no remains after it."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ async def test_a_request_that_its_caller_gives_up_does_not_have_its_answer_taken
 
 
 @virtually
-async def test_who_is_still_connected_when_the_air_closes_is_told() -> None:
+async def test_a_connected_client_is_notified_when_the_radio_closes() -> None:
     device = strap()
     async with virtual_air([device]) as backend:
         host = Host(backend, await find(backend))
@@ -44,16 +44,16 @@ async def test_who_is_still_connected_when_the_air_closes_is_told() -> None:
 
 @virtually
 async def test_a_device_that_does_not_answer_holds_up_the_others_for_seconds_only() -> None:
-    gone, there = strap("one", ONE, "1 * vanish 12"), strap("two", TWO)
-    async with virtual_air([gone, there]) as backend:
+    absent, there = strap("one", ONE, "1 * vanish 12"), strap("two", TWO)
+    async with virtual_air([absent, there]) as backend:
         first, second = await find(backend, "one"), await find(backend, "two")
         await asyncio.sleep(1.0)
         slow, quick = (BleakClient(device, backend=backend.client, timeout=20.0) for device in (first, second))
         waiting = asyncio.create_task(slow.connect())
         await asyncio.sleep(0.1)
-        asked = now()
+        t_request = now()
         await quick.connect()
-        assert now() - asked < 2.5
+        assert now() - t_request < 2.5
         assert not waiting.done()
         await waiting
         assert 13.0 <= now() < 16.0
@@ -62,8 +62,8 @@ async def test_a_device_that_does_not_answer_holds_up_the_others_for_seconds_onl
 
 @virtually
 async def test_a_connection_that_its_caller_gives_up_leaves_nothing_behind() -> None:
-    gone, there = strap("one", ONE, "1 * vanish 10"), strap("two", TWO)
-    async with virtual_air([gone, there]) as backend:
+    absent, there = strap("one", ONE, "1 * vanish 10"), strap("two", TWO)
+    async with virtual_air([absent, there]) as backend:
         first, second = await find(backend, "one"), await find(backend, "two")
         await asyncio.sleep(1.0)
         waiting = asyncio.create_task(BleakClient(first, backend=backend.client).connect())
@@ -71,15 +71,15 @@ async def test_a_connection_that_its_caller_gives_up_leaves_nothing_behind() -> 
         waiting.cancel()
         with pytest.raises(asyncio.CancelledError):
             await waiting
-        asked = now()
+        t_request = now()
         async with BleakClient(second, backend=backend.client):
-            assert now() - asked < 0.5
+            assert now() - t_request < 0.5
         await asyncio.sleep(15.0)
-        assert not gone.is_connected
+        assert not absent.is_connected
 
 
-def test_the_same_air_tells_the_same_at_the_same_times() -> None:
-    told: list[list[tuple[float, bytes]]] = []
+def test_the_same_devices_send_the_same_values_at_the_same_times() -> None:
+    runs: list[list[tuple[float, bytes]]] = []
 
     async def main() -> None:
         devices = [strap("one", ONE, "2 * drop 3; 3 * flip 5; 4 * disconnect"), strap("two", TWO)]
@@ -88,15 +88,15 @@ def test_the_same_air_tells_the_same_at_the_same_times() -> None:
             await asyncio.gather(*(host.client.connect() for host in hosts))
             await asyncio.gather(*(host.count(100) for host in hosts))
             await asyncio.sleep(5.0)
-            told.append(hosts[0].heard + hosts[1].heard)
+            runs.append(hosts[0].received + hosts[1].received)
 
     run(main)
     run(main)
-    assert len(told[0]) > 800
-    assert told[0] == told[1]
+    assert len(runs[0]) > 800
+    assert runs[0] == runs[1]
 
 
-def test_links_come_and_go_without_a_word_in_the_log(caplog: pytest.LogCaptureFixture) -> None:
+def test_links_start_and_end_without_a_line_in_the_log(caplog: pytest.LogCaptureFixture) -> None:
     async def main() -> None:
         async with virtual_air([strap(faults="2 * disconnect; 4 * hang; 8 * vanish 1")]) as backend:
             for _ in range(6):

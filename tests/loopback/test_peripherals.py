@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from attrs import evolve
-from benches import LEFT, RIGHT, ROUTE, Heard, begin, played, refusal, set_up, walker, worn
+from benches import LEFT, RIGHT, ROUTE, Received, error_code, played, set_up, start, walker, worn
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -29,8 +29,8 @@ DEVICES: list[tuple[Device, Profile]] = [
 ]
 
 
-def frames(heard: Heard) -> list[InsoleFrame]:
-    return [parse_frame(outgoing.value) for _, outgoing in heard if outgoing.channel == "insole/frame"]
+def frames(received: Received) -> list[InsoleFrame]:
+    return [parse_frame(outgoing.value) for _, outgoing in received if outgoing.channel == "insole/frame"]
 
 
 # every device
@@ -48,14 +48,14 @@ def test_a_device_has_the_attributes_of_its_profile_and_what_else_it_has(device:
 
 
 @pytest.mark.parametrize(("device", "known"), DEVICES)
-def test_what_was_set_up_decodes_to_samples_and_nothing_else_odd(device: Device, known: Profile) -> None:
+def test_a_device_after_its_setup_decodes_to_samples_only(device: Device, known: Profile) -> None:
     tag, decoder, out = worn(device), Decoder(site=LEFT), []
-    begin(tag, *(c.name for c in known.channels if c.access is Access.NOTIFY))
-    said = [(name, tag.read(name, 0.0)) for name in known.reads]
+    start(tag, *(c.name for c in known.channels if c.access is Access.NOTIFY))
+    setup = [(name, tag.read(name, 0.0)) for name in known.reads]
     for write in known.setup:
         tag.write(write.channel, write.value, 0.0)
-        said += [(write.channel, write.value), *((name, tag.read(name, 0.0)) for name in write.then_read)]
-    for name, value in said:
+        setup += [(write.channel, write.value), *((name, tag.read(name, 0.0)) for name in write.then_read)]
+    for name, value in setup:
         out += decoder.feed(Packet(0.0, LEFT, name, value or b""))
     for t, outgoing in played(tag, walker().duration):
         out += decoder.feed(Packet(t, LEFT, outgoing.channel, outgoing.value))
@@ -80,46 +80,44 @@ def test_only_what_is_subscribed_is_sent_and_only_while_connected(device: Device
     assert len(again) == pytest.approx(2.0 * known.nominal_rate, abs=1.5), "what was missed does not come later"
     tag.disconnected(7.0)
     assert tag.next_due() is None
-    begin(tag, stream, now=7.5)
+    start(tag, stream, now=7.5)
     assert not played(tag, 9.0, stream), "a new connection begins with everything off"
 
 
 @pytest.mark.parametrize(("device", "known"), DEVICES)
-def test_attributes_refuse_what_they_are_not_made_for(device: Device, known: Profile) -> None:
-    tag = begin(worn(device))
-    assert refusal(tag, "device/firmware", b"x") == 0x03
-    assert refusal(tag, "no such channel") == 0x02
+def test_attributes_reject_requests_that_they_do_not_support(device: Device, known: Profile) -> None:
+    tag = start(worn(device))
+    assert error_code(tag, "device/firmware", b"x") == 0x03
+    assert error_code(tag, "no such channel") == 0x02
     with pytest.raises(Exception, match="0x06"):
         tag.subscribe("device/firmware", True, 0.0)
     keys = f"{known.name}/keys"
-    assert refusal(tag, "insole/frame" if known is insole.PROFILE else keys) == 0x02
+    assert error_code(tag, "insole/frame" if known is insole.PROFILE else keys) == 0x02
 
 
 @pytest.mark.parametrize(("device", "known"), DEVICES)
 def test_the_streams_never_dry_up_before_and_after_the_walk(device: Device, known: Profile) -> None:
-    tag = set_up(worn(device, began=1000.0), known, now=900.0)
+    tag = set_up(worn(device, started_at=1000.0), known, now=900.0)
     stream = known.streams[0]
     assert len(played(tag, 910.0, stream)) == pytest.approx(10.0 * known.nominal_rate, rel=0.02)
     tag.disconnected(910.0)
     set_up(tag, known, now=5000.0)
-    heard = played(tag, 5010.0, stream)
-    assert len(heard) == pytest.approx(10.0 * known.nominal_rate, rel=0.02)
-    assert all(5000.0 <= t <= 5010.0 for t, _ in heard)
+    received = played(tag, 5010.0, stream)
+    assert len(received) == pytest.approx(10.0 * known.nominal_rate, rel=0.02)
+    assert all(5000.0 <= t <= 5010.0 for t, _ in received)
 
 
 @pytest.mark.parametrize(("device", "known"), DEVICES)
 @settings(max_examples=40)
 @given(st.lists(st.tuples(st.integers(0, 30), st.binary(max_size=4)), max_size=12))
-def test_whatever_is_written_is_obeyed_or_refused(
-    device: Device, known: Profile, writes: list[tuple[int, bytes]]
-) -> None:
+def test_every_write_is_obeyed_or_rejected(device: Device, known: Profile, writes: list[tuple[int, bytes]]) -> None:
     tag = _lasting(device)
     set_up(tag, known)
     channels = [c.channel for s in tag.services for c in s.characteristics]
     now = 0.0
     for which, value in writes:
-        refusal(tag, channels[which % len(channels)], value, now)
-        refusal(tag, channels[which % len(channels)], None, now)
+        error_code(tag, channels[which % len(channels)], value, now)
+        error_code(tag, channels[which % len(channels)], None, now)
         now += 0.05
         tag.poll(now)
     tag.disconnected(now)
@@ -129,12 +127,12 @@ _BENCHES: dict[str, Peripheral] = {}
 
 
 def _lasting(device: Device) -> Peripheral:
-    """One device for all examples, so that each signal is worked out once."""
+    """Return one device for all examples, so that each signal is computed once."""
     return _BENCHES.setdefault(type(device).__name__, worn(device))
 
 
-def test_a_walk_may_be_begun_when_the_devices_run_already() -> None:
-    tag = set_up(worn(Insole(), began=1e6), insole.PROFILE)
+def test_a_walk_may_start_when_the_devices_already_run() -> None:
+    tag = set_up(worn(Insole(), started_at=1e6), insole.PROFILE)
     still = frames(played(tag, 3.0))
     tag.walk_from(3.0)
     walk = frames(played(tag, 3.0 + walker().duration))
@@ -147,7 +145,7 @@ def test_a_name_that_an_advertisement_cannot_hold_is_the_callers_mistake() -> No
         worn(Insole(), faults='0 * name "a name that is far too long"')
 
 
-def test_a_bench_tells_its_devices_apart_by_address_and_names_insoles_by_side() -> None:
+def test_a_bench_distinguishes_devices_by_address_and_names_insoles_by_side() -> None:
     bench = Bench(ROUTE)
     assert [p.name for p in bench.peripherals] == ["solepath L", "solepath R"]
     tags = Bench(ROUTE, devices={RIGHT: CC2650(), LEFT: CC2650()})
@@ -174,8 +172,8 @@ def test_frames_are_byte_for_byte_those_that_the_emulator_emits(device: Insole, 
     emitted = [n for n in device.emit(walker(), site, device_numbers(3, site)) if n.channel == "insole/frame"]
     tag = set_up(worn(device, site), insole.PROFILE, now=-1.0, mtu=device.mtu)
     assert tag.read("insole/info", -1.0) in [n.data for n in device.emit(walker(), site, device_numbers(3, site))]
-    heard = played(tag, walker().duration + 1.0, "insole/frame")
-    walked = [(t, outgoing.value) for t, outgoing in heard if emitted[0].t - 1e-6 <= t <= emitted[-1].t + 1e-6]
+    received = played(tag, walker().duration + 1.0, "insole/frame")
+    walked = [(t, outgoing.value) for t, outgoing in received if emitted[0].t - 1e-6 <= t <= emitted[-1].t + 1e-6]
     assert [value for _, value in walked] == [n.data for n in emitted]
     assert [t for t, _ in walked] == pytest.approx([n.t for n in emitted], abs=1e-9)
 
@@ -187,23 +185,23 @@ def test_sequence_and_ticks_count_through_before_during_and_after_the_walk() -> 
         assert following.ticks == (one.ticks + one.interval) % 2**32
 
 
-@pytest.mark.parametrize("asked", [164, 656, 1000, 3277])
-def test_an_interval_set_while_it_runs_goes_on_in_sequence_and_on_the_same_clock(asked: int) -> None:
+@pytest.mark.parametrize("interval", [164, 656, 1000, 3277])
+def test_an_interval_set_while_it_runs_goes_on_in_sequence_and_on_the_same_clock(interval: int) -> None:
     tag = set_up(worn(Insole(ppm=0.0)), insole.PROFILE)
     before = played(tag, 4.0)
-    tag.write("insole/control", build_control(SetInterval(asked)), 4.0)
+    tag.write("insole/control", build_control(SetInterval(interval)), 4.0)
     after = played(tag, 8.0)
     (t_old, *_), (t_new, *_) = (before[-1], after[0])
     old, new = frames(before)[-1], frames(after)[0]
     assert new.sequence == (old.sequence + 1) % 2**16
     assert (new.ticks - old.ticks) % 2**32 / TICK_RATE == pytest.approx(t_new - t_old, abs=1.0 / TICK_RATE)
-    assert {frame.interval for frame in frames(after)} == {asked}
-    assert len(after) == pytest.approx(4.0 * TICK_RATE / asked, abs=1.0)
-    assert parse_info(tag.read("insole/info", 8.0) or b"").interval == asked
+    assert {frame.interval for frame in frames(after)} == {interval}
+    assert len(after) == pytest.approx(4.0 * TICK_RATE / interval, abs=1.0)
+    assert parse_info(tag.read("insole/info", 8.0) or b"").interval == interval
 
 
-def test_an_interval_that_is_too_short_becomes_the_shortest_and_info_says_so() -> None:
-    tag = begin(worn(Insole(cells=24)))
+def test_a_too_short_interval_becomes_the_shortest_and_info_reports_it() -> None:
+    tag = start(worn(Insole(cells=24)))
     tag.write("insole/control", build_control(SetInterval(1)), 0.0)
     assert parse_info(tag.read("insole/info", 0.0) or b"").interval == 82
 
@@ -211,15 +209,15 @@ def test_an_interval_that_is_too_short_becomes_the_shortest_and_info_says_so() -
 def test_frames_are_sent_again_flagged_and_otherwise_the_same() -> None:
     tag = set_up(worn(Insole()), insole.PROFILE)
     first = frames(played(tag, 3.0))
-    wanted = first[-20:-10]
-    tag.write("insole/control", build_control(Resend(wanted[0].sequence, 10)), 3.0)
+    requested = first[-20:-10]
+    tag.write("insole/control", build_control(Resend(requested[0].sequence, 10)), 3.0)
     after = frames(played(tag, 3.5))
-    assert [evolve(f, retransmitted=False) for f in after if f.retransmitted] == wanted
+    assert [evolve(f, retransmitted=False) for f in after if f.retransmitted] == requested
     fresh = [f.sequence for f in after if not f.retransmitted]
     assert fresh[0] == (first[-1].sequence + 1) % 2**16
 
 
-def test_frames_older_than_twenty_seconds_are_gone() -> None:
+def test_frames_older_than_twenty_seconds_are_not_resent() -> None:
     tag = set_up(worn(Insole(cells=24)), insole.PROFILE)
     first = frames(played(tag, 25.0))
     tag.write("insole/control", build_control(Resend(first[0].sequence, 255)), 25.0)
@@ -229,9 +227,9 @@ def test_frames_older_than_twenty_seconds_are_gone() -> None:
 
 def test_with_a_small_mtu_frames_go_in_fragments_and_large_batches_shrink() -> None:
     tag = set_up(worn(Insole(batch=8)), insole.PROFILE, mtu=23)
-    heard = played(tag, 1.0, "insole/frame")
-    assert max(len(outgoing.value) for _, outgoing in heard) == 20
+    received = played(tag, 1.0, "insole/frame")
+    assert max(len(outgoing.value) for _, outgoing in received) == 20
     decoder, samples = Decoder(site=LEFT), []
-    for t, outgoing in heard:
+    for t, outgoing in received:
         samples += [o for o in decoder.feed(Packet(t, LEFT, outgoing.channel, outgoing.value)) if isinstance(o, Sample)]
     assert len(samples) > 90

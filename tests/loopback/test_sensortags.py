@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from benches import ROUTE, begin, played, refusal, set_up, worn
+from benches import ROUTE, error_code, played, set_up, start, worn
 
 from solepath.emulate.devices.peripheral import Peripheral
 from solepath.emulate.routes.route import Route
@@ -19,16 +19,16 @@ from solepath.wire.fields import parse_whole
 # the CC2650
 
 
-def said(channel: str, value: bytes) -> Any:
+def parse(channel: str, value: bytes) -> Any:
     return parse_whole({**cc2650.FORMATS, **cc2541.FORMATS}[channel], value)
 
 
 def movements(tag: Peripheral, until: float) -> list[tuple[float, Any]]:
-    return [(t, said("cc2650/movement", o.value)) for t, o in played(tag, until, "cc2650/movement")]
+    return [(t, parse("cc2650/movement", o.value)) for t, o in played(tag, until, "cc2650/movement")]
 
 
 def configured(config: bytes, device: CC2650 | None = None, route: Route = ROUTE) -> Peripheral:
-    tag = begin(worn(device or CC2650(), route=route), "cc2650/movement")
+    tag = start(worn(device or CC2650(), route=route), "cc2650/movement")
     tag.write("cc2650/movement-period", b"\x0a", 0.0)
     tag.write("cc2650/movement-config", config, 0.0)
     return tag
@@ -80,7 +80,7 @@ def test_with_wake_on_motion_the_tag_is_silent_until_it_moves_and_ten_seconds_af
     assert all(b - a < 0.11 for a, b in zip(times, times[1:], strict=False))
 
 
-REFUSED: dict[Device, list[tuple[str, bytes, int]]] = {
+APPLICATION_ERROR: dict[Device, list[tuple[str, bytes, int]]] = {
     Insole(): [
         ("insole/control", b"", 0x81),
         ("insole/control", b"\x00", 0x80),
@@ -103,45 +103,45 @@ REFUSED: dict[Device, list[tuple[str, bytes, int]]] = {
 }
 
 
-@pytest.mark.parametrize("device", REFUSED, ids=lambda device: type(device).__name__)
-def test_values_of_wrong_length_or_meaning_are_refused_with_the_codes_of_the_device(device: Device) -> None:
-    tag = begin(worn(device))
-    for channel, value, code in REFUSED[device]:
-        assert refusal(tag, channel, value) == code, (channel, value)
+@pytest.mark.parametrize("device", APPLICATION_ERROR, ids=lambda device: type(device).__name__)
+def test_values_of_wrong_length_or_meaning_are_rejected_with_the_codes_of_the_device(device: Device) -> None:
+    tag = start(worn(device))
+    for channel, value, code in APPLICATION_ERROR[device]:
+        assert error_code(tag, channel, value) == code, (channel, value)
 
 
-def test_the_barometer_says_the_air_pressure_at_its_own_period() -> None:
-    tag = begin(worn(CC2650()), "cc2650/barometer")
+def test_the_barometer_sends_the_air_pressure_at_its_own_period() -> None:
+    tag = start(worn(CC2650()), "cc2650/barometer")
     tag.write("cc2650/barometer-period", b"\x14", 0.0)
     assert tag.next_due() is None
     tag.write("cc2650/barometer-config", b"\x01", 0.0)
-    heard = [said("cc2650/barometer", o.value) for _, o in played(tag, 8.0)]
-    assert len(heard) == pytest.approx(40, abs=3)
-    assert all(one.pressure == pytest.approx(101325.0, abs=300.0) for one in heard)
+    received = [parse("cc2650/barometer", o.value) for _, o in played(tag, 8.0)]
+    assert len(received) == pytest.approx(40, abs=3)
+    assert all(one.pressure == pytest.approx(101325.0, abs=300.0) for one in received)
 
 
-def test_keys_are_told_when_they_go_down_and_when_they_come_up() -> None:
+def test_keys_are_reported_when_pressed_and_when_released() -> None:
     presses = (4.0, 1.0)
     for device, keys in ((CC2650(presses=presses), "cc2650/keys"), (CC2541(presses=presses), "cc2541/keys")):
-        heard = played(begin(worn(device), keys), 10.0)
+        received = played(start(worn(device), keys), 10.0)
         expected = [(1.0, True), (1.25, False), (4.0, True), (4.25, False)]
-        assert [(round(t, 3), said(keys, o.value).left) for t, o in heard] == expected
-        assert not played(begin(worn(device), keys, now=5.0), 10.0), "what is over is not told later"
+        assert [(round(t, 3), parse(keys, o.value).left) for t, o in received] == expected
+        assert not played(start(worn(device), keys, now=5.0), 10.0), "what is over is not told later"
 
 
 @pytest.mark.parametrize(("device", "full"), [(Insole(), 87), (CC2650(), 91)])
-def test_a_battery_empties_and_says_so(device: Device, full: int) -> None:
-    tag = begin(worn(device), "device/battery")
+def test_a_battery_empties_and_reports_it(device: Device, full: int) -> None:
+    tag = start(worn(device), "device/battery")
     assert tag.read("device/battery", 0.0) == bytes([full])
-    heard = played(tag, 1900.0)
-    assert [(round(t), o.value[0]) for t, o in heard] == [(600, full - 1), (1200, full - 2), (1800, full - 3)]
+    received = played(tag, 1900.0)
+    assert [(round(t), o.value[0]) for t, o in received] == [(600, full - 1), (1200, full - 2), (1800, full - 3)]
     assert tag.read("device/battery", 1900.0) == bytes([full - 3])
 
 
 def test_a_disconnected_tag_forgets_what_was_written() -> None:
     tag = set_up(worn(CC2650()), cc2650.PROFILE)
     tag.disconnected(3.0)
-    begin(tag, "cc2650/movement", now=4.0)
+    start(tag, "cc2650/movement", now=4.0)
     assert tag.read("cc2650/movement-config", 4.0) == b"\x00\x00"
     assert tag.read("cc2650/movement-period", 4.0) == b"\x64"
     assert tag.next_due() is None
@@ -151,7 +151,7 @@ def test_a_disconnected_tag_forgets_what_was_written() -> None:
 
 
 def test_each_sensor_has_a_period_of_its_own() -> None:
-    tag = begin(worn(CC2541()), *(c.name for c in cc2541.PROFILE.channels if c.access is Access.NOTIFY))
+    tag = start(worn(CC2541()), *(c.name for c in cc2541.PROFILE.channels if c.access is Access.NOTIFY))
     tag.write("cc2541/accelerometer-period", b"\x05", 0.0)
     tag.write("cc2541/gyroscope-period", b"\x14", 0.0)
     for sensor, on in (("accelerometer", 3), ("gyroscope", 7), ("magnetometer", 1), ("barometer", 1)):
@@ -164,17 +164,17 @@ def test_each_sensor_has_a_period_of_its_own() -> None:
 
 
 def test_coefficients_can_be_read_after_they_were_fetched_and_not_before() -> None:
-    tag = begin(worn(CC2541()), "cc2541/barometer")
-    assert refusal(tag, "cc2541/barometer-calibration") == 0x02
+    tag = start(worn(CC2541()), "cc2541/barometer")
+    assert error_code(tag, "cc2541/barometer-calibration") == 0x02
     tag.write("cc2541/barometer-config", b"\x02", 0.0)
     assert not played(tag, 3.0), "fetching does not switch it on"
-    read = said("cc2541/barometer-calibration", tag.read("cc2541/barometer-calibration", 3.0) or b"")
+    read = parse("cc2541/barometer-calibration", tag.read("cc2541/barometer-calibration", 3.0) or b"")
     calibration = cc2541.BarometerCalibration(*[read[f"c{n}"] for n in range(1, 9)])
     tag.write("cc2541/barometer-config", b"\x01", 3.0)
-    raw = [said("cc2541/barometer", o.value) for _, o in played(tag, 8.0)]
-    heard = [calibration.pascal(one.temperature, one.pressure) for one in raw]
-    assert len(heard) in (4, 5, 6)
-    assert heard == pytest.approx([101325.0] * len(heard), abs=300.0)
+    raw = [parse("cc2541/barometer", o.value) for _, o in played(tag, 8.0)]
+    received = [calibration.pascal(one.temperature, one.pressure) for one in raw]
+    assert len(received) in (4, 5, 6)
+    assert received == pytest.approx([101325.0] * len(received), abs=300.0)
     tag.disconnected(8.0)
     tag.connected(9.0, 23)
-    assert refusal(tag, "cc2541/barometer-calibration", now=9.0) == 0x02
+    assert error_code(tag, "cc2541/barometer-calibration", now=9.0) == 0x02

@@ -1,4 +1,4 @@
-"""The virtual air between processes, in real time: both ends are killed, and the other one notices and goes on."""
+"""The virtual radio between processes, in real time: when one side is killed, the other one notices and continues."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ asyncio.run(main())
 
 
 def really(test: Callable[..., Awaitable[None]]) -> Callable[..., None]:
-    """An async test, run in real time; nothing may be left running when it is over."""
+    """Run an async test in real time; no task may be left running at the end."""
 
     @wraps(test)
     def run_it(**given: Any) -> None:
@@ -61,7 +61,7 @@ def really(test: Callable[..., Awaitable[None]]) -> Callable[..., None]:
 
 @asynccontextmanager
 async def program(*arguments: str) -> AsyncIterator[asyncio.subprocess.Process]:
-    """Python with these arguments; killed in the end."""
+    """Run Python with these arguments and kill it at the end."""
     process = await asyncio.create_subprocess_exec(
         sys.executable, *arguments, cwd=HERE, stdout=asyncio.subprocess.PIPE, stderr=asyncio.subprocess.PIPE
     )
@@ -70,8 +70,8 @@ async def program(*arguments: str) -> AsyncIterator[asyncio.subprocess.Process]:
     finally:
         if process.returncode is None:
             process.kill()
-        _, said = await process.communicate()
-        assert said == b""
+        _, output = await process.communicate()
+        assert output == b""
 
 
 async def line(process: asyncio.subprocess.Process) -> str:
@@ -80,7 +80,7 @@ async def line(process: asyncio.subprocess.Process) -> str:
 
 
 async def connected(backend: Backend) -> tuple[BleakClient, asyncio.Event]:
-    """A client, and whether it has lost its link."""
+    """Return a client, and an event that is set when it loses its link."""
     lost = asyncio.Event()
     client = BleakClient(await find(backend), lambda _: lost.set(), backend=backend.client)
     await client.connect()
@@ -88,19 +88,19 @@ async def connected(backend: Backend) -> tuple[BleakClient, asyncio.Event]:
 
 
 async def beats(client: BleakClient, count: int = 50) -> list[int]:
-    """The numbers that are heard until there are `count`."""
-    heard: list[int] = []
+    """Return the first `count` received numbers."""
+    numbers: list[int] = []
     enough = asyncio.Event()
 
     def beat(_: object, value: bytearray) -> None:
-        heard.append(int.from_bytes(value[:4], "little"))
-        if len(heard) == count:
+        numbers.append(int.from_bytes(value[:4], "little"))
+        if len(numbers) == count:
             enough.set()
 
     await client.start_notify(BEAT, beat)
     await client.write_gatt_char(CONTROL, b"\x64", response=True)
     await asyncio.wait_for(enough.wait(), 10.0)
-    return heard
+    return numbers
 
 
 @really
@@ -110,8 +110,8 @@ async def test_another_processs_devices_are_found_and_stream_until_it_is_killed_
         async with reach(f"tcp:127.0.0.1:{port}", mtu=185) as backend:
             client, lost = await connected(backend)
             assert client.mtu_size == 185
-            heard = await beats(client)
-            assert heard == list(range(heard[0], heard[0] + len(heard)))
+            numbers = await beats(client)
+            assert numbers == list(range(numbers[0], numbers[0] + len(numbers)))
 
             server.kill()
             await asyncio.wait_for(lost.wait(), 5.0)
@@ -130,25 +130,25 @@ async def test_another_processs_devices_are_found_and_stream_until_it_is_killed_
 
 
 @really
-async def test_a_scan_that_goes_on_hears_the_devices_of_a_server_that_was_restarted() -> None:
+async def test_a_running_scan_finds_the_devices_of_a_restarted_server() -> None:
     async with program("strap.py", "0") as server:
         port = await line(server)
         async with reach(f"tcp:127.0.0.1:{port}") as backend:
-            heard = asyncio.Event()
-            async with BleakScanner(lambda device, said: heard.set(), backend=backend.scanner):
-                await asyncio.wait_for(heard.wait(), 5.0)
+            numbers = asyncio.Event()
+            async with BleakScanner(lambda device, output: numbers.set(), backend=backend.scanner):
+                await asyncio.wait_for(numbers.wait(), 5.0)
                 server.kill()
                 await server.wait()
                 await asyncio.sleep(0.1)
-                heard.clear()
+                numbers.clear()
                 async with program("strap.py", port) as restarted:
                     await line(restarted)
-                    await asyncio.wait_for(heard.wait(), 5.0)
+                    await asyncio.wait_for(numbers.wait(), 5.0)
 
 
 @really
 async def test_a_server_that_hangs_is_an_error_until_it_goes_on(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(radio, "PATIENCE", 0.3)
+    monkeypatch.setattr(radio, "CONTROLLER_TIMEOUT", 0.3)
     async with program("strap.py", "0") as server:
         port = await line(server)
         async with reach(f"tcp:127.0.0.1:{port}") as backend:
@@ -205,7 +205,7 @@ async def test_a_device_that_has_forgotten_its_pairing_is_an_error_until_it_is_u
 
 
 @really
-async def test_nobody_at_the_port_is_one_clear_error() -> None:
+async def test_a_port_without_a_server_is_one_clear_error() -> None:
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
     with pytest.raises(BleakError, match=f"nothing answers at tcp:127.0.0.1:{port}"):

@@ -1,4 +1,4 @@
-"""The emulator: a wearer on a scripted route, devices and radio, and the truth. Needs numpy."""
+"""The emulator: a wearer on a scripted route, devices, a radio link and the ground truth. Needs numpy."""
 
 from .devices.bench import Bench
 from .radio import Radio

@@ -1,4 +1,4 @@
-"""What `solepath demo` walks: a route of its own, straight on, or a way through the emulated building; a bad radio."""
+"""Routes and radio of `solepath demo`: its default route, a straight walk, or a walk through the emulated building."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .radio import Radio
 from .routes.route import Route
 
 RADIO = Radio(loss=0.03, duplicate=0.005, corrupt=0.005, latency=0.015, jitter=0.030)
-"""A busy 2.4 GHz band: 3 in 100 notifications never arrive, the others 15 to 45 ms late."""
+"""A crowded 2.4 GHz band: 3 in 100 notifications never arrive, the others arrive after 15 to 45 ms."""
 
 ROUTE = (
     Route()
@@ -27,17 +27,17 @@ ROUTE = (
     .walk(10.0, speed=1.4)
     .stop(2.0)
 )
-"""About 40 m: a U, a halt, a turn on the spot, and away again."""
+"""A route of about 40 m: a U, a halt, a turn on the spot, and a second part."""
 
 WAY = 8
-"""Of the ways through the emulated building: down by one of four lifts, 130 m along corridors, and up the stairs."""
+"""Seed of the walk through the emulated building: down by one of four lifts, 130 m of corridors, up the stairs."""
 
 
 def straight(distance: float) -> Route:
-    """Stand, walk so many m straight on, stand."""
+    """Return the route: stand, walk `distance` m straight on, stand."""
     return Route().stand(3.0).walk(distance, speed=1.3).stop(2.0)
 
 
 def radio(loss: float | None = None, jitter: float | None = None) -> Radio:
-    """RADIO with another share of lost packets or another jitter in s; None leaves it as it is."""
+    """Return RADIO with another share of lost packets or another jitter, s; None keeps the value of RADIO."""
     return evolve(RADIO, loss=RADIO.loss if loss is None else loss, jitter=RADIO.jitter if jitter is None else jitter)

@@ -1,8 +1,8 @@
-"""The air between a device and its receiver: loss, duplicates, damage, delay.
+"""The radio channel between a device and its receiver: loss, duplicates, bit errors and delay.
 
-Bluetooth Low Energy keeps the order of notifications and repeats what the link layer loses, so there a bad channel
-shows as delay: what is late holds up everything behind it. Loss happens above that: full queues, lossy relays, dropped
-callbacks. Reordering does not happen on one Bluetooth link; it is here for what is relayed otherwise.
+Bluetooth Low Energy keeps the order of notifications, and its link layer repeats lost packets. A bad channel therefore
+shows as delay: a late packet holds up all packets behind it. Loss happens in higher layers: full queues, lossy relays,
+dropped callbacks. Packets do not change their order on one Bluetooth link; `in_order=False` is for other relays.
 """
 
 from __future__ import annotations
@@ -25,24 +25,27 @@ def _share(_: object, attribute: object, value: float) -> None:
 
 @frozen
 class Radio:
-    """Shares of notifications, and times in s.
-
-    `loss`: never arrive. `duplicate`: arrive twice. `corrupt`: arrive with one to three bits turned. `truncate`: arrive
-    cut short. `latency`: least time on the way. `jitter`: up to so much more, evenly spread. `interval`: of connection
-    events; what is ready waits for the next one (0: none). `in_order`: nothing overtakes.
-    """
+    """Settings of a radio channel: shares of notifications from 0 to 1, and times in s."""
 
     loss: float = field(default=0.0, validator=_share)
+    """Share of notifications that never arrive."""
     duplicate: float = field(default=0.0, validator=_share)
+    """Share of notifications that arrive twice."""
     corrupt: float = field(default=0.0, validator=_share)
+    """Share of notifications that arrive with one to three inverted bits."""
     truncate: float = field(default=0.0, validator=_share)
+    """Share of notifications that arrive cut short."""
     latency: float = 0.005
+    """Least transmission time, s."""
     jitter: float = 0.004
+    """Largest additional transmission time, s; uniformly distributed from 0."""
     interval: float = 0.0
+    """Time between connection events, s: packets wait for the next event. 0: packets do not wait."""
     in_order: bool = True
+    """No packet overtakes another one."""
 
-    def carry(self, sent: list[Notification], site: Site, rng: Rng) -> list[Packet]:
-        """What arrives of what was sent, by time of arrival."""
+    def transmit(self, sent: list[Notification], site: Site, rng: Rng) -> list[Packet]:
+        """Return the packets that arrive when a device sends `sent`, sorted by time of arrival."""
         chances = rng.uniform(size=(len(sent), 6))
         phase = self.interval * float(rng.uniform())
         found: list[Packet] = []
@@ -71,7 +74,7 @@ class Radio:
 
 
 CLEAN = Radio()
-"""A good link: nothing lost, 5 to 9 ms."""
+"""A good link: no loss, latency from 5 to 9 ms."""
 
 
 def _flip(data: bytes, rng: Rng) -> bytes:

@@ -1,12 +1,12 @@
-"""An emulated walk from end to end: a wearer on a route, devices on both feet, a radio, and the truth beside it.
+"""An emulated walk from end to end: a wearer on a route, devices on both feet, a radio, and the ground truth.
 
     walk = emulate(Route().stand(2).walk(100, 1.3).stop(2), radio=Radio(loss=0.05, jitter=0.05), seed=7)
     for packet in walk.packets: ...
     walk.truth.steps(Foot.LEFT)
 
-Time 0 is the beginning of the first stand on the true clock, which is also the receiver's. The same arguments give the
-same packets, byte for byte; the gait, each device and each radio link have random numbers of their own, so that the
-same seed walks the same way whatever is worn and however it is received.
+Time 0 is the start of the first stand on the true clock, which is also the receiver's clock. The same arguments give
+the same packets, byte for byte. The gait, each device and each radio link have separate random generators: the same
+seed gives the same gait with any devices and any radio.
 """
 
 from __future__ import annotations
@@ -29,12 +29,14 @@ from .wearers.walker import Walker
 
 @frozen(eq=False)
 class EmulatedWalk:
-    """`packets` of all sites in the order of arrival; `truth` for sensors where the devices have them; `walker`, for
-    what lies beneath: exact kinematics, loads, and samples without a wire."""
+    """The packets and the ground truth of an emulated walk."""
 
     packets: tuple[Packet, ...]
+    """Packets of all sites in the order of arrival."""
     truth: Truth
+    """Ground truth for sensors that are mounted as the devices have them."""
     walker: Walker
+    """The walker that the devices measured: exact kinematics, loads, and samples without a radio."""
 
 
 def emulate(
@@ -45,10 +47,10 @@ def emulate(
     radio: Radio = CLEAN,
     seed: int = 1,
 ) -> EmulatedWalk:
-    """Walk `route` and record it. Without `devices`, both feet wear insoles of 96 cells at 100 Hz.
+    """Walk `route` and return what the receiver gets. Without `devices`, both feet wear insoles of 96 cells at 100 Hz.
 
-    Sites above the ankle wear what knows its own attitude (Dot). ValueError for a device that only feet can wear at a
-    site that is none.
+    Sites above the ankle wear devices that send their own attitude (Dot). A device that only feet can wear raises
+    ValueError at any other site.
     """
     if devices is None:
         devices = {SITE_OF_FOOT[foot]: Insole() for foot in Foot}
@@ -58,7 +60,7 @@ def emulate(
     for site in sorted(devices, key=sites.index):
         device = devices[site]
         sent = device.emit(walker, site, device_numbers(seed, site))
-        packets += radio.carry(sent, site, np.random.default_rng([seed, 3, sites.index(site)]))
+        packets += radio.transmit(sent, site, np.random.default_rng([seed, 3, sites.index(site)]))
     packets.sort(key=attrgetter("t"))
     mountings = {site.foot: device.mounting for site, device in devices.items() if site.foot is not None}
     return EmulatedWalk(tuple(packets), walker.truth(mountings), walker)
@@ -66,17 +68,20 @@ def emulate(
 
 @frozen(eq=False)
 class SampledWalk:
-    """`samples` of both feet in the order of time; the rest as in EmulatedWalk."""
+    """The samples and the ground truth of an emulated walk without a radio."""
 
     samples: tuple[Sample, ...]
+    """Samples of both feet in the order of time."""
     truth: Truth
+    """Ground truth for sensors that are mounted as the insoles have them."""
     walker: Walker
+    """The walker that the insoles measured."""
 
 
 def sampled(
     route: Route, *, wearer: Wearer | None = None, insoles: Mapping[Site, Insole] | None = None, seed: int = 1
 ) -> SampledWalk:
-    """The walk of `emulate` with these arguments, without wire and radio: the same values at their true times."""
+    """Return the walk of `emulate` with these arguments, without packets: the same values at their true times."""
     if insoles is None:
         insoles = {SITE_OF_FOOT[foot]: Insole() for foot in Foot}
     walker = Walker(route, wearer, seed)

@@ -1,4 +1,4 @@
-"""What the tests of Bluetooth share: virtual time, emulated devices on either tier, and what an app hears of them."""
+"""Helpers of the Bluetooth tests: virtual time, emulated devices on either tier, and the packets that an app gets."""
 
 from __future__ import annotations
 
@@ -24,42 +24,42 @@ T = TypeVar("T")
 
 
 def in_virtual_time(main: Callable[[], Coroutine[Any, Any, T]]) -> T:
-    """Run to the end on a loop whose clock jumps to whatever is due next: a minute takes what its work takes."""
+    """Run to the end on a loop whose clock jumps to the next timer, so that waiting takes no real time."""
     with asyncio.Runner(loop_factory=looptime.new_event_loop) as runner:
         return runner.run(main())
 
 
 @asynccontextmanager
 async def memory(bench: Bench) -> AsyncIterator[Backend]:
-    """The devices on the in-memory tier."""
+    """Yield a backend of the devices on the in-memory tier."""
     yield MemoryRadio(bench.peripherals).backend
 
 
 def bumble(bench: Bench, interval: float | None = None) -> AbstractAsyncContextManager[Backend]:
-    """The devices behind virtual Bluetooth controllers. `interval`: s between the connection events of their links."""
+    """Return a backend of the devices behind virtual controllers; `interval` is between connection events, s."""
     return virtual_air(bench.peripherals, interval=interval)
 
 
 TIERS = {"memory": memory, "bumble": bumble}
 
 
-async def hear(devices: Devices, seconds: float) -> list[Packet]:
-    """Everything that comes within so many seconds."""
+async def collect(devices: Devices, seconds: float) -> list[Packet]:
+    """Return all packets that arrive within `seconds`."""
     end = asyncio.get_running_loop().time() + seconds
-    heard = []
+    packets = []
     async for packet in devices:
         if packet.t > end:
             break
-        heard.append(packet)
-    return heard
+        packets.append(packet)
+    return packets
 
 
-def received(backend: Backend, *wanted: DeviceConfig, seconds: float, **more: Any) -> list[Packet]:
-    """What an app gets that wants these, in so many seconds of virtual time; it leaves nothing running."""
+def received(backend: Backend, *configs: DeviceConfig, seconds: float, **more: Any) -> list[Packet]:
+    """Return the packets that an app with these configs gets in `seconds` of virtual time; no task is left running."""
 
     async def main() -> list[Packet]:
-        async with Devices(wanted, backend=backend, **more) as devices:
-            found = await hear(devices, seconds)
+        async with Devices(configs, backend=backend, **more) as devices:
+            found = await collect(devices, seconds)
         assert not others()
         return found
 
@@ -67,12 +67,12 @@ def received(backend: Backend, *wanted: DeviceConfig, seconds: float, **more: An
 
 
 def troubles(packets: list[Packet]) -> list[str]:
-    """What it is told of."""
+    """Return the texts of the trouble packets."""
     return [parse_text(packet.data) for packet in packets if packet.channel == "receiver/trouble"]
 
 
 def whole(packets: list[Packet]) -> list[Packet]:
-    """The same with fragments put together, each frame at the arrival of its last."""
+    """Return the packets with fragments joined, each frame at the arrival of its last fragment."""
     under_way = defaultdict[Site, Reassembly](Reassembly)
     found = []
     for packet in packets:
@@ -87,5 +87,5 @@ def whole(packets: list[Packet]) -> list[Packet]:
 
 
 def others() -> set[asyncio.Task[Any]]:
-    """The tasks besides the one that asks."""
+    """Return all tasks except the current one."""
     return asyncio.all_tasks() - {asyncio.current_task()}

@@ -1,4 +1,4 @@
-"""Straps for the adapter's tests: their profile, and a Bluetooth that remembers what it was asked."""
+"""Straps for the adapter's tests: their profile, and a radio that logs every request."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from solepath.link.profile import Access, Channel, Profile, Write
 from solepath.types import Packet, Site
 
 RATE = 10
-"""Hz that the profile asks for."""
+"""Rate that the profile sets, Hz."""
 STRAP = Profile(
     name="strap",
     names=(),
@@ -35,7 +35,7 @@ STRAP = Profile(
     stale_after=1.0,
 )
 READ_AFTER = evolve(STRAP, setup=(Write("strap/control", bytes([RATE]), then_read=("strap/page",)),))
-"""The same, and its page is read once it counts."""
+"""Profile of a strap whose page is read after the setup write."""
 
 
 def address(number: int) -> str:
@@ -47,63 +47,63 @@ def strap(number: int = 1, name: str | None = None, faults: str = "", **given: A
 
 
 @define
-class Asked:
-    """An in-memory Bluetooth, and every request that was made of it: (address, what, channel)."""
+class LoggedRadio:
+    """An in-memory radio with a log of every request: (address, kind, channel)."""
 
     air: MemoryRadio
     log: list[tuple[str, str, str]] = field(factory=list)
     paired: list[bool] = field(factory=list)
     scanning: int = 0
     most: int = 0
-    """Scanners that were at work at once."""
+    """Largest number of scanners at the same time."""
 
     @property
     def backend(self) -> Backend:
-        asked, beneath = self, self.air.backend
+        logged_radio, beneath = self, self.air.backend
         client, scanner = beneath.client, beneath.scanner
         assert client is not None and scanner is not None
 
         class Client(client):  # type: ignore[valid-type,misc]
             async def connect(self, pair: bool, **more: Any) -> None:
-                asked.log.append((self.address, "connect", ""))
-                asked.paired.append(pair)
+                logged_radio.log.append((self.address, "connect", ""))
+                logged_radio.paired.append(pair)
                 await super().connect(pair, **more)
 
             async def disconnect(self) -> None:
-                asked.log.append((self.address, "disconnect", ""))
+                logged_radio.log.append((self.address, "disconnect", ""))
                 await super().disconnect()
 
             async def read_gatt_char(self, one: BleakGATTCharacteristic, **more: Any) -> bytearray:
-                asked.log.append((self.address, "read", one.obj.channel))
+                logged_radio.log.append((self.address, "read", one.obj.channel))
                 return await super().read_gatt_char(one, **more)
 
             async def write_gatt_char(self, one: BleakGATTCharacteristic, data: Any, response: bool) -> None:
-                asked.log.append((self.address, "write" if response else "command", one.obj.channel))
+                logged_radio.log.append((self.address, "write" if response else "command", one.obj.channel))
                 await super().write_gatt_char(one, data, response)
 
             async def start_notify(self, one: BleakGATTCharacteristic, callback: Any, **more: Any) -> None:
-                asked.log.append((self.address, "subscribe", one.obj.channel))
+                logged_radio.log.append((self.address, "subscribe", one.obj.channel))
                 await super().start_notify(one, callback, **more)
 
         class Scanner(scanner):  # type: ignore[valid-type,misc]
             async def start(self) -> None:
                 await super().start()
-                asked.scanning += 1
-                asked.most = max(asked.most, asked.scanning)
+                logged_radio.scanning += 1
+                logged_radio.most = max(logged_radio.most, logged_radio.scanning)
 
             async def stop(self) -> None:
                 await super().stop()
-                asked.scanning -= 1
+                logged_radio.scanning -= 1
 
         return Backend(Client, Scanner)
 
     def of(self, device: Peripheral, *kinds: str) -> list[tuple[str, str]]:
-        """What was asked of a device, in order: (what, channel)."""
+        """Return the requests of these kinds to a device, in order: (kind, channel)."""
         return [(what, channel) for at, what, channel in self.log if at == device.address and what in kinds]
 
 
-def asked(*devices: Peripheral) -> Asked:
-    return Asked(MemoryRadio(devices))
+def logged_radio(*devices: Peripheral) -> LoggedRadio:
+    return LoggedRadio(MemoryRadio(devices))
 
 
 PELVIS = Site.PELVIS
@@ -115,7 +115,7 @@ def times(packets: list[Packet], channel: str) -> list[float]:
 
 
 def failing(beneath: Backend, errors: list[Exception | None]) -> Backend:
-    """A Bluetooth whose scans begin with these, in turn."""
+    """Return a backend whose scans start with these errors, in turn."""
     scanner: Any = beneath.scanner
 
     class Scanner(scanner):

@@ -1,4 +1,4 @@
-"""Emulated devices on a bench, played without any server and in no time."""
+"""Emulated devices on a bench, run without a server and without waiting."""
 
 from __future__ import annotations
 
@@ -16,23 +16,23 @@ from solepath.types import Site
 
 ROUTE = Route().stand(2.0).walk(8.0, 1.2).stop(2.0)
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
-Heard = list[tuple[float, Outgoing]]
+Received = list[tuple[float, Outgoing]]
 
 
 def worn(
-    device: Device, site: Site = LEFT, *, faults: str = "", route: Route = ROUTE, began: float = 0.0
+    device: Device, site: Site = LEFT, *, faults: str = "", route: Route = ROUTE, started_at: float = 0.0
 ) -> Peripheral:
-    """One device, on the walk that begins at `began`."""
-    return Bench(route, devices={site: device}, seed=3, began=began, faults=parse_faults(faults))[site]
+    """Return one device on a walk that starts at `started_at`."""
+    return Bench(route, devices={site: device}, seed=3, started_at=started_at, faults=parse_faults(faults))[site]
 
 
 @cache
 def walker() -> Walker:
-    """Who walks on these benches."""
+    """Return the walker of these benches."""
     return Walker(ROUTE, seed=3)
 
 
-def begin(device: Peripheral, *channels: str, now: float = 0.0, mtu: int = 247) -> Peripheral:
+def start(device: Peripheral, *channels: str, now: float = 0.0, mtu: int = 247) -> Peripheral:
     """Connect and subscribe."""
     device.connected(now, min(mtu, device.mtu))
     for channel in channels:
@@ -41,25 +41,25 @@ def begin(device: Peripheral, *channels: str, now: float = 0.0, mtu: int = 247) 
 
 
 def set_up(device: Peripheral, profile: Profile, now: float = 0.0, mtu: int = 247) -> Peripheral:
-    """Connect, subscribe and write as the profile says."""
-    begin(device, *(c.name for c in profile.channels if c.access is Access.NOTIFY), now=now, mtu=mtu)
+    """Connect, subscribe and write by the profile."""
+    start(device, *(c.name for c in profile.channels if c.access is Access.NOTIFY), now=now, mtu=mtu)
     for write in profile.setup:
         assert device.write(write.channel, write.value, now)
     return device
 
 
-def played(device: Peripheral, until: float, channel: str = "") -> Heard:
-    """What the device sends until `until`, with the time of each; of one channel where it is named."""
-    heard: Heard = []
+def played(device: Peripheral, until: float, channel: str = "") -> Received:
+    """Return what the device sends until `until`, with the times; only of `channel` if it is given."""
+    received: Received = []
     while (due := device.next_due()) is not None and due <= until:
-        heard += [(due, outgoing) for outgoing in device.poll(due)]
+        received += [(due, outgoing) for outgoing in device.poll(due)]
         if device.hang_up(due):
             device.disconnected(due)
-    return [(t, outgoing) for t, outgoing in heard if channel in ("", outgoing.channel)]
+    return [(t, outgoing) for t, outgoing in received if channel in ("", outgoing.channel)]
 
 
-def refusal(device: Peripheral, channel: str, value: bytes | None = None, now: float = 0.0) -> int:
-    """The ATT error code that a write (or, without a value, a read) is answered with; 0 when it is not refused."""
+def error_code(device: Peripheral, channel: str, value: bytes | None = None, now: float = 0.0) -> int:
+    """Return the ATT error code of a write (or, without a value, of a read); 0 when the device accepts it."""
     try:
         if value is None:
             device.read(channel, now)

@@ -1,8 +1,7 @@
-"""An org.bluez with emulated devices in reach: what bleak's own backend for Linux, untouched, talks to where there is
-no radio.
+"""An org.bluez service with emulated devices, for bleak's unchanged backend for Linux without a radio.
 
-It does what BlueZ 5 says of itself (doc/org.bluez.Adapter.rst, .Device.rst and .GattCharacteristic.rst; for refusals
-create_gatt_dbus_error of src/gatt-client.c) as far as a central can tell.
+It behaves as BlueZ 5 documents (doc/org.bluez.Adapter.rst, .Device.rst and .GattCharacteristic.rst; for errors
+create_gatt_dbus_error of src/gatt-client.c), as far as a central can see.
 """
 
 from __future__ import annotations
@@ -14,7 +13,7 @@ from typing import Any, TypeVar
 
 import bus
 from bleak.exc import BleakError, BleakGATTProtocolError
-from bus import Refused
+from bus import DBusError
 from dbus_fast import Variant
 from memory_link import LoopbackLink
 
@@ -22,39 +21,39 @@ from solepath.emulate.devices.attributes import Characteristic, Service
 from solepath.emulate.devices.peripheral import Peripheral
 
 ADAPTER = "/org/bluez/hci0"
-HEARD = 0.1
-"""s between the advertisements of a device."""
+ADVERTISING = 0.1
+"""Time between the advertisements of a device, s."""
 SIGNAL = -60
-"""dBm."""
-NOT_PAIRED = Refused("org.bluez.Error.NotPermitted", "Not paired")
+"""Received signal strength, dBm."""
+NOT_PAIRED = DBusError("org.bluez.Error.NotPermitted", "Not paired")
 
 _ADAPTER = "org.bluez.Adapter1"
 _DEVICE = "org.bluez.Device1"
 _SERVICE = "org.bluez.GattService1"
 _CHARACTERISTIC = "org.bluez.GattCharacteristic1"
-_REFUSED = {
-    0x02: Refused("org.bluez.Error.NotPermitted", "Read not permitted"),
-    0x03: Refused("org.bluez.Error.NotPermitted", "Write not permitted"),
+_ATT_ERRORS = {
+    0x02: DBusError("org.bluez.Error.NotPermitted", "Read not permitted"),
+    0x03: DBusError("org.bluez.Error.NotPermitted", "Write not permitted"),
     0x05: NOT_PAIRED,
-    0x06: Refused("org.bluez.Error.NotSupported", "Operation is not supported"),
-    0x08: Refused("org.bluez.Error.NotAuthorized", "Operation Not Authorized"),
-    0x0D: Refused("org.bluez.Error.InvalidArguments", "Invalid Length"),
+    0x06: DBusError("org.bluez.Error.NotSupported", "Operation is not supported"),
+    0x08: DBusError("org.bluez.Error.NotAuthorized", "Operation Not Authorized"),
+    0x0D: DBusError("org.bluez.Error.InvalidArguments", "Invalid Length"),
 }
 
 T = TypeVar("T")
 
 
 class Bluez(bus.Service):
-    """`adapter`: whether there is one at all; `powered`: whether it is on."""
+    """The service org.bluez; `adapter`: there is an adapter, `powered`: it is on."""
 
     def __init__(self, peripherals: Iterable[Peripheral], *, adapter: bool = True, powered: bool = True) -> None:
         super().__init__()
         self._devices = {f"{ADAPTER}/dev_{one.address.replace(':', '_')}": one for one in peripherals}
         self._links: dict[str, LoopbackLink] = {}
         self._channels: dict[str, tuple[str, str]] = {}
-        """Of a characteristic, the device's path and the channel."""
+        """Path of the device and channel, by the path of the characteristic."""
         self._scanning: set[str] = set()
-        """The names on the bus of who discovers."""
+        """Bus names of the programs that discover."""
         if adapter:
             self.objects[ADAPTER] = {
                 _ADAPTER: {
@@ -70,9 +69,9 @@ class Bluez(bus.Service):
 
     @asynccontextmanager
     async def serving(self, address: str) -> AsyncIterator[Bluez]:
-        """While this lasts it is org.bluez on the bus."""
+        """Serve org.bluez on the bus until the block is left."""
         async with self.owning("org.bluez", address):
-            radio = asyncio.create_task(self._hear())
+            radio = asyncio.create_task(self._scan())
             try:
                 yield self
             finally:
@@ -81,37 +80,37 @@ class Bluez(bus.Service):
 
     @property
     def is_idle(self) -> bool:
-        """Nobody discovers, and nothing is connected."""
+        """True when no program discovers and no device is connected."""
         return not self._scanning and not self._links
 
     def lose(self) -> None:
-        """All links, as if their devices were carried away and back."""
+        """Lose all links, as if the devices left the range and came back."""
         for link in tuple(self._links.values()):
             link.lose()
 
     def power(self, on: bool) -> None:
-        """As the switch of a desktop does."""
+        """Switch the adapter on or off."""
         if not on:
             self._scanning.clear()
             self.lose()
         self.change(ADAPTER, _ADAPTER, Powered=Variant("b", on))
 
-    # what the radio does
+    # advertisements and links
 
-    async def _hear(self) -> None:
+    async def _scan(self) -> None:
         loop = asyncio.get_running_loop()
         while True:
             for path, device in self._devices.items():
                 if self._scanning and path not in self._links and device.visible(loop.time()):
-                    self._heard(path, device)
-            await asyncio.sleep(HEARD)
+                    self._report_device(path, device)
+            await asyncio.sleep(ADVERTISING)
 
-    def _heard(self, path: str, device: Peripheral) -> None:
+    def _report_device(self, path: str, device: Peripheral) -> None:
         signal = Variant("n", SIGNAL)
         if path in self.objects:
             self.change(path, _DEVICE, RSSI=signal)
             return
-        said = {
+        properties = {
             "Address": Variant("s", device.address),
             "AddressType": Variant("s", "random"),
             "Name": Variant("s", device.name),
@@ -122,13 +121,13 @@ class Bluez(bus.Service):
         }
         no = Variant("b", False)
         flags = dict.fromkeys(("Paired", "Bonded", "Trusted", "Blocked", "Connected", "ServicesResolved"), no)
-        self.add(path, _DEVICE, said | flags)
+        self.add(path, _DEVICE, properties | flags)
 
     def _lost(self, path: str) -> None:
         del self._links[path]
         self.change(path, _DEVICE, Connected=Variant("b", False), ServicesResolved=Variant("b", False))
 
-    # what is called
+    # D-Bus methods
 
     async def call(self, method: str, path: str, sender: str, body: list[Any]) -> tuple[str, list[Any]]:
         match method:
@@ -150,7 +149,7 @@ class Bluez(bus.Service):
                 self.change(path, interface, **{name: value})
             case "GattCharacteristic1.ReadValue":
                 value = await self._request(path, Peripheral.read)
-                self._notified(path, value)  # the true one tells it to those who listen as well
+                self._notified(path, value)  # BlueZ notifies subscribers too
                 return "ay", [value]
             case "GattCharacteristic1.WriteValue":
                 value = bytes(body[0])
@@ -160,7 +159,7 @@ class Bluez(bus.Service):
                 self._links[device].callbacks[channel] = lambda data: self._notified(path, bytes(data))
                 await self._request(path, _subscribe)
             case _:
-                raise Refused("org.freedesktop.DBus.Error.UnknownMethod", f"there is no {method}")
+                raise DBusError("org.freedesktop.DBus.Error.UnknownMethod", f"there is no {method}")
         return "", []
 
     def client_left(self, sender: str) -> None:
@@ -169,14 +168,14 @@ class Bluez(bus.Service):
 
     def _start_discovery(self, sender: str) -> None:
         if not self.objects[ADAPTER][_ADAPTER]["Powered"].value:
-            raise Refused("org.bluez.Error.NotReady", "Resource Not Ready")
+            raise DBusError("org.bluez.Error.NotReady", "Resource Not Ready")
         if sender in self._scanning:
-            raise Refused("org.bluez.Error.InProgress", "Operation already in progress")
+            raise DBusError("org.bluez.Error.InProgress", "Operation already in progress")
         self._scanning.add(sender)
 
     def _stop_discovery(self, sender: str) -> None:
         if sender not in self._scanning:
-            raise Refused("org.bluez.Error.Failed", "No discovery started")
+            raise DBusError("org.bluez.Error.Failed", "No discovery started")
         self._scanning.discard(sender)
         for path in self._devices:
             if not self._scanning and path in self.objects:
@@ -185,10 +184,10 @@ class Bluez(bus.Service):
     async def _connect(self, path: str) -> None:
         device = self._devices[path]
         if path in self._links:
-            raise Refused("org.bluez.Error.AlreadyConnected", "Already Connected")
+            raise DBusError("org.bluez.Error.AlreadyConnected", "Already Connected")
         loop = asyncio.get_running_loop()
         while not device.visible(loop.time()):
-            await asyncio.sleep(HEARD)  # until it is cancelled
+            await asyncio.sleep(ADVERTISING)  # until it is cancelled
         self._links[path] = LoopbackLink(device, device.mtu, 0.01, lambda: self._lost(path))
         device.is_encrypted = self.objects[path][_DEVICE]["Paired"].value
         self.change(path, _DEVICE, Connected=Variant("b", True))
@@ -204,25 +203,25 @@ class Bluez(bus.Service):
         if path not in self._links:
             await self._connect(path)
         device = self._devices[path]
-        if not await self._links[path].request(device.agrees_to_pair):
-            raise Refused("org.bluez.Error.AuthenticationFailed", "Authentication Failed")
+        if not await self._links[path].request(device.accepts_pairing):
+            raise DBusError("org.bluez.Error.AuthenticationFailed", "Authentication Failed")
         device.is_encrypted = True
         self.change(path, _DEVICE, Paired=Variant("b", True))
 
     async def _request(self, path: str, do: Callable[[Peripheral, str, float], T | None]) -> T:
-        """What the device answers about the characteristic. Refused."""
+        """Return the device's answer to a request to the characteristic; raise DBusError when it rejects it."""
         at, channel = self._channels[path]
         device, link = self._devices[at], self._links.get(at)
         if link is None:
-            raise Refused("org.bluez.Error.Failed", "Not connected")
+            raise DBusError("org.bluez.Error.Failed", "Not connected")
         try:
             return await link.request(lambda now: do(device, channel, now))
         except BleakGATTProtocolError as error:
             code = int(error.code)
-            unnamed = Refused("org.bluez.Error.Failed", f"Operation failed with ATT error: 0x{code:02x}")
-            raise _REFUSED.get(code, unnamed) from None
+            unnamed = DBusError("org.bluez.Error.Failed", f"Operation failed with ATT error: 0x{code:02x}")
+            raise _ATT_ERRORS.get(code, unnamed) from None
         except BleakError:
-            raise Refused("org.bluez.Error.Failed", "Not connected") from None
+            raise DBusError("org.bluez.Error.Failed", "Not connected") from None
 
     def _notified(self, path: str, value: bytes) -> None:
         self.change(path, _CHARACTERISTIC, Value=Variant("ay", value))
@@ -238,13 +237,13 @@ def _channel(services: Iterable[Service], uuid: str) -> str:
 
 
 def _attributes(device: str, services: Iterable[Service]) -> Iterator[tuple[str, str, dict[str, Variant]]]:
-    """Path, interface and properties of what discovery finds, the handles counted through."""
+    """Yield path, interface and properties of the attributes that discovery finds, with consecutive handles."""
     handle = 0
     for service in services:
         handle += 1
         path = f"{device}/service{handle:04x}"
-        said = {"UUID": Variant("s", service.uuid), "Device": Variant("o", device), "Primary": Variant("b", True)}
-        yield path, _SERVICE, said
+        properties = {"UUID": Variant("s", service.uuid), "Device": Variant("o", device), "Primary": Variant("b", True)}
+        yield path, _SERVICE, properties
         for one in service.characteristics:
             handle += 1
             yield f"{path}/char{handle:04x}", _CHARACTERISTIC, _properties(one, path)
@@ -252,7 +251,7 @@ def _attributes(device: str, services: Iterable[Service]) -> Iterator[tuple[str,
 
 
 def _properties(one: Characteristic, service: str) -> dict[str, Variant]:
-    said = {
+    properties = {
         "UUID": Variant("s", one.uuid),
         "Service": Variant("o", service),
         "Value": Variant("ay", b""),
@@ -260,5 +259,5 @@ def _properties(one: Characteristic, service: str) -> dict[str, Variant]:
         "MTU": Variant("q", 247),
     }
     if "notify" in one.properties:
-        said |= dict.fromkeys(("Notifying", "NotifyAcquired"), Variant("b", False))
-    return said
+        properties |= dict.fromkeys(("Notifying", "NotifyAcquired"), Variant("b", False))
+    return properties

@@ -1,4 +1,4 @@
-"""A message bus of D-Bus to oneself, and a service on it that is a tree of objects."""
+"""A private D-Bus message bus, and a service on it that is a tree of objects."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _OBJECTS = "org.freedesktop.DBus.ObjectManager"
 
 @asynccontextmanager
 async def message_bus(directory: Path) -> AsyncIterator[str]:
-    """A bus that nobody is on, and its address for DBUS_SYSTEM_BUS_ADDRESS."""
+    """Start an empty bus and yield its address for DBUS_SYSTEM_BUS_ADDRESS."""
     assert DAEMON is not None
     configuration = directory / "bus.conf"
     configuration.write_text(_CONFIGURATION.format(socket=directory / "bus"), encoding="utf-8")
@@ -57,8 +57,8 @@ async def message_bus(directory: Path) -> AsyncIterator[str]:
         await daemon.wait()
 
 
-class Refused(Exception):
-    """A call is answered with this error."""
+class DBusError(Exception):
+    """The service answers a call with this error."""
 
     def __init__(self, name: str, words: str) -> None:
         super().__init__(name, words)
@@ -66,27 +66,29 @@ class Refused(Exception):
 
 
 class Service(ABC):
-    """Objects by path, of each the properties by interface. `refusals`: errors that the next calls of a method
-    ("Device1.Connect") are answered with. `calls`: what was called so far."""
+    """Objects by path, with their properties by interface.
+
+    `errors` has the errors that answer the next calls of a method ("Device1.Connect"), `calls` all calls so far.
+    """
 
     def __init__(self) -> None:
         self.objects: dict[str, dict[str, dict[str, Variant]]] = {}
-        self.refusals: dict[str, list[Refused]] = {}
+        self.errors: dict[str, list[DBusError]] = {}
         self.calls: list[str] = []
         self._answers: set[asyncio.Task[None]] = set()
         self._bus: MessageBus | None = None
 
     @abstractmethod
     async def call(self, method: str, path: str, sender: str, body: list[Any]) -> tuple[str, list[Any]]:
-        """Do it; what it returns, and of which signature. Refused."""
+        """Run a method and return its signature and result; raise DBusError when it fails."""
 
     @abstractmethod
     def client_left(self, sender: str) -> None:
-        """The program with this name on the bus has left it."""
+        """Handle that the program with this name has left the bus."""
 
     @asynccontextmanager
     async def owning(self, name: str, address: str) -> AsyncIterator[None]:
-        """While this lasts it is on the bus. Then it is gone as if killed: nobody is told that its objects are."""
+        """Serve on the bus until the block is left, then stop as if killed, without signals for removed objects."""
         self._bus = bus = MessageBus(bus_address=address)
         await bus.connect()
         bus.add_message_handler(self._handle)
@@ -105,17 +107,17 @@ class Service(ABC):
             bus.disconnect()
 
     def add(self, path: str, interface: str, properties: dict[str, Variant]) -> None:
-        """One more object."""
+        """Add an object."""
         self.objects[path] = {interface: properties}
         self._emit("/", _OBJECTS, "InterfacesAdded", "oa{sa{sv}}", [path, self.objects[path]])
 
-    def change(self, path: str, interface: str, *gone: str, **properties: Variant) -> None:
-        """Properties have new values, or are `gone`."""
+    def change(self, path: str, interface: str, *removed: str, **properties: Variant) -> None:
+        """Set properties to new values, and remove others."""
         held = self.objects[path][interface]
         held.update(properties)
-        for name in gone:
+        for name in removed:
             held.pop(name, None)
-        self._emit(path, _PROPERTIES, "PropertiesChanged", "sa{sv}as", [interface, properties, list(gone)])
+        self._emit(path, _PROPERTIES, "PropertiesChanged", "sa{sv}as", [interface, properties, list(removed)])
 
     def _emit(self, path: str, interface: str, member: str, signature: str, body: list[Any]) -> None:
         if self._bus is not None and self._bus.connected:
@@ -135,10 +137,10 @@ class Service(ABC):
         method = f"{(call.interface or '').rpartition('.')[2]}.{call.member}"
         self.calls.append(method)
         try:
-            if self.refusals.get(method):
-                raise self.refusals[method].pop(0)
+            if self.errors.get(method):
+                raise self.errors[method].pop(0)
             signature, body = await self._result(method, call)
-        except Refused as error:
+        except DBusError as error:
             reply = Message.new_error(call, error.name, error.words)
         else:
             reply = Message.new_method_return(call, signature, body)
@@ -150,5 +152,5 @@ class Service(ABC):
         if method == "ObjectManager.GetManagedObjects":
             return "a{oa{sa{sv}}}", [self.objects]
         if path not in self.objects:
-            raise Refused("org.freedesktop.DBus.Error.UnknownObject", f"there is no {path}")
+            raise DBusError("org.freedesktop.DBus.Error.UnknownObject", f"there is no {path}")
         return await self.call(method, path, call.sender or "", call.body)

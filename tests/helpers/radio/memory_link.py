@@ -1,4 +1,4 @@
-"""A connection to an emulated device in one process: requests in turn, notifications when they are due."""
+"""A connection to an emulated device in one process: requests one by one, notifications when they are due."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ T = TypeVar("T")
 
 
 class LoopbackLink:
-    """A connection: carries requests one after the other, and notifications when they are due."""
+    """A connection that delivers requests one after the other, and notifications when they are due."""
 
     def __init__(self, device: Peripheral, mtu: int, round_trip: float, lost: Callable[[], None]) -> None:
         self.mtu = mtu
         self.callbacks: dict[str, NotifyCallback] = {}
         self._device, self._round_trip, self._lost = device, round_trip, lost
         self._loop = asyncio.get_running_loop()
-        self._gone = self._loop.create_future()
+        self._closed = self._loop.create_future()
         self._turn = asyncio.Lock()
         self._timer: asyncio.TimerHandle | None = None
         device.changed = self._schedule
@@ -31,12 +31,12 @@ class LoopbackLink:
 
     @property
     def is_up(self) -> bool:
-        return not self._gone.done()
+        return not self._closed.done()
 
     async def request(self, do: Callable[[float], T | None]) -> T:
-        """What the device answers. BleakGATTProtocolError when it refuses, BleakError when the link is lost first."""
+        """Return the device's answer; raise BleakGATTProtocolError when it rejects, BleakError when the link ends."""
         async with self._turn:
-            await asyncio.wait([self._gone], timeout=self._round_trip)
+            await asyncio.wait([self._closed], timeout=self._round_trip)
             if self.is_up:
                 try:
                     answer = do(self._loop.time())
@@ -44,11 +44,11 @@ class LoopbackLink:
                     raise BleakGATTProtocolError(error.code) from None
                 if answer is not None:
                     return answer
-                await asyncio.wait([self._gone])
+                await asyncio.wait([self._closed])
             raise BleakError("disconnected")
 
     def command(self, do: Callable[[float], object]) -> None:
-        """A write without response: nobody hears what becomes of it."""
+        """Write without response: errors are not reported."""
         if self.is_up:
             try:
                 do(self._loop.time())
@@ -56,10 +56,10 @@ class LoopbackLink:
                 return
 
     def lose(self) -> None:
-        """The link is lost, or ended."""
+        """End the link."""
         if not self.is_up:
             return
-        self._gone.set_result(None)
+        self._closed.set_result(None)
         if self._timer is not None:
             self._timer.cancel()
         self._device.changed = None

@@ -1,12 +1,12 @@
-"""A fast Bluetooth for tests: emulated devices behind bleak's own classes, in one process, with no GATT in between.
+"""A fast radio for tests: emulated devices behind bleak's own classes, in one process, without GATT.
 
     reach = MemoryRadio(bench.peripherals)
     device = await BleakScanner.find_device_by_name("solepath L", backend=reach.backend.scanner)
     async with BleakClient(device, backend=reach.backend.client) as client: ...
 
-What a host can notice is as on a link: devices advertise, one host at a time connects, each request takes its time and
-is answered, refused (BleakGATTProtocolError) or cut off by the loss of the link (BleakError), and a notification that
-is longer than the MTU allows is cut without a word. Time is that of the running loop.
+A host sees the same as on a real link: devices advertise, one host at a time connects. Each request takes its time and
+is answered, rejected (BleakGATTProtocolError) or ended by the loss of the link (BleakError). A notification that is
+longer than the MTU allows is cut without an error. Time is that of the running loop.
 """
 
 from __future__ import annotations
@@ -32,14 +32,14 @@ from solepath.emulate.devices.peripheral import Peripheral
 from solepath.link.profile import standard_uuid
 
 ADVERTISING = 0.1
-"""s between advertisements of a device."""
+"""Time between advertisements of a device, s."""
 SIGNAL = -50
-"""dBm with which every device is heard."""
+"""Received signal strength of every device, dBm."""
 _SUBSCRIPTION = standard_uuid(0x2902)
 
 
 class MemoryRadio:
-    """The devices within reach. `mtu`: what the host asks for; `round_trip`: of a request, s."""
+    """The devices within reach; `mtu` is the MTU that the host requests, `round_trip` the time of a request, s."""
 
     def __init__(self, peripherals: Iterable[Peripheral], *, mtu: int = 247, round_trip: float = 0.015) -> None:
         self.peripherals = tuple(peripherals)
@@ -57,7 +57,7 @@ class MemoryRadio:
         self.backend = Backend(MemoryClient, MemoryScanner)
 
     def advertising(self, now: float) -> list[Peripheral]:
-        """Those that advertise now."""
+        """Return the devices that advertise now."""
         return [device for device in self.peripherals if not device.is_connected and device.visible(now)]
 
 
@@ -65,9 +65,9 @@ class _MemoryClient(BaseBleakClient):
     air: ClassVar[MemoryRadio]
 
     def __init__(self, address_or_ble_device: BLEDevice | str, **kwargs: Any) -> None:
-        wanted: set[str] | None = kwargs.pop("services", None)
+        requested: set[str] | None = kwargs.pop("services", None)
         super().__init__(address_or_ble_device, **kwargs)
-        self._wanted = wanted
+        self._requested_services = requested
         self._name = address_or_ble_device.name if isinstance(address_or_ble_device, BLEDevice) else None
         self._link: LoopbackLink | None = None
         self._established = False
@@ -96,7 +96,7 @@ class _MemoryClient(BaseBleakClient):
         except BaseException:
             link.lose()
             raise
-        self.services = _collection(device, self._wanted, link.mtu)
+        self.services = _collection(device, self._requested_services, link.mtu)
         self._established = True
 
     async def _found(self, timeout: float) -> Peripheral:
@@ -124,7 +124,7 @@ class _MemoryClient(BaseBleakClient):
             self._disconnected_callback()
 
     async def _encrypt(self, pair: bool) -> None:
-        """By what an earlier pairing left, or after a pairing if that is wanted."""
+        """Encrypt the link with the keys of an earlier pairing, or pair first if `pair`."""
         link, device = self._up()
         if device.address in self.air.paired:
             await link.request(lambda now: _encrypted(device))
@@ -135,13 +135,13 @@ class _MemoryClient(BaseBleakClient):
         link, device = self._up()
         if device.address in self.air.paired:
             return
-        if not await link.request(device.agrees_to_pair):
+        if not await link.request(device.accepts_pairing):
             raise BleakError("the device refused to be paired")
         await link.request(lambda now: _encrypted(device))
         self.air.paired.add(device.address)
 
     async def unpair(self) -> None:
-        """Forgets the pairing, which ends the link."""
+        """Delete the pairing and end the link."""
         self.air.paired.discard(self.address)
         await self.disconnect()
 
@@ -221,7 +221,7 @@ class _Scanner(BaseBleakScanner):
         loop = asyncio.get_running_loop()
         self._timer = loop.call_later(ADVERTISING, self._listen)
         for device in self.air.advertising(loop.time()):
-            said = AdvertisementData(
+            advertisement = AdvertisementData(
                 local_name=device.name,
                 manufacturer_data={},
                 service_data={},
@@ -230,18 +230,18 @@ class _Scanner(BaseBleakScanner):
                 rssi=SIGNAL,
                 platform_data=(device,),
             )
-            if self.is_allowed_uuid(said.service_uuids):
-                seen = self.create_or_update_device(device.address, device.address, device.name, device, said)
-                self.call_detection_callbacks(seen, said)
+            if self.is_allowed_uuid(advertisement.service_uuids):
+                seen = self.create_or_update_device(device.address, device.address, device.name, device, advertisement)
+                self.call_detection_callbacks(seen, advertisement)
 
 
-def _collection(device: Peripheral, wanted: set[str] | None, mtu: int) -> BleakGATTServiceCollection:
-    """The device's attributes as discovery finds them, their handles counted through."""
+def _collection(device: Peripheral, requested: set[str] | None, mtu: int) -> BleakGATTServiceCollection:
+    """Return the device's attributes as discovery finds them, with consecutive handles."""
     found = BleakGATTServiceCollection()
     handle = 0
     for service in device.services:
         handle += 1
-        if wanted and service.uuid not in wanted:
+        if requested and service.uuid not in requested:
             continue
         group = BleakGATTService(service, handle, service.uuid)
         found.add_service(group)

@@ -1,4 +1,4 @@
-"""A chest strap of a few lines: a device that counts, to try the virtual air with. As a program it serves itself."""
+"""A minimal chest strap that sends a counter, for tests of the virtual radio; as a program it serves itself."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from attrs import frozen
 
 from solepath.emulate.controllers.tcp import serve
 from solepath.emulate.devices.attributes import AttCode, AttError, Characteristic, Service
-from solepath.emulate.devices.peripheral import Peripheral, Worn
+from solepath.emulate.devices.peripheral import Peripheral, Placement
 from solepath.types import Site
 
 
@@ -35,12 +35,12 @@ SERVICES = (
     Service(LOG, (Characteristic(PAGE, "strap/page", frozenset({"read"})),)),
 )
 BOOK = bytes(range(250)) * 2
-"""What strap/page holds: more than any packet."""
+"""Value of strap/page: longer than any packet."""
 
 
 @frozen
 class Count:
-    """Numbers at a rate (Hz), each in `size` bytes."""
+    """A value source of consecutive numbers at `rate` Hz, each in `size` bytes."""
 
     rate: float
     size: int
@@ -56,12 +56,12 @@ class Count:
 
 
 class Strap(Peripheral):
-    """Counts at the rate written to strap/control, a byte of Hz; any other length is refused."""
+    """Sends a counter at the rate written to strap/control, one byte, Hz; it rejects values of any other length."""
 
     size = 20
 
     def __init__(self, name: str, address: str, *, advertised: Sequence[str] = (HEART_RATE,), **given: Any) -> None:
-        super().__init__(Worn(Site.PELVIS, address, **given), name, SERVICES, advertised)
+        super().__init__(Placement(Site.PELVIS, address, **given), name, SERVICES, advertised)
         self.rate = 0
 
     def value(self, channel: str, t: float) -> bytes:

@@ -1,4 +1,4 @@
-"""The virtual air in virtual time, for tests: sleeping costs nothing; a strap to find, a host that remembers."""
+"""The virtual radio in virtual time, for tests: sleeping takes no real time; a strap, and a host that logs."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ ONE, TWO = "F0:00:00:00:00:01", "F0:00:00:00:00:02"
 
 
 def run(main: Callable[[], Awaitable[None]]) -> None:
-    """In virtual time; nothing may be left running when it is over."""
+    """Run a coroutine in virtual time; no task may be left running at the end."""
 
     async def whole() -> None:
         await main()
@@ -37,7 +37,7 @@ def run(main: Callable[[], Awaitable[None]]) -> None:
 
 
 def virtually(test: Callable[..., Awaitable[None]]) -> Callable[..., None]:
-    """An async test that runs so."""
+    """Run an async test in virtual time."""
 
     @wraps(test)
     def run_it(*given: Any, **named: Any) -> None:
@@ -61,23 +61,23 @@ async def find(backend: Backend, name: str = "one") -> BLEDevice:
 
 
 class Host:
-    """A client that remembers when it lost its link and what it was notified of."""
+    """A client that logs the times of lost links and the received notifications."""
 
     def __init__(self, backend: Backend, device: BLEDevice | str) -> None:
         self.lost: list[float] = []
-        self.heard: list[tuple[float, bytes]] = []
-        self.client = BleakClient(device, self._gone, backend=backend.client)
+        self.received: list[tuple[float, bytes]] = []
+        self.client = BleakClient(device, self._on_disconnect, backend=backend.client)
 
-    def _gone(self, client: BleakClient) -> None:
+    def _on_disconnect(self, client: BleakClient) -> None:
         self.lost.append(now())
 
     async def count(self, rate: int) -> None:
-        await self.client.start_notify(BEAT, lambda _, value: self.heard.append((now(), bytes(value))))
+        await self.client.start_notify(BEAT, lambda _, value: self.received.append((now(), bytes(value))))
         await self.client.write_gatt_char(CONTROL, bytes([rate]), response=True)
 
     @property
     def numbers(self) -> list[int]:
-        return [int.from_bytes(value[:4], "little") for _, value in self.heard]
+        return [int.from_bytes(value[:4], "little") for _, value in self.received]
 
 
 @asynccontextmanager

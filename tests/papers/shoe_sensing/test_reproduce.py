@@ -6,7 +6,7 @@ import pytest
 from attrs import evolve
 from strides import stride
 
-from solepath.emulate.wearers.truth import TrueStep
+from solepath.emulate.wearers.truth import TrueStride
 from solepath.events import StrideTaken
 from solepath.lab.reproduce import shoe_sensing, shoe_walks
 from solepath.lab.reproduce.published import NORMALISED
@@ -20,8 +20,8 @@ def step(t: float) -> StrideTaken:
     return stride(FOOT, t)
 
 
-def true(t: float) -> TrueStep:
-    return TrueStep(FOOT, 1, t - 1.0, t, t - 0.9, t - 0.7, t - 0.2, (1.2, 0.0, 0.0), 1.2, 0.0)
+def true(t: float) -> TrueStride:
+    return TrueStride(FOOT, 1, t - 1.0, t, t - 0.9, t - 0.7, t - 0.2, (1.2, 0.0, 0.0), 1.2, 0.0)
 
 
 def test_steps_are_matched_one_to_one_and_in_order() -> None:

@@ -84,7 +84,7 @@ def test_flights_on_both_sides_of_a_landing_are_two(route: Route, up: bool) -> N
         assert [flight.up for flight in found] == [up, up]
         for flight, other in zip(found, true, strict=True):
             assert flight.height == pytest.approx(other.height, abs=0.35)
-            assert other.begin - 1.5 < flight.t_start < flight.t < other.end + 1.5
+            assert other.start - 1.5 < flight.t_start < flight.t < other.end + 1.5
 
 
 @pytest.mark.parametrize(

@@ -108,7 +108,7 @@ async def _tell(bench: Bench) -> None:
 
 def _state(peripheral: Peripheral) -> str:
     link = "connected" if peripheral.is_connected else "not connected"
-    faults = f", {peripheral.suffered} faults" if peripheral.suffered else ""
+    faults = f", {peripheral.fault_count} faults" if peripheral.fault_count else ""
     return f"{peripheral.site.words} {link}, {sum(peripheral.sent.values())} sent{faults}"
 
 

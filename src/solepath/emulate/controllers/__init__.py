@@ -1,4 +1,4 @@
-"""Emulated devices over true Bluetooth protocols, in this process or over TCP. Needs the extra `loopback`."""
+"""Emulated devices over real Bluetooth protocols, in this process or over TCP. Needs the extra `loopback`."""
 
 from .server import virtual_air
 from .tcp import reach, serve

@@ -1,4 +1,4 @@
-"""bleak's client and scanner over a virtual central, for `BleakClient(..., backend=)`: all above is as for a radio."""
+"""Client and scanner of bleak over a virtual central, for `BleakClient(..., backend=)`, as with a real adapter."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ _T = TypeVar("_T")
 
 _SMALLEST_MTU = 23
 _PAIRING = 30.0
-"""s after which a pairing has failed (Bluetooth Core, vol 3 part H, 3.4)."""
-_REFUSALS: dict[tuple[str, int | None], str] = {
+"""Time after which a pairing has failed, s (Bluetooth Core, vol 3 part H, 3.4)."""
+_PAIRING_ERRORS: dict[tuple[str, int | None], str] = {
     ("smp", int(smp.ErrorCode.PAIRING_NOT_SUPPORTED)): "the device refused to be paired",
     ("hci", int(hci.HCI_ErrorCode.PIN_OR_KEY_MISSING_ERROR)): "the device has forgotten the pairing: unpair it here "
     "too, and pair anew",
@@ -45,7 +45,7 @@ _SERVICE_LISTS = (
 
 
 def backend_of(radio: VirtualRadio) -> Backend:
-    """The classes that bleak is given to use this radio."""
+    """Return the classes that make bleak use this radio."""
 
     class VirtualScanner(RadioScanner):
         pass
@@ -63,7 +63,7 @@ def _uuid(uuid: core.UUID) -> str:
 
 
 class RadioScanner(BaseBleakScanner):
-    """Hears what the devices on the air advertise."""
+    """Scanner of the advertisements on the virtual link."""
 
     radio: ClassVar[VirtualRadio]
 
@@ -78,21 +78,22 @@ class RadioScanner(BaseBleakScanner):
 
     async def start(self) -> None:
         self.seen_devices = {}
-        await self.radio.listen(self.heard)
+        await self.radio.listen(self.on_advertisement)
 
     async def stop(self) -> None:
-        await self.radio.ignore(self.heard)
+        await self.radio.ignore(self.on_advertisement)
 
-    def heard(self, advertisement: Advertisement) -> None:
-        """Called by the radio for each advertisement."""
-        said = advertisement.data
-        lists = [listed for kind in _SERVICE_LISTS for listed in said.get_all(kind) if isinstance(listed, list)]
+    def on_advertisement(self, advertisement: Advertisement) -> None:
+        """Report one advertisement to the callbacks of bleak."""
+        fields = advertisement.data
+        lists = [listed for kind in _SERVICE_LISTS for listed in fields.get_all(kind) if isinstance(listed, list)]
         services = [_uuid(uuid) for listed in lists for uuid in listed if isinstance(uuid, core.UUID)]
-        name = said.get(AdvertisingData.COMPLETE_LOCAL_NAME) or said.get(AdvertisingData.SHORTENED_LOCAL_NAME)
+        name = fields.get(AdvertisingData.COMPLETE_LOCAL_NAME) or fields.get(AdvertisingData.SHORTENED_LOCAL_NAME)
         data = AdvertisementData(
             local_name=name,
             manufacturer_data={
-                int(company): bytes(body) for company, body in said.get_all(AdvertisingData.MANUFACTURER_SPECIFIC_DATA)
+                int(company): bytes(body)
+                for company, body in fields.get_all(AdvertisingData.MANUFACTURER_SPECIFIC_DATA)
             },
             service_data={},
             service_uuids=list(dict.fromkeys(services)),
@@ -107,10 +108,10 @@ class RadioScanner(BaseBleakScanner):
 
 
 class RadioClient(BaseBleakClient):
-    """One GATT client.
+    """A GATT client on the virtual link.
 
-    The disconnected callback is called once for every link that came to stand, whoever ended it and however. A request
-    that is pending then ends with a BleakError.
+    The disconnected callback is called once for every established link, whichever side ended it. A pending request then
+    ends with a BleakError.
     """
 
     radio: ClassVar[VirtualRadio]
@@ -119,7 +120,7 @@ class RadioClient(BaseBleakClient):
     def __init__(self, address_or_ble_device: BLEDevice | str, services: set[str] | None = None, **kwargs: Any) -> None:
         super().__init__(address_or_ble_device, **kwargs)
         self._device = address_or_ble_device if isinstance(address_or_ble_device, BLEDevice) else None
-        self._wanted = services
+        self._requested_services = services
         self._link: Connection | None = None
         self._established = False
         self._subscriptions: dict[int, Callable[[bytes], None]] = {}
@@ -137,11 +138,11 @@ class RadioClient(BaseBleakClient):
         return self._link is not None
 
     async def connect(self, pair: bool, **kwargs: Any) -> None:
-        """Connects, agrees on an MTU and discovers what the device has. The link is encrypted if there are keys of an
-        earlier pairing; if there are none and `pair`, the device is paired with.
+        """Connect, exchange the MTU and discover the services.
 
-        `timeout`: s. TimeoutError when the device does not answer; BleakDeviceNotFoundError when only an address was
-        given and nobody advertised it for so long; BleakError when the link is lost at once, or pairing fails.
+        With the keys of an earlier pairing the link is encrypted; without keys and with `pair` the device is paired.
+        `timeout`, s: a device that does not answer raises TimeoutError; an address that no device advertises raises
+        BleakDeviceNotFoundError; a link that is lost at once, or a failed pairing, raises BleakError.
         """
         if self._link is not None:
             raise BleakError("already connected")
@@ -172,14 +173,19 @@ class RadioClient(BaseBleakClient):
     async def _discover(self, peer: Peer) -> BleakGATTServiceCollection:
         found = BleakGATTServiceCollection()
         for service in await peer.discover_services():
-            if self._wanted and _uuid(service.uuid) not in self._wanted:
+            if self._requested_services and _uuid(service.uuid) not in self._requested_services:
                 continue
             ours = BleakGATTService(service, service.handle, _uuid(service.uuid))
             found.add_service(ours)
             for characteristic in await service.discover_characteristics():
                 properties = list(gatt_char_props_to_strs(int(characteristic.properties)))
                 of_ours = BleakGATTCharacteristic(
-                    characteristic, characteristic.handle, _uuid(characteristic.uuid), properties, self._room, ours
+                    characteristic,
+                    characteristic.handle,
+                    _uuid(characteristic.uuid),
+                    properties,
+                    self._payload_size,
+                    ours,
                 )
                 found.add_characteristic(of_ours)
                 for descriptor in await characteristic.discover_descriptors():
@@ -188,8 +194,8 @@ class RadioClient(BaseBleakClient):
                     )
         return found
 
-    def _room(self) -> int:
-        """Bytes of a value that fit in one ATT packet."""
+    def _payload_size(self) -> int:
+        """Return the size of a value that fits in one ATT packet, bytes."""
         return self.mtu_size - 3
 
     def _lost(self, link: Connection, reason: int) -> None:
@@ -208,7 +214,7 @@ class RadioClient(BaseBleakClient):
             self._lost(link, 0)
 
     async def pair(self, *args: Any, **kwargs: Any) -> None:
-        """LE Secure Connections, Just Works: nobody is asked. The keys are kept as long as the backend."""
+        """Pair by LE Secure Connections, Just Works, without user input; the backend keeps the keys while it lives."""
         link = self._link
         if link is None:
             raise BleakError("not connected")
@@ -222,7 +228,7 @@ class RadioClient(BaseBleakClient):
             raise BleakError("the device did not answer when it was to be paired") from error
 
     async def unpair(self) -> None:
-        """Forgets the keys, which ends the link."""
+        """Delete the keys of the pairing and end the link."""
         await self.radio.keys.delete(self.address)
         await self.disconnect()
 
@@ -239,7 +245,7 @@ class RadioClient(BaseBleakClient):
             await self.disconnect()
             raise BleakError("the device did not answer") from error
         except core.ProtocolError as error:
-            known = _REFUSALS.get((error.error_namespace, error.error_code))
+            known = _PAIRING_ERRORS.get((error.error_namespace, error.error_code))
             raise BleakError(known or str(error)) from error
         except (core.BaseBumbleError, TimeoutError) as error:
             raise BleakError(str(error)) from error
@@ -252,8 +258,8 @@ class RadioClient(BaseBleakClient):
 
     async def write_gatt_char(self, characteristic: BleakGATTCharacteristic, data: SizedBuffer, response: bool) -> None:
         value = bytes(data)
-        if not response and len(value) > self._room():
-            raise BleakError(f"{len(value)} bytes do not fit in a write without response ({self._room()} do)")
+        if not response and len(value) > self._payload_size():
+            raise BleakError(f"{len(value)} bytes do not fit in a write without response ({self._payload_size()} do)")
         await self._request(partial(characteristic.obj.write_value, value, with_response=response))
 
     async def write_gatt_descriptor(self, descriptor: BleakGATTDescriptor, data: SizedBuffer) -> None:
@@ -276,12 +282,12 @@ class RadioClient(BaseBleakClient):
     async def stop_notify(self, characteristic: BleakGATTCharacteristic) -> None:
         subscriber = self._subscriptions.pop(characteristic.handle, None)
         if subscriber is not None:
-            with suppress(BleakGATTProtocolError):  # off is off, whatever the device says
+            with suppress(BleakGATTProtocolError):  # notifications are off here, also when the device answers an error
                 await self._request(partial(characteristic.obj.unsubscribe, subscriber))
 
 
 def _deliver(callback: NotifyCallback, value: bytes) -> None:
-    """An app's mistake is reported by the loop, as for any callback, and not taken for a packet that cannot be read."""
+    """Call the app's callback; its exception goes to the loop's handler and does not look like an unreadable packet."""
     try:
         callback(bytearray(value))
     except Exception as error:

@@ -1,8 +1,8 @@
-"""The virtual radio: bumble's controllers on a shared link, mended where they fall short of the Core specification.
+"""Virtual controllers: those of bumble on a shared link, corrected where they differ from the Core specification.
 
-Three things matter to whoever tests a reconnect. A connection request that is taken back must really end; a device that
-has just accepted somebody else must not leave the second caller with a link that is dead from the beginning; and a scan
-response must carry its own data. Extended advertising and privacy are left out: nothing here needs them.
+Three corrections matter in tests of a reconnect. A cancelled connection request really ends. When a device has just
+accepted another central, a second central does not keep a link that is dead from the start. A scan response has its own
+data. Extended advertising and privacy are left out: nothing here needs them.
 """
 
 from __future__ import annotations
@@ -17,29 +17,30 @@ from bumble import core, hci, ll
 from bumble.controller import Connection, Controller
 from bumble.link import LocalLink
 
-_NOISY = logging.getLogger("bumble")
-if _NOISY.level == logging.NOTSET:  # it warns of much that is no trouble: packets in flight when their link ends, ...
-    _NOISY.setLevel(logging.CRITICAL)
+_LOGGER = logging.getLogger("bumble")
+if _LOGGER.level == logging.NOTSET:  # its warnings are harmless: packets in flight at the end of a link
+    _LOGGER.setLevel(logging.CRITICAL)
 
-RSSI = -50  # dBm; there are no distances in this air
+RSSI = -50
+"""Received signal strength of every advertisement, dBm; the virtual link has no distances."""
 
 
-class VirtualAir(LocalLink):
-    """The air that virtual controllers share.
+class VirtualMedium(LocalLink):
+    """The radio medium that virtual controllers share.
 
-    `interval`: s between the connection events of every link made in it; None: everything goes at once.
+    `interval` is the time between the connection events of every link, s; None: packets do not wait.
     """
 
     def __init__(self, interval: float | None = None) -> None:
         super().__init__()  # type: ignore[no-untyped-call]
         self._interval = interval
-        self._events: dict[frozenset[hci.Address], Events] = {}
+        self._events: dict[frozenset[hci.Address], ConnectionEvents] = {}
 
     def send_advertising_pdu(self, sender_controller: Controller, packet: ll.AdvertisingPdu) -> None:
         if self._interval is not None and isinstance(packet, ll.ConnectInd):
             self._end(packet.initiator_address, packet.advertiser_address)
             ends = frozenset((packet.initiator_address, packet.advertiser_address))
-            self._events[ends] = Events(self._interval)
+            self._events[ends] = ConnectionEvents(self._interval)
         super().send_advertising_pdu(sender_controller, packet)
 
     def send_acl_data(
@@ -64,7 +65,7 @@ class VirtualAir(LocalLink):
         if events is None:
             go()
         elif isinstance(packet, ll.TerminateInd):
-            # bumble's controllers forget a link that they end, so what was said before must be heard now
+            # bumble's controllers drop a link that they end, so earlier packets must arrive now
             events.flush()
             go()
             self._end(sender_address, receiver_address)
@@ -77,7 +78,7 @@ class VirtualAir(LocalLink):
             events.end()
 
     def lose(self, controller: Controller, connection: Connection) -> None:
-        """Ends a link as radio silence does: both sides see a supervision timeout."""
+        """End a link as radio silence does: both sides see a supervision timeout."""
         self._end(connection.self_address, connection.peer_address)
         for end in list(self.controllers):
             other = end.le_connections.get(connection.self_address)
@@ -87,7 +88,7 @@ class VirtualAir(LocalLink):
             controller.on_le_disconnected(connection, hci.HCI_ErrorCode.CONNECTION_TIMEOUT_ERROR)
 
     def leave(self, controller: Controller) -> None:
-        """Takes a controller out of the air, as if its battery had been pulled."""
+        """Remove a controller from the medium, as if it had lost its power."""
         controller.le_legacy_advertiser.stop()
         for connection in list(controller.le_connections.values()):
             self.lose(controller, connection)
@@ -97,7 +98,7 @@ class VirtualAir(LocalLink):
 
 
 class VirtualController(Controller):
-    """One controller on a Link. `advertisement` is asked for the data before each one is sent; None: it is silent."""
+    """One controller on the medium; `advertisement()` returns the data to advertise, None for no advertisement."""
 
     le_acl_data_packet_length = 251  # data length extension: an ATT MTU of 247 needs no fragments
     le_features = Controller.le_features & ~(
@@ -106,7 +107,7 @@ class VirtualController(Controller):
         | hci.LeFeatureMask.LL_PRIVACY
     )
 
-    def __init__(self, name: str, link: VirtualAir, advertisement: Callable[[], bytes | None] | None = None) -> None:
+    def __init__(self, name: str, link: VirtualMedium, advertisement: Callable[[], bytes | None] | None = None) -> None:
         super().__init__(name, link=link)
         self.air = link
         self.advertisement = advertisement
@@ -120,7 +121,7 @@ class VirtualController(Controller):
         super().send_advertising_pdu(packet)
 
     def on_advertising_pdu(self, pdu: ll.AdvInd | ll.AdvExtInd) -> None:
-        """Reports the advertisement, and to an active scan what the device answers to a scan request."""
+        """Report the advertisement, and in an active scan the scan response of the device too."""
         address = pdu.advertiser_address
         if self.le_scan_enable:
             self._report(hci.HCI_LE_Advertising_Report_Event.EventType.ADV_IND, address, pdu.data)
@@ -143,7 +144,7 @@ class VirtualController(Controller):
         self.send_hci_packet(hci.HCI_LE_Advertising_Report_Event([report]))
 
     def on_le_connect_ind(self, packet: ll.ConnectInd) -> None:
-        """A device that no longer advertises does not answer, and the caller's link fails to be established (0x3E)."""
+        """Accept a connection; without advertising do not answer, so that the link is not established (0x3E)."""
         mine = packet.advertiser_address == self.random_address
         if mine and not self.le_legacy_advertiser.enabled:
             caller = self.air.find_le_controller(packet.initiator_address)
@@ -156,7 +157,7 @@ class VirtualController(Controller):
     def on_hci_le_create_connection_cancel_command(
         self, _command: hci.HCI_LE_Create_Connection_Cancel_Command
     ) -> hci.HCI_StatusReturnParameters:
-        """Core specification Vol 4, Part E, 7.8.13: the attempt ends by a connection complete event of status 0x02."""
+        """End the attempt by a connection complete event of status 0x02 (Core specification Vol 4, Part E, 7.8.13)."""
         pending, self.pending_le_connection = self.pending_le_connection, None
         if pending is not None:
             self.send_hci_packet(
@@ -175,42 +176,42 @@ class VirtualController(Controller):
         return hci.HCI_StatusReturnParameters(hci.HCI_ErrorCode.SUCCESS)
 
 
-_SLACK = 1e-6
-"""Of an interval: what the sums of floats may be out by."""
+_TOLERANCE = 1e-6
+"""Rounding error of summed floats, as a part of an interval."""
 
 
-class Events:
-    """One link's. The first is `interval` s after it was made, and the others at the same distance.
+class ConnectionEvents:
+    """The connection events of one link, `interval` s apart; the first is `interval` s after the link was made.
 
-    At an event everything goes that is ready by then, in its order, however much it is: a radio that can send no more
-    than some packets at each is not modelled. What is said in answer goes at the next.
+    All packets that are ready at an event go in their order. There is no limit on their number, as a real radio has.
+    Answers go at the next event.
     """
 
     def __init__(self, interval: float) -> None:
         self.interval = interval
         self._loop = asyncio.get_running_loop()
-        self._began = self._loop.time()
+        self._t_start = self._loop.time()
         self._done = 0
-        """The number of the last event at which anything went."""
+        """Number of the last event at which a packet was sent."""
         self._ready: list[Callable[[], None]] = []
         self._timer: asyncio.TimerHandle | None = None
 
     def send(self, packet: Callable[[], None]) -> None:
-        """Call it at the next event."""
+        """Call `packet` at the next event."""
         self._ready.append(packet)
         if self._timer is None:
-            number = max(self._done + 1, ceil((self._loop.time() - self._began) / self.interval - _SLACK))
-            self._timer = self._loop.call_at(self._began + number * self.interval, self._event, number)
+            number = max(self._done + 1, ceil((self._loop.time() - self._t_start) / self.interval - _TOLERANCE))
+            self._timer = self._loop.call_at(self._t_start + number * self.interval, self._event, number)
 
     def flush(self) -> None:
-        """Send what is ready without waiting any longer: the link ends in an orderly way."""
+        """Send all ready packets now, because the link ends in an orderly way."""
         ready = self._ready
         self.end()
         for packet in ready:
             packet()
 
     def end(self) -> None:
-        """Forget what is ready: the link is gone."""
+        """Discard all ready packets, because the link has ended."""
         self._ready = []
         if self._timer is not None:
             self._timer.cancel()

@@ -1,4 +1,4 @@
-"""How bumble serves attributes here, and what a device advertises of them."""
+"""The GATT server on bumble, and the advertisement of a device."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from ..devices import attributes as emulated
 
 
 class AttributeServer(Server):
-    """bumble's, but that it leaves the program's logging alone.
+    """The GATT server of bumble, without its side effect on the program's logging.
 
-    bumble says with `logging.debug` that there is no (more) attribute of some type, which happens in every discovery,
-    and that function sets up the root logger of a program that has not done so itself.
+    In every discovery bumble reports with `logging.debug` that there is no further attribute of a type. That function
+    configures the root logger of a program that has not done so itself.
     """
 
     def on_att_read_by_type_request(self, bearer: att.Bearer, request: att.ATT_Read_By_Type_Request) -> None:
@@ -24,32 +24,35 @@ class AttributeServer(Server):
         if found or not 0 < first <= last:
             super().on_att_read_by_type_request(bearer, request)
             return
-        refusal = att.ATT_Error_Response(
+        response = att.ATT_Error_Response(
             request_opcode_in_error=request.op_code,
             attribute_handle_in_error=first,
             error_code=att.ATT_ATTRIBUTE_NOT_FOUND_ERROR,
         )
-        self.send_response(bearer, refusal)
+        self.send_response(bearer, response)
 
 
 def short_or_long(uuid: str) -> core.UUID:
-    """16 bits where the UUID is one of the Bluetooth SIG's."""
+    """Return the UUID, with 16 bits if it is one of the Bluetooth SIG."""
     if emulated.is_short(uuid):
         return core.UUID.from_16_bits(int(uuid[4:8], 16))
     return core.UUID(uuid)
 
 
 def advertisement(name: str, services: Sequence[str]) -> bytes:
-    """31 bytes at most: services, name, and flags if there is room (they may be left out: Core supplement, A 1.3)."""
+    """Return an advertisement of at most 31 bytes: services, name, and flags if they fit.
+
+    Flags may be left out (Core supplement, A 1.3).
+    """
     uuids = [short_or_long(uuid) for uuid in services]
     short = [uuid for uuid in uuids if len(uuid.to_pdu_bytes()) == 2]
     long = [uuid for uuid in uuids if len(uuid.to_pdu_bytes()) == 16]
-    said: list[core.DataType] = []
+    entries: list[core.DataType] = []
     if short:
-        said.append(data_types.IncompleteListOf16BitServiceUUIDs(short))
+        entries.append(data_types.IncompleteListOf16BitServiceUUIDs(short))
     if long:
-        said.append(data_types.IncompleteListOf128BitServiceUUIDs(long))
-    said.append(data_types.CompleteLocalName(name))
+        entries.append(data_types.IncompleteListOf128BitServiceUUIDs(long))
+    entries.append(data_types.CompleteLocalName(name))
     flags = AdvertisingData.Flags.LE_GENERAL_DISCOVERABLE_MODE | AdvertisingData.Flags.BR_EDR_NOT_SUPPORTED
-    full = bytes(AdvertisingData([data_types.Flags(flags), *said]))
-    return full if len(full) <= emulated.ADVERTISEMENT else bytes(AdvertisingData(said))
+    full = bytes(AdvertisingData([data_types.Flags(flags), *entries]))
+    return full if len(full) <= emulated.ADVERTISEMENT else bytes(AdvertisingData(entries))

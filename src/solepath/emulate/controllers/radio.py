@@ -1,7 +1,7 @@
 """One virtual central: a bumble Device that scanners and clients share, opened when it is first needed.
 
-A controller makes one connection at a time. Whoever waits for a device that does not answer has its turn for a few
-seconds, gives way to the others and comes again, until its own time is up.
+A controller makes one connection at a time. An attempt to reach a device that does not answer holds the controller for
+a few seconds, lets the other attempts go first and then repeats, until its own time is over.
 """
 
 from __future__ import annotations
@@ -21,23 +21,23 @@ from bumble.transport.common import Transport
 
 _T = TypeVar("_T")
 
-TURN = 2.0
-"""s that one attempt to connect may hold the controller; devices advertise about every 0.1 s."""
-PATIENCE = 5.0
-"""s that a controller may take to be started or to end a link."""
-RETURN = 1.0
-"""s between attempts to reach a lost controller again while somebody scans."""
+ATTEMPT_TIMEOUT = 2.0
+"""Time that one attempt to connect may hold the controller, s; devices advertise about every 0.1 s."""
+CONTROLLER_TIMEOUT = 5.0
+"""Time that a controller may take to start or to end a link, s."""
+RETRY_INTERVAL = 1.0
+"""Time between attempts to reach a lost controller again during a scan, s."""
 
 ScanListener = Callable[[Advertisement], None]
-"""Called for each advertisement that is heard."""
+"""Callback for each received advertisement."""
 
 
 class VirtualRadio:
     """A central behind an HCI transport.
 
-    `reach` opens the transport and raises OSError when there is none; after it was lost it is asked again as soon as
-    somebody scans or connects. `where` is for messages. `address`: the central's own, static random; None: any.
-    `mtu`: the ATT MTU that it asks for.
+    `reach` opens the transport and raises OSError when there is none; after a loss the next scan or connection calls it
+    again. `where` names the transport in messages. `address` is the static random address of the central; None: any.
+    `mtu` is the ATT MTU that the central requests, bytes.
     """
 
     def __init__(
@@ -46,7 +46,7 @@ class VirtualRadio:
         self.mtu = mtu
         self.where = where
         self.keys = MemoryKeyStore()
-        """Of the devices that were paired with, by address."""
+        """Keys of the paired devices, by address."""
         self._reach = reach
         self._address = hci.Address(address) if address else hci.Address.generate_static_address()
         self._device: Device | None = None
@@ -58,7 +58,7 @@ class VirtualRadio:
         self._closed = False
 
     async def device(self) -> Device:
-        """The Device, started. BleakError naming `where` when it cannot be reached."""
+        """Return the started Device; raise a BleakError that names `where` when it cannot be reached."""
         async with self._opening:
             if self._device is None:
                 await self._open()
@@ -76,42 +76,45 @@ class VirtualRadio:
         config = DeviceConfiguration(name="solepath", address=self._address, gatt_service_enabled=False)
         device = Device(config=config, host=Host(transport.source, transport.sink))
         device.keystore = self.keys
-        just_works(device, lambda: False)  # a central begins pairings, and answers none
+        just_works(device, lambda: False)  # a central starts pairings and accepts none
         try:
-            async with asyncio.timeout(PATIENCE):
+            async with asyncio.timeout(CONTROLLER_TIMEOUT):
                 await device.power_on()
         except BaseException as error:
             await transport.close()
-            if isinstance(error, Exception):  # bumble trusts controllers, and raises whatever comes of their answers
+            if isinstance(error, Exception):  # bumble does not check a controller's answers: any exception may come
                 raise BleakError(f"no Bluetooth controller answers at {self.where}") from error
             raise
-        device.on(Device.EVENT_ADVERTISEMENT, self._heard)
+        device.on(Device.EVENT_ADVERTISEMENT, self._on_advertisement)
         self._device, self._transport = device, transport
         transport.source.terminated.add_done_callback(lambda _: self._lost(device))
         if self._listeners:
             await self._scan(device, True)
 
     def _lost(self, device: Device) -> None:
-        """The transport broke: bumble has told every link already, but what waits for the controller would wait for
-        ever. Whoever scans goes on as soon as it is back."""
+        """Handle the loss of the transport.
+
+        bumble has already reported it to every link, but tasks that wait for the controller would wait for ever. Scans
+        continue as soon as the controller is back.
+        """
         if self._device is device:
             self._device = self._transport = None
             for task in self._tasks:
                 task.cancel()
             if self._listeners and not self._closed:
-                self.task(self._return())
+                self.task(self._reopen())
 
-    async def _return(self) -> None:
+    async def _reopen(self) -> None:
         while self._listeners and not self._closed:
             try:
                 await self.device()
             except BleakError:
-                await asyncio.sleep(RETURN)
+                await asyncio.sleep(RETRY_INTERVAL)
             else:
                 return
 
     async def listen(self, listener: ScanListener) -> None:
-        """From now on `listener` hears what is advertised. BleakError."""
+        """Call `listener` for every advertisement from now on; raise BleakError when the scan cannot start."""
         device = await self.device()
         self._listeners.append(listener)
         if len(self._listeners) == 1:
@@ -122,7 +125,7 @@ class VirtualRadio:
                 raise
 
     async def ignore(self, listener: ScanListener) -> None:
-        """Undoes listen."""
+        """Stop calling `listener`."""
         if listener in self._listeners:
             self._listeners.remove(listener)
             if not self._listeners and self._device is not None:
@@ -131,46 +134,49 @@ class VirtualRadio:
 
     async def _scan(self, device: Device, on: bool) -> None:
         try:
-            async with asyncio.timeout(PATIENCE):
+            async with asyncio.timeout(CONTROLLER_TIMEOUT):
                 await self.finish(device.start_scanning(legacy=True) if on else device.stop_scanning(legacy=True))
         except TimeoutError:
             transport = self._transport
-            self._lost(device)  # the next attempt reaches for it anew
+            self._lost(device)  # the next attempt opens the transport again
             if transport is not None:
                 await transport.close()
             raise BleakError(f"{self.where} does not answer any more") from None
         except core.BaseBumbleError as error:
             raise BleakError(f"{self.where}: {error}") from error
 
-    def _heard(self, advertisement: Advertisement) -> None:
+    def _on_advertisement(self, advertisement: Advertisement) -> None:
         for listener in list(self._listeners):
             listener(advertisement)
 
     async def connect(self, peer: hci.Address) -> Connection:
-        """A link to the device of this address. Tries until it is cancelled; BleakError."""
+        """Return a link to the device of this address; try until cancelled. Raise BleakError when the controller fails.
+
+        A link that is lost as soon as it is made raises BleakError too.
+        """
         while True:
             device = await self.device()
             async with self._connecting:
-                attempt = self.task(device.connect(peer, timeout=TURN))
+                attempt = self.task(device.connect(peer, timeout=ATTEMPT_TIMEOUT))
                 try:
                     link = await asyncio.shield(attempt)
-                    if not stands(link):
+                    if not is_up(link):
                         raise BleakError(f"the link to {peer.to_string(False)} was lost as soon as it was made")
                     return link
                 except core.TimeoutError:
-                    pass  # nobody answered: the next one's turn
+                    pass  # no answer: let another attempt use the controller
                 except core.BaseBumbleError as error:
                     raise BleakError(f"no connection to {peer.to_string(False)}: {error}") from error
                 except asyncio.CancelledError:
                     if attempt.cancelled() and not _cancelled():
                         raise BleakError(f"{self.where}: the connection to the controller was lost") from None
-                    await self._take_back(device, attempt)
+                    await self._cancel_attempt(device, attempt)
                     raise
 
-    async def _take_back(self, device: Device, attempt: asyncio.Task[Connection]) -> None:
-        """The caller gave up: neither a request nor a link without an owner may stay behind."""
+    async def _cancel_attempt(self, device: Device, attempt: asyncio.Task[Connection]) -> None:
+        """End an attempt whose caller has given up, so that no request and no link without an owner stays."""
         try:
-            async with asyncio.timeout(PATIENCE):
+            async with asyncio.timeout(CONTROLLER_TIMEOUT):
                 if not attempt.done():
                     await device.cancel_connection()  # type: ignore[no-untyped-call]
                 link = await attempt
@@ -179,7 +185,7 @@ class VirtualRadio:
             attempt.cancel()
 
     def task(self, work: Coroutine[Any, Any, _T]) -> asyncio.Task[_T]:
-        """Work that must be ended when the radio closes."""
+        """Start a task that ends when the radio closes."""
         task = asyncio.get_running_loop().create_task(work)
         self._tasks.add(task)
         task.add_done_callback(self._done)
@@ -188,11 +194,14 @@ class VirtualRadio:
     def _done(self, task: asyncio.Task[Any]) -> None:
         self._tasks.discard(task)
         if not task.cancelled():
-            task.exception()  # whoever waited for it has it; when nobody does any more it matters to nobody
+            task.exception()  # marks it as retrieved: a caller that still waits has it, and no other needs it
 
     async def finish(self, work: Coroutine[Any, Any, _T]) -> _T:
-        """Runs an exchange with the controller or a device to its end even when the caller gives up: a request that is
-        abandoned halfway would have its answer taken for that of the next. BleakError when the link ended it."""
+        """Run an exchange with the controller or a device to its end, even when the caller gives up.
+
+        After an abandoned request its answer would be taken for the answer to the next request. An exchange that ends
+        with the link raises BleakError.
+        """
         task = self.task(work)
         try:
             return await asyncio.shield(task)
@@ -202,7 +211,7 @@ class VirtualRadio:
             raise
 
     async def close(self) -> None:
-        """Ends every link and the transport."""
+        """End every link and the transport."""
         self._closed = True
         self._listeners.clear()
         device, self._device = self._device, None
@@ -210,9 +219,9 @@ class VirtualRadio:
             for link in list(device.connections.values()):
                 await end_link(link)
             with suppress(TimeoutError):
-                async with asyncio.timeout(PATIENCE):
+                async with asyncio.timeout(CONTROLLER_TIMEOUT):
                     await device.power_off()
-            device.host.ready = False  # deaf to what is still in flight: nobody waits for it any more
+            device.host.ready = False  # ignore packets still in flight: no task waits for them
         tasks = list(self._tasks)
         for task in tasks:
             task.cancel()
@@ -222,17 +231,20 @@ class VirtualRadio:
             self._transport = None
 
 
-def stands(link: Connection) -> bool:
-    """Whether it is a link still. One that fails to be established may be over before anybody could listen for it."""
+def is_up(link: Connection) -> bool:
+    """Return whether the link is up.
+
+    A link that fails to be established may end before a listener can be attached.
+    """
     return link.device.connections.get(link.handle) is link
 
 
 async def end_link(link: Connection) -> None:
-    """Disconnects; returns when both ends know, or when the link is gone anyhow."""
-    if not stands(link):
+    """Disconnect; return when both sides know it, or when the link has ended in any other way."""
+    if not is_up(link):
         return
     try:
-        async with asyncio.timeout(PATIENCE):
+        async with asyncio.timeout(CONTROLLER_TIMEOUT):
             await link.disconnect()
     except (TimeoutError, core.BaseBumbleError):
         pass
@@ -242,17 +254,17 @@ async def end_link(link: Connection) -> None:
 
 
 def _cancelled() -> bool:
-    """Whether it is the running task that is cancelled, and not what it waits for."""
+    """Return whether the running task itself is cancelled, and not the task that it waits for."""
     task = asyncio.current_task()
     return task is not None and task.cancelling() > 0
 
 
 _KEYS = PairingDelegate.KeyDistribution.DISTRIBUTE_ENCRYPTION_KEY
-"""No identities are exchanged: the addresses are static."""
+"""Keys that a pairing exchanges; no identities, because the addresses are static."""
 
 
-class Consent(PairingDelegate):
-    """`agrees` is asked whether a pairing that the other end begins is welcome."""
+class PairingConsent(PairingDelegate):
+    """A pairing delegate; `agrees()` decides whether to accept a pairing that the other side starts."""
 
     def __init__(self, agrees: Callable[[], bool]) -> None:
         super().__init__(local_initiator_key_distribution=_KEYS, local_responder_key_distribution=_KEYS)
@@ -263,11 +275,13 @@ class Consent(PairingDelegate):
 
 
 def just_works(device: Device, agrees: Callable[[], bool]) -> None:
-    """From now on the device pairs by LE Secure Connections, Just Works, and the keys are kept (bonding), if `agrees`
-    says so when the other end begins."""
-    consent = Consent(agrees)
+    """Let the device pair by LE Secure Connections, Just Works, with bonding (the keys are kept).
+
+    When the other side starts the pairing, `agrees()` decides.
+    """
+    pairing_consent = PairingConsent(agrees)
 
     def config(link: Connection) -> PairingConfig:
-        return PairingConfig(sc=True, mitm=False, bonding=True, delegate=consent)
+        return PairingConfig(sc=True, mitm=False, bonding=True, delegate=pairing_consent)
 
     device.pairing_config_factory = config

@@ -1,6 +1,6 @@
-"""Emulated devices as true GATT servers, each on a virtual controller of its own, and a central to reach them with.
+"""Emulated devices as real GATT servers, each on its own virtual controller, and a central that reaches them.
 
-`virtual_air` is for one process; tcp.py carries the same air to other processes.
+`virtual_air` is for one process; tcp.py connects other processes to the same medium.
 """
 
 from __future__ import annotations
@@ -29,30 +29,33 @@ from ..devices import attributes as emulated
 from ..devices.attributes import AttError
 from ..devices.peripheral import Peripheral
 from .central import backend_of
-from .controller import VirtualAir, VirtualController
+from .controller import VirtualController, VirtualMedium
 from .gatt import AttributeServer, advertisement, short_or_long
 from .radio import VirtualRadio, end_link, just_works
 
 _T = TypeVar("_T")
 
 ADVERTISING = 62.5
-"""ms between advertisements: bumble's controller reads the 0.625 ms units of HCI as milliseconds, so it is 100 ms."""
+"""Advertising interval as bumble's host takes it, ms.
+
+bumble's controller reads the 0.625 ms units of HCI as milliseconds, so the interval is 100 ms.
+"""
 _CENTRAL = "C0:50:1E:9A:74:01"
 _STANDARD = ("0000180a", "0000180f")
-"""Services that the Bluetooth SIG describes: their characteristics need no description."""
+"""Services that the Bluetooth SIG defines: their characteristics need no description."""
 
 
 @asynccontextmanager
 async def virtual_air(
     peripherals: Iterable[Peripheral], mtu: int = 247, interval: float | None = None
 ) -> AsyncIterator[Backend]:
-    """The devices on the air and a Backend that reaches them, in this process and on this loop's time.
+    """Serve the devices in this process, in the time of this loop, and yield a Backend that reaches them.
 
-    `mtu`: the ATT MTU that the central asks for; a device may agree to less. `interval`: s between the connection
-    events of each link, when everything goes that is ready, requests and their answers too (0.0075 to 4 s on a real
-    one, often 0.03); None: nothing waits.
+    `mtu` is the ATT MTU that the central requests; a device may accept less. `interval` is the time between the
+    connection events of each link, s: all ready packets go then, requests and answers too (0.0075 to 4 s on a real
+    link, often 0.03). None: packets do not wait.
     """
-    link = VirtualAir(interval)
+    link = VirtualMedium(interval)
     controller = VirtualController("central", link)
 
     async def reach() -> Transport:
@@ -68,8 +71,8 @@ async def virtual_air(
 
 
 @asynccontextmanager
-async def on_air(peripherals: Iterable[Peripheral], link: VirtualAir) -> AsyncIterator[None]:
-    """The devices advertise and serve on this link."""
+async def on_air(peripherals: Iterable[Peripheral], link: VirtualMedium) -> AsyncIterator[None]:
+    """Let the devices advertise and serve on this link until the block is left."""
     servers = [Server(device, link) for device in peripherals]
     try:
         for server in servers:
@@ -81,9 +84,9 @@ async def on_air(peripherals: Iterable[Peripheral], link: VirtualAir) -> AsyncIt
 
 
 class Server:
-    """Serves one Peripheral: asks it at the times it names, and obeys it."""
+    """GATT server of one Peripheral: calls it at the times that it returns, and sends what it returns."""
 
-    def __init__(self, peripheral: Peripheral, air: VirtualAir) -> None:
+    def __init__(self, peripheral: Peripheral, air: VirtualMedium) -> None:
         self.peripheral, self.air = peripheral, air
         self._loop = asyncio.get_running_loop()
         self._link: Connection | None = None
@@ -102,7 +105,7 @@ class Server:
             gatt_service_enabled=False,
         )
         self._device = Device(config=config, host=Host(self._controller, AsyncPipeSink(self._controller)))
-        just_works(self._device, lambda: self.peripheral.agrees_to_pair(self._loop.time()))
+        just_works(self._device, lambda: self.peripheral.accepts_pairing(self._loop.time()))
         self._device.gatt_server = AttributeServer(self._device)
         self._device.add_service(GenericAccessService(peripheral.name))
         self._served: dict[str, Characteristic[bytes]] = {}
@@ -113,32 +116,34 @@ class Server:
             self._served |= found
         self._device.on(Device.EVENT_CONNECTION, self._connected)
 
-    def _characteristic(self, said: emulated.Characteristic, described: bool) -> Characteristic[bytes]:
+    def _characteristic(self, attribute: emulated.Characteristic, described: bool) -> Characteristic[bytes]:
         properties = Characteristic.Properties(0)
-        for name in said.properties:
+        for name in attribute.properties:
             properties |= Characteristic.Properties[name.upper().replace("-", "_")]
         description = Descriptor(
-            GATT_CHARACTERISTIC_USER_DESCRIPTION_DESCRIPTOR, att.Attribute.READABLE, said.channel.encode()
+            GATT_CHARACTERISTIC_USER_DESCRIPTION_DESCRIPTOR, att.Attribute.READABLE, attribute.channel.encode()
         )
         served: Characteristic[bytes] = Characteristic(
-            short_or_long(said.uuid),
+            short_or_long(attribute.uuid),
             properties,
-            att.Attribute.READABLE | att.Attribute.WRITEABLE,  # the device itself says what is not permitted
-            CharacteristicValue(read=partial(self.read, said.channel), write=partial(self.write, said.channel)),
+            att.Attribute.READABLE | att.Attribute.WRITEABLE,  # the device itself rejects what is not permitted
+            CharacteristicValue(
+                read=partial(self.read, attribute.channel), write=partial(self.write, attribute.channel)
+            ),
             [description] if described else [],
         )
-        subscribed: Callable[[Connection, bool, bool], None] = partial(self.subscribe, said.channel)
+        subscribed: Callable[[Connection, bool, bool], None] = partial(self.subscribe, attribute.channel)
         served.on(Characteristic.EVENT_SUBSCRIPTION, subscribed)
         return served
 
     async def start(self) -> None:
-        """Goes on the air and advertises."""
+        """Start the controller and advertise."""
         await self._device.power_on()
         self.peripheral.changed = self._arm
         await self._advertise()
 
     async def stop(self) -> None:
-        """Ends the link and leaves the air."""
+        """End the link and leave the medium."""
         self._stopped = True
         if self._link is not None:
             await end_link(self._link)
@@ -164,12 +169,12 @@ class Server:
         self._silence = self._loop.create_future()
         self._device.gatt_server.max_mtu = self.peripheral.mtu
         link.on(Connection.EVENT_DISCONNECTION, partial(self._disconnected, link))
-        link.on(Connection.EVENT_CONNECTION_ATT_MTU_UPDATE, lambda: self._tell(link))
-        link.on(Connection.EVENT_CONNECTION_ENCRYPTION_CHANGE, lambda: self._tell(link))
+        link.on(Connection.EVENT_CONNECTION_ATT_MTU_UPDATE, lambda: self._update_link_state(link))
+        link.on(Connection.EVENT_CONNECTION_ENCRYPTION_CHANGE, lambda: self._update_link_state(link))
         self.peripheral.connected(self._loop.time(), link.att_mtu)
         self._arm()
 
-    def _tell(self, link: Connection) -> None:
+    def _update_link_state(self, link: Connection) -> None:
         if self._link is link:
             self.peripheral.agreed_mtu, self.peripheral.is_encrypted = link.att_mtu, link.is_encrypted
 
@@ -184,33 +189,36 @@ class Server:
         if not self._stopped:
             self._restart = self._loop.create_task(self._advertise())
 
-    # requests; the channel comes first, since it is bound when the table of attributes is made
+    # requests; the channel is the first argument, since it is bound when the table of attributes is made
 
     async def read(self, channel: str, link: Connection) -> bytes:
-        value = self._ask(partial(self.peripheral.read, channel))
-        return value if value is not None else await self._never()
+        """Return the value of a channel."""
+        value = self._request(partial(self.peripheral.read, channel))
+        return value if value is not None else await self._no_answer()
 
     async def write(self, channel: str, link: Connection, value: bytes) -> None:
-        if not self._ask(partial(self.peripheral.write, channel, value)):
-            await self._never()
+        """Write a value to a channel."""
+        if not self._request(partial(self.peripheral.write, channel, value)):
+            await self._no_answer()
 
     def subscribe(self, channel: str, link: Connection, notify: bool, indicate: bool) -> None:
-        self._ask(partial(self.peripheral.subscribe, channel, notify))
+        """Start or stop the notifications of a channel."""
+        self._request(partial(self.peripheral.subscribe, channel, notify))
 
-    def _ask(self, request: Callable[[float], _T]) -> _T:
-        """The device's answer, or its refusal as an ATT error; afterwards it may have something to send sooner."""
+    def _request(self, request: Callable[[float], _T]) -> _T:
+        """Return the device's answer, or raise its error as an ATT error; then set the timer again."""
         try:
             return request(self._loop.time())
-        except AttError as refusal:
-            raise att.ATT_Error(refusal.code) from None
+        except AttError as error:
+            raise att.ATT_Error(error.code) from None
         except Exception as error:
             self._loop.call_exception_handler({"message": f"{self.peripheral.name} failed", "exception": error})
             raise att.ATT_Error(att.ATT_UNLIKELY_ERROR_ERROR) from error
         finally:
             self._arm()
 
-    async def _never(self) -> bytes:
-        """An answer that never comes; it is given up with the link."""
+    async def _no_answer(self) -> bytes:
+        """Wait until the link ends, for a request that the device never answers."""
         if self._silence is None:
             raise att.ATT_Error(att.ATT_UNLIKELY_ERROR_ERROR)
         return await asyncio.shield(self._silence)
@@ -235,7 +243,7 @@ class Server:
         for outgoing in self.peripheral.poll(now):
             pdu = att.ATT_Handle_Value_Notification(
                 attribute_handle=self._served[outgoing.channel].handle,
-                attribute_value=outgoing.value[: link.att_mtu - 3],  # longer ones are cut without an error, as is usual
+                attribute_value=outgoing.value[: link.att_mtu - 3],  # longer values are cut without an error, as usual
             )
             self._device.gatt_server.send_gatt_pdu(link, bytes(pdu))
         if self.peripheral.hang_up(now):

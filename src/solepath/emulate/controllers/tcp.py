@@ -1,10 +1,10 @@
-"""The virtual air across processes: every TCP connection is one virtual controller, spoken to in HCI (H4).
+"""The virtual medium across processes: every TCP connection is one virtual controller that speaks HCI (H4).
 
     async with serve(peripherals, "127.0.0.1", 9735) as (host, port): ...      # one process
     async with reach("tcp:127.0.0.1:9735") as backend: ...                      # any number of others
 
-Whatever speaks HCI over TCP may connect, such as bumble's own tools with `tcp-client:HOST:PORT`. There is no
-authentication: whoever can open the port can use the devices.
+Any program that speaks HCI over TCP may connect, for example bumble's own tools with `tcp-client:HOST:PORT`. There is
+no authentication: any program that can open the port can use the devices.
 """
 
 from __future__ import annotations
@@ -21,24 +21,24 @@ from bumble.transport.common import PacketParser, StreamPacketSink, Transport
 from ...ble.air import Backend
 from ..devices.peripheral import Peripheral
 from .central import backend_of
-from .controller import VirtualAir, VirtualController
+from .controller import VirtualController, VirtualMedium
 from .radio import VirtualRadio
 from .server import on_air
 
 _SCHEME = "tcp:"
 _BACKLOG = 1 << 20
-"""Bytes that a client may leave unread; it is dropped then, as a link is that is not answered on."""
+"""Bytes that a client may leave unread before it is disconnected, as a link without answers is."""
 
 
 @asynccontextmanager
 async def serve(peripherals: Iterable[Peripheral], host: str, port: int) -> AsyncIterator[tuple[str, int]]:
-    """Serves the devices until the block is left; yields the address that it listens at (port 0 takes a free one).
+    """Serve the devices until the block is left; yield the address of the server (port 0 takes a free one).
 
-    Several clients may come at once and one after another; a device is connected to one of them at a time. When a
-    client goes away its links are lost as by a supervision timeout, and its devices advertise again. OSError when the
-    address cannot be listened at.
+    Several clients may connect at the same time; a device is connected to one of them at a time. When a client
+    disconnects, its links are lost as by a supervision timeout, and its devices advertise again. An address that cannot
+    be used raises OSError.
     """
-    link = VirtualAir()
+    link = VirtualMedium()
     clients: set[_TcpClient] = set()
     async with on_air(peripherals, link):
         listening = await asyncio.get_running_loop().create_server(lambda: _TcpClient(link, clients), host, port)
@@ -55,7 +55,7 @@ async def serve(peripherals: Iterable[Peripheral], host: str, port: int) -> Asyn
 class _TcpClient(asyncio.Protocol):
     """One client's controller, at the other end of its TCP connection."""
 
-    def __init__(self, link: VirtualAir, clients: set[_TcpClient]) -> None:
+    def __init__(self, link: VirtualMedium, clients: set[_TcpClient]) -> None:
         self._air = link
         self._clients = clients
         self._parser = PacketParser(self)
@@ -73,15 +73,15 @@ class _TcpClient(asyncio.Protocol):
         try:
             self._parser.feed_data(data)
         except core.InvalidPacketError:
-            self.drop()  # whoever that is does not speak HCI
+            self.drop()  # the client does not speak HCI
 
     def on_packet(self, packet: bytes) -> None:
-        """A whole HCI packet; called by the parser."""
+        """Handle a whole HCI packet from the parser."""
         if self._controller is None:
             return
         try:
             self._controller.on_hci_packet(hci.HCI_Packet.from_bytes(packet))
-        except Exception:  # bumble trusts hosts, and raises whatever comes of bytes that make no sense
+        except Exception:  # bumble does not check a host's packets: invalid bytes raise any exception
             self.drop()
 
     def pause_writing(self) -> None:
@@ -91,7 +91,7 @@ class _TcpClient(asyncio.Protocol):
         self.drop()
 
     def drop(self) -> None:
-        """Ends the connection and takes the controller out of the air."""
+        """End the connection and remove the controller from the medium."""
         controller, self._controller = self._controller, None
         if controller is None or self._transport is None:
             return
@@ -102,7 +102,10 @@ class _TcpClient(asyncio.Protocol):
 
 
 def address_of(where: str) -> tuple[str, int]:
-    """Host and port of "tcp:HOST:PORT"; an IPv6 host may stand in brackets. ValueError."""
+    """Return host and port of "tcp:HOST:PORT"; raise ValueError for any other text.
+
+    An IPv6 host may stand in brackets.
+    """
     host, colon, port = where.removeprefix(_SCHEME).rpartition(":")
     if not where.startswith(_SCHEME) or not colon or not host or not port.isdecimal() or not 0 < int(port) < 65536:
         raise ValueError(f"{where!r} is not tcp:HOST:PORT")
@@ -111,11 +114,11 @@ def address_of(where: str) -> tuple[str, int]:
 
 @asynccontextmanager
 async def reach(where: str, mtu: int = 247) -> AsyncIterator[Backend]:
-    """A Backend whose Bluetooth is what `serve` has at "tcp:HOST:PORT".
+    """Yield a Backend that reaches the devices of `serve` at "tcp:HOST:PORT".
 
-    ValueError when `where` is nothing of the kind, BleakError naming it when nobody answers there. When the connection
-    is lost every client's disconnected callback is called; scanning and connecting then try to reach it again
-    (BleakError if they cannot), and a scan that goes on hears the devices as soon as it is back.
+    Any other text in `where` raises ValueError; a server that does not answer raises a BleakError that names it. After
+    a loss of the connection every client's disconnected callback is called. Scanning and connecting then open the
+    connection again (BleakError if they cannot), and a running scan continues as soon as the server is back.
     """
     host, port = address_of(where)
 

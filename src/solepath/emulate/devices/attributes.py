@@ -1,4 +1,4 @@
-"""The attributes of a device and the errors that it answers with; what an advertisement holds."""
+"""Attributes of a device, the ATT errors that it answers with, and the size limit of its advertisement."""
 
 from __future__ import annotations
 
@@ -13,26 +13,27 @@ from ...wire.device import build_battery, build_firmware
 
 
 class AttCode(IntEnum):
-    """Why a request is refused (Bluetooth Core, vol 3 part F, 3.4.1.1)."""
+    """ATT error codes (Bluetooth Core, vol 3 part F, 3.4.1.1)."""
 
     READ_NOT_PERMITTED = 0x02
     WRITE_NOT_PERMITTED = 0x03
     NOT_PAIRED = 0x05
     REQUEST_NOT_SUPPORTED = 0x06
     WRONG_LENGTH = 0x0D
-    REFUSED = 0x80
-    """The first of the codes that an application may give a meaning."""
+    APPLICATION_ERROR = 0x80
+    """First of the codes that an application may define."""
 
 
 SMALLEST_MTU = 23
+"""Default ATT MTU of a link, bytes."""
 ADVERTISEMENT = 31
-"""Bytes of a legacy advertisement (Bluetooth Core, vol 6 part B, 2.3.1)."""
+"""Size of a legacy advertisement, bytes (Bluetooth Core, vol 6 part B, 2.3.1)."""
 SIG = "-0000-1000-8000-00805f9b34fb"
-"""What the UUIDs of the Bluetooth SIG end with; of the first half only 16 bits are their own."""
+"""End of every UUID of the Bluetooth SIG; only 16 bits of the first half differ between them."""
 
 
 class AttError(Exception):
-    """A request is refused with this ATT error code."""
+    """The device rejects a request with this ATT error code."""
 
     def __init__(self, code: int) -> None:
         super().__init__(f"ATT error {code:#04x}")
@@ -41,37 +42,40 @@ class AttError(Exception):
 
 @frozen
 class Characteristic:
-    """`uuid`: in full, lower case. `channel`: the name by which it is read and written here.
-    `properties`: of "read", "write", "write-without-response" and "notify"."""
+    """A GATT characteristic of an emulated device."""
 
     uuid: str
+    """Full UUID in lower case."""
     channel: str
+    """Name of the channel that the characteristic carries."""
     properties: frozenset[str]
+    """Subset of "read", "write", "write-without-response" and "notify"."""
 
 
 @frozen
 class Service:
-    """A primary service, its uuid in full, lower case."""
+    """A primary GATT service."""
 
     uuid: str
+    """Full UUID in lower case."""
     characteristics: tuple[Characteristic, ...]
 
 
 @frozen
 class Outgoing:
-    """A notification to be sent now."""
+    """A notification that is due now."""
 
     channel: str
     value: bytes
 
 
 def is_short(uuid: str) -> bool:
-    """Whether 16 bits say the UUID, since it is one of the Bluetooth SIG's."""
+    """Return whether the UUID is one of the Bluetooth SIG, so that 16 bits identify it."""
     return uuid.startswith("0000") and uuid.endswith(SIG)
 
 
 def check_fits(name: str, services: Sequence[str]) -> None:
-    """ValueError when the complete name and all services are more than an advertisement holds."""
+    """Raise ValueError when the complete name and all services do not fit in an advertisement."""
     short = sum(map(is_short, services))
     long = len(services) - short
     size = 2 + len(name.encode()) + (2 + 2 * short if short else 0) + (2 + 16 * long if long else 0)
@@ -83,8 +87,8 @@ READ = frozenset({"read"})
 NOTIFY = frozenset({"notify"})
 WRITE = frozenset({"write"})
 
-DRAIN = 600.0
-"""s in which the battery loses one percent."""
+BATTERY_STEP = 600.0
+"""Time in which the battery loses one percent, s."""
 
 _INFORMATION = {"manufacturer": 0x2A29, "model": 0x2A24, "hardware": 0x2A27, "software": 0x2A28}
 _DEVICE_INFORMATION = 0x180A
@@ -96,13 +100,16 @@ def services(
     more: Sequence[tuple[str, Characteristic]] = (),
     information: Sequence[str] = (),
 ) -> tuple[Service, ...]:
-    """The services of a device: the profile's channels with their `properties`, `more` (service, characteristic), and
-    what else Device Information tells (of manufacturer, model, hardware and software)."""
+    """Return the services of a device.
+
+    They hold the channels of `profile` with their `properties`, the pairs (service, characteristic) of `more`, and the
+    characteristics of Device Information that `information` names (manufacturer, model, hardware, software).
+    """
     table = [(c.service, Characteristic(c.characteristic, c.name, properties[c.name])) for c in profile.channels]
     table += more
     for name in information:
-        what = Characteristic(standard_uuid(_INFORMATION[name]), f"device/{name}", READ)
-        table.append((standard_uuid(_DEVICE_INFORMATION), what))
+        characteristic = Characteristic(standard_uuid(_INFORMATION[name]), f"device/{name}", READ)
+        table.append((standard_uuid(_DEVICE_INFORMATION), characteristic))
     found: dict[str, list[Characteristic]] = {}
     for service, characteristic in table:
         found.setdefault(service, []).append(characteristic)
@@ -110,25 +117,27 @@ def services(
 
 
 def information(firmware: str, **more: str) -> dict[str, bytes]:
-    """What Device Information says, by channel."""
-    said = {"device/firmware": build_firmware(firmware)}
-    return said | {f"device/{name}": text.encode() for name, text in more.items()}
+    """Return the values of Device Information by channel."""
+    found = {"device/firmware": build_firmware(firmware)}
+    return found | {f"device/{name}": text.encode() for name, text in more.items()}
 
 
 @frozen
 class Battery:
-    """A Source: the level changes every `DRAIN` s of the walk, from `percent` at its beginning."""
+    """A ValueSource of the battery level, which falls by one percent every `BATTERY_STEP` s of the walk."""
 
     percent: int
+    """Level at the start of the walk, percent."""
 
     def level(self, t: float) -> bytes:
-        return build_battery(max(0, self.percent - max(0, floor(t / DRAIN))))
+        """Return the value of the battery characteristic at `t` s of the walk."""
+        return build_battery(max(0, self.percent - max(0, floor(t / BATTERY_STEP))))
 
     def after(self, t: float) -> int:
-        return max(1, ceil(t / DRAIN))
+        return max(1, ceil(t / BATTERY_STEP))
 
     def due(self, number: int) -> float:
-        return number * DRAIN if number <= self.percent else inf
+        return number * BATTERY_STEP if number <= self.percent else inf
 
     def values(self, number: int, mtu: int) -> Sequence[bytes]:
-        return (self.level(number * DRAIN),)
+        return (self.level(number * BATTERY_STEP),)

@@ -1,4 +1,4 @@
-"""A wearer and the devices on his feet, ready to be served."""
+"""A wearer and the virtual devices on the feet, as GATT peripherals."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from .cc2541 import CC2541Peripheral
 from .cc2650 import CC2650Peripheral
 from .faults import Fault
 from .insole import InsolePeripheral
-from .peripheral import Peripheral, Worn
+from .peripheral import Peripheral, Placement
 
 
 class Bench:
-    """Devices worn on `route`: insoles "solepath L" and "solepath R" on both feet when nothing else is said.
+    """Virtual devices worn on `route`; by default the insoles "solepath L" and "solepath R" on both feet.
 
-    SensorTags have the names that they are sold with, the same on both feet: only the address tells which is which.
-    It is F0:5E:00:00:00:01 for the first site in the order of Site that wears something, :02 for the next.
-    `began`: the loop's time at which the walk begins. ValueError for what cannot be worn there.
+    SensorTags have their product names, the same on both feet; only the address distinguishes them.
+    It is F0:5E:00:00:00:01 for the first site in the order of Site that wears a device, :02 for the next.
+    `started_at` is the loop's time at which the walk starts. A device that the site cannot wear raises ValueError.
     """
 
     def __init__(
@@ -35,7 +35,7 @@ class Bench:
         wearer: Wearer | None = None,
         seed: int = 1,
         mtu: int = 247,
-        began: float = 0.0,
+        started_at: float = 0.0,
         faults: Iterable[Fault] = (),
     ) -> None:
         if devices is None:
@@ -44,7 +44,9 @@ class Bench:
         self.devices = {site: devices[site] for site in Site if site in devices}
         script = tuple(faults)
         self.peripherals: tuple[Peripheral, ...] = tuple(
-            _peripheral(device, self.walker, seed, Worn(site, f"F0:5E:00:00:00:{number:02X}", mtu, began, script))
+            _peripheral(
+                device, self.walker, seed, Placement(site, f"F0:5E:00:00:00:{number:02X}", mtu, started_at, script)
+            )
             for number, (site, device) in enumerate(self.devices.items(), 1)
         )
 
@@ -54,22 +56,22 @@ class Bench:
                 return peripheral
         raise KeyError(site)
 
-    def walk_from(self, began: float) -> None:
-        """The walk begins anew at this time of the loop."""
+    def walk_from(self, started_at: float) -> None:
+        """Restart the walk at this time of the loop."""
         for peripheral in self.peripherals:
-            peripheral.walk_from(began)
+            peripheral.walk_from(started_at)
 
     def prepare(self) -> None:
-        """Work out now what the devices send after their usual setup, so that nobody waits for it on the link."""
+        """Compute now what the devices send after their usual setup, so that no host waits for it."""
         for peripheral in self.peripherals:
             peripheral.prepare()
 
     def truth(self) -> Truth:
-        """What truly happens, in times of the walk."""
+        """Return the ground truth, in times of the walk."""
         return self.walker.truth({foot_of(site): device.mounting for site, device in self.devices.items()})
 
 
-def _peripheral(device: Device, walker: Walker, seed: int, worn: Worn) -> Peripheral:
+def _peripheral(device: Device, walker: Walker, seed: int, worn: Placement) -> Peripheral:
     match device:
         case Insole():
             return InsolePeripheral(device, walker, seed, worn)

@@ -1,6 +1,6 @@
 """The emulated CC2541 SensorTag as a GATT server: protocol/cc2541.md from the device's side.
 
-Like the CC2650 it does as it is told, and each sensor keeps its own errors whatever its period.
+Like the CC2650 it accepts any configuration, and each sensor keeps its own errors for every period.
 """
 
 from __future__ import annotations
@@ -8,33 +8,33 @@ from __future__ import annotations
 from functools import partial
 
 from ...link.devices.cc2541 import PROFILE
-from ..sensors.device import device_numbers, started
-from ..sensors.sensortags import CALIBRATION, CC2541, CC2541_KEYS, LATE
+from ..sensors.device import device_numbers, draw_clock
+from ..sensors.sensortags import CALIBRATION, CC2541, CC2541_KEYS, DELAYS
 from ..sensors.tag_signals import Series
 from ..wearers.walker import Walker
 from .attributes import AttCode, AttError
-from .peripheral import Worn
-from .tag import STOCK, Make, Presses, Sensor, Tag, room, shortest, switch
+from .peripheral import Placement
+from .tag import STOCK, Encoder, Presses, Sensor, Tag, checked_code, constant_sensors, shortest
 
-# What the sensors say that measure nothing of the wearer: 24 degrees, half the air's moisture.
+# Constant values of the sensors that do not measure the wearer: 24 degrees Celsius, half of the air's moisture.
 _ROOM = {"cc2541/infrared": bytes.fromhex("0000000c"), "cc2541/humidity": bytes.fromhex("3867b072")}
 
 
 class CC2541Peripheral(Tag):
     """A CC2541 on a foot."""
 
-    def __init__(self, device: CC2541, walker: Walker, seed: int, worn: Worn) -> None:
+    def __init__(self, device: CC2541, walker: Walker, seed: int, worn: Placement) -> None:
         self.device = device
         numbers = device_numbers(seed, worn.site)
-        clock = started(numbers, 1.0 / device.rate, device.ppm)
-        self._begins = {**LATE, "cc2541/gyroscope": float(numbers.uniform()) / device.rate}
+        clock = draw_clock(numbers, 1.0 / device.rate, device.ppm)
+        self._delays = {**DELAYS, "cc2541/gyroscope": float(numbers.uniform()) / device.rate}
         self._shortest = shortest(device.rate)
         sensors = (
             Sensor("cc2541/accelerometer", 100, self._shortest, bytes(3)),
             Sensor("cc2541/gyroscope", 100, self._shortest, bytes(6)),
             Sensor("cc2541/magnetometer", 200, STOCK, bytes(6)),
             Sensor("cc2541/barometer", 100, STOCK, bytes(4)),
-            *room(_ROOM),
+            *constant_sensors(_ROOM),
         )
         super().__init__(device, walker, seed, worn, clock, PROFILE, sensors, "SensorTag")
 
@@ -44,7 +44,7 @@ class CC2541Peripheral(Tag):
         for sensor in ("cc2541/magnetometer", "cc2541/barometer"):
             self.series(sensor, 1.0)
 
-    def begin(self, t: float) -> None:
+    def start(self, t: float) -> None:
         self.flow("cc2541/keys", Presses(self.device.presses, *CC2541_KEYS), t)
 
     def stop(self) -> None:
@@ -63,17 +63,17 @@ class CC2541Peripheral(Tag):
         if channel == "cc2541/barometer-config" and value == b"\x02":
             self._fetched = True
 
-    def make(self, sensor: str, config: bytes, period: float) -> Make | None:
+    def encoder(self, sensor: str, config: bytes, period: float) -> Encoder | None:
         most = {"cc2541/accelerometer": 3, "cc2541/gyroscope": 7, "cc2541/barometer": 2}.get(sensor, 1)
-        code = switch(config, most)
+        code = checked_code(config, most)
         if not code or (sensor == "cc2541/barometer" and code == 2):
             return None
-        return self._begins[sensor], partial(self._say, sensor, code, period)
+        return self._delays[sensor], partial(self._encode, sensor, code, period)
 
-    def _say(self, sensor: str, code: int, period: float, number: int) -> bytes:
+    def _encode(self, sensor: str, code: int, period: float, number: int) -> bytes:
         (series,) = self.series(sensor, period)
-        return self.device.said(sensor, series.value(number), code)[0]
+        return self.device.encode(sensor, series.value(number), code)[0]
 
     def measure(self, sensor: str, period: float) -> tuple[Series, ...]:
-        numbers = self._numbers(list(self._begins).index(sensor))
-        return (self.device.measure(sensor, self._worn, period, self._begins[sensor], numbers),)
+        numbers = self._numbers(list(self._delays).index(sensor))
+        return (self.device.measure(sensor, self._worn, period, self._delays[sensor], numbers),)

@@ -1,7 +1,7 @@
 """The emulated CC2650 SensorTag as a GATT server: protocol/cc2650.md from the device's side.
 
-It does as it is told, also when it is not what one wants: another range, other axes or another period than those of the
-profile give data as the tag would give them. Each sensor keeps its own errors whatever its period.
+It accepts any configuration: with another range, other axes or another period than the profile's it sends the data that
+the tag would send. Each sensor keeps its own errors for every period.
 """
 
 from __future__ import annotations
@@ -14,24 +14,25 @@ import numpy as np
 
 from ...link.devices.cc2650 import DRIVER, PROFILE
 from ...types.vector import GRAVITY
-from ..sensors.device import device_numbers, started
+from ..sensors.device import device_numbers, draw_clock
 from ..sensors.parts import AK8963, BMP280
 from ..sensors.sensortags import BATTERY, CC2650, CC2650_KEYS, cc2650_air
-from ..sensors.tag_signals import LATE_AIR, Series
+from ..sensors.tag_signals import BAROMETER_DELAY, Series
 from ..wearers.walker import Walker
 from .attributes import Battery
-from .peripheral import Worn
-from .tag import STOCK, Make, Presses, Sensor, Tag, room, shortest, switch
+from .peripheral import Placement
+from .tag import STOCK, Encoder, Presses, Sensor, Tag, checked_code, constant_sensors, shortest
 
-WAKES = 0.040 * GRAVITY
-"""m/s^2 from one sample to the next that wake a tag which lies still."""
-AWAKE = 10.0
-"""s for which it stays awake after that."""
+WAKE_CHANGE = 0.040 * GRAVITY
+"""Change of specific force from one sample to the next that wakes a tag at rest, m/s^2."""
+AWAKE_TIME = 10.0
+"""Time for which the tag stays awake after such a change, s."""
 
-_MEANT, _AXES = 0x03FF, 0x007F
-"""The bits of AA82 that the firmware looks at, and those of them that switch axes on."""
+_CONFIG_BITS, _AXIS_BITS = 0x03FF, 0x007F
+"""Bits of AA82 that the firmware uses, and those of them that switch axes on."""
 
-# What the sensors say that measure nothing of the wearer: 24 degrees, half the air's moisture, a lit room.
+# Constant values of the sensors that do not measure the wearer: 24 degrees Celsius, half of the air's moisture, a lit
+# room.
 _ROOM = {
     "cc2650/infrared": bytes.fromhex("000c000c"),
     "cc2650/humidity": bytes.fromhex("a6630080"),
@@ -42,14 +43,14 @@ _ROOM = {
 class CC2650Peripheral(Tag):
     """A CC2650 on a foot."""
 
-    def __init__(self, device: CC2650, walker: Walker, seed: int, worn: Worn) -> None:
+    def __init__(self, device: CC2650, walker: Walker, seed: int, worn: Placement) -> None:
         self.device = device
-        clock = started(device_numbers(seed, worn.site), 1.0 / device.rate, device.ppm)
+        clock = draw_clock(device_numbers(seed, worn.site), 1.0 / device.rate, device.ppm)
         self._shortest = shortest(device.rate)
         sensors = (
             Sensor("cc2650/movement", 100, self._shortest, bytes(18), size=2),
             Sensor("cc2650/barometer", 100, STOCK, bytes(6)),
-            *room(_ROOM),
+            *constant_sensors(_ROOM),
         )
         super().__init__(device, walker, seed, worn, clock, PROFILE, sensors, "CC2650 SensorTag")
         self._moved: dict[float, list[int]] = {}
@@ -59,30 +60,30 @@ class CC2650Peripheral(Tag):
         self.series("cc2650/movement", 0.01 * self._shortest)
         self.series("cc2650/barometer", 1.0)
 
-    def begin(self, t: float) -> None:
+    def start(self, t: float) -> None:
         self.flow("cc2650/keys", Presses(self.device.presses, *CC2650_KEYS), t)
         self.flow("device/battery", self._battery, t)
 
     def value(self, channel: str, t: float) -> bytes:
         return self._battery.level(t) if channel == "device/battery" else super().value(channel, t)
 
-    def make(self, sensor: str, config: bytes, period: float) -> Make | None:
+    def encoder(self, sensor: str, config: bytes, period: float) -> Encoder | None:
         if sensor == "cc2650/movement":
-            bits = int.from_bytes(config, "little") & _MEANT
+            bits = int.from_bytes(config, "little") & _CONFIG_BITS
             parsed = DRIVER.parse("cc2650/movement-config", bits.to_bytes(2, "little"))
-            return (0.0, partial(self._say_movement, parsed, period)) if bits & _AXES else None
-        if not switch(config, 1):
+            return (0.0, partial(self._encode_movement, parsed, period)) if bits & _AXIS_BITS else None
+        if not checked_code(config, 1):
             return None
-        return LATE_AIR, lambda number: cc2650_air(float(self.series(sensor, period)[0].value(number)[0, 0]))
+        return BAROMETER_DELAY, lambda number: cc2650_air(float(self.series(sensor, period)[0].value(number)[0, 0]))
 
-    def _say_movement(self, config: Any, period: float, number: int) -> bytes | None:
+    def _encode_movement(self, config: Any, period: float, number: int) -> bytes | None:
         acc, gyro, mag = self.series("cc2650/movement", period)
         if config.wake_on_motion and not self._awake(acc, period, number):
             return None
         return self.device.movement(config, acc.value(number), gyro.value(number), mag.value(number))[0]
 
     def measure(self, sensor: str, period: float) -> tuple[Series, ...]:
-        """Of movement: accelerometer, gyroscope and magnetometer."""
+        """Return the series of the sensor; for movement those of accelerometer, gyroscope and magnetometer."""
         worn, part = self._worn, self.device.part
         if sensor == "cc2650/barometer":
             return (worn.air(period, BMP280, self._numbers(3)),)
@@ -94,10 +95,10 @@ class CC2650Peripheral(Tag):
         )
 
     def _awake(self, acc: Series, period: float, number: int) -> bool:
-        """Whether the tag has been moved in the last `AWAKE` s."""
+        """Return whether the tag has been moved in the last `AWAKE_TIME` s."""
         moved = self._moved.get(period)
         if moved is None:
             change = np.abs(np.diff(acc.values, axis=0)).max(axis=1)
-            moved = self._moved[period] = [int(k) + 1 for k in np.flatnonzero(change > WAKES)]
+            moved = self._moved[period] = [int(k) + 1 for k in np.flatnonzero(change > WAKE_CHANGE)]
         before = bisect_right(moved, number)
-        return before > 0 and (number - moved[before - 1]) * period <= AWAKE
+        return before > 0 and (number - moved[before - 1]) * period <= AWAKE_TIME

@@ -1,24 +1,24 @@
-"""What is to go wrong: a script of faults, and its effect on one emulated device.
+"""Scripted faults of emulated devices: the syntax of a script, and its effect on one device.
 
-A script is text, one fault a line, `SECONDS SITE WHAT [AMOUNT]`; `#` begins a comment, `*` means every site and a
-semicolon ends a fault as a line does:
+A script is text, one fault a line, `SECONDS SITE WHAT [AMOUNT]`; `#` starts a comment, `*` means every site and a
+semicolon ends a fault as the end of a line does:
 
     12.5 left_foot disconnect         # the link is lost, the device advertises again at once
-    20 right_foot vanish 60           # the link is lost and the device is not to be seen for so many s
+    20 right_foot vanish 60           # the link is lost and the device does not advertise for 60 s
     5 left_foot drop 3                # the next notifications are lost
     5 * duplicate 2                   # ... arrive twice
     8 left_foot truncate 4            # ... arrive cut short
-    8 left_foot flip 2                # ... arrive with one to three bits turned
-    15 left_foot freeze 5             # nothing is sent for so many s though the link stands; a setup write thaws it
-    0 left_foot mtu 23                # the device agrees to no larger MTU from its next connection on
+    8 left_foot flip 2                # ... arrive with one to three inverted bits
+    15 left_foot freeze 5             # nothing is sent for 5 s although the link is up; a setup write ends this
+    0 left_foot mtu 23                # the device accepts no larger MTU from its next connection on
     0 left_foot refuse cc2650/movement-config 2   # the next requests to the channel get the ATT error 0x80
     30 left_foot hang                 # the next request is never answered, and 1 s later the link is lost
-    40 left_foot restart              # the link is lost and the device begins anew, its counters too
-    0 * name "SensorTag"              # the device goes by another name
-    0 left_foot pairing               # from now on the device must be paired with before it says anything of the foot
-    0 left_foot refuse pairing        # the next attempt to pair is refused
+    40 left_foot restart              # the link is lost and the device restarts with its counters at 0
+    0 * name "SensorTag"              # the device has another name
+    0 left_foot pairing               # from now on the device sends and answers only on a link that is paired
+    0 left_foot refuse pairing        # the next attempt to pair is rejected
 
-Seconds count from the walk's beginning. The same script does the same every time.
+Seconds count from the start of the walk. The same script has the same effect every time.
 """
 
 from __future__ import annotations
@@ -36,16 +36,16 @@ from attrs import frozen
 from ...types import Site
 
 HANGING = 1.0
-"""s from a request that is never answered until the link is lost."""
+"""Time from a request that is never answered until the link is lost, s."""
 PAIRING = "pairing"
-"""What is refused, in place of a channel, when it is an attempt to pair."""
+"""Argument of the fault "refuse" that rejects an attempt to pair instead of a request to a channel."""
 
 
 _E = TypeVar("_E", bound=Enum)
 
 
-class What(Enum):
-    """What goes wrong; the words are those of the script."""
+class FaultKind(Enum):
+    """Kinds of faults; the values are the words of the script."""
 
     DISCONNECT = "disconnect"
     VANISH = "vanish"
@@ -55,7 +55,7 @@ class What(Enum):
     FLIP = "flip"
     FREEZE = "freeze"
     MTU = "mtu"
-    REFUSE = "refuse"
+    REJECT = "refuse"
     HANG = "hang"
     RESTART = "restart"
     NAME = "name"
@@ -64,26 +64,30 @@ class What(Enum):
 
 @frozen
 class Fault:
-    """One fault at `at` s of the walk, at `site` (None: at every site).
-
-    `amount`: s for VANISH and FREEZE (inf without), the MTU for MTU, a number of notifications or requests otherwise.
-    `argument`: the channel for REFUSE, or PAIRING; the name for NAME.
-    """
+    """One scripted fault."""
 
     at: float
+    """Time of the walk at which the fault happens, s."""
     site: Site | None
-    what: What
+    """Site of the device; None: every site."""
+    kind: FaultKind
+    """Kind of the fault."""
     amount: float = 1.0
+    """Duration in s for VANISH and FREEZE (inf by default), MTU for MTU, else a number of notifications or requests."""
     argument: str = ""
+    """Channel, or PAIRING, for REJECT; name for NAME."""
 
 
-_COUNTED = {What.DROP, What.DUPLICATE, What.TRUNCATE, What.FLIP, What.REFUSE}
-_LASTING = {What.VANISH, What.FREEZE}
-_NAMING = {What.REFUSE: "a channel", What.NAME: "a name"}
+_COUNTED = {FaultKind.DROP, FaultKind.DUPLICATE, FaultKind.TRUNCATE, FaultKind.FLIP, FaultKind.REJECT}
+_LASTING = {FaultKind.VANISH, FaultKind.FREEZE}
+_NAMING = {FaultKind.REJECT: "a channel", FaultKind.NAME: "a name"}
 
 
 def parse_faults(text: str) -> tuple[Fault, ...]:
-    """The faults of a script, in its order. ValueError names the line that cannot be understood, and why."""
+    """Return the faults of a script, in its order.
+
+    A line with an error raises ValueError, which names the line and the reason.
+    """
     found = []
     for number, line in enumerate(text.splitlines(), 1):
         try:
@@ -94,7 +98,7 @@ def parse_faults(text: str) -> tuple[Fault, ...]:
 
 
 def _words(line: str) -> list[list[str]]:
-    """The words of each fault on the line."""
+    """Return the words of each fault on the line."""
     lexer = shlex.shlex(line, posix=True, punctuation_chars=";")
     lexer.whitespace_split = True
     faults: list[list[str]] = [[]]
@@ -109,41 +113,41 @@ def _words(line: str) -> list[list[str]]:
 def _fault(words: list[str]) -> Fault:
     if len(words) < 3:
         raise ValueError("a fault is SECONDS SITE WHAT [AMOUNT]")
-    at, what = _number(words[0], "seconds"), _one_of(What, words[2], "fault")
+    at, kind = _number(words[0], "seconds"), _one_of(FaultKind, words[2], "fault")
     site = None if words[1] == "*" else _one_of(Site, words[1], "site", "* and ")
     rest = words[3:]
     argument = ""
-    if what in _NAMING:
+    if kind in _NAMING:
         if not rest:
-            raise ValueError(f"{what.value} needs {_NAMING[what]}")
+            raise ValueError(f"{kind.value} needs {_NAMING[kind]}")
         argument, rest = rest[0], rest[1:]
-    takes = what in _COUNTED | _LASTING | {What.MTU}
+    takes = kind in _COUNTED | _LASTING | {FaultKind.MTU}
     if len(rest) > takes:
-        raise ValueError(f"too many words after {what.value}")
-    return Fault(at, site, what, _amount(what, rest), argument)
+        raise ValueError(f"too many words after {kind.value}")
+    return Fault(at, site, kind, _amount(kind, rest), argument)
 
 
-def _amount(what: What, rest: list[str]) -> float:
-    if what is What.MTU:
+def _amount(kind: FaultKind, rest: list[str]) -> float:
+    if kind is FaultKind.MTU:
         amount = _number(rest[0], "MTU") if rest else 0.0
         if amount != int(amount) or not 23 <= amount <= 517:
             raise ValueError("mtu needs a whole number from 23 to 517")
         return amount
     if not rest:
-        return inf if what in _LASTING else 1.0
+        return inf if kind in _LASTING else 1.0
     amount = _number(rest[0], "amount")
-    if what in _COUNTED and (amount != int(amount) or amount < 1):
-        raise ValueError(f"{what.value} needs a whole number, at least 1")
+    if kind in _COUNTED and (amount != int(amount) or amount < 1):
+        raise ValueError(f"{kind.value} needs a whole number, at least 1")
     return amount
 
 
-def _number(word: str, what: str) -> float:
+def _number(word: str, kind: str) -> float:
     try:
         value = float(word)
     except ValueError:
-        raise ValueError(f"{what}: {word!r} is not a number") from None
+        raise ValueError(f"{kind}: {word!r} is not a number") from None
     if not isfinite(value) or value < 0.0:
-        raise ValueError(f"{what}: {word} is out of range")
+        raise ValueError(f"{kind}: {word} is out of range")
     return value
 
 
@@ -155,105 +159,108 @@ def _one_of(kind: type[_E], word: str, called: str, also: str = "") -> _E:
         raise ValueError(f"no {called} {word!r}; there are {also}{there}") from None
 
 
-class Misfortune:
-    """The faults of one device as time passes. `t` is everywhere the time of the walk, s, and never goes back."""
+class FaultState:
+    """The faults of one device over time; `t` is always the time of the walk, s, and never decreases."""
 
     def __init__(self, faults: Iterable[Fault], site: Site) -> None:
         mine = [fault for fault in faults if fault.site in (None, site)]
         self._coming = sorted(mine, key=attrgetter("at"))
         self._random = random.Random(f"faults {site.value}")
-        self._left = dict.fromkeys(_COUNTED - {What.REFUSE}, 0)
-        self._refusing: dict[str, int] = {}
+        self._left = dict.fromkeys(_COUNTED - {FaultKind.REJECT}, 0)
+        self._rejections: dict[str, int] = {}
         self._hidden_until = -inf
         self._frozen_until = -inf
         self._hang = False
         self._lost_at = inf
         self.happened = 0
         self.cut = False
-        """The link is to be lost now."""
+        """True when the link must be lost now."""
         self.mtu: int | None = None
-        """The largest MTU that the device now agrees to, None when no fault says so."""
-        self.restarted: float | None = None
-        """When the device began anew the last time, None when it never did."""
+        """Largest MTU that the device accepts; None when no fault sets it."""
+        self.restarted_at: float | None = None
+        """Time of the last restart of the device, s; None when it never restarted."""
         self.name: str | None = None
-        """What the device now calls itself, None when no fault says so."""
+        """Name of the device; None when no fault sets it."""
         self.needs_pairing = False
-        """Whether the device wants to be paired with."""
+        """True when the device accepts requests only on a paired link."""
 
     def next_at(self) -> float:
-        """When something happens by itself, s; inf when nothing is to come."""
+        """Return the time of the next fault, s; inf when there is none."""
         return min(self._coming[0].at if self._coming else inf, self._lost_at)
 
     def advance(self, t: float) -> None:
-        """Let happen what is to happen until `t`."""
+        """Apply all faults up to `t`."""
         while self._coming and self._coming[0].at <= t:
-            self._happen(self._coming.pop(0))
+            self._start_fault(self._coming.pop(0))
         if self._lost_at <= t:
             self.cut, self._lost_at = True, inf
 
     def connected(self) -> None:
-        """A new link: what was to end the old one ends no other. A request that hangs may still be to come."""
+        """Start a new link: a pending loss of the old link does not end it; a pending HANG stays."""
         self.cut, self._lost_at = False, inf
 
     def hidden(self, t: float) -> bool:
+        """Return whether the device does not advertise at `t`."""
         return t < self._hidden_until
 
     def frozen(self, t: float) -> bool:
+        """Return whether the device sends nothing at `t`."""
         return t < self._frozen_until
 
     def thaw(self) -> None:
+        """End a FREEZE."""
         self._frozen_until = -inf
 
-    def refuses(self, channel: str) -> bool:
-        """Whether a request to the channel is refused; asked once for each request."""
-        left = self._refusing.get(channel, 0)
-        self._refusing[channel] = max(0, left - 1)
+    def rejects(self, channel: str) -> bool:
+        """Return whether the device rejects a request to the channel; call it once for each request."""
+        left = self._rejections.get(channel, 0)
+        self._rejections[channel] = max(0, left - 1)
         return left > 0
 
     def hangs(self, t: float) -> bool:
-        """Whether a request at `t` is never answered. No other is either until the link is lost."""
+        """Return whether a request at `t` is never answered; later ones are not answered either until the link ends."""
         if self._hang:
             self._hang, self._lost_at = False, t + HANGING
         return self._lost_at < inf
 
-    def carry(self, value: bytes) -> list[bytes]:
-        """What is really sent in place of a notification."""
-        if self._spend(What.DROP):
+    def apply(self, value: bytes) -> list[bytes]:
+        """Return the notifications that are sent in place of one notification."""
+        if self._spend(FaultKind.DROP):
             return []
-        if self._spend(What.TRUNCATE):
+        if self._spend(FaultKind.TRUNCATE):
             value = value[: self._random.randrange(len(value))] if value else value
-        if self._spend(What.FLIP):
+        if self._spend(FaultKind.FLIP):
             value = self._flip(value)
-        return [value, value] if self._spend(What.DUPLICATE) else [value]
+        return [value, value] if self._spend(FaultKind.DUPLICATE) else [value]
 
-    def _happen(self, fault: Fault) -> None:
+    def _start_fault(self, fault: Fault) -> None:
         self.happened += 1
-        match fault.what:
-            case What.DISCONNECT:
+        match fault.kind:
+            case FaultKind.DISCONNECT:
                 self.cut = True
-            case What.RESTART:
-                self.cut, self.restarted = True, fault.at
-            case What.VANISH:
+            case FaultKind.RESTART:
+                self.cut, self.restarted_at = True, fault.at
+            case FaultKind.VANISH:
                 self.cut, self._hidden_until = True, fault.at + fault.amount
-            case What.FREEZE:
+            case FaultKind.FREEZE:
                 self._frozen_until = fault.at + fault.amount
-            case What.MTU:
+            case FaultKind.MTU:
                 self.mtu = int(fault.amount)
-            case What.REFUSE:
-                self._refusing[fault.argument] = self._refusing.get(fault.argument, 0) + int(fault.amount)
-            case What.HANG:
+            case FaultKind.REJECT:
+                self._rejections[fault.argument] = self._rejections.get(fault.argument, 0) + int(fault.amount)
+            case FaultKind.HANG:
                 self._hang = True
-            case What.NAME:
+            case FaultKind.NAME:
                 self.name = fault.argument
-            case What.PAIRING:
+            case FaultKind.PAIRING:
                 self.needs_pairing = True
             case _:
-                self._left[fault.what] += int(fault.amount)
+                self._left[fault.kind] += int(fault.amount)
 
-    def _spend(self, what: What) -> bool:
-        if self._left[what] == 0:
+    def _spend(self, kind: FaultKind) -> bool:
+        if self._left[kind] == 0:
             return False
-        self._left[what] -= 1
+        self._left[kind] -= 1
         return True
 
     def _flip(self, value: bytes) -> bytes:

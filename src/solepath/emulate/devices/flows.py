@@ -1,4 +1,4 @@
-"""What the channels of an emulated device have to tell, and which of it is due first. Times are of the walk, s."""
+"""Values that the channels of an emulated device notify, and the time of the next one. Times are of the walk, s."""
 
 from __future__ import annotations
 
@@ -9,16 +9,19 @@ from attrs import define, field
 
 
 class ValueSource(Protocol):
-    """What a channel has to tell: values with numbers, each at its time."""
+    """The values of one channel: each has a number and a time."""
 
     def after(self, t: float) -> int:
-        """The number of the first value that is measured at `t` or later."""
+        """Return the number of the first value that is measured at `t` or later."""
 
     def due(self, number: int) -> float:
-        """When the radio has it, not before the one before it; inf when there is no such value."""
+        """Return the time at which the radio has the value, s: never before the previous one; inf when there is none.
+
+        Times grow with the number.
+        """
 
     def values(self, number: int, mtu: int) -> Sequence[bytes]:
-        """What is sent then, in order: nothing, one notification, or several where one is not enough."""
+        """Return the notifications of the value, in order: none, one, or several when one is too short."""
 
 
 @define(eq=False)
@@ -29,20 +32,20 @@ class _Flow:
 
 @define(eq=False)
 class Flows:
-    """The sources of a device's channels, and the channels that its host listens to."""
+    """The value sources of a device's channels, and the channels that its host has subscribed to."""
 
     _flows: dict[str, _Flow] = field(factory=dict, init=False)
     _subscribed: set[str] = field(factory=set, init=False)
 
     def put(self, channel: str, source: ValueSource | None, t: float) -> None:
-        """From `t` on the channel tells what `source` has, or nothing."""
+        """Set the source of the channel's values from `t` on; None stops the channel."""
         if source is None:
             self._flows.pop(channel, None)
         else:
             self._flows[channel] = _Flow(source, source.after(t))
 
     def subscribe(self, channel: str, on: bool, t: float) -> None:
-        """Somebody listens to the channel from `t` on, or nobody does."""
+        """Start or stop the channel's notifications at `t`."""
         if on and channel not in self._subscribed:
             self._subscribed.add(channel)
             flow = self._flows.get(channel)
@@ -52,18 +55,17 @@ class Flows:
             self._subscribed.discard(channel)
 
     def go_to(self, t: float) -> None:
-        """The walk is at `t` now."""
+        """Continue every channel at time `t` of the walk."""
         for flow in self._flows.values():
             flow.number = flow.source.after(t)
 
     def clear(self) -> None:
-        """Nobody tells anything, and nobody listens."""
+        """Remove all sources and all subscriptions."""
         self._flows.clear()
         self._subscribed.clear()
 
     def first(self, t: float) -> tuple[str | None, float]:
-        """The channel listened to that has something to tell soonest, by `t` at the latest, and when; None and `t` when
-        there is none."""
+        """Return the subscribed channel whose value is due first, and its time; None and `t` when none is due."""
         first, soonest = None, t
         for channel, flow in self._flows.items():
             if channel in self._subscribed:
@@ -73,7 +75,7 @@ class Flows:
         return first, soonest
 
     def take(self, channel: str) -> tuple[ValueSource, int]:
-        """The channel's source and the number of its next value, which is taken by this."""
+        """Return the channel's source and the number of its next value, and advance to the value after it."""
         flow = self._flows[channel]
         number, flow.number = flow.number, flow.number + 1
         return flow.source, number

@@ -19,20 +19,20 @@ from ..sensors.device import device_numbers, foot_of
 from ..sensors.insole_device import BATTERY, TICK_RATE, Insole, InsoleSignal
 from ..wearers.walker import Walker
 from .attributes import NOTIFY, READ, WRITE, AttError, Battery, information, services
-from .peripheral import Peripheral, Worn
+from .peripheral import Peripheral, Placement
 
 UNKNOWN_OPCODE = 0x80
 WRONG_VALUE = 0x81
 NOT_NOW = 0x82
 
 SHORTEST = 82
-"""Ticks: the fastest that the emulated insole samples, 400 Hz."""
+"""Shortest sampling interval of the emulated insole, ticks: 400 Hz."""
 KEPT = 20.0
-"""s of frames that can be sent again."""
+"""Time for which frames are kept for retransmission, s."""
 _BURST = 4
-"""Frames that are sent again with each new one, at the most."""
+"""Largest number of frames that are retransmitted with each new frame."""
 _SIGNALS = 3
-"""Intervals for which the whole walk is kept at hand."""
+"""Number of sampling intervals for which the measured walk is cached."""
 _OPCODES = range(1, 5)
 _LONGEST = 512
 _HEADER_AND_CRC = 16
@@ -52,15 +52,18 @@ _SERVICES = services(
 
 @define(eq=False)
 class _Frames:
-    """A Source: the frames of a signal. `sequence` and `ticks` are added to its own; `kept` are the numbers of those
-    that were sent, `again` the sequences that are to be sent once more."""
+    """A ValueSource of the frames of a signal.
+
+    `sequence` and `ticks` are added to those of the signal. `kept` has the numbers of the frames that were sent,
+    `to_resend` the numbers of the frames that must be sent again.
+    """
 
     signal: InsoleSignal
     batch: int
     sequence: int = 0
     ticks: int = 0
     kept: deque[int] = Factory(deque)
-    again: deque[int] = Factory(deque)
+    to_resend: deque[int] = Factory(deque)
 
     def after(self, t: float) -> int:
         return ceil((t - self.signal.first) / (self.signal.step * self.batch))
@@ -70,8 +73,8 @@ class _Frames:
 
     def values(self, number: int, mtu: int) -> Sequence[bytes]:
         found = self._pieces(number, False, mtu)
-        for _ in range(min(_BURST, len(self.again))):
-            found += self._pieces(self.again.popleft(), True, mtu)
+        for _ in range(min(_BURST, len(self.to_resend))):
+            found += self._pieces(self.to_resend.popleft(), True, mtu)
         self.kept.append(number)
         while len(self.kept) * self.signal.step * self.batch > KEPT:
             self.kept.popleft()
@@ -83,33 +86,33 @@ class _Frames:
         return evolve(frame, sequence=sequence, ticks=ticks)
 
     def own_ticks(self, number: int) -> int:
-        """Those of a frame before `ticks` are added."""
+        """Return the ticks of a frame before `ticks` is added."""
         return self.signal.ticks + number * self.batch * self.signal.interval
 
     def elapsed(self, number: int, since: float) -> int:
-        """Ticks of the device's clock from `since`, s, until the frame's first sample."""
+        """Return the ticks of the device's clock from `since`, s, to the frame's first sample."""
         return round((self.signal.taken(number, self.batch) - since) / self.signal.step * self.signal.interval)
 
     def resend(self, command: Resend) -> None:
-        """Those asked for that are still kept will go with the next frames."""
-        asked = {(command.first + i) % 2**16 for i in range(command.count)}
+        """Queue the requested frames that are still kept; they go with the next frames."""
+        requested = {(command.first + i) % 2**16 for i in range(command.count)}
         offset = self.signal.sequence + self.sequence
-        self.again += [n for n in self.kept if (offset + n) % 2**16 in asked and n not in self.again]
+        self.to_resend += [n for n in self.kept if (offset + n) % 2**16 in requested and n not in self.to_resend]
 
-    def _pieces(self, number: int, again: bool, mtu: int) -> list[bytes]:
+    def _pieces(self, number: int, retransmitted: bool, mtu: int) -> list[bytes]:
         frame = self.frame(number)
-        return split(build_frame(evolve(frame, retransmitted=again)), mtu - 3, number % FRAME_IDS)
+        return split(build_frame(evolve(frame, retransmitted=retransmitted)), mtu - 3, number % FRAME_IDS)
 
 
 class InsolePeripheral(Peripheral):
-    """An insole as it is worn, "solepath L" or "solepath R".
+    """A worn insole, "solepath L" or "solepath R", as a GATT server.
 
-    Its frames are byte for byte those that `device.emit` gives for the same walker, site, seed and interval, as long as
-    SET INTERVAL comes while it is stopped. Set while it runs, sequence and ticks go on from where they are. What a
-    whole walk is worth is worked out once for each interval, when it is first needed or by `prepare`.
+    Its frames are byte for byte those of `device.emit` for the same walker, site, seed and interval, as long as
+    SET INTERVAL comes while it is stopped. When it comes while it runs, sequence and ticks continue. The signal of the
+    whole walk is computed once for each interval, when it is first needed or by `prepare`.
     """
 
-    def __init__(self, device: Insole, walker: Walker, seed: int, worn: Worn) -> None:
+    def __init__(self, device: Insole, walker: Walker, seed: int, worn: Placement) -> None:
         name = f"solepath {'L' if foot_of(worn.site) is Foot.LEFT else 'R'}"
         super().__init__(worn, name, _SERVICES, INSOLE.services)
         self.device, self._walker, self._seed = device, walker, seed
@@ -117,13 +120,13 @@ class InsolePeripheral(Peripheral):
         self._signals: dict[int, InsoleSignal] = {}
         self._frames: _Frames | None = None
         self._battery = Battery(BATTERY)
-        self._said = information(device.firmware, manufacturer="solepath", model="emulated insole")
+        self._device_information = information(device.firmware, manufacturer="solepath", model="emulated insole")
 
     def prepare(self) -> None:
         self.signal()
 
     def signal(self) -> InsoleSignal:
-        """What it measures at the interval in force."""
+        """Return the signal that the insole measures at the current interval."""
         found = self._signals.get(self._interval)
         if found is None:
             device = self.device
@@ -135,7 +138,7 @@ class InsolePeripheral(Peripheral):
             self._signals[self._interval] = found
         return found
 
-    def begin(self, t: float) -> None:
+    def start(self, t: float) -> None:
         self.flow("device/battery", self._battery, t)
 
     def stop(self) -> None:
@@ -147,7 +150,7 @@ class InsolePeripheral(Peripheral):
                 return build_info(self.device.info(self.signal()))
             case "device/battery":
                 return self._battery.level(t)
-        return self._said[channel]
+        return self._device_information[channel]
 
     def take(self, channel: str, value: bytes, t: float) -> None:
         try:
@@ -164,7 +167,7 @@ class InsolePeripheral(Peripheral):
             case SetInterval(interval=interval):
                 self._interval = max(SHORTEST, interval)
                 if self._frames is not None:
-                    self._measure(self._following(self._frames, t), t)
+                    self._measure(self._continued_frames(self._frames, t), t)
             case Resend():
                 if self._frames is None:
                     raise AttError(NOT_NOW)
@@ -175,22 +178,22 @@ class InsolePeripheral(Peripheral):
         self.flow("insole/frame", frames, t)
 
     def _frames_from(self, t: float) -> _Frames:
-        """Frames from `t` on; after a restart they count from 0, and the ticks from then."""
+        """Return the frames from `t` on; after a restart the sequence starts at 0 and the ticks at the restart."""
         frames = _Frames(self.signal(), self._batch())
-        if self.restarted is not None:
+        if self.restarted_at is not None:
             number = frames.after(t)
             frames.sequence = -(frames.signal.sequence + number) % 2**16
-            frames.ticks = (frames.elapsed(number, self.restarted) - frames.own_ticks(number)) % 2**32
+            frames.ticks = (frames.elapsed(number, self.restarted_at) - frames.own_ticks(number)) % 2**32
         return frames
 
     def _batch(self) -> int:
-        """Samples a frame: what the device wants, or fewer when they would be too many fragments."""
+        """Return the samples per frame: those of the device, or fewer when the frame would have too many fragments."""
         one = len(build_frame(self.signal().frame(0))) - _HEADER_AND_CRC
         room = min(_LONGEST, max(self.agreed_mtu - 3, MAX_FRAGMENTS * (self.agreed_mtu - 4)))
         return max(1, min(self.device.batch, (room - _HEADER_AND_CRC) // one))
 
-    def _following(self, old: _Frames, t: float) -> _Frames:
-        """Frames at the interval in force whose first, at `t`, continues the sequence and the clock of the old ones."""
+    def _continued_frames(self, old: _Frames, t: float) -> _Frames:
+        """Return the frames at the current interval that continue the sequence and the clock of the old ones at `t`."""
         new = _Frames(self.signal(), old.batch)
         number = new.after(t)
         last = old.kept[-1] if old.kept else old.after(t) - 1

@@ -1,16 +1,16 @@
-"""One emulated device as its server sees it: attributes to read and write, and notifications that fall due.
+"""One emulated device as its server sees it: attributes to read and write, and notifications at their times.
 
-No clock and no asyncio: whoever serves it passes its own loop's time as `now` (s, never going back) and does with each
-device of a connection
+The device has no clock and no asyncio. The server passes the time of its loop as `now` (s, never decreasing) and does
+this for each connection:
 
     device.connected(now, mtu)
-    ... subscribe, read, write as the host asks ...
+    ... subscribe, read, write as the host requests ...
     at device.next_due(), and whenever `changed` was called sooner:
         for outgoing in device.poll(now): send it
         if device.hang_up(now): lose the link
     device.disconnected(now)
 
-A fault script (faults.py) acts inside; the server sees only its effects.
+A fault script (faults.py) acts inside the device; the server sees only its effects.
 """
 
 from __future__ import annotations
@@ -22,146 +22,149 @@ from attrs import frozen
 
 from ...types import Site
 from .attributes import SMALLEST_MTU, AttCode, AttError, Outgoing, Service, check_fits
-from .faults import PAIRING, Fault, Misfortune, What
+from .faults import PAIRING, Fault, FaultKind, FaultState
 from .flows import Flows, ValueSource
 
 _AT_ONCE = 2e-6
-"""s: a timer may fire so much before its time by the resolution of a loop's clock."""
+"""Time by which a timer may fire too early, s: the resolution of a loop's clock."""
 
 
 @frozen
-class Worn:
-    """Where a device is worn, its address, and what befalls it.
-
-    `mtu`: the largest that it agrees to. `began`: the loop's time at which its wearer's walk begins; until then he
-    stands as at its beginning.
-    """
+class Placement:
+    """Site, address, start time and faults of a virtual device."""
 
     site: Site
+    """Site that wears the device."""
     address: str
+    """Bluetooth address of the device."""
     mtu: int = 247
-    began: float = 0.0
+    """Largest ATT MTU that the device accepts, bytes."""
+    started_at: float = 0.0
+    """Time of the loop at which the walk starts, s; before it the wearer stands at the start."""
     faults: tuple[Fault, ...] = ()
+    """Script of faults for all devices; those of other sites have no effect on this one."""
 
 
 class Peripheral:
-    """A device without attributes of its own; insole.py and tag.py say what theirs are.
+    """A virtual device as a GATT server; insole.py and tag.py define its attributes.
 
-    `sent` counts the notifications that were handed over by channel, and `log` has them all once a list is put there.
+    `sent` counts the sent notifications by channel. When `log` is a list, it collects all of them.
     """
 
-    def __init__(self, worn: Worn, name: str, services: Iterable[Service], advertised: Iterable[str]) -> None:
+    def __init__(self, worn: Placement, name: str, services: Iterable[Service], advertised: Iterable[str]) -> None:
         self.site, self.address = worn.site, worn.address
         self.services = tuple(services)
         self.advertised = tuple(advertised)
         self.sent: dict[str, int] = {}
         self.log: list[Outgoing] | None = None
         self.changed: Callable[[], None] | None = None
-        for said in (name, *(fault.argument for fault in worn.faults if fault.what is What.NAME)):
-            check_fits(said, self.advertised)
-        self._name, self._mtu, self._began, self._faults = name, worn.mtu, worn.began, worn.faults
-        self._misfortune = Misfortune(worn.faults, worn.site)
+        for text in (name, *(fault.argument for fault in worn.faults if fault.kind is FaultKind.NAME)):
+            check_fits(text, self.advertised)
+        self._name, self._mtu, self._started_at, self._faults = name, worn.mtu, worn.started_at, worn.faults
+        self._fault_state = FaultState(worn.faults, worn.site)
         self._properties = {c.channel: c.properties for service in self.services for c in service.characteristics}
         self._flows = Flows()
         self._now = -inf
         self.is_connected = False
         self.is_encrypted = False
-        """By the keys of a pairing, of now or of earlier."""
+        """True while the link is encrypted with the keys of a pairing on this or an earlier link."""
         self.agreed_mtu = SMALLEST_MTU
-        """Of the link, while there is one."""
+        """ATT MTU of the link, bytes."""
 
-    # what its devices say
+    # methods that a device overrides or calls
 
     def value(self, channel: str, t: float) -> bytes:
-        """What a read of the channel gives at `t` of the walk. AttError."""
+        """Return the value of the channel at `t` s of the walk; raise AttError when it cannot be read."""
         raise AttError(AttCode.READ_NOT_PERMITTED)
 
     def take(self, channel: str, value: bytes, t: float) -> None:
-        """Obey a write at `t` of the walk. AttError."""
+        """Apply a value that the host writes at `t` s of the walk; raise AttError when the device rejects it."""
         raise AttError(AttCode.WRITE_NOT_PERMITTED)
 
     def stop(self) -> None:
-        """Do as the device does when its link is gone. The flows have been stopped already."""
+        """Reset the device after the loss of its link; its channels have stopped already."""
 
-    def begin(self, t: float) -> None:
-        """Do as the device does when it is connected at `t` of the walk."""
+    def start(self, t: float) -> None:
+        """Start what the device sends from a connection at `t` s of the walk on."""
 
     def prepare(self) -> None:
-        """Work out now what would otherwise be worked out when a host first asks for it."""
+        """Compute now what is otherwise computed when a host first needs it."""
 
     def flow(self, channel: str, source: ValueSource | None, t: float) -> None:
-        """From `t` of the walk on the channel tells what `source` has, or nothing."""
+        """Set the source of the channel's values from `t` s of the walk on; None stops the channel."""
         self._flows.put(channel, source, t)
 
-    # what its server asks
+    # methods that the server calls
 
     @property
     def name(self) -> str:
-        return self._name if self._misfortune.name is None else self._misfortune.name
+        """Name that the device advertises."""
+        return self._name if self._fault_state.name is None else self._fault_state.name
 
     @property
     def mtu(self) -> int:
-        return self._mtu if self._misfortune.mtu is None else min(self._mtu, self._misfortune.mtu)
+        """Largest ATT MTU that the device accepts, bytes."""
+        return self._mtu if self._fault_state.mtu is None else min(self._mtu, self._fault_state.mtu)
 
     @property
-    def restarted(self) -> float | None:
-        """When it began anew the last time, in time of the walk; None when it never did."""
-        return self._misfortune.restarted
+    def restarted_at(self) -> float | None:
+        """Time of the walk at which the device last restarted, s; None when it never did."""
+        return self._fault_state.restarted_at
 
     @property
-    def suffered(self) -> int:
-        """Faults of the script that have happened in this walk."""
-        return self._misfortune.happened
+    def fault_count(self) -> int:
+        """Number of faults of the script that have happened in this walk."""
+        return self._fault_state.happened
 
     @property
     def needs_pairing(self) -> bool:
-        """Whether it refuses requests on a link that is not encrypted, but for Device Information and battery."""
-        return self._misfortune.needs_pairing
+        """True when the device rejects requests on a link without encryption, except Device Information and battery."""
+        return self._fault_state.needs_pairing
 
-    def walk_from(self, began: float) -> None:
-        """The walk begins anew, and the script of its faults with it: nothing of an earlier one holds over."""
-        self._began = began
-        self._misfortune = Misfortune(self._faults, self.site)
-        self._flows.go_to(self._now - began)
-        self._tell()
+    def walk_from(self, started_at: float) -> None:
+        """Restart the walk and the script of its faults at this time of the loop; earlier faults have no effect."""
+        self._started_at = started_at
+        self._fault_state = FaultState(self._faults, self.site)
+        self._flows.go_to(self._now - started_at)
+        self._notify_changed()
 
     def visible(self, now: float) -> bool:
-        """Whether it advertises, if it is not connected."""
-        return not self._misfortune.hidden(self._pass(now))
+        """Return whether the device advertises while it is not connected."""
+        return not self._fault_state.hidden(self._advance(now))
 
     def connected(self, now: float, mtu: int) -> None:
-        """A link begins, with the MTU that is agreed so far."""
-        t = self._pass(now)
-        self._misfortune.connected()
+        """Start a link with the current ATT MTU."""
+        t = self._advance(now)
+        self._fault_state.connected()
         self.is_connected, self.is_encrypted, self.agreed_mtu = True, False, mtu
-        self.begin(t)
-        self._tell()
+        self.start(t)
+        self._notify_changed()
 
-    def agrees_to_pair(self, now: float) -> bool:
-        """Whether it takes part in a pairing that the host begins."""
-        self._pass(now)
-        return not self._misfortune.refuses(PAIRING)
+    def accepts_pairing(self, now: float) -> bool:
+        """Return whether the device accepts a pairing that the host starts."""
+        self._advance(now)
+        return not self._fault_state.rejects(PAIRING)
 
     def disconnected(self, now: float) -> None:
-        """The link is gone, whoever ended it: subscriptions are forgotten, the device does what its protocol says."""
-        self._pass(now)
+        """End the link: remove all subscriptions and reset the device as its protocol says."""
+        self._advance(now)
         self.is_connected = self.is_encrypted = False
         self._flows.clear()
         self.agreed_mtu = SMALLEST_MTU
         self.stop()
 
     def subscribe(self, channel: str, on: bool, now: float) -> None:
-        """AttError for a channel that does not notify."""
+        """Start or stop the notifications of a channel; raise AttError when it cannot notify."""
         if "notify" not in self._properties.get(channel, ()):
             raise AttError(AttCode.REQUEST_NOT_SUPPORTED)
-        t = self._pass(now)
+        t = self._advance(now)
         self._check_paired(channel)
         self._flows.subscribe(channel, on, t)
-        self._tell()
+        self._notify_changed()
 
     def read(self, channel: str, now: float) -> bytes | None:
-        """The value; None when the answer never comes. AttError."""
-        t = self._pass(now)
+        """Return the value of a channel; None when it never answers. Raise AttError when it rejects the read."""
+        t = self._advance(now)
         if self._fails(channel, t):
             return None
         if "read" not in self._properties.get(channel, ()):
@@ -169,37 +172,37 @@ class Peripheral:
         return self.value(channel, t)
 
     def write(self, channel: str, value: bytes, now: float) -> bool:
-        """Obey; False when the answer never comes. AttError."""
-        t = self._pass(now)
+        """Write a value; return False when the device never answers, raise AttError when it rejects the write."""
+        t = self._advance(now)
         if self._fails(channel, t):
             return False
         if not self._properties.get(channel, frozenset()) & {"write", "write-without-response"}:
             raise AttError(AttCode.WRITE_NOT_PERMITTED)
         self.take(channel, bytes(value), t)
-        self._misfortune.thaw()
-        self._tell()
+        self._fault_state.thaw()
+        self._notify_changed()
         return True
 
     def next_due(self) -> float | None:
-        """When `poll` or `hang_up` have something next; None when nothing is foreseeable."""
+        """Return the time of the loop at which to call `poll` and `hang_up` next, s; None when nothing is due."""
         if not self.is_connected:
             return None
-        soonest = min(self._flows.first(inf)[1], self._misfortune.next_at())
-        return None if soonest == inf else max(self._now, self._began + soonest)
+        soonest = min(self._flows.first(inf)[1], self._fault_state.next_at())
+        return None if soonest == inf else max(self._now, self._started_at + soonest)
 
     def poll(self, now: float) -> list[Outgoing]:
-        """The notifications that are due by now, after the faults, in order of their time."""
+        """Return the notifications that are due by now, with the faults applied, in the order of time."""
         found: list[Outgoing] = []
         while self.is_connected:
-            channel, due = self._flows.first(now - self._began + _AT_ONCE)
-            t = self._pass(now) if channel is None else self._happen(due)
-            if channel is None or self._misfortune.cut:
+            channel, due = self._flows.first(now - self._started_at + _AT_ONCE)
+            t = self._advance(now) if channel is None else self._advance_faults(due)
+            if channel is None or self._fault_state.cut:
                 break
             source, number = self._flows.take(channel)
-            if self._misfortune.frozen(t) or self._is_closed(channel):
+            if self._fault_state.frozen(t) or self._is_closed(channel):
                 continue
             for value in source.values(number, self.agreed_mtu):
-                found += [Outgoing(channel, sent) for sent in self._misfortune.carry(value)]
+                found += [Outgoing(channel, sent) for sent in self._fault_state.apply(value)]
         for outgoing in found:
             self.sent[outgoing.channel] = self.sent.get(outgoing.channel, 0) + 1
         if self.log is not None:
@@ -207,37 +210,37 @@ class Peripheral:
         return found
 
     def hang_up(self, now: float) -> bool:
-        """True once when the link is to be lost now as by a supervision timeout (0x08)."""
-        self._pass(now)
-        cut, self._misfortune.cut = self._misfortune.cut and self.is_connected, False
+        """Return True once when the link must be lost now as by a supervision timeout (0x08)."""
+        self._advance(now)
+        cut, self._fault_state.cut = self._fault_state.cut and self.is_connected, False
         return cut
 
     def _fails(self, channel: str, t: float) -> bool:
-        if self._misfortune.hangs(t):
-            self._tell()
+        if self._fault_state.hangs(t):
+            self._notify_changed()
             return True
-        if self._misfortune.refuses(channel):
-            raise AttError(AttCode.REFUSED)
+        if self._fault_state.rejects(channel):
+            raise AttError(AttCode.APPLICATION_ERROR)
         self._check_paired(channel)
         return False
 
     def _is_closed(self, channel: str) -> bool:
-        """Whether the link must be encrypted first. What every device tells of itself is open to all."""
+        """Return whether the channel needs encryption that the link lacks; channels "device/..." never need it."""
         return self.needs_pairing and not self.is_encrypted and not channel.startswith("device/")
 
     def _check_paired(self, channel: str) -> None:
         if self._is_closed(channel):
             raise AttError(AttCode.NOT_PAIRED)
 
-    def _pass(self, now: float) -> float:
-        """Time passes; returns the time of the walk."""
+    def _advance(self, now: float) -> float:
+        """Advance to `now` and return the time of the walk, s."""
         self._now = max(self._now, now)
-        return self._happen(now - self._began + _AT_ONCE) - _AT_ONCE
+        return self._advance_faults(now - self._started_at + _AT_ONCE) - _AT_ONCE
 
-    def _happen(self, t: float) -> float:
-        self._misfortune.advance(t)
+    def _advance_faults(self, t: float) -> float:
+        self._fault_state.advance(t)
         return t
 
-    def _tell(self) -> None:
+    def _notify_changed(self) -> None:
         if self.changed is not None:
             self.changed()

@@ -1,4 +1,4 @@
-"""What both emulated SensorTags do alike: sensors that are switched on by their configuration and told their period."""
+"""Common base of both emulated SensorTags: sensors that the host switches on and whose period it sets."""
 
 from __future__ import annotations
 
@@ -15,33 +15,37 @@ from ..sensors.sensortags import CC2541, CC2650, PRESS
 from ..sensors.tag_signals import HANDLING, Series, WornTag
 from ..wearers.walker import Walker
 from .attributes import NOTIFY, READ, WRITE, AttCode, AttError, Characteristic, information, services
-from .peripheral import Peripheral, Worn
+from .peripheral import Peripheral, Placement
 
 MTU = 23
-"""Stock firmware agrees to no larger one."""
+"""Largest ATT MTU that stock firmware accepts, bytes."""
 STOCK = 10
-"""The shortest period of stock firmware, in units of 10 ms."""
-SLUGGISH = 30
-"""The same of the infrared thermometer."""
+"""Shortest period of stock firmware, in units of 10 ms."""
+STOCK_INFRARED = 30
+"""Shortest period of the infrared thermometer with stock firmware, in units of 10 ms."""
 SERVICES = {"infrared": 0xAA00, "humidity": 0xAA20, "light": 0xAA70}
-"""Of the sensors that the profiles leave out."""
+"""Services of the sensors that the profiles leave out."""
 
-Make = tuple[float, Callable[[int], bytes | None]]
-"""How many s after the clock's first sample a sensor begins, and what it says."""
+Encoder = tuple[float, Callable[[int], bytes | None]]
+"""Delay of a sensor after the clock's first sample, s, and the function that encodes its value of a given number."""
 
 
 @frozen
 class Sensor:
-    """`name` is that of its data channel; the others end in -config and -period. Periods are in units of 10 ms:
-    `default` after connecting, `shortest` what the firmware makes of anything below. `blank`: the data read while it is
-    off. `size`: bytes of the configuration. `always`: what a sensor says that measures nothing of the wearer."""
+    """One sensor of a SensorTag with its channels for data, configuration and period."""
 
     name: str
+    """Name of the data channel; the two others end in -config and -period."""
     default: int
+    """Period after connecting, in units of 10 ms."""
     shortest: int
+    """Shortest period that the firmware accepts, in units of 10 ms; it replaces shorter ones."""
     blank: bytes
+    """Data that a read returns while the sensor is off."""
     size: int = 1
+    """Size of the configuration, bytes."""
     always: bytes = b""
+    """Constant data of a sensor that does not measure the wearer; empty for all others."""
 
 
 @define
@@ -52,11 +56,11 @@ class _State:
 
 @frozen(eq=False)
 class TimedSource:
-    """A Source: what `make` gives for the numbers of samples taken at `first` + k `step` s; None is not sent."""
+    """A ValueSource of samples at `first` + k `step` s, encoded by `encode(k)`; None is not sent."""
 
     first: float
     step: float
-    make: Callable[[int], bytes | None]
+    encode: Callable[[int], bytes | None]
 
     def after(self, t: float) -> int:
         return ceil((t - self.first) / self.step)
@@ -65,13 +69,13 @@ class TimedSource:
         return self.first + self.step * number + HANDLING
 
     def values(self, number: int, mtu: int) -> Sequence[bytes]:
-        value = self.make(number)
+        value = self.encode(number)
         return () if value is None else (value,)
 
 
 @frozen
 class Presses:
-    """A Source: a byte when a key goes down and another when it comes up, `presses` s."""
+    """A ValueSource of key presses at the times `presses`, s: byte `down` at each press, `up` at each release."""
 
     presses: tuple[float, ...]
     down: bytes
@@ -90,15 +94,18 @@ class Presses:
 
 
 class Tag(Peripheral, ABC):
-    """A SensorTag as it is worn; `name` is what its model is sold by, `clock` its own. Of the device, `rate` is the
-    fastest that its firmware takes if that is more than the stock 10 Hz; what is written sets range and rates."""
+    """A worn SensorTag as a GATT server; `name` is the product name of the model, `clock` its own clock.
+
+    `device.rate` is the highest rate that the firmware accepts, if it is above the stock 10 Hz. The host's writes set
+    range and rates.
+    """
 
     def __init__(
         self,
         device: CC2541 | CC2650,
         walker: Walker,
         seed: int,
-        worn: Worn,
+        worn: Placement,
         clock: DeviceClock,
         profile: Profile,
         sensors: Iterable[Sensor],
@@ -109,7 +116,7 @@ class Tag(Peripheral, ABC):
         allowed = {channel.name: self._allowed(channel.name) for channel in profile.channels}
         table = services(profile, allowed, more, ("manufacturer", "model"))
         super().__init__(evolve(worn, mtu=MTU), name, table, profile.services)
-        self._said = information(device.firmware, manufacturer="Texas Instruments", model=name)
+        self._device_information = information(device.firmware, manufacturer="Texas Instruments", model=name)
         self.clock = clock
         self._numbers = partial(device_numbers, seed, worn.site)
         self._worn = WornTag(walker, foot_of(worn.site), device.mounting, clock)
@@ -119,35 +126,37 @@ class Tag(Peripheral, ABC):
 
     @abstractmethod
     def measure(self, sensor: str, period: float) -> tuple[Series, ...]:
-        """What a sensor that measures every `period` s measures over the whole walk."""
+        """Return the values of a sensor that measures every `period` s, over the whole walk."""
 
     def series(self, sensor: str, period: float) -> tuple[Series, ...]:
-        """The same, worked out when it is first asked for."""
+        """Return the cached result of `measure`, computed at the first call."""
         found = self._series.get((sensor, period))
         if found is None:
             found = self._series[sensor, period] = self.measure(sensor, period)
         return found
 
-    def make(self, sensor: str, config: bytes, period: float) -> Make | None:
-        """What a sensor says that is configured like this; None when that is off. AttError for a configuration that the
-        firmware does not take."""
-        raise AttError(AttCode.REFUSED)
+    def encoder(self, sensor: str, config: bytes, period: float) -> Encoder | None:
+        """Return the encoder of a sensor with this configuration; None when the sensor is off.
+
+        A configuration that the firmware does not accept raises AttError.
+        """
+        raise AttError(AttCode.APPLICATION_ERROR)
 
     def stop(self) -> None:
-        """Everything is off and as it was when the tag was switched on."""
+        """Switch all sensors off and restore the default periods."""
         self._states = {s.name: _State(bytes(s.size), s.default) for s in self._sensors.values()}
 
     def value(self, channel: str, t: float) -> bytes:
         name, kind = _split(channel)
         state = self._states.get(name)
         if state is None:
-            return self._said[channel]
+            return self._device_information[channel]
         if kind == "config":
             return state.config
         if kind == "period":
             return bytes([state.period])
         source = self._source(name, state)
-        value = None if source is None else source.make(source.after(t) - 1)
+        value = None if source is None else source.encode(source.after(t) - 1)
         return self._sensors[name].blank if value is None else value
 
     def take(self, channel: str, value: bytes, t: float) -> None:
@@ -166,9 +175,9 @@ class Tag(Peripheral, ABC):
         period = 0.01 * state.period
         always = self._sensors[name].always
         if always:
-            made: Make | None = (0.0, lambda number: always) if switch(state.config, 1) else None
+            made: Encoder | None = (0.0, lambda number: always) if checked_code(state.config, 1) else None
         else:
-            made = self.make(name, state.config, period)
+            made = self.encoder(name, state.config, period)
         return None if made is None else TimedSource(self.clock.first + made[0], self.clock.interval(period), made[1])
 
     def _allowed(self, channel: str) -> frozenset[str]:
@@ -181,7 +190,7 @@ class Tag(Peripheral, ABC):
 
 
 def _split(channel: str) -> tuple[str, str]:
-    """The sensor, and which of its values: "config", "period" or "" for its data."""
+    """Return the sensor's name, and "config", "period" or "" for its data."""
     for kind in ("config", "period"):
         if channel.endswith(f"-{kind}"):
             return channel.removesuffix(f"-{kind}"), kind
@@ -189,25 +198,25 @@ def _split(channel: str) -> tuple[str, str]:
 
 
 def _table(sensor: str) -> list[tuple[str, Characteristic]]:
-    """Data, configuration and period, in a row as TI numbers them."""
+    """Return the characteristics for data, configuration and period, numbered as TI does."""
     service = SERVICES[sensor.partition("/")[2]]
     rows = ((1, "", READ | NOTIFY), (2, "-config", READ | WRITE), (3, "-period", READ | WRITE))
     return [(ti_uuid(service), Characteristic(ti_uuid(service + k), sensor + end, may)) for k, end, may in rows]
 
 
 def shortest(rate: float) -> int:
-    """The shortest period, in units of 10 ms, of stock firmware or of one rebuilt to take `rate` Hz."""
+    """Return the shortest period, in units of 10 ms, of stock firmware or of firmware rebuilt for `rate` Hz."""
     return min(STOCK, max(1, round(100.0 / rate)))
 
 
-def switch(config: bytes, most: int) -> int:
-    """A configuration of one byte. AttError when it is more than `most`."""
+def checked_code(config: bytes, most: int) -> int:
+    """Return a configuration of one byte; raise AttError when it is above `most`."""
     if config[0] > most:
-        raise AttError(AttCode.REFUSED)
+        raise AttError(AttCode.APPLICATION_ERROR)
     return config[0]
 
 
-def room(values: Mapping[str, bytes]) -> list[Sensor]:
-    """Sensors that measure nothing of the wearer and always say the same."""
-    slow = {name: SLUGGISH if name.endswith("infrared") else STOCK for name in values}
-    return [Sensor(name, 100, slow[name], bytes(len(said)), always=said) for name, said in values.items()]
+def constant_sensors(values: Mapping[str, bytes]) -> list[Sensor]:
+    """Return sensors that do not measure the wearer and always send the same values."""
+    slow = {name: STOCK_INFRARED if name.endswith("infrared") else STOCK for name in values}
+    return [Sensor(name, 100, slow[name], bytes(len(constant)), always=constant) for name, constant in values.items()]

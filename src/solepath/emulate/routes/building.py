@@ -1,9 +1,9 @@
-"""A building to walk in: two floors of 56 m by 63 m, as large as that of Liu et al. 2015 (section V-B).
+"""The emulated building: two floors of 56 m by 63 m, as large as that of Liu et al. 2015 (section V-B).
 
 Six corridors, 2.4 m wide, make four loops of different sizes; rooms with doors lie along them. Four lifts, as many as
-the candidates of the paper's fig. 15, open to four corridors; `A` is the one at the bottom left. Two staircases have
-two flights and a landing each storey. Both floors are alike, but for the ways out on the ground. Plan frame: origin at
-the south-west corner, x to the east, y to the north, m.
+the candidates of the paper's fig. 15, open to four corridors; lift `A` is at the bottom left. Two staircases have two
+flights and a landing per storey. Both floors are alike, except the exits on the ground floor. Plan frame: origin at the
+south-west corner, x to the east, y to the north, m.
 """
 
 from __future__ import annotations
@@ -20,42 +20,51 @@ from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, Door, Flo
 
 EAST, NORTH = 56.0, 63.0
 HALF = 1.2
-"""m: half of a corridor's width."""
+"""Half of a corridor's width, m."""
 COLUMNS, ROWS = (9.0, 25.0, 47.0), (9.0, 27.0, 54.0)
-"""m: middle lines of the corridors: x of those that run north, y of those that run east. The first and the last column
-run through the whole building."""
+"""Middle lines of the corridors, m: x of those that run north, y of those that run east.
+
+The first and the last column run through the whole building.
+"""
 GROUND, UPPER = "0", "1"
+"""Ids of the two levels."""
 STEPS, RISE, GOING = 10, 0.16, 0.30
-"""Of a flight."""
+"""Number of risers of a flight, height of a riser, m, and depth of a tread, m."""
 STOREY = 2 * STEPS * RISE
+"""Height from floor to floor, m."""
 
 _Box = tuple[float, float, float, float]
-"""From x, y to x, y."""
+"""A rectangle: least x, least y, largest x, largest y, m."""
 
 
 @frozen
 class Cabin:
-    """A lift: its cabin's middle, and the way out, rad."""
+    """The cabin of a lift."""
 
     name: str
+    """Name of the lift."""
     middle: Point
+    """Centre of the cabin in the plan frame, m."""
     out: float
+    """Heading from the cabin to its door in the plan frame, rad."""
 
 
 @frozen
 class Well:
-    """A stairwell off a corridor. `door`: the middle of its open side, on the corridor's wall; `inward`: rad. Upwards
-    one enters on the right of the two lanes and comes out on the other."""
+    """A stairwell beside a corridor; upwards the wearer enters the right one of its two lanes and leaves the other."""
 
     name: str
+    """Name of the staircase."""
     door: Point
+    """Middle of the open side, on the corridor's wall, in the plan frame, m."""
     inward: float
+    """Heading from the door into the stairwell in the plan frame, rad."""
 
 
 CABIN = 1.8
-"""m: side of a cabin."""
+"""Side of a cabin, m."""
 DEEP, LANE, APPROACH = 7.8, 0.7, 2.4
-"""m: depth of a stairwell; from its middle line to that of a lane; from its door to the first edge."""
+"""Depth of a stairwell, distance from its middle line to that of a lane, and from its door to the first edge, m."""
 CABINS = (
     Cabin("A", (6.9, 4.9), 0.0),
     Cabin("B", (49.1, 57.9), pi),
@@ -66,7 +75,7 @@ WELLS = (Well("west stairs", (7.8, 20.9), pi), Well("north stairs", (31.4, 55.2)
 
 
 def _rooms() -> list[tuple[_Box, str]]:
-    """Every room, and which of its sides has the door: "n", "e", "s", "w", or "" for a shaft."""
+    """Return every room with the side of its door: "n", "e", "s", "w", or "" for a shaft."""
     w, e, s, n = COLUMNS[0] - HALF, COLUMNS[2] + HALF, ROWS[0] - HALF, ROWS[2] + HALF
     inner = [(COLUMNS[0] + HALF, COLUMNS[1] - HALF), (COLUMNS[1] + HALF, COLUMNS[2] - HALF)]
     low, high = (ROWS[0] + HALF, ROWS[1] - HALF), (ROWS[1] + HALF, ROWS[2] - HALF)
@@ -117,7 +126,7 @@ def _well(well: Well) -> _Box:
 
 
 def _door(box: _Box, side: str, width: float, name: str = "") -> Door:
-    """In the middle of one side."""
+    """Return a door in the middle of one side."""
     x0, y0, x1, y1 = box
     mx, my, half = 0.5 * (x0 + x1), 0.5 * (y0 + y1), 0.5 * width
     if side in "ns":
@@ -128,7 +137,7 @@ def _door(box: _Box, side: str, width: float, name: str = "") -> Door:
 
 
 def _walls(boxes: list[_Box]) -> tuple[Wall, ...]:
-    """The sides of all boxes, each line drawn once."""
+    """Return the sides of all boxes as walls, each line once."""
     rings = [[to_mm(corner) for corner in _ring(box)] for box in boxes]
     sides = [side for ring in rings for side in pairwise([*ring, ring[0]])]
     return tuple(merged({Wall(min(side), max(side)) for side in sides}))
@@ -172,12 +181,12 @@ def _connectors() -> tuple[Connector, ...]:
 
 
 def ends(well: Well) -> tuple[Point, Point]:
-    """Where one steps on the stairs on the ground floor, and on the upper one: at their edge, in the lane's middle."""
+    """Return the ends of the stairs on the ground floor and on the upper floor: at their edge, in the lane's middle."""
     return in_well(well, APPROACH, -LANE), in_well(well, APPROACH, LANE)
 
 
 def in_well(well: Well, inward: float, left: float) -> Point:
-    """The point so many m inside the door and to the left of the middle line of a stairwell."""
+    """Return the point `inward` m inside a stairwell's door and `left` m to the left of its middle line."""
     x, y = well.door
     if well.inward == pi:
         return (x - inward, y - left)
@@ -189,3 +198,4 @@ BUILDING = FloorPlan(
     levels=(_level(GROUND, "ground floor", 0, True), _level(UPPER, "upper floor", 1, False)),
     connectors=_connectors(),
 )
+"""Floor plan of the emulated building."""

@@ -1,4 +1,4 @@
-"""A route through BUILDING under way: where it has come to on the plan, and what is walked next."""
+"""Builder of a route through BUILDING: it keeps the position on the plan while moves are added."""
 
 from __future__ import annotations
 
@@ -11,53 +11,62 @@ from .building import APPROACH, GOING, GROUND, LANE, RISE, STEPS, STOREY, UPPER
 from .path import ahead
 from .route import TIGHT_TURN, Route
 
-STILL = 2.0
-"""s of standing at the beginning and at the end."""
+STAND_TIME = 2.0
+"""Time of standing at the start and at the end, s."""
 SPEED = 1.3
-"""m/s."""
+"""Walking speed, m/s."""
 CORNER = 0.9
-"""m: radius at which corners of corridors are walked."""
+"""Radius at which corners of corridors are walked, m."""
 TURNING = 5.6
-"""m inside the door of a stairwell where the turn on its landing begins."""
-OTHER = {GROUND: UPPER, UPPER: GROUND}
+"""Distance from the door of a stairwell to the start of the turn on its landing, m."""
+OTHER_LEVEL = {GROUND: UPPER, UPPER: GROUND}
+"""Id of the other level for each level."""
 
 
 @define
 class Course:
-    """A route under way: the level, the place and the heading where it has come to."""
+    """A route through BUILDING that grows move by move."""
 
     level: str
+    """Id of the level where the route ends so far."""
     at: Point
+    """Position where the route ends so far, plan frame, m."""
     heading: float
+    """Heading where the route ends so far, plan frame, rad."""
     start: Start = Factory(lambda course: Start(course.level, course.at, course.heading), takes_self=True)
+    """Start of the route on the plan."""
     route: Route = Route(speed=SPEED)
+    """Route so far."""
 
     def stand(self) -> None:
-        self.route = self.route.stand(STILL)
+        """Stand for STAND_TIME s."""
+        self.route = self.route.stand(STAND_TIME)
 
     def ride(self) -> None:
-        """To the other floor."""
+        """Take the lift to the other floor."""
         self.route = self.route.lift(STOREY if self.level == GROUND else -STOREY)
-        self.level = OTHER[self.level]
+        self.level = OTHER_LEVEL[self.level]
 
     def face(self, heading: float) -> None:
-        """Turn on the spot."""
+        """Turn on the spot to this heading in the plan frame, rad."""
         self.route = self.route.turn(wrapped(heading - self.heading))
         self.heading = heading
 
     def ahead(self, distance: float) -> None:
+        """Walk `distance` m straight on."""
         self.route = self.route.walk(distance, SPEED)
         x, y = self.at
         self.at = (x + distance * cos(self.heading), y + distance * sin(self.heading))
 
     def bend(self, angle: float, radius: float) -> None:
+        """Walk a bend of `angle` rad, counter-clockwise positive, and `radius` m."""
         self.route = self.route.turn(angle, radius, min(SPEED, TIGHT_TURN if radius < 1.0 else SPEED))
         chord, way = 2.0 * radius * abs(sin(0.5 * angle)), self.heading + 0.5 * angle
         self.at = (self.at[0] + chord * cos(way), self.at[1] + chord * sin(way))
         self.heading += angle
 
     def along(self, points: list[Point]) -> None:
-        """From place to place, the corners between them rounded; the first one lies straight ahead."""
+        """Walk from point to point with rounded corners; the first point is straight ahead."""
         for k, (x, y) in enumerate(points):
             away = hypot(x - self.at[0], y - self.at[1])
             if k + 1 == len(points):
@@ -75,20 +84,22 @@ class Course:
                 self.ahead(away)
 
     def climb(self, up: bool) -> None:
-        """Two flights and the landing between them, turned in to the left upwards and to the right downwards."""
+        """Walk two flights and the landing between them, on which the turn is left upwards and right downwards."""
         edge, far = ahead(up, GOING), APPROACH + (STEPS - 1) * GOING
         self.flight(up)
         self.ahead(TURNING - (APPROACH - edge + STEPS * GOING))
         self.bend(pi if up else -pi, LANE)
         self.ahead(TURNING - (far + edge))
         self.flight(up)
-        self.level = OTHER[self.level]
+        self.level = OTHER_LEVEL[self.level]
 
     def flight(self, up: bool) -> None:
+        """Walk one flight of stairs."""
         self.route = self.route.stairs(STEPS, up, RISE, GOING)
         x, y = self.at
         self.at = (x + STEPS * GOING * cos(self.heading), y + STEPS * GOING * sin(self.heading))
 
 
 def wrapped(angle: float) -> float:
+    """Return an angle wrapped to [-pi, pi], rad."""
     return atan2(sin(angle), cos(angle))

@@ -1,8 +1,8 @@
-"""The ways of published experiments: straight on, squares and bends over marks, a rectangle, a corridor, a field.
+"""Routes of published experiments: straight on, squares and bends over marks, a rectangle, a corridor, a field.
 
-A route here is one that `Walker` and `emulate` take. Where marks are stepped on, `marks` says which step of which foot
-came down on which, and `modes` how every step was walked. Marks are the points of the ground below the ankle, in the
-world of the walk (origin between the feet at the start, x along the first heading).
+`Walker` and `emulate` take these routes. On routes with marks, `marks` returns which stride of which foot landed on
+each mark, and `modes` the walking mode of every stride. Marks are the points of the ground below the ankle, in the
+world frame of the walk (origin between the feet at the start, x along the first heading).
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ from .route import Route
 Point = tuple[float, float]
 
 EDGE, PER_LAP = 11.7, 40
-"""m: side of the calibration square of Bebek et al. 2010 (section V-B), and the marks around it."""
+"""Side of the calibration square of Bebek et al. 2010 (section V-B), m, and number of marks around it for each foot."""
 LAP_SPEED = 0.8
-"""m/s: 235 m in five minutes (section V-D)."""
+"""Walking speed around the square, m/s: 235 m in five minutes (Bebek et al. 2010, section V-D)."""
 LAP_CORNER = 0.5
-"""m: radius at which its corners are walked (assumed: who is to keep to a square walks them tightly)."""
+"""Radius at which the corners of the square are walked, m (assumed: subjects who follow a square turn tightly)."""
 
 RADII = {
     WalkingMode.LEFT_WIDE: 4.0,
@@ -38,67 +38,75 @@ RADII = {
     WalkingMode.RIGHT_WIDE: -4.0,
     WalkingMode.RIGHT_TIGHT: -2.0,
 }
-"""m, to the left positive (Gong et al. 2023, section 3.3)."""
+"""Radius of the bend of each mode, m; positive to the left (Gong et al. 2023, section 3.3)."""
 MARKS_APART = 0.55
-"""m along the path: "an average of 0.5-0.6 m intervals" (the same)."""
+"""Distance between marks along the path, m: "an average of 0.5-0.6 m intervals" (Gong et al. 2023, section 3.3)."""
 MARK_STEPS = 50
+"""Number of steps over marks."""
 MARK_SPEED = 1.1
-"""m/s (assumed)."""
+"""Walking speed over marks, m/s (assumed)."""
 TIGHT, WIDE = 1.0 / (2.0 * 2.0**0.5), 1.0 / 8.0
-"""1/m: a bend is tight from the geometric mean of 2 m and 4 m on, and none beyond 8 m."""
+"""Least curvatures of a tight bend (geometric mean of 2 m and 4 m) and of any bend (8 m), 1/m."""
 IN_PLACE = 0.15
-"""m: a foot that goes less far than this does not walk (L_w of table 2)."""
+"""Displacement of a foot, m, below which it does not walk (L_w of table 2)."""
 
 ALONG, ACROSS = 2.8, 4.0
-"""m: AB and CD, BC and DA of the rectangle of Gong et al. 2023, section 3.4."""
+"""Sides AB and CD, BC and DA of the rectangle of Gong et al. 2023, section 3.4, m."""
 CORNER = 0.5
-"""m: radius at which the rectangle's corners are walked (assumed: without a halt, about one step on the arc)."""
+"""Radius at which the rectangle's corners are walked, m (assumed: without a halt, about one step on the arc)."""
 CORRIDOR = 91.0
-"""m: the walk around a floor of Chen et al. 2019, section IV-C."""
+"""Length of the walk around a floor of Chen et al. 2019, section IV-C, m."""
 FIELD = (60.0, 40.0)
-"""m: of the field of a random walk, the start in its middle (assumed: a part of a sports field)."""
+"""Size of the field of a random walk, m, with the start in its middle (assumed: a part of a sports field)."""
 
 
 @frozen
 class FloorMark:
-    """A mark on the floor at (x, y), m, and who stepped on it: step `step` (from 1) of `foot`, flat on it from `t` s.
-
-    `lap` and `number` count from 0: which of the foot's marks it is.
-    """
+    """A mark on the floor and the stride that landed on it."""
 
     foot: Foot
+    """Foot that landed on the mark."""
     step: int
+    """Number of the foot's stride, from 1."""
     t: float
+    """Time of foot-flat on the mark, s."""
     x: float
+    """Coordinate x of the mark in the world frame, m."""
     y: float
+    """Coordinate y of the mark in the world frame, m."""
     mode: WalkingMode
+    """Walking mode of the stride."""
     lap: int = 0
+    """Number of the lap, from 0."""
     number: int = 0
+    """Number of the foot's mark in the lap, from 0."""
 
 
 @frozen
 class LapCorner:
-    """A corner of a rectangle at `place` (m), passed at `t` s, when the body is nearest to it or stands on it.
-
-    `body`: where the middle of the body is then, on the ground. `steps`: the step of each foot (from 1) that comes down
-    nearest to `t`, and `feet` the ground below that ankle.
-    """
+    """A corner of a rectangle that the wearer passed; positions are in the world frame."""
 
     name: str
+    """Name of the corner."""
     t: float
+    """Time at which the body is nearest to the corner or stands on it, s."""
     place: Vec3
+    """Position of the corner, m."""
     body: Vec3
+    """Position of the pelvis at that time, on the ground, m."""
     steps: dict[Foot, int]
+    """Number of each foot's stride, from 1, that lands nearest to that time."""
     feet: dict[Foot, Vec3]
+    """Point of the ground below each ankle after that stride, m."""
 
 
 def straight(distance: float = 20.0, speed: float = 1.3) -> Route:
-    """Straight on; two seconds of standing before and after, as on every way here."""
+    """Return a straight route; like every route here it starts and ends with two seconds of standing."""
     return Route().stand(2.0).walk(distance, speed).stop(2.0)
 
 
 def square(laps: int = 5, edge: float = EDGE, speed: float = LAP_SPEED, corner: float = LAP_CORNER) -> Route:
-    """Rounds of a square to the left without a halt, each foot on PER_LAP marks a lap, the same ones every time."""
+    """Return laps of a square to the left without a halt; each foot steps on the same PER_LAP marks in every lap."""
     lap = 4.0 * (edge - 2.0 * corner + 0.5 * pi * corner)
     route = Route().stand(2.0).paced(lap / (2 * PER_LAP))
     for _ in range(4 * laps):
@@ -109,7 +117,7 @@ def square(laps: int = 5, edge: float = EDGE, speed: float = LAP_SPEED, corner: 
 def marked(
     mode: WalkingMode, steps: int = MARK_STEPS, spacing: float = MARKS_APART, speed: float = MARK_SPEED
 ) -> Route:
-    """So many steps over marks, straight on or round the bend that the mode is. ValueError for standing."""
+    """Return `steps` steps over marks, straight on or in the bend of the mode; raise ValueError for standing."""
     route = Route().stand(2.0).paced(spacing)
     if mode is WalkingMode.STRAIGHT:
         return route.walk(steps * spacing, speed).stop(2.0)
@@ -120,22 +128,24 @@ def marked(
 
 
 def rectangle(speed: float = 1.1, corner: float = CORNER, rounds: int = 1) -> Route:
-    """From A over B, C and D back to A, counter-clockwise, A at the origin and B ahead of it.
+    """Return a rectangle from A over B, C and D back to A, counter-clockwise, with A at the origin and B ahead of it.
 
-    Corners are bends of radius `corner`, walked at TIGHT_TURN (route.py) where it is below 1 m; 0 turns on the spot,
-    with a halt. The walk ends on A itself, at the end of DA.
+    Corners are bends of radius `corner`, walked at TIGHT_TURN (route.py) when it is below 1 m; 0 means a turn on the
+    spot, with a halt. The walk ends on A itself, at the end of DA.
     """
     points = [(ALONG, 0.0), (ALONG, ACROSS), (0.0, ACROSS), (0.0, 0.0)] * rounds
     return through(Route().stand(2.0), points, speed, corner).stop(2.0)
 
 
 def corridor(length: float = CORRIDOR, speed: float = 1.3, corner: float = 1.0) -> Route:
-    """Once around the inner block of a building's floor, to the left and back to the start; long sides 1.5 times as
-    long as short ones. (The paper shows its path in fig. 13 alone.)"""
+    """Return one lap around the inner block of a building's floor, to the left and back to the start.
+
+    Long sides are 1.5 times as long as short ones. (The paper shows its path only in fig. 13.)
+    """
     short = (length - 2.0 * pi * corner) / 5.0 + 2.0 * corner
     long = 1.5 * (short - 2.0 * corner) + 2.0 * corner
     route = Route().stand(2.0)
-    # It begins and ends in the middle of a long side, where there is no bend.
+    # It starts and ends in the middle of a long side, where there is no bend.
     points = [(0.5 * long, 0.0), (0.5 * long, short), (-0.5 * long, short), (-0.5 * long, 0.0), (0.0, 0.0)]
     return through(route, points, speed, corner).stop(2.0)
 
@@ -143,15 +153,15 @@ def corridor(length: float = CORRIDOR, speed: float = 1.3, corner: float = 1.0) 
 def field_walk(
     duration: float = 1800.0, speed: float = 1.0, seed: int = 1, field: Point = FIELD, corner: float = 1.5
 ) -> Route:
-    """About `duration` s of walking from one random place in a field to the next, and back to the start."""
+    """Return about `duration` s of walking from one random point in a field to the next, and back to the start."""
     rng = np.random.default_rng([seed, 7])
     half = (0.5 * field[0], 0.5 * field[1])
     points: list[Point] = [(0.4 * field[0], 0.0)]
     behind: Point = (0.0, 0.0)
     way = points[0][0]
-    while way + hypot(*points[-1]) < speed * duration or not _easy(behind, points[-1], (0.0, 0.0)):
+    while way + hypot(*points[-1]) < speed * duration or not _is_walkable(behind, points[-1], (0.0, 0.0)):
         there = (float(rng.uniform(-half[0], half[0])), float(rng.uniform(-half[1], half[1])))
-        if _easy(behind, points[-1], there):
+        if _is_walkable(behind, points[-1], there):
             way += hypot(there[0] - points[-1][0], there[1] - points[-1][1])
             behind = points[-1]
             points.append(there)
@@ -159,8 +169,11 @@ def field_walk(
 
 
 def through(route: Route, points: Sequence[Point], speed: float, corner: float) -> Route:
-    """`route` and then from where it ends straight to each of the points in turn, round bends of radius `corner`; the
-    first turn, and all of them where `corner` is 0, on the spot. ValueError where a bend does not fit between two."""
+    """Return `route` continued on straight lines through the points, with bends of radius `corner`, m.
+
+    The first turn is on the spot, and all turns are when `corner` is 0. A bend that does not fit between two points
+    raises ValueError.
+    """
     end = route.end
     here, heading, cut = (end.x, end.y), end.heading, 0.0
     for k, there in enumerate(points):
@@ -186,7 +199,7 @@ def through(route: Route, points: Sequence[Point], speed: float, corner: float) 
 
 
 def mode_of(stride: PlannedStride) -> WalkingMode:
-    """How one step was walked, by the bend where the foot came down."""
+    """Return the walking mode of a stride, from the bend where the foot landed."""
     if hypot(stride.end.x - stride.start.x, stride.end.y - stride.start.y) < IN_PLACE:
         return WalkingMode.STANDING
     if abs(stride.curvature) < WIDE:
@@ -198,20 +211,20 @@ def mode_of(stride: PlannedStride) -> WalkingMode:
 
 
 def modes(walker: Walker) -> dict[Foot, tuple[WalkingMode, ...]]:
-    """The mode of every true step of each foot, in the order of `Truth.steps`."""
+    """Return the mode of every true stride of each foot, in the order of `Truth.steps`."""
     return {foot: tuple(mode_of(stride) for stride in walker.plan.strides[foot]) for foot in Foot}
 
 
 def marks(walker: Walker, per_lap: int | None = None) -> tuple[FloorMark, ...]:
-    """The marks of a walker on a paced route and who stepped on them, in the order of time; closing steps have none.
+    """Return the marks of a walker on a paced route and the strides on them, in the order of time.
 
-    `per_lap`: how many marks a foot has before it comes to the first one again.
+    Closing steps have no mark. `per_lap` is the number of a foot's marks in one lap.
     """
     exact = evolve(walker.wearer, width_variation=0.0, angle_variation=0.0, aim=0.0)
     meant = plan(walker.route, exact, np.random.default_rng(0))
     closing = {
-        max(s.heel_strike for foot in Foot for s in walker.plan.strides[foot] if begun <= s.heel_strike <= ended)
-        for begun, ended in walker.plan.bouts
+        max(s.heel_strike for foot in Foot for s in walker.plan.strides[foot] if start <= s.heel_strike <= end)
+        for start, end in walker.plan.bouts
     }
     found = []
     for foot in Foot:
@@ -224,7 +237,7 @@ def marks(walker: Walker, per_lap: int | None = None) -> tuple[FloorMark, ...]:
 
 
 def corners(walker: Walker) -> tuple[LapCorner, ...]:
-    """B, C, D and A of one round of a rectangle, with the instants at which they were passed."""
+    """Return the corners B, C, D and A of one lap of a rectangle, with the times at which they were passed."""
     t = np.arange(0.0, walker.duration, 0.01)
     track = walker.body.pelvis(t)[0]
     found = []
@@ -246,8 +259,10 @@ def _corner(walker: Walker, name: str, t: float, place: Vec3) -> LapCorner:
 
 
 def write_marks(path: Path | str, found: Iterable[FloorMark]) -> None:
-    """Marks as `solepath calibrate modes` reads them: a csv file with the columns foot, x, y, mode and t; steps in
-    place are left out."""
+    """Write marks for `solepath calibrate modes`: a csv file with the columns foot, x, y, mode and t.
+
+    Steps in place are left out.
+    """
     with Path(path).open("w", newline="", encoding="utf-8") as file:
         rows = csv.writer(file)
         rows.writerow(("foot", "x", "y", "mode", "t"))
@@ -256,7 +271,7 @@ def write_marks(path: Path | str, found: Iterable[FloorMark]) -> None:
                 rows.writerow((mark.foot.value, f"{mark.x:.4f}", f"{mark.y:.4f}", mark.mode.name, f"{mark.t:.3f}"))
 
 
-def _easy(behind: Point, here: Point, there: Point) -> bool:
-    """Whether one can walk on to `there`: it is 6 m or more away, and not back."""
+def _is_walkable(behind: Point, here: Point, there: Point) -> bool:
+    """Return whether `there` is 6 m or more away and not backwards."""
     way, toward = (there[0] - here[0], there[1] - here[1]), atan2(here[1] - behind[1], here[0] - behind[0])
     return hypot(*way) >= 6.0 and abs(wrapped(atan2(way[1], way[0]) - toward)) < 2.1

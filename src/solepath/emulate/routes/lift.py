@@ -1,11 +1,12 @@
-"""The ride of a lift: how its car moves from one floor to another.
+"""The ride of a lift: the motion of its car from one floor to another.
 
-Speed, acceleration and jerk are limited (Peters 1995, "Ideal lift kinematics", Elevator Technology 6): the car speeds
-up by a ramp of acceleration, a hold and a ramp back, runs on, and slows down the same way. Lifts of few storeys run at
-1.0 to 1.6 m/s with 0.6 to 1.2 m/s^2 and a jerk of about 1 m/s^3. Some creep the last centimetres to the floor.
+Speed, acceleration and jerk are limited (Peters 1995, "Ideal lift kinematics", Elevator Technology 6): the acceleration
+rises linearly, is constant and falls linearly; the car then runs at constant speed and slows down in the same way.
+Lifts of few storeys run at 1.0 to 1.6 m/s with 0.6 to 1.2 m/s^2 and a jerk of about 1 m/s^3. Some approach the floor at
+a very low speed over the last centimetres.
 
-On its rails the car shakes: SHAKE is of the order of the 10 to 15 milli-g from peak to peak that measurements by
-ISO 18738-1 find in lifts in order. Where its frequencies lie between 2 and 12 Hz is assumed.
+On its rails the car vibrates: SHAKE is of the order of the 10 to 15 milli-g from peak to peak that measurements by
+ISO 18738-1 find in lifts in good order. The frequencies between 2 and 12 Hz are assumed.
 """
 
 from __future__ import annotations
@@ -18,54 +19,61 @@ from attrs import frozen
 from ..wearers.curves import Array, Rng
 
 SHAKE = (0.012, 0.012, 0.018)
-"""m/s^2: amplitude of each of the WAVES sines along x, y and z."""
+"""Amplitude of each of the WAVES sines of the vibration along x, y and z, m/s^2."""
 WAVES = 3
+"""Number of sines of the vibration along each axis."""
 BAND = (2.0, 12.0)
-"""Hz."""
-GENTLE = 0.5
-"""s in which the shaking comes and goes."""
-CREEPING = 1.0
-"""s for which a car creeps, if it does."""
+"""Frequency range of the vibration, Hz."""
+FADE_TIME = 0.5
+"""Time in which the vibration starts and ends, s."""
+CREEP_TIME = 1.0
+"""Time for which a car runs at its creep speed, s."""
 HALVINGS = 60
-"""Of the interval in which the top speed of a short ride is sought."""
+"""Number of bisections that find the top speed of a short ride."""
 
 _Ramp = tuple[float, float]
-"""How long (s) a jerk (m/s^3) lasts."""
+"""A duration, s, with a constant jerk, m/s^3."""
 
 
 @frozen
 class Lift:
-    """A ride by `height` m, negative down. `speed` in m/s, `acceleration` in m/s^2, `jerk` in m/s^3: the most that the
-    car reaches, less where the way is too short. `doors`: how long they take to close before and to open after, s.
-    `creep`: m/s at which it approaches the floor; 0 when it stops at once."""
+    """The parameters of a lift ride; a short ride does not reach the limits."""
 
     height: float
+    """Height of the ride, m; negative downwards."""
     speed: float = 1.0
+    """Largest speed, m/s."""
     acceleration: float = 0.8
+    """Largest acceleration, m/s^2."""
     jerk: float = 1.0
+    """Largest jerk, m/s^3."""
     doors: float = 2.5
+    """Time that the doors take to close before the ride, and to open after it, s."""
     creep: float = 0.0
+    """Speed of the approach to the floor, m/s; 0: none."""
 
 
 @frozen(eq=False)
 class CarRide:
-    """A car that moves from `begin` to `end` (s) and is then `height` m higher, negative: lower.
+    """The motion of a lift's car in one ride."""
 
-    `knots` (n) s after `begin` where the jerk changes; `state` (n, 4) height, speed, acceleration and jerk there.
-    `waves` (3, WAVES, 3) amplitude in m/s^2, angular frequency and phase of what shakes it along x, y and z.
-    """
-
-    begin: float
+    start: float
+    """Time at which the car starts, s."""
     end: float
+    """Time at which the car stops, s."""
     height: float
+    """Height of the ride, m; negative downwards."""
     knots: Array
+    """Times after `start` at which the jerk changes, s, (n)."""
     state: Array
+    """Height, m, speed, m/s, acceleration, m/s^2, and jerk, m/s^3, at the knots, (n, 4)."""
     waves: Array
+    """Amplitude, m/s^2, angular frequency, rad/s, and phase, rad, of the vibration along x, y, z, (3, WAVES, 3)."""
 
     def at(self, t: Array) -> tuple[Array, Array, Array]:
-        """How far the car is from where it began, m, its velocity and acceleration at instants `t`, (N, 3) each."""
-        since = np.asarray(t, dtype=np.float64) - self.begin
-        inside = (since > 0.0) & (since < self.end - self.begin)
+        """Return displacement, m, velocity, m/s, and acceleration, m/s^2, of the car at times `t`, s, (N, 3) each."""
+        since = np.asarray(t, dtype=np.float64) - self.start
+        inside = (since > 0.0) & (since < self.end - self.start)
         position, velocity, acceleration = (np.zeros((len(since), 3)) for _ in range(3))
         k = np.clip(np.searchsorted(self.knots, since, side="right") - 1, 0, len(self.knots) - 1)
         s = since - self.knots[k]
@@ -76,7 +84,7 @@ class CarRide:
         fade, slope, bend = self._fade(since[inside])
         for axis in range(3):
             for size, w, phase in self.waves[axis]:
-                # A wave of acceleration `size` is one of position size / w^2; under the fade by the product rule.
+                # A sine of acceleration `size` has the position size / w^2; the product rule applies the fade.
                 swing = np.sin(w * since[inside] + phase) * size / w**2
                 turn = np.cos(w * since[inside] + phase) * size / w
                 position[inside, axis] += fade * swing
@@ -85,19 +93,19 @@ class CarRide:
         return position, velocity, acceleration
 
     def _fade(self, since: Array) -> tuple[Array, Array, Array]:
-        """From 0 to 1 within GENTLE s and back to 0 at the end, with its first two derivatives."""
-        away = np.minimum(since, self.end - self.begin - since)
-        sign = np.where(since < self.end - self.begin - since, 1.0, -1.0)
-        u = np.minimum(away / GENTLE, 1.0)
+        """Return a factor from 0 to 1 within FADE_TIME s and back to 0 at the end, with its first two derivatives."""
+        away = np.minimum(since, self.end - self.start - since)
+        sign = np.where(since < self.end - self.start - since, 1.0, -1.0)
+        u = np.minimum(away / FADE_TIME, 1.0)
         return (
             u**3 * (10.0 - 15.0 * u + 6.0 * u**2),
-            sign * 30.0 * u**2 * (1.0 - u) ** 2 / GENTLE,
-            60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / GENTLE**2,
+            sign * 30.0 * u**2 * (1.0 - u) ** 2 / FADE_TIME,
+            60.0 * u * (1.0 - u) * (1.0 - 2.0 * u) / FADE_TIME**2,
         )
 
 
-def ride(lift: Lift, begin: float, rng: Rng) -> CarRide:
-    """The ride of `lift` when the car starts at `begin` s; `rng` draws how it shakes."""
+def ride(lift: Lift, start: float, rng: Rng) -> CarRide:
+    """Return the ride of `lift` with the car's start at time `start`, s; `rng` draws the vibration."""
     up = 1.0 if lift.height > 0.0 else -1.0
     knots, rows = [0.0], [(0.0, 0.0, 0.0, 0.0)]
     for duration, jerk in _ramps(lift):
@@ -111,11 +119,11 @@ def ride(lift: Lift, begin: float, rng: Rng) -> CarRide:
     turning = 2.0 * np.pi * np.asarray(rng.uniform(*BAND, (3, WAVES)))
     phase = np.asarray(rng.uniform(0.0, 2.0 * np.pi, (3, WAVES)))
     waves = np.stack((size, turning, phase), axis=2)
-    return CarRide(begin, begin + knots[-1], lift.height, np.array(knots), up * np.array(rows), waves)
+    return CarRide(start, start + knots[-1], lift.height, np.array(knots), up * np.array(rows), waves)
 
 
 def _ramps(lift: Lift) -> list[_Ramp]:
-    """The jerks of the whole ride upwards, in order."""
+    """Return the jerks of the whole ride upwards, in order."""
     way = abs(lift.height)
     creep = min(lift.creep, 0.1 * way)
     top = lift.speed
@@ -127,19 +135,19 @@ def _ramps(lift: Lift) -> list[_Ramp]:
         top = low
     slow, stop = _change(top - creep, lift), _change(creep, lift)
     found = [*_change(top, lift), ((way - _covered(top, creep, lift)) / top, 0.0), *((d, -j) for d, j in slow)]
-    found += [(CREEPING if creep > 0.0 else 0.0, 0.0), *((d, -j) for d, j in stop)]
+    found += [(CREEP_TIME if creep > 0.0 else 0.0, 0.0), *((d, -j) for d, j in stop)]
     return [ramp for ramp in found if ramp[0] > 0.0]
 
 
 def _covered(top: float, creep: float, lift: Lift) -> float:
-    """m of the way that a ride up to `top` m/s takes at least."""
+    """Return the least distance, m, of a ride that reaches `top` m/s."""
     lasts = [sum(duration for duration, _ in _change(by, lift)) for by in (top, top - creep, creep)]
-    # A change of speed is as long before its middle as after it: its mean speed is that of its ends.
-    return 0.5 * (top * lasts[0] + (top + creep) * lasts[1] + creep * lasts[2]) + creep * CREEPING
+    # A change of speed is symmetric about its middle: its mean speed is the mean of the speeds at its ends.
+    return 0.5 * (top * lasts[0] + (top + creep) * lasts[1] + creep * lasts[2]) + creep * CREEP_TIME
 
 
 def _change(by: float, lift: Lift) -> list[_Ramp]:
-    """The jerks that change the speed by `by` m/s."""
+    """Return the jerks that change the speed by `by` m/s."""
     if by <= 0.0:
         return []
     top = min(lift.acceleration, sqrt(by * lift.jerk))

@@ -1,4 +1,4 @@
-"""The path on the floor that a route describes: poses, pieces, stairs, and what is walked from one halt to the next."""
+"""The path of a route on the floor: poses, pieces, stairs, and the parts between two halts."""
 
 from __future__ import annotations
 
@@ -9,53 +9,59 @@ from attrs import evolve, frozen
 
 from ..wearers.curves import Array
 from .lift import Lift
-from .styles import GETTING_GOING, RUNNING_FROM
+from .styles import RUN_ACCELERATION, RUNNING_FROM
 
 UP, DOWN = 0.25, 0.17
-"""m from the ankle of who stands before a flight, and on every tread, to the next edge ahead. Upwards the heel is over
-the edge behind by 4 cm on treads of 0.30 m, and the forefoot rocker ends 9 cm before the next riser; downwards the ball
-of the foot is 6 cm behind the edge and the toes are over it."""
+"""Distance from the ankle to the next edge ahead, before a flight and on every tread, upwards and downwards, m.
+
+Upwards the heel is over the edge behind by 4 cm on treads of 0.30 m, and the forefoot rocker ends 9 cm before the next
+riser; downwards the ball of the foot is 6 cm behind the edge and the toes are over it.
+"""
 HEEL = 0.13
-"""m from the ankle back to the riser behind it on the way down, at least; on shorter treads the toes are out more."""
+"""Least distance from the ankle back to the riser behind it downwards, m; on shorter treads the toes are out more."""
 
 
 def ahead(up: bool, going: float) -> float:
-    """m from the ankle to the next edge on treads of this depth."""
+    """Return the distance from the ankle to the next edge on treads of depth `going`, m."""
     return UP if up else min(DOWN, going - HEEL)
 
 
 @frozen
 class Flight:
-    """`steps` risers, `rise` m each (negative: down) and `going` m apart, the first one at (x, y).
-
-    `z`: of the floor before it, m; `heading`: in which it is walked, rad. It is as wide as one likes.
-    """
+    """A flight of stairs in the world frame, without a limit of its width."""
 
     x: float
+    """Coordinate x of the first edge, m."""
     y: float
+    """Coordinate y of the first edge, m."""
     z: float
+    """Height of the floor before the flight, m."""
     heading: float
+    """Heading of the flight, rad."""
     steps: int
+    """Number of risers."""
     rise: float
+    """Height of a riser, m; negative downwards."""
     going: float
+    """Distance between risers, m."""
 
     @property
     def height(self) -> float:
-        """m from floor to floor, negative when it leads down."""
+        """Height from floor to floor, m; negative downwards."""
         return self.steps * self.rise
 
     def along(self, x: Array, y: Array) -> Array:
-        """How far points are beyond the first edge, m."""
+        """Return the distance of points beyond the first edge, m."""
         return np.asarray((x - self.x) * cos(self.heading) + (y - self.y) * sin(self.heading))
 
     def ground(self, x: Array, y: Array) -> Array:
-        """Height of the tread or floor below points, m."""
+        """Return the height of the tread or floor below points, m."""
         return self._tread(self.along(x, y))
 
     def above(self, x: Array, y: Array, radius: Array) -> Array:
-        """How high the centre of a disc must be to rest on the treads or an edge below it, m.
+        """Return the height of the centre of a disc that touches the treads or an edge below it, m.
 
-        The disc stands upright along the flight with its centre above (x, y).
+        The disc is vertical along the flight with its centre above (x, y).
         """
         u = self.along(x, y)
         least = self._tread(u) + radius
@@ -69,21 +75,25 @@ class Flight:
         return np.asarray(self.z + self.rise * np.clip(np.floor(u / self.going) + 1.0, 0.0, self.steps))
 
 
-TURNING_POINT = 1.2
-"""m/s: of a runner's first step from a halt and the last one to it."""
+RUN_START_SPEED = 1.2
+"""Speed of a runner's first step after a halt and of the last step before one, m/s."""
 
 
 @frozen
 class Pose:
-    """A place on the path: x, y, z in m and the heading in rad (not wrapped)."""
+    """A position and a heading on the path, in the world frame."""
 
     x: float
+    """Coordinate x, m."""
     y: float
+    """Coordinate y, m."""
     z: float
+    """Coordinate z, m."""
     heading: float
+    """Heading, rad, not wrapped."""
 
     def ahead(self, distance: float, curvature: float) -> Pose:
-        """The pose `distance` m further along an arc of `curvature` 1/m (a straight line when it is 0)."""
+        """Return the pose `distance` m further along an arc of `curvature` 1/m (a straight line when it is 0)."""
         turned = self.heading + distance * curvature
         if abs(distance * curvature) < 1e-9:
             return Pose(self.x + distance * cos(self.heading), self.y + distance * sin(self.heading), self.z, turned)
@@ -97,51 +107,60 @@ class Pose:
 
 @frozen
 class Piece:
-    """A straight line or an arc from `start`, walked or run at `speed`, or a flight; with marks `spacing` m apart, or
-    None."""
+    """A part of the path: a straight line, an arc or a flight of stairs."""
 
     start: Pose
+    """Pose at the start."""
     length: float
+    """Length of the piece, m."""
     curvature: float
+    """Curvature, 1/m; positive to the left."""
     speed: float
+    """Speed of walking or running, m/s."""
     spacing: float | None = None
+    """Distance between marks to step on, m; None: no marks."""
     running: bool = False
+    """True when the wearer runs."""
     flight: Flight | None = None
+    """Flight of stairs; None on the level."""
 
     def at(self, s: float) -> Pose:
-        """The pose `s` m from its beginning; on stairs as high as a ramp over the treads' middles."""
+        """Return the pose `s` m from the start; on stairs its height is that of a ramp."""
         pose = self.start.ahead(s, self.curvature)
         return pose if self.flight is None else evolve(pose, z=pose.z + self.flight.height * s / self.length)
 
 
 @frozen
 class WalkPath:
-    """What is walked from one halt to the next."""
+    """The path from one halt to the next."""
 
     pieces: tuple[Piece, ...]
+    """Pieces in order."""
 
     @property
     def length(self) -> float:
+        """Length of the path, m."""
         return sum(piece.length for piece in self.pieces)
 
     @property
     def end(self) -> Pose:
+        """Pose at the end."""
         last = self.pieces[-1]
         return last.at(last.length)
 
     @property
     def spacing(self) -> float | None:
-        """Of the marks to step on, m: what its first move says."""
+        """Distance between the marks to step on, m: that of the first piece; None: no marks."""
         return self.pieces[0].spacing
 
     def at(self, s: float) -> tuple[Pose, float]:
-        """The pose after `s` m from the halt, and the speed asked for there."""
+        """Return the pose `s` m after the halt, and the speed there, m/s."""
         piece, rest = self._piece(s)
         return piece.at(rest), piece.speed
 
     @property
     def sections(self) -> tuple[WalkPath, ...]:
-        """Its flights one by one, and what is level between them."""
+        """Flights of stairs one by one, and the level parts between them."""
         found: list[list[Piece]] = []
         for piece in self.pieces:
             if found and piece.flight is None and found[-1][-1].flight is None:
@@ -151,23 +170,23 @@ class WalkPath:
         return tuple(WalkPath(tuple(pieces)) for pieces in found)
 
     def pace(self, s: float) -> tuple[float, bool]:
-        """The speed after `s` m, and whether that is running.
+        """Return the speed `s` m after the halt, m/s, and whether the wearer runs there.
 
-        Who runs gets there from the speed of what was before, and in time to that of what follows.
+        A runner accelerates from the speed of the previous piece and slows down to that of the next one.
         """
         piece, rest = self._piece(s)
         if not piece.running:
             return piece.speed, False
         k = self.pieces.index(piece)
-        before = self.pieces[k - 1].speed if k else TURNING_POINT
-        after = self.pieces[k + 1].speed if k + 1 < len(self.pieces) else TURNING_POINT
-        gained = sqrt(before**2 + 2.0 * GETTING_GOING * max(rest, 0.0))
-        left = sqrt(after**2 + 2.0 * GETTING_GOING * max(piece.length - rest, 0.0))
+        before = self.pieces[k - 1].speed if k else RUN_START_SPEED
+        after = self.pieces[k + 1].speed if k + 1 < len(self.pieces) else RUN_START_SPEED
+        gained = sqrt(before**2 + 2.0 * RUN_ACCELERATION * max(rest, 0.0))
+        left = sqrt(after**2 + 2.0 * RUN_ACCELERATION * max(piece.length - rest, 0.0))
         speed = min(piece.speed, gained, left)
         return speed, speed >= RUNNING_FROM
 
     def curvature(self, s: float) -> float:
-        """1/m after `s` m from the halt; positive to the left."""
+        """Return the curvature `s` m after the halt, 1/m; positive to the left."""
         return self._piece(s)[0].curvature
 
     def _piece(self, s: float) -> tuple[Piece, float]:
@@ -180,24 +199,31 @@ class WalkPath:
 
 @frozen
 class Pivot:
-    """A turn on the spot, feet together before and after."""
+    """A turn on the spot, with the feet together before and after."""
 
     start: Pose
+    """Pose before the turn."""
     angle: float
+    """Angle of the turn, rad; counter-clockwise positive."""
     speed: float
+    """Walking speed that sets the cadence of the steps, m/s."""
 
     @property
     def end(self) -> Pose:
+        """Pose after the turn."""
         return Pose(self.start.x, self.start.y, self.start.z, self.start.heading + self.angle)
 
 
 @frozen
 class Lifted:
-    """A ride that begins at `start`."""
+    """A ride in a lift."""
 
     start: Pose
+    """Pose before the ride."""
     lift: Lift
+    """Parameters of the ride."""
 
     @property
     def end(self) -> Pose:
+        """Pose after the ride."""
         return evolve(self.start, z=self.start.z + self.lift.height)

@@ -1,6 +1,6 @@
-"""A route becomes strides: where each foot goes next, and when.
+"""The planner: it turns a route into the positions and times of strides.
 
-All randomness of the gait is drawn here, in the order of the steps.
+All random numbers of the gait are drawn here, in the order of the steps.
 """
 
 from __future__ import annotations
@@ -12,31 +12,34 @@ from attrs import evolve, frozen
 
 from ...types import Foot
 from ..wearers.curves import Rng
-from ..wearers.gait import SETTLING, Climb, PlannedStride, WalkPlan, Wearer, double_support
+from ..wearers.gait import SETTLE_TIME, Climb, PlannedStride, WalkPlan, Wearer, double_support
 from .lift import CarRide, ride
 from .path import Flight, Lifted, Piece, Pivot, Pose, WalkPath
 from .route import Leg, Route, Stand, legs
-from .styles import Manner, running_cadence, style_of
+from .styles import StrideKind, running_cadence, style_of
 
-LEVEL = 1e-6
-"""m: floors that differ by less are the same."""
+SAME_LEVEL = 1e-6
+"""Difference in height below which two floors are the same, m."""
 
 
 def plan(route: Route, wearer: Wearer, rng: Rng) -> WalkPlan:
-    """Lay out the footfalls of `route` and time them; all randomness of the gait is drawn here."""
+    """Plan the positions and times of the strides on `route`; `rng` draws all variations of the gait."""
     return _Planner(wearer, rng).run(legs(route))
 
 
 @frozen
 class _Footfall:
-    """One step to come: the place on the path, the speed, how long it usually takes (s), and how the path bends
-    there (1/m)."""
+    """One planned step before its timing."""
 
     pose: Pose
+    """Pose on the path."""
     speed: float
+    """Speed along the path, m/s."""
     duration: float
+    """Mean duration of the step, s."""
     curvature: float = 0.0
-    manner: Manner = Manner.WALK
+    """Curvature of the path there, 1/m; positive to the left."""
+    kind: StrideKind = StrideKind.WALK
     flight: Flight | None = None
 
 
@@ -45,12 +48,12 @@ class _Planner:
         self.wearer = wearer
         self.rng = rng
         self.t = 0.0
-        self.moving = wearer.first  # the foot that goes next
-        self.struck: float | None = None  # the last heel-strike while walking goes on; None while standing
-        self.began = 0.0
-        self.running: float | None = None  # the speed of the last step if it was run
-        self.flight: Flight | None = None  # the one that a foot is on
-        self.climbing: float | None = None  # since when
+        self.moving = wearer.first  # the foot that moves next
+        self.struck: float | None = None  # time of the last heel-strike; None while standing
+        self.bout_start = 0.0
+        self.running: float | None = None  # speed of the last step if it was a running step
+        self.flight: Flight | None = None  # flight of stairs that a foot is on
+        self.climbing: float | None = None  # time at which the climb started
         self.bouts: list[tuple[float, float]] = []
         self.climbs: list[Climb] = []
         self.rides: list[CarRide] = []
@@ -60,6 +63,7 @@ class _Planner:
         self.strides: dict[Foot, list[PlannedStride]] = {foot: [] for foot in Foot}
 
     def run(self, todo: list[Leg]) -> WalkPlan:
+        """Return the plan of all legs of a route."""
         for leg in todo:
             match leg:
                 case Stand(duration=duration):
@@ -77,7 +81,7 @@ class _Planner:
         return WalkPlan(self.t, self.starts, strides, tuple(self.bouts), tuple(self.climbs), tuple(self.rides))
 
     def _ride(self, leg: Lifted) -> None:
-        """The doors close, the car goes, the doors open."""
+        """Add a ride: the doors close, the car moves, the doors open."""
         car = ride(leg.lift, self.t + leg.lift.doors, self.rng)
         self.rides.append(car)
         self.t = car.end + leg.lift.doors
@@ -85,13 +89,13 @@ class _Planner:
 
     def _halt(self) -> None:
         if self.struck is not None:
-            self.t = self.struck + SETTLING
-            self.bouts.append((self.began, self.t))
+            self.t = self.struck + SETTLE_TIME
+            self.bouts.append((self.bout_start, self.t))
             self.struck = None
             self.running = None
 
     def _along(self, path: WalkPath) -> list[_Footfall]:
-        """Flight by flight, and what lies between them by itself; at the end the feet are set together."""
+        """Return the steps of a path, section by section, and a closing half step."""
         falls: list[_Footfall] = []
         for section in path.sections:
             piece = section.pieces[0]
@@ -102,10 +106,10 @@ class _Planner:
             else:
                 falls += self._naturally(section)
         # The closing half step: beside the foot that arrived.
-        return [*falls, evolve(falls[-1], manner=Manner.WALK)]
+        return [*falls, evolve(falls[-1], kind=StrideKind.WALK)]
 
     def _naturally(self, path: WalkPath) -> list[_Footfall]:
-        """Steps of natural length with a few per cent of variation, stretched to end exactly at the path's end."""
+        """Return steps of natural length with random variation, scaled to end exactly at the path's end."""
         ends: list[float] = []
         s = 0.0
         while not ends or ends[-1] < path.length:
@@ -125,8 +129,8 @@ class _Planner:
             pose = path.at(end)[0]
             speed, running = path.pace(end)
             usual = 60.0 / running_cadence(speed) if running else 60.0 / self.wearer.cadence(speed)
-            manner = Manner.RUN if running else Manner.WALK
-            falls.append(_Footfall(pose, speed, usual, path.curvature(end), manner))
+            kind = StrideKind.RUN if running else StrideKind.WALK
+            falls.append(_Footfall(pose, speed, usual, path.curvature(end), kind))
         return falls
 
     def _on_marks(self, path: WalkPath, spacing: float) -> list[_Footfall]:
@@ -140,14 +144,14 @@ class _Planner:
         return falls
 
     def _on_stairs(self, piece: Piece, flight: Flight) -> list[_Footfall]:
-        """One step for every riser."""
-        manner = Manner.UP if flight.rise > 0.0 else Manner.DOWN
+        """Return one step for every riser."""
+        kind = StrideKind.UP if flight.rise > 0.0 else StrideKind.DOWN
         falls = []
         for k in range(1, flight.steps + 1):
             hit = flight.going * k + self.wearer.aim * float(np.clip(self.rng.standard_normal(), -2.0, 2.0))
             pose = evolve(piece.start.ahead(hit, 0.0), z=flight.z + flight.rise * k)
             duration = flight.going / piece.speed
-            falls.append(_Footfall(pose, piece.speed, duration, 0.0, manner, flight))
+            falls.append(_Footfall(pose, piece.speed, duration, 0.0, kind, flight))
         return falls
 
     def _on_the_spot(self, pivot: Pivot) -> list[_Footfall]:
@@ -167,8 +171,8 @@ class _Planner:
         for fall in falls:
             step = fall.duration * self._vary(self.wearer.time_variation)
             if self.struck is None:
-                self.began = self.t
-                # As if the other foot had just landed: the weight needs that long to leave the foot that goes first.
+                self.bout_start = self.t
+                # As if the other foot had just landed: the weight needs this time to leave the foot that moves first.
                 self.struck = self.t + 0.32 * step
             foot = self.moving
             self.moving = Foot.RIGHT if foot is Foot.LEFT else Foot.LEFT
@@ -179,20 +183,20 @@ class _Planner:
     def _stride(self, foot: Foot, fall: _Footfall, struck: float, step: float) -> None:
         wearer, before = self.wearer, self.strides[foot]
         start = self.at[foot]
-        manner = fall.manner
+        kind = fall.kind
         if fall.flight is not None and fall.flight is not self.flight:
             self.flight, self.climbing = fall.flight, None
-        if abs(fall.pose.z - start.z) > LEVEL:
-            manner = Manner.UP if fall.pose.z > start.z else Manner.DOWN
-        style = None if manner is Manner.WALK else style_of(manner, fall.speed)
+        if abs(fall.pose.z - start.z) > SAME_LEVEL:
+            kind = StrideKind.UP if fall.pose.z > start.z else StrideKind.DOWN
+        style = None if kind is StrideKind.WALK else style_of(kind, fall.speed)
         double, early, flat = double_support(fall.speed), 0.12, 0.095
         if style is not None:
             flat = style.flat
-            if manner is not Manner.RUN:
+            if kind is not StrideKind.RUN:
                 double, early = style.double, style.early
         if self.running is not None:
-            # Who runs is in the air before the other foot comes down.
-            run = style_of(Manner.RUN, self.running)
+            # A runner is in flight before the other foot lands.
+            run = style_of(StrideKind.RUN, self.running)
             double, early = run.double, run.early
         toe_off = struck + double * 2.0 * step
         earliest = before[-1].foot_flat + 0.04 if before else 0.0
@@ -203,7 +207,7 @@ class _Planner:
         foot_flat = heel_strike + flat * 2.0 * step * self._vary(0.06)
         width, out = (float(value) for value in self.rng.standard_normal(2))
         end = self._stance(fall.pose, foot, wearer.width_variation * width, 0.5 * wearer.angle_variation * out)
-        # Short steps roll the foot less; the exponents keep half steps and steps in place looking like steps.
+        # In short steps the foot rolls less; the exponents keep enough roll in half steps and steps in place.
         moved = hypot(end.x - start.x, end.y - start.y)
         reach = min(moved / 1.42, 1.4)
         roll, yaw, outward = (float(value) for value in self.rng.standard_normal(3))
@@ -230,25 +234,25 @@ class _Planner:
                 settle=4e-4 * float(np.clip(self.rng.standard_normal(), -1.0, 1.0)),
                 curvature=fall.curvature,
                 pace=0.5 * moved / step,
-                manner=manner,
-                flight=self.flight if manner in (Manner.UP, Manner.DOWN) else None,
+                kind=kind,
+                flight=self.flight if kind in (StrideKind.UP, StrideKind.DOWN) else None,
             )
         )
         self.at[foot] = end
-        self.running = fall.speed if manner is Manner.RUN else None
+        self.running = fall.speed if kind is StrideKind.RUN else None
         self._step_off(before[-1])
 
     def _step_off(self, stride: PlannedStride) -> None:
-        """A climb is over when both feet are beyond the flight."""
+        """End the climb when both feet are beyond the flight."""
         flight = self.flight
         if flight is None:
             return
         if self.climbing is None:
             self.climbing = stride.toe_off
-        if all(abs(at.z - flight.z - flight.height) < LEVEL for at in self.at.values()):
+        if all(abs(at.z - flight.z - flight.height) < SAME_LEVEL for at in self.at.values()):
             self.climbs.append(Climb(self.climbing, stride.heel_strike, flight))
             self.flight = None
 
     def _vary(self, sigma: float) -> float:
-        """A factor about 1, never further away than three sigma."""
+        """Return a random factor about 1, limited to three sigma."""
         return 1.0 + sigma * float(np.clip(self.rng.standard_normal(), -3.0, 3.0))

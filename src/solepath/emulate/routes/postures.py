@@ -1,15 +1,15 @@
-"""Static postures of the emulated shoe, as somebody with a ruler measures them for `solepath calibrate shoe`.
+"""Static postures of the emulated shoe, as measured with a ruler for `solepath calibrate shoe`.
 
-The shoe stands on its forefoot rocker (radius R, beginning x_f before the heel's end) with the heel up by p. The sole
-between heel and rocker is flat; a ruler laid along it from the point below the sensor, at x_s, meets the ground after
+The shoe stands on its forefoot rocker (radius R, starting at x_f from the heel's end) with the heel up by p. The sole
+between heel and rocker is flat; a ruler along it, from the point below the sensor at x_s, meets the ground after
 
     L_r = x_f - x_s + R tan(p / 2),
 
-and from there to where the tip of the flat shoe was (length l), on the ground, it is
+and the distance on the ground from there to the tip of the flat shoe (length l) is
 
     L_p2t = l - x_f - R (p - tan(p / 2)).
 
-With these two, equations (6) of Chen et al. 2019 give the way of the sensor over the rocker exactly: the sole's plane
+With these two, equations (6) of Chen et al. 2019 give the path of the sensor over the rocker exactly: the sole's plane
 meets the ground behind the point where a round sole touches it.
 """
 
@@ -26,27 +26,31 @@ from attrs import frozen
 from ..wearers.shoe import IN_SOLE, Mounting, Shoe
 
 PITCHES = tuple(radians(value) for value in (10.0, 22.0, 34.0, 46.0, 58.0))
-"""Five postures between flat and toe-off (section III-C, 3); the paper does not say which."""
+"""Pitches of five postures between flat and toe-off, rad (section III-C, 3); the paper does not give their values."""
 REPEATED = 3
+"""Number of measurements of each posture."""
 RULER = 0.001
-"""m: a ruler is read to the millimetre."""
-UNSTEADY = radians(1.5)
-"""rad: how far a posture differs from the one that was meant (assumed)."""
+"""Resolution of the ruler, m."""
+POSTURE_ERROR = radians(1.5)
+"""Standard deviation of a posture's pitch about the intended one, rad (assumed)."""
 PITCH_ERROR = radians(0.5)
-"""rad: of the pitch that a sensor shows at rest: an accelerometer's bias of 0.01 g or so."""
+"""Standard deviation of the pitch that a sensor measures at rest, rad: an accelerometer bias of about 0.01 g."""
 
 
 @frozen
 class Posture:
-    """Heel-up `pitch`, rad, and the two lengths, m."""
+    """A static posture of the shoe."""
 
     pitch: float
+    """Pitch of the sole, rad; positive when the heel is up."""
     radius: float
+    """Length L_r, m."""
     to_toe: float
+    """Length L_p2t, m."""
 
 
 def posture(pitch: float, shoe: Shoe | None = None, mounting: Mounting = IN_SOLE) -> Posture:
-    """What is true of the shoe with its heel up by `pitch`, rad."""
+    """Return the true posture of the shoe with its heel up by `pitch`, rad."""
     shoe = shoe or Shoe()
     rocker = shoe.forefoot
     raised = rocker.radius * tan(0.5 * pitch)
@@ -62,19 +66,19 @@ def postures(
     pitches: Iterable[float] = PITCHES,
     repeated: int = REPEATED,
 ) -> tuple[Posture, ...]:
-    """Each posture so many times, as measured: held and read by hand."""
+    """Return each posture `repeated` times as measured: held and read by hand."""
     rng = np.random.default_rng([seed, 8])
     found = []
     for pitch in pitches:
         for _ in range(repeated):
             held, shown = (float(value) for value in rng.standard_normal(2))
-            true = posture(pitch + UNSTEADY * held, shoe, mounting)
+            true = posture(pitch + POSTURE_ERROR * held, shoe, mounting)
             found.append(Posture(true.pitch + PITCH_ERROR * shown, _read(true.radius), _read(true.to_toe)))
     return tuple(found)
 
 
 def write_postures(path: Path | str, found: Iterable[Posture], mounting: Mounting = IN_SOLE) -> None:
-    """As `solepath calibrate shoe` reads them."""
+    """Write postures as a csv file for `solepath calibrate shoe`."""
     with Path(path).open("w", newline="", encoding="utf-8") as file:
         rows = csv.writer(file)
         rows.writerow(("pitch_deg", "L_r_m", "L_p2t_m", "H_imu_m", "heel_L_r_m"))

@@ -1,10 +1,10 @@
-"""A route as a script, and the path on the floor that it describes.
+"""A route as a list of actions, and the path on the floor that it describes.
 
     Route().stand(2).walk(20, speed=1.3).turn(radians(90), radius=2).walk(10).stop(2)
 
-Moves that follow each other without a stand are walked through without a halt, except that turning on the spot begins
-and ends with the feet together. Every halt is reached with a closing half step. World frame: z up, x along the first
-heading, y left, origin between the feet at the start.
+The wearer walks successive moves without a halt; only a turn on the spot starts and ends with the feet together. A
+closing half step ends the walk at every halt. World frame: z up, x along the first heading, y left, origin between the
+feet at the start.
 
 Stairs and lifts change the floor; landings are ordinary walks and turns:
 
@@ -22,44 +22,57 @@ from .path import Flight, Lifted, Piece, Pivot, Pose, WalkPath, ahead
 from .styles import SPEED_DOWN, SPEED_UP
 
 TIGHT_TURN = 0.8
-"""m/s: nobody walks a bend of less than about a metre faster; used when a turn names no speed."""
+"""Largest speed in a bend of less than about a metre, m/s; used when a turn has no speed of its own."""
 
 
 @frozen
 class Stand:
-    """Stand still with the feet side by side for `duration` s."""
+    """An action: stand still with the feet side by side."""
 
     duration: float
+    """Duration of standing, s."""
 
 
 @frozen
 class Walk:
-    """Walk straight on: `distance` in m at `speed` in m/s."""
+    """An action: walk or run straight on."""
 
     distance: float
+    """Distance of the move, m."""
     speed: float
+    """Speed of the move, m/s."""
     spacing: float | None = None
+    """Distance between marks to step on, m; None: no marks."""
     running: bool = False
+    """True when the wearer runs."""
 
 
 @frozen
 class TurnAction:
-    """Turn by `angle` rad, counter-clockwise positive, along an arc of `radius` m, or on the spot when it is 0."""
+    """An action: turn along an arc or on the spot."""
 
     angle: float
+    """Angle of the turn, rad; counter-clockwise positive."""
     radius: float
+    """Radius of the arc, m; 0: on the spot."""
     speed: float
+    """Speed of the move, m/s."""
     spacing: float | None = None
+    """Distance between marks to step on, m; None: no marks."""
 
 
 @frozen
 class Stairs:
-    """A flight of `steps` risers, foot over foot: `rise` m each, negative down, `going` m apart; `speed` along them."""
+    """An action: walk a flight of stairs, each foot on every other tread."""
 
     steps: int
+    """Number of risers."""
     rise: float
+    """Height of a riser, m; negative downwards."""
     going: float
+    """Distance between risers, m."""
     speed: float
+    """Horizontal speed along the flight, m/s."""
 
 
 Action = Stand | Walk | TurnAction | Stairs | Lift
@@ -67,41 +80,52 @@ Action = Stand | Walk | TurnAction | Stairs | Lift
 
 @frozen
 class Route:
-    """What to do, in order. Each method returns a longer route; a route itself never changes."""
+    """A list of actions in order; each method returns a longer route, a route itself never changes."""
 
     actions: tuple[Action, ...] = ()
+    """Actions in order."""
     speed: float = 1.3
-    """The speed of a move that names none, m/s: the last one named, or 1.3."""
+    """Speed of the next move without a speed of its own, m/s: the last one given, or 1.3."""
     spacing: float | None = None
-    """Of the marks that are stepped on, m along the path; None: steps of natural length."""
+    """Distance between the marks to step on along the path, m; None: steps of natural length."""
 
     def paced(self, spacing: float | None) -> Route:
-        """From here on every footfall is on a mark: they are `spacing` m apart along the path from one halt to the
-        next, made even so that the last one is at its end. Halt before this; None: naturally again."""
+        """Return the route with every later footfall on a mark; None: with steps of natural length again.
+
+        Marks are `spacing` m apart along the path from one halt to the next, scaled so that the last mark is at its
+        end. The wearer must halt before this.
+        """
         return evolve(self, spacing=None if spacing is None else _positive("spacing", spacing))
 
     def stand(self, duration: float) -> Route:
+        """Halt with a closing half step, then stand for `duration` s."""
         return self._then(Stand(_positive("duration", duration)))
 
     def stop(self, duration: float = 2.0) -> Route:
-        """The same as `stand`: halt with a closing half step, then stand."""
+        """Halt with a closing half step, then stand for `duration` s, like `stand`."""
         return self.stand(duration)
 
     def walk(self, distance: float, speed: float | None = None) -> Route:
+        """Walk `distance` m straight on at `speed` m/s; the speed is kept for later moves."""
         chosen = self.speed if speed is None else _positive("speed", speed)
         return evolve(self._then(Walk(_positive("distance", distance), chosen, self.spacing)), speed=chosen)
 
     def jog(self, distance: float, speed: float = 2.6) -> Route:
-        """Run straight on; the runner walks the first and last steps from and to a halt. The speed is not kept."""
+        """Run `distance` m straight on at `speed` m/s; the speed is not kept for later moves.
+
+        The runner walks the first steps after a halt and the last steps before one.
+        """
         move = Walk(_positive("distance", distance), _positive("speed", speed), self.spacing, running=True)
         return self._then(move)
 
     def stairs(
         self, steps: int, up: bool = True, rise: float = 0.16, going: float = 0.30, speed: float | None = None
     ) -> Route:
-        """Walk a flight of `steps` risers, each foot on every other tread: `rise` and `going` of each in m, `speed`
-        along in m/s. The first edge is `stairs.ahead` m ahead of the ankles of who stands before it, and the flight is
-        `steps * going` m long. The speed is not kept."""
+        """Walk a flight of `steps` risers, each foot on every other tread; the speed is not kept for later moves.
+
+        `rise` and `going` of each riser are in m, `speed` along the flight in m/s. The first edge is `path.ahead` m
+        ahead of the ankles of a wearer who stands before it, and the flight is `steps * going` m long.
+        """
         if steps < 1 or going < 0.25 or not 0.0 < rise <= 0.22:
             raise ValueError(f"stairs: 1 step or more, going from 0.25 m, rise to 0.22 m, got {steps}, {going}, {rise}")
         if self.actions and isinstance(self.actions[-1], Stairs):
@@ -118,7 +142,7 @@ class Route:
         doors: float = 2.5,
         creep: float = 0.0,
     ) -> Route:
-        """Stand in a lift that goes `height` m up, or down when negative; the rest as in `Lift`."""
+        """Ride in a lift by `height` m, negative downwards; the other parameters are those of `Lift`."""
         if not isfinite(height) or abs(height) < 0.5:
             raise ValueError(f"lift: it goes at least half a metre, got {height}")
         for limit in (speed, acceleration, jerk, doors):
@@ -128,6 +152,7 @@ class Route:
         return self._then(Lift(height, speed, acceleration, jerk, doors, creep))
 
     def turn(self, angle: float, radius: float = 0.0, speed: float | None = None) -> Route:
+        """Turn by `angle` rad, counter-clockwise positive, along an arc of `radius` m, or on the spot when it is 0."""
         if not isfinite(angle) or not isfinite(radius) or radius < 0.0:
             raise ValueError(f"turn: angle must be finite and radius not negative, got {angle}, {radius}")
         if speed is None:
@@ -141,7 +166,7 @@ class Route:
 
     @property
     def end(self) -> Pose:
-        """Where the route ends: between the feet."""
+        """Pose at the end of the route, between the feet."""
         pose = Pose(0.0, 0.0, 0.0, 0.0)
         for leg in legs(self):
             if not isinstance(leg, Stand):
@@ -162,7 +187,7 @@ Leg = Stand | WalkPath | Pivot | Lifted
 
 
 def legs(route: Route) -> list[Leg]:
-    """The route cut at its halts: stands, rides, turns on the spot, and paths in between."""
+    """Split the route at its halts into stands, rides, turns on the spot, and paths between them."""
     found: list[Leg] = []
     pieces: list[Piece] = []
     pose = Pose(0.0, 0.0, 0.0, 0.0)

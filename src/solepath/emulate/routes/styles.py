@@ -1,13 +1,13 @@
-"""How a stride is made other than walking on the level: running, and stairs up and down.
+"""Parameters of strides other than level walking: running, and stairs up and down.
 
-Running: at 2.6 m/s a foot is on the ground for 38 % of the stride and for less the faster one runs, in between nobody
-is (Novacheck 1998, Gait & Posture 7), at about 160 steps a minute that grow little with the speed (Cavagna et al. 1988,
-J. Physiol. 399). The heel comes down at more than twice the speed of walking.
+Running: at 2.6 m/s a foot is on the ground for 38 % of the stride, and for less at higher speeds; between the stances
+both feet are in the air (Novacheck 1998, Gait & Posture 7). The cadence is about 160 steps a minute and grows little
+with the speed (Cavagna et al. 1988, J. Physiol. 399). The heel lands at more than twice its speed in walking.
 
-Stairs, foot over foot: Riener et al. 2002 (Gait & Posture 15) and Nadeau et al. 2003 (Clin. Biomech. 18). About 0.5 m/s
-along, a little faster down; the foot comes down flat or forefoot first going up, and toe down by some 20 degrees going
-down, where the forefoot brakes. Angles, rates and impacts compared with recordings on an instep (HuGaDB: Chereshnev and
-Kertesz-Farkas 2018) and a shoe (MaD stair ambulation).
+Stairs, foot over foot: Riener et al. 2002 (Gait & Posture 15) and Nadeau et al. 2003 (Clin. Biomech. 18). The speed
+along is about 0.5 m/s, a little more downwards. Upwards the foot lands flat or forefoot first; downwards it lands with
+the toe down by some 20 degrees, and the forefoot brakes. Angles, rates and impacts were compared with recordings on an
+instep (HuGaDB: Chereshnev and Kertesz-Farkas 2018) and on a shoe (MaD stair ambulation).
 """
 
 from __future__ import annotations
@@ -17,15 +17,15 @@ from enum import Enum
 from attrs import frozen
 
 RUNNING_FROM = 1.95
-"""m/s: slower than this one walks (Hreljac 1993, J. Sports Sci. 11: walk to run at about 2 m/s)."""
-GETTING_GOING = 2.0
-"""m/s^2 by which a runner speeds up and slows down (assumed)."""
+"""Least speed of running, m/s (Hreljac 1993, J. Sports Sci. 11: transition from walking at about 2 m/s)."""
+RUN_ACCELERATION = 2.0
+"""Acceleration of a runner who speeds up or slows down, m/s^2 (assumed)."""
 SPEED_UP, SPEED_DOWN = 0.50, 0.55
-"""m/s along the treads when a flight names no speed."""
+"""Default speed along a flight of stairs upwards and downwards, m/s."""
 
 
-class Manner(Enum):
-    """What kind of stride it is."""
+class StrideKind(Enum):
+    """Kinds of strides."""
 
     WALK = "walk"
     RUN = "run"
@@ -35,29 +35,34 @@ class Manner(Enum):
 
 @frozen
 class Style:
-    """Of a stride: shares of its time, angles in rad, speeds in m/s.
-
-    `double`: from heel-strike of the other foot to toe-off of this one, negative when it is in the air by then.
-    `early`: from heel-off to that heel-strike. `flat`: from heel-strike to foot-flat. `slide`, `sink`: how fast the
-    shoe still goes ahead and down when it touches the ground. `clearance`: of the sole in swing, m. `hold`: how the
-    swing lags behind a quintic in the middle, as a share of its way. `soon`: how much it rises, or sinks, early.
-    `weave`: how much the foot rolls and turns in swing, relative to walking. `front`: share of the load that lands on
-    the forefoot. `bounce`: amplitude of the load's swing about the weight.
-    """
+    """The parameters of a kind of stride."""
 
     double: float
+    """Time from heel-strike of the other foot to toe-off, as a share of the stride; negative with a flight phase."""
     early: float
+    """Time from heel-off to heel-strike of the other foot, as a share of the stride."""
     flat: float
+    """Time from heel-strike to foot-flat, as a share of the stride."""
     toe_off_pitch: float
+    """Pitch at toe-off, rad; positive when the heel is up."""
     strike_pitch: float
+    """Pitch at heel-strike, rad; positive when the toe is up."""
     slide: float
+    """Forward speed of the shoe when it touches the ground, m/s."""
     sink: float
+    """Downward speed of the shoe when it touches the ground, m/s."""
     clearance: float
+    """Least height of the sole in mid-swing, m."""
     hold: float = 0.0
+    """Horizontal deviation of the swing from a quintic in the middle, as a share of its length."""
     soon: float = 0.0
+    """Weight of EVEN_OUT in the vertical motion of the swing: the foot rises, or sinks, earlier."""
     weave: float = 1.0
+    """Roll and yaw of the foot in swing, relative to walking."""
     front: float = 0.0
+    """Share of the load that lands on the forefoot."""
     bounce: float = 0.0
+    """Amplitude of the load about the weight, as a share of the weight."""
 
 
 CLIMBING = Style(
@@ -89,9 +94,9 @@ DESCENDING = Style(
 )
 
 
-def style_of(manner: Manner, speed: float) -> Style:
-    """For any but walking, at `speed` m/s along."""
-    if manner is Manner.RUN:
+def style_of(kind: StrideKind, speed: float) -> Style:
+    """Return the parameters of any kind of stride but walking, at `speed` m/s along the path."""
+    if kind is StrideKind.RUN:
         share = min(max(0.38 - 0.03 * (speed - 2.6), 0.25), 0.44)
         return Style(
             double=share - 0.5,
@@ -104,9 +109,9 @@ def style_of(manner: Manner, speed: float) -> Style:
             clearance=0.15,
             weave=2.0,
         )
-    return CLIMBING if manner is Manner.UP else DESCENDING
+    return CLIMBING if kind is StrideKind.UP else DESCENDING
 
 
 def running_cadence(speed: float) -> float:
-    """Steps per minute."""
+    """Return the cadence of running at `speed` m/s, steps per minute."""
     return 60.0 * (2.4 + 0.1 * speed)

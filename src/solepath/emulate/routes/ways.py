@@ -1,4 +1,4 @@
-"""Walks through BUILDING, with the truth of where the wearer is on its plan.
+"""Walks through BUILDING, with the true position of the wearer on its plan.
 
 way = wandering(seed=7)
 walker = Walker(way.route, seed=7)
@@ -36,35 +36,41 @@ from .building import (
     Well,
     in_well,
 )
-from .course import OTHER, Course
+from .course import OTHER_LEVEL, Course
 from .path import ahead
 from .route import Route
 
-ASTRAY = 0.3
-"""m: how far off the middle of the corridors a wanderer walks, at the most."""
+MAX_OFFSET = 0.3
+"""Largest distance of a random walk from the middle of the corridors, m."""
 FEWEST, MOST = 3, 7
-"""Corners of a wandering before it turns to the way out."""
+"""Least and largest number of corners of a random walk before it heads for its exit."""
 RUN_UP = 4.0
-"""m walked along the corridor before and after stairs on the floor that is not wandered on."""
+"""Distance walked along the corridor before and after stairs on the other floor, m."""
 _ELEVATION = {level.id: level.elevation for level in BUILDING.levels}
 
 Exit = Cabin | Well
 
 
 @frozen
-class Way:
-    """A route through the building: where and how it sets out, and by which lift or stairs it comes to the floor
-    `level` and leaves it; "" where it stays there."""
+class BuildingWalk:
+    """A route through the building."""
 
     route: Route
+    """Route of the wearer."""
     start: Start
+    """Start on the plan."""
     level: str
-    came: str = ""
-    left: str = ""
+    """Id of the level of the walk."""
+    entry: str = ""
+    """Name of the lift or stairs by which the wearer comes to the level; "" when the walk starts there."""
+    exit: str = ""
+    """Name of the lift or stairs by which the wearer leaves the level; "" when the walk ends there."""
 
     def places(self, walker: Walker, t: Array | float) -> list[tuple[str, float, float]]:
-        """Level, x and y (m, plan frame) of the middle between both ankles at instants `t`, s. In a lift and on stairs
-        it is the level that is nearer."""
+        """Return level, x and y (plan frame, m) of the middle between both ankles at times `t`, s.
+
+        In a lift and on stairs it is the nearer level.
+        """
         when = np.atleast_1d(np.asarray(t, dtype=np.float64))
         x, y = self.track(walker, when).T
         high = _ELEVATION[self.start.level] + walker.truth().elevation(when)
@@ -72,7 +78,7 @@ class Way:
         return list(zip(levels, x.tolist(), y.tolist(), strict=True))
 
     def track(self, walker: Walker, t: Array) -> Array:
-        """x and y of the same, (N, 2)."""
+        """Return x and y (plan frame, m) of the middle between both ankles at times `t`, s, (N, 2)."""
         ankle = Mounting((walker.wearer.shoe.ankle[0], 0.0, 0.0))
         middle = 0.5 * sum(walker.kinematics(foot, t, ankle).position[:, :2] for foot in Foot)
         heading = self.start.heading or 0.0
@@ -80,9 +86,12 @@ class Way:
         return np.asarray(middle @ np.array([[c, s], [-s, c]]) + np.array(self.start.place))
 
 
-def case_study() -> Way:
-    """As in section V-F of Liu et al. 2015: down by the lift at the bottom left, along corridors, and away by another
-    lift. The paper gives no measures; this one turns five times on the floor."""
+def case_study() -> BuildingWalk:
+    """Return the walk of section V-F of Liu et al. 2015.
+
+    It goes down by the lift at the bottom left, along corridors, and away by another lift. The paper gives no lengths;
+    this walk turns five times on the floor.
+    """
     a, b = CABINS[:2]
     course = Course(UPPER, a.middle, a.out)
     course.stand()
@@ -94,44 +103,44 @@ def case_study() -> Way:
     course.face(b.out)
     course.ride()
     course.stand()
-    return Way(course.route, course.start, GROUND, a.name, b.name)
+    return BuildingWalk(course.route, course.start, GROUND, a.name, b.name)
 
 
-def corridor() -> Way:
-    """63 m straight on from door to door, as the long corridor of section V-D."""
+def corridor() -> BuildingWalk:
+    """Return 63 m straight on from door to door, as the long corridor of section V-D of Liu et al. 2015."""
     course = Course(GROUND, (COLUMNS[0], 0.0), 0.5 * pi)
     course.stand()
     course.along([(COLUMNS[0], NORTH)])
     course.stand()
-    return Way(course.route, course.start, GROUND)
+    return BuildingWalk(course.route, course.start, GROUND)
 
 
-def wandering(seed: int) -> Way:
-    """Comes to a floor by a lift or stairs, walks along corridors and leaves by another; drawn from `seed`."""
+def wandering(seed: int) -> BuildingWalk:
+    """Return a random walk that comes to a floor by a lift or stairs, follows corridors and leaves by another exit."""
     rng = np.random.default_rng([seed, 5])
     level = (GROUND, UPPER)[int(rng.integers(2))]
     exits: list[Exit] = [*CABINS, *WELLS]
     one, other = (exits[int(k)] for k in rng.choice(len(exits), 2, replace=False))
-    off = rng.uniform(-ASTRAY, ASTRAY, 2)
+    off = rng.uniform(-MAX_OFFSET, MAX_OFFSET, 2)
     dx, dy = float(off[0]), float(off[1])
     course = _arriving(one, level, dx, dy)
-    begin, end = _beside(one, level, dx, dy), _beside(other, level, dx, dy)
-    course.along([*_strolled(_network(dx, dy, begin, end), begin, end, rng), _inside(other, level)])
+    start, end = _beside(one, level, dx, dy), _beside(other, level, dx, dy)
+    course.along([*_strolled(_network(dx, dy, start, end), start, end, rng), _inside(other, level)])
     _leaving(course, other, level, dx, dy)
     course.stand()
-    return Way(course.route, course.start, level, one.name, other.name)
+    return BuildingWalk(course.route, course.start, level, one.name, other.name)
 
 
 def _inside(one: Exit, level: str) -> Point:
-    """Where one stands in a cabin, or before the first edge of the stairs."""
+    """Return the point where the wearer stands in a cabin, or before the first edge of the stairs."""
     if isinstance(one, Cabin):
         return one.middle
-    lane = -LANE if level == GROUND else LANE  # that begins, and ends, on this level
+    lane = -LANE if level == GROUND else LANE  # the lane that starts, and ends, on this level
     return in_well(one, APPROACH - ahead(level == GROUND, GOING), lane)
 
 
 def _beside(one: Exit, level: str, dx: float, dy: float) -> Point:
-    """Where one turns into a cabin or a stairwell, on the line along which its corridor is walked."""
+    """Return the point where the wearer turns into a cabin or a stairwell, on the walked line of its corridor."""
     x, y = _inside(one, level)
     heading = one.out if isinstance(one, Cabin) else one.inward
     if abs(cos(heading)) > 0.5:
@@ -140,7 +149,7 @@ def _beside(one: Exit, level: str, dx: float, dy: float) -> Point:
 
 
 def _network(dx: float, dy: float, *turnings: Point) -> dict[Point, list[Point]]:
-    """Crossings and turnings, and which are next to each other along a corridor."""
+    """Return the graph of crossings and turning points, with their neighbours along the corridors."""
     columns, rows = [x + dx for x in COLUMNS], [y + dy for y in ROWS]
     places = {*turnings, *((x, y) for x in columns for y in rows)}
     nodes: dict[Point, list[Point]] = {place: [] for place in sorted(places)}
@@ -153,9 +162,9 @@ def _network(dx: float, dy: float, *turnings: Point) -> dict[Point, list[Point]]
     return nodes
 
 
-def _strolled(nodes: dict[Point, list[Point]], begin: Point, end: Point, rng: Rng) -> list[Point]:
-    """From turning to turning without going back: at random for some corners, and then by the fewest places."""
-    path = [begin, nodes[begin][int(rng.integers(len(nodes[begin])))]]
+def _strolled(nodes: dict[Point, list[Point]], start: Point, end: Point, rng: Rng) -> list[Point]:
+    """Return a path from `start` to `end` without reversing: random for some corners, then with the fewest points."""
+    path = [start, nodes[start][int(rng.integers(len(nodes[start])))]]
     corners = int(rng.integers(FEWEST, MOST + 1))
     while corners > 0 or path[-1] == end:
         onward = _onward(nodes, path)
@@ -173,7 +182,7 @@ def _strolled(nodes: dict[Point, list[Point]], begin: Point, end: Point, rng: Rn
 
 
 def _onward(nodes: dict[Point, list[Point]], path: list[Point]) -> list[Point]:
-    """Where to go next: not back, but from a corridor's end."""
+    """Return the next possible points; back only at a corridor's end."""
     return [place for place in nodes[path[-1]] if place != path[-2]] or [path[-2]]
 
 
@@ -182,17 +191,17 @@ def _straight(a: Point, b: Point, c: Point) -> bool:
 
 
 def _arriving(one: Exit, level: str, dx: float, dy: float) -> Course:
-    """From the other floor to this one; the course then is where one comes out."""
+    """Return a course from the other floor to this one; it ends where the wearer comes out."""
     if isinstance(one, Cabin):
-        course = Course(OTHER[level], one.middle, one.out)
+        course = Course(OTHER_LEVEL[level], one.middle, one.out)
         course.stand()
         course.ride()
         return course
-    inside, turning = _inside(one, OTHER[level]), _beside(one, OTHER[level], dx, dy)
+    inside, turning = _inside(one, OTHER_LEVEL[level]), _beside(one, OTHER_LEVEL[level], dx, dy)
     if one.inward == pi:
-        course = Course(OTHER[level], (turning[0], turning[1] - RUN_UP), 0.5 * pi)
+        course = Course(OTHER_LEVEL[level], (turning[0], turning[1] - RUN_UP), 0.5 * pi)
     else:
-        course = Course(OTHER[level], (turning[0] - RUN_UP, turning[1]), 0.0)
+        course = Course(OTHER_LEVEL[level], (turning[0] - RUN_UP, turning[1]), 0.0)
     course.stand()
     course.along([turning, inside])
     course.climb(up=level == UPPER)
@@ -200,11 +209,11 @@ def _arriving(one: Exit, level: str, dx: float, dy: float) -> Course:
 
 
 def _leaving(course: Course, other: Exit, level: str, dx: float, dy: float) -> None:
-    """From inside a cabin or before the first edge to the other floor."""
+    """Continue the course from a cabin, or from the first edge of stairs, to the other floor."""
     if isinstance(other, Cabin):
         course.face(other.out)
         course.ride()
         return
     course.climb(up=level == GROUND)
-    x, y = _beside(other, OTHER[level], dx, dy)
+    x, y = _beside(other, OTHER_LEVEL[level], dx, dy)
     course.along([(x, y), (x, y - RUN_UP) if other.inward == pi else (x - RUN_UP, y)])

@@ -11,44 +11,49 @@ from ...types import Site
 from ..wearers.curves import Rng
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
-from .device import Notification, prepared, samplings, started
+from .device import Notification, draw_clock, sampling_instants, setup_notifications
 from .parts import CRE_CC02, AttitudePart
-from .sensors import attitude_read
+from .sensors import read_attitudes
 from .tag_signals import HANDLING
 
 RATE = 60.0
-"""Hz that it streams after the usual setup."""
+"""Sampling rate after the usual setup, Hz."""
 TICK_RATE = 1e6
+"""Rate of the device's clock, ticks per s."""
 BATTERY = b"\x5a\x00"
-"""90 percent, not charging."""
+"""Value of the battery channel: 90 percent, not charging."""
 
 
 @frozen
 class Dot:
-    """Sends its attitude at 60 Hz. `mounting`: on the segment that its site names, in that segment's frame (limbs.py).
-
-    `attitude`: how far off it is; as the unit of Gong et al. 2023 when nothing is said, for whose experiments it is
-    worn (MOVELLA_DOT are its own figures). `north`: how far the x axis of its world is turned from the walk's, rad.
-    `ppm` and `ticks`: rate error and reading of the clock at its first sample; drawn when None.
-    """
+    """A Movella DOT that sends its attitude at 60 Hz."""
 
     mounting: Mounting = Mounting((0.0, 0.0, 0.0))
+    """Position and attitude on the segment of the site, in that segment's frame (limbs.py)."""
     attitude: AttitudePart = CRE_CC02
+    """Attitude errors; by default those of the unit of Gong et al. 2023, because the DOT is worn in their experiments.
+
+    MOVELLA_DOT has the errors of the DOT itself.
+    """
     north: float = 0.0
+    """Yaw of the device's world relative to the walk's world, rad."""
     ppm: float | None = None
+    """Rate error of the clock, ppm; None: random."""
     ticks: int | None = None
+    """Ticks at the first sample; None: random."""
 
     def emit(self, walker: Walker, site: Site, rng: Rng) -> list[Notification]:
-        clock = started(rng, 1.0 / RATE, self.ppm)
+        """Return everything that the device sends over the walk, in the order of sending."""
+        clock = draw_clock(rng, 1.0 / RATE, self.ppm)
         drawn = int(rng.integers(0, 2**32))
-        begun = drawn if self.ticks is None else self.ticks
-        t = samplings(walker, clock, 1.0 / RATE).taken
+        first_ticks = drawn if self.ticks is None else self.ticks
+        t = sampling_instants(walker, clock, 1.0 / RATE).taken
         true = walker.body.at(site, t, self.mounting).attitude
-        said = attitude_read(true, t, self.attitude, self.north, rng)
-        sent = prepared(DRIVER.profile, {"dot-orientation/battery": BATTERY})
+        attitudes = read_attitudes(true, t, self.attitude, self.north, rng)
+        sent = setup_notifications(DRIVER.profile, {"dot-orientation/battery": BATTERY})
         (stream,) = DRIVER.profile.streams
-        for k, (when, quat) in enumerate(zip(t.tolist(), said.tolist(), strict=True)):
-            ticks = (begun + round(k * TICK_RATE / RATE)) % 2**32
+        for k, (when, quat) in enumerate(zip(t.tolist(), attitudes.tolist(), strict=True)):
+            ticks = (first_ticks + round(k * TICK_RATE / RATE)) % 2**32
             data = DRIVER.write(stream, {"ticks": ticks, "quat": struct.unpack("<4f", struct.pack("<4f", *quat))})
             sent.append(Notification(when + HANDLING, stream, data))
         return sent

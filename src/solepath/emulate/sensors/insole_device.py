@@ -1,4 +1,4 @@
-"""A pressure insole with an IMU that speaks protocol/insole.md."""
+"""An emulated pressure insole with an IMU (protocol/insole.md)."""
 
 from __future__ import annotations
 
@@ -17,45 +17,54 @@ from ...wire.insole_info import InsoleInfo, build_info
 from ..wearers.curves import Array, Rng
 from ..wearers.shoe import IN_SOLE, ON_HEEL, Mounting, Shoe
 from ..wearers.walker import Walker
-from .device import Notification, foot_of, prepared, samplings, started
+from .device import Notification, draw_clock, foot_of, sampling_instants, setup_notifications
 from .insoles import SCALE, heel_array, layout
 from .parts import HEEL_ARRAY, INERTIACUBE3, LSM6DSOX, RESISTIVE, AttitudePart, CellPart, Imu
-from .sensors import attitude_read, counted, measure_imu, read_cells, sample, samples_of
+from .sensors import measure_imu, read_attitudes, read_cells, sample, samples_of, to_counts
 
 HANDLING = 1e-3
-"""s from a frame's last sample until the radio has it."""
+"""Time from a frame's last sample until the radio has the frame, s."""
 
 Counts = np.ndarray[tuple[int, ...], np.dtype[np.int16]]
 
 
 @frozen(eq=False)
 class InsoleSignal:
-    """Counts at `interval` ticks: `cells` (N, cells), `imu` (N, 6) and `quats` (N, 4) where sent, `full` (N) where a
-    sensor was at its limit.
+    """The counts that an insole measures over a walk; sample k is taken at true time `first` + k `step`, s.
 
-    Sample k is taken at `first` + k `step`, s in true time; `sequence` is that of frame 0, `ticks` those of sample 0.
-    Frames have any number, also below 0 and beyond the walk's end: the wearer then stands as at its beginning or end,
-    and the device counts on.
+    Frames can have any number, also below 0 and after the end of the walk: the wearer then stands as at the start or
+    the end, and the device continues to count.
     """
 
     layout: Layout
+    """Layout of the cells."""
     interval: int
+    """Time between samples, ticks."""
     first: float
+    """True time of sample 0, s."""
     step: float
+    """True time between samples, s."""
     sequence: int
+    """Sequence number of frame 0."""
     ticks: int
+    """Ticks of sample 0."""
     serial: int
+    """Serial number of the device."""
     cells: Counts
+    """Counts of the cells, (N, cells)."""
     imu: Counts | None
+    """Counts of accelerometer and gyroscope, (N, 6); None when they are not sent."""
     quats: Counts | None
+    """Attitude, Q14, (N, 4); None when it is not sent."""
     full: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+    """True where a sensor was at the end of its range, (N)."""
 
     def frames(self, batch: int) -> int:
-        """How many frames of `batch` samples the walk has."""
+        """Return the number of frames of `batch` samples in the walk."""
         return len(self.cells) // batch
 
     def frame(self, number: int, batch: int = 1) -> InsoleFrame:
-        """The frame of this number when each has `batch` samples."""
+        """Return the frame of this number when each has `batch` samples."""
         start = number * batch
         rows = np.clip(np.arange(start, start + batch), 0, len(self.cells) - 1).tolist()
         return InsoleFrame(
@@ -69,11 +78,11 @@ class InsoleSignal:
         )
 
     def taken(self, number: int, batch: int = 1) -> float:
-        """When the first sample of a frame is taken, s."""
+        """Return the true time of a frame's first sample, s."""
         return self.first + self.step * (number * batch)
 
     def ready(self, number: int, batch: int = 1) -> float:
-        """When the radio has a frame, s."""
+        """Return the time at which the radio has a frame, s."""
         return self.first + self.step * (number * batch + batch - 1) + HANDLING
 
     def _sample(self, row: int) -> InsoleSample:
@@ -85,52 +94,64 @@ class InsoleSignal:
 
 
 TICK_RATE = 32768
+"""Rate of the device's clock, ticks per s."""
 ACC_COUNT = 0.488e-3 * GRAVITY
-"""m/s^2 per count at +-16 g (ST DS12814, table 2)."""
+"""Specific force per count at +-16 g, m/s^2 (ST DS12814, table 2)."""
 GYRO_COUNT = radians(0.070)
-"""rad/s per count at +-2000 degrees/s (the same)."""
+"""Angular rate per count at +-2000 degrees/s, rad/s (ST DS12814, table 2)."""
 BATTERY = 87
-"""Percent."""
+"""Battery level, percent."""
 
 
 @frozen
 class Insole:
-    """`cells` of 12 bits and an IMU at `rate` Hz (rounded to whole ticks), `batch` samples a frame.
-
-    `cells`: how many over the whole sole, or a layout for the foot that wears it (one without a scale is read at the
-    scale of the others and sent as counts). `mtu`: of the link; frames that do not fit go in fragments. `ppm` and
-    `ticks`: rate error and reading of the clock at its first sample; drawn when None. `quaternion`: send the device's
-    own attitude too, with the errors of `attitude` in a world whose x axis is turned by `north` rad from the walk's;
-    when `attitude` is None it is half a degree off in tilt, all the time, and has a heading of its own. `tells_full`:
-    a frame with a cell at its limit says so; a device whose cells are a unit of their own cannot. `broken`: cells that
-    always say the same, and the count that each says.
-    """
+    """A pressure insole with cells of 12 bits and an IMU."""
 
     cells: int | Layout = 96
+    """Number of cells over the whole sole, or a layout for the foot that wears the insole.
+
+    A layout without a scale is read at the default scale and sent as counts.
+    """
     rate: float = 100.0
+    """Sampling rate, Hz; rounded to whole ticks."""
     batch: int = 1
+    """Samples per frame."""
     mtu: int = 247
+    """ATT MTU of the link, bytes; larger frames are sent in fragments."""
     imu: bool = True
+    """Send acceleration and angular rate."""
     quaternion: bool = False
+    """Send the device's own attitude too."""
     attitude: AttitudePart | None = None
+    """Attitude errors; None: a constant tilt error of half a degree and a random heading."""
     north: float = 0.0
+    """Yaw of the device's world relative to the walk's world, rad; used with `attitude`."""
     mounting: Mounting = IN_SOLE
+    """Position and attitude of the IMU on the foot."""
     part: Imu = LSM6DSOX
+    """Errors of the IMU."""
     cell_part: CellPart = RESISTIVE
+    """Errors of the cells."""
     ppm: float | None = None
+    """Rate error of the clock, ppm; None: random."""
     ticks: int | None = None
+    """Ticks at the first sample; None: random."""
     firmware: str = "emulated 1"
-    tells_full: bool = True
+    """Firmware version that the device reports."""
+    reports_saturation: bool = True
+    """A frame with a saturated cell has the flag; False for devices whose cells are a separate unit."""
     broken: tuple[tuple[int, int], ...] = ()
+    """Broken cells: pairs of the cell's index and its constant count."""
 
     def emit(self, walker: Walker, site: Site, rng: Rng) -> list[Notification]:
+        """Return everything that the insole sends over the walk, in the order of sending."""
         signal = self.measure(walker, site, rng)
         own = {
             "insole/info": build_info(self.info(signal)),
             "device/firmware": build_firmware(self.firmware),
             "device/battery": build_battery(BATTERY),
         }
-        sent = prepared(INSOLE, own)
+        sent = setup_notifications(INSOLE, own)
         for number in range(signal.frames(self.batch)):
             frame, ready = build_frame(signal.frame(number, self.batch)), signal.ready(number, self.batch)
             for piece in split(frame, self.mtu - 3, number % FRAME_IDS):
@@ -138,16 +159,16 @@ class Insole:
         return sent
 
     def measure(self, walker: Walker, site: Site, rng: Rng) -> InsoleSignal:
-        """All that the insole measures over the walk."""
+        """Return the counts that the insole measures over the walk."""
         foot = foot_of(site)
-        clock = started(rng, self.interval / TICK_RATE, self.ppm)
-        when = samplings(walker, clock, self.interval / TICK_RATE)
+        clock = draw_clock(rng, self.interval / TICK_RATE, self.ppm)
+        when = sampling_instants(walker, clock, self.interval / TICK_RATE)
         drawn, sequence, serial = (int(n) for n in rng.integers(0, (2**32, 2**16, 2**24)))
         shape = self._layout(foot, walker.wearer.shoe)
 
         motion = walker.kinematics(foot, when.fine, self.mounting)
-        felt, turned = measure_imu(motion, when, self.part, rng, 0.5 * self.rate)
-        acc, gyro = counted(felt, self.part.acc, ACC_COUNT), counted(turned, self.part.gyro, GYRO_COUNT)
+        measured, turned = measure_imu(motion, when, self.part, rng, 0.5 * self.rate)
+        acc, gyro = to_counts(measured, self.part.acc, ACC_COUNT), to_counts(turned, self.part.gyro, GYRO_COUNT)
         lift = sample(motion.force, when) @ np.array(rotate_back(self.mounting.attitude, (0.0, 0.0, 1.0)))
         loads = read_cells(
             walker.cell_loads(shape, when.taken), when.taken, self.cell_part, shape.scale or SCALE, rng, lift=lift
@@ -168,11 +189,11 @@ class Insole:
             cells=loads.counts.astype(np.int16),
             imu=np.concatenate((acc.counts, gyro.counts), axis=1).astype(np.int16) if self.imu else None,
             quats=attitude,
-            full=acc.saturated | gyro.saturated | (full & self.tells_full),
+            full=acc.saturated | gyro.saturated | (full & self.reports_saturation),
         )
 
     def samples(self, walker: Walker, site: Site, rng: Rng) -> list[Sample]:
-        """The same without a wire and a radio: what a perfect link makes of the walk, on the true clock."""
+        """Return the samples of the walk without packets and radio, on the true clock."""
         signal = self.measure(walker, site, rng)
         t = signal.first + signal.step * np.arange(len(signal.cells), dtype=np.float64)
         acc = gyro = None
@@ -184,11 +205,11 @@ class Insole:
 
     @property
     def interval(self) -> int:
-        """Ticks between samples."""
+        """Time between samples, ticks."""
         return round(TICK_RATE / self.rate)
 
     def info(self, signal: InsoleSignal) -> InsoleInfo:
-        """What the insole says of itself while it measures this."""
+        """Return the INFO of the insole while it measures this signal."""
         return InsoleInfo(
             foot=signal.layout.foot,
             layout=signal.layout.id,
@@ -211,23 +232,25 @@ class Insole:
         return self.cells
 
     def _attitudes(self, true: Array, t: Array, rng: Rng) -> Counts | None:
-        """The device's own idea of its attitude in Q14."""
+        """Return the attitude that the device estimates, Q14; None when it is not sent."""
         if not self.quaternion:
             return None
         if self.attitude is not None:
-            felt = attitude_read(true, t, self.attitude, self.north, rng)
+            measured = read_attitudes(true, t, self.attitude, self.north, rng)
         else:
             tilt = radians(0.5) * rng.standard_normal(2)
             off = from_rotation_vector((float(tilt[0]), float(tilt[1]), float(rng.uniform(-3.0, 3.0))))
-            felt = np.array([multiply(off, (w, x, y, z)) for w, x, y, z in true.tolist()])
-        quats: Counts = np.rint(16384 * felt).astype(np.int16)
+            measured = np.array([multiply(off, (w, x, y, z)) for w, x, y, z in true.tolist()])
+        quats: Counts = np.rint(16384 * measured).astype(np.int16)
         return quats
 
 
 def boot(foot: Foot, rate: float = 100.0) -> Insole:
-    """The sensors of Bebek et al. 2010, IEEE Trans. Instrum. Meas. 59: an array of 24 cells under the heel and a unit
-    that knows its attitude on the back of it. The unit's acceleration and rate have the errors of the other insoles:
-    the paper gives none. How often it measured is not said either."""
+    """Return the sensors of Bebek et al. 2010, IEEE Trans. Instrum. Meas. 59.
+
+    They are an array of 24 cells under the heel and an attitude sensor on the back of the heel. Its acceleration and
+    rate have the errors of the other insoles, because the paper gives neither errors nor a sampling rate.
+    """
     return Insole(
         cells=heel_array(foot),
         rate=rate,
@@ -235,5 +258,5 @@ def boot(foot: Foot, rate: float = 100.0) -> Insole:
         attitude=INERTIACUBE3,
         mounting=ON_HEEL,
         cell_part=HEEL_ARRAY,
-        tells_full=False,
+        reports_saturation=False,
     )

@@ -1,7 +1,7 @@
 """Pressure insoles: cells laid out in rows over the outline of a sole.
 
-Foot frame as in types.Cell: x to the toe, y left, m, origin at the heel's rear end on the midline. The number of a
-layout is its number of cells.
+Foot frame as in types.Cell: x to the toe, y left, m, origin at the heel's rear end on the midline. The id of a layout
+is its number of cells.
 """
 
 from __future__ import annotations
@@ -12,10 +12,13 @@ from attrs import evolve
 from ...types import Cell, Foot, Layout
 
 FULL_SCALE = 204.75
-"""N that a cell can report: 4095 counts of 12 bits at 0.05 N, as the 5 to 200 N of a published 99-cell insole."""
+"""Largest load that a cell can report, N: 4095 counts of 12 bits at 0.05 N.
+
+It corresponds to the 5 to 200 N of a published 99-cell insole.
+"""
 
 SCALE = FULL_SCALE / 4095
-"""N per count."""
+"""Load per count, N."""
 
 # Half-widths of a left sole, as parts of its width, over x as a part of its length: lateral (+y) and medial (-y) side.
 _ALONG = (0.00, 0.03, 0.10, 0.18, 0.30, 0.42, 0.55, 0.68, 0.76, 0.86, 0.94, 1.00)
@@ -24,8 +27,11 @@ _MEDIAL = (0.10, 0.24, 0.32, 0.33, 0.27, 0.23, 0.32, 0.46, 0.48, 0.45, 0.34, 0.1
 
 
 def layout(count: int, foot: Foot, length: float = 0.285, width: float = 0.100) -> Layout:
-    """An insole of `count` cells (24, 35, 96, 99, any number from 8 to 128), in rows from heel to toe, each row from
-    right to left. Every cell stands for an equal part of its row; cells are 80 % of the surface."""
+    """Return the layout of an insole of `count` cells (24, 35, 96, 99, any number from 8 to 128).
+
+    Cells are in rows from heel to toe, each row from right to left. All cells of a row are equally wide; cells are 80 %
+    of the surface.
+    """
     if not 8 <= count <= 128:
         raise ValueError(f"an insole has 8 to 128 cells, got {count}")
     rows = max(4, round(float(np.sqrt(count * length / (0.75 * width)))))
@@ -45,13 +51,15 @@ def layout(count: int, foot: Foot, length: float = 0.285, width: float = 0.100) 
 HEEL_LENGTH, HEEL_WIDTH = 0.0823, 0.0451
 """Sensing area of a DigiTacts II array, m (Bebek et al. 2010, section IV); its 24 cells lie 6 by 4 (assumed)."""
 HEEL_PRESSURE = 140e3
-"""Pa: the most that it detects (the same)."""
+"""Largest pressure that a DigiTacts II array detects, Pa (Bebek et al. 2010, section IV)."""
 
 
 def heel_array(foot: Foot, length: float = 0.285, rear: float = 0.008) -> Layout:
-    """The 24 cells of a DigiTacts II array under the heel of a shoe of `length`, in rows from the back to the front,
-    each from right to left; the first row begins `rear` m before the heel's end (assumed). The id is 24, as for 24
-    cells over the whole sole: what a layout is, its INFO says."""
+    """Return the layout of a DigiTacts II array under the heel of a shoe of `length` m.
+
+    Its 24 cells are in rows from the back to the front, each row from right to left. The first row starts `rear` m in
+    front of the heel's rear end (assumed). The id is 24, as for 24 cells over the whole sole; INFO distinguishes them.
+    """
     step, across = HEEL_LENGTH / 6, HEEL_WIDTH / 4
     cells = [
         Cell(rear + (row + 0.5) * step, -0.5 * HEEL_WIDTH + (column + 0.5) * across, step * across)
@@ -63,7 +71,7 @@ def heel_array(foot: Foot, length: float = 0.285, rear: float = 0.008) -> Layout
 
 
 def _shares(widths: np.ndarray[tuple[int, ...], np.dtype[np.float64]], count: int) -> list[int]:
-    """Split `count` cells over the rows in proportion to their widths, at least one each, largest remainders first."""
+    """Split `count` cells over the rows in proportion to their widths, at least one each, by largest remainders."""
     exact = (count - len(widths)) * widths / widths.sum()
     shares = np.floor(exact).astype(int)
     order = np.argsort(shares - exact, kind="stable")

@@ -1,8 +1,8 @@
-"""Error figures of named parts, from their data sheets.
+"""Sensor errors of named parts, from their data sheets.
 
-A tolerance that a sheet gives as +-x is taken as two standard deviations between parts. No sheet says how a bias
-wanders; here it follows the temperature: the sheet's drift per kelvin times WARMING, slowly. Where a sheet is silent
-the comment says what is assumed. (*) marks figures that have not been compared with the sheet itself.
+A tolerance of +-x in a sheet is taken as two standard deviations between parts. No sheet specifies how a bias changes
+over time; here it follows the temperature slowly: the sheet's drift per kelvin times WARMING. Comments name what is
+assumed where a sheet gives no value. (*) marks figures that have not been compared with the sheet itself.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from attrs import evolve, frozen
 from ...types.vector import GRAVITY
 
 WARMING = 2.0
-"""K: how far a worn device's temperature wanders (assumed)."""
+"""Standard deviation of the temperature of a worn device, K (assumed)."""
 
 _G = GRAVITY
 _MG = 1e-3 * GRAVITY
@@ -23,39 +23,52 @@ _DPS = radians(1.0)
 
 @frozen
 class Triad:
-    """Three axes of one kind. m/s^2 for accelerometers, rad/s for gyroscopes, T for magnetometers; sigmas over parts.
+    """Errors of a three-axis sensor, as standard deviations between parts.
 
-    `density`: white noise per sqrt(Hz). `bias`: at turn-on. `wander`: of the bias, first-order Gauss-Markov over
-    `memory` s. `scale`, `cross`: relative scale and cross-axis errors. `bandwidth`: of the part's own low pass
-    (second order), Hz. `bits`: of a reading. `g_effect`: output per m/s^2 of acceleration. `most`: of the bias,
-    where a sheet gives a limit that every part keeps.
+    The unit u is m/s^2 for accelerometers, rad/s for gyroscopes and T for magnetometers.
     """
 
     density: float
+    """White noise density, u/sqrt(Hz)."""
     bias: float
+    """Bias at turn-on, u."""
     wander: float
+    """Variation of the bias over time, u: a first-order Gauss-Markov process."""
     scale: float
+    """Relative scale error."""
     cross: float
+    """Relative cross-axis error."""
     bandwidth: float
+    """Bandwidth of the part's own second-order low pass, Hz."""
     memory: float = 300.0
+    """Correlation time of `wander`, s."""
     bits: int = 16
+    """Bits of a reading."""
     g_effect: float = 0.0
-    most: float = inf
+    """Output per acceleration, u per m/s^2."""
+    bias_limit: float = inf
+    """Largest bias, u, where a sheet guarantees a limit."""
 
 
 @frozen
 class Imu:
-    """Accelerometer and gyroscope of a device."""
+    """Errors of the accelerometer and the gyroscope of a device."""
 
     name: str
+    """Name of the part."""
     acc: Triad
+    """Errors of the accelerometer, m/s^2."""
     gyro: Triad
+    """Errors of the gyroscope, rad/s."""
 
 
 def _gyro(
     density: float, bias: float, drift: float, scale: float, cross: float, bandwidth: float, g_effect: float = 0.0
 ) -> Triad:
-    """A gyroscope. `density`: degrees/s/sqrt(Hz). `bias`: degrees/s; `drift`: of it, per K; `g_effect`: per g."""
+    """Return the errors of a gyroscope in rad/s.
+
+    `density` is in degrees/s/sqrt(Hz), `bias` in degrees/s, `drift` in degrees/s/K, `g_effect` in degrees/s/g.
+    """
     return Triad(
         density * _DPS, bias * _DPS, drift * WARMING * _DPS, scale, cross, bandwidth, g_effect=g_effect * _DPS / _G
     )
@@ -105,7 +118,7 @@ KXTJ9_IMU3000 = Imu(
         cross=0.010,
         bandwidth=25.0,
         bits=8,
-        most=125 * _MG,
+        bias_limit=125 * _MG,
     ),
     # InvenSense PS-IMU-3000A rev. 1.1 (*): 0.01 dps/sqrt(Hz), initial ZRO +-20 dps, +-0.03 dps/K, scale +-3 %,
     # cross axis 2 %, linear acceleration sensitivity 0.1 dps/g, low pass up to 256 Hz.
@@ -113,21 +126,26 @@ KXTJ9_IMU3000 = Imu(
 )
 
 AK8963 = Triad(density=0.15e-6, bias=10e-6, wander=0.2e-6, scale=0.025, cross=0.01, bandwidth=50.0)
-"""AKM MS1356-E (*) (inside the MPU-9250): 0.15 uT a count, scale +-5 %. The bias, the shoe's own iron, is assumed."""
+"""AKM MS1356-E (*) (inside the MPU-9250): 0.15 uT per count, scale +-5 %. The bias (iron in the shoe) is assumed."""
 
 MAG3110 = Triad(density=0.25e-6, bias=10e-6, wander=0.2e-6, scale=0.025, cross=0.01, bandwidth=40.0)
-"""Freescale MAG3110 (*): 0.25 uT rms noise, 0.1 uT a count, cross axis +-1 %. The bias is assumed, as above."""
+"""Freescale MAG3110 (*): 0.25 uT rms noise, 0.1 uT per count, cross axis +-1 %. The bias (iron) is assumed."""
 
 
 @frozen
 class BarometerPart:
-    """`noise`: of one reading, Pa rms. `offset`: between parts, Pa. `wander`: Pa over `memory` s, weather included."""
+    """Errors of a barometer, as standard deviations."""
 
     name: str
+    """Name of the part."""
     noise: float
+    """Noise of one reading, Pa rms."""
     offset: float
+    """Offset between parts, Pa."""
     wander: float = 8.0
+    """Variation over time, weather included, Pa."""
     memory: float = 600.0
+    """Correlation time of `wander`, s."""
 
 
 BMP280 = BarometerPart("BMP280", noise=1.3, offset=50.0)
@@ -139,62 +157,78 @@ T5400 = BarometerPart("T5400", noise=6.0, offset=50.0)
 
 @frozen
 class CellPart:
-    """One pressure cell read by a 12-bit converter; sigmas over cells.
+    """Errors of a pressure cell that a 12-bit converter reads, as standard deviations between cells.
 
-    `gain`: relative spread. `preload`: mean in-shoe load that is always there, N, spread over cells from 0 to twice of
-    it. `noise`: N rms of a reading. `lag`: rise time of the cell and its foam, s.
-
-    In the air the foot keeps touching the insole: `hang` is by how much of its preload a cell is relieved for every g
-    of specific force upwards beyond 1 g (the shoe hangs on the laces; below 1 g the cell bears more), and `rub` (N rms)
-    is what it feels as the foot shifts, with a memory of `rub_memory` s. No cell ever pulls.
+    In the air the foot still touches the insole and presses on it (`hang`, `rub`). A cell's load is never negative.
     """
 
     name: str
+    """Name of the cell."""
     gain: float
+    """Relative spread of the gain."""
     preload: float
+    """Mean of the constant load in the shoe, N; it is uniform over the cells from 0 to twice this value."""
     noise: float
+    """Noise of a reading, N rms."""
     lag: float
+    """Rise time of the cell and its foam, s."""
     hang: float = 0.0
+    """Relief of the preload per g of specific force upwards beyond 1 g, as a share of the preload.
+
+    The shoe hangs on the laces; below 1 g the cell bears more.
+    """
     rub: float = 0.0
+    """Load that changes as the foot shifts in the air, N rms."""
     rub_memory: float = 0.05
+    """Correlation time of `rub`, s."""
 
 
 RESISTIVE = CellPart("FSR", gain=0.03, preload=0.5, noise=0.12, lag=0.003)
-"""Interlink FSR 400 series integration guide (*): part-to-part repeatability +-6 %, break force 0.2 N. Noise of 2 to 3
-counts, the lag of the cover and the in-shoe preload are assumed."""
+"""Interlink FSR 400 series integration guide (*): part-to-part repeatability +-6 %, break force 0.2 N.
+
+Noise of 2 to 3 counts, the lag of the cover and the in-shoe preload are assumed.
+"""
 
 CAPACITIVE = CellPart("capacitive", gain=0.025, preload=0.3, noise=0.06, lag=0.002)
-"""Accuracy +-5 % of calibrated capacitive insoles (novel pedar); the rest as above."""
+"""Calibrated capacitive insoles (novel pedar), accuracy +-5 %; noise, lag and preload are assumed as for RESISTIVE."""
 
 WORN_RESISTIVE = evolve(RESISTIVE, name="FSR in a laced shoe", hang=0.3, rub=0.2)
 WORN_CAPACITIVE = evolve(CAPACITIVE, name="capacitive in a laced shoe", hang=0.3, rub=0.12)
-"""The same cells with the contact of the foot in swing. No sheet and none of the papers gives figures: that a third of
-the preload (of about 50 N in all that a laced foot presses with) goes with each g, and that each cell's varies by 0.4
-of its mean, are assumed."""
+"""Resistive and capacitive cells with the contact of the foot in swing.
+
+No sheet and none of the papers gives figures. Assumed: each g relieves a third of the preload (a laced foot presses
+with about 50 N in all), and the load of each cell varies by 0.4 of its mean.
+"""
 
 HEEL_ARRAY = evolve(WORN_CAPACITIVE, name="DigiTacts II under a heel")
-"""Pressure Profile Systems DigiTacts II: capacitive, calibrated before shipment (Bebek et al. 2010, IEEE Trans.
-Instrum. Meas. 59, section IV). They give its range alone; the errors are taken to be those of other capacitive
-cells."""
+"""Pressure Profile Systems DigiTacts II: capacitive, calibrated before shipment (Bebek et al. 2010, section IV).
+
+The paper (IEEE Trans. Instrum. Meas. 59) gives only the range; the errors are assumed as for other capacitive cells.
+"""
 
 
 @frozen
 class AttitudePart:
-    """How far off a device's own attitude is: standard deviations about the vertical (`heading`) and about either
-    horizontal axis (`tilt`), rad, forgotten over `memory` s. A sheet's accuracy is taken as one standard deviation, as
-    makers who say what they mean have it; that it wanders within half a minute is assumed."""
+    """Errors of a device's own attitude, as standard deviations.
+
+    A sheet's accuracy is taken as one standard deviation, as makers who define it do.
+    """
 
     name: str
+    """Name of the device."""
     tilt: float
+    """Error about either horizontal axis, rad."""
     heading: float
+    """Error about the vertical axis, rad."""
     memory: float = 30.0
+    """Correlation time of the errors, s (assumed)."""
 
 
 INERTIACUBE3 = AttitudePart("InertiaCube3", tilt=radians(0.25), heading=radians(1.0))
 """InterSense InertiaCube3 (*): accuracy 1 degree in yaw, 0.25 degrees in pitch and roll at 25 degrees C."""
 
 CRE_CC02 = AttitudePart("CRE-CC02", tilt=radians(0.81), heading=radians(0.81))
-"""The nine-axis unit of Gong et al. 2023, Sensors 23, 5417, section 3.1: 0.81 degrees of absolute angle accuracy."""
+"""Nine-axis unit of Gong et al. 2023, Sensors 23, 5417, section 3.1: absolute angle accuracy 0.81 degrees."""
 
 MOVELLA_DOT = AttitudePart("Movella DOT", tilt=radians(1.0), heading=radians(2.0))
 """Movella DOT (*): in motion 1.0 degree in roll and pitch, 2.0 degrees in heading, one standard deviation."""

@@ -1,7 +1,7 @@
-"""From what truly happens to what a part reports: errors, low pass, saturation, counts.
+"""Sensor models, from the true signal to the counts of a part: errors, low pass, saturation, quantisation.
 
-Signals are worked out at several instants per sample and pass the part's low pass before they are sampled, so that what
-is too fast for the sample rate aliases or is rounded off as it is in the part.
+Signals are computed at several instants per sample and pass the part's low pass before they are sampled. Frequencies
+above half of the sampling rate are therefore attenuated, or alias, as in the real part.
 """
 
 from __future__ import annotations
@@ -22,29 +22,30 @@ from ..wearers.turning import multiplied
 from .parts import AttitudePart, BarometerPart, CellPart, Imu, Triad
 
 INTERNAL_RATE = 800.0
-"""Hz: instants per second at which a signal is worked out before it is filtered, at least."""
+"""Least rate at which a signal is computed before it is filtered, Hz."""
 
 
 @frozen(eq=False)
 class Instants:
-    """When a device samples: `taken` (N) in true time, s, and `fine`, the finer instants that lead up to them.
-
-    `every` fine instants make one sample, and `before` of them precede the first one for the filter to settle.
-    """
+    """Sampling instants of a device, and the finer instants at which its signals are computed."""
 
     taken: Array
+    """True times of the samples, s, (N)."""
     fine: Array
+    """True times of the fine instants, s."""
     every: int
+    """Number of fine instants per sample."""
     before: int
+    """Number of fine instants before the first sample, which let the filter settle."""
 
     @property
     def rate(self) -> float:
-        """Of the fine instants, Hz."""
+        """Rate of the fine instants, Hz."""
         return 1.0 / float(self.fine[1] - self.fine[0])
 
 
 def instants(first: float, interval: float, count: int) -> Instants:
-    """`count` samples from `first` at `interval` s."""
+    """Return the instants of `count` samples from `first` s on, `interval` s apart."""
     every = max(1, ceil(INTERNAL_RATE * interval))
     step = interval / every
     before = ceil(0.12 / step)
@@ -54,32 +55,34 @@ def instants(first: float, interval: float, count: int) -> Instants:
 
 @frozen(eq=False)
 class CountReading:
-    """`counts` (N, axes) as the part gives them, and where at least one axis was at its limit (N)."""
+    """Counts of a part, and where they are saturated."""
 
     counts: np.ndarray[tuple[int, ...], np.dtype[np.int64]]
+    """Counts, (N, axes)."""
     saturated: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+    """True where at least one axis is at the end of its range, (N)."""
 
 
 def measure(
     true: Array, when: Instants, part: Triad, rng: Rng, force: Array | None = None, bandwidth: float = inf
 ) -> Array:
-    """What a triad measures of `true` (fine instants, 3) at the instants that are taken (N, 3), before it makes counts.
+    """Return the samples (N, 3) that a triad measures of `true` (fine instants, 3), before quantisation.
 
-    `force` is the specific force at the same instants, for gyroscopes that feel it. `bandwidth` (Hz) is that of a
-    device's own low pass, where it is below the part's.
+    `force` is the specific force at the fine instants, for gyroscopes that are sensitive to it, m/s^2. `bandwidth` is
+    that of the device's own low pass, Hz, if it is below the part's.
     """
-    felt = errors(true, when, part, rng, force)
-    return sample(low_pass(felt, when.rate, min(part.bandwidth, bandwidth)), when)
+    measured = errors(true, when, part, rng, force)
+    return sample(low_pass(measured, when.rate, min(part.bandwidth, bandwidth)), when)
 
 
 def measure_imu(true: Kinematics, when: Instants, part: Imu, rng: Rng, bandwidth: float) -> tuple[Array, Array]:
-    """What accelerometer and gyroscope measure."""
+    """Return the specific force, m/s^2, and the angular rate, rad/s, that an IMU measures, (N, 3) each."""
     acc = measure(true.force, when, part.acc, rng, bandwidth=bandwidth)
     return acc, measure(true.rate, when, part.gyro, rng, true.force, bandwidth)
 
 
-def counted(measured: Array, part: Triad, count: float) -> CountReading:
-    """The counts of what a triad measured, as far as its bits go."""
+def to_counts(measured: Array, part: Triad, count: float) -> CountReading:
+    """Return the counts of measured values, limited to the bits of the part."""
     limit = 2 ** (part.bits - 1)
     counts = np.rint(measured / count)
     clipped = np.clip(counts, -limit, limit - 1)
@@ -87,21 +90,21 @@ def counted(measured: Array, part: Triad, count: float) -> CountReading:
 
 
 def errors(true: Array, when: Instants, part: Triad, rng: Rng, force: Array | None = None) -> Array:
-    """Scale, misalignment, bias, its wander, and white noise added to `true`; nothing is filtered or clipped yet."""
+    """Return `true` with scale error, misalignment, bias, its variation and white noise, before filter and clipping."""
     mixing = np.eye(3) + np.diag(part.scale * rng.standard_normal(3))
     mixing += part.cross * rng.standard_normal((3, 3)) * (1.0 - np.eye(3))
     signal = true @ mixing.T
-    signal += np.clip(part.bias * rng.standard_normal(3), -part.most, part.most)
+    signal += np.clip(part.bias * rng.standard_normal(3), -part.bias_limit, part.bias_limit)
     signal += part.wander * wander(when.fine, part.memory, 3, rng)
     if force is not None and part.g_effect:
         signal += part.g_effect * force * rng.choice([-1.0, 1.0], 3)
-    # White noise of density d has sigma d sqrt(rate / 2) when it fills the band up to half the fine rate.
+    # White noise of density d has sigma d sqrt(rate / 2) when it fills the band up to half of the fine rate.
     signal += part.density * sqrt(0.5 * when.rate) * rng.standard_normal(true.shape)
     return np.asarray(signal)
 
 
 def low_pass(signal: Array, rate: float, bandwidth: float) -> Array:
-    """A second-order Butterworth low pass as its impulse response; causal, so it delays by sqrt(2) / (2 pi f)."""
+    """Filter with a causal second-order Butterworth low pass; the delay is sqrt(2) / (2 pi f)."""
     if bandwidth >= 0.45 * rate:
         return signal
     w = 2.0 * pi * bandwidth
@@ -112,14 +115,14 @@ def low_pass(signal: Array, rate: float, bandwidth: float) -> Array:
 
 
 def sample(signal: Array, when: Instants) -> Array:
-    """The values at the instants when samples are taken."""
+    """Return the values at the sampling instants."""
     return signal[when.before :: when.every]
 
 
 def wander(t: Array, memory: float, axes: int, rng: Rng) -> Array:
-    """A Gauss-Markov process of unit sigma and `memory` s that is 0 at the start, (N, axes).
+    """Return a Gauss-Markov process of unit sigma and correlation time `memory` s that is 0 at the start, (N, axes).
 
-    Worked out ten times in `memory` and joined smoothly: temperature has no fast part, white noise is another matter.
+    It is computed ten times per `memory` and interpolated smoothly, because a temperature does not change fast.
     """
     nodes = np.arange(float(t[0]), float(t[-1]) + 0.2 * memory, 0.1 * memory)
     keep = exp(-0.1)
@@ -136,9 +139,9 @@ def wander(t: Array, memory: float, axes: int, rng: Rng) -> Array:
 def read_cells(
     true: Array, when: Array, part: CellPart, count: float, rng: Rng, full: int = 4095, lift: Array | None = None
 ) -> CountReading:
-    """What the cells of an insole report of their true loads `true` (N, cells), N, taken at `when` (N).
+    """Return the counts of an insole's cells for their true loads `true` (N, cells), N, at times `when` (N), s.
 
-    `lift` (N): specific force along the sole's upward normal, m/s^2, for parts that feel how the shoe hangs.
+    `lift` (N) is the specific force along the sole's upward normal, m/s^2, for parts with `hang`.
     """
     cells = true.shape[1]
     gain = 1.0 + part.gain * np.clip(rng.standard_normal(cells), -3.0, 3.0)
@@ -151,7 +154,7 @@ def read_cells(
     follow = 1.0 - exp(-interval / part.lag)
     for k in range(1, len(lagged)):
         lagged[k] = lagged[k - 1] + follow * (true[k] - lagged[k - 1])
-    # In place: the loads of many cells on a long walk are large enough once.
+    # In place, because the loads of many cells on a long walk need much memory.
     lagged *= gain
     lagged += preload
     lagged += part.noise * rng.standard_normal(true.shape)
@@ -162,7 +165,7 @@ def read_cells(
 
 
 def _contact(true: Array, interval: float, part: CellPart, preload: Array, lift: Array | None, rng: Rng) -> Array:
-    """What the foot in the air adds to the preload of each cell, (N, cells); nothing while it stands."""
+    """Return the load that the foot in the air adds to the preload of each cell, N, (N, cells); 0 while it stands."""
     keep = exp(-interval / part.rub_memory)
     change = part.rub * sqrt(1.0 - keep * keep) * rng.standard_normal(true.shape)
     for k in range(1, len(change)):
@@ -175,25 +178,25 @@ def _contact(true: Array, interval: float, part: CellPart, preload: Array, lift:
 
 
 def air_pressure(height: Array) -> Array:
-    """Pa at a height in m, by the international standard atmosphere (ISO 2533)."""
+    """Return the air pressure, Pa, at a height in m, by the international standard atmosphere (ISO 2533)."""
     return np.asarray(101325.0 * (1.0 - 2.25577e-5 * height) ** 5.25588)
 
 
 def read_barometer(height: Array, t: Array, part: BarometerPart, rng: Rng) -> Array:
-    """Pa that a barometer reports at heights (N) and instants (N)."""
+    """Return the pressures, Pa, that a barometer reports at heights (N), m, and times (N), s."""
     pressure = air_pressure(height) + part.offset * rng.standard_normal()
     pressure += part.wander * wander(t, part.memory, 1, rng)[:, 0]
     return np.asarray(pressure + part.noise * rng.standard_normal(len(t)))
 
 
-def attitude_read(true: Array, t: Array, part: AttitudePart, north: float, rng: Rng) -> Array:
-    """What a device says of its attitudes `true` (N, 4) at instants `t`, (N, 4): sensor to its own world.
+def read_attitudes(true: Array, t: Array, part: AttitudePart, north: float, rng: Rng) -> Array:
+    """Return the attitudes (N, 4), sensor to the device's world, that a device reports for `true` (N, 4) at times `t`.
 
-    That world is the walk's turned about the vertical by `north` rad and by the part's errors, a Gauss-Markov process
-    about each axis that is as large at the start as later.
+    The device's world is the walk's world, turned about the vertical by `north` rad and by the part's errors: a
+    Gauss-Markov process about each axis with the same sigma at the start as later.
     """
-    begun = np.exp(-(t - t[0]) / part.memory)[:, None] * rng.standard_normal(3)
-    turned = (begun + wander(t, part.memory, 3, rng)) * (part.tilt, part.tilt, part.heading)
+    initial = np.exp(-(t - t[0]) / part.memory)[:, None] * rng.standard_normal(3)
+    turned = (initial + wander(t, part.memory, 3, rng)) * (part.tilt, part.tilt, part.heading)
     angle = np.linalg.norm(turned, axis=1, keepdims=True)
     axis = 0.5 * np.sinc(angle / (2.0 * pi)) * turned  # sin(angle / 2) / angle
     about = np.array([[cos(0.5 * north), 0.0, 0.0, -sin(0.5 * north)]])
@@ -209,7 +212,7 @@ def samples_of(
     quat: NDArray[Any] | None = None,
     saturated: NDArray[np.bool_] | None = None,
 ) -> list[Sample]:
-    """Samples taken at `t`, with the rows of what was measured."""
+    """Return the samples at times `t`, s, with the rows of the measured values."""
     vectors = [repeat(None) if one is None else map(tuple, one.tolist()) for one in (acc, gyro, pressure, quat)]
     full = repeat(False) if saturated is None else saturated.tolist()
     return [

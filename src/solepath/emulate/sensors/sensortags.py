@@ -17,48 +17,53 @@ from ...wire.sensortag import PERIOD
 from ..wearers.curves import Array, Rng
 from ..wearers.shoe import ON_INSTEP, Mounting
 from ..wearers.walker import Walker
-from .device import Notification, foot_of, prepared, started
+from .device import Notification, draw_clock, foot_of, setup_notifications
 from .parts import AK8963, BMP280, KXTJ9_IMU3000, MAG3110, MPU9250, T5400, Imu
-from .tag_signals import LATE_AIR, LATE_MAG, SLOW, Series, WornTag, counts
+from .tag_signals import BAROMETER_DELAY, MAG_DELAY, SLOW, Series, WornTag, counts
 
 GYRO_COUNT = radians(500.0 / 65536.0)
-"""rad/s per count of both tags: +-250 degrees/s, which a swinging foot exceeds."""
+"""Angular rate per count of both tags, rad/s: +-250 degrees/s, which a foot in swing exceeds."""
 AK8963_COUNT = 4912e-6 / 32760
-"""T per count of the CC2650's magnetometer."""
+"""Magnetic flux density per count of the CC2650's magnetometer, T."""
 MAG3110_COUNT = 2000e-6 / 65536
-"""T per count of the CC2541's magnetometer."""
+"""Magnetic flux density per count of the CC2541's magnetometer, T."""
 PRESS = 0.25
-"""s for which a key is held."""
+"""Time for which a key is held, s."""
 TEMPERATURE = 24.0
-"""Degrees Celsius."""
+"""Temperature of the barometer, degrees Celsius."""
 BATTERY = 91
-"""Percent, of the CC2650."""
+"""Battery level of the CC2650, percent."""
 
 _EVERYTHING = {"gyro_axes": (True,) * 3, "acc_axes": (True,) * 3, "mag": True, "wake_on_motion": False}
 CC2650_KEYS = tuple(
     [cc2650.DRIVER.write("cc2650/keys", {"left": left, "right": False, "reed": False}) for left in (True, False)]
 )
-"""The left key down, and up."""
+"""Values of the CC2650's key channel for the left key: pressed, released."""
 
 
 @frozen
 class CC2650:
-    """The newer tag: one movement characteristic at `rate` Hz (stock 10), the accelerometer at +-`range` g.
-
-    `presses`: when the wearer presses the left key, s.
-    """
+    """The newer SensorTag, with one movement characteristic for all inertial sensors."""
 
     rate: float = 10.0
+    """Rate of the movement sensor, Hz; stock firmware has 10."""
     range: int = 8
+    """Range of the accelerometer, +- g."""
     mounting: Mounting = ON_INSTEP
+    """Position and attitude on the foot."""
     part: Imu = MPU9250
+    """Errors of the inertial sensors."""
     ppm: float | None = None
+    """Rate error of the clock, ppm; None: random."""
     firmware: str = "1.40 (Nov 16 2016)"
+    """Firmware version that the tag reports."""
     presses: tuple[float, ...] = ()
+    """Times at which the wearer presses the left key, s."""
 
     def emit(self, walker: Walker, site: Site, rng: Rng) -> list[Notification]:
+        """Return everything that the tag sends over the walk, in the order of sending."""
         period = 1.0 / self.rate
-        worn = WornTag(walker, foot_of(site), self.mounting, started(rng, period, self.ppm))
+        worn = WornTag(walker, foot_of(site), self.mounting, draw_clock(rng, period, self.ppm))
         moving = worn.moving(period)
         acc, gyro, mag = moving.acc(self.part, rng), moving.gyro(self.part, rng), moving.mag(AK8963, rng)
         air = worn.air(SLOW, BMP280, rng)
@@ -73,13 +78,13 @@ class CC2650:
         moved = self.movement(
             cc2650.DRIVER.parse("cc2650/movement-config", config), acc.values, gyro.values, mag.values
         )
-        sent = prepared(cc2650.PROFILE, own) + acc.notified("cc2650/movement", moved)
+        sent = setup_notifications(cc2650.PROFILE, own) + acc.notified("cc2650/movement", moved)
         sent += air.notified("cc2650/barometer", map(cc2650_air, air.values[:, 0].tolist()))
         sent += _keys("cc2650/keys", self.presses, *CC2650_KEYS)
         return sorted(sent, key=attrgetter("t"))
 
     def movement(self, config: Any, acc: Array, gyro: Array, mag: Array) -> list[bytes]:
-        """What the movement sensor says of the rows of what was measured, when its configuration is `config`."""
+        """Return the values of the movement channel for rows of measured values with the configuration `config`."""
         rows = zip(
             counts(gyro, self.part.gyro, GYRO_COUNT, config.gyro_axes),
             counts(acc, self.part.acc, config.range * GRAVITY / 32768, config.acc_axes),
@@ -92,38 +97,42 @@ class CC2650:
 T5400_CALIBRATION = cc2541.BarometerCalibration(
     c1=45697, c2=25592, c3=48894, c4=36174, c5=7001, c6=1990, c7=-2364, c8=-9363
 )
-"""Made up, of the size of real coefficients."""
-LATE = {
+"""Calibration of the CC2541's barometer: invented, of the size of real coefficients."""
+DELAYS = {
     "cc2541/accelerometer": 0.0,
     "cc2541/gyroscope": 0.0,
-    "cc2541/magnetometer": LATE_MAG,
-    "cc2541/barometer": LATE_AIR,
+    "cc2541/magnetometer": MAG_DELAY,
+    "cc2541/barometer": BAROMETER_DELAY,
 }
-"""s after the tag's first sample at which a sensor begins; the gyroscope anywhere within its first period."""
+"""Delay of each sensor's first sample after the tag's first sample, s; the gyroscope's is random within its period."""
 ALL_AXES = 7
-"""What switches the whole gyroscope on."""
+"""Configuration that switches all axes of the gyroscope on."""
 
 
 @frozen
 class CC2541:
-    """The older tag: a characteristic for every sensor, each with a timer of its own.
-
-    `rate`: 10 Hz stock, 20 Hz with modified firmware. `code` is what was written to AA12: 1, 2, 3 for 2, 4, 8 g.
-    `presses`: when the wearer presses the left key, s.
-    """
+    """The older SensorTag, with one characteristic and one timer for each sensor."""
 
     rate: float = 10.0
+    """Rate of the inertial sensors, Hz: 10 with stock firmware, 20 with modified firmware."""
     code: int = 3
+    """Value of the accelerometer's configuration AA12: 1, 2, 3 for a range of 2, 4, 8 g."""
     mounting: Mounting = ON_INSTEP
+    """Position and attitude on the foot."""
     part: Imu = KXTJ9_IMU3000
+    """Errors of the inertial sensors."""
     ppm: float | None = None
+    """Rate error of the clock, ppm; None: random."""
     firmware: str = "1.5 (Oct 23 2013)"
+    """Firmware version that the tag reports."""
     presses: tuple[float, ...] = ()
+    """Times at which the wearer presses the left key, s."""
 
     def emit(self, walker: Walker, site: Site, rng: Rng) -> list[Notification]:
+        """Return everything that the tag sends over the walk, in the order of sending."""
         period = 1.0 / self.rate
-        worn = WornTag(walker, foot_of(site), self.mounting, started(rng, period, self.ppm))
-        begins = {**LATE, "cc2541/gyroscope": period * float(rng.uniform())}
+        worn = WornTag(walker, foot_of(site), self.mounting, draw_clock(rng, period, self.ppm))
+        delays = {**DELAYS, "cc2541/gyroscope": period * float(rng.uniform())}
         written = build_whole(PERIOD, {"period": period})
         slow = build_whole(PERIOD, {"period": SLOW})
         own = {
@@ -135,31 +144,31 @@ class CC2541:
             "cc2541/barometer-period": slow,
             "cc2541/barometer-calibration": CALIBRATION,
         }
-        sent = prepared(cc2541.PROFILE, own)
+        sent = setup_notifications(cc2541.PROFILE, own)
         for channel, every, code in (
             ("cc2541/accelerometer", period, self.code),
             ("cc2541/gyroscope", period, ALL_AXES),
             ("cc2541/magnetometer", SLOW, 1),
             ("cc2541/barometer", SLOW, 1),
         ):
-            series = self.measure(channel, worn, every, begins[channel], rng)
-            sent += series.notified(channel, self.said(channel, series.values, code))
+            series = self.measure(channel, worn, every, delays[channel], rng)
+            sent += series.notified(channel, self.encode(channel, series.values, code))
         sent += _keys("cc2541/keys", self.presses, *CC2541_KEYS)
         return sorted(sent, key=attrgetter("t"))
 
-    def measure(self, channel: str, worn: WornTag, period: float, late: float, rng: Rng) -> Series:
-        """What the sensor of a channel measures every `period` s, `late` s after the tag's first sample."""
+    def measure(self, channel: str, worn: WornTag, period: float, delay: float, rng: Rng) -> Series:
+        """Return what a channel's sensor measures every `period` s, from `delay` s after the tag's first sample on."""
         match channel:
             case "cc2541/accelerometer":
-                return worn.moving(period, late).acc(self.part, rng)
+                return worn.moving(period, delay).acc(self.part, rng)
             case "cc2541/gyroscope":
-                return worn.moving(period, late).gyro(self.part, rng)
+                return worn.moving(period, delay).gyro(self.part, rng)
             case "cc2541/magnetometer":
-                return worn.moving(period, late).mag(MAG3110, rng)
+                return worn.moving(period, delay).mag(MAG3110, rng)
         return worn.air(period, T5400, rng)
 
-    def said(self, channel: str, measured: Array, code: int) -> list[bytes]:
-        """What the sensor of a channel says of the rows of what it measured, when `code` configured it."""
+    def encode(self, channel: str, measured: Array, code: int) -> list[bytes]:
+        """Return the values of a channel for rows of measured values with the configuration `code`."""
         rows: list[dict[str, Any]]
         match channel:
             case "cc2541/accelerometer":
@@ -175,18 +184,18 @@ class CC2541:
 
 
 def cc2541_bytes(channel: str, **fields: Any) -> bytes:
-    """What a channel of a CC2541 says."""
+    """Return the encoded value of a channel of a CC2541."""
     return build_whole(cc2541.FORMATS[channel], fields)
 
 
 CC2541_KEYS = tuple([cc2541_bytes("cc2541/keys", left=left, right=False, side=False) for left in (True, False)])
-"""The left key down, and up."""
+"""Values of the CC2541's key channel for the left key: pressed, released."""
 CALIBRATION = cc2541_bytes("cc2541/barometer-calibration", **asdict(T5400_CALIBRATION))
-"""What the barometer's calibration reads as."""
+"""Value of the barometer's calibration channel."""
 
 
 def raw_air(pascal: float) -> dict[str, int]:
-    """What the T5400 reports raw at this pressure: the inverse of its compensation."""
+    """Return the raw values of the T5400 at this pressure, Pa: the inverse of its compensation."""
     c = T5400_CALIBRATION
     t = round((TEMPERATURE - c.c2 / 2**10) * 2**24 / c.c1)
     low, high = c.pascal(t, 0), c.pascal(t, 1)
@@ -198,5 +207,5 @@ def _keys(channel: str, presses: tuple[float, ...], down: bytes, up: bytes) -> l
 
 
 def cc2650_air(pascal: float) -> bytes:
-    """What the barometer of a CC2650 says of this pressure."""
+    """Return the value of the CC2650's barometer channel at this pressure, Pa."""
     return cc2650.DRIVER.write("cc2650/barometer", {"temperature": TEMPERATURE, "pressure": pascal})

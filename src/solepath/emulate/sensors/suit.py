@@ -1,4 +1,4 @@
-"""Seven sensors on the lower body, as samples: pelvis, thighs, shanks and feet."""
+"""Samples and devices of seven sensors on the lower body: pelvis, thighs, shanks and feet."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from .dot import Dot
 from .insole_device import Insole
 from .insoles import SCALE
 from .parts import CRE_CC02, MPU9250, WORN_RESISTIVE, AttitudePart, CellPart, Imu
-from .sensors import attitude_read, instants, measure_imu, read_cells, sample, samples_of
+from .sensors import instants, measure_imu, read_attitudes, read_cells, sample, samples_of
 
-TURNED = 0.15
-"""rad: how sensors that are strapped on by hand differ from the segment's axes about each axis (assumed)."""
+MISALIGNMENT = 0.15
+"""Standard deviation of the misalignment of a sensor strapped on by hand, about each axis, rad (assumed)."""
 
 
-def strapped(site: Site, limbs: Limbs, seed: int, turned: float = TURNED) -> Mounting:
-    """Where the sensor of a site sits on its segment, and how it is turned there: at random, but for good.
+def limb_mounting(site: Site, limbs: Limbs, seed: int, turned: float = MISALIGNMENT) -> Mounting:
+    """Return position and attitude of a site's sensor in its segment's frame, with a constant random misalignment.
 
-    In the segment's frame: the pelvis' on the small of the back, those of thigh and shank on the front half-way down,
-    those of the feet on the instep.
+    The pelvis sensor sits on the small of the back, those of thigh and shank on the front half-way down, those of the
+    feet on the instep.
     """
     rng = np.random.default_rng([seed, 5, list(Site).index(site)])
     x, y, z = (turned * float(value) for value in rng.standard_normal(3))
@@ -51,17 +51,17 @@ def limb_samples(
     attitude: AttitudePart | None = CRE_CC02,
     errors: Imu | None = MPU9250,
     north: float = 0.0,
-    turned: float = TURNED,
+    turned: float = MISALIGNMENT,
     layouts: Mapping[Site, Layout] | None = None,
     cell_part: CellPart | None = None,
 ) -> list[Sample]:
-    """Samples of all seven sites on the true clock at k / rate s, in the order of time and of Site; no radio, no wire.
+    """Return samples of all seven sites on the true clock at k / rate s, in the order of time and of Site.
 
-    `quat` turns from the sensor to a world whose x axis is turned by `north` rad from the walk's, with the errors of
-    `attitude`; acceleration and rate have those of `errors` (nobody gives figures for the paper's unit; another
-    nine-axis part stands for it) but neither saturate nor are they rounded. None: exact. `limbs`: the wearer's own
-    when nothing is said. With `layouts` the feet's samples carry the loads of their cells in N, exact or read by
-    `cell_part` at the scale of the layout. `seed`: of mountings and errors.
+    There are no packets and no radio. `quat` turns from the sensor to a world that is turned by `north` rad from the
+    walk's world, with the errors of `attitude`. Acceleration and rate have the errors of `errors`, without saturation
+    and rounding; the paper gives no figures for its unit, and another nine-axis part replaces it. None: exact values.
+    `limbs` are the wearer's own by default. With `layouts` the samples of the feet have the loads of their cells, N,
+    exact or read by `cell_part` at the scale of the layout. `seed` sets mountings and errors.
     """
     wearer = walker.wearer
     limbs = limbs or wearer.limbs
@@ -73,7 +73,7 @@ def limb_samples(
     found: list[Sample] = []
     for order, site in enumerate(Site):
         rng = np.random.default_rng([seed, 6, order])
-        mounting = strapped(site, limbs, seed, turned)
+        mounting = limb_mounting(site, limbs, seed, turned)
         if errors is None:
             true = made.at(site, when.taken, mounting)
             acc, gyro, turn = true.force, true.rate, true.attitude
@@ -82,7 +82,7 @@ def limb_samples(
             acc, gyro = measure_imu(true, when, errors, rng, 0.5 * rate)
             turn = sample(true.attitude, when)
         if attitude is not None:
-            turn = attitude_read(turn, when.taken, attitude, north, rng)
+            turn = read_attitudes(turn, when.taken, attitude, north, rng)
         cells = None
         if site.foot is not None and layouts is not None and site in layouts:
             cells = _pressed(walker, layouts[site], when.taken, cell_part, rng)
@@ -93,11 +93,13 @@ def limb_samples(
 def suit(
     limbs: Limbs, seed: int, *, attitude: AttitudePart = CRE_CC02, north: float = 0.0, rate: float = 50.0
 ) -> dict[Site, Device]:
-    """Seven devices for one session: on the feet insoles of 99 cells that know their attitude, at `rate` Hz, above them
-    DOTs, each strapped on as `strapped` has it."""
+    """Return seven devices for one session, mounted by `limb_mounting`.
+
+    The feet wear insoles of 99 cells that send their attitude, at `rate` Hz; all other sites wear DOTs.
+    """
     worn: dict[Site, Device] = {}
     for site in Site:
-        mounting = strapped(site, limbs, seed)
+        mounting = limb_mounting(site, limbs, seed)
         if site.foot is None:
             worn[site] = Dot(mounting, attitude, north)
         else:

@@ -1,4 +1,4 @@
-"""Polynomials over a unit interval, as coefficient arrays (constant first), and how to join them smoothly."""
+"""Polynomials over a unit interval, as coefficient arrays (constant first), and functions that join them smoothly."""
 
 from __future__ import annotations
 
@@ -13,23 +13,27 @@ End = tuple[float, float, float]
 """Value, velocity and acceleration at one end of a curve."""
 
 DEGREE = 7
-"""Of every curve here: a quintic for the two ends, and two degrees more for what happens in between."""
+"""Degree of every curve here: a quintic joins the two ends, and two more degrees shape what lies between."""
 
 BUMP: Array = np.array([0.0, 0.0, 0.0, 64.0, -192.0, 192.0, -64.0, 0.0])
-"""64 s^3 (1 - s)^3: 1 in the middle; value, slope and curvature are 0 at both ends."""
+"""Curve 64 s^3 (1 - s)^3: 1 in the middle; value, slope and curvature are 0 at both ends."""
 
 EVEN_OUT: Array = np.array([0.0, 0.0, 0.0, 1.0, -5.0, 9.0, -7.0, 2.0])
-"""s^3 (1 - s)^3 (1 - 2 s): starts earlier, is slower in the middle and stops later; nothing changes at both ends."""
+"""Curve s^3 (1 - s)^3 (1 - 2 s); added to a curve, it makes it start earlier, move slower in the middle, stop later.
+
+Value, slope and curvature are 0 at both ends.
+"""
 
 
 def constant(value: float) -> Array:
+    """Return a constant curve."""
     curve = np.zeros(DEGREE + 1)
     curve[0] = value
     return curve
 
 
 def join(start: End, end: End, duration: float) -> Array:
-    """The quintic in s = t / duration with the given value, velocity and acceleration (per s) at either end."""
+    """Return the quintic in s = t / duration with the given value, velocity and acceleration (per s) at both ends."""
     p0, v0, a0 = start[0], start[1] * duration, start[2] * duration**2
     p1, v1, a1 = end[0], end[1] * duration, end[2] * duration**2
     rest, slope, curve = p1 - p0 - v0 - 0.5 * a0, v1 - v0 - a0, a1 - a0
@@ -48,16 +52,16 @@ def join(start: End, end: End, duration: float) -> Array:
 
 
 def part(curve: Array, start: float, end: float) -> Array:
-    """The same curve between s = start and s = end, over a unit interval of its own.
+    """Return the part of a curve between s = start and s = end, over a unit interval of its own.
 
-    (start + (end - start) s)^k by the binomial theorem.
+    It expands (start + (end - start) s)^k by the binomial theorem.
     """
     moved = _BINOMIALS * np.where(_LOWER >= 0, float(start) ** np.maximum(_LOWER, 0), 0.0)
     return np.asarray((moved @ curve) * (end - start) ** np.arange(DEGREE + 1))
 
 
 def evaluate(curve: Array, s: Array | float, order: int = 0) -> Array:
-    """Value of one curve (or of its derivative of `order` by s) at s."""
+    """Return the value of one curve, or of its derivative of `order` by s, at s."""
     factors = curve
     for _ in range(order):
         factors = factors[1:] * np.arange(1, len(factors))

@@ -1,23 +1,23 @@
-"""How the body's weight stands on the feet, and where under each foot.
+"""Vertical load under each foot, and its distribution over the sole.
 
-Vertical force only. Walking, the two feet together carry the weight times 1 + A cos, once per step with its top in the
-middle of double support: each foot then shows the two humps and the trough of a force plate (about 1.1, 0.8 and
-1.1 body weights at 1.3 m/s; Perry, Gait Analysis, 1992), and the mean over a step is the weight. In double support the
-share goes from the trailing to the leading foot.
+The forces are vertical only. In walking the two feet together bear the weight times 1 + A cos, one period per step with
+its maximum in the middle of double support. Each foot then shows the two maxima and the minimum of a force plate (about
+1.1, 0.8 and 1.1 body weights at 1.3 m/s; Perry, Gait Analysis, 1992), and the mean over a step is the weight. In double
+support the load moves from the trailing to the leading foot.
 
-Running, each foot bears half a sine wave from heel-strike to toe-off and none bears anything in between (Alexander
-1989, Physiol. Rev. 69); its mean over a step is the weight, so that its top is 2 to 3 body weights. In a lift
-everything is heavier or lighter by the car's acceleration. On stairs the load lands on the forefoot.
+In running each foot bears half a sine wave from heel-strike to toe-off, and the load is 0 between (Alexander 1989,
+Physiol. Rev. 69); its mean over a step is the weight, so its maximum is 2 to 3 body weights. In a lift the load changes
+with the car's acceleration. On stairs the load lands on the forefoot.
 
 Under the foot the load starts at the heel with heel-strike, reaches the forefoot with foot-flat, leaves the heel with
 heel-off and ends under the toes with toe-off.
 
 In a bend of radius r at speed v the line from the body's centre of mass along gravity and centrifugal force meets the
-ground h v^2 / (r g) beyond the place above which the centre is, to the outside of the turn. Leaning and placing the
-feet make up for most of that, and TAKEN of it is left to the load under each foot: to the right edge of both feet in a
-turn to the left. Under the heels that is what insoles show (Turcato et al. 2015, J NeuroEng Rehabil 12:4: the lateral
-heel of the outer foot bears more, that of the inner foot less). Under the metatarsal heads they found the opposite,
-which is not emulated.
+ground h v^2 / (r g) away from the point below the centre, to the outside of the turn. Leaning and placing the feet
+compensate for most of that. LOAD_SHIFT_SHARE of it moves the load under each foot: to the right edge of both feet in a
+turn to the left. Under the heels insoles show the same (Turcato et al. 2015, J NeuroEng Rehabil 12:4: the lateral heel
+of the outer foot bears more, that of the inner foot less). Under the metatarsal heads they found the opposite, which is
+not emulated.
 """
 
 from __future__ import annotations
@@ -29,76 +29,86 @@ from numpy.typing import NDArray
 from ...types import Foot, Layout
 from ...types.vector import GRAVITY
 from ..routes.lift import CarRide
-from ..routes.styles import Manner, style_of
+from ..routes.styles import StrideKind, style_of
 from .curves import Array, Rng
-from .gait import SETTLING, PlannedStride, WalkPlan, Wearer
+from .gait import SETTLE_TIME, PlannedStride, WalkPlan, Wearer
 from .motion import FootMotion
 from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, pattern
 
 BOUNCE = 0.17
-"""Amplitude of the force's swing about the weight at 1.3 m/s; it grows with the square of the speed."""
-CATCHING = 0.13
-"""How long the closing foot takes to catch the weight, s."""
-TAKEN = 0.3
-"""Share of h v^2 / (r g) by which the load moves under a foot (assumed). At 1.1 m/s it is 18 mm at r = 2 m; the ankle
-can move the load sideways by about 20 mm (Hof et al. 2007, Gait & Posture 25)."""
+"""Amplitude of the load about the weight at 1.3 m/s, as a share of it; it grows with the square of the speed."""
+CATCH_TIME = 0.13
+"""Time that the closing foot takes to take over the weight, s."""
+LOAD_SHIFT_SHARE = 0.3
+"""Share of h v^2 / (r g) by which the load moves under a foot (assumed).
+
+At 1.1 m/s it is 18 mm at r = 2 m; the ankle can move the load sideways by about 20 mm (Hof et al. 2007, Gait & Posture
+25).
+"""
 _EVER = 1e6
+"""Duration of the stances before the first and after the last stride, s."""
 _BLOCK = 4096
-"""Instants worked out together: what lies between takes a hundred times the memory of one cell's loads."""
+"""Number of instants computed together: intermediate arrays need a hundred times the memory of one cell's loads."""
 
 
 @frozen(eq=False)
 class Loads:
     """The vertical load under both feet over time.
 
-    Shares pass from one foot to the other in hand-overs: `begin`, `end` (s) and the left foot's share `before` and
-    `after` each. `beat` (s) are the middles of double support, and of flight, and `bounce` the amplitude up to the next
-    one. `runs` (beats, 2): for every beat the heel-strike that follows when nobody stands at it, and the toe-off before
-    the next one when nobody stands at that; else 0. `stances` are heel-strike, foot-flat, heel-off and toe-off of each
-    stance of a foot, (n, 4). `leans` (n, 2) go with them: how far the load is asked to move to the left under the foot,
-    m, and when it begins to come back because the walk is over, s. `fronts` (n), too: the share of the load that lands
-    on the forefoot.
+    In hand-overs the load moves from one foot to the other. Beats are the middles of double support and of flight.
     """
 
     weight: float
-    begin: Array
+    """Weight of the body, N."""
+    start: Array
+    """Start of each hand-over, s."""
     end: Array
+    """End of each hand-over, s."""
     before: Array
+    """Share of the left foot before each hand-over."""
     after: Array
+    """Share of the left foot after each hand-over."""
     beat: Array
+    """Time of each beat, s."""
     bounce: Array
+    """Amplitude of the load about the weight from each beat to the next, as a share of the weight."""
     runs: Array
+    """Heel-strike after each beat in flight, and toe-off before the next beat in flight, s, (beats, 2); else 0."""
     stances: dict[Foot, Array]
+    """Heel-strike, foot-flat, heel-off and toe-off of each stance, s, (n, 4)."""
     leans: dict[Foot, Array]
+    """Shift of the load to the left in each stance, m, and time at which it decays as the walk ends, s, (n, 2)."""
     fronts: dict[Foot, Array]
+    """Share of the load that lands on the forefoot in each stance, (n)."""
     rides: tuple[CarRide, ...] = ()
+    """Lifts that the wearer takes."""
 
     def total(self, foot: Foot, t: Array) -> Array:
-        """Load under one foot, N."""
+        """Return the load under one foot, N, (N)."""
         return np.asarray(self.share(foot, t) * self.body(t))
 
     def body(self, t: Array) -> Array:
-        """Load under both feet together, N."""
-        load = self._borne(t)
+        """Return the load under both feet together, N, (N)."""
+        load = self._on_still_floor(t)
         for car in self.rides:
             load *= 1.0 + car.at(t)[2][:, 2] / GRAVITY
         return load
 
-    def _borne(self, t: Array) -> Array:
-        """The same on a floor that does not move."""
+    def _on_still_floor(self, t: Array) -> Array:
+        """Return the load under both feet together on a floor that does not move, N, (N)."""
         if len(self.beat) < 2:
             return np.full_like(t, self.weight)
         k = np.clip(np.searchsorted(self.beat, t, side="right") - 1, 0, len(self.beat) - 2)
         phase = np.clip((t - self.beat[k]) / (self.beat[k + 1] - self.beat[k]), 0.0, 1.0)
-        # 1 - cos starts and ends at zero slope where standing begins and ends; between steps the tops meet.
+        # cos has zero slope at both ends of a step: the load is smooth at the start and the end of a bout.
         swing = (self.bounce[k] + (self.bounce[k + 1] - self.bounce[k]) * phase) * np.cos(2.0 * np.pi * phase)
         load = np.asarray(self.weight * (1.0 + swing))
         if self.runs.any():
-            self._leap(load, k, t)
+            self._apply_flight(load, k, t)
         return load
 
-    def _leap(self, load: Array, k: NDArray[np.intp], t: Array) -> None:
-        """Where the body leaves the ground before a beat or after it, the load goes to nothing."""
+    def _apply_flight(self, load: Array, k: NDArray[np.intp], t: Array) -> None:
+        """Change the load, in place, where the body is in flight before or after a beat: it falls to 0."""
         strike, off = self.runs[k, 0], self.runs[k, 1]
         both = (strike > 0.0) & (off > 0.0)
         lasts = np.where(both, off - strike, 1.0)
@@ -106,14 +116,14 @@ class Loads:
         half = np.sin(np.pi * np.clip((t - strike) / lasts, 0.0, 1.0))
         load[both] = (self.weight * 0.5 * np.pi * step / lasts * half)[both]
         landing = (strike > 0.0) & ~both
-        load[landing] *= hand_over((t - strike)[landing] / CATCHING)
+        load[landing] *= hand_over((t - strike)[landing] / CATCH_TIME)
         leaving = (off > 0.0) & ~both
-        load[leaving] *= hand_over((off - t)[leaving] / CATCHING)
+        load[leaving] *= hand_over((off - t)[leaving] / CATCH_TIME)
 
     def cells(self, layout: Layout, width: float, motion: FootMotion, t: Array) -> Array:
-        """Load on every cell of `layout`, (N, cells), N; a row's sum is the foot's total.
+        """Return the load on every cell of `layout`, N, (N, cells); the sum of a row is the foot's total.
 
-        Cells that end behind the middle of the foot bear what they lie under, and their sum is less.
+        Cells that end behind the middle of the foot bear only the load above them, and their sum is smaller.
         """
         foot = layout.foot
         shares = self.shares(foot, t)
@@ -127,37 +137,37 @@ class Loads:
         still = np.zeros_like(t)
         moves = ((HEEL, heel, still), (MIDFOOT, still, still), (FOREFOOT, fore, inward), (TOES, fore, still))
         for (zone, ahead, aside), share in zip(moves, shares, strict=True):
-            busy = np.flatnonzero(share * total > 0.0)
-            for begin in range(0, len(busy), _BLOCK):
-                some = busy[begin : begin + _BLOCK]
+            loaded = np.flatnonzero(share * total > 0.0)
+            for start in range(0, len(loaded), _BLOCK):
+                some = loaded[start : start + _BLOCK]
                 borne = pattern(layout, width, zone, ahead[some], aside[some], lean[some])
                 found[some] += (share * total)[some, None] * borne
         return found
 
     def lean(self, foot: Foot, t: Array) -> Array:
-        """How far the load is asked to move to the left under a foot, m; away from the inside of a bend."""
+        """Return the shift of the load to the left under a foot, m, (N); in a bend it is to the outside."""
         rows = np.maximum(np.searchsorted(self.stances[foot][:, 0], t, side="right") - 1, 0)
-        asked, over = self.leans[foot][rows].T
-        return np.asarray(asked * (1.0 - hand_over((t - over) / SETTLING)))
+        shift, over = self.leans[foot][rows].T
+        return np.asarray(shift * (1.0 - hand_over((t - over) / SETTLE_TIME)))
 
     def share(self, foot: Foot, t: Array) -> Array:
-        """Share of a foot in the body's load."""
-        if not len(self.begin):
+        """Return the share of a foot in the body's load, (N)."""
+        if not len(self.start):
             return np.full_like(t, 0.5)
-        k = np.searchsorted(self.begin, t, side="right") - 1
+        k = np.searchsorted(self.start, t, side="right") - 1
         known = np.maximum(k, 0)
-        s = (t - self.begin[known]) / (self.end[known] - self.begin[known])
+        s = (t - self.start[known]) / (self.end[known] - self.start[known])
         share = self.before[known] + (self.after[known] - self.before[known]) * hand_over(s)
         left = np.where(k < 0, self.before[0], share)
         return left if foot is Foot.LEFT else np.asarray(1.0 - left)
 
     def shares(self, foot: Foot, t: Array) -> Array:
-        """Shares of heel, midfoot, forefoot and toes in the foot's load, (4, N); they add up to one."""
+        """Return the shares of heel, midfoot, forefoot and toes in the foot's load, (4, N); their sum is one."""
         stances = self.stances[foot]
         rows = np.maximum(np.searchsorted(stances[:, 0], t, side="right") - 1, 0)
         row = stances[rows]
         flat, lift, off = row[:, 1], row[:, 2], row[:, 3]
-        ramp = np.minimum(lift - flat, SETTLING)
+        ramp = np.minimum(lift - flat, SETTLE_TIME)
         rolled = 0.45 * hand_over((t - flat) / ramp) + 0.55 * hand_over((t - lift + ramp) / ramp)
         if self.fronts[foot].any():
             front = self.fronts[foot][rows]
@@ -169,13 +179,13 @@ class Loads:
 
 
 def loads(plan: WalkPlan, wearer: Wearer, rng: Rng) -> Loads:
-    """The loads that go with a plan. `rng`: for what varies between steps, where the wearer says that it does."""
+    """Return the loads of a planned walk; `rng` draws the wearer's `load_variation` between steps."""
     hand_overs, beats = _hand_overs(plan)
     table = np.array(hand_overs).reshape(-1, 4)
     beat = np.array(beats).reshape(-1, 4)
     return Loads(
         weight=wearer.mass * GRAVITY,
-        begin=table[:, 0],
+        start=table[:, 0],
         end=table[:, 1],
         before=table[:, 2],
         after=table[:, 3],
@@ -190,36 +200,36 @@ def loads(plan: WalkPlan, wearer: Wearer, rng: Rng) -> Loads:
 
 
 def _front(stride: PlannedStride) -> float:
-    """Share of the load that lands on the forefoot."""
-    return 0.0 if stride.manner is Manner.WALK else style_of(stride.manner, stride.speed).front
+    """Return the share of the load that lands on the forefoot."""
+    return 0.0 if stride.kind is StrideKind.WALK else style_of(stride.kind, stride.speed).front
 
 
-def _like(stride: PlannedStride) -> float:
-    """The walking speed at which the load swings as it does in a stride, m/s."""
-    if stride.manner is Manner.WALK or stride.manner is Manner.RUN:
+def _equivalent_speed(stride: PlannedStride) -> float:
+    """Return the speed, m/s, of level walking with the same amplitude of the load as in this stride."""
+    if stride.kind is StrideKind.WALK or stride.kind is StrideKind.RUN:
         return stride.speed
-    return 1.3 * float(np.sqrt(style_of(stride.manner, stride.speed).bounce / BOUNCE))
+    return 1.3 * float(np.sqrt(style_of(stride.kind, stride.speed).bounce / BOUNCE))
 
 
 def hand_over(s: Array) -> Array:
-    """From 0 to 1 over the unit interval, with a slope at once at both ends, as force plates show it."""
+    """Return a curve from 0 to 1 over the unit interval with a non-zero slope at both ends, as force plates show it."""
     s = np.clip(s, 0.0, 1.0)
     return np.asarray(0.5 * s + s * s * (1.5 - s))
 
 
 def _hand_overs(plan: WalkPlan) -> tuple[list[tuple[float, ...]], list[tuple[float, ...]]]:
-    """Rows for `begin`, `end`, `before`, `after`, and for `beat`, the speed that the bounce goes by, and `runs`."""
+    """Return rows of (start, end, before, after), and rows of (beat, speed that sets the bounce, two of `runs`)."""
     strides = sorted((s.heel_strike, foot.value, s, foot) for foot in Foot for s in plan.strides[foot])
     steps = [(stride, foot) for _, _, stride, foot in strides]
     hand_overs: list[tuple[float, ...]] = []
     beats: list[tuple[float, ...]] = []
     level = 0.5
-    for began, ended in plan.bouts:
-        bout = [(stride, foot) for stride, foot in steps if began <= stride.heel_strike <= ended]
+    for start, end in plan.bouts:
+        bout = [(stride, foot) for stride, foot in steps if start <= stride.heel_strike <= end]
         first, mover = bout[0]
         away = 0.0 if mover is Foot.LEFT else 1.0
-        hand_overs.append((began, first.toe_off, level, away))
-        beats.append((began, 0.0, 0.0, 0.0))
+        hand_overs.append((start, first.toe_off, level, away))
+        beats.append((start, 0.0, 0.0, 0.0))
         level = away
         for (stride, foot), (following, _) in zip(bout, bout[1:], strict=False):
             onto = 1.0 if foot is Foot.LEFT else 0.0
@@ -227,17 +237,17 @@ def _hand_overs(plan: WalkPlan) -> tuple[list[tuple[float, ...]], list[tuple[flo
             hand_overs.append((min(strike, off), max(strike, off), level, onto))
             flown = off < strike
             if flown:
-                # Nobody stands at this beat: the one before leaves the ground, and the next begins with a landing.
+                # This beat is in flight: the step before it ends with a take-off, the next one starts with a landing.
                 beats[-1] = (*beats[-1][:3], off)
-            beats.append((0.5 * (strike + off), _like(stride), strike if flown else 0.0, 0.0))
+            beats.append((0.5 * (strike + off), _equivalent_speed(stride), strike if flown else 0.0, 0.0))
             level = onto
         last, _ = bout[-1]
-        # The closing foot catches the weight as in a step, a little too much of it, and then half remains.
-        caught, settled = last.heel_strike + CATCHING, last.heel_strike + SETTLING
+        # The closing foot takes over the weight as in a step, a little more than half of it, and then half.
+        caught, settled = last.heel_strike + CATCH_TIME, last.heel_strike + SETTLE_TIME
         most = 0.6 if level == 0.0 else 0.4
         hand_overs.append((last.heel_strike, caught, level, most))
         hand_overs.append((caught, settled, most, 0.5))
-        beats.append((last.heel_strike + 0.5 * SETTLING, 0.0, 0.0, 0.0))
+        beats.append((last.heel_strike + 0.5 * SETTLE_TIME, 0.0, 0.0, 0.0))
         level = 0.5
     return hand_overs, beats
 
@@ -250,10 +260,10 @@ def _stances(plan: WalkPlan, foot: Foot) -> Array:
 
 
 def _leans(plan: WalkPlan, foot: Foot, wearer: Wearer, rng: Rng) -> Array:
-    """For every stance: the way asked of the load, and the last heel-strike of its walk."""
+    """Return for every stance the shift of the load, m, and the last heel-strike of its bout, s."""
     rows = [(0.0, -_EVER)]
     for stride in plan.strides[foot]:
-        over = next(ended for began, ended in plan.bouts if began <= stride.heel_strike <= ended) - SETTLING
-        asked = -TAKEN * wearer.centre_height * stride.pace**2 * stride.curvature / GRAVITY
-        rows.append((asked + wearer.load_variation * float(rng.standard_normal()), over))
+        over = next(end for start, end in plan.bouts if start <= stride.heel_strike <= end) - SETTLE_TIME
+        shift = -LOAD_SHIFT_SHARE * wearer.centre_height * stride.pace**2 * stride.curvature / GRAVITY
+        rows.append((shift + wearer.load_variation * float(rng.standard_normal()), over))
     return np.array(rows)

@@ -1,15 +1,15 @@
-"""How one foot moves: exact pose, velocity, acceleration and angular rate at any instant.
+"""Motion of one foot: exact pose, velocity, acceleration and angular rate at any instant.
 
-A foot is a rigid shoe. Between its events it does one of four things, each a curve with continuous second derivatives
-at both ends, so that specific force and angular rate follow by differentiation on paper, not by numbers:
+A foot is a rigid shoe. Each of its four phases is a curve with continuous second derivatives at both ends, so specific
+force and angular rate follow by analytical differentiation, not by numerical differences:
 
     LOADING     rolls without slip over the heel arc, pitch from strike to zero
-    STATIONARY  flat; rocks by a fraction of a milliradian
+    STATIONARY  flat; the pitch changes by a fraction of a milliradian
     PUSH_OFF    rolls without slip over the forefoot arc, pitch from zero to toe-off
     SWING       the ankle point follows a curve through the air that clears the ground
 
-The velocity of a point p on the rolling shoe is omega x (p - contact). What the curves are is in strides.py; here they
-are only evaluated.
+The velocity of a point p on the rolling shoe is omega x (p - contact). This module evaluates the curves; strides.py
+makes them.
 
 Attitude is Rz(yaw) Ry(-pitch) Rx(roll), foot to world; pitch is positive toe up.
 """
@@ -30,70 +30,77 @@ from .turning import matrices
 Rows = NDArray[np.intp]
 
 X, Y, Z, PITCH, YAW, ROLL = range(6)
-"""The channels of a piece."""
+"""Indices of the curves of a piece: x, y, z of the reference point, m, and pitch, yaw, roll, rad."""
 
 BLOCK = 65536
-"""Instants worked out at once: what lies in between takes several times the memory of the result."""
+"""Number of instants computed together: intermediate arrays need several times the memory of the result."""
 PHASES = (Phase.STATIONARY, Phase.PUSH_OFF, Phase.SWING, Phase.LOADING)
-"""In the order of their numbers in `FootMotion.phase`."""
+"""Phases in the order of their numbers in `FootMotion.phase`."""
 
 
 @frozen(eq=False)
 class Kinematics:
-    """One sensor at `t` (N). World frame for `position` (m), `velocity` (m/s) and `acceleration` (m/s^2), all (N, 3);
-    `attitude` (N, 4) turns sensor coordinates into world coordinates; `rate` (rad/s) and `force` (specific force,
-    m/s^2) are (N, 3) in the sensor frame."""
+    """The exact motion of one sensor at N instants."""
 
     t: Array
+    """Times, s, (N)."""
     position: Array
+    """Position in the world frame, m, (N, 3)."""
     velocity: Array
+    """Velocity in the world frame, m/s, (N, 3)."""
     acceleration: Array
+    """Acceleration in the world frame, m/s^2, (N, 3)."""
     attitude: Array
+    """Unit quaternion that turns a vector of the sensor frame into the world frame, (N, 4)."""
     rate: Array
+    """Angular rate in the sensor frame, rad/s, (N, 3)."""
     force: Array
+    """Specific force in the sensor frame, m/s^2, (N, 3)."""
 
 
 @frozen(eq=False)
 class FootMotion:
-    """The curves of one foot from the start to the end; before and after that it stands.
+    """The curves of one foot, piece by piece; before the first and after the last piece it stands."""
 
-    One row per piece: `begin` (s), `duration` (s), `curves` (rows, 6, degree + 1) of x, y, z of a carried point in the
-    world and of pitch, yaw, roll; `carried` (rows, 2) is that point's x and z in the foot frame; `radius` (rows) is
-    that of the arc that rolls, 0 in the air; `phase` (rows) indexes Phase.
-    """
-
-    begin: Array
+    start: Array
+    """Start of each piece, s, (rows)."""
     duration: Array
+    """Duration of each piece, s, (rows)."""
     curves: Array
-    carried: Array
+    """Coefficients of x, y, z of the reference point in the world and of pitch, yaw, roll, (rows, 6, degree + 1)."""
+    reference: Array
+    """Coordinates x and z of the reference point in the foot frame, m, (rows, 2)."""
     radius: Array
+    """Radius of the arc that rolls, m, (rows); 0 in the air."""
     phase: Array
+    """Index of the phase in PHASES, (rows)."""
     rides: tuple[CarRide, ...] = ()
-    """What the foot rides on; its own curves stand meanwhile, and are as much higher afterwards."""
+    """Lifts that the foot rides in; its own curves are constant meanwhile, and higher by the ride afterwards."""
 
     def phases(self, t: Array) -> list[Phase]:
+        """Return the phase of the foot at times `t`, s."""
         return [PHASES[int(k)] for k in self.phase[self._piece(t)]]
 
     def pitch(self, t: Array) -> Array:
-        """Toe-up angle of the sole, rad."""
+        """Return the pitch of the sole, rad, (N); positive when the toe is up."""
         row = self._piece(t)
-        return self._curve(row, (t - self.begin[row]) / self.duration[row], PITCH, 0)
+        return self._curve(row, (t - self.start[row]) / self.duration[row], PITCH, 0)
 
     def contact(self, t: Array) -> Array:
-        """Where along the foot the rolling sole touches the ground, as x in the foot frame, m; nan in the air."""
+        """Return the x coordinate in the foot frame at which the rolling sole touches the ground, m; nan in the air."""
         row = self._piece(t)
         radius = self.radius[row]
-        touched = self.carried[row, 0] - radius * np.sin(self.pitch(t))
+        touched = self.reference[row, 0] - radius * np.sin(self.pitch(t))
         return np.where(radius > 0.0, touched, np.nan)
 
     def at(self, t: Array, mounting: Mounting) -> Kinematics:
-        """Everything about a sensor mounted on this foot. `t` is any array of instants, s."""
+        """Return the motion of a sensor mounted on this foot at times `t`, s."""
         t = np.asarray(t, dtype=np.float64)
         return joined([self._block(t[k : k + BLOCK], mounting) for k in range(0, max(len(t), 1), BLOCK)])
 
     def _block(self, t: Array, mounting: Mounting) -> Kinematics:
         row = self._piece(t)
-        s = (t - self.begin[row]) / self.duration[row]
+        s = (t - self.start[row]) / self.duration[row]
         per = 1.0 / self.duration[row]
         value, first, second = (
             [self._curve(row, s, channel, order) * per**order for channel in range(6)] for order in range(3)
@@ -102,7 +109,7 @@ class FootMotion:
         turn = _rotation(yaw, -pitch, roll)
         rate, rate_change = _body_rates(value, first, second)
 
-        # The carried point: its own curve, and on the ground the arc's roll of radius * pitch against the heading.
+        # The reference point: its own curve, and on the ground the arc's roll of radius * pitch against the heading.
         ahead = np.stack([np.cos(yaw), np.sin(yaw), np.zeros_like(yaw)], axis=1)
         radius = self.radius[row]
         centre, centre_v, centre_a = (
@@ -111,18 +118,18 @@ class FootMotion:
 
         # The sensor on the rigid foot: v = v_c + w x r, a = a_c + w' x r + w x (w x r), in the foot frame.
         x, y, z = mounting.position
-        arm = np.stack([x - self.carried[row, 0], np.full_like(t, y), z - self.carried[row, 1]], axis=1)
+        arm = np.stack([x - self.reference[row, 0], np.full_like(t, y), z - self.reference[row, 1]], axis=1)
         swing = np.cross(rate, arm)
         position = centre + _apply(turn, arm)
         velocity = centre_v + _apply(turn, swing)
         acceleration = centre_a + _apply(turn, np.cross(rate_change, arm) + np.cross(rate, swing))
 
         for car in self.rides:
-            aboard = np.flatnonzero((t >= car.begin) & (t < car.end))
+            aboard = np.flatnonzero((t >= car.start) & (t < car.end))
             for total, added in zip((position, velocity, acceleration), car.at(t[aboard]), strict=True):
                 total[aboard] += added
 
-        # Specific force is acceleration less gravity, seen in the sensor's axes.
+        # Specific force is acceleration minus gravity, in the sensor frame.
         lifted = acceleration + np.array([0.0, 0.0, GRAVITY])
         force = np.einsum("nij,ni->nj", turn, lifted)
         mount = matrices(np.array([mounting.attitude]))[0]
@@ -137,7 +144,7 @@ class FootMotion:
         )
 
     def _piece(self, t: Array) -> Rows:
-        return np.clip(np.searchsorted(self.begin, t, side="right") - 1, 0, len(self.begin) - 1)
+        return np.clip(np.searchsorted(self.start, t, side="right") - 1, 0, len(self.start) - 1)
 
     def _curve(self, row: Rows, s: Array, channel: int, order: int) -> Array:
         factors = np.asarray(np.polynomial.polynomial.polyder(self.curves[:, channel, :], order, axis=1))
@@ -149,14 +156,14 @@ class FootMotion:
 
 
 def joined(blocks: list[Kinematics]) -> Kinematics:
-    """One after the other."""
+    """Return the blocks joined one after the other."""
     if len(blocks) == 1:
         return blocks[0]
     return Kinematics(*(np.concatenate([getattr(b, one.name) for b in blocks]) for one in fields(Kinematics)))
 
 
 def _body_rates(value: list[Array], first: list[Array], second: list[Array]) -> tuple[Array, Array]:
-    """Angular rate and its derivative in the foot frame for Rz(yaw) Ry(b) Rx(roll), with b = -pitch."""
+    """Return angular rate and its derivative in the foot frame for Rz(yaw) Ry(b) Rx(roll), with b = -pitch."""
     b, b1, b2 = -value[PITCH], -first[PITCH], -second[PITCH]
     roll, r1, r2 = value[ROLL], first[ROLL], second[ROLL]
     y1, y2 = first[YAW], second[YAW]
@@ -174,7 +181,7 @@ def _body_rates(value: list[Array], first: list[Array], second: list[Array]) -> 
 
 
 def _rotation(yaw: Array, b: Array, roll: Array) -> Array:
-    """Rz(yaw) Ry(b) Rx(roll) as (N, 3, 3)."""
+    """Return Rz(yaw) Ry(b) Rx(roll) as matrices, (N, 3, 3)."""
     sy, cy, sb, cb, sr, cr = np.sin(yaw), np.cos(yaw), np.sin(b), np.cos(b), np.sin(roll), np.cos(roll)
     rows = [
         [cy * cb, cy * sb * sr - sy * cr, cy * sb * cr + sy * sr],
@@ -185,7 +192,7 @@ def _rotation(yaw: Array, b: Array, roll: Array) -> Array:
 
 
 def _quaternion(yaw: Array, b: Array, roll: Array) -> Array:
-    """The same turn as (N, 4), w x y z."""
+    """Return Rz(yaw) Ry(b) Rx(roll) as quaternions, (N, 4), w x y z."""
     sy, cy, sb, cb = np.sin(yaw / 2), np.cos(yaw / 2), np.sin(b / 2), np.cos(b / 2)
     sr, cr = np.sin(roll / 2), np.cos(roll / 2)
     return np.stack(
@@ -200,7 +207,7 @@ def _quaternion(yaw: Array, b: Array, roll: Array) -> Array:
 
 
 def _multiply(p: Array, q: Array) -> Array:
-    """Hamilton products of p (N, 4) with one q."""
+    """Return the Hamilton products of p (N, 4) with one q."""
     w, x, y, z = q
     return np.asarray(p @ np.array([[w, x, y, z], [-x, w, -z, y], [-y, z, w, -x], [-z, -y, x, w]]))
 

@@ -1,11 +1,11 @@
-"""The curves of one foot: how a stride's event times, places and angles become a motion without a jump.
+"""The curves of one foot: a smooth motion from the event times, positions and angles of its strides.
 
-On the ground the pitch decides everything (shoe.py). In the air the ankle point follows a quintic that takes over
-position, velocity and acceleration from the forefoot's roll at toe-off and hands them to the heel's roll at
-heel-strike, plus a bump that keeps the sole just clear of the ground.
+On the ground the pitch alone gives the motion (shoe.py). In the air the ankle point follows a quintic whose ends have
+position, velocity and acceleration of the forefoot's roll at toe-off and of the heel's roll at heel-strike, plus a bump
+that keeps the sole just above the ground.
 
-At heel-strike the heel still moves by some decimetres per second relative to the ground, as in life; sole and heel pad
-give way and stop it within IMPACT s, and from then on the heel rolls without slip.
+At heel-strike the heel still moves by some decimetres per second relative to the ground, as in reality. Sole and heel
+pad deform and stop it within IMPACT s; from then on the heel rolls without slip.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ from attrs import evolve
 from ...types import Foot, Phase
 from ..routes.lift import CarRide
 from ..routes.path import Flight, Pose
-from ..routes.styles import Manner, style_of
+from ..routes.styles import StrideKind, style_of
 from .curves import BUMP, EVEN_OUT, Array, End, constant, evaluate, join, part
 from .gait import PlannedStride, WalkPlan
 from .motion import PHASES, FootMotion
 from .shoe import Rocker, Shoe
 
 IMPACT = 0.014
-"""How long the sole and the heel pad take to stop the heel, s."""
+"""Time that the sole and the heel pad take to stop the heel, s."""
 SLIDE = 0.30
 """Forward speed of the heel just before contact, relative to the walking speed."""
 SINK = 0.13
@@ -33,32 +33,32 @@ SINK = 0.13
 PUSH = (2.1, -2.0)
 """Pitch rate and acceleration at toe-off in units of pitch per push-off time: the rate peaks just before toe-off."""
 LAND = (0.5, -4.0)
-"""The same at heel-strike, of the curve from strike to flat: slow at contact, then the foot slaps down."""
+"""Pitch rate and acceleration at heel-strike in units of pitch per loading time: slow at contact, then faster."""
 
 CRUISE = 5.0
-"""How much the swing is evened out: feet peak at 1.7 times their mean speed, a bare quintic at 1.9."""
+"""Weight of EVEN_OUT in swing: the peak speed of a foot is 1.7 times its mean, with a bare quintic it would be 1.9."""
 REVERSAL = 0.22
-"""Share of the swing in which the pitch rate turns from that of push-off to that of swinging through."""
+"""Share of the swing in which the pitch rate changes from that of push-off to that of the swing forward."""
 SWING_UP = 1.1
 """Pitch rate after the reversal, relative to the mean rate from there to heel-strike."""
-KICK, KICKED = -1.50, 0.34
-"""A runner's heel is up by so many rad, after this share of the swing."""
-KICKING = 4.0
-"""Pitch acceleration there, in units of the way that is left per square of the time that is left."""
+KICK_PITCH, KICK_SHARE = -1.50, 0.34
+"""Extreme pitch of a runner's foot in swing, rad (heel up), and the share of the swing at which it is reached."""
+KICK_ACCELERATION = 4.0
+"""Pitch acceleration at that extreme, in units of the remaining pitch change per square of the remaining time."""
 _EVER = 1e6
-"""s: how long a foot stands before the first and after the last stride."""
+"""Time for which a foot stands before the first and after the last stride, s."""
 
 _Joint = tuple[Array, Array, Array]
-"""Position, velocity and acceleration of the ankle point in the world, (3,) each."""
+"""Position, m, velocity, m/s, and acceleration, m/s^2, of the ankle point in the world frame, (3,) each."""
 
 
 def foot_motions(plan: WalkPlan, shoe: Shoe) -> dict[Foot, FootMotion]:
-    """Both feet of a plan."""
+    """Return the motion of both feet of a plan."""
     return {foot: _Pieces(shoe, plan.rides).joined(plan.starts[foot], plan.strides[foot]) for foot in Foot}
 
 
 class _Pieces:
-    """One foot that may ride in between."""
+    """Collects the pieces of one foot's motion, rides in lifts included."""
 
     def __init__(self, shoe: Shoe, rides: tuple[CarRide, ...]) -> None:
         self.shoe = shoe
@@ -66,7 +66,7 @@ class _Pieces:
         self.rows: list[tuple[float, float, list[Array], tuple[float, float], float, int]] = []
 
     def joined(self, start: Pose, strides: tuple[PlannedStride, ...]) -> FootMotion:
-        """It stands at `start`, makes the strides, and stands."""
+        """Return the motion of a foot that stands at `start`, makes the strides, and stands."""
         leaves = [*(stride.heel_off for stride in strides), _EVER]
         self.stand(start, -_EVER, leaves[0], 0.0)
         for stride, leave in zip(strides, leaves[1:], strict=True):
@@ -74,36 +74,39 @@ class _Pieces:
             self.swing(stride)
             self.land(stride)
             self.stand(stride.end, stride.foot_flat, leave, stride.settle if leave < _EVER else 0.0)
-        begin, duration, curves, carried, radius, phase = map(np.array, zip(*self.rows, strict=True))
-        return FootMotion(begin, duration, curves, carried, radius, phase.astype(np.intp), self.rides)
+        t_start, duration, curves, reference, radius, phase = map(np.array, zip(*self.rows, strict=True))
+        return FootMotion(t_start, duration, curves, reference, radius, phase.astype(np.intp), self.rides)
 
-    def stand(self, at: Pose, begin: float, end: float, settle: float) -> None:
+    def stand(self, at: Pose, t_start: float, end: float, settle: float) -> None:
+        """Add a stance with rides from `t_start` to `end`, s."""
         for car in self.rides:
-            if begin <= car.begin and car.end <= end:
-                # FootMotion adds the way of the car while it goes.
-                self._roll(Phase.STATIONARY, self.shoe.heel, at, begin, car.end, 0.0 * BUMP)
-                at, begin, settle = evolve(at, z=at.z + car.height), car.end, 0.0
-        self._roll(Phase.STATIONARY, self.shoe.heel, at, begin, end, settle * BUMP)
+            if t_start <= car.start and car.end <= end:
+                # FootMotion adds the displacement of the car during the ride.
+                self._roll(Phase.STATIONARY, self.shoe.heel, at, t_start, car.end, 0.0 * BUMP)
+                at, t_start, settle = evolve(at, z=at.z + car.height), car.end, 0.0
+        self._roll(Phase.STATIONARY, self.shoe.heel, at, t_start, end, settle * BUMP)
 
     def push_off(self, stride: PlannedStride) -> None:
+        """Add the roll over the forefoot from heel-off to toe-off."""
         pitch = -stride.toe_off_pitch * _from_rest(PUSH)
         self._roll(Phase.PUSH_OFF, self.shoe.forefoot, stride.start, stride.heel_off, stride.toe_off, pitch)
 
     def land(self, stride: PlannedStride) -> None:
-        """From heel-strike to foot-flat, first the impact and then the pure roll."""
-        begin, end = stride.heel_strike, stride.foot_flat
+        """Add the motion from heel-strike to foot-flat: first the impact, then the pure roll."""
+        t_start, end = stride.heel_strike, stride.foot_flat
         pitch = _landing(stride)
-        cut = IMPACT / (end - begin)
+        cut = IMPACT / (end - t_start)
         give = [_give(speed) for speed in _residual(stride)]
         arc = self._lands_on(stride)
-        self._roll(Phase.LOADING, arc, stride.end, begin, begin + IMPACT, part(pitch, 0.0, cut), give)
-        self._roll(Phase.LOADING, arc, stride.end, begin + IMPACT, end, part(pitch, cut, 1.0))
+        self._roll(Phase.LOADING, arc, stride.end, t_start, t_start + IMPACT, part(pitch, 0.0, cut), give)
+        self._roll(Phase.LOADING, arc, stride.end, t_start + IMPACT, end, part(pitch, cut, 1.0))
 
     def _lands_on(self, stride: PlannedStride) -> Rocker:
-        """The arc that touches the ground first."""
+        """Return the arc that touches the ground first."""
         return self.shoe.forefoot if stride.strike_pitch < 0.0 else self.shoe.heel
 
     def swing(self, stride: PlannedStride) -> None:
+        """Add the swing from toe-off to heel-strike."""
         shoe, duration = self.shoe, stride.heel_strike - stride.toe_off
         push, land = -stride.toe_off_pitch * _from_rest(PUSH), _landing(stride)
         off = _ends(push, 1.0, stride.toe_off - stride.heel_off)
@@ -119,10 +122,10 @@ class _Pieces:
         cruise = CRUISE if stride.flight is None else 0.0
         x += -sin(sideways) * stride.weave[2] * BUMP + cruise * (p1[0] - p0[0]) * EVEN_OUT
         y += cos(sideways) * stride.weave[2] * BUMP + cruise * (p1[1] - p0[1]) * EVEN_OUT
-        swung = _kicked_pitch if stride.manner is Manner.RUN else _swing_pitch
+        swung = _kicked_pitch if stride.kind is StrideKind.RUN else _swing_pitch
         pitches = swung(off, strike, duration)
         if stride.flight is not None:
-            style = style_of(stride.manner, stride.speed)
+            style = style_of(stride.kind, stride.speed)
             way = p1 - p0
             hold = style.hold * min(1.0, 2.0 * stride.flight.going / hypot(way[0], way[1]))
             x += hold * way[0] * BUMP
@@ -133,14 +136,14 @@ class _Pieces:
             z += self._lift(stride, z, pitches, roll) * BUMP
         ankle = (shoe.ankle[0], shoe.ankle[2])
         turn = stride.toe_off + _reversal(stride) * duration
-        for begin, end, pitch in ((stride.toe_off, turn, pitches[0]), (turn, stride.heel_strike, pitches[1])):
-            low, high = ((t - stride.toe_off) / duration for t in (begin, end))
+        for t_start, end, pitch in ((stride.toe_off, turn, pitches[0]), (turn, stride.heel_strike, pitches[1])):
+            low, high = ((t - stride.toe_off) / duration for t in (t_start, end))
             curves = [part(curve, low, high) for curve in (x, y, z)]
             curves += [pitch, part(yaw, low, high), part(roll, low, high)]
-            self._add(begin, end, curves, ankle, 0.0, Phase.SWING)
+            self._add(t_start, end, curves, ankle, 0.0, Phase.SWING)
 
     def _lift(self, stride: PlannedStride, z: Array, pitches: tuple[Array, Array], roll: Array) -> float:
-        """The height of the bump with which the sole's lowest point just keeps the clearance (itself a bump)."""
+        """Return the height of the bump, m, at which the sole's lowest point just has the clearance (itself a bump)."""
         shoe, s = self.shoe, np.linspace(0.1, 0.9, 41)
         ground = stride.start.z + (stride.end.z - stride.start.z) * s
         angle, bump = _pitch_at(pitches, s, _reversal(stride)), evaluate(BUMP, s)
@@ -160,9 +163,9 @@ class _Pieces:
         pitches: tuple[Array, Array],
         yaw: Array,
     ) -> float:
-        """The same over the treads and edges of a flight.
+        """Return the height of the bump, m, at which the sole just clears the treads and edges of a flight.
 
-        The sole is the hull of its two arcs: discs whose centre and radius go evenly from one to the other.
+        The sole is the hull of its two arcs: discs with centre and radius interpolated from one arc to the other.
         """
         shoe, s = self.shoe, np.linspace(0.04, 0.96, 93)
         angle, bump = _pitch_at(pitches, s, _reversal(stride)), evaluate(BUMP, s)
@@ -178,7 +181,7 @@ class _Pieces:
         return lift
 
     def _ankle(self, arc: Rocker, at: Pose, pitch: End) -> _Joint:
-        """The ankle point while the shoe rolls on `arc` with this pitch, rate and acceleration."""
+        """Return the motion of the ankle point while the shoe rolls on `arc` with this pitch, rate and acceleration."""
         angle, rate, change = pitch
         dx, dz = self.shoe.ankle[0] - arc.x, self.shoe.ankle[2] - arc.radius
         along = cos(angle) * dx - sin(angle) * dz  # from the arc's centre to the ankle: ahead and up
@@ -192,7 +195,7 @@ class _Pieces:
         return position, velocity, acceleration
 
     def _centre(self, arc: Rocker, at: Pose) -> Array:
-        """The centre of an arc's circle while the foot stands flat."""
+        """Return the centre of an arc's circle while the foot stands flat, world frame, m."""
         forward = arc.x - self.shoe.ankle[0]
         return np.array([at.x + cos(at.heading) * forward, at.y + sin(at.heading) * forward, at.z + arc.radius])
 
@@ -201,7 +204,7 @@ class _Pieces:
         phase: Phase,
         arc: Rocker,
         at: Pose,
-        begin: float,
+        t_start: float,
         end: float,
         pitch: Array,
         give: list[Array] | None = None,
@@ -210,29 +213,35 @@ class _Pieces:
         if give is not None:
             place = [a + b for a, b in zip(place, give, strict=True)]
         curves = [*place, pitch, constant(at.heading), constant(0.0)]
-        self._add(begin, end, curves, (arc.x, arc.radius), arc.radius, phase)
+        self._add(t_start, end, curves, (arc.x, arc.radius), arc.radius, phase)
 
     def _add(
-        self, begin: float, end: float, curves: list[Array], carried: tuple[float, float], radius: float, phase: Phase
+        self,
+        t_start: float,
+        end: float,
+        curves: list[Array],
+        reference: tuple[float, float],
+        radius: float,
+        phase: Phase,
     ) -> None:
-        self.rows.append((begin, end - begin, curves, carried, radius, PHASES.index(phase)))
+        self.rows.append((t_start, end - t_start, curves, reference, radius, PHASES.index(phase)))
 
 
 def _from_rest(end: tuple[float, float]) -> Array:
-    """From 0 at rest to 1 with the given slope and curvature."""
+    """Return a curve from 0 at rest to 1 with the given slope and curvature."""
     return join((0.0, 0.0, 0.0), (1.0, end[0], end[1]), 1.0)
 
 
 def _landing(stride: PlannedStride) -> Array:
-    """Pitch from heel-strike to foot-flat: the time reverse of a start from rest."""
+    """Return the pitch from heel-strike to foot-flat: a start from rest, reversed in time."""
     return stride.strike_pitch * part(_from_rest(LAND), 1.0, 0.0)
 
 
 def _swing_pitch(off: End, strike: End, duration: float) -> tuple[Array, Array]:
-    """Pitch in swing: the reversal after toe-off, then a rate that is nearly steady until the foot is braked.
+    """Return the pitch in swing: the reversal after toe-off, then a nearly constant rate until the foot is braked.
 
-    With r = rate after the reversal of length a, b the rest, the pitch there is off + a (rate_off + r) / 2, and r is
-    SWING_UP times the mean rate over b: solved for r.
+    The reversal lasts a, the rest of the swing b. With the rate r after the reversal, the pitch there is
+    off + a (rate_off + r) / 2, and r is SWING_UP times the mean rate over b; this is solved for r.
     """
     a, b = REVERSAL * duration, (1.0 - REVERSAL) * duration
     rate = SWING_UP * (strike[0] - off[0] - 0.5 * a * off[1]) / (b + 0.5 * SWING_UP * a)
@@ -241,40 +250,41 @@ def _swing_pitch(off: End, strike: End, duration: float) -> tuple[Array, Array]:
 
 
 def _kicked_pitch(off: End, strike: End, duration: float) -> tuple[Array, Array]:
-    """Pitch in a runner's swing: the heel goes up to KICK, and then the foot swings through."""
-    a, b = KICKED * duration, (1.0 - KICKED) * duration
-    top = (KICK, 0.0, KICKING * (strike[0] - KICK) / b**2)
+    """Return the pitch in a runner's swing: the heel rises to KICK_PITCH, then the foot swings forward."""
+    a, b = KICK_SHARE * duration, (1.0 - KICK_SHARE) * duration
+    top = (KICK_PITCH, 0.0, KICK_ACCELERATION * (strike[0] - KICK_PITCH) / b**2)
     return join(off, top, a), join(top, strike, b)
 
 
 def _reversal(stride: PlannedStride) -> float:
-    return KICKED if stride.manner is Manner.RUN else REVERSAL
+    return KICK_SHARE if stride.kind is StrideKind.RUN else REVERSAL
 
 
 def _pitch_at(pitches: tuple[Array, Array], s: Array, turn: float) -> Array:
-    """Pitch at shares `s` of the swing; the first curve is that until `turn`."""
+    """Return the pitch at shares `s` of the swing; the first curve ends at share `turn`."""
     early, late = evaluate(pitches[0], s / turn), evaluate(pitches[1], (s - turn) / (1.0 - turn))
     return np.where(s < turn, early, late)
 
 
 def _ends(curve: Array, s: float, duration: float) -> End:
-    """Value, velocity and acceleration of a curve at s, per second."""
+    """Return value, velocity and acceleration of a curve at s, per second."""
     value, slope, bend = (float(evaluate(curve, s, order)) for order in range(3))
     return value, slope / duration, bend / duration**2
 
 
 def _residual(stride: PlannedStride) -> tuple[float, float, float]:
-    """What the heel still moves by, beyond its roll, when it touches the ground, m/s in the world."""
+    """Return the velocity of the heel beyond its roll when it touches the ground, world frame, m/s."""
     slide, sink = SLIDE * stride.speed, SINK * stride.speed
-    if stride.manner is not Manner.WALK:
-        style = style_of(stride.manner, stride.speed)
+    if stride.kind is not StrideKind.WALK:
+        style = style_of(stride.kind, stride.speed)
         slide, sink = style.slide, style.sink
     return (slide * cos(stride.end.heading), slide * sin(stride.end.heading), -sink)
 
 
 def _give(speed: float) -> Array:
-    """How far the heel is from where pure rolling has it, over the impact: its `speed` dies along a smooth step.
+    """Return the displacement of the heel from pure rolling over the impact, m; its `speed` decays by a smooth step.
 
-    v (1 - (10 s^3 - 15 s^4 + 6 s^5)), integrated so that it ends at 0; the deceleration is the pulse 30 s^2 (1 - s)^2.
+    It is v (1 - (10 s^3 - 15 s^4 + 6 s^5)), integrated so that it ends at 0; the deceleration is the pulse
+    30 s^2 (1 - s)^2.
     """
     return -speed * IMPACT * np.array([0.5, -1.0, 0.0, 0.0, 2.5, -3.0, 1.0, 0.0])

@@ -1,8 +1,8 @@
-"""What really happened, for comparing with.
+"""The ground truth of a walk.
 
-"Position of a foot" is everywhere the position of the sensor that is mounted on it, relative to where that sensor was
-at t = 0, in the world frame (z up, x along the route's first heading, y left), m. `FootTruth.origin` says where that
-was, measured from the point between the feet, so that both feet can be drawn on one floor.
+The position of a foot is always the position of the sensor that is mounted on it, relative to the sensor's position at
+t = 0, in the world frame (z up, x along the route's first heading, y left), m. `FootTruth.origin` is the position at
+t = 0 relative to the point between the feet, so that both feet can be drawn on one floor.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from attrs import evolve, frozen
 
 from ...types import Activity, Foot, Phase, Vec3
 from ..routes.lift import CarRide
-from ..routes.styles import Manner
+from ..routes.styles import StrideKind
 from .curves import Array
 from .gait import Climb, WalkPlan
 from .motion import FootMotion, Kinematics
@@ -22,29 +22,32 @@ from .shoe import Mounting
 
 
 def activities(plan: WalkPlan) -> tuple[tuple[float, float, Activity], ...]:
-    """One after the other from 0 to the plan's end. Turning on the spot is walking. Running lasts from where its first
-    swing begins to where its last foot comes down, so that stretches of walking in between count as walking."""
-    found = [(begin, end, Activity.WALKING) for begin, end in plan.bouts]
+    """Return the activities (start, end, activity) from 0 to the plan's end, s, without a gap.
+
+    A turn on the spot is walking. Running lasts from the start of its first swing to the last heel-strike, so that
+    walking in between counts as walking.
+    """
+    found = [(start, end, Activity.WALKING) for start, end in plan.bouts]
     found += _runs(plan)
     for climb in plan.climbs:
-        found.append((climb.begin, climb.end, Activity.STAIRS_UP if climb.up else Activity.STAIRS_DOWN))
+        found.append((climb.start, climb.end, Activity.STAIRS_UP if climb.up else Activity.STAIRS_DOWN))
     for car in plan.rides:
-        found.append((car.begin, car.end, Activity.ELEVATOR_UP if car.height > 0.0 else Activity.ELEVATOR_DOWN))
-    told: list[tuple[float, float, Activity]] = []
-    marks = sorted({0.0, plan.duration, *(t for begin, end, _ in found for t in (begin, end))})
-    for begin, end in zip(marks, marks[1:], strict=False):
-        middle = 0.5 * (begin + end)
-        # What is told later is more special.
+        found.append((car.start, car.end, Activity.ELEVATOR_UP if car.height > 0.0 else Activity.ELEVATOR_DOWN))
+    found_spans: list[tuple[float, float, Activity]] = []
+    marks = sorted({0.0, plan.duration, *(t for start, end, _ in found for t in (start, end))})
+    for start, end in zip(marks, marks[1:], strict=False):
+        middle = 0.5 * (start + end)
+        # Later spans are more specific and replace earlier ones.
         what = next((a for b, e, a in reversed(found) if b <= middle < e), Activity.STANDING)
-        if told and told[-1][2] is what:
-            told[-1] = (told[-1][0], end, what)
+        if found_spans and found_spans[-1][2] is what:
+            found_spans[-1] = (found_spans[-1][0], end, what)
         else:
-            told.append((begin, end, what))
-    return tuple(told)
+            found_spans.append((start, end, what))
+    return tuple(found_spans)
 
 
 def _runs(plan: WalkPlan) -> list[tuple[float, float, Activity]]:
-    steps = sorted((s.heel_strike, s.toe_off, s.manner is Manner.RUN) for foot in Foot for s in plan.strides[foot])
+    steps = sorted((s.heel_strike, s.toe_off, s.kind is StrideKind.RUN) for foot in Foot for s in plan.strides[foot])
     found: list[tuple[float, float, Activity]] = []
     running = False
     for strike, off, run in steps:
@@ -57,76 +60,98 @@ def _runs(plan: WalkPlan) -> list[tuple[float, float, Activity]]:
 
 
 @frozen
-class TrueStep:
-    """One foot from foot-flat to its next foot-flat; for the first step from t = 0, when it stood already."""
+class TrueStride:
+    """A true stride of one foot, from foot-flat to its next foot-flat; the first one starts at t = 0."""
 
     foot: Foot
+    """Foot that made the stride."""
     number: int
+    """Number of the foot's stride, from 1."""
     t_start: float
+    """Foot-flat before the stride, s; 0 for the first stride."""
     t_end: float
+    """Foot-flat after the stride, s."""
     t_heel_off: float
+    """Time of heel-off, s."""
     t_toe_off: float
+    """Time of toe-off, s."""
     t_heel_strike: float
+    """Time of heel-strike, s."""
     displacement: Vec3
-    """Of the sensor, m."""
+    """Displacement of the sensor in the world frame, m."""
     length: float
-    """Horizontal, m."""
+    """Horizontal length of the displacement, m."""
     heading_change: float
-    """rad, in (-pi, pi]."""
+    """Change of the foot's heading, rad, in (-pi, pi]."""
 
 
 @frozen(eq=False)
 class FootTruth:
-    """One foot. Times are true times, s; the stand before the first step has no events."""
+    """The ground truth of one foot; the stand before the first stride has no events."""
 
     foot: Foot
+    """Foot that this is the truth of."""
     heel_strikes: tuple[float, ...]
+    """True times of the heel-strikes, s."""
     foot_flats: tuple[float, ...]
+    """True times of the foot-flats, s."""
     heel_offs: tuple[float, ...]
+    """True times of the heel-offs, s."""
     toe_offs: tuple[float, ...]
-    steps: tuple[TrueStep, ...]
+    """True times of the toe-offs, s."""
+    steps: tuple[TrueStride, ...]
+    """True strides of the foot."""
     origin: Vec3
+    """Position of the sensor at t = 0 relative to the point between the feet, world frame, m."""
     motion: FootMotion
+    """Exact motion of the foot."""
     mounting: Mounting
+    """Mounting of the sensor."""
 
     def pose(self, t: Array | float) -> Kinematics:
-        """Everything about the sensor at any instants, its position relative to the first one."""
+        """Return the motion of the sensor at times `t`, s; its position is relative to that at t = 0."""
         found = self.motion.at(np.atleast_1d(np.asarray(t, dtype=np.float64)), self.mounting)
         return evolve(found, position=found.position - np.array(self.origin))
 
     def phases(self, t: Array | float) -> list[Phase]:
+        """Return the phase of the foot at times `t`, s."""
         return self.motion.phases(np.atleast_1d(np.asarray(t, dtype=np.float64)))
 
 
 @frozen(eq=False)
 class Truth:
-    """The whole walk: `duration` in s.
-
-    `activities`: what the wearer does from when to when, s, without a gap. `flights` and `rides` are the stairs that
-    were walked and the lifts that were taken, in order.
-    """
+    """The ground truth of a whole walk."""
 
     duration: float
+    """Duration of the walk, s."""
     feet: dict[Foot, FootTruth]
+    """Ground truth of each foot."""
     activities: tuple[tuple[float, float, Activity], ...]
+    """Activities of the wearer: start, s, end, s, and activity, without a gap."""
     flights: tuple[Climb, ...]
+    """Flights of stairs that the wearer walked, in order."""
     rides: tuple[CarRide, ...]
+    """Lifts that the wearer took, in order."""
     plan: WalkPlan
+    """Plan of the walk."""
 
     def pose(self, foot: Foot, t: Array | float) -> Kinematics:
-        """Everything about a foot's sensor at any instants, its position relative to the foot's first."""
+        """Return the motion of a foot's sensor at times `t`, s; its position is relative to that at t = 0."""
         return self.feet[foot].pose(t)
 
-    def steps(self, foot: Foot) -> tuple[TrueStep, ...]:
+    def steps(self, foot: Foot) -> tuple[TrueStride, ...]:
+        """Return the true strides of a foot."""
         return self.feet[foot].steps
 
     def activity(self, t: float) -> Activity:
-        """What the wearer does at `t` s."""
-        return next((what for begin, end, what in self.activities if begin <= t < end), Activity.STANDING)
+        """Return the activity of the wearer at `t` s."""
+        return next((what for start, end, what in self.activities if start <= t < end), Activity.STANDING)
 
     def elevation(self, t: Array | float) -> Array:
-        """How much higher than at t = 0 the wearer is at instants `t`, (N), m: the mean of the floors or treads that
-        both feet stand on, between which a foot in the air goes evenly."""
+        """Return the height of the wearer relative to t = 0 at times `t`, m, (N).
+
+        It is the mean height of the floors or treads under both feet; for a foot in swing it is interpolated linearly.
+        """
         t = np.atleast_1d(np.asarray(t, dtype=np.float64))
         total = np.zeros(len(t))
         for foot in Foot:
@@ -141,7 +166,7 @@ class Truth:
 
 
 def foot_truth(foot: Foot, plan: WalkPlan, motion: FootMotion, mounting: Mounting) -> FootTruth:
-    """The truth of one foot for a sensor mounted like this."""
+    """Return the ground truth of one foot for a sensor with this mounting."""
     strides = plan.strides[foot]
     marks = np.array([0.0, *(stride.foot_flat for stride in strides)])
     places = motion.at(marks, mounting).position
@@ -150,7 +175,7 @@ def foot_truth(foot: Foot, plan: WalkPlan, motion: FootMotion, mounting: Mountin
         dx, dy, dz = (float(v) for v in places[k + 1] - places[k])
         turned = stride.end.heading - stride.start.heading
         steps.append(
-            TrueStep(
+            TrueStride(
                 foot=foot,
                 number=k + 1,
                 t_start=float(marks[k]),

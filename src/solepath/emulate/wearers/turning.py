@@ -1,4 +1,4 @@
-"""Rotations on stacks: matrices (N, 3, 3) and unit quaternions (N, 4), w x y z."""
+"""Rotations in stacks: matrices (N, 3, 3) and unit quaternions (N, 4), w x y z."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from .curves import Array
 
 
 def unit(v: Array) -> Array:
-    """Each row at length one."""
+    """Return each row scaled to length one."""
     return np.asarray(v / np.linalg.norm(v, axis=1, keepdims=True))
 
 
 def multiplied(p: Array, q: Array) -> Array:
-    """Hamilton products of two stacks of quaternions, (N, 4) each, or one of them (1, 4)."""
+    """Return the Hamilton products of two stacks of quaternions, (N, 4) each, or one of them (1, 4)."""
     a, u = p[:, :1], p[:, 1:]
     b, v = q[:, :1], q[:, 1:]
     scalar = a * b - np.sum(u * v, axis=1, keepdims=True)
@@ -21,7 +21,7 @@ def multiplied(p: Array, q: Array) -> Array:
 
 
 def matrices(q: Array) -> Array:
-    """Rotation matrices (N, 3, 3) of unit quaternions (N, 4)."""
+    """Return the rotation matrices (N, 3, 3) of unit quaternions (N, 4)."""
     w, x, y, z = q.T
     rows = [
         [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
@@ -32,9 +32,10 @@ def matrices(q: Array) -> Array:
 
 
 def quaternions(turn: Array) -> Array:
-    """Unit quaternions (N, 4) of rotation matrices; from each to the next by the shorter way.
+    """Return the unit quaternions (N, 4) of rotation matrices, with signs that make them continuous.
 
-    Each of the four candidates is the quaternion times four times one of its parts; the one of the largest part counts.
+    Each of the four candidates is the quaternion times four times one of its components; the candidate of the largest
+    component is used.
     """
     m = [[turn[:, i, j] for j in range(3)] for i in range(3)]
     trace = m[0][0] + m[1][1] + m[2][2]
@@ -51,7 +52,7 @@ def quaternions(turn: Array) -> Array:
 
 
 def turned(yaw: Array, roll: Array) -> Array:
-    """Rz(yaw) Rx(roll), (N, 3, 3)."""
+    """Return Rz(yaw) Rx(roll) as matrices, (N, 3, 3)."""
     sy, cy, sr, cr = np.sin(yaw), np.cos(yaw), np.sin(roll), np.cos(roll)
     rows = [[cy, -sy * cr, sy * sr], [sy, cy * cr, -cy * sr], [np.zeros_like(yaw), sr, cr]]
     return np.stack([np.stack(row, axis=1) for row in rows], axis=1)

@@ -22,7 +22,7 @@ from .truth import Truth, activities, foot_truth
 
 
 class Walker:
-    """Everything about a walk that does not depend on devices. The same seed walks the same way."""
+    """A wearer on a route, without devices; the same seed gives the same walk."""
 
     def __init__(self, route: Route, wearer: Wearer | None = None, seed: int = 1) -> None:
         self.route = route
@@ -34,28 +34,28 @@ class Walker:
 
     @cached_property
     def body(self) -> Body:
-        """The wearer above the feet."""
+        """Motion of the body above the feet."""
         wearer = self.wearer
         return body(self.plan, self.motions, self.loads, wearer.shoe, wearer.centre_height, wearer.limbs)
 
     @property
     def duration(self) -> float:
-        """s."""
+        """Duration of the walk, s."""
         return self.plan.duration
 
     def truth(self, mountings: dict[Foot, Mounting] | None = None) -> Truth:
-        """The truth for sensors mounted like this; in the sole where nothing is said."""
+        """Return the ground truth for sensors with these mountings; by default in the sole."""
         places = {foot: (mountings or {}).get(foot, IN_SOLE) for foot in Foot}
         feet = {foot: foot_truth(foot, self.plan, self.motions[foot], places[foot]) for foot in Foot}
         plan = self.plan
         return Truth(plan.duration, feet, activities(plan), plan.climbs, plan.rides, plan)
 
     def kinematics(self, foot: Foot, t: Array, mounting: Mounting = IN_SOLE) -> Kinematics:
-        """Exact motion of a foot's sensor at any instants."""
+        """Return the exact motion of a foot's sensor at times `t`, s."""
         return self.motions[foot].at(t, mounting)
 
     def cell_loads(self, layout: Layout, t: Array) -> Array:
-        """True load on each cell, (N, cells), N."""
+        """Return the true load on each cell at times `t`, N, (N, cells)."""
         return self.loads.cells(layout, self.wearer.shoe.width, self.motions[layout.foot], t)
 
     def samples(
@@ -67,11 +67,11 @@ class Walker:
         mounting: Mounting = IN_SOLE,
         layout: Layout | None = None,
     ) -> list[Sample]:
-        """Samples of one foot on the true clock, at k / rate s; no radio, no wire.
+        """Return samples of one foot on the true clock, at k / rate s, without packets and radio.
 
-        Without `errors` they are exact point values. With a part they have its errors, its low pass (at most half the
-        rate) and its noise, but neither saturate nor are they rounded. With a `layout` (of this foot) every sample
-        has the exact loads of its cells in N.
+        Without `errors` they are exact point values. With a part they have its errors, its low pass (at most half of
+        the rate) and its noise, without saturation and rounding. With a `layout` of this foot every sample has the
+        exact loads of its cells, N.
         """
         count = int(self.duration * rate) + 1
         if errors is None:

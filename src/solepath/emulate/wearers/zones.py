@@ -1,4 +1,4 @@
-"""Patches of the sole, and how the load of one is spread over an insole's cells."""
+"""Zones of the sole, and the distribution of a zone's load over the cells of an insole."""
 
 from __future__ import annotations
 
@@ -11,12 +11,16 @@ from .curves import Array
 
 @frozen(eq=False)
 class Zone:
-    """A patch of the sole: centre (part of the sole's length; lateral, part of its width) and half-axes likewise."""
+    """An elliptic zone of the sole, relative to the sole's length and width."""
 
     x: float
+    """Centre from the heel's end, as a share of the length."""
     y: float
+    """Centre to the lateral side, as a share of the width."""
     half_length: float
+    """Half-axis along the foot, as a share of the length."""
     half_width: float
+    """Half-axis across the foot, as a share of the width."""
 
 
 HEEL = Zone(0.17, 0.0, 0.17, 0.34)
@@ -26,12 +30,12 @@ TOES = Zone(0.86, -0.16, 0.11, 0.34)
 
 
 def pattern(layout: Layout, width: float, zone: Zone, ahead: Array, aside: Array, lean: Array) -> Array:
-    """How a zone's load is spread over the cells at each instant, (N, cells); rows add up to one, or to what of the
-    zone lies over the cells when they are under the heel alone.
+    """Return the share of a zone's load on each cell at each instant, (N, cells).
 
-    The pressure falls off with the square of the distance and is zero outside the ellipse. The faint rest only decides
-    when no cell at all lies in it. A `lean` (m, to the left) tilts it by exp(lean y / variance), which moves its centre
-    by the lean as long as that is small, and never over the edge.
+    The sum of a row is one; for cells under the heel alone it is the share of the zone above the cells. The pressure
+    falls with the square of the distance and is zero outside the ellipse. When no cell lies in the ellipse, a Gaussian
+    of the distance is used. A `lean` (m, to the left) weights the pressure by exp(lean y / variance): a small lean
+    moves the centre by the lean, and no lean moves it over the edge.
     """
     lateral = 1.0 if layout.foot is Foot.LEFT else -1.0
     x = np.array([cell.x for cell in layout.cells]) / layout.length
@@ -56,7 +60,7 @@ def pattern(layout: Layout, width: float, zone: Zone, ahead: Array, aside: Array
 
 
 def _tilted(tilt: Array) -> Array:
-    """The mean of exp(tilt y) over a unit disc under the weight 1 - r^2: 8 I2(tilt) / tilt^2, by its series."""
+    """Return the mean of exp(tilt y) over a unit disc with the weight 1 - r^2: 8 I2(tilt) / tilt^2, by its series."""
     term = np.ones_like(tilt)
     total = term.copy()
     for k in range(1, 20):

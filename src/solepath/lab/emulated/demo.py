@@ -10,7 +10,7 @@ from ...emulate.demo import RADIO, ROUTE, WAY
 from ...emulate.radio import Radio
 from ...emulate.routes.building import BUILDING
 from ...emulate.routes.route import Route
-from ...emulate.routes.ways import Way, wandering
+from ...emulate.routes.ways import BuildingWalk, wandering
 from ...emulate.walk import EmulatedWalk, emulate
 from ...events import Event, Placed, PlaceLost, TurnMade
 from ...floorplan.index import IndexedPlan
@@ -29,7 +29,7 @@ class Demo:
 
     walk: EmulatedWalk
     session: Session
-    way: Way | None = None
+    way: BuildingWalk | None = None
     """Through the emulated building; None where there is none."""
     plan: IndexedPlan | None = None
     """Of that building."""

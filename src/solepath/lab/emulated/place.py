@@ -13,7 +13,7 @@ import numpy as np
 from attrs import field, frozen
 
 from ...emulate.routes.building import BUILDING
-from ...emulate.routes.ways import Way
+from ...emulate.routes.ways import BuildingWalk
 from ...emulate.wearers.truth import Truth
 from ...emulate.wearers.walker import Walker
 from ...events import Event, Placed, PlaceLost, TurnMade
@@ -51,7 +51,7 @@ class PlaceScore:
     """... and all candidates of the time before."""
 
 
-def score(way: Way, walker: Walker, truth: Truth, events: Sequence[Event]) -> PlaceScore:
+def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Event]) -> PlaceScore:
     """What `events` told of the walk of `walker` along `way`."""
     placed = [event for event in events if isinstance(event, Placed)]
     lost = [event.t for event in events if isinstance(event, PlaceLost) and placed and event.t > placed[0].t]
@@ -86,7 +86,7 @@ def score(way: Way, walker: Walker, truth: Truth, events: Sequence[Event]) -> Pl
 
 def on_a_floor(truth: Truth, t: float) -> bool:
     """Whether a step at `t` s is scored."""
-    moved = [(one.begin, one.end) for one in truth.flights] + [(one.begin, one.end) for one in truth.rides]
+    moved = [(one.start, one.end) for one in truth.flights] + [(one.start, one.end) for one in truth.rides]
     return not any([begin <= t <= end + PAUSE for begin, end in moved])
 
 

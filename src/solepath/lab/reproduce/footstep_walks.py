@@ -13,10 +13,10 @@ from attrs import frozen
 from ...calibration import Calibration, CalibrationError
 from ...emulate.routes.building import BUILDING
 from ...emulate.routes.route import Route
-from ...emulate.routes.ways import Way, case_study, corridor, wandering
+from ...emulate.routes.ways import BuildingWalk, case_study, corridor, wandering
 from ...emulate.sensors.sensortags import CC2541
 from ...emulate.walk import EmulatedWalk, emulate
-from ...emulate.wearers.gait import Wearer, anybody
+from ...emulate.wearers.gait import Wearer, random_wearer
 from ...emulate.wearers.shoe import IN_SOLE
 from ...events import StrideTaken, TurnMade
 from ...papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
@@ -75,7 +75,7 @@ class FootstepWalked:
 
 def walked(seed: int) -> FootstepWalked:
     """All that one wearer walks."""
-    known = Wears(*anybody(np.random.default_rng([seed, 17])))
+    known = Wears(*random_wearer(np.random.default_rng([seed, 17])))
     calibration = _calibrated(known, seed)
     windows = emulated_activity.score(FOOTSTEP_TRACKER, seed).windows
     turned, classes = _turns(known, calibration, seed)
@@ -169,7 +169,7 @@ def _turn(known: Wears, calibration: Calibration, angle: float, rng: np.random.G
     return [event for event in heard(FOOTSTEP_TRACKER, walk.packets, calibration) if isinstance(event, TurnMade)]
 
 
-def _placed(known: Wears, calibration: Calibration, way: Way, seed: int) -> PlaceScore:
+def _placed(known: Wears, calibration: Calibration, way: BuildingWalk, seed: int) -> PlaceScore:
     walk = _worn(known, way.route, seed)
     events = heard(FOOTSTEP_TRACKER, walk.packets, calibration, BUILDING)
     return emulated_place.score(way, walk.walker, walk.truth, events)

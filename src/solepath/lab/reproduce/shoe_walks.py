@@ -15,7 +15,7 @@ from ...body.activity.steepness import angle_per_metre, steepness
 from ...emulate.routes.route import Route
 from ...emulate.sensors.parts import MPU6050
 from ...emulate.wearers.shoe import ON_INSTEP
-from ...emulate.wearers.truth import TrueStep, Truth
+from ...emulate.wearers.truth import TrueStride, Truth
 from ...emulate.wearers.walker import Walker
 from ...events import Event, FlightClimbed, StrideTaken
 from ...papers.shoe_sensing.gated_tilt import ShoeSensing, ShoeSensingSettings
@@ -184,13 +184,13 @@ def judged(events: Sequence[Event], truth: Truth, state: str) -> Steps:
     )
 
 
-def matched(steps: Sequence[StrideTaken], true: Sequence[TrueStep]) -> list[tuple[StrideTaken, TrueStep]]:
+def matched(steps: Sequence[StrideTaken], true: Sequence[TrueStride]) -> list[tuple[StrideTaken, TrueStride]]:
     """Each true step with the found one that ends nearest to it, one to one."""
     ends = [one.t_end for one in true], [step.t_end for step in steps]
     return [(steps[j], true[i]) for i, j in pairs(*ends, SAME)]
 
 
-def _courses(together: Sequence[tuple[StrideTaken, TrueStep]]) -> tuple[float, ...]:
+def _courses(together: Sequence[tuple[StrideTaken, TrueStride]]) -> tuple[float, ...]:
     """Direction of each step less the true one, degrees, when the first two metres are laid on the truth."""
     if len(together) < 2:
         return ()

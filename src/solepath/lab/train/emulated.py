@@ -16,7 +16,7 @@ from ...emulate.routes.route import Route
 from ...emulate.sensors.parts import MPU6050
 from ...emulate.sensors.sensortags import CC2650
 from ...emulate.walk import EmulatedWalk, emulate
-from ...emulate.wearers.gait import Wearer, anybody
+from ...emulate.wearers.gait import Wearer, random_wearer
 from ...emulate.wearers.shoe import IN_SOLE
 from ...emulate.wearers.walker import Walker
 from ...types import SITE_OF_FOOT, Foot
@@ -35,7 +35,7 @@ _Part = Callable[[Route, np.random.Generator], Route]
 def of_seed(seed: int, *, jogging: bool = False) -> tuple[Route, Wearer]:
     """A route of four or five minutes through a house and who walks it. `jogging`: some of it at a run."""
     rng = np.random.default_rng([seed, 5])
-    who, _ = anybody(rng)
+    who, _ = random_wearer(rng)
     route = Route(speed=float(rng.uniform(0.9, 1.5))).stand(_uniform(rng, 3.0, 8.0))
     levels = [_stairs(True), _stairs(False), _lift(True), _lift(False)]
     parts = [*levels * TIMES, _along, _along, _along, *[_jog] * jogging]

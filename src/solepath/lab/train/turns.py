@@ -23,7 +23,7 @@ from ...body.gait.turns import features
 from ...emulate.routes.route import Route
 from ...emulate.sensors.sensortags import CC2541
 from ...emulate.walk import EmulatedWalk, emulate
-from ...emulate.wearers.gait import anybody
+from ...emulate.wearers.gait import random_wearer
 from ...emulate.wearers.shoe import IN_SOLE
 from ...events import StrideTaken
 from ...papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
@@ -63,7 +63,7 @@ def walk(seed: int, turn: Turn) -> EmulatedWalk:
     route = Route().stand(2.5).walk(4.0, float(rng.uniform(0.9, 1.4))).turn(angle, radius).walk(4.0).stop(2.0)
     devices = {site: CC2541(rate=20.0, mounting=IN_SOLE) for site in SITE_OF_FOOT.values()}
     # one of WEARERS in each hundred of seeds, by turns
-    who, _ = anybody(np.random.default_rng([seed // 100, seed % WEARERS, 11]))
+    who, _ = random_wearer(np.random.default_rng([seed // 100, seed % WEARERS, 11]))
     return emulate(route, wearer=who, devices=devices, seed=seed)
 
 
