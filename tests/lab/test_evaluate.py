@@ -15,7 +15,7 @@ from solepath.lab.measures.contacts import merged, switch_contacts
 from solepath.lab.measures.legs import between, leg_errors, turned_about
 from solepath.lab.measures.matching import Errors, Matching, interval_errors, match
 from solepath.lab.measures.score import Scored, summarise
-from solepath.lab.measures.strides import StrideScore, marker_rests, position_errors, stride_score, surveyed_score
+from solepath.lab.measures.strides import StrideScore, marker_stances, position_errors, stride_score, surveyed_score
 
 SQUARE = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]])
 
@@ -233,7 +233,7 @@ def test_errors_of_stride_times_are_of_events_that_follow_each_other():
 def test_a_marker_on_a_foot_rests_between_strides():
     t = 0.01 * np.arange(400)
     x = np.interp(t, [0.5, 1.0, 1.5, 2.0, 2.5, 3.0], [0.0, 1.2, 1.2, 2.3, 2.3, 2.35])
-    ends, rests = marker_rests(t, np.column_stack([x, 0.0 * x, 0.1 + 0.0 * x]))
+    ends, rests = marker_stances(t, np.column_stack([x, 0.0 * x, 0.1 + 0.0 * x]))
     assert_allclose(rests[:, 0], [0.0, 1.2, 2.325], atol=0.03)
     assert_allclose(ends[:2], [0.5, 1.5], atol=0.06)
 

@@ -70,7 +70,7 @@ def test_recordings_and_data_sets_on_one_side_only_are_said():
     loops["summary"]["all"]["together"]["heel_strike_bias"] = 0.03
     now["default"]["climbs"] = now["default"].pop("walks")
     (changes,) = [found for found in compared(OLD, now) if found.data_set == "loops"]
-    assert (changes.gone, changes.new) == (("b",), ("c",))
+    assert (changes.removed, changes.new) == (("b",), ("c",))
     assert {(c.what, c.figure, c.verdict) for c in changes.changes if c.verdict is not Verdict.SAME} == {
         ("a", "end_error", Verdict.BETTER), ("together", "heel_strike_bias", Verdict.WORSE),
     }  # fmt: skip

@@ -128,7 +128,7 @@ def _limits_of_insole(key: str, insole: InsoleCalibration) -> Iterator[_Limit]:
 
 
 def _unusable_shoe(shoe: ShoeGeometry) -> str | None:
-    """Return why the shoe's polynomials are unusable, or None. Each gives -1 to 1 m at five pitches up to `steepest`."""
+    """Return why the shoe's polynomials are unusable, or None. Each gives -1 to 1 m at five pitches to `steepest`."""
     for key, polynomial in (("forefoot_radius", shoe.forefoot_radius), ("pivot_to_toe", shoe.pivot_to_toe)):
         for k in range(5):
             pitch, length = 0.25 * k * shoe.steepest, 0.0

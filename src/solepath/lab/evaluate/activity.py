@@ -95,8 +95,8 @@ def score_stairs(path: Path, meta: Meta, how: RunSettings) -> Scored:
 
 def stairs_figures(score: ActivityScore) -> Figures:
     """Shares of labelled time: of stairs that were called stairs, in the right direction, and of level walking."""
-    stairs = score.told_of(Activity.STAIRS_UP)
-    level = score.told_of(Activity.WALKING)
+    stairs = score.reported_for(Activity.STAIRS_UP)
+    level = score.reported_for(Activity.WALKING)
     on, off = sum(stairs.values()), sum(level.values())
     return {
         "stairs_called": sum(stairs.get(told, 0) for told in STAIRS) / on if on else None,

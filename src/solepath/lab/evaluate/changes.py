@@ -94,7 +94,7 @@ class Changes:
     recipe: str
     data_set: str
     changes: tuple[Change, ...]
-    gone: tuple[str, ...]
+    removed: tuple[str, ...]
     """Recordings of then that were not scored now."""
     new: tuple[str, ...]
     """Recordings that were not scored then."""
@@ -149,8 +149,8 @@ def compared(was: Scores, now: Scores) -> list[Changes]:
                 for figure in dict.fromkeys([*figures, *old[what]])
             ]
             then, today = before["recordings"], part["recordings"]
-            gone, new = (tuple(x for x in a if x not in b) for a, b in ((then, today), (today, then)))
-            found.append(Changes(recipe, name, tuple(changes), gone, new))
+            removed, new = (tuple(x for x in a if x not in b) for a, b in ((then, today), (today, then)))
+            found.append(Changes(recipe, name, tuple(changes), removed, new))
     return found
 
 

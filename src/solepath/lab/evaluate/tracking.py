@@ -12,7 +12,7 @@ from ..measures.alignment import at_times, path_length, track_error
 from ..measures.legs import leg_errors
 from ..measures.matching import Errors
 from ..measures.score import Figures, Scored
-from ..measures.strides import StrideScore, marker_rests, position_errors, surveyed_score
+from ..measures.strides import StrideScore, marker_stances, position_errors, surveyed_score
 from .gathered import FootRun
 from .insoles import in_dataset
 from .run import Arrays, Meta, RunSettings, run, scored, truth_of
@@ -33,8 +33,8 @@ def score_optitrack(path: Path, meta: Meta, how: RunSettings) -> Scored:
     truth, went = truth_of(path), run(path, how, calibration=in_dataset(path))
     both = (truth["gt_t"] >= truth["t"][0]) & (truth["gt_t"] <= truth["t"][-1])
     t, places, foot = truth["gt_t"][both], truth["gt_pos"][both], went.feet[Foot.RIGHT]
-    times, rests = marker_rests(t, places)
-    strides = surveyed_score(times, rests, foot.t, foot.positions, foot.step_lengths)
+    times, stances = marker_stances(t, places)
+    strides = surveyed_score(times, stances, foot.t, foot.positions, foot.step_lengths)
     return scored(path, went, figures=_track_figures(foot, t, places), strides=strides)
 
 

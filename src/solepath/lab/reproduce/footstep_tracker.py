@@ -79,7 +79,7 @@ def _notes(done: list[FootstepWalked]) -> tuple[str, ...]:
     lines = []
     windows = sum([one.windows for one in done], ActivityScore())
     for activity in Activity:
-        told = windows.told_of(activity)
+        told = windows.reported_for(activity)
         if told:
             share = 100.0 * told.get(activity, 0) / sum(told.values())
             lines.append(f"{activity.value}: {share:.1f} % of {sum(told.values())} windows right.")
