@@ -11,7 +11,7 @@ from solepath.events import ActivityChanged, LiftRidden
 from solepath.lab.evaluate import learning
 from solepath.lab.evaluate.activity import CLIMBED, compared, rides, stairs_figures, windows
 from solepath.lab.evaluate.jobs import evaluate
-from solepath.lab.evaluate.learning import Learner, Lesson, lessons, part_for, taught
+from solepath.lab.evaluate.learning import Learner, TrainingSource, part_for, train_parts, training_sources
 from solepath.lab.measures.confusion import CLASSES, ActivityScore
 from solepath.lab.measures.score import Scored, summarise
 from solepath.lab.train import footstep_activity
@@ -135,8 +135,8 @@ def test_what_is_scored_on_a_wearer_was_taught_without_that_wearer(monkeypatch):
 
     monkeypatch.setitem(learning.LEARNERS, Pupil, Learner(lambda folder: [], str, tuple))
     wearers = sorted(wearer for fold in FOLDS for wearer in fold)
-    school = [Lesson(Pupil, wearer, wearer) for wearer in wearers] + [Lesson(Pupil, "emulated", None)]
-    parts = taught(school, [lesson.features() for lesson in school])
+    school = [TrainingSource(Pupil, wearer, wearer) for wearer in wearers] + [TrainingSource(Pupil, "emulated", None)]
+    parts = train_parts(school, [lesson.features() for lesson in school])
     for number, fold in enumerate(FOLDS):
         assert parts[Pupil, number] == (*(str(wearer) for wearer in wearers if wearer not in fold), "emulated")
 
@@ -161,9 +161,9 @@ def test_stairs_are_in_two_folders(data_dir):
 
 
 def test_each_recording_is_learnt_from_once_whatever_the_folds(data_dir):
-    assert len(lessons(data_dir, [recipes.by_name("footstep-tracker")] * 2)) == 115
-    assert not lessons(data_dir, [recipes.by_name("shoe-sensing")])
-    default = lessons(data_dir, [recipes.DEFAULT])
+    assert len(training_sources(data_dir, [recipes.by_name("footstep-tracker")] * 2)) == 115
+    assert not training_sources(data_dir, [recipes.by_name("shoe-sensing")])
+    default = training_sources(data_dir, [recipes.DEFAULT])
     assert {lesson.subject for lesson in default} - {None} == {wearer for fold in FOLDS for wearer in fold}
 
 

@@ -7,8 +7,8 @@ to 50; tune on seeds from 101 on.
 The position is `session.position`, twice a second, compared with the mean of the true positions of both sensors. A
 track has its own heading and origin, so one turn about the vertical and one shift, by least squares over the first
 ALIGNED m, align it with the truth. Then `position_end` is the horizontal distance at the end and `position_max` the
-largest one, in m; `end_relative` and `largest_relative` are the same two as shares of the path length. So a heading
-error over the first ALIGNED m counts over the whole walk. `rms_2d` is what remains after the best turn and shift over
+largest one, in m; `end_relative` and `largest_relative` are the same two as shares of the path length. So the heading
+error after ALIGNED m counts over the rest of the walk. `rms_2d` is what remains after the best turn and shift over
 the whole walk, as for a VICON track. Heights are compared as they are, from the first: `height_end` is the error at
 the end, `height_max` the largest one.
 """
@@ -29,7 +29,7 @@ from ...emulate.wearers.gait import Wearer
 from ...emulate.wearers.truth import Truth
 from ...session import Session
 from ...types import SITE_OF_FOOT, Foot, Site
-from ..evaluate.run import Meta, RunSettings, followed
+from ..evaluate.run import Meta, RunSettings, run_timed
 from ..measures.alignment import Floats, aligned_at_start, distances, track_error
 from ..measures.matching import Matching
 from ..measures.score import Figures, Scored
@@ -103,12 +103,12 @@ def worn(seed: int) -> dict[Site, Insole]:
     return {SITE_OF_FOOT[foot]: Insole(cells=96 if seed % 2 else 24) for foot in Foot}
 
 
-def score_way(way: Callable[[int], Route], path: Path, meta: Meta, how: RunSettings) -> Scored:
+def score_way(way: Callable[[int], Route], path: Path, meta: Meta, settings: RunSettings) -> Scored:
     """Score the route of the seed in the entry `meta`; `way` is one of the routes above."""
     seed: int = meta["seed"]
     walked = sampled(way(seed), wearer=Wearer(), insoles=worn(seed), seed=seed)
-    session, truth = Session(how.recipe, calibration=how.calibration), walked.truth
-    gathering, track, seconds = followed(session, walked.samples, EVERY)
+    session, truth = Session(settings.recipe, calibration=settings.calibration), walked.truth
+    gathering, track, seconds = run_timed(session, walked.samples, EVERY)
     heel_strike, toe_off, strides = Matching(), Matching(), StrideScore()
     for foot in compare(truth, {foot: gathering.foot(foot) for foot in Foot}):
         heel_strike += foot.events["heel_strike"]

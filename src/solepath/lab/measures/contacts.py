@@ -39,7 +39,10 @@ def switch_contacts(t: NDArray[Any], counts: NDArray[Any]) -> list[tuple[float, 
 
 
 def force_contacts(t: NDArray[Any], force: NDArray[Any]) -> list[tuple[float, float]]:
-    """Return the spans of contact [start, end] in s of a force (n,), N, at `t` (n,). Spans cut off at an end are left out."""
+    """Return the whole spans of contact [start, end] in s of a force (n,), N, at `t` (n,).
+
+    Spans cut off at an end of the recording are left out.
+    """
     closed = force > FORCE
     turns = np.flatnonzero(closed[1:] != closed[:-1]) + 1
     edges = without_bounces([(float(t[k]), bool(closed[k])) for k in turns])

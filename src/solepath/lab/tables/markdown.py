@@ -49,7 +49,8 @@ def accuracy_table(results: Sequence[Result]) -> str:
             bipedal = [other for other in result.summaries if other.group == "bipedal"]
             figures = [
                 *_places(summary), *_shares(summary, BETTER), *(row for other in bipedal for row in _bipedal(other)),
-                *_strides(summary.together), *_legs(summary.together), *_events(summary.together), *_activities(summary),
+                *_strides(summary.together), *_legs(summary.together), *_events(summary.together),
+                *_activities(summary),
             ]  # fmt: skip
             for what, figure in figures:
                 rows.setdefault((data, what), {})[result.recipe] = figure
