@@ -168,7 +168,7 @@ def _steps(events: list[Event], foot: Foot) -> list[StrideTaken]:
 def _tracks(
     truth: Truth, halt: float, zupt: list[Event], fused: list[StrideFused]
 ) -> tuple[tuple[PictureTrack, ...], dict[str, float]]:
-    """Return tracks of stride ends, aligned over their first two metres, and the distance of each end from its start, m."""
+    """Return tracks of stride ends, aligned over their first two metres, and each end's distance from its start, m."""
     ends = {f"ZUPT-{FEET[foot]}": [(step.t_end, foot, step.position) for step in _steps(zupt, foot)] for foot in Foot}
     # the position after a stride is the end of the chosen foot's path, which does not change between its own strides
     ends["KUPT+DFPC"] = [(one.t, one.foot, one.position) for one in fused if one.foot is one.chosen]

@@ -193,7 +193,8 @@ def _tour_notes(done: Sequence[ShoeWalked]) -> list[str]:
     turned = [abs(one.heading) for one in tours]
     heights = [abs(one.height) for one in tours]
     return [
-        f"Five minutes: flights told exactly in {sum([one.reported == one.true for one in tours])} of {len(done)} walks; "
+        f"Five minutes: flights told exactly in {sum([one.reported == one.true for one in tours])} of {len(done)} "
+        "walks; "
         f"the end is off by {np.mean(off):.1f} m on average, {share:.1f} % of the way, and by {max(off):.1f} m at "
         f"worst, its height by {np.mean(heights):.2f} m and {max(heights):.2f} m.",
         f"The heading of the five minutes' last steps is off by {np.mean(turned):.0f} degrees on average and "

@@ -45,9 +45,9 @@ RATE = 50.0
 """Sampling rate, Hz (section 3.1)."""
 CELLS = 99
 STEPS, REPEATS = 50, 3
-"""Number of steps of a marked walk and its repeats; section 3.3: "50 steps at a time and repeated this three times
+"""Number of steps of a marked walk, and number of its repeats.
 
-along each path".
+Section 3.3: "50 steps at a time and repeated this three times along each path".
 """
 METHODS = {"I": TOUCHDOWN_HEIGHT, "II": TOUCHDOWN_ACCELERATION, "III": TOUCHDOWN_PRESSURE, "IV": WALKING_MODES}
 PLACES = {"A": (0.0, 0.0), "B": (ALONG, 0.0), "C": (ALONG, ACROSS), "D": (0.0, ACROSS)}
@@ -158,7 +158,7 @@ def known_of(wearer: Wearer) -> Calibration:
 
 
 def worn(walker: Walker, known: Calibration, seed: int) -> list[Sample]:
-    """Return the samples of the seven sensors and both insoles; `seed` draws how they are strapped on, and their errors."""
+    """Return the samples of the seven sensors and both insoles; `seed` draws their errors and their mounting."""
     layouts = {SITE_OF_FOOT[foot]: one.layout for foot, one in known.insoles.items() if one.layout is not None}
     return limb_samples(walker, RATE, seed=seed, layouts=layouts, cell_part=WORN_RESISTIVE)
 
