@@ -21,7 +21,7 @@ from solepath.fleet.spark import SENT_SCHEMA, STORE, gait
 
 def main() -> None:
     parser = argparse.ArgumentParser(description="Gait events of a fleet, on Spark.")
-    for name in ("sent", "told", "checkpoint"):
+    for name in ("sent", "events", "checkpoint"):
         parser.add_argument(name)
     parser.add_argument("--recipe", choices=recipes.NAMES, default=recipes.DEFAULT.name)
     parser.add_argument("--every", help='how often to look for new files: "10 seconds"; otherwise once')
@@ -33,10 +33,10 @@ def main() -> None:
     spark = SparkSession.builder.appName("solepath").config(map=STORE).getOrCreate()
     spark.sparkContext.setLogLevel("ERROR")
     sent = spark.readStream.schema(SENT_SCHEMA).option("maxFilesPerTrigger", args.files).parquet(args.sent)
-    told = gait(sent, Fleet(recipes.by_name(args.recipe)))
-    writer = told.writeStream.format("parquet").option("checkpointLocation", args.checkpoint)
+    events = gait(sent, Fleet(recipes.by_name(args.recipe)))
+    writer = events.writeStream.format("parquet").option("checkpointLocation", args.checkpoint)
     writer = writer.trigger(processingTime=args.every) if args.every else writer.trigger(availableNow=True)
-    query = writer.start(args.told)
+    query = writer.start(args.events)
     query.awaitTermination()
     for batch in query.recentProgress:
         if batch.numInputRows:

@@ -29,24 +29,24 @@ class Clock:
     """What packets are stamped with: time.monotonic() in an app, here that of the walk, `speed` times as fast as life.
     An infinite speed is as fast as the app waits for it to go on: no machine is too slow for what is shown here."""
 
-    def __init__(self, speed: float, begin: float) -> None:
-        self.speed, self.begin, self.t, self.began = speed, begin, begin, time.monotonic()
+    def __init__(self, speed: float, t_start: float) -> None:
+        self.speed, self.t_start, self.t, self.started_at = speed, t_start, t_start, time.monotonic()
         self.app_waits = threading.Event()
 
     def go_on(self, t: float) -> None:
         if self.speed == inf:
             self.app_waits.wait()
             self.app_waits.clear()
-        time.sleep(max(0.0, self.began + (t - self.begin) / self.speed - time.monotonic()))
+        time.sleep(max(0.0, self.started_at + (t - self.t_start) / self.speed - time.monotonic()))
         self.t = t
 
 
 class Receiver(threading.Thread):
-    """Stands for the thread that a Bluetooth library calls back on; `notified` is what such a callback does."""
+    """Stands for the thread that a Bluetooth library calls back on; `on_notification` is what such a callback does."""
 
     def __init__(self, packets: Iterator[Packet], clock: Clock, capacity: int) -> None:
         super().__init__(name="receiver", daemon=True)
-        self.packets, self.clock, self.began = packets, clock, clock.t
+        self.packets, self.clock, self.listening_since = packets, clock, clock.t
         self.inbox: queue.Queue[list[Packet] | None] = queue.Queue(capacity)
         self.dropped, self.stopped, self.must_wait = dict[Site, int](), False, False
 
@@ -56,17 +56,19 @@ class Receiver(threading.Thread):
                 self.clock.go_on(min(packet.t, self.clock.t + 0.2))
             if self.stopped:
                 break
-            if packet.t >= self.began:  # else it was sent while nobody listened
-                self.notified(packet)  # a library's callback makes it: Packet(time.monotonic(), site, channel, data)
+            if packet.t >= self.listening_since:  # else it was sent while nobody listened
+                self.on_notification(
+                    packet
+                )  # a library's callback makes it: Packet(time.monotonic(), site, channel, data)
         self.inbox.put(None)  # no more comes; whoever takes from the queue goes on until this
 
-    def notified(self, packet: Packet) -> None:
+    def on_notification(self, packet: Packet) -> None:
         """Never waits for the app, unless the packet is one that all others are read with."""
         site, count = packet.site, self.dropped.get(packet.site, 0)
-        told = [Packet(packet.t, site, "receiver/dropped", build_dropped(count), packet.device)] if count else []
+        report = [Packet(packet.t, site, "receiver/dropped", build_dropped(count), packet.device)] if count else []
         self.must_wait = packet.channel not in STREAMS
         try:
-            self.inbox.put([*told, packet], block=self.must_wait)
+            self.inbox.put([*report, packet], block=self.must_wait)
             self.dropped[site] = 0
         except queue.Full:
             self.dropped[site] = count + 1

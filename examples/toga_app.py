@@ -26,6 +26,7 @@ FIGURES = {"steps": "steps", "cadence": "steps a minute", "length": "stride, m",
 
 async def sensors() -> AsyncIterator[Packet]:
     from solepath.ble import DeviceConfig, Devices
+
     async with Devices([DeviceConfig(None, profile=INSOLE), DeviceConfig(None, profile=INSOLE)]) as devices:
         async for packet in devices:
             yield packet
@@ -33,10 +34,11 @@ async def sensors() -> AsyncIterator[Packet]:
 
 async def emulated(speed: float = 1.0) -> AsyncIterator[Packet]:
     from solepath.emulate import Route, emulate
+
     loop = asyncio.get_running_loop()
-    began = loop.time()
+    started_at = loop.time()
     for packet in emulate(Route().stand(2).walk(12, speed=1.3).turn(1.6, radius=1.5).walk(8).stop(2), seed=1).packets:
-        await asyncio.sleep(max(0.0, began + packet.t / speed - loop.time()))
+        await asyncio.sleep(max(0.0, started_at + packet.t / speed - loop.time()))
         yield packet
 
 
@@ -49,27 +51,27 @@ class GaitApp(toga.App):
         self.map = toga.Canvas(flex=1, margin=6, background_color="white")
         self.status = toga.Label("", font_size=11, margin=6)
         big = {"font_size": 16, "height": 48, "flex": 1, "margin": 4}
-        self.start = toga.Button("Insoles", on_press=lambda _: self.begin(sensors()), **big)
-        self.show = toga.Button("Emulated", on_press=lambda _: self.begin(emulated()), **big)
+        self.start = toga.Button("Insoles", on_press=lambda _: self.toggle_listening(sensors()), **big)
+        self.show = toga.Button("Emulated", on_press=lambda _: self.toggle_listening(emulated()), **big)
         below = {name: toga.Label(text, font_size=11, text_align=CENTER) for name, text in FIGURES.items()}
         tiles = [toga.Box(children=[self.figures[n], below[n]], direction=COLUMN, flex=1) for n in FIGURES]
         rows = [toga.Box(children=row, direction=ROW) for row in (tiles[:2], tiles[2:], [self.start, self.show])]
         column = [self.activity, rows[0], rows[1], self.soles, self.map, self.status, rows[2]]
         self.main_window = toga.MainWindow(size=(360, 740), content=toga.Box(children=column, direction=COLUMN))
         self.main_window.show()
-        self.anew()
+        self.reset()
 
-    def anew(self) -> None:
+    def reset(self) -> None:
         self.session, self.steps, self.peak, self.due = Session(pressures=True), 0, 1.0, 0.0
         self.layouts, self.load = dict[Foot, Layout](), dict[Foot, FootPressed]()
         self.track = {foot: deque([(0.0, 0.0)], maxlen=1000) for foot in Foot}
         self.draw()
 
-    def begin(self, packets: AsyncIterator[Packet]) -> None:
+    def toggle_listening(self, packets: AsyncIterator[Packet]) -> None:
         if self.listening is not None:
             self.listening.cancel()  # the button says Stop
             return
-        self.anew()
+        self.reset()
         self.status.text, self.start.text, self.show.enabled = "waiting for the first packet", "Stop", False
         self.listening = self.loop.create_task(self.listen(packets))
 

@@ -42,19 +42,19 @@ ROUTE = Route().stand(2.0).walk(50.0, 1.3).stop(2.0)
 """About 43 s; the foot stands 10 % of it and walks the rest."""
 
 
-def each(items: list[Any], begin: Callable[[], Any], prepare: Iterable[Any] = ()) -> float:
+def each(items: list[Any], make: Callable[[], Any], prepare: Iterable[Any] = ()) -> float:
     """Microseconds an item: what is begun is fed `prepare` unmeasured, then all items one by one."""
     found = []
     for _ in range(RUNS):
-        one = begin()
+        one = make()
         for item in prepare:
             one.feed(item)
         feed = one.feed
         with uncollected():
-            began = perf_counter()
+            started_at = perf_counter()
             for item in items:
                 feed(item)
-            found.append((perf_counter() - began) / len(items) * 1e6)
+            found.append((perf_counter() - started_at) / len(items) * 1e6)
     return median(found)
 
 
@@ -66,7 +66,7 @@ def fed(items: Iterable[Any]) -> Session:
     return session
 
 
-def told_of(recipe: Recipe, infos: list[Packet]) -> Session:
+def session_with_layout(recipe: Recipe, infos: list[Packet]) -> Session:
     """A session that knows where the cells are."""
     session = Session(recipe)
     session.feed(infos)
@@ -102,11 +102,11 @@ class Timed:
             return what
 
         def timed(*arguments: Any) -> Any:
-            began = perf_counter()
+            started_at = perf_counter()
             try:
                 return what(*arguments)
             finally:
-                self.taken += perf_counter() - began
+                self.taken += perf_counter() - started_at
                 self.calls += 1
 
         return timed
@@ -126,9 +126,9 @@ OF_A_SAMPLE: dict[str, str | type[Part]] = {
 """What is told of a sample's time: which field of a foot takes it, or a part of which kind."""
 
 
-def shares_of(items: list[Sample], begin: Callable[[], Session]) -> dict[str, float]:
+def shares_of(items: list[Sample], make: Callable[[], Session]) -> dict[str, float]:
     """Microseconds a sample that each part of a foot and of a wearer takes, less what the clock does."""
-    return {name: median([_share(items, begin(), what) for _ in range(RUNS)]) for name, what in OF_A_SAMPLE.items()}
+    return {name: median([_share(items, make(), what) for _ in range(RUNS)]) for name, what in OF_A_SAMPLE.items()}
 
 
 def _share(items: list[Sample], session: Session, what: str | type[Part]) -> float:
@@ -194,7 +194,7 @@ def main() -> None:
     left = [packet for packet in walk.packets if packet.site is Site.LEFT_FOOT]
     info = [packet for packet in left if packet.channel != "insole/frame"]
     frames = [packet for packet in left if packet.channel == "insole/frame"]
-    (told,) = [packet for packet in info if packet.channel == "insole/info"]
+    (info_packet,) = [packet for packet in info if packet.channel == "insole/info"]
     small = Insole(cells=24, mtu=23)
     fragments = list(emulate(ROUTE, devices={Site.LEFT_FOOT: small}, seed=1).packets)
     linear = Recipe("linear", Cycle(), LinearDedrift())
@@ -212,7 +212,7 @@ def main() -> None:
 
     def knowing(**given: bool) -> Session:
         session = Session(**given)
-        session.feed(told)
+        session.feed(info_packet)
         return session
 
     add("yardstick: numpy, nine states, SHOE, the usual way", yard)
@@ -228,7 +228,7 @@ def main() -> None:
     two_feet = walker.samples(Foot.RIGHT, 100.0, LSM6DSOX, layout=layout(96, Foot.RIGHT)) + pressed
     two_feet.sort(key=_moment)
     for recipe in map(recipes.by_name, recipes.NAMES):
-        add(f"both feet, 96 cells, {recipe.name}", each(two_feet, partial(told_of, recipe, infos)))
+        add(f"both feet, 96 cells, {recipe.name}", each(two_feet, partial(session_with_layout, recipe, infos)))
     layouts = {site: layout(99, foot) for foot, site in SITE_OF_FOOT.items()}
     suit = limb_samples(walker, 50.0, seed=1, layouts=layouts)
     insoles = sum(sample.pressure is not None for sample in suit)

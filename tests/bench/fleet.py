@@ -70,13 +70,14 @@ def main() -> None:
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--every", type=float, default=10.0, help="s between two snapshots")
     parser.add_argument("--recipe", default="default")
-    asked = parser.parse_args()
+    options = parser.parse_args()
     plans = [
-        DemoPlan(n, asked.seconds, recipe=asked.recipe, parts=asked.processes, every=asked.every) for n in asked.sizes
+        DemoPlan(n, options.seconds, recipe=options.recipe, parts=options.processes, every=options.every)
+        for n in options.sizes
     ]
     rows = [line(plan) for plan in plans]
-    print(f"{machine()}, {asked.processes} processes of bytewax\n\n{table(COLUMNS, rows)}\n")
-    print(NOTE.format(every=f"{asked.every:g}", seconds=f"{asked.seconds:g}"))
+    print(f"{machine()}, {options.processes} processes of bytewax\n\n{table(COLUMNS, rows)}\n")
+    print(NOTE.format(every=f"{options.every:g}", seconds=f"{options.seconds:g}"))
 
 
 if __name__ == "__main__":

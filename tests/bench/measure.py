@@ -32,9 +32,9 @@ def seconds(work: Callable[[], object]) -> float:
     found = []
     for _ in range(RUNS):
         with uncollected():
-            began = perf_counter()
+            started_at = perf_counter()
             work()
-            found.append(perf_counter() - began)
+            found.append(perf_counter() - started_at)
     return median(found)
 
 

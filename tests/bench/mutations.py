@@ -105,7 +105,7 @@ def passes(copy: Path, tests: tuple[str, ...], limit: float) -> bool:
     return done.returncode == 0
 
 
-def judge(name: str, count: int, say: Callable[[str], None]) -> None:
+def judge(name: str, count: int, report: Callable[[str], None]) -> None:
     """Try the faults of one file."""
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder, "src")
@@ -113,10 +113,10 @@ def judge(name: str, count: int, say: Callable[[str], None]) -> None:
         file = copy / "solepath" / name
         source = file.read_text()
         tests = tuple(f"tests/{test}" for test in CORE[name])
-        began = time.monotonic()
+        started_at = time.monotonic()
         if not passes(copy, tests, 3600.0):
             raise SystemExit(f"{name}: its tests fail as it is")
-        limit = 60.0 + 5.0 * (time.monotonic() - began)
+        limit = 60.0 + 5.0 * (time.monotonic() - started_at)
         caught = 0
         changed = sample(source, count)
         for number, (line, what, text) in enumerate(changed):
@@ -124,8 +124,8 @@ def judge(name: str, count: int, say: Callable[[str], None]) -> None:
             os.utime(file, (number, number))  # Python compiles anew what has another time, to the second
             survived = passes(copy, tests, limit)
             caught += not survived
-            say(f"{name}:{line}: {'survived' if survived else 'caught  '} {what}")
-        say(f"{name}: {caught} of {len(changed)} caught")
+            report(f"{name}:{line}: {'survived' if survived else 'caught  '} {what}")
+        report(f"{name}: {caught} of {len(changed)} caught")
 
 
 def main() -> None:
@@ -135,14 +135,14 @@ def main() -> None:
     options.add_argument("--out", type=Path, help="append what is printed to this file too")
     chosen = options.parse_args()
 
-    def say(line: str) -> None:
+    def report(line: str) -> None:
         print(line, flush=True)
         if chosen.out is not None:
             with chosen.out.open("a") as out:
                 out.write(line + "\n")
 
     for name in chosen.file or CORE:
-        judge(name, chosen.count, say)
+        judge(name, chosen.count, report)
 
 
 if __name__ == "__main__":

@@ -63,9 +63,9 @@ def packets(device: Callable[[], Any]) -> tuple[Packet, ...]:
 def microseconds(work: Callable[[], Any]) -> tuple[Any, float]:
     """What it gives, and how long that took."""
     gc.disable()
-    began = thread_time()
+    started_at = thread_time()
     given = work()
-    took = (thread_time() - began) * 1e6
+    took = (thread_time() - started_at) * 1e6
     gc.enable()
     return given, took
 
@@ -103,12 +103,12 @@ def show(name: str, moments: list[Any], load: Callable[[Any], Session], save: Ca
     if [saved for saved, _ in packed] != moments:
         raise SystemExit(f"{name}: what was unpacked is packed in other bytes")
     sizes, packing, unpacking = [len(saved) for saved in moments], [took for _, took in packed], [t for _, t in loaded]
-    told = (
+    figures = (
         *(mean(sizes), max(sizes)),
         *(median(packing), nearly_most(packing), max(packing)),
         *(median(unpacking), nearly_most(unpacking)),
     )
-    cells = [f"{value:{len(column)}.0f}" for column, value in zip(COLUMNS, told, strict=True)]
+    cells = [f"{value:{len(column)}.0f}" for column, value in zip(COLUMNS, figures, strict=True)]
     print(f"{name:34}  " + "  ".join(cells), flush=True)
 
 

@@ -58,9 +58,9 @@ async def serve(way: str, seconds: float) -> None:
             await stack.enter_async_context(page)
         print("" if page is None else page.url, flush=True)
         await loop.run_in_executor(None, sys.stdin.readline)
-        began, used = loop.time(), process_time()
+        started_at, used = loop.time(), process_time()
         for packet in packets:
-            wait = began + packet.t - loop.time()
+            wait = started_at + packet.t - loop.time()
             if wait > 0.0:
                 await asyncio.sleep(wait)
             events = session.feed(packet)
@@ -87,7 +87,7 @@ class Watched:
     sizes: list[int] = field(factory=list)
     drawn: float = 0.0
     """Frames a second."""
-    busy: float = 0.0
+    work_share: float = 0.0
     """Share of the time that the page's thread worked."""
     early: tuple[int, int, int] | None = None
     late: tuple[int, int, int] = (0, 0, 0)
@@ -101,16 +101,16 @@ def watch(browser: Browsing, url: str, process: subprocess.Popen[str], seconds: 
             await view.devtools.send("Performance.enable")
             await view.tab.goto(url)
             await asyncio.sleep(1.0)
-            begin(process)
+            start(process)
             found.sizes.clear()
-            worked, drawn, spent = await busy(view), await frames(view), 0.0
+            worked, drawn, spent = await work_time(view), await frames(view), 0.0
             if seconds > SETTLED * MINUTE:
                 spent = SETTLED * MINUTE
                 await asyncio.sleep(spent)
                 found.early = (*await view.memory(), await resident(chromium))
             await asyncio.sleep(seconds - 1.0 - spent)
             found.drawn = (await frames(view) - drawn) / (seconds - 1.0)
-            found.busy = (await busy(view) - worked) / (seconds - 1.0)
+            found.work_share = (await work_time(view) - worked) / (seconds - 1.0)
             found.late = (*await view.memory(), await resident(chromium))
             return found
 
@@ -123,7 +123,7 @@ async def frames(view: Window) -> int:
     return count
 
 
-async def busy(view: Window) -> float:
+async def work_time(view: Window) -> float:
     """s for which the page's thread has worked."""
     metrics = (await view.devtools.send("Performance.getMetrics"))["metrics"]
     return next(float(metric["value"]) for metric in metrics if metric["name"] == "TaskDuration")
@@ -140,7 +140,7 @@ async def resident(browser: Browser) -> int:
     return 1024 * sum(int(share[1]) for share in shares if share)
 
 
-def begin(process: subprocess.Popen[str]) -> None:
+def start(process: subprocess.Popen[str]) -> None:
     assert process.stdin is not None
     print(file=process.stdin, flush=True)
 
@@ -168,15 +168,15 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--minutes", type=float, default=1.0, help="of each of the four (default: 1)")
     parser.add_argument("--serve", choices=WAYS, help=argparse.SUPPRESS)
-    asked = parser.parse_args()
-    seconds = asked.minutes * MINUTE
-    if asked.serve is not None:
-        asyncio.run(serve(asked.serve, seconds))
+    options = parser.parse_args()
+    seconds = options.minutes * MINUTE
+    if options.serve is not None:
+        asyncio.run(serve(options.serve, seconds))
         return
     reason = why_not()
     if reason is not None:
         sys.exit(reason)
-    print(f"Python {platform.python_version()}, {os.cpu_count()} cores, {program()}; {asked.minutes:g} min each\n")
+    print(f"Python {platform.python_version()}, {os.cpu_count()} cores, {program()}; {options.minutes:g} min each\n")
     print(f"{'the session, and':30} {'of a core':>10} {'more':>8}")
     alone: float | None = None
     watched = Watched()
@@ -190,19 +190,21 @@ def main() -> None:
                     share = spent(process) / seconds
             else:
                 held = stall(url) if way == "stalled" else None
-                begin(process)
+                start(process)
                 share = spent(process) / seconds
                 if held is not None:
                     held.close()
         alone = share if alone is None else alone
         print(f"{name:30} {100 * share:8.1f} % {100 * (share - alone):6.1f} %", flush=True)
     sizes = watched.sizes
-    print(f"\nthe page draws {watched.drawn:.1f} frames a second; its thread works {100 * watched.busy:.0f} % of it")
+    print(
+        f"\nthe page draws {watched.drawn:.1f} frames a second; its thread works {100 * watched.work_share:.0f} % of it"
+    )
     print(
         f"{len(sizes) / seconds:.1f} messages a second, {sum(sizes) / seconds / 1000:.1f} kB/s; "
         f"bytes of one: median {median(sizes):.0f}, p99 {quantiles(sizes, n=100)[98]:.0f}, most {max(sizes)}"
     )
-    for when, memory in ((SETTLED, watched.early), (asked.minutes, watched.late)):
+    for when, memory in ((SETTLED, watched.early), (options.minutes, watched.late)):
         if memory is not None:
             heap, elements, process = memory
             print(

@@ -82,16 +82,16 @@ def way_of(session: Session, packet: Packet) -> tuple[Way, list[Any]]:
 def ways(packets: tuple[Packet, ...]) -> tuple[list[Way], list[Way]]:
     """Of the quiet frames and of those that end a stride."""
     session = Session()
-    quiet, ending = [], []
+    idle, ending = [], []
     for packet in packets:
         way, events = way_of(session, packet)
         if packet.channel != "insole/frame":
             continue
         if not events:
-            quiet.append(way)
+            idle.append(way)
         elif any(isinstance(event, StrideTaken) for event in events):
             ending.append(way)
-    return quiet, ending
+    return idle, ending
 
 
 def show(name: str, found: list[Way], calls: bool) -> None:
@@ -123,7 +123,7 @@ began = process_time()
 {work}
 print(process_time() - began)
 """
-BEGIN = "from solepath import Session, recipes; Session(recipes.by_name({name!r}))"
+START = "from solepath import Session, recipes; Session(recipes.by_name({name!r}))"
 LOADED = """
 import sys
 {work}
@@ -137,7 +137,7 @@ print(len(files), sum(len(Path(file).read_text("utf-8").splitlines()) for file i
 
 def loading() -> None:
     """Each kind of process by turns, so that a machine that slows down slows them all."""
-    works = {"attrs, construct": "import attrs, construct", **{name: BEGIN.format(name=name) for name in RECIPES}}
+    works = {"attrs, construct": "import attrs, construct", **{name: START.format(name=name) for name in RECIPES}}
     took: dict[str, list[float]] = {name: [] for name in works}
     for work in works.values():
         fresh(work)
@@ -159,11 +159,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--calls", action="store_true", help="list the functions of one frame of each kind")
     parser.add_argument("--no-import", action="store_true", help="the way alone")
-    asked = parser.parse_args()
-    quiet, ending = ways(emulate(ROUTE, radio=CLEAN, seed=1).packets)
-    show("a quiet frame", quiet, asked.calls)
-    show("a frame that ends a stride", ending, asked.calls)
-    if not asked.no_import:
+    options = parser.parse_args()
+    idle, ending = ways(emulate(ROUTE, radio=CLEAN, seed=1).packets)
+    show("a quiet frame", idle, options.calls)
+    show("a frame that ends a stride", ending, options.calls)
+    if not options.no_import:
         loading()
 
 

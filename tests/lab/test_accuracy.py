@@ -122,5 +122,5 @@ def test_a_known_velocity_is_no_worse_than_a_zero_velocity_on_recorded_insoles(e
     assert kupt <= zupt
 
 
-def test_the_contour_of_heel_pressure_tells_zero_velocity_on_recorded_insoles(evaluated: Evaluated) -> None:
+def test_the_contour_of_heel_pressure_detects_zero_velocity_on_recorded_insoles(evaluated: Evaluated) -> None:
     assert rms(evaluated("smart_insole_35", "pressure-contour")) <= 0.20

@@ -26,7 +26,7 @@ def test_a_walk_that_is_only_turned_and_shifted_is_not_off():
     assert found["path"] == pytest.approx(100.0)
 
 
-def test_a_heading_that_is_lost_counts_over_all_that_follows():
+def test_a_heading_error_counts_over_the_rest_of_the_walk():
     t, truth = straight()
     _, track = straight(bend=0.1, climb=-0.5)
     found = place_figures(t, track, truth)

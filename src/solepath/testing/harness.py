@@ -125,7 +125,7 @@ class FootHarness(WalkHarness):
 
 @define
 class CorrectorHarness(FootHarness):
-    """Runs a corrector."""
+    """Runs a corrector within a foot."""
 
     def problems(self, output: Any) -> Iterator[str]:
         """Yield a sentence for every value of the corrector from which no event can be made."""
@@ -146,7 +146,7 @@ class CorrectorHarness(FootHarness):
 
 @define
 class CuesHarness(FootHarness):
-    """Runs cues."""
+    """Runs cues within a foot."""
 
     def problems(self, output: Any) -> Iterator[str]:
         """Yield a sentence for every cue that lies in the future and every value that is not finite."""

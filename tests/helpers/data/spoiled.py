@@ -25,9 +25,9 @@ def never_unloads(samples: Iterable[Sample], site: Site, load: float, since: flo
     return _pressed(samples, site, since, lambda loads: [one + load for one in loads])
 
 
-def silent(samples: Iterable[Sample], site: Site, begin: float, end: float = inf) -> list[Sample]:
-    """Nothing comes of a site from `begin` s until `end`."""
-    return [sample for sample in samples if sample.site is not site or not begin <= sample.t < end]
+def silent(samples: Iterable[Sample], site: Site, t_start: float, end: float = inf) -> list[Sample]:
+    """Nothing comes of a site from `t_start` s until `end`."""
+    return [sample for sample in samples if sample.site is not site or not t_start <= sample.t < end]
 
 
 def _pressed(

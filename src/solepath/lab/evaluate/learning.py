@@ -108,9 +108,9 @@ def kind_of(recipe: Recipe) -> type | None:
 def train_parts(training_sources: Sequence[TrainingSource], features: Sequence[Any]) -> TrainedParts:
     """Return a part for each kind and fold, trained on `features` of the lessons of the other folds."""
     found: TrainedParts = {}
-    known = [(lesson, what) for lesson, what in zip(training_sources, features, strict=True) if what is not None]
-    for kind in dict.fromkeys(lesson.kind for lesson in training_sources):
-        own = [(lesson.subject, what) for lesson, what in known if lesson.kind is kind]
+    known = [(source, what) for source, what in zip(training_sources, features, strict=True) if what is not None]
+    for kind in dict.fromkeys(source.kind for source in training_sources):
+        own = [(source.subject, what) for source, what in known if source.kind is kind]
         for number in range(len(FOLDS)):
             others = [what for subject, what in own if subject is None or fold_of(subject) != number]
             found[kind, number] = LEARNERS[kind].train(others)

@@ -37,9 +37,9 @@ LEAST_SPREAD = 0.02
 
 
 def weights(classes: Numbers, wearers: Numbers) -> Floats:
-    """Return the weight of each block, which divides by the root of the number of blocks of its class and wearer.
+    """Return the weight of each block: 1 over the root of the number of blocks of its class and wearer.
 
-    So neither the rare nor the frequent classes alone decide.
+    So a class of a wearer counts by that root, and neither the rare nor the frequent classes alone decide.
     """
     found = np.ones(len(classes))
     for wearer in np.unique(wearers):

@@ -142,7 +142,7 @@ def _level(labelled: LabelledWindow) -> float:
 
 
 def _pulses(examples: Sequence[RecordingWindows]) -> tuple[list[float], list[float]]:
-    """Return the distance of each standing window's mean from its neighbours', and the weaker pulse of each lift ride."""
+    """Return how far each standing window's mean is from its neighbours', and the weaker pulse of each lift ride."""
     standing: list[float] = []
     riding: list[float] = []
     for one in examples:
