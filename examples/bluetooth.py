@@ -1,6 +1,7 @@
-"""Sensors over Bluetooth: `python bluetooth.py LEFT RIGHT` with two addresses from `solepath scan`.
+"""Receives sensors over Bluetooth: `python bluetooth.py LEFT RIGHT` with two addresses from `solepath scan`.
 
-Without addresses two emulated insoles are worn for eight seconds, behind virtual Bluetooth controllers.
+Without addresses an emulated wearer walks for eight seconds with two emulated insoles, behind virtual Bluetooth
+controllers.
 """
 
 import asyncio

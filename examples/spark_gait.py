@@ -1,11 +1,11 @@
-"""Gait events of any number of wearers, on Spark: from files of what phones sent to files of events.
+"""Gait events of any number of wearers, on Spark: from files of packets that phones sent to files of events.
 
-    python examples/spark_gait.py SENT TOLD CHECKPOINT                            # on this machine, all that is there
-    spark-submit ... examples/spark_gait.py SENT TOLD CHECKPOINT --every "10 seconds"     # on a cluster, until stopped
+    python examples/spark_gait.py SENT EVENTS CHECKPOINT                      # on this machine, all present files
+    spark-submit ... examples/spark_gait.py SENT EVENTS CHECKPOINT --every "10 seconds"   # on a cluster, until stopped
 
-SENT: a directory that Parquet files of rows (solepath.fleet.sent_row) are moved into, older ones first. TOLD: becomes
-a directory of Parquet files of events. CHECKPOINT: where the job goes on after any end. Needs solepath[spark] and
-Java 17, on a cluster on every executor.
+SENT: a directory that Parquet files of rows (solepath.fleet.sent_row) are moved into, older ones first. EVENTS: becomes
+a directory of Parquet files of events. CHECKPOINT: directory from which the job continues after any end. Needs
+solepath[spark] and Java 17, on a cluster on every executor.
 """
 
 import argparse
@@ -28,7 +28,7 @@ def main() -> None:
     parser.add_argument("--files", type=int, default=100, help="files that are read at a time, at most")
     args = parser.parse_args()
 
-    # without it the workers take the python3 of the PATH, which need not be the one that knows solepath
+    # without it the workers use the python3 of the PATH, in which solepath may not be installed
     os.environ.setdefault("PYSPARK_PYTHON", sys.executable)
     spark = SparkSession.builder.appName("solepath").config(map=STORE).getOrCreate()
     spark.sparkContext.setLogLevel("ERROR")

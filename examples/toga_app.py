@@ -1,9 +1,9 @@
-"""An app for a phone or a desk: what the wearer does, steps, gait, both soles and the track, live, with BeeWare Toga.
+"""An app for a phone or a desktop with BeeWare Toga: live activity, steps, gait, both soles and the track.
 
     pip install '.[ble]' 'toga-qt[pyside6-essentials]>=0.5.7'   on Linux; on macOS and Windows 'toga>=0.5.7' instead
     python examples/toga_app.py             one button for two insoles nearby, one for an emulated wearer
 
-`solepath.ble.Devices` runs in Toga's asyncio loop; widgets are told ten times a second. On a phone (not tried yet)
+`solepath.ble.Devices` runs in Toga's asyncio loop; widgets are updated ten times a second. For a phone (not tried yet)
 Briefcase packs it, with the permission to use Bluetooth; `--no-deps` leaves out numpy, which listening does not need.
 bleak has a backend for Android and none for iOS, whose Bluetooth has to fill a queue, as in thread_and_queue.py.
 """
@@ -26,7 +26,6 @@ FIGURES = {"steps": "steps", "cadence": "steps a minute", "length": "stride, m",
 
 async def sensors() -> AsyncIterator[Packet]:
     from solepath.ble import DeviceConfig, Devices
-
     async with Devices([DeviceConfig(None, profile=INSOLE), DeviceConfig(None, profile=INSOLE)]) as devices:
         async for packet in devices:
             yield packet
@@ -34,7 +33,6 @@ async def sensors() -> AsyncIterator[Packet]:
 
 async def emulated(speed: float = 1.0) -> AsyncIterator[Packet]:
     from solepath.emulate import Route, emulate
-
     loop = asyncio.get_running_loop()
     started_at = loop.time()
     for packet in emulate(Route().stand(2).walk(12, speed=1.3).turn(1.6, radius=1.5).walk(8).stop(2), seed=1).packets:
@@ -69,7 +67,7 @@ class GaitApp(toga.App):
 
     def toggle_listening(self, packets: AsyncIterator[Packet]) -> None:
         if self.listening is not None:
-            self.listening.cancel()  # the button says Stop
+            self.listening.cancel()  # the button reads Stop
             return
         self.reset()
         self.status.text, self.start.text, self.show.enabled = "waiting for the first packet", "Stop", False
@@ -82,7 +80,7 @@ class GaitApp(toga.App):
                 self.take(self.session.feed(packet))
         except asyncio.CancelledError:
             why = "stopped"
-        except Exception as error:  # no Bluetooth, no permission, a package that is missing: for the user to read
+        except Exception as error:  # no Bluetooth, no permission, a missing package: the user reads it
             why = str(error)
         self.take(self.session.finish())
         self.draw()
@@ -95,7 +93,7 @@ class GaitApp(toga.App):
                     self.steps += 1
                     self.track[foot].append((x, y))
                 case FootPressed(foot=foot, values=values):
-                    self.load[foot] = event  # what one value in a hundred is above is drawn darkest, not a single spike
+                    self.load[foot] = event  # darkest is what one frame in a hundred exceeds, not a single spike
                     self.peak = max(1.0, self.peak * (1.05 if max(values) > self.peak else 0.9995))
                 case LayoutKnown(layout=layout):
                     self.layouts[layout.foot], self.status.text = layout, f"{layout.foot.value} insole heard"

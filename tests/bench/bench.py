@@ -1,7 +1,7 @@
-"""How long things take: `python tests/bench/bench.py`. Prints a table; asserts nothing.
+"""Measures processing times: `python tests/bench/bench.py`. Prints a table; asserts nothing.
 
-Medians of five runs in one process on one core, the garbage collector off while the clock runs, as timeit has it. The
-last column is the same as a multiple of the yardstick (yardstick.py), which depends less on the machine.
+Medians of five runs in one process on one core, with the garbage collector off while the clock runs, as in timeit. The
+last column is the time as a multiple of the yardstick (yardstick.py), which depends less on the machine.
 """
 
 from __future__ import annotations
@@ -39,11 +39,11 @@ from solepath.link.decoder import Decoder
 from solepath.types import SITE_OF_FOOT
 
 ROUTE = Route().stand(2.0).walk(50.0, 1.3).stop(2.0)
-"""About 43 s; the foot stands 10 % of it and walks the rest."""
+"""A walk of about 43 s, of which the foot stands 10 %."""
 
 
 def each(items: list[Any], make: Callable[[], Any], prepare: Iterable[Any] = ()) -> float:
-    """Microseconds an item: what is begun is fed `prepare` unmeasured, then all items one by one."""
+    """Return microseconds an item: a new object is fed `prepare` unmeasured, then all items one by one."""
     found = []
     for _ in range(RUNS):
         one = make()
@@ -59,7 +59,7 @@ def each(items: list[Any], make: Callable[[], Any], prepare: Iterable[Any] = ())
 
 
 def fed(items: Iterable[Any]) -> Session:
-    """A session after all this."""
+    """Return a session after all these items."""
     session = Session()
     for item in items:
         session.feed(item)
@@ -67,15 +67,17 @@ def fed(items: Iterable[Any]) -> Session:
 
 
 def session_with_layout(recipe: Recipe, infos: list[Packet]) -> Session:
-    """A session that knows where the cells are."""
+    """Return a session that has received the positions of the cells."""
     session = Session(recipe)
     session.feed(infos)
     return session
 
 
 class Timed:
-    """Stands before a part and sums up what its calls take, garbage collector or not; fields are the part's own, and it
-    is taken for one of the part's class."""
+    """Wraps a part and sums the time of its calls, with or without the garbage collector.
+
+    Fields are the part's own, and the wrapper passes for an instance of the part's class.
+    """
 
     def __init__(self, part: Any) -> None:
         self.part = part
@@ -87,7 +89,7 @@ class Timed:
         return type(self.part)
 
     def receive(self, event: Any) -> Any:
-        """Here, since a wearer asks the class whether there is one."""
+        """Forward an event; a method of the class, because a wearer tests the class for it."""
         return self.__getattr__("receive")(event)
 
     def __setattr__(self, name: str, value: Any) -> None:
@@ -123,16 +125,16 @@ OF_A_SAMPLE: dict[str, str | type[Part]] = {
     "how it is worn": Wear,
     "body": TrackPart,
 }
-"""What is told of a sample's time: which field of a foot takes it, or a part of which kind."""
+"""The part of a sample's time that a row shows: a field of the foot, or a kind of part."""
 
 
 def shares_of(items: list[Sample], make: Callable[[], Session]) -> dict[str, float]:
-    """Microseconds a sample that each part of a foot and of a wearer takes, less what the clock does."""
+    """Return microseconds a sample that each part of a foot and of a wearer takes, less the clock's own time."""
     return {name: median([_share(items, make(), what) for _ in range(RUNS)]) for name, what in OF_A_SAMPLE.items()}
 
 
 def _share(items: list[Sample], session: Session, what: str | type[Part]) -> float:
-    """One at a time: a part that looks at one that is watched would pay for that."""
+    """Return the time of one part; one at a time, because a timed part would slow down a part that reads it."""
     session.feed(items[0])
     part = _watched(session, what)
     with uncollected():
@@ -155,7 +157,7 @@ def _watched(session: Session, what: str | type[Part]) -> Timed:
 
 
 def overhead() -> float:
-    """What `Timed` measures of a call that does nothing, s."""
+    """Return the time that `Timed` measures for a call that does nothing, s."""
 
     class Idle:
         def call(self, one: int, other: int) -> None:
@@ -168,7 +170,7 @@ def overhead() -> float:
 
 
 def parts_of(items: list[Sample], recipe: Recipe, plan: IndexedPlan) -> dict[str, float]:
-    """Microseconds a sample that activities, turns and the place on a plan take in a walk through a building."""
+    """Return microseconds a sample that activities, turns and the place on a plan take in a walk through a building."""
     kinds: dict[str, type[Part]] = {"activity": ActivityPart, "turns": Turns, "place": Readings}
     found: dict[str, list[float]] = {name: [] for name in kinds}
     for _ in range(RUNS):

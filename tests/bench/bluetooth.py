@@ -1,7 +1,7 @@
-"""What Bluetooth adds: `python tests/bench/bluetooth.py`.
+"""Measures the cost of the Bluetooth adapter: `python tests/bench/bluetooth.py`.
 
-Prints the adapter's own work for a packet (on the in-memory tier, against plain bleak on the same), and how long it
-takes from a notification to its events, in real time, on both tiers.
+Prints the adapter's own work for a packet (on the in-memory tier, against plain bleak on the same), and the latency
+from a notification to its events, in real time, on both tiers.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ from solepath.link.devices.insole import PROFILE as INSOLE  # noqa: E402
 
 WALK = Route().stand(2.0).walk(20.0).stop(2.0)
 VIRTUAL = 30.0
-"""s of the loop's time for counting work."""
+"""Loop time over which work is counted, s."""
 REAL = 10.0
-"""s of real time for latency."""
+"""Real time over which latency is measured, s."""
 ROUNDS = 5
 
 
@@ -40,7 +40,7 @@ def bench() -> Bench:
 
 
 async def plain(made: Bench) -> tuple[float, int]:
-    """CPU seconds and notifications of plain bleak with a callback that only counts."""
+    """Return CPU seconds and notifications of plain bleak with a callback that only counts."""
     count = 0
 
     def on_notification(_: object, data: bytearray) -> None:
@@ -63,7 +63,7 @@ async def plain(made: Bench) -> tuple[float, int]:
 
 
 async def adapted(made: Bench) -> tuple[float, int]:
-    """The same of Devices, every packet taken."""
+    """Return CPU seconds and notifications of Devices, with every packet taken."""
     async with (
         memory(made) as backend,
         Devices([DeviceConfig(None, profile=INSOLE), DeviceConfig(None, profile=INSOLE)], backend=backend) as devices,
@@ -80,7 +80,7 @@ async def adapted(made: Bench) -> tuple[float, int]:
 
 
 async def delays(tier: str) -> tuple[list[float], list[float]]:
-    """s from a frame's being handed to the link until it was stamped, and from then until its events were there."""
+    """Return the delays from the link to the packet's time stamp, and from the stamp to its events, s."""
     made = bench()
     session = Session(poses=True)
     on_the_way, worked = [], []
@@ -123,7 +123,7 @@ def main() -> None:
             with asyncio.Runner(loop_factory=looptime.new_event_loop) as runner:
                 spent, count = runner.run(run(bench()))
             each[name].append(1e6 * spent / count)
-    bare, whole = min(each["plain"]), min(each["adapted"])  # what disturbs a run only makes it slower
+    bare, whole = min(each["plain"]), min(each["adapted"])  # a disturbance only makes a run slower
     print(f"Python {sys.version.split()[0]}; the best of {ROUNDS}; two insoles of 96 cells at 100 Hz, in memory\n")
     print(f"plain bleak, the emulated devices included   {bare:6.1f} us a notification")
     print(f"the same through Devices                     {whole:6.1f} us")

@@ -1,10 +1,10 @@
-"""Whether ten hours cost what a minute does: `python tests/bench/hours.py [--hours 10] [--every 30]`. A soak, no test.
+"""Measures whether ten hours cost what a minute does: `python tests/bench/hours.py [--hours 10] [--every 30]`.
 
-A minute of both feet with 96 cells, emulated once, is walked again and again, later by its length each time. Of the
-first minute, of one in every `--every` and of the last it says what processor time a sample took and how large the
-session is, as a snapshot and in the interpreter, and at the end how the last minute compares with the second, the
-first with every part of a session at work. The wearer comes back to where the minute began, so joining them moves
-nobody.
+A minute of both feet with 96 cells is emulated once and walked again and again, each time later by its length. For the
+first minute, for one in every `--every` and for the last it prints the processor time of a sample and the size of the
+session, as a snapshot and in the interpreter. At the end it compares the last minute with the second, the first with
+every part of a session active. The wearer returns to the start of the minute, so the repetitions join without a jump.
+It is a soak run, not a test.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ CELLS = 96
 
 
 def minute() -> list[Sample]:
-    """Samples of both feet in the order of time."""
+    """Return the samples of both feet in the order of time."""
     walker = Walker(LOOP, seed=1)
     found = [s for foot in Foot for s in walker.samples(foot, 100.0, LSM6DSOX, layout=layout(CELLS, foot))]
     return sorted(found, key=lambda sample: sample.t)
@@ -69,7 +69,7 @@ def main() -> None:
 
 
 def memory_of(session: Session) -> int:
-    """Bytes of another that is restored from its snapshot."""
+    """Return the bytes of a session that is restored from this one's snapshot."""
     saved = session.snapshot()
     return held(lambda: Session.restore(saved))
 

@@ -1,9 +1,9 @@
-"""What the page costs: `python tests/bench/page.py [--minutes 10]`. Prints tables; asserts nothing.
+"""Measures the cost of the page: `python tests/bench/page.py [--minutes 10]`. Prints tables; asserts nothing.
 
-A process of its own feeds a session with two insoles of 96 cells at 100 Hz, in real time: without a page, with a page
+A separate process feeds a session with two insoles of 96 cells at 100 Hz, in real time: without a page, with a page
 that nobody watches, with one in a browser (Chromium, 1280 x 900), and with one whose watcher has stopped reading. Each
-takes so many minutes. The share of a core is processor time of that process from the first packet to the last, the
-server's included and the browser's not.
+case takes `--minutes`. The share of a core is the processor time of that process from the first packet to the last,
+the server's included and the browser's not.
 """
 
 from __future__ import annotations
@@ -42,13 +42,13 @@ WAYS = {
 }
 MINUTE = 60.0
 ROUND = 40.0
-"""s that a square takes at the least."""
+"""Shortest time of a square, s."""
 SETTLED = 1.0
-"""Minutes after which the page's memory is taken first."""
+"""Time of the first measurement of the page's memory, minutes."""
 
 
 async def serve(way: str, seconds: float) -> None:
-    """Prints the page's address, waits for a line, feeds the session, prints the processor time in s."""
+    """Print the page's address, wait for a line, feed the session, and print the processor time in s."""
     packets = [packet for packet in walked(squares(int(seconds / ROUND) + 1)) if packet.t <= seconds]
     page = None if way == "without" else Page(Scene("a walk of the benchmark", "default", "live"), port=0)
     session = Session(poses=True) if page is None else Session(poses=True, pressures=True)
@@ -81,14 +81,17 @@ def serving(way: str, seconds: float) -> Iterator[subprocess.Popen[str]]:
 
 @define
 class Watched:
-    """What a browser saw. `sizes`: bytes of the messages that came; `early`, `late`: bytes of the scripts' heap,
-    elements of the document, and bytes of the process, after SETTLED and at the end."""
+    """Measurements of a browser.
+
+    `sizes` are the bytes of the received messages. `early` and `late` are bytes of the scripts' heap, elements of the
+    document, and bytes of the process, after SETTLED and at the end.
+    """
 
     sizes: list[int] = field(factory=list)
     drawn: float = 0.0
     """Frames a second."""
     work_share: float = 0.0
-    """Share of the time that the page's thread worked."""
+    """Share of the time in which the page's thread works."""
     early: tuple[int, int, int] | None = None
     late: tuple[int, int, int] = (0, 0, 0)
 
@@ -118,20 +121,22 @@ def watch(browser: Browsing, url: str, process: subprocess.Popen[str], seconds: 
 
 
 async def frames(view: Window) -> int:
-    """Pictures that the page has drawn."""
+    """Return the number of frames that the page has drawn."""
     count: int = await view.tab.evaluate("solepath.frames")
     return count
 
 
 async def work_time(view: Window) -> float:
-    """s for which the page's thread has worked."""
+    """Return the time for which the page's thread has worked, s."""
     metrics = (await view.devtools.send("Performance.getMetrics"))["metrics"]
     return next(float(metric["value"]) for metric in metrics if metric["name"] == "TaskDuration")
 
 
 async def resident(browser: Browser) -> int:
-    """Bytes of memory of the processes that the browser runs its pages in, what they share with others in part; 0
-    where it cannot be told."""
+    """Return the bytes of memory of the browser's page processes, with a share of what they share with others.
+
+    It is 0 where the system does not tell.
+    """
     devtools = await browser.new_browser_cdp_session()
     processes = (await devtools.send("SystemInfo.getProcessInfo"))["processInfo"]
     await devtools.detach()
@@ -146,7 +151,7 @@ def start(process: subprocess.Popen[str]) -> None:
 
 
 def stall(url: str) -> socket.socket:
-    """A watcher that has asked for everything and takes nothing."""
+    """Return the socket of a watcher that has requested everything and reads nothing."""
     parts = urlsplit(url)
     token = parts.fragment.removeprefix("token=")
     link = socket.socket()

@@ -1,4 +1,4 @@
-"""What the part for activities learns of how they follow each other."""
+"""Tests what the activities part learns of the order of activities."""
 
 from __future__ import annotations
 

@@ -197,8 +197,7 @@ def test_figures_are_averaged_and_events_and_strides_are_pooled():
 
 
 def to_and_fro(*turns, pace=1.0):
-    """A track along a slanted line that walks from place to place, m, at `pace`, and rests 2 s at each; its times of
-    the rests' middles."""
+    """A track along a slanted line that walks between places, m, at `pace` and stands 2 s at each; stance times."""
     t, along, stances = [0.0], [turns[0]], [0.0]
     for a, b in pairwise(turns):
         for length, to in ((2.0, a), (abs(b - a) / pace, b)):

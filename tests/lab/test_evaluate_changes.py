@@ -1,4 +1,4 @@
-"""Figures beside those of an earlier evaluation."""
+"""Compares figures with those of an earlier evaluation."""
 
 import copy
 import json

@@ -1,4 +1,4 @@
-"""Scores on long emulated walks, on tracks whose errors are known by hand; and what the walks are."""
+"""Scores of long emulated walks, of tracks whose errors are known by hand, and the form of the walks."""
 
 from math import hypot, pi, remainder
 
@@ -13,7 +13,7 @@ from solepath.types import Foot
 
 
 def straight(bend=0.0, climb=0.0):
-    """100 m at 1 m/s; after 50 m it turns off by `bend` rad, and rises evenly by `climb` m."""
+    """100 m at 1 m/s; after 50 m it turns by `bend` rad, and it rises evenly by `climb` m."""
     t = np.arange(0.0, 100.5, 0.5)
     beyond = np.maximum(t - 50.0, 0.0)
     return t, np.column_stack([t - beyond * (1.0 - np.cos(bend)), beyond * np.sin(bend), climb * t / 100.0])
