@@ -16,8 +16,7 @@ def unusable(calibration: Calibration) -> str | None:
     """Return why a calibration cannot be used, or None when it can.
 
     The sentence names the first key whose value is impossible for a wearer, a shoe or an insole. The limits are those
-    of
-    protocol/calibration.md.
+    of protocol/calibration.md.
     """
     wrong_type = next(_type_problems(calibration), None)
     if wrong_type is not None:
@@ -141,7 +140,7 @@ def _unusable_shoe(shoe: ShoeGeometry) -> str | None:
 
 def _describe(value: object) -> str:
     if isinstance(value, int) and not abs(value) < 10**30:
-        return "a huge number"  # Python converts no integer of so many digits
+        return "a huge number"  # Python does not convert very long integers to text
     if value is None or isinstance(value, str | int):
         return repr(value)[:40]
     return f"{value:g}" if isinstance(value, float) else f"a {type(value).__name__}"

@@ -33,8 +33,7 @@ class InsoleCalibration:
     """Calibration of one insole.
 
     `layout` has the positions of the cells, for devices and files that do not send them. `noise` has the reading of
-    each
-    unloaded cell, in the unit of the samples, or in N where there are `newtons` (Chen et al. 2019, equation (1)).
+    each unloaded cell, in the unit of the samples, or in N where there are `newtons` (Chen et al. 2019, equation (1)).
     """
 
     layout: Layout | None = None
@@ -97,8 +96,7 @@ class Calibration:
     its attitude. Otherwise it is in the navigation frame, whose heading is that of the sensor at the start, so it holds
     for walks that start as the calibration did. `weight` is the wearer's, N. `modes` is the compensation of a touchdown
     by foot and walking mode, (forward, left), m. `toe_out` is the angle from the direction of walking to the foot's
-    long
-    axis, outwards positive, rad (Liu et al. 2015, equation (1)).
+    long axis, outwards positive, rad (Liu et al. 2015, equation (1)).
     """
 
     insoles: dict[Foot, InsoleCalibration] = field(factory=dict)

@@ -202,11 +202,11 @@ def harness_for(part: Any, foot: Foot, layout: Layout | None) -> DetectorHarness
             insole.set_layout(layout)
             part.set_layout(layout)
         return DetectorHarness(part, insole)
-    place: FootHarness
+    harness: FootHarness
     if Corrector in kinds:
-        place = CorrectorHarness(FootTracker(foot, Cycle(), part), "corrector")
+        harness = CorrectorHarness(FootTracker(foot, Cycle(), part), "corrector")
     elif Cues in kinds:
-        place = CuesHarness(FootTracker(foot, Cycle(), ErrorStateFilter(), cues=part), "cues")
+        harness = CuesHarness(FootTracker(foot, Cycle(), ErrorStateFilter(), cues=part), "cues")
     elif Part in kinds:
         wearer = WearerParts(WearerSettings(evolve(DEFAULT, parts=(*DEFAULT.parts, part)), Calibration()))
         wearer.walks_on(None)
@@ -217,8 +217,8 @@ def harness_for(part: Any, foot: Foot, layout: Layout | None) -> DetectorHarness
     else:
         raise TypeError(f"{type(part).__name__} extends neither Detector nor Corrector nor Cues nor Part")
     if layout is not None:
-        place.tracker.set_layout(layout)
-    return place
+        harness.tracker.set_layout(layout)
+    return harness
 
 
 def _finite(values: Iterable[float]) -> bool:

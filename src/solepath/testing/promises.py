@@ -41,11 +41,11 @@ def broken(
     """
     whole = [sample for sample in samples if sample.acc is not None and sample.gyro is not None]
     fresh = save(part)
-    place = harness_for(deepcopy(part), whole[0].site.foot or Foot.LEFT if whole else Foot.LEFT, layout)
-    walked = place.with_gaps(whole)
+    harness = harness_for(deepcopy(part), whole[0].site.foot or Foot.LEFT if whole else Foot.LEFT, layout)
+    walked = harness.with_gaps(whole)
     half = len(walked) // 2
     found = []
-    one = deepcopy(place)
+    one = deepcopy(harness)
     try:
         outputs, early = _run_measured(one, walked[:half])
         other = deepcopy(one)
@@ -58,7 +58,7 @@ def broken(
     outputs += after
     if save(part) != fresh:
         found.append("two copies of it share something: feeding one changes the other")
-    if repr(_run(deepcopy(place), walked)) != repr(outputs):
+    if repr(_run(deepcopy(harness), walked)) != repr(outputs):
         found.append("the same samples do not say the same twice")
     found += [f"saved and restored, {what}" for what in altered]
     if not altered and repr(_run(other, walked[half:])) != repr(after):
@@ -74,7 +74,7 @@ def broken(
     outputs += one.finish()
     problems: dict[str, str] = {}
     for what in outputs:
-        for sentence in place.problems(what):
+        for sentence in harness.problems(what):
             problems.setdefault(sentence.partition(",")[0], sentence)  # the first of its kind
     return [*found, *problems.values()]
 
@@ -86,8 +86,8 @@ def _changed_settings(before: Any, after: Any) -> list[str]:
     return [name for name in settings if getattr(before, name) != getattr(after, name)]
 
 
-def _run(place: Any, samples: Iterable[Sample]) -> list[Any]:
-    return [place.feed(sample) for sample in samples]
+def _run(harness: Any, samples: Iterable[Sample]) -> list[Any]:
+    return [harness.feed(sample) for sample in samples]
 
 
 def _changed_fields(part: Any, restored: Any) -> Iterator[str]:
@@ -100,13 +100,13 @@ def _changed_fields(part: Any, restored: Any) -> Iterator[str]:
             yield f"its field {name} comes back as {comes!r:.60} and was {was!r:.60}"
 
 
-def _run_measured(place: Any, samples: Sequence[Sample]) -> tuple[list[Any], int]:
+def _run_measured(harness: Any, samples: Sequence[Sample]) -> tuple[list[Any], int]:
     """Return the outputs, and the largest number of values in the state, measured about a hundred times."""
     outputs, most, every = [], 1, max(1, len(samples) // 100)
     for k, sample in enumerate(samples):
-        outputs.append(place.feed(sample))
+        outputs.append(harness.feed(sample))
         if k % every == 0:
-            most = max(most, _values(save(place.part)))
+            most = max(most, _values(save(harness.part)))
     return outputs, most
 
 

@@ -151,9 +151,8 @@ def _turns(
     for angle in INCREMENTS:
         made = _turn(known, calibration, angle, rng, seed)
         off = sum([one.angle for one in made]) - angle
-        turned[round(degrees(angle))] = abs(
-            degrees(remainder(off, 2.0 * pi))
-        )  # a turn about to the left and one to the right are equal
+        # a turn about to the left equals one to the right
+        turned[round(degrees(angle))] = abs(degrees(remainder(off, 2.0 * pi)))
     classes = {}
     for turn, angles in CLASSES.items():
         right = 0
