@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 
 from solepath.lab.measures.alignment import Alignment, align, at_times, rms_distance, track_error
 from solepath.lab.measures.contacts import merged, switch_contacts
-from solepath.lab.measures.legs import between, leg_errors, turned_about
+from solepath.lab.measures.legs import leg_errors, leg_lengths, turned_about
 from solepath.lab.measures.matching import Errors, Matching, interval_errors, match
 from solepath.lab.measures.score import Scored, summarise
 from solepath.lab.measures.strides import StrideScore, marker_stances, position_errors, stride_score, surveyed_score
@@ -210,7 +210,7 @@ def to_and_fro(*turns, pace=1.0):
 
 def test_a_leg_is_the_distance_between_its_ends():
     t, positions, _ = to_and_fro(0.0, 9.0, 1.0)
-    assert_allclose(between([0.0, 11.0, 21.0], t, positions), [9.0, 8.0], atol=1e-9)
+    assert_allclose(leg_lengths([0.0, 11.0, 21.0], t, positions), [9.0, 8.0], atol=1e-9)
     errors = leg_errors([0.0, 11.0, 21.0], [10.0, 10.0], t, positions)
     assert_allclose(errors.values, [-0.1, -0.2])
     assert (errors.mean, errors.median, errors.bias) == pytest.approx((0.15, 0.15, -0.15))
@@ -219,7 +219,7 @@ def test_a_leg_is_the_distance_between_its_ends():
 
 def test_a_track_to_and_fro_is_cut_where_it_turns_about():
     t, positions, _ = to_and_fro(0.0, 10.0, 0.5, 9.5, -0.2)
-    assert_allclose(between(turned_about(t, positions, 4), t, positions), [10.0, 9.5, 9.0, 9.7], atol=0.06)
+    assert_allclose(leg_lengths(turned_about(t, positions, 4), t, positions), [10.0, 9.5, 9.0, 9.7], atol=0.06)
 
 
 def test_errors_of_stride_times_are_of_events_that_follow_each_other():

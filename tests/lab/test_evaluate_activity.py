@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from solepath import recipes
 from solepath.events import ActivityChanged, LiftRidden
 from solepath.lab.evaluate import learning
-from solepath.lab.evaluate.activity import CLIMBED, compared, rides, stairs_figures, windows
+from solepath.lab.evaluate.activity import CLIMBED, score_rides, score_samples, score_windows, stairs_figures
 from solepath.lab.evaluate.jobs import evaluate
 from solepath.lab.evaluate.learning import Learner, TrainingSource, part_for, train_parts, training_sources
 from solepath.lab.measures.confusion import CLASSES, ActivityScore
@@ -45,7 +45,7 @@ TRUE = [STANDING, STANDING, STANDING, WALKING, WALKING, None, WALKING, RUNNING]
 
 def test_labelled_samples_are_scored_by_the_activity_reported_at_their_time():
     # reported: nothing before 1.0, standing to 2.5, then walking
-    score = compared(TIMES, TRUE, timeline((1.0, STANDING), (2.5, WALKING)))
+    score = score_samples(TIMES, TRUE, timeline((1.0, STANDING), (2.5, WALKING)))
     assert score.samples == {
         (STANDING, Activity.UNKNOWN): 1, (STANDING, STANDING): 2, (WALKING, WALKING): 3, (RUNNING, WALKING): 1,
     }  # fmt: skip
@@ -64,7 +64,7 @@ def test_labelled_samples_are_scored_by_the_activity_reported_at_their_time():
 
 
 def test_what_was_replaced_does_not_count():
-    score = compared([1.0, 3.0, 5.0], [STANDING] * 3, timeline((0.0, STANDING), (2.0, UP), (2.0, STANDING, 2.0)))
+    score = score_samples([1.0, 3.0, 5.0], [STANDING] * 3, timeline((0.0, STANDING), (2.0, UP), (2.0, STANDING, 2.0)))
     assert score.accuracy == 1.0
 
 
@@ -84,18 +84,18 @@ def test_scores_of_two_recordings_count_together(a, b):
 def test_a_ride_is_found_by_one_in_its_direction_at_its_time():
     true = [(0.0, 5.0, STANDING), (5.0, 15.0, UP), (15.0, 20.0, STANDING), (20.0, 30.0, DOWN), (40.0, 50.0, UP)]
     # the first fits, the second goes the wrong way, the third comes too late by more than half of its own length
-    score = rides(true, [ridden(7.0, 14.0, True), ridden(20.0, 30.0, True), ridden(47.0, 55.0, True)])
+    score = score_rides(true, [ridden(7.0, 14.0, True), ridden(20.0, 30.0, True), ridden(47.0, 55.0, True)])
     assert (score.rides_true, score.rides_found, score.rides_invented) == (3, 1, 2)
 
 
 def test_two_reported_rides_for_one_true_ride_are_one_found_and_one_invented():
-    score = rides([(5.0, 15.0, UP)], [ridden(5.0, 9.0, True), ridden(10.0, 15.0, True)])
+    score = score_rides([(5.0, 15.0, UP)], [ridden(5.0, 9.0, True), ridden(10.0, 15.0, True)])
     assert (score.rides_true, score.rides_found, score.rides_invented) == (1, 1, 1)
 
 
 def test_windows_of_two_seconds_lie_within_one_activity():
     # 0-5 s: windows 0-2, 2-4; 5-9.9 s: 5-7, 7-9; their middles are 1, 3, 6 and 8 s
-    score = windows([(0.0, 5.0, STANDING), (5.0, 9.9, WALKING)], timeline((0.0, STANDING), (6.5, WALKING)))
+    score = score_windows([(0.0, 5.0, STANDING), (5.0, 9.9, WALKING)], timeline((0.0, STANDING), (6.5, WALKING)))
     assert score.samples == {(STANDING, STANDING): 2, (WALKING, STANDING): 1, (WALKING, WALKING): 1}
 
 

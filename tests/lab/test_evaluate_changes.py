@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.lab.evaluate.changes import BETTER, Verdict, compared, missing, read_scores, verdict
+from solepath.lab.evaluate.changes import BETTER, Verdict, compare_scores, missing, read_scores, verdict
 from solepath.lab.evaluate.datasets import DATASETS, EMULATED
 from solepath.lab.tables.scores import comparison_tables
 from solepath.recording import RecordingError
@@ -69,7 +69,7 @@ def test_recordings_and_data_sets_on_one_side_only_are_listed():
     loops["recordings"]["a"]["end_error"] = 0.5
     loops["summary"]["all"]["together"]["heel_strike_bias"] = 0.03
     now["default"]["climbs"] = now["default"].pop("walks")
-    (changes,) = [found for found in compared(OLD, now) if found.data_set == "loops"]
+    (changes,) = [found for found in compare_scores(OLD, now) if found.data_set == "loops"]
     assert (changes.removed, changes.new) == (("b",), ("c",))
     assert {(c.what, c.figure, c.verdict) for c in changes.changes if c.verdict is not Verdict.SAME} == {
         ("a", "end_error", Verdict.BETTER), ("together", "heel_strike_bias", Verdict.WORSE),

@@ -10,7 +10,7 @@ from commands import refused, run
 
 from solepath.cli.reproduce import NAMES
 from solepath.emulate.routes import ways
-from solepath.lab.processes import each
+from solepath.lab.processes import run_jobs
 from solepath.lab.reproduce import footstep_walks, kupt_dfpc, pressure_contour, shoe_walks, walking_modes
 from solepath.lab.reproduce.published import CORNERS, KUPT_DFPC, LOOPS, PRESSURE_CONTOUR, WALKING_MODES, corner_row
 from solepath.lab.reproduce.tables import (
@@ -42,9 +42,9 @@ def test_one_walk_has_no_deviation_and_none_has_nothing():
 
 def test_jobs_are_done_in_order_and_their_progress_is_reported(capsys):
     progress = []
-    assert list(each(abs, [-3, 2, -1], progress=lambda done, of: progress.append((done, of)))) == [3, 2, 1]
+    assert list(run_jobs(abs, [-3, 2, -1], progress=lambda done, of: progress.append((done, of)))) == [3, 2, 1]
     assert progress == [(1, 3), (2, 3), (3, 3)]
-    assert list(each(abs, [-3, 2, -1], processes=2)) == [3, 2, 1]
+    assert list(run_jobs(abs, [-3, 2, -1], processes=2)) == [3, 2, 1]
 
 
 def test_table_one_of_the_known_velocities_is_the_papers():

@@ -14,7 +14,7 @@ Progress = Callable[[int, int], None]
 """Function that is called with (jobs done, number of all jobs)."""
 
 
-def each(
+def run_jobs(
     work: Callable[[Job], Done],
     jobs: Sequence[Job],
     *,

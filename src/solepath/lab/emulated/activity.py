@@ -6,7 +6,7 @@ from attrs import frozen
 
 from ...recipes import Recipe
 from ...session import Session
-from ..evaluate.activity import compared, rides, windows
+from ..evaluate.activity import score_rides, score_samples, score_windows
 from ..evaluate.gathered import Gathering
 from ..measures.confusion import ActivityScore
 from ..train import emulated
@@ -32,7 +32,7 @@ def score(recipe: Recipe, seed: int) -> EmulatedScore:
     gathering = Gathering.of(session.feed(walked.packets) + session.finish())
     truth = walked.truth
     t = [k * EVERY for k in range(int(truth.duration / EVERY))]
-    in_time = compared(t, [truth.activity(at) for at in t], gathering.timeline)
+    in_time = score_samples(t, [truth.activity(at) for at in t], gathering.timeline)
     return EmulatedScore(
-        windows(truth.activities, gathering.timeline), in_time + rides(truth.activities, gathering.rides)
+        score_windows(truth.activities, gathering.timeline), in_time + score_rides(truth.activities, gathering.rides)
     )

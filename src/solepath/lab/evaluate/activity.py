@@ -24,7 +24,7 @@ EVERY = 0.02
 """Interval at which spans are sampled, s."""
 
 
-def compared(t: Sequence[float], true: Sequence[Activity | None], timeline: Timeline) -> ActivityScore:
+def score_samples(t: Sequence[float], true: Sequence[Activity | None], timeline: Timeline) -> ActivityScore:
     """Return the score of every labelled sample against the activity reported for its time.
 
     Samples without a label are left out.
@@ -33,7 +33,7 @@ def compared(t: Sequence[float], true: Sequence[Activity | None], timeline: Time
     return ActivityScore(Counter([(activity, timeline.at(at)) for at, activity in labelled]))
 
 
-def rides(true: Sequence[Span], found: Sequence[LiftRidden]) -> ActivityScore:
+def score_rides(true: Sequence[Span], found: Sequence[LiftRidden]) -> ActivityScore:
     """Return the score of reported rides against labelled ones.
 
     A labelled ride is found by a reported one in the same direction that overlaps it by at least half of the shorter
@@ -52,7 +52,7 @@ def rides(true: Sequence[Span], found: Sequence[LiftRidden]) -> ActivityScore:
     return ActivityScore(rides_true=len(labelled), rides_found=n_found, rides_invented=len(left))
 
 
-def windows(true: Sequence[Span], timeline: Timeline, length: float = 2.0) -> ActivityScore:
+def score_windows(true: Sequence[Span], timeline: Timeline, length: float = 2.0) -> ActivityScore:
     """Return the score of windows of `length` s that lie within one activity, side by side from its start.
 
     The activity reported for the middle of a window counts. Liu et al. 2015 score windows of one activity (section
@@ -63,14 +63,14 @@ def windows(true: Sequence[Span], timeline: Timeline, length: float = 2.0) -> Ac
         for start, end, activity in true
         for k in range(int((end - start + 1e-9) // length))
     ]
-    return compared([at for at, _ in middles], [activity for _, activity in middles], timeline)
+    return score_samples([at for at, _ in middles], [activity for _, activity in middles], timeline)
 
 
 def score_labelled(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     """Score against the label that the experimenter pressed at each sample."""
     result = run(path, settings, poses=False)
     t, true = labels(path)
-    score = compared(t, true, result.gathering.timeline) + rides(spans(t, true), result.gathering.rides)
+    score = score_samples(t, true, result.gathering.timeline) + score_rides(spans(t, true), result.gathering.rides)
     number = fold_of(int(meta["subject"]))
     wearers = ", ".join(map(str, sorted(FOLDS[number])))
     return scored(path, result, activity=score, groups=("all", f"of wearers {wearers}"))
@@ -101,7 +101,7 @@ def score_stairs(path: Path, meta: Meta, settings: RunSettings) -> Scored:
         times = [start + k * EVERY for k in range(int((end - start) / EVERY))]
         t += times
         true += [activity] * len(times)
-    score = compared(t, true, result.gathering.timeline)
+    score = score_samples(t, true, result.gathering.timeline)
     return scored(path, result, figures=stairs_figures(score))
 
 

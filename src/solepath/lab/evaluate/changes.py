@@ -136,7 +136,7 @@ def _rows(part: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, float | N
     yield from part["recordings"].items()
 
 
-def compared(was: Scores, now: Scores) -> list[Changes]:
+def compare_scores(was: Scores, now: Scores) -> list[Changes]:
     """Return the changes of each data set of each recipe that is in both evaluations, in the order of `now`."""
     found: list[Changes] = []
     for recipe, data_sets in now.items():

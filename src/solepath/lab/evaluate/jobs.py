@@ -13,7 +13,7 @@ from ...calibration import Calibration
 from ...recipes import Recipe
 from ...recording import RecordingError
 from ..measures.score import Scored
-from ..processes import Progress, each
+from ..processes import Progress, run_jobs
 from .datasets import DATASETS, EMULATED, DataSet
 from .learning import TrainingSource, part_for, train_parts, training_sources
 from .report import Result
@@ -121,7 +121,7 @@ def _scored(
 ) -> Iterator[Result]:
     known = Calibration() if calibration is None else calibration
     count = sum(len(part) for _, _, part in plan)
-    learnt = each(TrainingSource.features, to_learn, processes=processes, progress=progress, after=count)
+    learnt = run_jobs(TrainingSource.features, to_learn, processes=processes, progress=progress, after=count)
     parts = train_parts(to_learn, list(learnt))
     everything = [
         EvaluationJob(
@@ -130,7 +130,7 @@ def _scored(
         for d, recipe, part in plan
         for path, meta in part
     ]
-    outcomes = each(EvaluationJob.run, everything, processes=processes, progress=progress, before=len(to_learn))
+    outcomes = run_jobs(EvaluationJob.run, everything, processes=processes, progress=progress, before=len(to_learn))
     for data_set, recipe, part in plan:
         done = list(islice(outcomes, len(part)))
         scores = tuple([one for one in done if isinstance(one, Scored)])

@@ -60,7 +60,7 @@ LEARNERS: dict[type, Learner] = {
         _everyone,
         _blocks,
         lambda features: Activities(
-            ActivitiesSettings(activities.learnt([one for blocks in features for one in blocks], "the other folds"))
+            ActivitiesSettings(activities.fit_model([one for blocks in features for one in blocks], "the other folds"))
         ),
     ),
     TwoSecondWindows: Learner(

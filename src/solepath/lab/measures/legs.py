@@ -19,7 +19,7 @@ EVERY = 0.05
 """Interval between the instants among which a turn about is searched, s; a foot pivots for longer."""
 
 
-def between(times: Sequence[float] | Floats, t: Floats, positions: Floats) -> Floats:
+def leg_lengths(times: Sequence[float] | Floats, t: Floats, positions: Floats) -> Floats:
     """Return the horizontal distances (n,) in m between the live positions at consecutive `times` (n+1,)."""
     places = at_times(t, positions[:, :2], np.asarray(times, np.float64))
     return np.asarray(np.linalg.norm(np.diff(places, axis=0), axis=1), dtype=np.float64)
@@ -32,7 +32,7 @@ def leg_errors(times: Sequence[float], true: Sequence[float], t: Floats, positio
     """
     if not len(t):
         return Errors()
-    found = between(times, t, positions)
+    found = leg_lengths(times, t, positions)
     return Errors(tuple([float(ours) / length - 1.0 for ours, length in zip(found, true, strict=True)]))
 
 

@@ -17,7 +17,7 @@ from attrs import frozen
 from numpy.typing import NDArray
 
 from .alignment import Floats, aligned_at_start, at_times
-from .legs import between
+from .legs import leg_lengths
 from .matching import Errors
 
 SLACK = 0.15
@@ -92,7 +92,7 @@ def surveyed_score(
     """
     lengths = np.linalg.norm(np.diff(np.asarray(places, np.float64)[:, :2], axis=0), axis=1)
     known = lengths > 0.0
-    off = between(times, track_t, track)[known] / lengths[known] - 1.0
+    off = leg_lengths(times, track_t, track)[known] / lengths[known] - 1.0
     return attrs.evolve(stride_score(times, lengths, steps), track_errors=Errors(tuple(off.tolist())))
 
 

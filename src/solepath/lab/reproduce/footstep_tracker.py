@@ -15,7 +15,7 @@ from ...emulate.routes.building import BUILDING
 from ...papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from ...types import Activity, Turn
 from ..measures.confusion import ActivityScore
-from ..processes import Progress, each
+from ..processes import Progress, run_jobs
 from . import footstep_walks, published
 from .footstep_walks import CORRIDOR, FootstepWalked, walked
 from .tables import Drawn, Floor, PictureTrack, Reproduction, row_of
@@ -33,7 +33,7 @@ def reproduce(
     """Return the results of `walks` wearers, each of whom walks every experiment."""
     count = WEARERS if walks is None else walks
     seeds = [FIRST + 1000 * seed + k for k in range(count)]
-    done = list(each(walked, seeds, processes=processes, progress=progress))
+    done = list(run_jobs(walked, seeds, processes=processes, progress=progress))
     places = [place for one in done for place in one.places]
     rows = [
         _row("corridor, one foot %", [100.0 * one.one_foot / CORRIDOR for one in done]),

@@ -28,10 +28,10 @@ from ...papers.kupt_dfpc.recipe import KUPT, KUPT_DFPC, ZUPT
 from ...papers.kupt_dfpc.shoe import fit_shoe
 from ...types import SITE_OF_FOOT, Foot
 from ..measures.alignment import Floats
-from ..processes import Progress, each
+from ..processes import Progress, run_jobs
 from . import published
 from .tables import Boxes, Drawn, FigureRow, Floor, PictureTrack, Reproduction, row_of, statistics
-from .walks import aligned, cut, rest_after, run_session, then, thinned
+from .walks import align_track, cut, join_routes, rest_after, run_session, thin_out
 
 NAME = KUPT_DFPC.name
 WALKS = 20
@@ -81,7 +81,7 @@ def reproduce(
     corridors = max(1, count // EVERY)
     jobs = [KuptJob(1000 * seed + 500 + k, corridor=True) for k in range(corridors)]
     jobs += [KuptJob(1000 * seed + k) for k in range(1, count + 1)]
-    done = list(each(walk, jobs, processes=processes, progress=progress))
+    done = list(run_jobs(walk, jobs, processes=processes, progress=progress))
     long, short = done[:corridors], done[corridors:]
     paper = published.KUPT_DFPC
     rows = tuple([row_of(paper, name, [one.distances[name] for one in short]) for name in paper])
@@ -131,7 +131,7 @@ def walk(job: KuptJob) -> KuptWalked:
     """Emulate one walk, calibrate on its first part and run each recipe on the second."""
     route = corridor(CORRIDOR, SPEED) if job.corridor else straight(DISTANCE, SPEED)
     walked = emulate(
-        then(NOISE_WALK, route),
+        join_routes(NOISE_WALK, route),
         devices={SITE_OF_FOOT[foot]: Insole(rate=RATE, cell_part=WORN_RESISTIVE) for foot in Foot},
         seed=job.seed,
     )
@@ -174,7 +174,7 @@ def _tracks(
     ends["KUPT+DFPC"] = [(one.t, one.foot, one.position) for one in fused if one.foot is one.chosen]
     path = _true_path(truth, halt)
     start = path[0].copy()
-    tracks, closing = [PictureTrack("true path", thinned(path - start), Drawn.TRUTH)], {}
+    tracks, closing = [PictureTrack("true path", thin_out(path - start), Drawn.TRUTH)], {}
     for name, places in ends.items():
         if len(places) < 2:
             continue
@@ -182,7 +182,7 @@ def _tracks(
         true = np.array(
             [_true_places(truth, foot, t)[0] for t, foot in [(halt, places[0][1]), *(p[:2] for p in places)]]
         )
-        tracks.append(PictureTrack(name, thinned(aligned(track, true) - start), Drawn.DOTS))
+        tracks.append(PictureTrack(name, thin_out(align_track(track, true) - start), Drawn.DOTS))
         closing[name] = float(np.linalg.norm(track[-1] - track[0]))
     return tuple(tracks), closing
 

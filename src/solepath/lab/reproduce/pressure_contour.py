@@ -29,10 +29,10 @@ from ...papers.pressure_contour.recipe import GYROSCOPE, PRESSURE_CONTOUR
 from ...papers.pressure_contour.square import square_drift
 from ...types import SITE_OF_FOOT, Foot
 from ..measures.alignment import Floats
-from ..processes import Progress, each
+from ..processes import Progress, run_jobs
 from . import published
 from .tables import Drawn, Floor, PictureTrack, Reproduction, row_of
-from .walks import aligned, cut, rest_after, run_session, then, thinned
+from .walks import align_track, cut, join_routes, rest_after, run_session, thin_out
 
 NAME = PRESSURE_CONTOUR.name
 WALKS = 6
@@ -86,7 +86,7 @@ def reproduce(
     """Return the results of `walks` half-hour walks."""
     count = WALKS if walks is None else walks
     jobs = [ContourJob(1000 * seed + k, ORDER[k % len(ORDER)], LASTING, LAPS) for k in range(count)]
-    done = list(each(walk, jobs, processes=processes, progress=progress))
+    done = list(run_jobs(walk, jobs, processes=processes, progress=progress))
     paper = published.PRESSURE_CONTOUR
     rows = [row_of(paper, f"{name} m", [one.closing[name] for one in done]) for name in RECIPES]
     rows += [row_of(paper, f"{name} %", [100.0 * w.closing[name] / w.distance for w in done], 3) for name in RECIPES]
@@ -128,11 +128,11 @@ def route_of(job: ContourJob) -> tuple[Route, Route]:
         pause = max(1.0, job.lasting / count - lap.length / PACE)
         whole = before
         for _ in range(count):
-            whole = then(whole, evolve(lap, actions=(*lap.actions[1:-1], Stand(pause))))
+            whole = join_routes(whole, evolve(lap, actions=(*lap.actions[1:-1], Stand(pause))))
         return before, whole
     after = field_walk(job.lasting, distance / job.lasting, job.seed)
     turned = after.end.heading
-    return before, then(before, after.turn(atan2(-sin(turned), cos(turned))).stand(2.0))
+    return before, join_routes(before, after.turn(atan2(-sin(turned), cos(turned))).stand(2.0))
 
 
 def walk(job: ContourJob) -> ContourWalked:
@@ -142,7 +142,7 @@ def walk(job: ContourJob) -> ContourWalked:
     halt = rest_after(walked.walker, before)
     parts = cut(walked, halt)
     ends = [step.t_end for step in walked.truth.steps(FOOT) if step.t_end > halt]
-    path = thinned(_places(walked, np.array([halt, *ends])))
+    path = thin_out(_places(walked, np.array([halt, *ends])))
     closing, tracks = {}, [PictureTrack("true path", path, Drawn.TRUTH)]
     for name, recipe in RECIPES.items():
         drift = square_drift(parts.before, foot=FOOT, recipe=recipe, calibration=parts.layouts).kept
@@ -151,7 +151,7 @@ def walk(job: ContourJob) -> ContourWalked:
         track = np.array([(0.0, 0.0), *((x, y) for x, y, _ in (one.position for one in steps))])
         true = _places(walked, np.array([halt, *(one.t_end for one in steps)]))
         closing[name] = float(np.linalg.norm(track[-1] - track[0]))
-        tracks.append(PictureTrack(name.lower(), thinned(aligned(track, true, over=10.0))))
+        tracks.append(PictureTrack(name.lower(), thin_out(align_track(track, true, over=10.0))))
     return ContourWalked(job.number, whole.length - before.length, closing, tuple(tracks))
 
 

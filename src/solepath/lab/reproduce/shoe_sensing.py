@@ -14,7 +14,7 @@ import numpy as np
 
 from ...papers.shoe_sensing.recipe import SHOE_SENSING
 from ..measures.matching import Errors
-from ..processes import Progress, each
+from ..processes import Progress, run_jobs
 from . import published
 from .shoe_walks import STATES, ShoeWalked, walked
 from .tables import Drawn, FigureRow, Floor, PictureTrack, Reproduction, row_of
@@ -30,7 +30,7 @@ def reproduce(
 ) -> Reproduction:
     """Return the results of `walks` wearers, each of whom walks every experiment."""
     count = WALKS if walks is None else walks
-    done = list(each(walked, [1000 * seed + k for k in range(count)], processes=processes, progress=progress))
+    done = list(run_jobs(walked, [1000 * seed + k for k in range(count)], processes=processes, progress=progress))
     return Reproduction(
         name=NAME,
         paper_title=published.SHOE_SENSING_TITLE,

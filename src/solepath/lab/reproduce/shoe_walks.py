@@ -25,7 +25,7 @@ from ...types import Foot, Sample
 from ..measures.alignment import Floats, align, distances
 from ..measures.matching import pairs
 from ..measures.strides import ALIGNED_OVER
-from .walks import aligned, run_session, thinned
+from .walks import align_track, run_session, thin_out
 
 FOOT = Foot.RIGHT
 """Foot that wears the sensor ("attached to one of the user's shoes"); the side is assumed."""
@@ -229,7 +229,7 @@ def score_tour(seed: int) -> TourErrors:
     ours = np.array([(0.0, 0.0, 0.0), *(step.position for step in steps)])
     true = truth.pose(FOOT, np.array([0.0, *(step.t_end for step in steps)])).position
     true = true - true[0]
-    flat = aligned(ours[:, :2], true[:, :2])
+    flat = align_track(ours[:, :2], true[:, :2])
     travelled = distances(true)
     return TourErrors(
         off=hypot(*(flat[-1] - true[-1, :2])),
@@ -238,6 +238,6 @@ def score_tour(seed: int) -> TourErrors:
         height=float(ours[-1, 2] - true[-1, 2]),
         reported=tuple(event.up for event in events if isinstance(event, FlightClimbed)),
         true=tuple(flight.up for flight in truth.flights),
-        above=(thinned(flat), thinned(true)),
-        aside=(thinned(np.column_stack([travelled, ours[:, 2]])), thinned(np.column_stack([travelled, true[:, 2]]))),
+        above=(thin_out(flat), thin_out(true)),
+        aside=(thin_out(np.column_stack([travelled, ours[:, 2]])), thin_out(np.column_stack([travelled, true[:, 2]]))),
     )

@@ -33,7 +33,7 @@ from ...recipes import Recipe
 from ...recording.decoded import Recorded
 from ...types import SITE_OF_FOOT, Foot, Sample
 from ...types.vector import GRAVITY
-from ..processes import Progress, each
+from ..processes import Progress, run_jobs
 from . import published
 from .published import corner_row
 from .tables import Drawn, Floor, PictureTrack, Reproduction, row_of, statistics
@@ -90,9 +90,9 @@ def reproduce(
     count = WALKS if walks is None else walks
     wearers = list(range(min(count, len(SUBJECTS))))
     learning = [MarkedWalks(subject, 1000 * seed + 500 + 10 * subject, STEPS, REPEATS) for subject in wearers]
-    known = list(each(learn, learning, processes=processes, progress=progress, after=count))
+    known = list(run_jobs(learn, learning, processes=processes, progress=progress, after=count))
     jobs = [ModesJob(k % len(known), 1000 * seed + k, known[k % len(known)]) for k in range(count)]
-    done = list(each(walk, jobs, processes=processes, progress=progress, before=len(wearers)))
+    done = list(run_jobs(walk, jobs, processes=processes, progress=progress, before=len(wearers)))
     rows = tuple(
         row_of(published.WALKING_MODES, corner_row(point, method, axis), [one.off[method][point][k] for one in done], 4)
         for point in PLACES
@@ -150,7 +150,7 @@ def _notes(done: Sequence[ModesWalked]) -> tuple[str, ...]:
     return tuple(lines)
 
 
-def known_of(wearer: Wearer) -> Calibration:
+def known_calibration(wearer: Wearer) -> Calibration:
     """Return the calibration that a tape measure, scales and the maker of the insoles give."""
     shoe = wearer.shoe
     insoles = {foot: InsoleCalibration(layout=layout(CELLS, foot, shoe.length, shoe.width)) for foot in Foot}
@@ -166,7 +166,7 @@ def worn(walker: Walker, known: Calibration, seed: int) -> list[Sample]:
 def learn(job: MarkedWalks) -> Calibration:
     """Return a wearer's calibration after marked walks in every mode, with sensors strapped on again for each round."""
     wearer = SUBJECTS[job.subject]
-    known = known_of(wearer)
+    known = known_calibration(wearer)
     errors = []
     for strapped in range(job.seed, job.seed + job.repeats):
         for k, mode in enumerate(MODES):

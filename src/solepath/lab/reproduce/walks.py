@@ -21,7 +21,7 @@ from ..measures.alignment import Floats, align
 from ..measures.strides import ALIGNED_OVER
 
 
-def then(first: Route, second: Route) -> Route:
+def join_routes(first: Route, second: Route) -> Route:
     """Return both routes in sequence; the second starts where the first ends, in its direction."""
     return evolve(first, actions=(*first.actions, *second.actions), speed=second.speed)
 
@@ -65,7 +65,7 @@ def run_session(
     return session.feed(items) + session.finish()
 
 
-def aligned(track: Floats, truth: Floats, over: float = ALIGNED_OVER) -> Floats:
+def align_track(track: Floats, truth: Floats, over: float = ALIGNED_OVER) -> Floats:
     """Return `track` (n, 2) turned and shifted to fit `truth` (n, 2) best over the first `over` metres.
 
     Rows of both are the same instants.
@@ -75,7 +75,7 @@ def aligned(track: Floats, truth: Floats, over: float = ALIGNED_OVER) -> Floats:
     return align(track[:count], truth[:count]).apply(track)
 
 
-def thinned(points: Iterable[Sequence[float]], most: int = 4000) -> tuple[tuple[float, float], ...]:
+def thin_out(points: Iterable[Sequence[float]], most: int = 4000) -> tuple[tuple[float, float], ...]:
     """Return (x, y) of at most `most` of these points, evenly chosen, the last one among them."""
     all_of = [(float(p[0]), float(p[1])) for p in points]
     every = -(-len(all_of) // most) or 1

@@ -10,7 +10,7 @@ from ...show.tables.table import milliseconds, number, percent, table
 from ...types import Activity
 from ..evaluate.ablation import COLUMNS as MAIN_FIGURES
 from ..evaluate.ablation import Column
-from ..evaluate.changes import DIGITS, Changes, Scores, Verdict, compared, missing
+from ..evaluate.changes import DIGITS, Changes, Scores, Verdict, compare_scores, missing
 from ..evaluate.report import Result
 from ..measures.confusion import CLASSES
 from ..measures.score import Figures, Summary
@@ -184,7 +184,7 @@ def changes_table(changes: Changes) -> str:
 
 def comparison_tables(was: Scores, now: Scores) -> str:
     """Return a table for each data set that is in both evaluations, and the names that are in one only."""
-    parts = [changes_table(changes) for changes in compared(was, now)]
+    parts = [changes_table(changes) for changes in compare_scores(was, now)]
     removed, new = missing(was, now), missing(now, was)
     if removed:
         parts.append(f"evaluated then and not now: {', '.join(removed)}")

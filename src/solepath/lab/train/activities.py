@@ -244,7 +244,7 @@ def resampled(samples: Sequence[Sample], rate: float) -> list[Sample]:
     return sorted(found, key=attrgetter("t"))
 
 
-def learnt(parts: Iterable[Blocks], note: str) -> MotionModel:
+def fit_model(parts: Iterable[Blocks], note: str) -> MotionModel:
     """Return the model that is learnt from all these blocks."""
     held = [part for part in parts if len(part.classes)]
     features = np.concatenate([part.features for part in held])
@@ -256,7 +256,7 @@ def learnt(parts: Iterable[Blocks], note: str) -> MotionModel:
     return attrs.evolve(model, shifts=shifts(courses, model))
 
 
-def trained(data: Path, without: int | None) -> MotionModel:
+def train_model(data: Path, without: int | None) -> MotionModel:
     """Return the model without the wearers of the fold `without`."""
     left_out = frozenset[int]() if without is None else FOLDS[without]
     fold = "all wearers" if without is None else f"the wearers but {sorted(left_out)}"
@@ -264,7 +264,7 @@ def trained(data: Path, without: int | None) -> MotionModel:
         f"{fold} of HuGaDB (without {' and '.join(MISLABELLED)}) as recorded and at 100, 20 and 10 Hz; level walks of "
         f"{', '.join(LEVEL_WALKS)}; emulated wearers, seeds {EMULATED[0]} to {EMULATED[-1]}"
     )
-    return learnt([*hugadb(data / "hugadb", left_out), *level_walks(data), *emulated_walks()], note)
+    return fit_model([*hugadb(data / "hugadb", left_out), *level_walks(data), *emulated_walks()], note)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -273,7 +273,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--out", type=Path, default=Path(motion.__file__).with_name("activities.json"))
     parser.add_argument("--without", type=int, choices=range(len(FOLDS)))
     options = parser.parse_args(arguments)
-    model = trained(options.data, options.without)
+    model = train_model(options.data, options.without)
     options.out.write_text(_lines(to_json(model), 0) + "\n", encoding="utf-8")
     return 0
 

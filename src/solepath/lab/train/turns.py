@@ -67,7 +67,7 @@ def walk(seed: int, turn: Turn) -> EmulatedWalk:
     return emulate(route, wearer=who, devices=devices, seed=seed)
 
 
-def measured(walked: EmulatedWalk) -> TurnProcess | None:
+def largest_turn(walked: EmulatedWalk) -> TurnProcess | None:
     """Return the largest turn that the recipe finds in a walk."""
     session, direction = Session(FOOTSTEP_TRACKER), Direction()
     steps = [event for packet in walked.packets for event in session.feed(packet) if isinstance(event, StrideTaken)]
@@ -78,18 +78,18 @@ def measured(walked: EmulatedWalk) -> TurnProcess | None:
     return max(turns, key=lambda one: abs(one.angle), default=None)
 
 
-def emulated(seeds: Iterable[int]) -> list[Example]:
+def emulated_examples(seeds: Iterable[int]) -> list[Example]:
     """Return a turn of each class for every seed, without those in which the recipe finds no turn."""
     examples = []
     for seed in seeds:
         for turn in ANGLES:
-            found = measured(walk(seed, turn))
+            found = largest_turn(walk(seed, turn))
             if found is not None and found.left is not None and found.right is not None:
                 examples.append(Example(seed, turn, round(degrees(found.left), 1), round(degrees(found.right), 1)))
     return examples
 
 
-def trained(examples: list[Example]) -> dict[Turn, tuple[float, ...]]:
+def train_weights(examples: list[Example]) -> dict[Turn, tuple[float, ...]]:
     """Return one linear function for each class against the others.
 
     It minimises SLACK |w|^2 / 2 + mean hinge loss by subgradient steps over all examples at once (Shalev-Shwartz et al.
@@ -136,8 +136,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m solepath.lab.train.turns", description=__doc__)
     parser.add_argument("--emulate", action="store_true", help="make turns.csv anew")
     if parser.parse_args().emulate:
-        write(emulated(range(FIRST_TO_LEARN_FROM, FIRST_TO_LEARN_FROM + EACH)))
-    for turn, weights in trained(read()).items():
+        write(emulated_examples(range(FIRST_TO_LEARN_FROM, FIRST_TO_LEARN_FROM + EACH)))
+    for turn, weights in train_weights(read()).items():
         print(f"    Turn.{turn.name}: {weights},")
 
 
