@@ -41,9 +41,11 @@ class DetectorHarness:
     t: float | None = field(default=None, init=False)
 
     def with_gaps(self, samples: list[Sample]) -> list[Sample]:
+        """Return all samples; a detector is tried without gaps."""
         return samples
 
     def pressure_only(self, samples: list[Sample]) -> list[Sample]:
+        """Return no samples, because a detector needs inertial ones."""
         return []
 
     def restart(self) -> None:
@@ -82,10 +84,12 @@ class WalkHarness:
     """Time of the newest sample, s."""
 
     def with_gaps(self, samples: list[Sample]) -> list[Sample]:
+        """Return the samples without those in GAPS."""
         t_start = samples[0].t if samples else 0.0
         return [s for s in samples if not any([a < (s.t - t_start) % EVERY < b for a, b in GAPS])]
 
     def pressure_only(self, samples: list[Sample]) -> list[Sample]:
+        """Return later samples with pressure and without inertial values."""
         return [Sample(self.t + 1.0 + s.t - samples[0].t, s.site, pressure=s.pressure) for s in samples if s.pressure]
 
     def finish(self) -> list[Any]:

@@ -71,6 +71,7 @@ class Gathering:
         return gathering
 
     def add(self, event: Event) -> None:
+        """Add one event. Positions and activities always count, other events only when they are final."""
         match event:
             case FootMoved(foot=foot, t=t, position=position):
                 one = self._of(foot)
@@ -93,6 +94,7 @@ class Gathering:
         return self._feet.setdefault(foot, _FootGathered())
 
     def foot(self, foot: Foot) -> FootRun:
+        """Return the collected events of one foot."""
         one = self._of(foot)
         return FootRun(
             t=np.array(one.t, dtype=np.float64),
