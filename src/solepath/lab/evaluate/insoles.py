@@ -66,7 +66,7 @@ def in_dataset(path: Path) -> Calibration:
 MARGIN = 15.0
 """Distance from the outermost cells to the insole's ends, mm (assumed: half the distance between their rows)."""
 MIDLINE = -8.0
-"""x of the insole's midline, mm: the middle of the rows of cells."""
+"""Coordinate x of the insole's midline, mm: the middle of the rows of cells."""
 
 
 def _of_both(layouts: dict[Foot, Layout]) -> Calibration:
