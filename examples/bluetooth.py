@@ -1,6 +1,7 @@
-"""Sensors over Bluetooth: `python bluetooth.py LEFT RIGHT` with two addresses from `solepath scan`.
+"""Receives sensors over Bluetooth: `python bluetooth.py LEFT RIGHT` with two addresses from `solepath scan`.
 
-Without addresses two emulated insoles are worn for eight seconds, behind virtual Bluetooth controllers.
+Without addresses an emulated wearer walks for eight seconds with two emulated insoles, behind virtual Bluetooth
+controllers.
 """
 
 import asyncio
@@ -14,9 +15,9 @@ from solepath.emulate.controllers import virtual_air
 
 async def listen(left: str, right: str, backend: Backend = NATIVE, seconds: float = 600.0) -> None:
     session = Session()
-    wanted = [DeviceConfig(Site.LEFT_FOOT, left), DeviceConfig(Site.RIGHT_FOOT, right)]
+    configs = [DeviceConfig(Site.LEFT_FOOT, left), DeviceConfig(Site.RIGHT_FOOT, right)]
     end = asyncio.get_running_loop().time() + seconds
-    async with Devices(wanted, backend=backend) as devices:
+    async with Devices(configs, backend=backend) as devices:
         async for packet in devices:
             for event in session.feed(packet):
                 match event:

@@ -1,9 +1,9 @@
-"""Two choices of parts on the same walk, against the truth.
+"""Compares two recipes with the truth on the same walk.
 
     python examples/compare_detectors.py
 
-A recipe names a stance detector (when does the foot stand still, and how sure is that?) and a corrector (what keeps
-the integration of acceleration from drifting?). Any detector goes with any corrector.
+A recipe names a stance detector, which estimates whether the foot stands still and how certain that is, and a
+corrector, which limits the drift of the integration of acceleration. Any detector works with any corrector.
 """
 
 from math import radians
@@ -13,11 +13,11 @@ from solepath.emulate import Radio, Route, emulate
 from solepath.foot.navigate.dedrift import LinearDedrift
 from solepath.foot.stance.shoe import ShoeDetector
 
-# Walking slowly and fast, with a bend: what one threshold finds hard to serve.
+# Walking slowly and fast, with a bend, is difficult for a single threshold.
 route = Route().stand(2).walk(15, speed=0.9).turn(radians(180), radius=2).walk(15, speed=1.6).stop(2)
 walk = emulate(route, radio=Radio(loss=0.02), seed=4)
 
-# A part is an object that was never fed; a session begins with copies, so a recipe can be used many times.
+# A part in a recipe has received no samples; a session starts with copies, so a recipe can be used many times.
 textbook = Recipe("SHOE + linear dedrift", detector=ShoeDetector(), corrector=LinearDedrift())
 
 print(f"{'recipe':22}  {'foot':5}  steps  of  length error %  end error m")
@@ -26,10 +26,10 @@ for recipe in (recipes.DEFAULT, textbook):
     steps = [e for e in session.feed(walk.packets) + session.finish() if isinstance(e, StrideTaken)]
     for foot in Foot:
         found, true = [s for s in steps if s.foot is foot], walk.truth.steps(foot)
-        # a found step belongs to the true one that ends at about the same time
+        # a found stride belongs to the true one that ends at about the same time
         pairs = [(f, t) for f in found for t in true if abs(f.t_end - t.t_end) < 0.3]
         error = sum(abs(f.length / t.length - 1) for f, t in pairs) / len(pairs)
-        # both are measured from where the foot stood at first, along the heading in which it set out
+        # both are relative to the foot's first position and first heading
         (x, y, _), end = found[-1].position, walk.truth.pose(foot, walk.truth.duration).position[0]
         away = ((x - end[0]) ** 2 + (y - end[1]) ** 2) ** 0.5
         print(f"{recipe.name:22}  {foot.value:5}  {len(found):5}  {len(true):2}  {100 * error:14.1f}  {away:11.2f}")

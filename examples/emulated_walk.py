@@ -1,4 +1,4 @@
-"""A walk without hardware: an emulated wearer in two pressure insoles, and what solepath makes of the packets.
+"""A walk without hardware: an emulated wearer with two pressure insoles, and the events of a session.
 
 python examples/emulated_walk.py
 """
@@ -14,14 +14,14 @@ walk = emulate(route, radio=Radio(loss=0.02, latency=0.015, jitter=0.030), seed=
 print(f"{len(walk.packets)} packets in {walk.truth.duration:.1f} s. The first one:")
 print(walk.packets[0])
 
-# A session is all that an app holds. It opens nothing and waits for nothing: packets go in, events come out.
+# An app holds only a session. It opens nothing and waits for nothing: packets go in, events come out.
 session = Session()
 lost = rejected = 0
 for packet in walk.packets:
     for event in session.feed(packet):  # in the order in which they became known
         match event:
             case HeelStrike() | FootFlat() | HeelOff() | ToeOff():
-                # t: when it happened. known_at: when the packet came that settled it.
+                # t: time of the event. known_at: arrival of the packet that made it known.
                 late = 1000 * (event.known_at - event.t)
                 print(f"{event.t:6.2f} s  {event.foot.value:5}  {type(event).__name__:10}  known {late:3.0f} ms later")
             case StrideTaken(t=t, foot=foot, number=number, length=length, heading_change=turn):

@@ -1,8 +1,9 @@
-"""Where in a building somebody is who wears two SensorTags in the shoes, and what they do there.
+"""Locates a wearer with two SensorTags in the shoes on a floor plan, and reports the activities.
 
     python examples/indoors.py
 
-An emulated wearer takes a lift down, walks along corridors and leaves by another lift. Nobody tells where it begins.
+An emulated wearer takes a lift down, walks along corridors and leaves by another lift. The session does not know the
+start position.
 """
 
 from math import hypot

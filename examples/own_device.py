@@ -1,10 +1,11 @@
-"""A device of your own, declared in one file: how its bytes are laid out, what they mean, what is to be written to it.
+"""Declares a device of your own in one file: the layout of its bytes, their meaning, and what is written to it.
 
     python examples/own_device.py
 
-The device is invented: 16 bytes for every sample, 100 a second, numbered with 15 bits, no clock. Beside this file lies
-own_device.json: bytes and what they say, worked out by hand, and checked here. Real devices that were declared like
-this are in solepath/link/devices. `ble.DeviceConfig(site, profile=PROFILE)` and `Session(profiles=[DRIVER])` take it.
+The device is invented: 16 bytes for every sample, 100 a second, numbered with 15 bits, no clock. Beside this file is
+own_device.json, which has bytes with their meaning, worked out by hand; this program checks them. Real devices that are
+declared in this way are in solepath/link/devices. `ble.DeviceConfig(site, profile=PROFILE)` and
+`Session(profiles=[DRIVER])` use the declaration.
 """
 
 import json
@@ -22,7 +23,7 @@ from solepath.wire.fields import Fields
 
 SERVICE = "5d1e0001-9c60-4cf1-a1b3-1a2b3c4d5e6f"
 PROFILE = Profile(
-    name="shoe",  # channels begin with it
+    name="shoe",  # first part of the channel names
     names=("My shoe",),  # as it advertises
     services=(SERVICE,),
     channels=(
@@ -33,7 +34,7 @@ PROFILE = Profile(
     reads=(),
     nominal_rate=100.0,  # samples a second, after setup
     streams=("shoe/motion",),
-    stale_after=1.0,  # s of silence that are worth an event
+    stale_after=1.0,  # s without data until StreamStale
 )
 
 FORMATS = {  # construct reads and writes them
@@ -50,7 +51,7 @@ ACC, GYRO = 8 * 9.80665 / 32768, radians(1 / 16)
 
 
 def motion(sent, known):
-    """One notification in SI units. `known` holds what earlier values said, for devices whose ranges can be set."""
+    """Return one notification in SI units. `known` has earlier values, for devices whose ranges can be set."""
     sample = Measured(acc=tuple(v * ACC for v in sent.acc), gyro=tuple(v * GYRO for v in sent.gyro))
     first = sent.number % 1000 == 0
     return Reading((sample,), sequence=sent.number, battery=sent.battery / 1000 if first else None)
@@ -65,7 +66,7 @@ for k, true in enumerate(Walker(Route().stand(2).walk(8).stop(2)).samples(Foot.L
     counts = {"acc": [round(v / ACC) for v in true.acc], "gyro": [round(v / GYRO) for v in true.gyro]}
     data = DRIVER.write("shoe/motion", {"number": (32500 + k) % (1 << 15), "battery": 873, **counts})
     if 500 <= k < 503:
-        continue  # three are lost
+        continue  # three packets are lost
     for event in session.feed(Packet(true.t + 0.008, Site.LEFT_FOOT, "shoe/motion", data)):
         match event:
             case StrideTaken(t=t, number=number, length=length, degraded=degraded):

@@ -1,9 +1,9 @@
-"""The loop of the README over a recording of packets.
+"""Runs the loop of the README over a recording of packets.
 
     solepath demo --record walk.jsonl
     python examples/own_loop.py walk.jsonl
 
-A live source is the same loop: make a Packet of every Bluetooth notification and feed it. While nothing arrives, call
+A live source has the same loop: make a Packet of every Bluetooth notification and feed it. While nothing arrives, call
 `session.advance(now)` now and then, so that silence becomes an event too (StreamStale).
 """
 

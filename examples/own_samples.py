@@ -1,9 +1,9 @@
-"""Samples of your own sensor, one at a time: no packets, no radio, only numbers in SI units.
+"""Feeds samples of your own sensor, one at a time: no packets, no radio, only numbers in SI units.
 
     python examples/own_samples.py              emulated samples
     python examples/own_samples.py walk.csv     a file with the columns t,acc_x,acc_y,acc_z,gyro_x,gyro_y,gyro_z
 
-Whole files are easier with `solepath track walk.csv`. This is for data that come from elsewhere.
+Whole files are easier with `solepath track walk.csv`. This program is for data from another source.
 """
 
 import csv
@@ -15,7 +15,7 @@ from solepath.emulate import Route, Walker
 
 
 def samples_of(path: str) -> Iterator[Sample]:
-    """One Sample for every row. Only t, acc and gyro are needed for steps; pressure=(...) may be added."""
+    """Yield one Sample for every row. Strides need only t, acc and gyro; pressure=(...) may be added."""
     with open(path, newline="") as file:
         for row in csv.DictReader(file):
             yield Sample(
@@ -27,7 +27,7 @@ def samples_of(path: str) -> Iterator[Sample]:
 
 
 def emulated_samples() -> Iterator[Sample]:
-    """The right foot of an emulated walk at 100 Hz, in the same form."""
+    """Yield the samples of the right foot of an emulated walk at 100 Hz, in the same form."""
     yield from Walker(Route().stand(2).walk(12).stop(2)).samples(Foot.RIGHT, 100.0)
 
 

@@ -1,8 +1,8 @@
-"""Stop in the middle of a walk, go on later in another process, and lose nothing.
+"""Stops in the middle of a walk, continues later in another process, and loses nothing.
 
     python examples/save_and_resume.py
 
-A snapshot is plain data, so it goes through JSON, a database or a message as it is.
+A snapshot is plain data, so JSON, a database or a message can hold it.
 """
 
 import json
@@ -13,14 +13,14 @@ from solepath.emulate import Route, emulate
 walk = emulate(Route().stand(2).walk(10, speed=1.2).stop(2), seed=3)
 half = len(walk.packets) // 2
 
-# The first half. It ends in the middle of a step, as life does.
+# The first half ends in the middle of a stride.
 session = Session()
 events: list[Event] = session.feed(walk.packets[:half])
 text = json.dumps(session.snapshot())
 print(f"{len(events)} events so far, saved in {len(text) / 1000:.0f} kB of JSON")
 del session
 
-# The second half. Session.restore raises SnapshotError for what is no snapshot of this version.
+# The second half. Session.restore raises SnapshotError for anything but a snapshot of this version.
 session = Session.restore(json.loads(text))
 events += session.feed(walk.packets[half:])
 events += session.finish()

@@ -1,11 +1,11 @@
-"""Gait events of any number of wearers, on Spark: from files of what phones sent to files of events.
+"""Gait events of any number of wearers, on Spark: from files of packets that phones sent to files of events.
 
-    python examples/spark_gait.py SENT TOLD CHECKPOINT                            # on this machine, all that is there
-    spark-submit ... examples/spark_gait.py SENT TOLD CHECKPOINT --every "10 seconds"     # on a cluster, until stopped
+    python examples/spark_gait.py SENT EVENTS CHECKPOINT                      # on this machine, all present files
+    spark-submit ... examples/spark_gait.py SENT EVENTS CHECKPOINT --every "10 seconds"   # on a cluster, until stopped
 
-SENT: a directory that Parquet files of rows (solepath.fleet.sent_row) are moved into, older ones first. TOLD: becomes
-a directory of Parquet files of events. CHECKPOINT: where the job goes on after any end. Needs solepath[spark] and
-Java 17, on a cluster on every executor.
+SENT: a directory that Parquet files of rows (solepath.fleet.sent_row) are moved into, older ones first. EVENTS: becomes
+a directory of Parquet files of events. CHECKPOINT: directory from which the job continues after any end. Needs
+solepath[spark] and Java 17, on a cluster on every executor.
 """
 
 import argparse
@@ -21,22 +21,22 @@ from solepath.fleet.spark import SENT_SCHEMA, STORE, gait
 
 def main() -> None:
     parser = argparse.ArgumentParser(description="Gait events of a fleet, on Spark.")
-    for name in ("sent", "told", "checkpoint"):
+    for name in ("sent", "events", "checkpoint"):
         parser.add_argument(name)
     parser.add_argument("--recipe", choices=recipes.NAMES, default=recipes.DEFAULT.name)
     parser.add_argument("--every", help='how often to look for new files: "10 seconds"; otherwise once')
     parser.add_argument("--files", type=int, default=100, help="files that are read at a time, at most")
     args = parser.parse_args()
 
-    # without it the workers take the python3 of the PATH, which need not be the one that knows solepath
+    # without it the workers use the python3 of the PATH, in which solepath may not be installed
     os.environ.setdefault("PYSPARK_PYTHON", sys.executable)
     spark = SparkSession.builder.appName("solepath").config(map=STORE).getOrCreate()
     spark.sparkContext.setLogLevel("ERROR")
     sent = spark.readStream.schema(SENT_SCHEMA).option("maxFilesPerTrigger", args.files).parquet(args.sent)
-    told = gait(sent, Fleet(recipes.by_name(args.recipe)))
-    writer = told.writeStream.format("parquet").option("checkpointLocation", args.checkpoint)
+    events = gait(sent, Fleet(recipes.by_name(args.recipe)))
+    writer = events.writeStream.format("parquet").option("checkpointLocation", args.checkpoint)
     writer = writer.trigger(processingTime=args.every) if args.every else writer.trigger(availableNow=True)
-    query = writer.start(args.told)
+    query = writer.start(args.events)
     query.awaitTermination()
     for batch in query.recentProgress:
         if batch.numInputRows:

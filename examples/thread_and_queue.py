@@ -1,10 +1,10 @@
 """An app's loop without asyncio: a thread that receives, a bounded queue, and one thread that holds the session.
 
     python examples/thread_and_queue.py                     an emulated walk, as fast as the app takes it
-    python examples/thread_and_queue.py walk.jsonl [SPEED]  a recording (solepath demo --record walk.jsonl), as in life
+    python examples/thread_and_queue.py walk.jsonl [SPEED]  a recording (solepath demo --record walk.jsonl), real time
 
-A session belongs to one thread; a Bluetooth library's callback only puts packets into a queue. What to do when that is
-full (drop, count, say so) or empty (advance), when the app goes to the background (save, restore) and ends (finish).
+A session belongs to one thread; a Bluetooth library's callback only puts packets into a queue. Shown here: what to do
+when the queue is full (drop, count, report) or empty (advance), at going to the background (save, restore) and the end.
 """
 
 import json
@@ -21,32 +21,31 @@ from solepath.link.catalogue import PROFILES
 from solepath.recording import read_packets
 from solepath.wire.receiver import build_dropped
 
-# What comes a hundred times a second may be dropped; a layout or a range, which comes once, may not.
+# A packet of a stream may be dropped; a layout or a range, which is sent once, may not.
 STREAMS = {name for profile in PROFILES for name in profile.streams}
 
 
 class Clock:
-    """What packets are stamped with: time.monotonic() in an app, here that of the walk, `speed` times as fast as life.
-    An infinite speed is as fast as the app waits for it to go on: no machine is too slow for what is shown here."""
+    """The clock of the packets' times, at `speed` times real time; time.monotonic() in an app."""
 
-    def __init__(self, speed: float, begin: float) -> None:
-        self.speed, self.begin, self.t, self.began = speed, begin, begin, time.monotonic()
+    def __init__(self, speed: float, t_start: float) -> None:
+        self.speed, self.t_start, self.t, self.started_at = speed, t_start, t_start, time.monotonic()
         self.app_waits = threading.Event()
 
     def go_on(self, t: float) -> None:
-        if self.speed == inf:
+        if self.speed == inf:  # as fast as the app consumes packets
             self.app_waits.wait()
             self.app_waits.clear()
-        time.sleep(max(0.0, self.began + (t - self.begin) / self.speed - time.monotonic()))
+        time.sleep(max(0.0, self.started_at + (t - self.t_start) / self.speed - time.monotonic()))
         self.t = t
 
 
 class Receiver(threading.Thread):
-    """Stands for the thread that a Bluetooth library calls back on; `notified` is what such a callback does."""
+    """Stands for the thread on which a Bluetooth library calls back; `on_notification` is such a callback."""
 
     def __init__(self, packets: Iterator[Packet], clock: Clock, capacity: int) -> None:
         super().__init__(name="receiver", daemon=True)
-        self.packets, self.clock, self.began = packets, clock, clock.t
+        self.packets, self.clock, self.listening_since = packets, clock, clock.t
         self.inbox: queue.Queue[list[Packet] | None] = queue.Queue(capacity)
         self.dropped, self.stopped, self.must_wait = dict[Site, int](), False, False
 
@@ -56,36 +55,36 @@ class Receiver(threading.Thread):
                 self.clock.go_on(min(packet.t, self.clock.t + 0.2))
             if self.stopped:
                 break
-            if packet.t >= self.began:  # else it was sent while nobody listened
-                self.notified(packet)  # a library's callback makes it: Packet(time.monotonic(), site, channel, data)
-        self.inbox.put(None)  # no more comes; whoever takes from the queue goes on until this
+            if packet.t >= self.listening_since:  # otherwise it was sent while the app was in the background
+                self.on_notification(packet)  # in an app: Packet(time.monotonic(), site, channel, data)
+        self.inbox.put(None)  # marks the end for the thread that reads the queue
 
-    def notified(self, packet: Packet) -> None:
-        """Never waits for the app, unless the packet is one that all others are read with."""
+    def on_notification(self, packet: Packet) -> None:
+        """Put the packet into the queue; wait only for a packet that is needed to read all others."""
         site, count = packet.site, self.dropped.get(packet.site, 0)
-        told = [Packet(packet.t, site, "receiver/dropped", build_dropped(count), packet.device)] if count else []
+        report = [Packet(packet.t, site, "receiver/dropped", build_dropped(count), packet.device)] if count else []
         self.must_wait = packet.channel not in STREAMS
         try:
-            self.inbox.put([*told, packet], block=self.must_wait)
+            self.inbox.put([*report, packet], block=self.must_wait)
             self.dropped[site] = 0
         except queue.Full:
             self.dropped[site] = count + 1
 
 
 class App:
-    """For one thread. `show` takes what happened; a GUI hands it on to its own thread there."""
+    """The app of one thread. `show` receives the events; a GUI passes them on to its own thread."""
 
     def __init__(self, packets: Iterator[Packet], clock: Clock, show: Callable[[Event], None]) -> None:
         self.packets, self.clock, self.show = packets, clock, show
 
     def listen(self, saved: str = "") -> None:
-        """The app begins, or comes back with what `stop` gave, perhaps as another process."""
+        """Start the app, or continue with the state that `stop` returned, perhaps in another process."""
         self.session = Session.restore(json.loads(saved)) if saved else Session()
         self.receiver = Receiver(self.packets, self.clock, capacity=200)  # one second of two insoles
         self.receiver.start()
 
     def turn(self) -> bool:
-        """One turn of the loop; False when the receiver has ended and everything is used."""
+        """Run the loop once; return False when the receiver has ended and the queue is empty."""
         inbox = self.receiver.inbox
         if inbox.empty():
             self.clock.app_waits.set()
@@ -94,18 +93,18 @@ class App:
         except queue.Empty:
             packets = []
         if packets is None:
-            inbox.put(None)  # for whoever asks again
+            inbox.put(None)  # for the next call
             return False
-        # where nothing came, time has passed all the same
+        # time passes even when nothing arrives
         for event in self.session.feed(packets) if packets else self.session.advance(self.clock.t):
             self.show(event)
         return True
 
     def stop(self) -> str:
-        """The app goes to the background, or ends; its state, for a file."""
+        """Return the state as text, for a file, when the app goes to the background or ends."""
         self.receiver.stopped = True
         while self.turn():
-            pass  # what waits is used; then the receiver's thread has ended
+            pass  # the remaining packets are used; then the receiver's thread has ended
         return json.dumps(self.session.snapshot())
 
     def close(self) -> None:
@@ -132,7 +131,7 @@ if len(sys.argv) > 1:
     sent, speed = list(read_packets(sys.argv[1])), float(sys.argv[2]) if len(sys.argv) > 2 else 1.0
 else:
     walk = emulate(Route().stand(2).walk(16, speed=1.3).stop(2), seed=5)
-    sent, speed = [packet for packet in walk.packets if not 7.5 < packet.t < 9.5], inf  # the radio falls silent
+    sent, speed = [packet for packet in walk.packets if not 7.5 < packet.t < 9.5], inf  # the radio is silent for 2 s
 app, background = App(iter(sent), Clock(speed, sent[0].t), show), sent[0].t + 11.0
 app.listen()
 try:

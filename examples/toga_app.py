@@ -1,9 +1,9 @@
-"""An app for a phone or a desk: what the wearer does, steps, gait, both soles and the track, live, with BeeWare Toga.
+"""An app for a phone or a desktop with BeeWare Toga: live activity, steps, gait, both soles and the track.
 
     pip install '.[ble]' 'toga-qt[pyside6-essentials]>=0.5.7'   on Linux; on macOS and Windows 'toga>=0.5.7' instead
     python examples/toga_app.py             one button for two insoles nearby, one for an emulated wearer
 
-`solepath.ble.Devices` runs in Toga's asyncio loop; widgets are told ten times a second. On a phone (not tried yet)
+`solepath.ble.Devices` runs in Toga's asyncio loop; widgets are updated ten times a second. For a phone (not tried yet)
 Briefcase packs it, with the permission to use Bluetooth; `--no-deps` leaves out numpy, which listening does not need.
 bleak has a backend for Android and none for iOS, whose Bluetooth has to fill a queue, as in thread_and_queue.py.
 """
@@ -34,9 +34,9 @@ async def sensors() -> AsyncIterator[Packet]:
 async def emulated(speed: float = 1.0) -> AsyncIterator[Packet]:
     from solepath.emulate import Route, emulate
     loop = asyncio.get_running_loop()
-    began = loop.time()
+    started_at = loop.time()
     for packet in emulate(Route().stand(2).walk(12, speed=1.3).turn(1.6, radius=1.5).walk(8).stop(2), seed=1).packets:
-        await asyncio.sleep(max(0.0, began + packet.t / speed - loop.time()))
+        await asyncio.sleep(max(0.0, started_at + packet.t / speed - loop.time()))
         yield packet
 
 
@@ -49,27 +49,27 @@ class GaitApp(toga.App):
         self.map = toga.Canvas(flex=1, margin=6, background_color="white")
         self.status = toga.Label("", font_size=11, margin=6)
         big = {"font_size": 16, "height": 48, "flex": 1, "margin": 4}
-        self.start = toga.Button("Insoles", on_press=lambda _: self.begin(sensors()), **big)
-        self.show = toga.Button("Emulated", on_press=lambda _: self.begin(emulated()), **big)
+        self.start = toga.Button("Insoles", on_press=lambda _: self.toggle_listening(sensors()), **big)
+        self.show = toga.Button("Emulated", on_press=lambda _: self.toggle_listening(emulated()), **big)
         below = {name: toga.Label(text, font_size=11, text_align=CENTER) for name, text in FIGURES.items()}
         tiles = [toga.Box(children=[self.figures[n], below[n]], direction=COLUMN, flex=1) for n in FIGURES]
         rows = [toga.Box(children=row, direction=ROW) for row in (tiles[:2], tiles[2:], [self.start, self.show])]
         column = [self.activity, rows[0], rows[1], self.soles, self.map, self.status, rows[2]]
         self.main_window = toga.MainWindow(size=(360, 740), content=toga.Box(children=column, direction=COLUMN))
         self.main_window.show()
-        self.anew()
+        self.reset()
 
-    def anew(self) -> None:
+    def reset(self) -> None:
         self.session, self.steps, self.peak, self.due = Session(pressures=True), 0, 1.0, 0.0
         self.layouts, self.load = dict[Foot, Layout](), dict[Foot, FootPressed]()
         self.track = {foot: deque([(0.0, 0.0)], maxlen=1000) for foot in Foot}
         self.draw()
 
-    def begin(self, packets: AsyncIterator[Packet]) -> None:
+    def toggle_listening(self, packets: AsyncIterator[Packet]) -> None:
         if self.listening is not None:
-            self.listening.cancel()  # the button says Stop
+            self.listening.cancel()  # the button reads Stop
             return
-        self.anew()
+        self.reset()
         self.status.text, self.start.text, self.show.enabled = "waiting for the first packet", "Stop", False
         self.listening = self.loop.create_task(self.listen(packets))
 
@@ -80,7 +80,7 @@ class GaitApp(toga.App):
                 self.take(self.session.feed(packet))
         except asyncio.CancelledError:
             why = "stopped"
-        except Exception as error:  # no Bluetooth, no permission, a package that is missing: for the user to read
+        except Exception as error:  # no Bluetooth, no permission, a missing package: the user reads it
             why = str(error)
         self.take(self.session.finish())
         self.draw()
@@ -93,7 +93,7 @@ class GaitApp(toga.App):
                     self.steps += 1
                     self.track[foot].append((x, y))
                 case FootPressed(foot=foot, values=values):
-                    self.load[foot] = event  # what one value in a hundred is above is drawn darkest, not a single spike
+                    self.load[foot] = event  # darkest is what one frame in a hundred exceeds, not a single spike
                     self.peak = max(1.0, self.peak * (1.05 if max(values) > self.peak else 0.9995))
                 case LayoutKnown(layout=layout):
                     self.layouts[layout.foot], self.status.text = layout, f"{layout.foot.value} insole heard"

@@ -1,6 +1,6 @@
-"""Two insoles, what their cells show in the air, and the distance walked by both feet together.
+"""Calibrates the noise of two insoles' unloaded cells, and prints the distance walked by both feet together.
 
-`python two_insoles.py` emulates a short walk to calibrate by, and then 20 m at 30 samples a second.
+`python two_insoles.py` emulates a short walk for the calibration, and then 20 m at 30 samples a second.
 """
 
 from attrs import evolve
@@ -11,13 +11,13 @@ from solepath.papers.kupt_dfpc.noise import pressure_noise
 
 INSOLES = {site: Insole(rate=30.0) for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}
 
-# 20 s of walking tell what each cell shows while the foot is in the air
+# 20 s of walking give the reading of each cell while the foot is in the air
 warming_up = sampled(Route().stand(2.0).walk(25.0).stop(2.0), insoles=INSOLES, seed=1)
 calibration = pressure_noise(warming_up.samples)
 for foot, insole in calibration.insoles.items():
     print(f"{foot.value} insole: {len(insole.noise)} cells, {max(insole.noise):.2f} N at the most in the air")
 
-# where the cells are a device says itself; with samples of one's own the calibration says it
+# a device sends the positions of its cells; for your own samples they stand in the calibration
 insoles = {foot: evolve(insole, layout=layout(96, foot)) for foot, insole in calibration.insoles.items()}
 session = Session(recipes.by_name("kupt-dfpc"), calibration=evolve(calibration, insoles=insoles))
 

@@ -1,9 +1,10 @@
-"""Recipes: which parts a session is made of, and where parts and recipes are found by their names.
+"""Recipes: the parts that a session is made of. Parts and recipes are found here by their names.
 
     Session(recipes.DEFAULT)        Session(recipes.by_name("kupt-dfpc"))
 
-A part in a recipe was never fed; a session begins with copies. The published systems (papers/) are loaded when their
-recipe is asked for. A name, in a state or from a command line, is looked up in the tables here and nowhere else.
+A part in a recipe has never received a sample; a session starts with copies. The published systems (papers/) are
+loaded when their recipe is requested. A name from a state or a command line is looked up in the tables here and
+nowhere else.
 """
 
 from __future__ import annotations
@@ -34,37 +35,44 @@ from .types.attrs import evolve, field, frozen
 def usual(
     track: TrackPart | None = None, activity: ActivityPart | None = None, altitude: Altitude | None = None
 ) -> tuple[Part, ...]:
-    """The body's parts in the order that most recipes have: how the sensors are worn, where the wearer is (`track`;
-    MeanOfFeet where it is None), what the wearer does (`activity`; Activities), turns, lifts and the air pressure
-    (`altitude`; heights are the feet's own where it is None), gait cycles."""
+    """Return the body's parts in the order that most recipes use.
+
+    They are: how the sensors are worn, where the wearer is (`track`; MeanOfFeet when it is None), what the wearer does
+    (`activity`; Activities when it is None), turns, lifts and air pressure (`altitude`; heights are the feet's own when
+    it is None), and gait cycles.
+    """
     known = (Wear(), track or MeanOfFeet(), activity or Activities(), Turns(), altitude, GaitCycles())
     return tuple([part for part in known if part is not None])
 
 
 @frozen(repr=False)
 class Recipe:
-    """One choice of parts."""
+    """Detector, corrector, cues and body parts that work together."""
 
     name: str
     detector: Detector
-    """What says that a foot stands still, or how fast it rolls."""
+    """Stance detector: estimates whether a foot stands still, or how fast it rolls."""
     corrector: Corrector
-    """What keeps the integration from drifting."""
+    """Corrector: navigates one foot and uses stance evidence to limit drift."""
     cues: Cues = field(factory=GaitCues)
-    """What sees heel-strike, foot-flat, heel-off and toe-off."""
+    """Cues: find the signs of heel-strike, foot-flat, heel-off and toe-off."""
     insole: InsoleLoads = field(factory=InsoleLoads)
-    """What makes a load of cells."""
+    """Converts the readings of pressure cells to load."""
     parts: tuple[Part, ...] = field(factory=usual)
-    """The body's, in the order in which they hear of what is said (body/part.py)."""
+    """Parts of the body, in the order in which they receive events (body/part.py)."""
     place: Part | None = None
-    """What finds the wearer on a floor plan, the last of the parts of a session that has one; Particles where it is
-    None, loaded for such a session only."""
+    """Part that finds the wearer on a floor plan, the last part of a session that has a plan.
+
+    None stands for Particles, which is loaded for such a session only.
+    """
     needs_pressure: bool = False
-    """Without pressure cells it has nothing to say."""
+    """True when the recipe reports nothing without pressure cells."""
 
     def exchanged(self, kind: type, by: Part | None, name: str | None = None) -> Recipe:
-        """The same with another part in the place of the one of this kind, or without it; by another name if one is
-        given. LookupError where there is none of this kind."""
+        """Return the recipe with `by` in the place of the part of this kind; None for `by` removes the part.
+
+        `name` renames the recipe. LookupError is raised when the recipe has no part of this kind.
+        """
         if not any([isinstance(part, kind) for part in self.parts]):
             raise LookupError(f"recipe {self.name} has no {kind.__name__}")
         known = [by if isinstance(part, kind) else part for part in self.parts]
@@ -72,7 +80,7 @@ class Recipe:
         return evolve(self, name=self.name if name is None else name, parts=parts)
 
     def order(self) -> str:
-        """The parts of the body, a line each, in the order in which they hear of what is said."""
+        """Return the names of the body's parts, one a line, in the order in which they receive events."""
         place = "Particles" if self.place is None else type(self.place).__name__
         names = [type(part).__name__ for part in self.parts]
         return "\n".join([*names, f"{place} (with a floor plan)"])
@@ -82,12 +90,12 @@ class Recipe:
 
 
 DEFAULT = Recipe("default", Cycle(), ErrorStateFilter(), parts=usual(BothFeet(), altitude=Altitude()))
-"""Stance judged within each gait cycle, nine-state error-state filter, both feet in one frame."""
+"""Stance threshold adapted within each gait cycle, nine-state error-state filter, both feet in one frame."""
 
 STRAIGHT_CORRIDORS = DEFAULT.exchanged(
     TrackPart, BothFeet(BothFeetSettings(straight_corridors=True)), "straight-corridors"
 )
-"""The same for a wearer who walks straight corridors: the heading is held to them."""
+"""The default recipe for a wearer who walks straight corridors: the heading is aligned with them."""
 
 RECIPES: dict[str, str] = {
     "default": "recipes:DEFAULT",
@@ -105,13 +113,13 @@ RECIPES: dict[str, str] = {
     "shoe-sensing": "papers.shoe_sensing.recipe:SHOE_SENSING",
     "acceleration-magnitude": "papers.shoe_sensing.recipe:SHOE_MAGNITUDE",
 }
-"""Recipe by name -> the module below solepath that has it, and what it is called there."""
+"""Recipe name -> module below solepath and, after the colon, name of the constant in it."""
 
 NAMES = tuple(RECIPES)
-"""Of all recipes, the default first."""
+"""Names of all recipes, the default first."""
 
 _FOOT, _BODY, _KUPT = "foot.", "body.", "papers.kupt_dfpc."
-_CONTOUR, _MODES, _STEPS = "papers.pressure_contour.", "papers.walking_modes.", "papers.footstep_tracker."
+_CONTOUR, _MODES, _TRACKER = "papers.pressure_contour.", "papers.walking_modes.", "papers.footstep_tracker."
 _SHOE = "papers.shoe_sensing."
 
 LINKS: dict[str, str] = {
@@ -119,7 +127,7 @@ LINKS: dict[str, str] = {
     "Cc2541Link": "link.devices.cc2541",
     "StreamLink": "link.stream",
 }
-"""Class of a device's link by name -> the module below solepath that has it."""
+"""Class name of a device's link -> module below solepath that defines it."""
 
 PARTS: dict[str, str] = {
     "Cycle": _FOOT + "stance.cycle",
@@ -148,22 +156,22 @@ PARTS: dict[str, str] = {
     "GyroscopeMagnitude": _CONTOUR + "contour_stance",
     "BiasZupt": _CONTOUR + "bias_zupt",
     "Modes": _MODES + "modes",
-    "StaticZones": _STEPS + "static_zones",
-    "Projection": _STEPS + "projection",
-    "CriticalCues": _STEPS + "critical_cues",
-    "Footsteps": _STEPS + "footsteps",
-    "TwoSecondWindows": _STEPS + "activity.two_second_windows",
-    "SnakeGame": _STEPS + "snake",
+    "StaticZones": _TRACKER + "static_zones",
+    "Projection": _TRACKER + "projection",
+    "CriticalCues": _TRACKER + "critical_cues",
+    "Footsteps": _TRACKER + "footsteps",
+    "TwoSecondWindows": _TRACKER + "activity.two_second_windows",
+    "SnakeGame": _TRACKER + "snake",
     "ShortTimeEnergy": _SHOE + "short_time_energy",
     "AccelerationMagnitude": _SHOE + "short_time_energy",
     "ShoeSensing": _SHOE + "gated_tilt",
     "AnglePerMetre": _SHOE + "walking_state",
 }
-"""Class of a part by name -> the module below solepath that has it. A state names no other but an app's own."""
+"""Class name of a part -> module below solepath that defines it. A saved state names only these and an app's own."""
 
 
 def by_name(name: str) -> Recipe:
-    """The recipe of this name, one of NAMES. ValueError, which names them, for another."""
+    """Return the recipe of this name, one of NAMES. Raise ValueError, which lists NAMES, for another."""
     where = RECIPES.get(name)
     if where is None:
         raise ValueError(f"there is no recipe {name!r}; there are: {', '.join(NAMES)}")
@@ -173,7 +181,7 @@ def by_name(name: str) -> Recipe:
 
 
 def part_class(name: str) -> type[Any]:
-    """The class of the part or link of this name, one of PARTS or LINKS. SnapshotError for another."""
+    """Return the class of the part or link of this name, one of PARTS or LINKS. Raise SnapshotError for another."""
     module = PARTS.get(name) or LINKS.get(name)
     if module is None:
         from .saving.codec import SnapshotError
@@ -184,46 +192,54 @@ def part_class(name: str) -> type[Any]:
 
 
 def own(recipe: Recipe) -> Recipe:
-    """A copy that nobody changes: sessions make their parts by it, and sessions of recipes that are alike to the bit
-    hold one. Any thread may ask. TypeError for what is no recipe."""
-    global _own
+    """Return a copy of the recipe that nobody changes; sessions make their parts from it.
+
+    Sessions whose recipes are equal bit for bit share one copy. The function is thread-safe. TypeError is raised when
+    `recipe` is not a Recipe.
+    """
+    global _copies
     if not isinstance(recipe, Recipe):
         raise TypeError(f"recipe must be a Recipe, not {type(recipe).__name__}")
-    known = _own
+    known = _copies
     if any([recipe is one.recipe for one in known]):
         return recipe
     parts = (recipe.detector, recipe.corrector, recipe.cues)
-    beside = repr([vars(part) for part in parts if hasattr(part, "__dict__")])
+    extra_state = repr([vars(part) for part in parts if hasattr(part, "__dict__")])
     if known:
         known = tuple([one for one in known if one.text is not None])
-        given = _Copy(recipe, beside).text
+        given = _Copy(recipe, extra_state).text
         if given is None:
             return deepcopy(recipe)
         for one in known:
             if one.text == given:
                 return one.recipe
-    copy = _Copy(deepcopy(recipe), beside)
-    _own = (copy, *known[: _OWN - 1])
+    copy = _Copy(deepcopy(recipe), extra_state)
+    _copies = (copy, *known[: _COPIES_KEPT - 1])
     return copy.recipe
 
 
 class _Copy:
-    """A recipe, what its parts hold `beside` their fields, and all of it as text, which is made when it is first
-    compared: it takes longer than a session. None where it cannot be saved, and is like no other."""
+    """A copied recipe with the text by which it is compared with others.
 
-    def __init__(self, recipe: Recipe, beside: str) -> None:
-        self.recipe, self.beside = recipe, beside
+    `extra_state` holds the attributes of its parts that are not fields. The text is made at the first comparison,
+    because that takes longer than creating a session. It is None when the recipe cannot be saved; such a recipe equals
+    no other.
+    """
+
+    def __init__(self, recipe: Recipe, extra_state: str) -> None:
+        self.recipe, self.extra_state = recipe, extra_state
 
     @cached_property
     def text(self) -> tuple[str, str] | None:
         from .saving.codec import save
 
         try:
-            return repr(save(self.recipe)), self.beside
+            return repr(save(self.recipe)), self.extra_state
         except (TypeError, ValueError):
             return None
 
 
-_OWN = 16
-_own: tuple[_Copy, ...] = ()
-"""The newest. It is another one after a change: threads go on in the one that they have."""
+_COPIES_KEPT = 16
+"""Number of copies that are kept."""
+_copies: tuple[_Copy, ...] = ()
+"""The newest copies. A change replaces the whole tuple, so that other threads go on with the tuple that they have."""

@@ -1,7 +1,7 @@
-"""How long things take: `python tests/bench/bench.py`. Prints a table; asserts nothing.
+"""Measures processing times: `python tests/bench/bench.py`. Prints a table; asserts nothing.
 
-Medians of five runs in one process on one core, the garbage collector off while the clock runs, as timeit has it. The
-last column is the same as a multiple of the yardstick (yardstick.py), which depends less on the machine.
+Medians of five runs in one process on one core, with the garbage collector off while the clock runs, as in timeit. The
+last column is the time as a multiple of the yardstick (yardstick.py), which depends less on the machine.
 """
 
 from __future__ import annotations
@@ -39,43 +39,45 @@ from solepath.link.decoder import Decoder
 from solepath.types import SITE_OF_FOOT
 
 ROUTE = Route().stand(2.0).walk(50.0, 1.3).stop(2.0)
-"""About 43 s; the foot stands 10 % of it and walks the rest."""
+"""A walk of about 43 s, of which the foot stands 10 %."""
 
 
-def each(items: list[Any], begin: Callable[[], Any], prepare: Iterable[Any] = ()) -> float:
-    """Microseconds an item: what is begun is fed `prepare` unmeasured, then all items one by one."""
+def each(items: list[Any], make: Callable[[], Any], prepare: Iterable[Any] = ()) -> float:
+    """Return microseconds an item: a new object is fed `prepare` unmeasured, then all items one by one."""
     found = []
     for _ in range(RUNS):
-        one = begin()
+        one = make()
         for item in prepare:
             one.feed(item)
         feed = one.feed
         with uncollected():
-            began = perf_counter()
+            started_at = perf_counter()
             for item in items:
                 feed(item)
-            found.append((perf_counter() - began) / len(items) * 1e6)
+            found.append((perf_counter() - started_at) / len(items) * 1e6)
     return median(found)
 
 
 def fed(items: Iterable[Any]) -> Session:
-    """A session after all this."""
+    """Return a session after all these items."""
     session = Session()
     for item in items:
         session.feed(item)
     return session
 
 
-def told_of(recipe: Recipe, infos: list[Packet]) -> Session:
-    """A session that knows where the cells are."""
+def session_with_layout(recipe: Recipe, infos: list[Packet]) -> Session:
+    """Return a session that has received the positions of the cells."""
     session = Session(recipe)
     session.feed(infos)
     return session
 
 
 class Timed:
-    """Stands before a part and sums up what its calls take, garbage collector or not; fields are the part's own, and it
-    is taken for one of the part's class."""
+    """Wraps a part and sums the time of its calls, with or without the garbage collector.
+
+    Fields are the part's own, and the wrapper passes for an instance of the part's class.
+    """
 
     def __init__(self, part: Any) -> None:
         self.part = part
@@ -87,7 +89,7 @@ class Timed:
         return type(self.part)
 
     def receive(self, event: Any) -> Any:
-        """Here, since a wearer asks the class whether there is one."""
+        """Forward an event; a method of the class, because a wearer tests the class for it."""
         return self.__getattr__("receive")(event)
 
     def __setattr__(self, name: str, value: Any) -> None:
@@ -102,11 +104,11 @@ class Timed:
             return what
 
         def timed(*arguments: Any) -> Any:
-            began = perf_counter()
+            started_at = perf_counter()
             try:
                 return what(*arguments)
             finally:
-                self.taken += perf_counter() - began
+                self.taken += perf_counter() - started_at
                 self.calls += 1
 
         return timed
@@ -123,16 +125,16 @@ OF_A_SAMPLE: dict[str, str | type[Part]] = {
     "how it is worn": Wear,
     "body": TrackPart,
 }
-"""What is told of a sample's time: which field of a foot takes it, or a part of which kind."""
+"""The part of a sample's time that a row shows: a field of the foot, or a kind of part."""
 
 
-def shares_of(items: list[Sample], begin: Callable[[], Session]) -> dict[str, float]:
-    """Microseconds a sample that each part of a foot and of a wearer takes, less what the clock does."""
-    return {name: median([_share(items, begin(), what) for _ in range(RUNS)]) for name, what in OF_A_SAMPLE.items()}
+def shares_of(items: list[Sample], make: Callable[[], Session]) -> dict[str, float]:
+    """Return microseconds a sample that each part of a foot and of a wearer takes, less the clock's own time."""
+    return {name: median([_share(items, make(), what) for _ in range(RUNS)]) for name, what in OF_A_SAMPLE.items()}
 
 
 def _share(items: list[Sample], session: Session, what: str | type[Part]) -> float:
-    """One at a time: a part that looks at one that is watched would pay for that."""
+    """Return the time of one part; one at a time, because a timed part would slow down a part that reads it."""
     session.feed(items[0])
     part = _watched(session, what)
     with uncollected():
@@ -155,7 +157,7 @@ def _watched(session: Session, what: str | type[Part]) -> Timed:
 
 
 def overhead() -> float:
-    """What `Timed` measures of a call that does nothing, s."""
+    """Return the time that `Timed` measures for a call that does nothing, s."""
 
     class Idle:
         def call(self, one: int, other: int) -> None:
@@ -168,8 +170,8 @@ def overhead() -> float:
 
 
 def parts_of(items: list[Sample], recipe: Recipe, plan: IndexedPlan) -> dict[str, float]:
-    """Microseconds a sample that activities, turns and the place on a plan take in a walk through a building."""
-    kinds: dict[str, type[Part]] = {"activity": ActivityPart, "turns": Turns, "place": PlaceHypotheses}
+    """Return microseconds a sample that activities, turns and the place on a plan take in a walk through a building."""
+    kinds: dict[str, type[Part]] = {"activity": ActivityPart, "turns": Turns, "place": Readings}
     found: dict[str, list[float]] = {name: [] for name in kinds}
     for _ in range(RUNS):
         session = Session(recipe, floorplan=plan)
@@ -194,7 +196,7 @@ def main() -> None:
     left = [packet for packet in walk.packets if packet.site is Site.LEFT_FOOT]
     info = [packet for packet in left if packet.channel != "insole/frame"]
     frames = [packet for packet in left if packet.channel == "insole/frame"]
-    (told,) = [packet for packet in info if packet.channel == "insole/info"]
+    (info_packet,) = [packet for packet in info if packet.channel == "insole/info"]
     small = Insole(cells=24, mtu=23)
     fragments = list(emulate(ROUTE, devices={Site.LEFT_FOOT: small}, seed=1).packets)
     linear = Recipe("linear", Cycle(), LinearDedrift())
@@ -212,7 +214,7 @@ def main() -> None:
 
     def knowing(**given: bool) -> Session:
         session = Session(**given)
-        session.feed(told)
+        session.feed(info_packet)
         return session
 
     add("yardstick: numpy, nine states, SHOE, the usual way", yard)
@@ -228,7 +230,7 @@ def main() -> None:
     two_feet = walker.samples(Foot.RIGHT, 100.0, LSM6DSOX, layout=layout(96, Foot.RIGHT)) + pressed
     two_feet.sort(key=_moment)
     for recipe in map(recipes.by_name, recipes.NAMES):
-        add(f"both feet, 96 cells, {recipe.name}", each(two_feet, partial(told_of, recipe, infos)))
+        add(f"both feet, 96 cells, {recipe.name}", each(two_feet, partial(session_with_layout, recipe, infos)))
     layouts = {site: layout(99, foot) for foot, site in SITE_OF_FOOT.items()}
     suit = limb_samples(walker, 50.0, seed=1, layouts=layouts)
     insoles = sum(sample.pressure is not None for sample in suit)

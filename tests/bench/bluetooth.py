@@ -1,7 +1,7 @@
-"""What Bluetooth adds: `python tests/bench/bluetooth.py`.
+"""Measures the cost of the Bluetooth adapter: `python tests/bench/bluetooth.py`.
 
-Prints the adapter's own work for a packet (on the in-memory tier, against plain bleak on the same), and how long it
-takes from a notification to its events, in real time, on both tiers.
+Prints the adapter's own work for a packet (on the in-memory tier, against plain bleak on the same), and the latency
+from a notification to its events, in real time, on both tiers.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ from solepath.link.devices.insole import PROFILE as INSOLE  # noqa: E402
 
 WALK = Route().stand(2.0).walk(20.0).stop(2.0)
 VIRTUAL = 30.0
-"""s of the loop's time for counting work."""
+"""Loop time over which work is counted, s."""
 REAL = 10.0
-"""s of real time for latency."""
+"""Real time over which latency is measured, s."""
 ROUNDS = 5
 
 
@@ -40,10 +40,10 @@ def bench() -> Bench:
 
 
 async def plain(made: Bench) -> tuple[float, int]:
-    """CPU seconds and notifications of plain bleak with a callback that only counts."""
+    """Return CPU seconds and notifications of plain bleak with a callback that only counts."""
     count = 0
 
-    def heard(_: object, data: bytearray) -> None:
+    def on_notification(_: object, data: bytearray) -> None:
         nonlocal count
         count += 1
 
@@ -52,35 +52,35 @@ async def plain(made: Bench) -> tuple[float, int]:
         clients = [BleakClient(device, backend=backend.client) for device in found]
         for client in clients:
             await client.connect()
-            await client.start_notify(INSOLE.channel("insole/frame").characteristic, heard)
+            await client.start_notify(INSOLE.channel("insole/frame").characteristic, on_notification)
             await client.write_gatt_char(INSOLE.channel("insole/control").characteristic, b"\x01", response=True)
-        count, began = 0, process_time()
+        count, started_at = 0, process_time()
         await asyncio.sleep(VIRTUAL)
-        spent = process_time() - began
+        spent = process_time() - started_at
         for client in clients:
             await client.disconnect()
     return spent, count
 
 
 async def adapted(made: Bench) -> tuple[float, int]:
-    """The same of Devices, every packet taken."""
+    """Return CPU seconds and notifications of Devices, with every packet taken."""
     async with (
         memory(made) as backend,
         Devices([DeviceConfig(None, profile=INSOLE), DeviceConfig(None, profile=INSOLE)], backend=backend) as devices,
     ):
         loop = asyncio.get_running_loop()
-        count, began, until = 0, 0.0, float("inf")
+        count, started_at, until = 0, 0.0, float("inf")
         async for packet in devices:
-            if not began and packet.channel == "insole/frame":
-                began, until = process_time(), loop.time() + VIRTUAL
+            if not started_at and packet.channel == "insole/frame":
+                started_at, until = process_time(), loop.time() + VIRTUAL
             if packet.t >= until:
                 break
             count += packet.channel == "insole/frame"
-        return process_time() - began, count
+        return process_time() - started_at, count
 
 
 async def delays(tier: str) -> tuple[list[float], list[float]]:
-    """s from a frame's being handed to the link until it was stamped, and from then until its events were there."""
+    """Return the delays from the link to the packet's time stamp, and from the stamp to its events, s."""
     made = bench()
     session = Session(poses=True)
     on_the_way, worked = [], []
@@ -89,9 +89,9 @@ async def delays(tier: str) -> tuple[list[float], list[float]]:
         TIERS[tier](made) as backend,
         Devices([DeviceConfig(None, profile=INSOLE), DeviceConfig(None, profile=INSOLE)], backend=backend) as devices,
     ):
-        began = loop.time() + 1.0
-        made.walk_from(began)
-        end = began + REAL
+        started_at = loop.time() + 1.0
+        made.walk_from(started_at)
+        end = started_at + REAL
         sent = {peripheral.site: 0.0 for peripheral in made.peripherals}
         for peripheral in made.peripherals:
             poll = peripheral.poll
@@ -104,7 +104,7 @@ async def delays(tier: str) -> tuple[list[float], list[float]]:
         async for packet in devices:
             moved = any([isinstance(event, FootMoved) for event in session.feed(packet)])
             done = loop.time()
-            if moved and packet.t > began:
+            if moved and packet.t > started_at:
                 on_the_way.append(packet.t - sent[packet.site])
                 worked.append(done - packet.t)
             if packet.t > end:
@@ -112,7 +112,7 @@ async def delays(tier: str) -> tuple[list[float], list[float]]:
     return on_the_way, worked
 
 
-def told(values: list[float]) -> str:
+def stats(values: list[float]) -> str:
     return f"median {1e3 * median(values):5.2f} ms, p99 {1e3 * quantiles(values, n=100)[98]:5.2f} ms"
 
 
@@ -123,20 +123,20 @@ def main() -> None:
             with asyncio.Runner(loop_factory=looptime.new_event_loop) as runner:
                 spent, count = runner.run(run(bench()))
             each[name].append(1e6 * spent / count)
-    bare, whole = min(each["plain"]), min(each["adapted"])  # what disturbs a run only makes it slower
+    bare, whole = min(each["plain"]), min(each["adapted"])  # a disturbance only makes a run slower
     print(f"Python {sys.version.split()[0]}; the best of {ROUNDS}; two insoles of 96 cells at 100 Hz, in memory\n")
     print(f"plain bleak, the emulated devices included   {bare:6.1f} us a notification")
     print(f"the same through Devices                     {whole:6.1f} us")
     print(f"the adapter's own                            {whole - bare:6.1f} us\n")
     for tier in TIERS:
-        began = perf_counter()
+        started_at = perf_counter()
         on_the_way, worked = asyncio.run(delays(tier))
-        if perf_counter() - began < REAL:
+        if perf_counter() - started_at < REAL:
             raise SystemExit(f"{tier}: the devices fell silent")
-        print(f"{tier}: from the device to the stamp   {told(on_the_way)}")
-        print(f"{tier}: from the stamp to the events   {told(worked)}")
+        print(f"{tier}: from the device to the stamp   {stats(on_the_way)}")
+        print(f"{tier}: from the stamp to the events   {stats(worked)}")
         print(
-            f"{tier}: from notification to event     {told([a + b for a, b in zip(on_the_way, worked, strict=True)])}"
+            f"{tier}: from notification to event     {stats([a + b for a, b in zip(on_the_way, worked, strict=True)])}"
         )
 
 

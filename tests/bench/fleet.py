@@ -1,9 +1,9 @@
-"""What a stream engine costs beside bare sessions, and many wearers beside few: `python tests/bench/fleet.py`.
+"""Measures a stream engine against bare sessions, for few and many wearers: `python tests/bench/fleet.py`.
 
-Prints ratios; asserts nothing; takes two minutes on two quiet processors, half an hour with
+Prints ratios; asserts nothing; takes two minutes on two idle processors, half an hour with
 `--sizes 100 1000 5000 20000` (4 GB of memory). Needs the extra `bytewax`. Every line is a run of the job of
-`solepath fleet-demo` with a recovery store, and sessions alone in as many processes over the same packets. All walk
-equally long, so that lines can be compared: what a sample takes differs between standing, the first steps and others.
+`solepath fleet-demo` with a recovery store, and bare sessions in as many processes over the same packets. All wearers
+walk equally long, so that lines can be compared: a sample's time differs between standing, the first steps and others.
 """
 
 from __future__ import annotations
@@ -24,9 +24,9 @@ COLUMNS = (
     "snapshots",
 )  # fmt: skip
 MOST_ALONE = 1000
-"""Beyond so many the sessions alone are those of so many: each is by itself, so they cost the same."""
+"""Largest number of bare sessions that are run; sessions are independent, so more of them cost the same each."""
 RATE = 2 * 100.0
-"""samples/s of two feet."""
+"""Samples a second of two feet."""
 NOTE = """\
 Wearers of the six walks of `solepath fleet-demo`, {seconds} s each and sent by the second, as fast as it goes,
 a snapshot every {every} s (bytewax's own: 10 s) and one at the end.
@@ -36,7 +36,7 @@ kB a wearer: memory, with packets on their way; for a few wearers the engine's o
 
 
 def line(plan: DemoPlan) -> list[str]:
-    """One run, and the sessions alone beside it."""
+    """Return the row of one run beside that of bare sessions."""
     with tempfile.TemporaryDirectory(prefix="solepath-fleet-") as directory:
         stage = DemoStage(Path(directory), plan)
         stage.prepare()
@@ -70,13 +70,14 @@ def main() -> None:
     parser.add_argument("--processes", type=int, default=2)
     parser.add_argument("--every", type=float, default=10.0, help="s between two snapshots")
     parser.add_argument("--recipe", default="default")
-    asked = parser.parse_args()
+    options = parser.parse_args()
     plans = [
-        DemoPlan(n, asked.seconds, recipe=asked.recipe, parts=asked.processes, every=asked.every) for n in asked.sizes
+        DemoPlan(n, options.seconds, recipe=options.recipe, parts=options.processes, every=options.every)
+        for n in options.sizes
     ]
     rows = [line(plan) for plan in plans]
-    print(f"{machine()}, {asked.processes} processes of bytewax\n\n{table(COLUMNS, rows)}\n")
-    print(NOTE.format(every=f"{asked.every:g}", seconds=f"{asked.seconds:g}"))
+    print(f"{machine()}, {options.processes} processes of bytewax\n\n{table(COLUMNS, rows)}\n")
+    print(NOTE.format(every=f"{options.every:g}", seconds=f"{options.seconds:g}"))
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
-"""How long questions to a floor plan take: `python tests/bench/floorplan.py`. Prints a table; asserts nothing.
+"""Measures questions to a floor plan: `python tests/bench/floorplan.py`. Prints a table; asserts nothing.
 
-Medians of five runs in one process on one core, the garbage collector off while the clock runs. The last column is the
-same as a part of what it costs to try all walls of the level, one after the other, with the plain formula.
+Medians of five runs in one process on one core, with the garbage collector off while the clock runs. The last column
+is the time as a share of testing all walls of the level, one after the other, with the plain formula.
 """
 
 from __future__ import annotations
@@ -21,15 +21,17 @@ from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Door, FloorPlan, Level, Wall
 
 STEP = 0.7
-"""m."""
+"""Length of a step, m."""
 PARTICLES = 1000
 
 Move = tuple[float, float, float, float]
 
 
 def office(walls: int) -> FloorPlan:
-    """Rooms of 3.5 m by 4.4 m, a door to the east and one to the north of each, until there are so many walls; 500 of
-    them are 56 m by 44 m."""
+    """Return rooms of 3.5 m by 4.4 m, each with a door to the east and one to the north, with at least `walls` walls.
+
+    500 walls are 56 m by 44 m.
+    """
     columns = round((walls / 4.0 * 63.0 / 56.0) ** 0.5)
     drawn: list[Wall] = []
     doors: list[Door] = []
@@ -49,7 +51,7 @@ def office(walls: int) -> FloorPlan:
 
 
 def moves(plan: FloorPlan, count: int, length: float, random: Random) -> list[Move]:
-    """Moves in all directions from anywhere within the walls."""
+    """Return moves in all directions from anywhere within the walls."""
     xs = [wall.end[0] for wall in plan.levels[0].walls]
     ys = [wall.end[1] for wall in plan.levels[0].walls]
     found = []
@@ -60,7 +62,7 @@ def moves(plan: FloorPlan, count: int, length: float, random: Random) -> list[Mo
 
 
 def all_walls(plan: FloorPlan) -> Callable[[float, float, float, float], bool]:
-    """The test as it is usually written, wall by wall."""
+    """Return the usual test, wall by wall."""
     lines = [(*wall.start, *wall.end) for wall in plan.levels[0].walls]
 
     def crosses(x0: float, y0: float, x1: float, y1: float) -> bool:

@@ -1,10 +1,10 @@
-"""Whether ten hours cost what a minute does: `python tests/bench/hours.py [--hours 10] [--every 30]`. A soak, no test.
+"""Measures whether ten hours cost what a minute does: `python tests/bench/hours.py [--hours 10] [--every 30]`.
 
-A minute of both feet with 96 cells, emulated once, is walked again and again, later by its length each time. Of the
-first minute, of one in every `--every` and of the last it says what processor time a sample took and how large the
-session is, as a snapshot and in the interpreter, and at the end how the last minute compares with the second, the
-first with every part of a session at work. The wearer comes back to where the minute began, so joining them moves
-nobody.
+A minute of both feet with 96 cells is emulated once and walked again and again, each time later by its length. For the
+first minute, for one in every `--every` and for the last it prints the processor time of a sample and the size of the
+session, as a snapshot and in the interpreter. At the end it compares the last minute with the second, the first with
+every part of a session active. The wearer returns to the start of the minute, so the repetitions join without a jump.
+It is a soak run, not a test.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ CELLS = 96
 
 
 def minute() -> list[Sample]:
-    """Samples of both feet in the order of time."""
+    """Return the samples of both feet in the order of time."""
     walker = Walker(LOOP, seed=1)
     found = [s for foot in Foot for s in walker.samples(foot, 100.0, LSM6DSOX, layout=layout(CELLS, foot))]
     return sorted(found, key=lambda sample: sample.t)
@@ -39,13 +39,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--hours", type=float, default=10.0)
     parser.add_argument("--every", type=int, default=30, help="minutes from one line to the next")
-    asked = parser.parse_args()
+    options = parser.parse_args()
     loop = minute()
     length = loop[-1].t + 0.01
-    count = max(3, round(asked.hours * 3600.0 / length))
+    count = max(3, round(options.hours * 3600.0 / length))
     known = Calibration(insoles={foot: InsoleCalibration(layout(CELLS, foot)) for foot in Foot})
     session = Session(calibration=known)
-    told: list[tuple[float, int, int]] = []
+    measured: list[tuple[float, int, int]] = []
     print(f"{length:.1f} s of both feet with {CELLS} cells, {len(loop)} samples, {count} times")
     print(f"{'hour':>6} {'us a sample':>12} {'snapshot, B':>12} {'memory, kB':>11} {'steps':>6}")
     gc.collect()
@@ -53,23 +53,23 @@ def main() -> None:
     for k in range(count):
         samples = [evolve(sample, t=sample.t + k * length) for sample in loop]
         feed, steps = session.feed, 0
-        began = process_time()
+        started_at = process_time()
         for sample in samples:
             for event in feed(sample):
                 steps += isinstance(event, StrideTaken)
-        took = (process_time() - began) / len(samples) * 1e6
-        if k in (0, 1, count - 1) or k % asked.every == 0:
+        took = (process_time() - started_at) / len(samples) * 1e6
+        if k in (0, 1, count - 1) or k % options.every == 0:
             size = len(json.dumps(session.snapshot()))
-            told.append((took, size, memory_of(session)))
-            hour, memory = (k + 1) * length / 3600.0, told[-1][2] / 1000
+            measured.append((took, size, memory_of(session)))
+            hour, memory = (k + 1) * length / 3600.0, measured[-1][2] / 1000
             print(f"{hour:6.2f} {took:12.1f} {size:12} {memory:11.0f} {steps:6}", flush=True)
         gc.collect()
-    time, snapshot, memory = (last / second for last, second in zip(told[-1], told[1], strict=True))
+    time, snapshot, memory = (last / second for last, second in zip(measured[-1], measured[1], strict=True))
     print(f"the last beside the second: time {time:.2f}, snapshot {snapshot:.2f}, memory {memory:.2f}")
 
 
 def memory_of(session: Session) -> int:
-    """Bytes of another that is restored from its snapshot."""
+    """Return the bytes of a session that is restored from this one's snapshot."""
     saved = session.snapshot()
     return held(lambda: Session.restore(saved))
 

@@ -1,4 +1,4 @@
-"""What the benchmarks measure with: the clock without the garbage collector, memory, and the machine's own line."""
+"""Shared tools of the benchmarks: a clock without the garbage collector, memory, and a line about the machine."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def machine() -> str:
 
 @contextmanager
 def uncollected() -> Iterator[None]:
-    """Without the garbage collector, after it has run, as timeit has it."""
+    """Run the garbage collector and then switch it off in the block, as timeit does."""
     gc.collect()
     gc.disable()
     yield
@@ -28,18 +28,18 @@ def uncollected() -> Iterator[None]:
 
 
 def seconds(work: Callable[[], object]) -> float:
-    """The median time of RUNS runs."""
+    """Return the median time of RUNS runs, s."""
     found = []
     for _ in range(RUNS):
         with uncollected():
-            began = perf_counter()
+            started_at = perf_counter()
             work()
-            found.append(perf_counter() - began)
+            found.append(perf_counter() - started_at)
     return median(found)
 
 
 def held(make: Callable[[], object]) -> int:
-    """Bytes that what is made holds."""
+    """Return the bytes of memory that the made object holds."""
     gc.collect()
     tracemalloc.start()
     before = tracemalloc.get_traced_memory()[0]

@@ -1,9 +1,9 @@
-"""Which small faults in the core the tests notice: `python tests/bench/mutations.py [--count N] [--file NAME]`.
+"""Prints which small faults in the core the tests notice: `python tests/bench/mutations.py [--count N] [--file NAME]`.
 
-Takes five files of the core. In a copy of src it makes one small fault at a time (a comparison turned round, + for -,
-a number changed, a branch left out), always the same ones for the same text, and runs the tests named here against it.
-Prints "caught" or "survived" for each, and a count for each file. Run it before tests are deleted and after: what was
-caught must still be.
+It takes five files of the core. In a copy of src it makes one small fault at a time (a comparison turned round, + for
+-, a number changed, a branch left out), always the same ones for the same text, and runs the tests named here against
+it. It prints "caught" or "survived" for each, and a count for each file. Run it before and after tests are deleted:
+faults that were caught must still be caught.
 """
 
 from __future__ import annotations
@@ -37,18 +37,18 @@ CORE: dict[str, tuple[str, ...]] = {
     "foot/navigate/error_state.py": ("foot/test_tracks.py", "foot/test_level.py", "foot/test_limits.py"),
     "body/gait/measuring.py": ("body/test_gait_parameters.py", "body/test_gait_means.py", "link/test_gait_clocks.py"),
 }
-"""File of src/solepath -> the tests, below tests/, that must notice when it is wrong. The quickest stand first."""
+"""File of src/solepath -> the tests, below tests/, that must notice a fault in it, the quickest first."""
 
 OPPOSITES = ((ast.Lt, ast.GtE), (ast.LtE, ast.Gt), (ast.Eq, ast.NotEq), (ast.Is, ast.IsNot), (ast.In, ast.NotIn))
 TURNED = {one: other for pair in OPPOSITES for one, other in (pair, pair[::-1])}
 SWAPPED = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult}
-"""Operators, and what a fault makes of them."""
+"""Operators, and the operators by which a fault replaces them."""
 Fault = tuple[int, str, Callable[[], None]]
-"""Line, what is changed, and the function that changes the tree."""
+"""Line, description, and the function that changes the tree."""
 
 
 def faults(tree: ast.Module) -> Iterator[Fault]:
-    """Every fault that can be made, in the order of the text."""
+    """Yield every possible fault, in the order of the text."""
     left = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.keyword) and node.arg == "init"}
     for node in ast.walk(tree):
         if isinstance(node, ast.Compare) and type(node.ops[0]) in TURNED:
@@ -77,7 +77,7 @@ def faults(tree: ast.Module) -> Iterator[Fault]:
 
 
 def sample(source: str, count: int) -> list[tuple[int, str, str]]:
-    """(line, what, the changed source) of at most `count` faults, spread evenly over the text."""
+    """Return (line, description, changed source) of at most `count` faults, spread evenly over the text."""
     found = sorted((line, what) for line, what, _ in faults(ast.parse(source)))
     chosen = found if len(found) <= count else [found[i * len(found) // count] for i in range(count)]
     changed = []
@@ -92,7 +92,7 @@ def sample(source: str, count: int) -> list[tuple[int, str, str]]:
 
 
 def passes(copy: Path, tests: tuple[str, ...], limit: float) -> bool:
-    """Whether the tests pass with the library in `copy`; what is compiled is kept beside it, for the next run."""
+    """Return whether the tests pass with the library in `copy`; its bytecode is kept beside it, for the next run."""
     command = [sys.executable, "-m", "pytest", "-x", "-q", "-n0", "-p", "no:cacheprovider", *tests]
     environment = {key: value for key, value in os.environ.items() if key != "PYTHONDONTWRITEBYTECODE"}
     environment |= {"PYTHONPATH": str(copy), "PYTHONPYCACHEPREFIX": str(copy.with_name("bytecode"))}
@@ -105,27 +105,27 @@ def passes(copy: Path, tests: tuple[str, ...], limit: float) -> bool:
     return done.returncode == 0
 
 
-def judge(name: str, count: int, say: Callable[[str], None]) -> None:
-    """Try the faults of one file."""
+def judge(name: str, count: int, report: Callable[[str], None]) -> None:
+    """Run the tests with the faults of one file."""
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder, "src")
         shutil.copytree(ROOT / "src", copy, ignore=shutil.ignore_patterns("__pycache__"))
         file = copy / "solepath" / name
         source = file.read_text()
         tests = tuple(f"tests/{test}" for test in CORE[name])
-        began = time.monotonic()
+        started_at = time.monotonic()
         if not passes(copy, tests, 3600.0):
             raise SystemExit(f"{name}: its tests fail as it is")
-        limit = 60.0 + 5.0 * (time.monotonic() - began)
+        limit = 60.0 + 5.0 * (time.monotonic() - started_at)
         caught = 0
         changed = sample(source, count)
         for number, (line, what, text) in enumerate(changed):
             file.write_text(text)
-            os.utime(file, (number, number))  # Python compiles anew what has another time, to the second
+            os.utime(file, (number, number))  # Python compiles a file again when its time in seconds differs
             survived = passes(copy, tests, limit)
             caught += not survived
-            say(f"{name}:{line}: {'survived' if survived else 'caught  '} {what}")
-        say(f"{name}: {caught} of {len(changed)} caught")
+            report(f"{name}:{line}: {'survived' if survived else 'caught  '} {what}")
+        report(f"{name}: {caught} of {len(changed)} caught")
 
 
 def main() -> None:
@@ -135,14 +135,14 @@ def main() -> None:
     options.add_argument("--out", type=Path, help="append what is printed to this file too")
     chosen = options.parse_args()
 
-    def say(line: str) -> None:
+    def report(line: str) -> None:
         print(line, flush=True)
         if chosen.out is not None:
             with chosen.out.open("a") as out:
                 out.write(line + "\n")
 
     for name in chosen.file or CORE:
-        judge(name, chosen.count, say)
+        judge(name, chosen.count, report)
 
 
 if __name__ == "__main__":

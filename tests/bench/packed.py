@@ -1,9 +1,8 @@
-"""What a session's state takes: `python tests/bench/packed.py [--fields N]`. Prints tables; asserts nothing.
+"""Measures the size of a session's state: `python tests/bench/packed.py [--fields N]`. Prints tables; asserts nothing.
 
-A session is packed every 50 packets of a walk; then all these sessions are unpacked, and packed, one after the other,
-as an engine does with those of many wearers. Times are the processor's, in microseconds, the garbage collector off
-meanwhile.
-`--fields N` also says which N fields take the most bytes, at the end.
+A session is packed every 50 packets of a walk. Then all these sessions are unpacked, and packed, one after the other,
+as an engine does with those of many wearers. Times are the processor's, in microseconds, with the garbage collector
+off meanwhile. `--fields N` also prints the N fields that take the most bytes at the end.
 """
 
 from __future__ import annotations
@@ -42,7 +41,7 @@ from solepath.saving.streams import to_bytes
 from solepath.session.packed import STATE
 
 ROUTE = Route().stand(2.0).walk(40.0, 1.3).turn(1.57, radius=1.5).walk(20.0).turn(-0.8, radius=2.0).walk(10.0).stop(2.0)
-"""A minute."""
+"""A walk of about a minute."""
 RADIO = Radio(loss=0.01, duplicate=0.002, latency=0.01, jitter=0.03)
 EVERY = 50
 
@@ -56,27 +55,27 @@ WALKS: dict[str, tuple[Recipe, Callable[[], Any]]] = {
 
 
 def packets(device: Callable[[], Any]) -> tuple[Packet, ...]:
-    """Of both feet, over a radio that loses some."""
+    """Return the packets of both feet, over a radio that loses some."""
     return emulate(ROUTE, devices={site: device() for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}, radio=RADIO).packets
 
 
 def microseconds(work: Callable[[], Any]) -> tuple[Any, float]:
-    """What it gives, and how long that took."""
+    """Return the result of `work`, and its time in microseconds."""
     gc.disable()
-    began = thread_time()
+    started_at = thread_time()
     given = work()
-    took = (thread_time() - began) * 1e6
+    took = (thread_time() - started_at) * 1e6
     gc.enable()
     return given, took
 
 
 def nearly_most(values: list[float]) -> float:
-    """95 % are below it."""
+    """Return the value below which 95 % lie."""
     return quantiles(values, n=20, method="inclusive")[-1]
 
 
 def walked(name: str) -> Session:
-    """Prints what the session of this walk takes, and gives it."""
+    """Print the figures of the session of this walk, and return it."""
     recipe, device = WALKS[name]
     session, moments = Session(recipe), list[bytes]()
     for i, packet in enumerate(packets(device)):
@@ -95,25 +94,24 @@ COLUMNS = (
 
 
 def show(name: str, moments: list[Any], load: Callable[[Any], Session], save: Callable[[Session], Any]) -> None:
-    """Prints how large they are, and how long all of them take, one after the other; after a round that is not
-    counted."""
+    """Print the sizes and the times of all sessions, one after the other, after a round that is not counted."""
     for _ in range(2):
         loaded = [microseconds(partial(load, saved)) for saved in moments]
         packed = [microseconds(partial(save, session)) for session, _ in loaded]
     if [saved for saved, _ in packed] != moments:
         raise SystemExit(f"{name}: what was unpacked is packed in other bytes")
     sizes, packing, unpacking = [len(saved) for saved in moments], [took for _, took in packed], [t for _, t in loaded]
-    told = (
+    figures = (
         *(mean(sizes), max(sizes)),
         *(median(packing), nearly_most(packing), max(packing)),
         *(median(unpacking), nearly_most(unpacking)),
     )
-    cells = [f"{value:{len(column)}.0f}" for column, value in zip(COLUMNS, told, strict=True)]
+    cells = [f"{value:{len(column)}.0f}" for column, value in zip(COLUMNS, figures, strict=True)]
     print(f"{name:34}  " + "  ".join(cells), flush=True)
 
 
 class Account:
-    """Bytes by field."""
+    """Sums bytes by field."""
 
     def __init__(self) -> None:
         self.bytes: Counter[str] = Counter()
@@ -167,7 +165,7 @@ NOTHING = len(to_bytes([], [], [], [], (0.0, 0.0)))
 
 
 def fields(session: Session, most: int) -> None:
-    """Prints which take the most."""
+    """Print the fields that take the most bytes."""
     account = Account()
     account.value(STATE, session._state, "")
     for at, size in account.bytes.most_common(most):

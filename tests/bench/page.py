@@ -1,9 +1,9 @@
-"""What the page costs: `python tests/bench/page.py [--minutes 10]`. Prints tables; asserts nothing.
+"""Measures the cost of the page: `python tests/bench/page.py [--minutes 10]`. Prints tables; asserts nothing.
 
-A process of its own feeds a session with two insoles of 96 cells at 100 Hz, in real time: without a page, with a page
+A separate process feeds a session with two insoles of 96 cells at 100 Hz, in real time: without a page, with a page
 that nobody watches, with one in a browser (Chromium, 1280 x 900), and with one whose watcher has stopped reading. Each
-takes so many minutes. The share of a core is processor time of that process from the first packet to the last, the
-server's included and the browser's not.
+case takes `--minutes`. The share of a core is the processor time of that process from the first packet to the last,
+the server's included and the browser's not.
 """
 
 from __future__ import annotations
@@ -42,13 +42,13 @@ WAYS = {
 }
 MINUTE = 60.0
 ROUND = 40.0
-"""s that a square takes at the least."""
+"""Shortest time of a square, s."""
 SETTLED = 1.0
-"""Minutes after which the page's memory is taken first."""
+"""Time of the first measurement of the page's memory, minutes."""
 
 
 async def serve(way: str, seconds: float) -> None:
-    """Prints the page's address, waits for a line, feeds the session, prints the processor time in s."""
+    """Print the page's address, wait for a line, feed the session, and print the processor time in s."""
     packets = [packet for packet in walked(squares(int(seconds / ROUND) + 1)) if packet.t <= seconds]
     page = None if way == "without" else Page(Scene("a walk of the benchmark", "default", "live"), port=0)
     session = Session(poses=True) if page is None else Session(poses=True, pressures=True)
@@ -58,9 +58,9 @@ async def serve(way: str, seconds: float) -> None:
             await stack.enter_async_context(page)
         print("" if page is None else page.url, flush=True)
         await loop.run_in_executor(None, sys.stdin.readline)
-        began, used = loop.time(), process_time()
+        started_at, used = loop.time(), process_time()
         for packet in packets:
-            wait = began + packet.t - loop.time()
+            wait = started_at + packet.t - loop.time()
             if wait > 0.0:
                 await asyncio.sleep(wait)
             events = session.feed(packet)
@@ -81,14 +81,17 @@ def serving(way: str, seconds: float) -> Iterator[subprocess.Popen[str]]:
 
 @define
 class Watched:
-    """What a browser saw. `sizes`: bytes of the messages that came; `early`, `late`: bytes of the scripts' heap,
-    elements of the document, and bytes of the process, after SETTLED and at the end."""
+    """Measurements of a browser.
+
+    `sizes` are the bytes of the received messages. `early` and `late` are bytes of the scripts' heap, elements of the
+    document, and bytes of the process, after SETTLED and at the end.
+    """
 
     sizes: list[int] = field(factory=list)
     drawn: float = 0.0
     """Frames a second."""
-    busy: float = 0.0
-    """Share of the time that the page's thread worked."""
+    work_share: float = 0.0
+    """Share of the time in which the page's thread works."""
     early: tuple[int, int, int] | None = None
     late: tuple[int, int, int] = (0, 0, 0)
 
@@ -101,16 +104,16 @@ def watch(browser: Browsing, url: str, process: subprocess.Popen[str], seconds: 
             await view.devtools.send("Performance.enable")
             await view.tab.goto(url)
             await asyncio.sleep(1.0)
-            begin(process)
+            start(process)
             found.sizes.clear()
-            worked, drawn, spent = await busy(view), await frames(view), 0.0
+            worked, drawn, spent = await work_time(view), await frames(view), 0.0
             if seconds > SETTLED * MINUTE:
                 spent = SETTLED * MINUTE
                 await asyncio.sleep(spent)
                 found.early = (*await view.memory(), await resident(chromium))
             await asyncio.sleep(seconds - 1.0 - spent)
             found.drawn = (await frames(view) - drawn) / (seconds - 1.0)
-            found.busy = (await busy(view) - worked) / (seconds - 1.0)
+            found.work_share = (await work_time(view) - worked) / (seconds - 1.0)
             found.late = (*await view.memory(), await resident(chromium))
             return found
 
@@ -118,20 +121,22 @@ def watch(browser: Browsing, url: str, process: subprocess.Popen[str], seconds: 
 
 
 async def frames(view: Window) -> int:
-    """Pictures that the page has drawn."""
+    """Return the number of frames that the page has drawn."""
     count: int = await view.tab.evaluate("solepath.frames")
     return count
 
 
-async def busy(view: Window) -> float:
-    """s for which the page's thread has worked."""
+async def work_time(view: Window) -> float:
+    """Return the time for which the page's thread has worked, s."""
     metrics = (await view.devtools.send("Performance.getMetrics"))["metrics"]
     return next(float(metric["value"]) for metric in metrics if metric["name"] == "TaskDuration")
 
 
 async def resident(browser: Browser) -> int:
-    """Bytes of memory of the processes that the browser runs its pages in, what they share with others in part; 0
-    where it cannot be told."""
+    """Return the bytes of memory of the browser's page processes, with a share of what they share with others.
+
+    It is 0 where the system does not tell.
+    """
     devtools = await browser.new_browser_cdp_session()
     processes = (await devtools.send("SystemInfo.getProcessInfo"))["processInfo"]
     await devtools.detach()
@@ -140,13 +145,13 @@ async def resident(browser: Browser) -> int:
     return 1024 * sum(int(share[1]) for share in shares if share)
 
 
-def begin(process: subprocess.Popen[str]) -> None:
+def start(process: subprocess.Popen[str]) -> None:
     assert process.stdin is not None
     print(file=process.stdin, flush=True)
 
 
 def stall(url: str) -> socket.socket:
-    """A watcher that has asked for everything and takes nothing."""
+    """Return the socket of a watcher that has requested everything and reads nothing."""
     parts = urlsplit(url)
     token = parts.fragment.removeprefix("token=")
     link = socket.socket()
@@ -168,15 +173,15 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--minutes", type=float, default=1.0, help="of each of the four (default: 1)")
     parser.add_argument("--serve", choices=WAYS, help=argparse.SUPPRESS)
-    asked = parser.parse_args()
-    seconds = asked.minutes * MINUTE
-    if asked.serve is not None:
-        asyncio.run(serve(asked.serve, seconds))
+    options = parser.parse_args()
+    seconds = options.minutes * MINUTE
+    if options.serve is not None:
+        asyncio.run(serve(options.serve, seconds))
         return
     reason = why_not()
     if reason is not None:
         sys.exit(reason)
-    print(f"Python {platform.python_version()}, {os.cpu_count()} cores, {program()}; {asked.minutes:g} min each\n")
+    print(f"Python {platform.python_version()}, {os.cpu_count()} cores, {program()}; {options.minutes:g} min each\n")
     print(f"{'the session, and':30} {'of a core':>10} {'more':>8}")
     alone: float | None = None
     watched = Watched()
@@ -190,19 +195,21 @@ def main() -> None:
                     share = spent(process) / seconds
             else:
                 held = stall(url) if way == "stalled" else None
-                begin(process)
+                start(process)
                 share = spent(process) / seconds
                 if held is not None:
                     held.close()
         alone = share if alone is None else alone
         print(f"{name:30} {100 * share:8.1f} % {100 * (share - alone):6.1f} %", flush=True)
     sizes = watched.sizes
-    print(f"\nthe page draws {watched.drawn:.1f} frames a second; its thread works {100 * watched.busy:.0f} % of it")
+    print(
+        f"\nthe page draws {watched.drawn:.1f} frames a second; its thread works {100 * watched.work_share:.0f} % of it"
+    )
     print(
         f"{len(sizes) / seconds:.1f} messages a second, {sum(sizes) / seconds / 1000:.1f} kB/s; "
         f"bytes of one: median {median(sizes):.0f}, p99 {quantiles(sizes, n=100)[98]:.0f}, most {max(sizes)}"
     )
-    for when, memory in ((SETTLED, watched.early), (asked.minutes, watched.late)):
+    for when, memory in ((SETTLED, watched.early), (options.minutes, watched.late)):
         if memory is not None:
             heap, elements, process = memory
             print(

@@ -1,13 +1,12 @@
-"""How long the way of a packet is, and what is loaded for it: `python tests/bench/way.py`. Prints; asserts nothing.
+"""Counts the calls of a packet, and what is loaded for it: `python tests/bench/way.py`. Prints; asserts nothing.
 
-First the way: one frame of an insole with 96 cells, both feet at 100 Hz, is fed to a session, and every call of a
-function whose file lies in src/solepath is counted, with the files that they lie in and how often the next call is in
-another room than the one before. Generated code (attrs) and other packages do not count; a generator counts each time
-that it goes on. A quiet frame brings no event; the other one ends a stride. Medians over a walk.
+First the calls: one frame of an insole with 96 cells, both feet at 100 Hz, is fed to a session. Every call of a
+function whose file is in src/solepath is counted, with the number of files and of changes from one folder ("room") of
+src/solepath to another. Generated code (attrs) and other packages do not count; a generator counts each time that it
+continues. A quiet frame causes no event; the other kind ends a stride. Medians over a walk.
 
-Then what `import solepath; Session(...)` loads: modules of ours, their lines, and the processor time that it takes
-beside that of `import attrs, construct`, in fresh processes; medians too. `--calls` lists the functions of a frame of
-each kind.
+Then what `import solepath; Session(...)` loads: modules of ours, their lines, and the processor time beside that of
+`import attrs, construct`, in fresh processes; medians too. `--calls` lists the functions of a frame of each kind.
 """
 
 from __future__ import annotations
@@ -33,9 +32,9 @@ from solepath.emulate.walk import emulate
 OURS = str(Path(solepath.__file__).parent) + "/"
 ROUTE = Route().stand(2.0).walk(50.0, 1.3).stop(2.0)
 RECIPES = ("default", "kupt-dfpc", "footstep-tracker", "walking-modes", "pressure-contour", "shoe-sensing")
-"""The default and each paper's."""
+"""The default recipe and one of each paper."""
 RUNS = 7
-"""Fresh processes of each kind."""
+"""Number of fresh processes of each kind."""
 
 
 @frozen
@@ -59,12 +58,12 @@ class Way:
 
 
 def room(code: CodeType) -> str:
-    """The folder of src/solepath that a function is in, or its file where that is in none."""
+    """Return the folder of src/solepath of a function, or its file when that is in none."""
     return code.co_filename.removeprefix(OURS).partition("/")[0]
 
 
 def way_of(session: Session, packet: Packet) -> tuple[Way, list[Any]]:
-    """The calls of one packet, and its events."""
+    """Return the calls of one packet, and its events."""
     codes: list[CodeType] = []
 
     def called(frame: FrameType, event: str, _: object) -> None:
@@ -80,18 +79,18 @@ def way_of(session: Session, packet: Packet) -> tuple[Way, list[Any]]:
 
 
 def ways(packets: tuple[Packet, ...]) -> tuple[list[Way], list[Way]]:
-    """Of the quiet frames and of those that end a stride."""
+    """Return the calls of the frames without events and of those that end a stride."""
     session = Session()
-    quiet, ending = [], []
+    idle, ending = [], []
     for packet in packets:
         way, events = way_of(session, packet)
         if packet.channel != "insole/frame":
             continue
         if not events:
-            quiet.append(way)
+            idle.append(way)
         elif any(isinstance(event, StrideTaken) for event in events):
             ending.append(way)
-    return quiet, ending
+    return idle, ending
 
 
 def show(name: str, found: list[Way], calls: bool) -> None:
@@ -111,7 +110,7 @@ def show(name: str, found: list[Way], calls: bool) -> None:
 
 
 def fresh(program: str) -> str:
-    """What a program prints in a process of its own, which keeps its bytecode as an installed package does."""
+    """Return what a program prints in a separate process, which keeps its bytecode as an installed package does."""
     keeping = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     words = [sys.executable, "-c", program]
     return subprocess.run(words, env=keeping, capture_output=True, text=True, check=True).stdout
@@ -123,7 +122,7 @@ began = process_time()
 {work}
 print(process_time() - began)
 """
-BEGIN = "from solepath import Session, recipes; Session(recipes.by_name({name!r}))"
+START = "from solepath import Session, recipes; Session(recipes.by_name({name!r}))"
 LOADED = """
 import sys
 {work}
@@ -136,8 +135,8 @@ print(len(files), sum(len(Path(file).read_text("utf-8").splitlines()) for file i
 
 
 def loading() -> None:
-    """Each kind of process by turns, so that a machine that slows down slows them all."""
-    works = {"attrs, construct": "import attrs, construct", **{name: BEGIN.format(name=name) for name in RECIPES}}
+    """Time each kind of process in rotation, so that a machine that slows down slows them all."""
+    works = {"attrs, construct": "import attrs, construct", **{name: START.format(name=name) for name in RECIPES}}
     took: dict[str, list[float]] = {name: [] for name in works}
     for work in works.values():
         fresh(work)
@@ -159,11 +158,11 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--calls", action="store_true", help="list the functions of one frame of each kind")
     parser.add_argument("--no-import", action="store_true", help="the way alone")
-    asked = parser.parse_args()
-    quiet, ending = ways(emulate(ROUTE, radio=CLEAN, seed=1).packets)
-    show("a quiet frame", quiet, asked.calls)
-    show("a frame that ends a stride", ending, asked.calls)
-    if not asked.no_import:
+    options = parser.parse_args()
+    idle, ending = ways(emulate(ROUTE, radio=CLEAN, seed=1).packets)
+    show("a quiet frame", idle, options.calls)
+    show("a frame that ends a stride", ending, options.calls)
+    if not options.no_import:
         loading()
 
 

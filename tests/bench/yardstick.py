@@ -27,7 +27,7 @@ WINDOW = 5
 GATE = 3e5
 SIGMA_ACC, SIGMA_GYRO = 0.01, np.radians(0.1)
 ACC_NOISE, GYRO_NOISE, ZERO_VELOCITY = 0.5, np.radians(0.5), 0.01
-"""m/s^2, rad/s, m/s."""
+"""Noise of acceleration, m/s^2, and of angular rate, rad/s, and deviation of the zero velocity, m/s."""
 FIRST = (1e-5, 1e-2, 1e-3**0.5)
 """Deviations of position, m, velocity, m/s, and attitude, rad, at the beginning."""
 
@@ -37,7 +37,7 @@ def cross_matrix(v: Array) -> Array:
 
 
 def quaternion_of(r: Array) -> Array:
-    """(w, x, y, z) of the turn by |r| rad about r."""
+    """Return (w, x, y, z) of the turn by |r| rad about r."""
     angle = np.linalg.norm(r)
     if angle == 0.0:
         return np.array([1.0, 0.0, 0.0, 0.0])
@@ -45,7 +45,7 @@ def quaternion_of(r: Array) -> Array:
 
 
 def product(p: Array, q: Array) -> Array:
-    """Hamilton's."""
+    """Return Hamilton's product."""
     w, x, y, z = p
     matrix = np.array([[w, -x, -y, -z], [x, w, -z, y], [y, z, w, -x], [z, -y, x, w]])
     return matrix @ q
@@ -135,7 +135,7 @@ def rotation(r: Array) -> Array:
 
 
 class Tuned:
-    """As `Usual`."""
+    """Does the same as `Usual` with fewer matrices."""
 
     def __init__(self) -> None:
         self.position = np.zeros(3)

@@ -53,7 +53,7 @@ def shown(canvas: Any, what: str) -> list[Any]:
 async def test_after_a_walk_the_labels_say_what_was_walked_and_the_canvases_show_it(example: Any) -> None:
     app = opened(example)
     assert {label.text for label in app.figures.values()} == {"0", "–"}
-    app.begin(of(WALK.packets))
+    app.toggle_listening(of(WALK.packets))
     assert app.start.text == "Stop" and not app.show.enabled
     await app.listening
     said = {name: label.text for name, label in app.figures.items()}
@@ -76,7 +76,7 @@ async def test_after_a_walk_the_labels_say_what_was_walked_and_the_canvases_show
 
 async def test_one_sample_that_is_far_too_high_does_not_pale_what_the_soles_show(example: Any) -> None:
     app = opened(example)
-    app.begin(of(WALK.packets))
+    app.toggle_listening(of(WALK.packets))
     await app.listening
     highest = max(max(load.values) for load in app.load.values())
     assert 0.5 * highest < app.peak, "who stands bears less than who walks"
@@ -93,14 +93,14 @@ async def test_the_emulated_wearer_can_be_stopped_and_what_stops_the_sensors_is_
         yield WALK.packets[0]
 
     app = opened(example)
-    app.begin(example.emulated(100.0))
+    app.toggle_listening(example.emulated(100.0))
     listening = app.listening
     while app.steps < 4:
         await asyncio.sleep(0.01)
-    app.begin(of(()))  # the button says Stop by now
+    app.toggle_listening(of(()))  # the button says Stop by now
     await asyncio.wait([listening])
     assert app.status.text == "stopped" and app.listening is None and app.steps >= 4
-    app.begin(broken())
+    app.toggle_listening(broken())
     await asyncio.wait([app.listening])
     assert app.status.text == "Bluetooth is off: switch it on"
     assert app.steps == 0 and app.start.text == "Insoles"

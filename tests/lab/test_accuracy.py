@@ -1,7 +1,8 @@
-"""How accurate recipes are on recorded data: the figures that docs/accuracy.md (the default recipe) and docs/recipes.md
-(those of pressure) quote, with their bounds.
+"""Accuracy of recipes on recorded data: the figures of docs/accuracy.md and docs/recipes.md, with their bounds.
 
-python -m pytest -m "soak or not soak" tests/lab/test_accuracy.py      # those too that take longest: two minutes
+docs/accuracy.md quotes the default recipe, docs/recipes.md the recipes for pressure.
+
+python -m pytest -m "soak or not soak" tests/lab/test_accuracy.py      # with the slowest tests: two minutes
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ Evaluated = Callable[[str, str], Result]
 
 
 def scores(evaluated: Evaluated, data_set: str) -> tuple[dict[str, Scored], Summary]:
-    """The scores of each recording by its name, and the summary of all."""
+    """Return the scores of each recording by its name, and the summary of all."""
     result = evaluated(data_set, "default")
     assert not result.failures
     return {score.recording: score for score in result.scores}, result.summaries[0]
@@ -85,7 +86,7 @@ def test_initial_contacts_are_those_of_motion_capture(evaluated: Evaluated) -> N
 
 @pytest.mark.soak
 def test_the_accuracy_that_is_quoted_is_what_evaluate_prints(evaluated: Evaluated, data_dir: Path) -> None:
-    """solepath evaluate DIR --markdown prints it, but for data that are learnt for in folds: those take minutes."""
+    """solepath evaluate DIR --markdown prints it, except for data that need training in folds: those take minutes."""
     results = [evaluated(found.name, "default") for found in find(data_dir) if not found.folds]
     nearly_the_same(below("accuracy"), accuracy_table(results).splitlines())
 
@@ -97,7 +98,7 @@ def f1(result: Result, kind: str) -> float:
 
 
 def rms(result: Result) -> float:
-    """Of the positions against the truth, m, the mean of all recordings."""
+    """Return the mean position error of all recordings, m."""
     value = result.summaries[0].mean["armse_2d"]
     assert value is not None
     return value
@@ -111,7 +112,7 @@ def test_contacts_of_eight_force_sensors_alone_are_found(evaluated: Evaluated, r
 
 
 def test_contacts_of_heel_and_toe_switches_are_found(evaluated: Evaluated) -> None:
-    """Of the toe-offs that are missed most are toes that a standing wearer lifts."""
+    """Most toe-offs that are not found are toes that a standing wearer lifts."""
     result = evaluated("marpino_pressed", "kupt-dfpc")
     assert f1(result, "heel_strike") >= 0.95
     assert f1(result, "toe_off") >= 0.93
@@ -122,5 +123,5 @@ def test_a_known_velocity_is_no_worse_than_a_zero_velocity_on_recorded_insoles(e
     assert kupt <= zupt
 
 
-def test_the_contour_of_heel_pressure_tells_zero_velocity_on_recorded_insoles(evaluated: Evaluated) -> None:
+def test_the_contour_of_heel_pressure_detects_zero_velocity_on_recorded_insoles(evaluated: Evaluated) -> None:
     assert rms(evaluated("smart_insole_35", "pressure-contour")) <= 0.20

@@ -1,4 +1,4 @@
-"""What the part for activities learns of how they follow each other."""
+"""Tests what the activities part learns of the order of activities."""
 
 from __future__ import annotations
 
@@ -19,18 +19,18 @@ def test_labels_become_spans_and_a_gap_parts_them() -> None:
     assert changes(done) == [(0.2, STOOD, WALKED)]
 
 
-def test_who_climbs_often_makes_stairs_likelier() -> None:
+def test_frequent_climbing_makes_stairs_likelier() -> None:
     done = [(10.0 * k, 10.0 * k + 10.0, (WALKED, CLIMBED)[k % 2]) for k in range(100)]
     learnt = chances([LabelledCourse(0.0, {}, tuple(done))])
     assert all(isclose(sum(row), 1.0, abs_tol=1e-4) for row in learnt)
     assert DEFAULT_CHANCES[WALK][UP] < learnt[WALK][UP] < 1.0 / 20.0 + 1e-3  # ten seconds are twenty blocks
 
 
-def test_without_recordings_everything_is_as_supposed() -> None:
-    for row, supposed in zip(chances([]), DEFAULT_CHANCES, strict=True):
+def test_without_recordings_the_chances_are_the_supposed_ones() -> None:
+    for row, supposed in zip(chances([]), SUPPOSED, strict=True):
         assert all(isclose(a, b, abs_tol=1e-5) for a, b in zip(row, supposed, strict=True))
 
 
-def test_from_standing_one_may_come_to_anything() -> None:
-    chain = chain_of(DEFAULT_CHANCES, ())
-    assert all(STAND in [source for source, _ in chain.predecessors[state]] for state in range(UP))
+def test_every_activity_may_follow_standing() -> None:
+    chain = chain_of(SUPPOSED, ())
+    assert all(STAND in [source for source, _ in chain.before[state]] for state in range(UP))

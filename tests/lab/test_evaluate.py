@@ -12,10 +12,10 @@ from numpy.testing import assert_allclose
 
 from solepath.lab.measures.alignment import Alignment, align, at_times, rms_distance, track_error
 from solepath.lab.measures.contacts import merged, switch_contacts
-from solepath.lab.measures.legs import between, leg_errors, turned_about
+from solepath.lab.measures.legs import leg_errors, leg_lengths, turned_about
 from solepath.lab.measures.matching import Errors, Matching, interval_errors, match
 from solepath.lab.measures.score import Scored, summarise
-from solepath.lab.measures.strides import StrideScore, marker_rests, position_errors, stride_score, surveyed_score
+from solepath.lab.measures.strides import StrideScore, marker_stances, position_errors, stride_score, surveyed_score
 
 SQUARE = np.array([[0.0, 0.0, 0.0], [2.0, 0.0, 0.0], [2.0, 2.0, 0.0], [0.0, 2.0, 0.0]])
 
@@ -158,8 +158,8 @@ def test_a_heading_error_grows_along_the_survey():
 def switch(*spans: tuple[float, float], height: float = 1000.0) -> tuple[np.ndarray, np.ndarray]:
     t = np.arange(0, 800) / 100.0
     counts = np.full(len(t), 50.0)
-    for begin, end in spans:
-        counts[(t >= begin - 1e-9) & (t < end - 1e-9)] += height
+    for start, end in spans:
+        counts[(t >= start - 1e-9) & (t < end - 1e-9)] += height
     return t, counts
 
 
@@ -197,21 +197,20 @@ def test_figures_are_averaged_and_events_and_strides_are_pooled():
 
 
 def to_and_fro(*turns, pace=1.0):
-    """A track along a slanted line that walks from place to place, m, at `pace`, and rests 2 s at each; its times of
-    the rests' middles."""
-    t, along, rests = [0.0], [turns[0]], [0.0]
+    """A track along a slanted line that walks between places, m, at `pace` and stands 2 s at each; stance times."""
+    t, along, stances = [0.0], [turns[0]], [0.0]
     for a, b in pairwise(turns):
         for length, to in ((2.0, a), (abs(b - a) / pace, b)):
             n = round(length / 0.01)
             along += np.linspace(along[-1], to, n + 1)[1:].tolist()
             t += (t[-1] + 0.01 * np.arange(1, n + 1)).tolist()
-        rests.append(t[-1] + 1.0)
-    return np.array(t), np.outer(along, [0.8, 0.6, 0.0]), rests
+        stances.append(t[-1] + 1.0)
+    return np.array(t), np.outer(along, [0.8, 0.6, 0.0]), stances
 
 
 def test_a_leg_is_the_distance_between_its_ends():
     t, positions, _ = to_and_fro(0.0, 9.0, 1.0)
-    assert_allclose(between([0.0, 11.0, 21.0], t, positions), [9.0, 8.0], atol=1e-9)
+    assert_allclose(leg_lengths([0.0, 11.0, 21.0], t, positions), [9.0, 8.0], atol=1e-9)
     errors = leg_errors([0.0, 11.0, 21.0], [10.0, 10.0], t, positions)
     assert_allclose(errors.values, [-0.1, -0.2])
     assert (errors.mean, errors.median, errors.bias) == pytest.approx((0.15, 0.15, -0.15))
@@ -220,7 +219,7 @@ def test_a_leg_is_the_distance_between_its_ends():
 
 def test_a_track_to_and_fro_is_cut_where_it_turns_about():
     t, positions, _ = to_and_fro(0.0, 10.0, 0.5, 9.5, -0.2)
-    assert_allclose(between(turned_about(t, positions, 4), t, positions), [10.0, 9.5, 9.0, 9.7], atol=0.06)
+    assert_allclose(leg_lengths(turned_about(t, positions, 4), t, positions), [10.0, 9.5, 9.0, 9.7], atol=0.06)
 
 
 def test_errors_of_stride_times_are_of_events_that_follow_each_other():
@@ -230,11 +229,11 @@ def test_errors_of_stride_times_are_of_events_that_follow_each_other():
     assert interval_errors([], found, longest=2.5).median is None
 
 
-def test_a_marker_on_a_foot_rests_between_strides():
+def test_a_marker_on_a_foot_stands_still_between_strides():
     t = 0.01 * np.arange(400)
     x = np.interp(t, [0.5, 1.0, 1.5, 2.0, 2.5, 3.0], [0.0, 1.2, 1.2, 2.3, 2.3, 2.35])
-    ends, rests = marker_rests(t, np.column_stack([x, 0.0 * x, 0.1 + 0.0 * x]))
-    assert_allclose(rests[:, 0], [0.0, 1.2, 2.325], atol=0.03)
+    ends, stances = marker_stances(t, np.column_stack([x, 0.0 * x, 0.1 + 0.0 * x]))
+    assert_allclose(stances[:, 0], [0.0, 1.2, 2.325], atol=0.03)
     assert_allclose(ends[:2], [0.5, 1.5], atol=0.06)
 
 

@@ -1,4 +1,4 @@
-"""The table of what each part of the default recipe is worth."""
+"""The table of the figures without each part of the default recipe."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Scores of activities on labels and events that were worked out by hand; folds; what learns from whom."""
+"""Activity scores of labels and events worked out by hand, the folds, and the sources that each part learns from."""
 
 from itertools import pairwise
 
@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 from solepath import recipes
 from solepath.events import ActivityChanged, LiftRidden
 from solepath.lab.evaluate import learning
-from solepath.lab.evaluate.activity import CLIMBED, compared, rides, stairs_figures, windows
+from solepath.lab.evaluate.activity import CLIMBED, score_rides, score_samples, score_windows, stairs_figures
 from solepath.lab.evaluate.jobs import evaluate
-from solepath.lab.evaluate.learning import Learner, Lesson, lessons, part_for, taught
+from solepath.lab.evaluate.learning import Learner, TrainingSource, part_for, train_parts, training_sources
 from solepath.lab.measures.confusion import CLASSES, ActivityScore
 from solepath.lab.measures.score import Scored, summarise
 from solepath.lab.train import footstep_activity
@@ -23,10 +23,10 @@ STANDING, WALKING, RUNNING = Activity.STANDING, Activity.WALKING, Activity.RUNNI
 STAIRS_UP, UP, DOWN = Activity.STAIRS_UP, Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN
 
 
-def timeline(*told):
+def timeline(*changes):
     """(t, activity) or (t, activity, what it revises)."""
     found = Timeline()
-    for t, activity, *revises in told:
+    for t, activity, *revises in changes:
         found.add(
             ActivityChanged(
                 t=t, known_at=t + 9.0, final=False, activity=activity, probability=None, revises=[*revises, None][0]
@@ -35,23 +35,23 @@ def timeline(*told):
     return found
 
 
-def ridden(begin, end, up):
-    return LiftRidden(t=end, known_at=end, t_start=begin, up=up, height=None)
+def ridden(t_start, end, up):
+    return LiftRidden(t=end, known_at=end, t_start=t_start, up=up, height=None)
 
 
 TIMES = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]
 TRUE = [STANDING, STANDING, STANDING, WALKING, WALKING, None, WALKING, RUNNING]
 
 
-def test_labelled_samples_are_judged_by_what_was_told_of_their_time():
-    # told: nothing before 1.0, standing to 2.5, then walking
-    score = compared(TIMES, TRUE, timeline((1.0, STANDING), (2.5, WALKING)))
+def test_labelled_samples_are_scored_by_the_activity_reported_at_their_time():
+    # reported: nothing before 1.0, standing to 2.5, then walking
+    score = score_samples(TIMES, TRUE, timeline((1.0, STANDING), (2.5, WALKING)))
     assert score.samples == {
         (STANDING, Activity.UNKNOWN): 1, (STANDING, STANDING): 2, (WALKING, WALKING): 3, (RUNNING, WALKING): 1,
     }  # fmt: skip
     assert score.accuracy == pytest.approx(5 / 7)
     assert score.most_frequent == pytest.approx(3 / 7)
-    # standing: 2 right, 3 true, 2 told; walking: 3 right, 3 true, 4 told; running: none right, 1 true
+    # standing: 2 right, 3 true, 2 reported; walking: 3 right, 3 true, 4 reported; running: none right, 1 true
     assert score.f1(STANDING) == pytest.approx(2 * 2 / (3 + 2))
     assert score.f1(WALKING) == pytest.approx(2 * 3 / (3 + 4))
     assert score.f1(RUNNING) == 0.0
@@ -64,7 +64,7 @@ def test_labelled_samples_are_judged_by_what_was_told_of_their_time():
 
 
 def test_what_was_replaced_does_not_count():
-    score = compared([1.0, 3.0, 5.0], [STANDING] * 3, timeline((0.0, STANDING), (2.0, UP), (2.0, STANDING, 2.0)))
+    score = score_samples([1.0, 3.0, 5.0], [STANDING] * 3, timeline((0.0, STANDING), (2.0, UP), (2.0, STANDING, 2.0)))
     assert score.accuracy == 1.0
 
 
@@ -84,18 +84,18 @@ def test_scores_of_two_recordings_count_together(a, b):
 def test_a_ride_is_found_by_one_in_its_direction_at_its_time():
     true = [(0.0, 5.0, STANDING), (5.0, 15.0, UP), (15.0, 20.0, STANDING), (20.0, 30.0, DOWN), (40.0, 50.0, UP)]
     # the first fits, the second goes the wrong way, the third comes too late by more than half of its own length
-    score = rides(true, [ridden(7.0, 14.0, True), ridden(20.0, 30.0, True), ridden(47.0, 55.0, True)])
+    score = score_rides(true, [ridden(7.0, 14.0, True), ridden(20.0, 30.0, True), ridden(47.0, 55.0, True)])
     assert (score.rides_true, score.rides_found, score.rides_invented) == (3, 1, 2)
 
 
-def test_two_rides_told_of_one_are_one_found_and_one_invented():
-    score = rides([(5.0, 15.0, UP)], [ridden(5.0, 9.0, True), ridden(10.0, 15.0, True)])
+def test_two_reported_rides_for_one_true_ride_are_one_found_and_one_invented():
+    score = score_rides([(5.0, 15.0, UP)], [ridden(5.0, 9.0, True), ridden(10.0, 15.0, True)])
     assert (score.rides_true, score.rides_found, score.rides_invented) == (1, 1, 1)
 
 
 def test_windows_of_two_seconds_lie_within_one_activity():
     # 0-5 s: windows 0-2, 2-4; 5-9.9 s: 5-7, 7-9; their middles are 1, 3, 6 and 8 s
-    score = windows([(0.0, 5.0, STANDING), (5.0, 9.9, WALKING)], timeline((0.0, STANDING), (6.5, WALKING)))
+    score = score_windows([(0.0, 5.0, STANDING), (5.0, 9.9, WALKING)], timeline((0.0, STANDING), (6.5, WALKING)))
     assert score.samples == {(STANDING, STANDING): 2, (WALKING, STANDING): 1, (WALKING, WALKING): 1}
 
 
@@ -129,16 +129,18 @@ def test_every_wearer_is_in_one_fold():
         fold_of(99)
 
 
-def test_what_is_scored_on_a_wearer_was_taught_without_that_wearer(monkeypatch):
-    class Pupil:
-        """Knows the wearers that it was taught on."""
+def test_a_part_scored_on_a_wearer_is_trained_without_that_wearer(monkeypatch):
+    class FakePart:
+        """Stands for a part; its features are the wearers that it is trained on."""
 
-    monkeypatch.setitem(learning.LEARNERS, Pupil, Learner(lambda folder: [], str, tuple))
+    monkeypatch.setitem(learning.LEARNERS, FakePart, Learner(lambda folder: [], str, tuple))
     wearers = sorted(wearer for fold in FOLDS for wearer in fold)
-    school = [Lesson(Pupil, wearer, wearer) for wearer in wearers] + [Lesson(Pupil, "emulated", None)]
-    parts = taught(school, [lesson.features() for lesson in school])
+    sources = [TrainingSource(FakePart, wearer, wearer) for wearer in wearers] + [
+        TrainingSource(FakePart, "emulated", None)
+    ]
+    parts = train_parts(sources, [source.features() for source in sources])
     for number, fold in enumerate(FOLDS):
-        assert parts[Pupil, number] == (*(str(wearer) for wearer in wearers if wearer not in fold), "emulated")
+        assert parts[FakePart, number] == (*(str(wearer) for wearer in wearers if wearer not in fold), "emulated")
 
 
 def test_a_recipe_whose_part_learns_nothing_keeps_its_own():
@@ -161,18 +163,18 @@ def test_stairs_are_in_two_folders(data_dir):
 
 
 def test_each_recording_is_learnt_from_once_whatever_the_folds(data_dir):
-    assert len(lessons(data_dir, [recipes.by_name("footstep-tracker")] * 2)) == 115
-    assert not lessons(data_dir, [recipes.by_name("shoe-sensing")])
-    default = lessons(data_dir, [recipes.DEFAULT])
-    assert {lesson.subject for lesson in default} - {None} == {wearer for fold in FOLDS for wearer in fold}
+    assert len(training_sources(data_dir, [recipes.by_name("footstep-tracker")] * 2)) == 115
+    assert not training_sources(data_dir, [recipes.by_name("shoe-sensing")])
+    default = training_sources(data_dir, [recipes.DEFAULT])
+    assert {source.subject for source in default} - {None} == {wearer for fold in FOLDS for wearer in fold}
 
 
-def test_windows_of_a_recording_carry_the_activity_of_their_middle(data_dir):
+def test_windows_of_a_recording_have_the_activity_of_their_middle(data_dir):
     (one,) = (found for found in recordings(data_dir / "hugadb") if found.path.stem == "various_06_17")
-    told = footstep_activity.of_recording(one.path).windows
-    assert {window.middle for window in told} == {STANDING, UP, DOWN}
-    assert all(window.activity in (None, window.middle) for window in told)
-    assert all(a.index < b.index for a, b in pairwise(told))
+    found = footstep_activity.of_recording(one.path).windows
+    assert {window.middle for window in found} == {STANDING, UP, DOWN}
+    assert all(window.activity in (None, window.middle) for window in found)
+    assert all(a.index < b.index for a, b in pairwise(found))
 
 
 @pytest.mark.soak

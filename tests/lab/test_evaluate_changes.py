@@ -1,4 +1,4 @@
-"""Figures beside those of an earlier evaluation."""
+"""Compares figures with those of an earlier evaluation."""
 
 import copy
 import json
@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.lab.evaluate.changes import BETTER, Verdict, compared, missing, read_scores, verdict
+from solepath.lab.evaluate.changes import BETTER, Verdict, compare_scores, missing, read_scores, verdict
 from solepath.lab.evaluate.datasets import DATASETS, EMULATED
 from solepath.lab.tables.scores import comparison_tables
 from solepath.recording import RecordingError
@@ -57,28 +57,28 @@ def test_what_cannot_be_seen_in_the_digits_shown_is_the_same():
 
 
 @given(figure=st.sampled_from(sorted(BETTER)), was=st.floats(-1e6, 1e6), now=st.floats(-1e6, 1e6))
-def test_what_is_better_now_was_worse_then(figure, was, now):
+def test_swapping_the_two_evaluations_reverses_the_verdict(figure, was, now):
     opposite = {Verdict.BETTER: Verdict.WORSE, Verdict.WORSE: Verdict.BETTER, Verdict.SAME: Verdict.SAME}
     assert verdict(figure, now, was) is opposite[verdict(figure, was, now)]
 
 
-def test_recordings_and_data_sets_on_one_side_only_are_said():
+def test_recordings_and_data_sets_on_one_side_only_are_listed():
     now = copy.deepcopy(OLD)
     loops = now["default"]["loops"]
     loops["recordings"]["c"] = loops["recordings"].pop("b")
     loops["recordings"]["a"]["end_error"] = 0.5
     loops["summary"]["all"]["together"]["heel_strike_bias"] = 0.03
     now["default"]["climbs"] = now["default"].pop("walks")
-    (changes,) = [found for found in compared(OLD, now) if found.data_set == "loops"]
-    assert (changes.gone, changes.new) == (("b",), ("c",))
+    (changes,) = [found for found in compare_scores(OLD, now) if found.data_set == "loops"]
+    assert (changes.removed, changes.new) == (("b",), ("c",))
     assert {(c.what, c.figure, c.verdict) for c in changes.changes if c.verdict is not Verdict.SAME} == {
         ("a", "end_error", Verdict.BETTER), ("together", "heel_strike_bias", Verdict.WORSE),
     }  # fmt: skip
     assert missing(OLD, now) == ["default: walks"] and missing(now, OLD) == ["default: climbs"]
-    told = comparison_tables(OLD, now)
-    assert "loops, default, compared: 1 better, 1 worse, 5 the same" in told
-    assert "scored then and not now: b\nnot scored then: c" in told
-    assert "evaluated then and not now: default: walks" in told and "not evaluated then: default: climbs" in told
+    tables = comparison_tables(OLD, now)
+    assert "loops, default, compared: 1 better, 1 worse, 5 the same" in tables
+    assert "scored then and not now: b\nnot scored then: c" in tables
+    assert "evaluated then and not now: default: walks" in tables and "not evaluated then: default: climbs" in tables
 
 
 @pytest.mark.parametrize(
@@ -94,7 +94,7 @@ def test_recordings_and_data_sets_on_one_side_only_are_said():
     ],  # fmt: skip
     ids=range(7),
 )
-def test_a_file_that_holds_no_scores_is_refused_in_one_sentence(text, tmp_path):
+def test_a_file_without_scores_is_rejected_in_one_sentence(text, tmp_path):
     file = tmp_path / "old.json"
     file.write_text(text)
     with pytest.raises(RecordingError, match=r"old\.json: (is not JSON|does not hold the scores of an evaluation)"):

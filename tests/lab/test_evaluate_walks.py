@@ -1,4 +1,4 @@
-"""Scores on long emulated walks, on tracks whose errors are known by hand; and what the walks are."""
+"""Scores of long emulated walks, of tracks whose errors are known by hand, and the form of the walks."""
 
 from math import hypot, pi, remainder
 
@@ -13,7 +13,7 @@ from solepath.types import Foot
 
 
 def straight(bend=0.0, climb=0.0):
-    """100 m at 1 m/s; after 50 m it turns off by `bend` rad, and rises evenly by `climb` m."""
+    """100 m at 1 m/s; after 50 m it turns by `bend` rad, and it rises evenly by `climb` m."""
     t = np.arange(0.0, 100.5, 0.5)
     beyond = np.maximum(t - 50.0, 0.0)
     return t, np.column_stack([t - beyond * (1.0 - np.cos(bend)), beyond * np.sin(bend), climb * t / 100.0])
@@ -26,7 +26,7 @@ def test_a_walk_that_is_only_turned_and_shifted_is_not_off():
     assert found["path"] == pytest.approx(100.0)
 
 
-def test_a_heading_that_is_lost_counts_over_all_that_follows():
+def test_a_heading_error_counts_over_the_rest_of_the_walk():
     t, truth = straight()
     _, track = straight(bend=0.1, climb=-0.5)
     found = place_figures(t, track, truth)

@@ -10,7 +10,7 @@ from commands import refused, run
 
 from solepath.cli.reproduce import NAMES
 from solepath.emulate.routes import ways
-from solepath.lab.processes import each
+from solepath.lab.processes import run_jobs
 from solepath.lab.reproduce import footstep_walks, kupt_dfpc, pressure_contour, shoe_walks, walking_modes
 from solepath.lab.reproduce.published import CORNERS, KUPT_DFPC, LOOPS, PRESSURE_CONTOUR, WALKING_MODES, corner_row
 from solepath.lab.reproduce.tables import (
@@ -40,11 +40,11 @@ def test_one_walk_has_no_deviation_and_none_has_nothing():
     assert statistics([]) == Statistics()
 
 
-def test_work_is_done_in_its_order_and_told(capsys):
-    told = []
-    assert list(each(abs, [-3, 2, -1], progress=lambda done, of: told.append((done, of)))) == [3, 2, 1]
-    assert told == [(1, 3), (2, 3), (3, 3)]
-    assert list(each(abs, [-3, 2, -1], processes=2)) == [3, 2, 1]
+def test_jobs_are_done_in_order_and_their_progress_is_reported(capsys):
+    progress = []
+    assert list(run_jobs(abs, [-3, 2, -1], progress=lambda done, of: progress.append((done, of)))) == [3, 2, 1]
+    assert progress == [(1, 3), (2, 3), (3, 3)]
+    assert list(run_jobs(abs, [-3, 2, -1], processes=2)) == [3, 2, 1]
 
 
 def test_table_one_of_the_known_velocities_is_the_papers():
@@ -90,7 +90,7 @@ TWO_ROWS = Reproduction(
 )  # fmt: skip
 
 
-def test_the_json_is_what_the_design_says():
+def test_the_json_has_the_form_of_the_design():
     assert as_json(TWO_ROWS) == {
         "name": "kupt-dfpc",
         "emulated": True,
@@ -105,7 +105,7 @@ def test_the_json_is_what_the_design_says():
     }
 
 
-def test_ours_and_the_papers_stand_beside_each_other_and_ours_is_said_to_be_emulated():
+def test_our_figures_stand_beside_the_papers_and_are_marked_as_emulated():
     first, _, header, _, row, other, _, note = reproduced(TWO_ROWS).splitlines()
     assert "ours is emulated" in first and "a paper, table I" in first
     assert header.split() == ["m", "ours:", *FIVE, "paper:", *FIVE]
@@ -114,11 +114,11 @@ def test_ours_and_the_papers_stand_beside_each_other_and_ours_is_said_to_be_emul
     assert note == "A note."
 
 
-@pytest.mark.parametrize(("ending", "begins"), [("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")])
-def test_boxes_and_floors_are_drawn_in_the_format_that_the_ending_names(tmp_path, ending, begins):
+@pytest.mark.parametrize(("ending", "magic"), [("png", b"\x89PNG"), ("svg", b"<?xml"), ("pdf", b"%PDF")])
+def test_boxes_and_floors_are_drawn_in_the_format_that_the_ending_names(tmp_path, ending, magic):
     figures = pytest.importorskip("solepath.lab.tables.figures", exc_type=ImportError)
     figures.draw(TWO_ROWS, tmp_path / f"figure.{ending}")
-    assert (tmp_path / f"figure.{ending}").read_bytes().startswith(begins)
+    assert (tmp_path / f"figure.{ending}").read_bytes().startswith(magic)
 
 
 LONGEST = "footstep-tracker"
@@ -142,13 +142,13 @@ def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeyp
     monkeypatch.setattr(ways, "FEWEST", 1)
     monkeypatch.setattr(ways, "MOST", 1)
     monkeypatch.chdir(tmp_path)
-    told, figure = Path("table.json"), Path(f"{name}.png")
-    options = ("--walks", 1, "--seed", 3, "--processes", 1, "--json", told)
+    json_path, figure = Path("table.json"), Path(f"{name}.png")
+    options = ("--walks", 1, "--seed", 3, "--processes", 1, "--json", json_path)
     done = run("reproduce", name, *options, "--figure")  # named after the experiment when nothing is said
     assert done.returncode == 0 and done.stderr == ""
     assert f"{name}: ours is emulated" in done.stdout
     assert done.stdout.endswith(f"figure drawn in {figure}\n") and figure.read_bytes().startswith(b"\x89PNG")
-    table = json.loads(told.read_text(), parse_constant=pytest.fail)
+    table = json.loads(json_path.read_text(), parse_constant=pytest.fail)
     assert list(table) == ["name", "emulated", "table", "paper"]
     assert table["name"] == name and table["emulated"] is True
     assert list(table["table"]) == list(table["paper"])
@@ -157,19 +157,19 @@ def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeyp
     assert any(of["mean"] is not None for of in table["paper"].values())
 
 
-def test_an_experiment_that_there_is_not_is_refused_in_one_line():
+def test_an_unknown_experiment_is_rejected_in_one_line():
     assert refused("reproduce", "kupt") == (
         "solepath: there is no experiment 'kupt'; there are: " + ", ".join(NAMES) + "\n"
     )
 
 
 @pytest.mark.parametrize("walks", ["0", "-1", "many", "1.5"])
-def test_no_walks_are_refused(walks):
+def test_fewer_than_one_walk_is_rejected(walks):
     done = run("reproduce", "kupt-dfpc", f"--walks={walks}")
     assert done.returncode == 2 and f"'{walks}' is not a number of 1 or more" in done.stderr
 
 
-def test_what_cannot_be_written_is_said_before_anybody_walks(tmp_path):
+def test_an_unwritable_file_is_reported_before_the_walks_start(tmp_path):
     pytest.importorskip("matplotlib")
     nowhere = tmp_path / "none" / "table.json"
     assert f"{nowhere}: No such file" in refused("reproduce", "kupt-dfpc", "--json", nowhere)
@@ -177,7 +177,7 @@ def test_what_cannot_be_written_is_said_before_anybody_walks(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_a_figure_without_matplotlib_is_refused_in_one_line(tmp_path):
+def test_a_figure_without_matplotlib_is_rejected_in_one_line(tmp_path):
     code = (
         "import sys\nsys.modules['matplotlib'] = None\nimport importlib.util\n"
         "from solepath.cli import main\n"

@@ -1,8 +1,8 @@
-"""What docs/papers.md says came of the papers' claims, walked in full.
+"""The claims of the papers as docs/papers.md reports them, with the full number of walks.
 
     python -m pytest -m soak tests/lab/test_reproduce_claims.py
 
-Takes some minutes. What a claim missed is not asserted here but said there.
+Takes some minutes. A claim that is not reproduced is not asserted here; docs/papers.md reports it.
 """
 
 from __future__ import annotations

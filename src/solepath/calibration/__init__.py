@@ -1,4 +1,4 @@
-"""What is known of wearer, shoes and insoles: a record; what it may hold is in limits.py, its file in file.py."""
+"""Records of what is known of wearer, shoes and insoles; limits.py has their limits, file.py their file."""
 
 from .records import Calibration, CalibrationError, InsoleCalibration, Limbs, Newtons, ShoeGeometry, merged
 

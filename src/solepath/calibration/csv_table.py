@@ -1,4 +1,4 @@
-"""Tables that somebody measured: a csv file with named columns, every mistake told with its line."""
+"""Reads measured tables: csv files with named columns. Every mistake is reported with its line number."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ from .records import CalibrationError
 
 @frozen
 class TableRow:
-    """One line of a table; `where` names it in a sentence."""
+    """One line of a table; `where` is the file and line as messages name them."""
 
     where: str
     cells: dict[str, str]
 
     def has(self, column: str) -> bool:
-        """Whether something stands there."""
+        """Return whether the cell of this column is not empty."""
         return bool(self.cells.get(column, ""))
 
     def word(self, column: str) -> str:
-        """What stands there. CalibrationError when nothing does."""
+        """Return the text of this column. Raise CalibrationError when it is empty."""
         if not self.has(column):
             raise CalibrationError(f"{self.where}: nothing in column {column}")
         return self.cells[column]
 
     def number(self, column: str, low: float = -inf, high: float = inf, unit: str = "") -> float:
-        """A finite number from `low` to `high`. CalibrationError when there is none."""
+        """Return a finite number from `low` to `high`. Raise CalibrationError when the cell holds none."""
         text = self.cells.get(column, "")
         try:
             value = float(text)
@@ -45,7 +45,7 @@ class TableRow:
         return value
 
     def one_of(self, column: str, allowed: Collection[str]) -> str:
-        """One of these words. CalibrationError when it is another."""
+        """Return the cell's text, which is one of `allowed`. Raise CalibrationError when it is not."""
         text = self.cells.get(column, "")
         if text not in allowed:
             raise CalibrationError(f"{self.where}: {column} is {text!r}, not one of {', '.join(allowed)}")
@@ -53,8 +53,11 @@ class TableRow:
 
 
 def read_rows(path: Path | str, columns: Collection[str]) -> list[TableRow]:
-    """The lines of a csv file below its header, empty ones left out. CalibrationError when the file cannot be read,
-    has not one of each of `columns`, or has a line of another length."""
+    """Return the lines of a csv file below its header, without empty lines.
+
+    CalibrationError is raised when the file cannot be read, does not have each of `columns` exactly once, or has a line
+    whose length differs from the header's.
+    """
     try:
         text = StringIO(bounded_text(Path(path), "utf-8-sig"), newline="")
         lines = [[cell.strip() for cell in line] for line in csv.reader(text)]

@@ -1,4 +1,4 @@
-"""What can be known of a wearer, a shoe or an insole: a program may have put anything into the records."""
+"""Checks calibration records: the type and the range of every value, because a program may put anything into them."""
 
 from __future__ import annotations
 
@@ -9,18 +9,21 @@ from ..types.attrs import fields
 from .records import Calibration, InsoleCalibration, Limbs, Newtons, ShoeGeometry
 
 _Limit = tuple[str, object, float, float, str]
-"""A key, its value, the least and the most that it can be, and their unit."""
+"""Key, value, smallest and largest allowed value, and unit of one number of a calibration."""
 
 
 def unusable(calibration: Calibration) -> str | None:
-    """Why it cannot be used: the first key whose value is none of a wearer, a shoe or an insole; None when it can. The
-    limits are those of protocol/calibration.md."""
-    misshapen = next(_misshapen(calibration), None)
-    if misshapen is not None:
-        return misshapen
+    """Return why a calibration cannot be used, or None when it can.
+
+    The sentence names the first key whose value is impossible for a wearer, a shoe or an insole. The limits are those
+    of protocol/calibration.md.
+    """
+    wrong_type = next(_type_problems(calibration), None)
+    if wrong_type is not None:
+        return wrong_type
     for key, value, least, most, unit in _limits(calibration):
         if isinstance(value, bool) or not isinstance(value, int | float) or not least <= value <= most:
-            return f"{key} is {_shown(value)}; it can be {least:g} to {most:g}{unit}"
+            return f"{key} is {_describe(value)}; it can be {least:g} to {most:g}{unit}"
     for foot, insole in calibration.insoles.items():
         if insole.newtons is not None and insole.newtons.threshold > insole.newtons.most:
             return f"insoles.{foot.value}.newtons.threshold is more than its most"
@@ -29,55 +32,54 @@ def unusable(calibration: Calibration) -> str | None:
     return None
 
 
-def _misshapen(calibration: Calibration) -> Iterator[str]:
-    """What is of another kind than the records above say: a program may have put anything into them. Numbers are left
-    to _limits."""
-    yield from _table("insoles", calibration.insoles, Foot)
+def _type_problems(calibration: Calibration) -> Iterator[str]:
+    """Yield a sentence for every value whose type is not the declared one. `_limits` checks the numbers."""
+    yield from _check_dict("insoles", calibration.insoles, Foot)
     for foot, insole in calibration.insoles.items():
         key = f"insoles.{foot.value}"
-        yield from _kind(key, insole, InsoleCalibration)
+        yield from _check_type(key, insole, InsoleCalibration)
         if insole.layout is not None:
-            yield from _kind(f"{key}.layout", insole.layout, Layout)
-            yield from _kind(f"{key}.layout.cells", insole.layout.cells, tuple)
+            yield from _check_type(f"{key}.layout", insole.layout, Layout)
+            yield from _check_type(f"{key}.layout.cells", insole.layout.cells, tuple)
             for cell in insole.layout.cells:
-                yield from _kind(f"one of {key}.layout.cells", cell, Cell)
+                yield from _check_type(f"one of {key}.layout.cells", cell, Cell)
         if insole.newtons is not None:
-            yield from _kind(f"{key}.newtons", insole.newtons, Newtons)
-            yield from _row(f"{key}.newtons.coefficients", insole.newtons.coefficients, 4)
-        yield from _row(f"{key}.noise", insole.noise)
+            yield from _check_type(f"{key}.newtons", insole.newtons, Newtons)
+            yield from _check_tuple(f"{key}.newtons.coefficients", insole.newtons.coefficients, 4)
+        yield from _check_tuple(f"{key}.noise", insole.noise)
     if calibration.shoe is not None:
-        yield from _kind("shoe", calibration.shoe, ShoeGeometry)
-        yield from _row("shoe.forefoot_radius", calibration.shoe.forefoot_radius)
-        yield from _row("shoe.pivot_to_toe", calibration.shoe.pivot_to_toe)
-    yield from _table("drift", calibration.drift, Foot)
+        yield from _check_type("shoe", calibration.shoe, ShoeGeometry)
+        yield from _check_tuple("shoe.forefoot_radius", calibration.shoe.forefoot_radius)
+        yield from _check_tuple("shoe.pivot_to_toe", calibration.shoe.pivot_to_toe)
+    yield from _check_dict("drift", calibration.drift, Foot)
     for foot, slope in calibration.drift.items():
-        yield from _row(f"drift.{foot.value}", slope, 2)
+        yield from _check_tuple(f"drift.{foot.value}", slope, 2)
     if calibration.limbs is not None:
-        yield from _kind("limbs", calibration.limbs, Limbs)
+        yield from _check_type("limbs", calibration.limbs, Limbs)
     if calibration.modes is not None:
-        yield from _table("modes", calibration.modes, Foot)
+        yield from _check_dict("modes", calibration.modes, Foot)
         for foot, modes in calibration.modes.items():
-            yield from _table(f"modes.{foot.value}", modes, WalkingMode)
-            for mode, way in modes.items():
-                yield from _row(f"modes.{foot.value}.{mode.value}", way, 2)
-    yield from _table("toe_out", calibration.toe_out, Foot)
+            yield from _check_dict(f"modes.{foot.value}", modes, WalkingMode)
+            for mode, compensation in modes.items():
+                yield from _check_tuple(f"modes.{foot.value}.{mode.value}", compensation, 2)
+    yield from _check_dict("toe_out", calibration.toe_out, Foot)
 
 
-def _kind(key: str, value: object, kind: type) -> Iterator[str]:
+def _check_type(key: str, value: object, kind: type) -> Iterator[str]:
     if not isinstance(value, kind):
-        yield f"{key} is {_shown(value)}, no {kind.__name__}"
+        yield f"{key} is {_describe(value)}, no {kind.__name__}"
 
 
-def _table(key: str, value: object, keys: type) -> Iterator[str]:
-    yield from _kind(key, value, dict)
+def _check_dict(key: str, value: object, keys: type) -> Iterator[str]:
+    yield from _check_type(key, value, dict)
     for one in value if isinstance(value, dict) else ():
         if not isinstance(one, keys):
-            yield f"{key} has the key {_shown(one)}, no {keys.__name__}"
+            yield f"{key} has the key {_describe(one)}, no {keys.__name__}"
 
 
-def _row(key: str, value: object, count: int | None = None) -> Iterator[str]:
+def _check_tuple(key: str, value: object, count: int | None = None) -> Iterator[str]:
     if not isinstance(value, tuple) or count is not None and len(value) != count:
-        yield f"{key} is {_shown(value)}, not a tuple of {'numbers' if count is None else f'{count} numbers'}"
+        yield f"{key} is {_describe(value)}, not a tuple of {'numbers' if count is None else f'{count} numbers'}"
 
 
 def _limits(calibration: Calibration) -> Iterator[_Limit]:
@@ -101,8 +103,8 @@ def _limits(calibration: Calibration) -> Iterator[_Limit]:
     if calibration.weight is not None:
         yield "weight", calibration.weight, 50.0, 5000.0, " N"
     for foot, modes in (calibration.modes or {}).items():
-        for mode, way in modes.items():
-            yield from ((f"modes.{foot.value}.{mode.value}", length, -0.5, 0.5, " m") for length in way)
+        for mode, compensation in modes.items():
+            yield from ((f"modes.{foot.value}.{mode.value}", length, -0.5, 0.5, " m") for length in compensation)
 
 
 def _limits_of_insole(key: str, insole: InsoleCalibration) -> Iterator[_Limit]:
@@ -125,7 +127,7 @@ def _limits_of_insole(key: str, insole: InsoleCalibration) -> Iterator[_Limit]:
 
 
 def _unusable_shoe(shoe: ShoeGeometry) -> str | None:
-    """The polynomials say lengths wherever they are good."""
+    """Return why the shoe's polynomials are unusable, or None. Each gives -1 to 1 m at five pitches to `steepest`."""
     for key, polynomial in (("forefoot_radius", shoe.forefoot_radius), ("pivot_to_toe", shoe.pivot_to_toe)):
         for k in range(5):
             pitch, length = 0.25 * k * shoe.steepest, 0.0
@@ -136,9 +138,9 @@ def _unusable_shoe(shoe: ShoeGeometry) -> str | None:
     return None
 
 
-def _shown(value: object) -> str:
+def _describe(value: object) -> str:
     if isinstance(value, int) and not abs(value) < 10**30:
-        return "a huge number"  # Python does not write all of them
+        return "a huge number"  # Python does not convert very long integers to text
     if value is None or isinstance(value, str | int):
         return repr(value)[:40]
     return f"{value:g}" if isinstance(value, float) else f"a {type(value).__name__}"

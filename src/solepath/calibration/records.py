@@ -1,4 +1,4 @@
-"""What is known of a wearer, a pair of shoes and a pair of insoles beyond what they say themselves.
+"""Records of what is known of a wearer, a pair of shoes and a pair of insoles beyond what the devices send.
 
 Everything here is optional: a session without a calibration runs on defaults and on what it learns.
 """
@@ -12,13 +12,16 @@ from ..types.attrs import evolve, field, fields, frozen
 
 
 class CalibrationError(ValueError):
-    """A calibration cannot be read or used: one sentence that says what is wrong."""
+    """A calibration cannot be read or used; the message is one sentence that says what is wrong."""
 
 
 @frozen
 class Newtons:
-    """From a cell's raw value to newtons by a cubic, N = a + b c + c2 c^2 + c3 c^3, as fitted to gauge data (Gong et
-    al. 2023, Sensors 23, 5417, fig. 6). Below `threshold` (N) a cell reads 0, beyond `most` (N) it reads `most`."""
+    """Cubic that turns a cell's raw value c into newtons: N = a + b c + c2 c^2 + c3 c^3.
+
+    It is fitted to gauge data (Gong et al. 2023, Sensors 23, 5417, fig. 6). Below `threshold` (N) a cell reads 0, above
+    `most` (N) it reads `most`.
+    """
 
     coefficients: tuple[float, float, float, float]
     threshold: float = 5.0
@@ -27,8 +30,11 @@ class Newtons:
 
 @frozen
 class InsoleCalibration:
-    """One insole. `layout`: where its cells are, for devices and files that do not say. `noise`: what each cell shows
-    in the air, unit of the samples, or N where there are `newtons` (Chen et al. 2019, equation (1))."""
+    """Calibration of one insole.
+
+    `layout` has the positions of the cells, for devices and files that do not send them. `noise` has the reading of
+    each unloaded cell, in the unit of the samples, or in N where there are `newtons` (Chen et al. 2019, equation (1)).
+    """
 
     layout: Layout | None = None
     newtons: Newtons | None = None
@@ -37,20 +43,21 @@ class InsoleCalibration:
 
 @frozen
 class ShoeGeometry:
-    """The shoe as Chen et al. 2019 have it in figs. 5 to 7; the defaults are their shoe (10.5 US), in m.
+    """Geometry of a shoe, m, as in figs. 5 to 7 of Chen et al. 2019. The defaults are their shoe (10.5 US).
 
     `heel_radius`: L_r from the heel's end to the point below the sensor. `height`: H_imu, from there to the sensor.
-    `forefoot_radius` and `pivot_to_toe`: L_r and L_p2t as polynomials of the heel-up pitch (rad), constant first, good
+    `forefoot_radius` and `pivot_to_toe`: L_r and L_p2t as polynomials of the heel-up pitch (rad), constant first, valid
     from flat to `steepest` (rad).
 
-    The paper gives no coefficients for the forefoot. The defaults come from geometry: the sensor 12.5 cm before the
-    heel's end of a shoe of 28.5 cm with a rigid sole, and from 19.5 cm on a rocker of radius R = 5 cm, tangent to the
-    sole, that rolls without slip. A ruler along the flat bottom meets the ground R tan(p/2) behind the point of contact
-    at pitch p, while that point has moved R p ahead on the ground. With the pivot where ruler and ground meet
+    The paper gives no coefficients for the forefoot. The defaults come from geometry: a shoe of 28.5 cm with the sensor
+    12.5 cm before the heel's end. The sole is rigid, and from 19.5 cm on it is a rocker of radius R = 5 cm, tangent to
+    the sole, that rolls without slip. At pitch p a ruler along the flat bottom meets the ground R tan(p/2) behind the
+    point of contact, and that point has moved R p ahead on the ground. With the pivot where ruler and ground meet
 
         L_r = 0.070 + R tan(p/2)            L_p2t = 0.090 - R p + R tan(p/2)
 
-    in m, exactly; tan(p/2) = p/2 + p^3/24 + p^5/240 + ... makes polynomials of them, to 0.2 mm up to `steepest`.
+    in m, exactly. The series tan(p/2) = p/2 + p^3/24 + p^5/240 + ... turns them into polynomials, accurate to 0.2 mm up
+    to `steepest`.
     """
 
     heel_radius: float = 0.125
@@ -62,13 +69,16 @@ class ShoeGeometry:
 
 @frozen
 class Limbs:
-    """Lengths of the lower limbs, m: between the hip joints, thigh, shank, foot from below the ankle to its end, and
-    height of the ankle above the ground.
+    """Lengths of the lower limbs, m.
 
-    The defaults are those of a wearer of 1.75 m. Thigh 0.245, shank 0.246, foot 0.152 and ankle 0.039 of the height by
+    `hip_width` is the distance between the hip joints, `foot` reaches from below the ankle to the end of the foot, and
+    `ankle_height` is the height of the ankle above the ground.
+
+    The defaults are those of a wearer of 1.75 m. Thigh 0.245, shank 0.246, foot 0.152 and ankle 0.039 of the height are
     the proportions of Drillis and Contini (1966), as in Winter, Biomechanics and Motor Control of Human Movement; three
-    quarters of the foot lie before the ankle. Their 0.191 are the breadth of the hips; the joints lie inward of the
-    spines, 0.24 m apart, by 14 % of that each (Bell, Brand and Pedersen 1989, Human Movement Science 8).
+    quarters of the foot lie before the ankle. Their 0.191 is the breadth of the hips. The joints lie inward of the
+    spines, which are 0.24 m apart, by 14 % of that distance on each side (Bell, Brand and Pedersen 1989, Human Movement
+    Science 8).
     """
 
     hip_width: float = 0.173
@@ -80,13 +90,13 @@ class Limbs:
 
 @frozen
 class Calibration:
-    """All of it; what was not calibrated is None or absent.
+    """The whole calibration; what was not calibrated is None or absent.
 
-    `drift`: slope of a foot's position, m/s (x, y), in the world of the device where it tells its attitude, and else in
-    the navigation frame, whose heading is that of the sensor at the start: then it holds for walks that start as the
-    calibration did. `weight`: of the wearer, N.
-    `modes`: compensation of a touchdown by foot and walking mode, (forward, left), m. `toe_out`: from a foot's way to
-    where it points, outwards positive, rad (Liu et al. 2015, equation (1)).
+    `drift` is the slope of a foot's position, m/s (x, y). It is in the world frame of the device where the device sends
+    its attitude. Otherwise it is in the navigation frame, whose heading is that of the sensor at the start, so it holds
+    for walks that start as the calibration did. `weight` is the wearer's, N. `modes` is the compensation of a touchdown
+    by foot and walking mode, (forward, left), m. `toe_out` is the angle from the direction of walking to the foot's
+    long axis, outwards positive, rad (Liu et al. 2015, equation (1)).
     """
 
     insoles: dict[Foot, InsoleCalibration] = field(factory=dict)
@@ -98,18 +108,20 @@ class Calibration:
     toe_out: dict[Foot, float] = field(factory=dict)
 
     def insole(self, foot: Foot) -> InsoleCalibration:
-        """Of this foot's insole; an empty one where none is known."""
+        """Return the calibration of this foot's insole; an empty one where none is known."""
         return self.insoles.get(foot, InsoleCalibration())
 
 
 def merged(known: Calibration, newer: Calibration) -> Calibration:
-    """`known` with everything that `newer` holds in its place, insole by insole and part by part. Noise that was learnt
-    in one unit is no longer known when newtons are: it goes."""
+    """Return `known` with every value that `newer` holds in its place, insole by insole and part by part.
+
+    Noise that was learnt in one unit is dropped when `newer` changes the conversion to newtons.
+    """
     insoles = dict(known.insoles)
     for foot, insole in newer.insoles.items():
         before = insoles.get(foot, InsoleCalibration())
         if insole.newtons is not None and insole.newtons != before.newtons:
-            before = evolve(before, noise=())  # it was measured in another unit
+            before = evolve(before, noise=())  # the noise was measured in another unit
         insoles[foot] = _over(before, insole)
     drift = {**known.drift, **newer.drift}
     toe_out = {**known.toe_out, **newer.toe_out}
@@ -125,5 +137,5 @@ _Known = TypeVar("_Known", Calibration, InsoleCalibration)
 
 
 def _over(known: _Known, newer: _Known) -> _Known:
-    said = {f.name: getattr(newer, f.name) for f in fields(type(newer)) if getattr(newer, f.name)}
-    return evolve(known, **said)
+    replaced = {f.name: getattr(newer, f.name) for f in fields(type(newer)) if getattr(newer, f.name)}
+    return evolve(known, **replaced)

@@ -110,7 +110,7 @@ def _show(demo: Demo, view: View, pace: float) -> None:
     from ..show.page.scene.scene import Scene
 
     scene = Scene("An emulated walk", "default", "demo", plan=None if demo.plan is None else demo.plan.plan)
-    player = Player(KeptItems(demo.walk.packets), demo.session, scene, demo.plan, told=demo.told)
+    player = Player(KeptItems(demo.walk.packets), demo.session, scene, demo.plan, told=demo.add_events)
     play(player, view, pace)
     run_rest(player, "walk")
 

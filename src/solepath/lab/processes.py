@@ -1,4 +1,4 @@
-"""Work that is the same for many jobs, done by several processes."""
+"""Runs the same function on many jobs in several processes."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ Job = TypeVar("Job")
 Done = TypeVar("Done")
 
 Progress = Callable[[int, int], None]
-"""Is called with (jobs done, all jobs)."""
+"""Function that is called with (jobs done, number of all jobs)."""
 
 
-def each(
+def run_jobs(
     work: Callable[[Job], Done],
     jobs: Sequence[Job],
     *,
@@ -23,8 +23,10 @@ def each(
     before: int = 0,
     after: int = 0,
 ) -> Iterator[Done]:
-    """What `work`, a function of a module, makes of every job, in their order. `before`, `after`: how many jobs of
-    other work the progress counts before and after these."""
+    """Yield the result of `work`, a function of a module, for every job, in the order of the jobs.
+
+    `before` and `after` are the numbers of jobs of other work that the progress counts before and after these.
+    """
     with ExitStack() as stack:
         many = processes > 1 and len(jobs) > 1
         pool = stack.enter_context(ProcessPoolExecutor(min(processes, len(jobs)))) if many else None

@@ -1,4 +1,4 @@
-"""A declared device against its vectors (protocol/README.md, "Vectors"): do they say the same?"""
+"""Checks a declared device against its test vectors (protocol/README.md, "Vectors")."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from ..link.reading_check import check_reading
 from ..wire.error import WireError
 
 SCHEMA = "solepath vectors 1"
-_BESIDE = ("tolerance", "known")
-"""What stands in `physical` and is no field of a Reading."""
+_NOT_FIELDS = ("tolerance", "known")
+"""Keys of `physical` that are not fields of a Reading."""
 
 
 def disagreements(driver: Driver, file: Mapping[str, Any]) -> list[str]:
-    """A sentence for everything in which a vector file (as json.load gives it) and the driver disagree, and for every
-    mistake in the file itself; none is good.
+    """Return a sentence for every disagreement of a vector file and a driver, and for every mistake in the file itself.
 
-    `fields` of a valid vector are what the channel's construct parses, and build the same bytes again. `physical` may
-    name fields of the Reading, to `tolerance`, read with `known`. An invalid vector is refused for its `reason`, by the
-    construct, by the reader, or because no device can mean it (sound.py).
+    `file` is what json.load returns; an empty list is good. `fields` of a valid vector are what the channel's construct
+    parses, and they build the same bytes again. `physical` may name fields of the Reading, which agree to `tolerance`
+    and are read with `known`. An invalid vector is rejected for its `reason`: by the construct, by the reader, or
+    because no device can send it (sound.py).
     """
     if not isinstance(file, Mapping):
         return ["a vector file is an object"]
@@ -43,11 +43,11 @@ def disagreements(driver: Driver, file: Mapping[str, Any]) -> list[str]:
         if vector["id"] in seen:
             found.append(f"{vector['id']}: it is there twice")
         seen.add(vector["id"])
-        found += [f"{vector['id']}: {what}" for what in _differs(driver, channel, vector)]
+        found += [f"{vector['id']}: {what}" for what in _check_vector(driver, channel, vector)]
     return found
 
 
-def _differs(driver: Driver, channel: str, vector: Mapping[str, Any]) -> Iterator[str]:
+def _check_vector(driver: Driver, channel: str, vector: Mapping[str, Any]) -> Iterator[str]:
     result, physical = vector.get("result"), vector.get("physical", {})
     try:
         data = bytes.fromhex(vector.get("hex"))  # type: ignore[arg-type]
@@ -73,11 +73,11 @@ def _differs(driver: Driver, channel: str, vector: Mapping[str, Any]) -> Iterato
     if result != "valid":
         yield f"taken, and should be {vector['reason']}"
         return
-    yield from _builds(driver, channel, vector, parsed, data)
-    yield from _means(reading, physical)
+    yield from _check_build(driver, channel, vector, parsed, data)
+    yield from _check_physical(reading, physical)
 
 
-def _builds(driver: Driver, channel: str, vector: Mapping[str, Any], parsed: Any, data: bytes) -> Iterator[str]:
+def _check_build(driver: Driver, channel: str, vector: Mapping[str, Any], parsed: Any, data: bytes) -> Iterator[str]:
     if "fields" not in vector:
         yield "no 'fields' that it says"
         return
@@ -92,13 +92,13 @@ def _builds(driver: Driver, channel: str, vector: Mapping[str, Any], parsed: Any
         yield f"is built as {built.hex()}"
 
 
-def _means(reading: Reading, physical: Mapping[str, Any]) -> Iterator[str]:
+def _check_physical(reading: Reading, physical: Mapping[str, Any]) -> Iterator[str]:
     tolerance = physical.get("tolerance")
     if physical and not _numbers({"tolerance": tolerance}):
         yield f"'physical' has a 'tolerance' that is a number, not {tolerance!r}"
         return
     for name, value in physical.items():
-        if name in _BESIDE:
+        if name in _NOT_FIELDS:
             continue
         if name not in attrs.fields_dict(Reading):
             yield f"a Reading has no {name!r}"
@@ -111,7 +111,7 @@ def _numbers(named: Any) -> bool:
 
 
 def plain(value: Any) -> Any:
-    """As JSON has it: records and construct's Containers as dicts, sequences as lists, enums as their values."""
+    """Convert a value to JSON's types: records and construct's Containers to dicts, enums to their values."""
     if attrs.has(type(value)):
         return plain(attrs.asdict(value, recurse=False))
     if isinstance(value, Mapping):
@@ -122,7 +122,7 @@ def plain(value: Any) -> Any:
 
 
 def _close(found: Any, expected: Any, tolerance: float) -> bool:
-    """Whether `found` has all that `expected` names, numbers to `tolerance`."""
+    """Return whether `found` has all that `expected` names, numbers to `tolerance`."""
     if isinstance(expected, Mapping):
         return isinstance(found, dict) and all(
             [name in found and _close(found[name], item, tolerance) for name, item in expected.items()]

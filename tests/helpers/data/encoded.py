@@ -6,7 +6,7 @@ from typing import Any
 
 
 def other(value: Any) -> Any:
-    """As JavaScript would write it: 1.0 is 1, -0.0 is 0, keys in order."""
+    """Return the value as JavaScript would write it: 1.0 is 1, -0.0 is 0, keys in order."""
     if isinstance(value, float) and value.is_integer():
         return int(value)
     if isinstance(value, dict):

@@ -18,8 +18,10 @@ from solepath.types.vector import GRAVITY
 
 @frozen
 class Ramp:
-    """Ground that rises by `grade` for each metre from `x` to `x + length`, m along the first heading, and is level
-    before and after; its ends are rounded over `ease` m."""
+    """Ground that rises by `grade` for each metre from `x` to `x + length`, m along the first heading.
+
+    It is level before and after; its ends are rounded over `ease` m.
+    """
 
     x: float
     length: float
@@ -28,11 +30,11 @@ class Ramp:
 
     @property
     def height(self) -> float:
-        """m from the one level to the other."""
+        """Height difference of the two levels, m."""
         return self.grade * self.length
 
     def ground(self, x: Array) -> tuple[Array, Array, Array]:
-        """Height h of the ground, m, and its derivatives h' and h'' in x, at `x` m."""
+        """Return the height h of the ground, m, and its derivatives h' and h'' in x, at `x` m."""
         # h' goes from 0 to the grade and back along tanh; the integral of that is a log cosh
         u, v = (x - self.x) / self.ease, (x - self.x - self.length) / self.ease
         half, tu, tv = 0.5 * self.grade, np.tanh(u), np.tanh(v)
@@ -40,7 +42,7 @@ class Ramp:
         return h, half * (tu - tv), half / self.ease * (tv * tv - tu * tu)
 
     def under(self, level: Kinematics) -> Kinematics:
-        """A sensor's motion over level ground, with this ground below it."""
+        """Return a sensor's motion over level ground with this ground below it."""
         h, first, second = self.ground(level.position[:, 0])
         vx, ax = level.velocity[:, 0], level.acceleration[:, 0]
         up = np.array([0.0, 0.0, 1.0])
@@ -66,13 +68,13 @@ def _log_cosh(u: Array) -> Array:
 
 
 def _about_y(c: Array, s: Array, q: Array) -> Array:
-    """The turns (c, 0, s, 0) after those of `q`, (N, 4)."""
+    """Return the turns (c, 0, s, 0) after those of `q`, (N, 4)."""
     w, x, y, z = q.T
     return np.stack([c * w - s * y, c * x + s * z, c * y + s * w, c * z - s * x], axis=1)
 
 
 def _into(q: Array, v: Array) -> Array:
-    """World vectors (N, 3) in the axes of sensors with the attitudes `q` (N, 4)."""
+    """Return world vectors (N, 3) in the axes of sensors with the attitudes `q` (N, 4)."""
     w, r = q[:, :1], -q[:, 1:]
     t = 2.0 * np.cross(r, v)
     return np.asarray(v + w * t + np.cross(r, t))

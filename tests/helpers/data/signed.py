@@ -1,4 +1,4 @@
-"""Packed sessions whose damage no checksum tells."""
+"""Damaged packed sessions with a valid checksum."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from solepath.session.packed import HEADER
 
 
 def signed(data: bytes) -> bytes:
-    """With the checksum that it ought to have, so that what is behind it is looked at."""
+    """Return the data with a valid checksum, so that the damage behind it is reached."""
     magic, form, version, made_with, _ = HEADER.unpack_from(data)
     start = HEADER.pack(magic, form, version, made_with, 0)
     return HEADER.pack(magic, form, version, made_with, crc32(data[HEADER.size :], crc32(start))) + data[HEADER.size :]

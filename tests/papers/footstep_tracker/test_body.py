@@ -23,7 +23,7 @@ from solepath.emulate.sensors.sensortags import CC2541
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.emulate.wearers.shoe import IN_SOLE
 from solepath.events import StrideTaken, TurnMade
-from solepath.lab.train.turns import ANGLES, read, trained, walk
+from solepath.lab.train.turns import ANGLES, read, train_weights, walk
 from solepath.papers.footstep_tracker.footsteps import Footsteps
 from solepath.papers.footstep_tracker.projection import Projection, ProjectionSettings
 from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
@@ -168,7 +168,7 @@ def test_turns_are_called_left_right_and_about(left: float, right: float, turn: 
 def test_the_weights_are_those_that_the_training_turns_give() -> None:
     examples = read()
     assert {one.turn for one in examples} == set(Turn) and min(one.seed for one in examples) >= 101
-    assert trained(examples) == WEIGHTS
+    assert train_weights(examples) == WEIGHTS
 
 
 def test_a_wearer_who_turns_is_told_to_have_turned() -> None:

@@ -11,8 +11,8 @@ from solepath.events import StrideTaken
 from solepath.lab.reproduce import shoe_sensing, shoe_walks
 from solepath.lab.reproduce.published import NORMALISED
 from solepath.lab.reproduce.published import SHOE_SENSING as PAPER
-from solepath.lab.reproduce.shoe_walks import FOOT, STATES, judged, matched, route_of, tour_route, worn
-from solepath.lab.reproduce.walks import heard
+from solepath.lab.reproduce.shoe_walks import FOOT, STATES, matched, route_of, score_strides, tour_route, worn
+from solepath.lab.reproduce.walks import run_session
 from solepath.papers.shoe_sensing.recipe import SHOE_SENSING
 
 
@@ -36,14 +36,14 @@ def test_the_nearest_is_matched_though_an_earlier_one_is_near_too() -> None:
 def test_two_steps_told_as_one_are_a_merged_one_that_is_off_by_a_whole_step(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(shoe_walks, "STEPS", 10)
     samples, truth = worn(route_of("walking"), 1)
-    steps = [event for event in heard(SHOE_SENSING, samples) if isinstance(event, StrideTaken)]
+    steps = [event for event in run_session(SHOE_SENSING, samples) if isinstance(event, StrideTaken)]
     first, second = steps[4:6]
     both = evolve(second, t_start=first.t_start, length=first.length + second.length)
-    whole = judged(steps, truth, "walking")
-    told = judged([*steps[:4], both, *steps[6:]], truth, "walking")
-    assert (whole.merged, told.merged, told.parted) == (0, 1, 0)
+    whole = score_strides(steps, truth, "walking")
+    told = score_strides([*steps[:4], both, *steps[6:]], truth, "walking")
+    assert (whole.merged, told.merged, told.split) == (0, 1, 0)
     assert len(told.whole) == len(told.lengths) - 1
-    assert told.missed == whole.missed + 1
+    assert told.not_found == whole.not_found + 1
     assert max(error for error, _ in told.lengths) == pytest.approx(first.length, abs=0.15)
 
 
@@ -72,9 +72,9 @@ def test_five_minutes_are_five_minutes() -> None:
 
 def test_on_the_stairs_those_strides_count_that_climb_two_risers() -> None:
     samples, truth = worn(route_of("upstairs"), 1)
-    steps = judged(heard(SHOE_SENSING, samples), truth, "upstairs")
+    steps = score_strides(run_session(SHOE_SENSING, samples), truth, "upstairs")
     climbed = [one for one in truth.steps(FOOT) if one.displacement[2] > 0.25]
-    assert steps.found + steps.missed == len(climbed)
+    assert steps.found + steps.not_found == len(climbed)
     assert steps.right == (True,) * steps.found
     assert all(80.0 < angle < 130.0 for angle in steps.angles)
 

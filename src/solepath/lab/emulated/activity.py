@@ -1,4 +1,4 @@
-"""What a recipe makes of the activities of emulated wearers, who wear SensorTags in their soles at 20 Hz."""
+"""Scores a recipe's activities on emulated wearers, who wear SensorTags in their soles at 20 Hz."""
 
 from __future__ import annotations
 
@@ -6,31 +6,33 @@ from attrs import frozen
 
 from ...recipes import Recipe
 from ...session import Session
-from ..evaluate.activity import compared, rides, windows
+from ..evaluate.activity import score_rides, score_samples, score_windows
 from ..evaluate.gathered import Gathering
 from ..measures.confusion import ActivityScore
 from ..train import emulated
 
 EVERY = 0.05
-"""The truth is asked so often, s."""
+"""Interval at which the true activity is sampled, s."""
 
 
 @frozen
-class Emulated:
-    """Of one walk."""
+class EmulatedScore:
+    """Activity scores of one walk."""
 
     windows: ActivityScore
-    """Windows of two seconds that lie within one activity."""
+    """Score of the windows of two seconds that lie within one activity."""
     time: ActivityScore
-    """All the time, changes included, and the rides."""
+    """Score of the whole time, changes of activity and lift rides included."""
 
 
-def score(recipe: Recipe, seed: int) -> Emulated:
-    """What a session of the recipe says of the walk of a seed. Score seeds that nothing was learnt from."""
+def score(recipe: Recipe, seed: int) -> EmulatedScore:
+    """Score a session of the recipe on the walk of a seed. Use seeds that nothing was learnt from."""
     walked = emulated.walk(seed)
     session = Session(recipe)
     gathering = Gathering.of(session.feed(walked.packets) + session.finish())
     truth = walked.truth
     t = [k * EVERY for k in range(int(truth.duration / EVERY))]
-    told = compared(t, [truth.activity(at) for at in t], gathering.timeline)
-    return Emulated(windows(truth.activities, gathering.timeline), told + rides(truth.activities, gathering.rides))
+    in_time = score_samples(t, [truth.activity(at) for at in t], gathering.timeline)
+    return EmulatedScore(
+        score_windows(truth.activities, gathering.timeline), in_time + score_rides(truth.activities, gathering.rides)
+    )

@@ -1,4 +1,4 @@
-"""What a session said of an emulated walk, against what really happened."""
+"""Compares the events of a session with the truth of an emulated walk."""
 
 from __future__ import annotations
 
@@ -15,30 +15,32 @@ from ..measures.matching import Errors, Matching, match, pairs
 from ..measures.strides import position_errors
 
 STEP_TOLERANCE = 0.4
-"""s between the ends of a true and a found step: less than half the shortest stride."""
+"""Largest time between the ends of a true and a found stride, s: less than half the shortest stride."""
 ALWAYS = ((-1e12, 1e12),)
-"""The whole walk is labelled: whatever is found in it is judged."""
+"""Labelled window that covers the whole walk, s, so that every found event is judged."""
 
 
 @frozen
 class FootComparison:
-    """One foot of one walk."""
+    """The strides and events of one foot in one walk, compared with the truth."""
 
     foot: Foot
     steps_true: int
+    """Number of true strides."""
     steps_found: int
-    """True steps that were found."""
+    """Number of true strides that were found."""
     steps_invented: int
-    """Found steps that never were."""
+    """Number of found strides that match no true one."""
     length_errors: Errors
-    """Relative error of each stride length (0.01 is 1 %), ours less the true one."""
+    """Relative error of each stride length, ours less the true one (0.01 is 1 %)."""
     events: dict[str, Matching]
-    """heel_strike, foot_flat, heel_off, toe_off."""
+    """Matched events by kind: heel_strike, foot_flat, heel_off, toe_off."""
     end_error: float | None
-    """Horizontal distance in m of the last position from the true one, after aligning the first two metres."""
+    """Horizontal distance of the last position from the true one, m, after alignment over the first two metres."""
 
 
 def compare(truth: Truth, feet: Mapping[Foot, FootRun]) -> list[FootComparison]:
+    """Return the comparison of each foot with the truth."""
     return [_compare(truth.feet[foot], run) for foot, run in feet.items()]
 
 
@@ -64,6 +66,6 @@ def _compare(truth: FootTruth, run: FootRun) -> FootComparison:
 def _end_error(truth: FootTruth, run: FootRun) -> float | None:
     if len(truth.steps) < 2 or not len(run.t):
         return None
-    rests = np.array([truth.steps[0].t_start, *(step.t_end for step in truth.steps), run.t[-1]])
-    places = truth.pose(rests).position[:, :2]
-    return float(position_errors(rests, places, run.t, run.positions)[-1])
+    t_stances = np.array([truth.steps[0].t_start, *(step.t_end for step in truth.steps), run.t[-1]])
+    places = truth.pose(t_stances).position[:, :2]
+    return float(position_errors(t_stances, places, run.t, run.positions)[-1])

@@ -1,4 +1,4 @@
-"""The demonstration as it is played: a session hears an emulated walk, and is compared with the truth."""
+"""The demonstration: a session receives an emulated walk and is compared with the truth."""
 
 from __future__ import annotations
 
@@ -24,32 +24,36 @@ from .place import PlaceScore, score
 
 @define
 class Demo:
-    """A walk on its way through a session. `play` goes on packet by packet, so that whoever shows it sets the pace;
-    `told` is for whoever feeds `session`, or one like it, himself."""
+    """An emulated walk and the session that receives it.
+
+    `play` goes on packet by packet, so that the caller sets the pace. A caller who feeds `session`, or a session like
+    it, passes the results to `add_events`.
+    """
 
     walk: EmulatedWalk
     session: Session
     way: BuildingWalk | None = None
-    """Through the emulated building; None where there is none."""
+    """BuildingWalk through the emulated building; None when the walk is not in the building."""
     plan: IndexedPlan | None = None
-    """Of that building."""
+    """Floor plan of that building; None when the walk is not in the building."""
     observer: Observer = field(factory=Observer)
     gathering: Gathering = field(factory=Gathering)
     _placed: list[Event] = field(factory=list)
 
     @property
     def duration(self) -> float:
+        """Duration of the walk, s."""
         return self.walk.truth.duration
 
     def play(self) -> Iterator[Packet]:
-        """Each packet after the session has taken it."""
+        """Yield each packet after the session has processed it."""
         for packet in self.walk.packets:
-            self.told(packet, self.session.feed(packet))
+            self.add_events(packet, self.session.feed(packet))
             yield packet
-        self.told(None, self.session.finish())
+        self.add_events(None, self.session.finish())
 
-    def told(self, packet: Packet | Sample | None, events: list[Event]) -> None:
-        """What a session said of a packet; of none, at the end."""
+    def add_events(self, packet: Packet | Sample | None, events: list[Event]) -> None:
+        """Add the events that a session returned for a packet; `packet` is None at the end."""
         self.observer.take(packet, events)
         for event in events:
             self.gathering.add(event)
@@ -57,22 +61,24 @@ class Demo:
                 self._placed.append(event)
 
     def comparison(self) -> list[FootComparison]:
-        """The session against the truth; once `play` is through."""
+        """Return the comparison of the session with the truth. Call it after `play` has finished."""
         return compare(self.walk.truth, {foot: self.gathering.foot(foot) for foot in Foot})
 
     def place(self) -> PlaceScore | None:
-        """The same of the place on the floor plan; None without one."""
+        """Return the score of the position on the floor plan; None without a plan."""
         return None if self.way is None else score(self.way, self.walk.walker, self.walk.truth, self._placed)
 
 
 def make_demo(seed: int, route: Route = ROUTE, radio: Radio = RADIO, *, pressures: bool = False) -> Demo:
-    """The walk of this seed, not yet played. `pressures`: its session emits FootPressed."""
+    """Return the walk of this seed, not yet played. `pressures`: its session emits FootPressed."""
     return Demo(emulate(route, radio=radio, seed=seed), Session(poses=True, pressures=pressures))
 
 
 def make_indoors(seed: int, radio: Radio = RADIO, *, pressures: bool = False) -> Demo:
-    """The same in the emulated building, whose plan the session has; nobody tells it where on it the wearer sets
-    out."""
+    """Return the walk of this seed in the emulated building, not yet played. `pressures` as in `make_demo`.
+
+    The session has the floor plan, but not the position on it from which the wearer starts.
+    """
     way, plan = wandering(WAY), IndexedPlan(BUILDING)
     session = Session(poses=True, pressures=pressures, floorplan=plan)
     return Demo(emulate(way.route, radio=radio, seed=seed), session, way, plan)

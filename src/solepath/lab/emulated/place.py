@@ -1,7 +1,7 @@
-"""How well the place on the plan of an emulated wearer's building was found.
+"""Scores the position on the floor plan for a wearer in the emulated building.
 
-A step is scored while its wearer is on a floor: not on stairs and in lifts, where the level is neither, nor for `PAUSE`
-after them, within which nobody can have told that they are over.
+A stride is scored while its wearer is on a floor. Stairs and lifts are left out, because the level is neither of the
+two floors there, and so is the time `PAUSE` after them, within which no method can know that they are over.
 """
 
 from __future__ import annotations
@@ -19,40 +19,45 @@ from ...emulate.wearers.walker import Walker
 from ...events import Event, Placed, PlaceLost, TurnMade
 
 PAUSE = 5.0
-"""s."""
+"""Time after stairs or a lift in which no stride is scored, s."""
 NEAR = 3.0
-"""A candidate within so much of the wearer, on the right level, is the true one, m."""
-SECOND = 2
-"""Turns: Liu et al. 2015 score places "started from the second turn" (fig. 13 g)."""
+"""Largest distance of the true candidate from the wearer, on the right level, m."""
+FIRST_SCORED_TURN = 2
+"""Number of the turn from which positions are scored.
+
+Liu et al. 2015 score places "started from the second turn" (fig. 13 g).
+"""
 
 Points = tuple[tuple[float, float], ...]
 
 
 @frozen
 class PlaceScore:
-    """Of one walk."""
+    """Score of the positions on the floor plan in one walk."""
 
     off: tuple[float, ...]
-    """How far off the place was after each scored step from the second turn on; a wrong level counts with its height
-    above or below the right one, m."""
+    """Position error after each scored stride from the second turn on, m.
+
+    A wrong level counts with its height above or below the right one.
+    """
     decided: int | None
-    """After so many steps on the plan there was one candidate, and that the true one; None when there never was."""
+    """Number of strides on the plan until the true candidate was the only one; None when that never happened."""
     dropped: int
-    """Scored steps after the first one that was placed of which the true candidate was missing, or there was none."""
+    """Number of scored strides after the first placed one that had no candidate, or not the true one."""
     wrong: int
-    """Scored steps with one candidate, and that not the true one."""
+    """Number of scored strides whose only candidate was not the true one."""
     steps: int
-    """Scored steps that were placed."""
+    """Number of scored strides that were placed."""
     path: Points = field(default=(), repr=False)
-    """Where the wearer was."""
+    """True positions of the wearer, (x, y), m."""
     track: Points = field(default=(), repr=False)
-    """The place, once there was one candidate ..."""
+    """Estimated positions once there was one candidate, (x, y), m."""
     before: Points = field(default=(), repr=False)
-    """... and all candidates of the time before."""
+    """All candidates of the time before there was one candidate, (x, y), m."""
 
 
 def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Event]) -> PlaceScore:
-    """What `events` told of the walk of `walker` along `way`."""
+    """Score the events of a session on the walk of `walker` along `way`."""
     placed = [event for event in events if isinstance(event, Placed)]
     lost = [event.t for event in events if isinstance(event, PlaceLost) and placed and event.t > placed[0].t]
     heights = {level.id: level.elevation for level in BUILDING.levels}
@@ -85,13 +90,13 @@ def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Even
 
 
 def on_a_floor(truth: Truth, t: float) -> bool:
-    """Whether a step at `t` s is scored."""
+    """Return whether a stride at `t` s is scored."""
     moved = [(one.start, one.end) for one in truth.flights] + [(one.start, one.end) for one in truth.rides]
-    return not any([begin <= t <= end + PAUSE for begin, end in moved])
+    return not any([start <= t <= end + PAUSE for start, end in moved])
 
 
 def _second_turn(events: Sequence[Event]) -> float:
-    """When the second turn on the plan was over, s."""
+    """Return the end of the second turn on the plan, s; infinity when there was none."""
     first = next((event.t for event in events if isinstance(event, Placed)), float("inf"))
     turns = [event.t for event in events if isinstance(event, TurnMade) and event.turn is not None and event.t > first]
-    return turns[SECOND - 1] if len(turns) >= SECOND else float("inf")
+    return turns[FIRST_SCORED_TURN - 1] if len(turns) >= FIRST_SCORED_TURN else float("inf")

@@ -1,16 +1,16 @@
-"""Long ways of emulated wearers, and how far off the session's position is then. Scorers are as datasets.py says.
+"""Scores the session's position after long walks of emulated wearers. Scorers have the form that datasets.py describes.
 
 Both feet wear insoles of 96 cells (odd seeds) or 24 (even ones) with the errors of an LSM6DSOX, at 100 Hz; the session
-gets their samples as a perfect link would carry them. Everything is drawn from the seed: the way, the gait, the
-devices. Score seeds from 1 to 50; whatever is tuned is tuned on seeds from 101 on.
+receives their samples as over a perfect link. Route, gait and devices are all drawn from the seed. Score seeds from 1
+to 50; tune on seeds from 101 on.
 
-The position is `session.position`, twice a second, against the mean of where both sensors truly are. The heading and
-the origin of a track are its own choice: one turn about the vertical and one shift, by least squares over the first
-ALIGNED m of the way, lay it over the truth. Then `position_end` is the horizontal distance at the end and
-`position_max` the largest on the way, in m, and `end_relative` and `largest_relative` the same as shares of the length
-of the way. So what the heading is off by after ALIGNED m counts over all that follows; `rms_2d` is what the best turn
-and shift over the whole way leave, as of a VICON track. Heights are compared as they are, from the first: `height_end`
-at the end, `height_max` the largest on the way.
+The position is `session.position`, twice a second, compared with the mean of the true positions of both sensors. A
+track has its own heading and origin, so one turn about the vertical and one shift, by least squares over the first
+ALIGNED m, align it with the truth. Then `position_end` is the horizontal distance at the end and `position_max` the
+largest one, in m; `end_relative` and `largest_relative` are the same two as shares of the path length. So the heading
+error after ALIGNED m counts over the rest of the walk. `rms_2d` is what remains after the best turn and shift over
+the whole walk, as for a VICON track. Heights are compared as they are, from the first: `height_end` is the error at
+the end, `height_max` the largest one.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from ...emulate.wearers.gait import Wearer
 from ...emulate.wearers.truth import Truth
 from ...session import Session
 from ...types import SITE_OF_FOOT, Foot, Site
-from ..evaluate.run import Meta, RunSettings, followed
+from ..evaluate.run import Meta, RunSettings, run_timed
 from ..measures.alignment import Floats, aligned_at_start, distances, track_error
 from ..measures.matching import Matching
 from ..measures.score import Figures, Scored
@@ -37,36 +37,36 @@ from ..measures.strides import StrideScore
 from .compare import compare
 
 ALIGNED = 10.0
-"""m."""
+"""Length of path over which a track is aligned with the truth, m."""
 EVERY = 0.5
-"""s between positions."""
+"""Interval between positions, s."""
 LONG_WAY = 500.0
-"""m."""
+"""Shortest length of the long walk, m."""
 HALF_HOUR = 1800.0
-"""s."""
+"""Shortest duration of the half-hour walk, s."""
 STILL = 3.0
-"""s of standing at the beginning, at the end, and at every halt."""
+"""Duration of standing at the start, at the end, and at every halt, s."""
 BETWEEN_HALTS = 150.0
-"""m, about."""
+"""Approximate distance between two halts, m."""
 FLOORS = 4
 RISERS, RISE, GOING = 10, 0.16, 0.30
-"""Of each of the two flights of a storey: 3.2 m from floor to floor."""
+"""Number, height (m) and depth (m) of the steps in each of a storey's two flights: 3.2 m from floor to floor."""
 LANDING = 1.0
-"""m of a landing before and after its turn, and radius of that turn (0.7 of it)."""
+"""Length of a landing before and after its turn, m; the turn's radius is 0.7 of it."""
 
 
 def long_way(seed: int) -> Route:
-    """500 m and what the last straight has more: straights of 8 to 40 m between turns."""
+    """Return a route of 500 m plus the rest of its last straight: straights of 8 to 40 m between turns."""
     return _wandered(seed, lambda length, seconds: length >= LONG_WAY)
 
 
 def half_hour(seed: int) -> Route:
-    """The same for thirty minutes of walking and halts, about 2 km."""
+    """Return a route of straights and turns for thirty minutes of walking and halts, about 2 km."""
     return _wandered(seed, lambda length, seconds: seconds >= HALF_HOUR)
 
 
 def four_floors(seed: int) -> Route:
-    """Up four storeys, to and fro along the corridor there, and down again; two flights a storey, a landing between."""
+    """Return a route up four storeys, to and fro along a corridor, and down; two flights and a landing a storey."""
     rng = np.random.default_rng([seed, 11])
     side = 0.5 * pi if rng.uniform() < 0.5 else -0.5 * pi
     speed = float(rng.uniform(1.1, 1.4))
@@ -99,16 +99,16 @@ def _wandered(seed: int, enough: Callable[[float, float], bool]) -> Route:
 
 
 def worn(seed: int) -> dict[Site, Insole]:
-    """The insoles of a seed's wearer."""
+    """Return the insoles of a seed's wearer."""
     return {SITE_OF_FOOT[foot]: Insole(cells=96 if seed % 2 else 24) for foot in Foot}
 
 
-def score_way(way: Callable[[int], Route], path: Path, meta: Meta, how: RunSettings) -> Scored:
-    """The way of the entry's seed, one of those above."""
+def score_way(way: Callable[[int], Route], path: Path, meta: Meta, settings: RunSettings) -> Scored:
+    """Score the route of the seed in the entry `meta`; `way` is one of the routes above."""
     seed: int = meta["seed"]
     walked = sampled(way(seed), wearer=Wearer(), insoles=worn(seed), seed=seed)
-    session, truth = Session(how.recipe, calibration=how.calibration), walked.truth
-    gathering, track, seconds = followed(session, walked.samples, EVERY)
+    session, truth = Session(settings.recipe, calibration=settings.calibration), walked.truth
+    gathering, track, seconds = run_timed(session, walked.samples, EVERY)
     heel_strike, toe_off, strides = Matching(), Matching(), StrideScore()
     for foot in compare(truth, {foot: gathering.foot(foot) for foot in Foot}):
         heel_strike += foot.events["heel_strike"]
@@ -125,13 +125,13 @@ def score_way(way: Callable[[int], Route], path: Path, meta: Meta, how: RunSetti
 
 
 def middle(truth: Truth, t: Floats) -> Floats:
-    """Where the mean of both sensors truly is at `t` (n,), relative to where it is at 0: (n,3), m."""
+    """Return the mean of both sensors' true positions at `t` (n,), relative to that at 0: (n,3), m."""
     feet = [truth.pose(foot, t).position for foot in Foot]
     return np.asarray(0.5 * (feet[0] + feet[1]), dtype=np.float64)
 
 
 def place_figures(t: Floats, positions: Floats, truth: Floats) -> Figures:
-    """Of `positions` (n,3) at `t` (n,) against `truth` (n,3): as the module says."""
+    """Return the figures of `positions` (n,3) at `t` (n,) against `truth` (n,3); the module docstring defines them."""
     if len(t) < 2:
         return {}
     off = np.linalg.norm(aligned_at_start(positions, truth, ALIGNED)[:, :2] - truth[:, :2], axis=1)

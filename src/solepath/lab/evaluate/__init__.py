@@ -1,4 +1,4 @@
-"""How accurate a recipe is on recorded data with a truth, by the same rules for all of them.
+"""Scores recipes on recorded data with a truth, by the same rules for all recipes.
 
-`jobs.evaluate` does it all; alignment, matching, strides and contacts are the rules, on plain arrays.
+`jobs.evaluate` runs the whole evaluation; alignment, matching, strides and contacts are the rules, on plain arrays.
 """

@@ -1,7 +1,7 @@
-"""What each part of the default recipe is worth: the main figures without it.
+"""Ablation: the main figures of the default recipe without each of its parts.
 
-A row is the default recipe with one part switched off by its settings, or put back to the plainer one
-that it took the place of. Which figures are the main ones is COLUMNS.
+A row is the default recipe with one part switched off by its settings, or replaced by the simpler one that it
+superseded. COLUMNS lists the main figures.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ from ...recipes import DEFAULT, Recipe
 from .report import Result
 
 NEVER = 1e12
-"""A limit that nothing exceeds."""
+"""Limit that nothing exceeds."""
 FIXED = 1e6
-"""SHOE's statistic, of 8e4, 2e5, 4e5 and 1e6 the one with which recorded walks come out best."""
+"""Fixed threshold of SHOE's statistic: of 8e4, 2e5, 4e5 and 1e6 the one with the best results on recorded walks."""
 
 
 def _cycle(**settings: Any) -> Recipe:
@@ -48,18 +48,21 @@ WITHOUT: dict[str, Recipe] = {
     "each foot by itself": DEFAULT.exchanged(TrackPart, MeanOfFeet()),
     "no heights of lifts and of the air": DEFAULT.exchanged(Altitude, None),
 }
-"""By what is missing."""
+"""Recipes by the name of what they lack."""
 
 
 def recipes() -> list[Recipe]:
-    """The default and then every row, each named by what is missing."""
+    """Return the default recipe and then one for every row, each named by what it lacks."""
     return [DEFAULT, *(evolve(recipe, name=name) for name, recipe in WITHOUT.items())]
 
 
 @frozen
 class Column:
-    """A main figure: `figure` of the mean over, or of all that was pooled from (`pooled`), a group of a data set.
-    `unit` is m, %, ms or none."""
+    """A main figure of one group of a data set.
+
+    `figure` is taken from the mean over the group or, when `pooled`, from all that was pooled. `unit` is m, %, ms or
+    empty.
+    """
 
     title: str
     data_set: str
@@ -69,7 +72,7 @@ class Column:
     group: str = "all"
 
     def of(self, results: Sequence[Result], recipe: str) -> float | None:
-        """None where it was not scored."""
+        """Return the figure of one recipe; None where it was not scored."""
         for result in results:
             if (result.data_set.name, result.recipe) == (self.data_set, recipe):
                 for summary in result.summaries:
@@ -97,4 +100,4 @@ COLUMNS = (
     Column("30 min", "emulated_half_hour", "end_relative", "%"),
     Column("four floors", "emulated_four_floors", "height_max"),
 )
-"""The main figures, in order."""
+"""The main figures, in the order of the table."""

@@ -1,8 +1,8 @@
-"""What became of every figure since an earlier evaluation: its JSON beside today's.
+"""Compares every figure with an earlier evaluation, which is read from its JSON file.
 
-Which way a figure is better is a property of the figure: errors, spreads and inventions the smaller, biases the nearer
-to zero, F1 and shares found the larger. Counts of what is true, lengths of ways and others' figures are neither. Two
-figures that agree in DIGITS significant digits are the same.
+The better direction is a property of the figure: smaller for errors, spreads and inventions, nearer to zero for
+biases, larger for F1 and shares found. Counts of true events, path lengths and the figures of others have no better
+direction. Two figures that agree in DIGITS significant digits are the same.
 """
 
 from __future__ import annotations
@@ -20,10 +20,11 @@ from ...recording import RecordingError
 from ..measures.confusion import CLASSES
 
 DIGITS = 3
+"""Number of significant digits in which equal figures agree."""
 
 
 class Better(Enum):
-    """Which way a figure is better."""
+    """Direction in which a figure is better."""
 
     LESS = "less"
     NEARER_ZERO = "nearer to zero"
@@ -48,34 +49,36 @@ BETTER: dict[str, Better] = {
     **dict.fromkeys(_NEARER_ZERO, Better.NEARER_ZERO),
     **dict.fromkeys(_MORE, Better.MORE),
 }
-"""By a figure's name in JSON; one that is not here is better neither way."""
+"""Better direction by a figure's name in JSON; a figure that is absent has none."""
 
 
 class Verdict(Enum):
+    """Result of comparing a figure with its earlier value."""
+
     BETTER = "better"
     WORSE = "worse"
     SAME = "the same"
     CHANGED = "changed"
-    """Better neither way, or known on one side only."""
+    """The figure changed and has no better direction, or it is known on one side only."""
 
 
 def verdict(figure: str, was: float | None, now: float | None) -> Verdict:
-    """On one figure; None is one that could not be measured."""
+    """Return the verdict on one figure; None stands for a figure that could not be measured."""
     if was is None or now is None:
         return Verdict.SAME if was is now else Verdict.CHANGED
-    way = BETTER.get(figure)
-    if way is Better.NEARER_ZERO:
+    direction = BETTER.get(figure)
+    if direction is Better.NEARER_ZERO:
         was, now = abs(was), abs(now)
     if f"{was:.{DIGITS}g}" == f"{now:.{DIGITS}g}":
         return Verdict.SAME
-    if way is None:
+    if direction is None:
         return Verdict.CHANGED
-    return Verdict.BETTER if (now > was) is (way is Better.MORE) else Verdict.WORSE
+    return Verdict.BETTER if (now > was) is (direction is Better.MORE) else Verdict.WORSE
 
 
 @frozen
 class Change:
-    """One figure of `what` (a recording, or the mean, median or pooled figure of a group), then and now."""
+    """Earlier and present value of one figure of `what`: a recording, or a group's mean, median or pooled figures."""
 
     what: str
     figure: str
@@ -89,43 +92,43 @@ class Change:
 
 @frozen
 class Changes:
-    """Of one recipe on one data set."""
+    """Changes of the figures of one recipe on one data set."""
 
     recipe: str
     data_set: str
     changes: tuple[Change, ...]
-    gone: tuple[str, ...]
-    """Recordings of then that were not scored now."""
+    removed: tuple[str, ...]
+    """Recordings that were scored earlier and are not scored now."""
     new: tuple[str, ...]
-    """Recordings that were not scored then."""
+    """Recordings that are scored now and were not scored earlier."""
 
 
 Scores = dict[str, dict[str, Any]]
-"""Of an evaluation, as report.as_json makes it."""
+"""Scores of an evaluation in the form that report.as_json returns."""
 
 
 def read_scores(path: Path) -> Scores:
-    """The JSON of an earlier evaluation. RecordingError when it is none."""
+    """Return the scores in the JSON file of an earlier evaluation. Raise RecordingError when it holds none."""
     try:
-        told = json.loads(path.read_text(encoding="utf-8"))
+        document = json.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise RecordingError(path, error.strerror or "cannot be read") from None
     except (ValueError, RecursionError):
         raise RecordingError(path, "is not JSON") from None
     try:
-        for data_sets in told.values():
+        for data_sets in document.values():
             for part in data_sets.values():
                 for _, figures in _rows(part):
                     if not all(value is None or isfinite(value) for value in figures.values()):
                         raise TypeError
     except (AttributeError, KeyError, OverflowError, TypeError):
         raise RecordingError(path, "does not hold the scores of an evaluation") from None
-    scores: Scores = told
+    scores: Scores = document
     return scores
 
 
 def _rows(part: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, float | None]]]:
-    """Every row of figures of one data set, by what it is of: of the groups first."""
+    """Yield (name, figures) of one data set: first the groups, then the recordings."""
     for group, summary in part["summary"].items():
         of = "" if group == "all" else f" {group}"
         for kind in ("mean", "median", "together"):
@@ -133,8 +136,8 @@ def _rows(part: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, float | N
     yield from part["recordings"].items()
 
 
-def compared(was: Scores, now: Scores) -> list[Changes]:
-    """Each data set of each recipe that is in both, in the order of `now`."""
+def compare_scores(was: Scores, now: Scores) -> list[Changes]:
+    """Return the changes of each data set of each recipe that is in both evaluations, in the order of `now`."""
     found: list[Changes] = []
     for recipe, data_sets in now.items():
         for name, part in data_sets.items():
@@ -149,13 +152,13 @@ def compared(was: Scores, now: Scores) -> list[Changes]:
                 for figure in dict.fromkeys([*figures, *old[what]])
             ]
             then, today = before["recordings"], part["recordings"]
-            gone, new = (tuple(x for x in a if x not in b) for a, b in ((then, today), (today, then)))
-            found.append(Changes(recipe, name, tuple(changes), gone, new))
+            removed, new = (tuple(x for x in a if x not in b) for a, b in ((then, today), (today, then)))
+            found.append(Changes(recipe, name, tuple(changes), removed, new))
     return found
 
 
 def missing(of: Scores, other: Scores) -> list[str]:
-    """What of the recipes and data sets of the one is not in the other: `recipe` or `recipe: data set`."""
+    """Return the recipes and data sets of `of` that `other` lacks, as `recipe` or `recipe: data set`."""
     found: list[str] = []
     for recipe, data_sets in of.items():
         if recipe not in other:

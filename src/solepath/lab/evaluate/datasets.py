@@ -1,7 +1,7 @@
-"""The recorded data that have a truth, and how each is scored. The folder's README says where they come from.
+"""Recorded data sets with a truth, and the scorer of each. The README in the data folder names their sources.
 
-Every scorer takes the recording's path, its entry in dataset.json and how to compute. The session gets the samples
-and nothing else. Of what is emulated the path is a name only, and the entry says the seed.
+Every scorer takes the recording's path, its entry in dataset.json and the settings of the run. The session receives
+only the samples. For emulated data the path is only a name, and the entry has the seed.
 """
 
 from __future__ import annotations
@@ -24,8 +24,11 @@ from .tracking import score_counted, score_loop, score_optitrack, score_surveyed
 
 @frozen
 class DataSet:
-    """`figures`: what its table shows, in order. `folders`: their names below the data directory, where it is not the
-    set's own name. `has_truth`: of a recording's name and entry."""
+    """A data set, its scorer and the figures of its table.
+
+    `figures` are shown in this order. `folders` are names below the data directory, where they differ from the set's
+    own name. `has_truth` takes a recording's name and entry.
+    """
 
     name: str
     title: str
@@ -34,14 +37,14 @@ class DataSet:
     folders: tuple[str, ...] = ()
     has_truth: Callable[[str, Meta], bool] = lambda name, meta: True
     each: bool = True
-    """Whether the table has a line for every recording."""
+    """True when the table has a line for every recording."""
     pressed: bool = False
-    """Whether the session gets pressure."""
+    """True when the session receives pressure."""
     folds: bool = False
-    """Whether what says the activity is taught on other wearers' recordings of this data set (learning.py)."""
+    """True when the activity part is trained on other wearers' recordings of this data set (learning.py)."""
 
     def suits(self, recipe: Recipe) -> bool:
-        """Whether the recipe has something to say of these data."""
+        """Return whether the recipe can be scored on these data."""
         return self.pressed or not recipe.needs_pressure
 
 
@@ -132,4 +135,4 @@ EMULATED = tuple(
         ("emulated_four_floors", "four floors of stairs up and down, emulated insoles on both feet", four_floors),
     )
 )
-"""What needs no data: a recording is a seed."""
+"""Emulated data sets, which need no files: a recording is a seed."""

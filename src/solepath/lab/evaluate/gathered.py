@@ -1,4 +1,4 @@
-"""What a session said, kept for the scores: by foot, and what the wearer did."""
+"""Collects the events of a session that the scores need, by foot, and those about the wearer's activity."""
 
 from __future__ import annotations
 
@@ -28,18 +28,20 @@ PHASES: tuple[type[Event], ...] = (HeelStrike, FootFlat, HeelOff, ToeOff)
 
 @frozen(eq=False)
 class FootRun:
-    """What a session said about one foot: the live track `positions` (n,3) in m at `t` (n,), its steps, and when what
-    happened."""
+    """Events of one foot: live track, strides and times of gait events.
+
+    `positions` (n,3) in m is the track at `t` (n,) s.
+    """
 
     t: Floats
     positions: Floats
     steps: tuple[StrideTaken, ...] = ()
     times: Mapping[type[Event], Sequence[float]] = field(factory=dict)
-    """Of HeelStrike, FootFlat, HeelOff and ToeOff, s."""
+    """Times of HeelStrike, FootFlat, HeelOff and ToeOff, s."""
 
     @property
     def step_lengths(self) -> list[tuple[float, float]]:
-        """(t_end, stride_length) of each step."""
+        """(t_end, stride_length) of each stride."""
         return [(step.t_end, step.length) for step in self.steps]
 
 
@@ -53,7 +55,7 @@ class _FootGathered:
 
 @define
 class Gathering:
-    """Takes events as they come; `foot` gives what came of one foot (nothing of a foot never heard of)."""
+    """Collects events as they arrive; `foot` returns those of one foot, which are empty when it has no events."""
 
     timeline: Timeline = field(factory=Timeline)
     rides: list[LiftRidden] = field(factory=list)
@@ -62,13 +64,14 @@ class Gathering:
 
     @classmethod
     def of(cls, events: Iterable[Event]) -> Gathering:
-        """All of these."""
+        """Return the collection of these events."""
         gathering = cls()
         for event in events:
             gathering.add(event)
         return gathering
 
     def add(self, event: Event) -> None:
+        """Add one event. Positions and activities always count, other events only when they are final."""
         match event:
             case FootMoved(foot=foot, t=t, position=position):
                 one = self._of(foot)
@@ -91,6 +94,7 @@ class Gathering:
         return self._feet.setdefault(foot, _FootGathered())
 
     def foot(self, foot: Foot) -> FootRun:
+        """Return the collected events of one foot."""
         one = self._of(foot)
         return FootRun(
             t=np.array(one.t, dtype=np.float64),

@@ -1,4 +1,4 @@
-"""Where the pressure cells of recorded insoles are; the recordings themselves do not say.
+"""Positions of the pressure cells of recorded insoles, which the recordings themselves do not contain.
 
 Foot frame as in types.Cell: x to the toe, y to the left, m, from the heel's rear end on the midline.
 """
@@ -19,18 +19,20 @@ HEEL_AND_TOE = 2
 FORCE_SENSORS = (
     (-500, -800), (-700, -400), (-300, -400), (-700, 0), (-300, 0), (-700, 400), (-300, 400), (-500, 800)
 )  # fmt: skip
-"""Sensors L1 to L8 below the left foot of gaitpdb: x to the wearer's right, y to the toe, in units of no known length
-("Gait in Parkinson's Disease", PhysioNet, description of the format). The right foot is the mirror image."""
+"""Sensors L1 to L8 below the left foot of gaitpdb: x to the wearer's right, y to the toe, in an unknown unit.
+
+The source is "Gait in Parkinson's Disease", PhysioNet, description of the format. The right foot is the mirror image.
+"""
 
 
 def switches() -> Calibration:
-    """Of marpino_heel_toe: where on an insole of 26 cm a toe switch and a heel switch sit."""
+    """Return the calibration of marpino_heel_toe: a toe switch and a heel switch on an insole of 26 cm."""
     cells = (Cell(0.20, 0.0), Cell(0.03, 0.0))
     return _of_both({foot: Layout(HEEL_AND_TOE, foot, cells, 0.26) for foot in Foot})
 
 
 def force_sensors(length: float = 0.26) -> Calibration:
-    """Of gaitpdb_vgrf, the eight sensors spread over a sole of `length` m."""
+    """Return the calibration of gaitpdb_vgrf: the eight sensors spread over a sole of `length` m."""
     unit = length / 2000.0
     layouts = {}
     for foot in Foot:
@@ -41,10 +43,10 @@ def force_sensors(length: float = 0.26) -> Calibration:
 
 
 def in_dataset(path: Path) -> Calibration:
-    """Of smart_insole_35, as its dataset.json beside `path` has them (cell_xy_mm).
+    """Return the calibration of smart_insole_35 from the dataset.json beside `path` (cell_xy_mm).
 
-    There the wide end and its slanted row, the toes', have the smaller y, and the big toe the smaller x: seen from
-    above with y downwards that is a right foot. RecordingError when the file does not say.
+    There the wide end and its slanted row, the toes', have the smaller y, and the big toe the smaller x. Seen from
+    above with y downwards that is a right foot. RecordingError is raised when the file does not contain the cells.
     """
     about = path.parent / "dataset.json"
     try:
@@ -62,9 +64,9 @@ def in_dataset(path: Path) -> Calibration:
 
 
 MARGIN = 15.0
-"""mm from the outermost cells to the insole's ends (assumed: half the distance between their rows)."""
+"""Distance from the outermost cells to the insole's ends, mm (assumed: half the distance between their rows)."""
 MIDLINE = -8.0
-"""x of the insole's midline, mm: the middle of the rows of cells."""
+"""Coordinate x of the insole's midline, mm: the middle of the rows of cells."""
 
 
 def _of_both(layouts: dict[Foot, Layout]) -> Calibration:

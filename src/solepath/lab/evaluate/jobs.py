@@ -1,4 +1,4 @@
-"""Every recipe on every recording that has a truth."""
+"""Runs every recipe on every recording that has a truth."""
 
 from __future__ import annotations
 
@@ -13,30 +13,32 @@ from ...calibration import Calibration
 from ...recipes import Recipe
 from ...recording import RecordingError
 from ..measures.score import Scored
-from ..processes import Progress, each
+from ..processes import Progress, run_jobs
 from .datasets import DATASETS, EMULATED, DataSet
-from .learning import Lesson, lessons, part_for, taught
+from .learning import TrainingSource, part_for, train_parts, training_sources
 from .report import Result
 from .run import Meta, RunSettings
 
 
 @frozen
 class EvaluationJob:
+    """One recipe on one recording."""
+
     score: Callable[[Path, Meta, RunSettings], Scored]
-    how: RunSettings
+    settings: RunSettings
     path: Path
     meta: Meta
 
     def run(self) -> Scored | str:
-        """The scores, or the sentence that says why there are none."""
+        """Return the scores, or the sentence that says why there are none."""
         try:
-            return self.score(self.path, self.meta, self.how)
+            return self.score(self.path, self.meta, self.settings)
         except RecordingError as error:
             return str(error)
 
 
 def find(folder: Path, only: Sequence[str] = ()) -> list[DataSet]:
-    """The data sets there are in `folder`; RecordingError when there is none, or not one of those named in `only`."""
+    """Return the data sets in `folder`. Raise RecordingError when it has none, or not one of those named in `only`."""
     if not folder.is_dir():
         raise RecordingError(folder, "is not a directory of recorded data")
     known = [data_set.name for data_set in DATASETS]
@@ -52,21 +54,21 @@ def find(folder: Path, only: Sequence[str] = ()) -> list[DataSet]:
 
 
 def _abouts(folder: Path, data_set: DataSet) -> list[Path]:
-    """The dataset.json of each of its folders that is there."""
+    """Return the existing dataset.json files of a data set's folders."""
     abouts = [folder / name / "dataset.json" for name in data_set.folders or (data_set.name,)]
     return [about for about in abouts if about.is_file()]
 
 
 def recordings(folder: Path, data_set: DataSet) -> list[tuple[Path, Meta]]:
-    """The recordings of a data set that have a truth, and their entries."""
+    """Return the recordings of a data set that have a truth, with their entries."""
     found: list[tuple[Path, Meta]] = []
     for about in _abouts(folder, data_set):
         try:
-            told: dict[str, Meta] = json.loads(about.read_text(encoding="utf-8"))["recordings"]
+            entries: dict[str, Meta] = json.loads(about.read_text(encoding="utf-8"))["recordings"]
             found += [
-                (about.with_name(f"{name}.npz"), told[name])
-                for name in sorted(told)
-                if data_set.has_truth(name, told[name])
+                (about.with_name(f"{name}.npz"), entries[name])
+                for name in sorted(entries)
+                if data_set.has_truth(name, entries[name])
             ]
         except (OSError, ValueError, KeyError, TypeError) as error:
             raise RecordingError(about, "does not say which recordings there are") from error
@@ -85,11 +87,13 @@ def evaluate(
     processes: int = 1,
     progress: Progress | None = None,
 ) -> Iterator[Result]:
-    """The result of each recipe on each data set of `folder`, as they are done; `calibration` is used for every
-    recording, and `progress` gets (done, all)."""
+    """Yield the result of each recipe on each data set of `folder` as it is done.
+
+    `calibration` is used for every recording, and `progress` is called with (done, all).
+    """
     data_sets = find(folder, only)
     plan = [(d, recipe, recordings(folder, d)) for recipe in recipes for d in data_sets if d.suits(recipe)]
-    to_learn = lessons(folder, recipes) if any(data_set.folds for data_set in data_sets) else []
+    to_learn = training_sources(folder, recipes) if any(data_set.folds for data_set in data_sets) else []
     return _scored(plan, to_learn, calibration, processes, progress)
 
 
@@ -102,19 +106,23 @@ def evaluate_emulated(
     processes: int = 1,
     progress: Progress | None = None,
 ) -> Iterator[Result]:
-    """The same on the emulated walks of `seeds`, of all kinds or of those named in `only`."""
+    """Yield the result of each recipe on the emulated walks of `seeds`, of all kinds or of those named in `only`."""
     walks: list[tuple[Path, Meta]] = [(Path(f"seed {seed}"), {"seed": seed}) for seed in seeds]
     plan = [(d, recipe, walks) for recipe in recipes for d in EMULATED if not only or d.name in only]
     return _scored(plan, [], calibration, processes, progress)
 
 
 def _scored(
-    plan: Plan, to_learn: list[Lesson], calibration: Calibration | None, processes: int, progress: Progress | None
+    plan: Plan,
+    to_learn: list[TrainingSource],
+    calibration: Calibration | None,
+    processes: int,
+    progress: Progress | None,
 ) -> Iterator[Result]:
     known = Calibration() if calibration is None else calibration
     count = sum(len(part) for _, _, part in plan)
-    learnt = each(Lesson.features, to_learn, processes=processes, progress=progress, after=count)
-    parts = taught(to_learn, list(learnt))
+    learnt = run_jobs(TrainingSource.features, to_learn, processes=processes, progress=progress, after=count)
+    parts = train_parts(to_learn, list(learnt))
     everything = [
         EvaluationJob(
             d.score, RunSettings(recipe, known, part_for(recipe, meta, parts) if d.folds else None), path, meta
@@ -122,7 +130,7 @@ def _scored(
         for d, recipe, part in plan
         for path, meta in part
     ]
-    outcomes = each(EvaluationJob.run, everything, processes=processes, progress=progress, before=len(to_learn))
+    outcomes = run_jobs(EvaluationJob.run, everything, processes=processes, progress=progress, before=len(to_learn))
     for data_set, recipe, part in plan:
         done = list(islice(outcomes, len(part)))
         scores = tuple([one for one in done if isinstance(one, Scored)])

@@ -1,4 +1,4 @@
-"""The scores of one recipe on one data set, and all of them as JSON."""
+"""Scores of one recipe on one data set, and all scores as JSON."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .datasets import DataSet
 
 @frozen
 class Result:
-    """One recipe on one data set."""
+    """Scores of one recipe on one data set."""
 
     data_set: DataSet
     recipe: str
@@ -29,13 +29,15 @@ class Result:
 
 
 def as_json(results: Sequence[Result]) -> dict[str, Any]:
-    """{recipe: {data set: {"recordings": {name: figures}, "summary": {group: ...}, "failures": [...]}}}; SI units,
-    shares as fractions of one, null for what could not be measured."""
-    told: dict[str, Any] = {}
+    """Return {recipe: {data set: {"recordings": {name: figures}, "summary": {group: ...}, "failures": [...]}}}.
+
+    Figures are in SI units, shares are fractions of one, and null stands for what could not be measured.
+    """
+    document: dict[str, Any] = {}
     for result in results:
-        told.setdefault(result.recipe, {})[result.data_set.name] = {
+        document.setdefault(result.recipe, {})[result.data_set.name] = {
             "recordings": {score.recording: score.flat() for score in result.scores},
             "summary": {s.group: attrs.asdict(s, filter=attrs.filters.exclude("group")) for s in result.summaries},
             "failures": list(result.failures),
         }
-    return told
+    return document

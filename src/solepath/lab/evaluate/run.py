@@ -1,6 +1,6 @@
-"""One recording through one session, and what the scores need of what came out.
+"""Runs one recording through one session and collects what the scores need.
 
-Only what samples reads (t, acc, gyro, pressure) reaches the session; the truth in the same file never does.
+Only the values that `samples` reads (t, acc, gyro, pressure) reach the session; the truth in the same file never does.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ from .gathered import FootRun, Gathering
 
 @frozen
 class RunSettings:
-    """How a recording is computed: the recipe, and what is known beforehand.
+    """Settings of a run: the recipe, and the calibration known beforehand.
 
-    `activity`: in the place of the recipe's own part, the same part taught on other recordings.
+    `activity` replaces the recipe's own part by the same part trained on other recordings.
     """
 
     recipe: Recipe
@@ -40,7 +40,7 @@ class RunSettings:
 
 @frozen(eq=False)
 class ScoredTrack:
-    """`positions` (n,3) in m at `t` (n,) s."""
+    """Positions (n,3) in m at `t` (n,) s."""
 
     t: Floats
     positions: Floats
@@ -48,58 +48,64 @@ class ScoredTrack:
 
 @frozen(eq=False)
 class RecordingRun:
+    """Results of one recording: events by foot, samples and time."""
+
     feet: dict[Foot, FootRun]
-    said: Gathering
+    gathering: Gathering
     samples: int
     seconds: float
-    """Wall time that the session took."""
+    """Wall time that the session took, s."""
     body: ScoredTrack | None = None
-    """Where the session had the wearer after every sample, where that was asked for."""
+    """The wearer's position after every sample; None when it was not requested."""
 
 
 def run(
     path: Path,
-    how: RunSettings,
+    settings: RunSettings,
     *,
     without_pressure: bool = False,
     calibration: Calibration | None = None,
     poses: bool = True,
     body: bool = False,
 ) -> RecordingRun:
-    """The recording at `path` through a session, sample by sample.
+    """Run the recording at `path` through a session, sample by sample.
 
-    `without_pressure`: leave the pressure out, because the truth was made of it. `calibration`: where the cells are.
-    `poses`: the live position at every sample is asked for. `body`: and that of the wearer.
+    `without_pressure` leaves the pressure out, because the truth was made of it. `calibration` has the positions of the
+    cells. `poses` requests the live position at every sample, `body` that of the wearer.
     """
-    known = how.calibration if calibration is None else merged(how.calibration, calibration)
-    recipe = how.recipe if how.activity is None else how.recipe.exchanged(ActivityPart, how.activity)
+    known = settings.calibration if calibration is None else merged(settings.calibration, calibration)
+    recipe = (
+        settings.recipe if settings.activity is None else settings.recipe.exchanged(ActivityPart, settings.activity)
+    )
     session = Session(recipe, calibration=known, poses=poses)
     recording = load_samples(path)
     samples = list(recording)
     if without_pressure:
         samples = [attrs.evolve(sample, pressure=None) for sample in samples]
-    gathering, wearer, seconds = followed(session, samples, 0.0 if body else None)
+    gathering, wearer, seconds = run_timed(session, samples, 0.0 if body else None)
     feet = {table.foot: gathering.foot(table.foot) for table in recording.tables}
     return RecordingRun(feet, gathering, len(samples), seconds, wearer)
 
 
-def followed(
+def run_timed(
     session: Session, samples: Iterable[Sample], every: float | None
 ) -> tuple[Gathering, ScoredTrack | None, float]:
-    """What the session said of the samples; where it had the wearer, asked `every` s (0: after every sample, None:
-    never); and the wall time that it took, s."""
-    said: list[list[Event]] = []
+    """Return the session's events for the samples, the wearer's track and the wall time, s.
+
+    The track is sampled every `every` s: 0 stands for every sample, None for never.
+    """
+    outputs: list[list[Event]] = []
     places: list[tuple[float, Vec3]] = []
-    began = perf_counter()
+    started_at = perf_counter()
     for sample in samples:
-        said.append(session.feed(sample))
+        outputs.append(session.feed(sample))
         due = every is not None and (every == 0.0 or sample.t >= len(places) * every)
         if due and (position := session.position) is not None:
             places.append((position.t, position.position))
-    said.append(session.finish())
-    seconds = perf_counter() - began
+    outputs.append(session.finish())
+    seconds = perf_counter() - started_at
     track = ScoredTrack(np.array([t for t, _ in places]), np.array([at for _, at in places]).reshape(-1, 3))
-    return Gathering.of(event for events in said for event in events), track if places else None, seconds
+    return Gathering.of(event for events in outputs for event in events), track if places else None, seconds
 
 
 Meta = dict[str, Any]
@@ -108,9 +114,11 @@ Arrays = dict[str, Any]
 
 
 def truth_of(path: Path) -> Arrays:
+    """Return the arrays of the truth in a recording's file, with its times and pressure."""
     with np.load(path, allow_pickle=False) as archive:
         return {key: archive[key] for key in archive.files if key == "t" or key.startswith(("t_", "gt_", "pressure"))}
 
 
-def scored(path: Path, went: RecordingRun, **parts: Any) -> Scored:
-    return Scored(path.stem, samples=went.samples, seconds=went.seconds, **parts)
+def scored(path: Path, result: RecordingRun, **parts: Any) -> Scored:
+    """Return the scores of a run with its name, number of samples and wall time."""
+    return Scored(path.stem, samples=result.samples, seconds=result.seconds, **parts)

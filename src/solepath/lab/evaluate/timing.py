@@ -1,4 +1,4 @@
-"""Scores of heel-strike and toe-off against labels, switches and force. Scorers are as datasets.py says."""
+"""Scores heel-strike and toe-off against labels, switches and force. Scorers have the form described in datasets.py."""
 
 from __future__ import annotations
 
@@ -21,65 +21,68 @@ from .insoles import force_sensors, switches
 from .run import Meta, RecordingRun, RunSettings, run, scored, truth_of
 
 LEG = 10.0
-"""m of ipol_10m_uturn and gaitmap_examples."""
+"""Length of a leg in ipol_10m_uturn and gaitmap_examples, m."""
 LEGS = 4
-"""of gaitmap_examples."""
+"""Number of legs in gaitmap_examples."""
 LONGEST = 2.5
-"""s that a stride may take; between heel-strikes further apart the foot rested, or strides were not labelled."""
+"""Longest stride, s; between heel-strikes further apart the foot stood still, or strides were not labelled."""
 
 
-def score_swings(path: Path, meta: Meta, how: RunSettings) -> Scored:
-    """Labels of every swing: it starts with toe-off and ends with heel-strike. And of the walk and its turn: a leg is
-    from the beginning of the walk to the middle of the turn, the other from there to the end of the walk, by each foot
-    (leg) and by the session's position (body_leg). Both together are a closed loop, but that the wearer stands the
-    other way round, with each foot beside where it began."""
-    truth, went = truth_of(path), run(path, how, body=True)
-    swings = {foot: truth[f"gt_{foot.value}"] for foot in went.feet}
+def score_swings(path: Path, meta: Meta, settings: RunSettings) -> Scored:
+    """Score against labels of every swing, which starts with toe-off and ends with heel-strike, and of the turn.
+
+    One leg goes from the start of the walk to the middle of the turn, the other from there to the end of the walk. They
+    are measured for each foot (leg) and for the session's position (body_leg). Both together are a closed loop, except
+    that the wearer faces the other way at the end, with each foot beside the place where it started.
+    """
+    truth, result = truth_of(path), run(path, settings, body=True)
+    swings = {foot: truth[f"gt_{foot.value}"] for foot in result.feet}
     strikes = {foot: of[:, 1].tolist() for foot, of in swings.items()}
-    began, ended = truth["gt_trial"].tolist()
-    times, body = [began, float(truth["gt_uturn"].mean()), ended], went.body
-    legs = [leg_errors(times, [LEG, LEG], ran.t, ran.positions) for ran in went.feet.values()]
+    t_start, t_end = truth["gt_trial"].tolist()
+    times, body = [t_start, float(truth["gt_uturn"].mean()), t_end], result.body
+    legs = [leg_errors(times, [LEG, LEG], ran.t, ran.positions) for ran in result.feet.values()]
     of_body = Errors() if body is None else leg_errors(times, [LEG, LEG], body.t, body.positions)
     return scored(
         path,
-        went,
-        figures=_about_turn(truth["gt_uturn"].tolist(), went) | _ends(went, began, ended),
-        events=_contacts(went, strikes, {foot: of[:, 0].tolist() for foot, of in swings.items()}),
-        errors={"leg": sum(legs, Errors()), "body_leg": of_body, "stride_time": _stride_times(went, strikes)},
+        result,
+        figures=_about_turn(truth["gt_uturn"].tolist(), result) | _ends(result, t_start, t_end),
+        events=_contacts(result, strikes, {foot: of[:, 0].tolist() for foot, of in swings.items()}),
+        errors={"leg": sum(legs, Errors()), "body_leg": of_body, "stride_time": _stride_times(result, strikes)},
     )
 
 
 Contacts = Mapping[Foot, list[float]]
-"""The true heel-strikes, or toe-offs, of each foot of which they are known, s."""
+"""The true heel-strikes, or toe-offs, of each foot for which they are known, s."""
 
 
-def _contacts(went: RecordingRun, strikes: Contacts, offs: Contacts) -> dict[str, Matching]:
-    struck = [match(true, went.feet[foot].times[HeelStrike]) for foot, true in strikes.items()]
-    left = [match(true, went.feet[foot].times[ToeOff]) for foot, true in offs.items()]
+def _contacts(result: RecordingRun, strikes: Contacts, offs: Contacts) -> dict[str, Matching]:
+    struck = [match(true, result.feet[foot].times[HeelStrike]) for foot, true in strikes.items()]
+    left = [match(true, result.feet[foot].times[ToeOff]) for foot, true in offs.items()]
     return {"heel_strike": sum(struck, Matching()), "toe_off": sum(left, Matching())}
 
 
-def _stride_times(went: RecordingRun, strikes: Contacts) -> Errors:
-    found = [(true, went.feet[foot].times[HeelStrike]) for foot, true in strikes.items()]
+def _stride_times(result: RecordingRun, strikes: Contacts) -> Errors:
+    found = [(true, result.feet[foot].times[HeelStrike]) for foot, true in strikes.items()]
     return sum([interval_errors(true, ours, longest=LONGEST) for true, ours in found], Errors())
 
 
-def _ends(went: RecordingRun, began: float, ended: float) -> Figures:
-    """How far the wearer's position is at the end from where it was at the beginning, horizontally, and how much higher
-    or lower, m."""
-    if went.body is None:
+def _ends(result: RecordingRun, t_start: float, t_end: float) -> Figures:
+    """Return the distance of the wearer's last position from the first, horizontally and in height, m."""
+    if result.body is None:
         return {}
-    first, last = at_times(went.body.t, went.body.positions, np.array([began, ended]))
+    first, last = at_times(result.body.t, result.body.positions, np.array([t_start, t_end]))
     return {"end_error_2d": hypot(last[0] - first[0], last[1] - first[1]), "end_height": abs(float(last[2] - first[2]))}
 
 
-def _about_turn(span: list[float], went: RecordingRun) -> Figures:
-    """The wearer turned about once, in the `span` that is labelled, s. Found: an about turn was told that shares some
-    of it. Its angle is that of the largest turn that does, by how much it differs from half a turn (from 0 where none
-    was told). Invented: about turns elsewhere."""
-    began, ended = span
-    there = [turn for turn in went.said.turns if turn.t >= began and turn.t_start <= ended]
-    about = sum(turn.turn is Turn.ABOUT for turn in went.said.turns)
+def _about_turn(span: list[float], result: RecordingRun) -> Figures:
+    """Return the figures of the one turn about that the wearer makes in the labelled `span`, s.
+
+    It is found when a reported turn about overlaps the span. The angle error is the difference of the largest
+    overlapping turn from half a turn (of 0 where no turn was reported). Turns about elsewhere are invented.
+    """
+    t_start, t_end = span
+    there = [turn for turn in result.gathering.turns if turn.t >= t_start and turn.t_start <= t_end]
+    about = sum(turn.turn is Turn.ABOUT for turn in result.gathering.turns)
     found = any(turn.turn is Turn.ABOUT for turn in there)
     angle = max([abs(turn.angle) for turn in there], default=0.0)
     return {
@@ -89,80 +92,91 @@ def _about_turn(span: list[float], went: RecordingRun) -> Figures:
     }
 
 
-def score_borders(path: Path, meta: Meta, how: RunSettings) -> Scored:
-    """Strides from heel-strike to heel-strike, known only while the walker is in view of the cameras. Four legs to and
-    fro: nothing says when the walker turned, so each track is cut where itself turned about (legs.turned_about), and
-    that it is 10 m from there to there only the protocol says. By how much the legs differ among themselves needs no
-    such number: `leg_spread` is the standard deviation of a foot's four legs relative to their mean, averaged over
-    the feet."""
-    truth, went = truth_of(path), run(path, how, body=True)
+def score_borders(path: Path, meta: Meta, settings: RunSettings) -> Scored:
+    """Score strides from heel-strike to heel-strike, known only while the walker is in view of the cameras.
+
+    The walk has four legs to and fro. The times of the turns are not known, so each track is cut where the track itself
+    turns about (legs.turned_about); only the protocol says that a leg is 10 m. The difference between the legs needs no
+    such length: `leg_spread` is the standard deviation of a foot's four legs relative to their mean, averaged over the
+    feet.
+    """
+    truth, result = truth_of(path), run(path, settings, body=True)
     heel_strike, strides = Matching(), Errors()
-    for foot, ran in went.feet.items():
+    for foot, ran in result.feet.items():
         borders = [(float(a), float(b)) for a, b in truth[f"gt_borders_{foot.value}"]]
         seen = merged(borders)
         # a border that two strides share is one heel-strike
         strikes = [at for at, _ in merged([(at, at) for border in borders for at in border])]
         heel_strike += match(strikes, ran.times[HeelStrike], windows=seen)
         strides += interval_errors(strikes, ran.times[HeelStrike], longest=LONGEST)
-    tracks = [track for track in (*went.feet.values(), went.body) if track is not None and len(track.t)]
+    tracks = [track for track in (*result.feet.values(), result.body) if track is not None and len(track.t)]
     legs = [leg_errors(turned_about(one.t, one.positions, LEGS), [LEG] * LEGS, one.t, one.positions) for one in tracks]
-    each, body = (legs, Errors()) if went.body is None else (legs[:-1], legs[-1])
+    each, body = (legs, Errors()) if result.body is None else (legs[:-1], legs[-1])
     spreads = [pstdev(errors.values) / (1.0 + fmean(errors.values)) for errors in each]
     figures: Figures = {"leg_spread": fmean(spreads) if spreads else None}
-    if went.body is not None:
-        figures |= _ends(went, float(went.body.t[0]), float(went.body.t[-1]))
+    if result.body is not None:
+        figures |= _ends(result, float(result.body.t[0]), float(result.body.t[-1]))
     errors = {"leg": sum(each, Errors()), "body_leg": body, "stride_time": strides}
-    return scored(path, went, figures=figures, events={"heel_strike": heel_strike}, errors=errors)
+    return scored(path, result, figures=figures, events={"heel_strike": heel_strike}, errors=errors)
 
 
-def score_treadmill(path: Path, meta: Meta, how: RunSettings) -> Scored:
-    """Contact times of a light barrier. The belt is an inertial frame of its own, in which the standing foot rests, so
-    stride lengths compare as they are; positions in the room do not."""
-    truth, went = truth_of(path), run(path, how)
+def score_treadmill(path: Path, meta: Meta, settings: RunSettings) -> Scored:
+    """Score against the contact times of a light barrier.
+
+    The belt is an inertial frame in which the standing foot does not move, so stride lengths compare as they are;
+    positions in the room do not.
+    """
+    truth, result = truth_of(path), run(path, settings)
     strides, strikes, offs = StrideScore(), dict[Foot, list[float]](), dict[Foot, list[float]]()
-    for foot, ran in went.feet.items():
+    for foot, ran in result.feet.items():
         rows = truth["gt_foot"] == (0 if foot is Foot.LEFT else 1)
         struck = truth["gt_hs_t"][rows]
         strikes[foot], offs[foot] = struck.tolist(), (struck + truth["gt_contact_s"][rows]).tolist()
-        # the stride that a heel-strike ends, ours ending at the foot-flat after it: well before the next heel-strike
+        # our stride ends at the foot-flat after the true one's heel-strike, well before the next heel-strike
         strides += stride_score(struck, truth["gt_stride_len"][rows][:-1], ran.step_lengths, slack=-TOLERANCE)
-    times = {"stride_time": _stride_times(went, strikes)}
-    return scored(path, went, events=_contacts(went, strikes, offs), strides=strides, errors=times)
+    times = {"stride_time": _stride_times(result, strikes)}
+    return scored(path, result, events=_contacts(result, strikes, offs), strides=strides, errors=times)
 
 
-def score_switches(path: Path, meta: Meta, how: RunSettings) -> Scored:
-    """Heel and toe switches under the foot are the truth here, so the session does without them."""
-    return _against_switches(path, meta, run(path, how, without_pressure=True))
+def score_switches(path: Path, meta: Meta, settings: RunSettings) -> Scored:
+    """Score against heel and toe switches under the foot.
+
+    The session receives no pressure, because the switches are the truth.
+    """
+    return _against_switches(path, meta, run(path, settings, without_pressure=True))
 
 
-def score_pressed(path: Path, meta: Meta, how: RunSettings) -> Scored:
-    """The same switches as the pressure cells of an insole of two: what a session makes of them, against themselves."""
-    return _against_switches(path, meta, run(path, how, calibration=switches()))
+def score_pressed(path: Path, meta: Meta, settings: RunSettings) -> Scored:
+    """Score a session that uses the switches as an insole of two cells, against the same switches."""
+    return _against_switches(path, meta, run(path, settings, calibration=switches()))
 
 
-def _against_switches(path: Path, meta: Meta, went: RecordingRun) -> Scored:
-    """Where it was a straight walk of a known length, each foot's way from its first to its last position is a leg: the
-    wearer stood at both ends, but nobody wrote down how near to the lines."""
+def _against_switches(path: Path, meta: Meta, result: RecordingRun) -> Scored:
+    """Score against the switches, and against the walked length of a straight walk.
+
+    On a straight walk of known length the way of each foot from its first to its last position is a leg. The wearer
+    stood at both ends, but nobody recorded how near to the lines.
+    """
     truth = truth_of(path)
     strikes, offs, legs = dict[Foot, list[float]](), dict[Foot, list[float]](), Errors()
-    for foot, ran in went.feet.items():
+    for foot, ran in result.feet.items():
         t, counts = truth[f"t_{foot.value}"], truth[f"pressure_{foot.value}"]
         if heel := switch_contacts(t, counts[:, 1]):
-            strikes[foot] = [begin for begin, _ in heel]
+            strikes[foot] = [start for start, _ in heel]
         if toe := switch_contacts(t, counts[:, 0]):
             offs[foot] = [end for _, end in toe]
         if "straight_path_m" in meta and len(ran.t):
             ends = [float(ran.t[0]), float(ran.t[-1])]
             legs += leg_errors(ends, [float(meta["straight_path_m"])], ran.t, ran.positions)
     errors = {"leg": legs} if legs.values else {}
-    return scored(path, went, events=_contacts(went, strikes, offs), errors=errors)
+    return scored(path, result, events=_contacts(result, strikes, offs), errors=errors)
 
 
-def score_force(path: Path, meta: Meta, how: RunSettings) -> Scored:
-    """The force below each foot is the truth of contact, and its eight sensors are all that the session gets."""
-    truth, went = truth_of(path), run(path, how, calibration=force_sensors())
-    forces = {foot: truth[f"pressure_{foot.value}"].sum(axis=1) for foot in went.feet}
+def score_force(path: Path, meta: Meta, settings: RunSettings) -> Scored:
+    """Score against the force below each foot. The session receives only its eight sensors."""
+    truth, result = truth_of(path), run(path, settings, calibration=force_sensors())
+    forces = {foot: truth[f"pressure_{foot.value}"].sum(axis=1) for foot in result.feet}
     spans = {foot: force_contacts(truth["t"], force) for foot, force in forces.items()}
-    strikes = {foot: [begin for begin, _ in of] for foot, of in spans.items()}
+    strikes = {foot: [start for start, _ in of] for foot, of in spans.items()}
     offs = {foot: [end for _, end in of] for foot, of in spans.items()}
-    return scored(path, went, events=_contacts(went, strikes, offs))
+    return scored(path, result, events=_contacts(result, strikes, offs))

@@ -1,4 +1,4 @@
-"""Scores of tracks and strides against markers, surveys and closed loops. Scorers are as datasets.py says."""
+"""Scores tracks and strides against markers, surveys and closed loops. Scorers have the form of datasets.py."""
 
 from __future__ import annotations
 
@@ -12,30 +12,30 @@ from ..measures.alignment import at_times, path_length, track_error
 from ..measures.legs import leg_errors
 from ..measures.matching import Errors
 from ..measures.score import Figures, Scored
-from ..measures.strides import StrideScore, marker_rests, position_errors, surveyed_score
+from ..measures.strides import StrideScore, marker_stances, position_errors, surveyed_score
 from .gathered import FootRun
 from .insoles import in_dataset
 from .run import Arrays, Meta, RunSettings, run, scored, truth_of
 
 
-def score_vicon(path: Path, meta: Meta, how: RunSettings) -> Scored:
-    """The live position at every sample against the marker's."""
-    truth, went = truth_of(path), run(path, how)
-    foot = went.feet[Foot.RIGHT]
+def score_vicon(path: Path, meta: Meta, settings: RunSettings) -> Scored:
+    """Score the live position at every sample against the marker's."""
+    truth, result = truth_of(path), run(path, settings)
+    foot = result.feet[Foot.RIGHT]
     bipedal = meta.get("llio_tag") == 1
     strides = _surveyed(truth, foot) if bipedal and "gt_stride_xy" in truth else None
     figures = _track_figures(foot, truth["t"], truth["gt_pos"])
-    return scored(path, went, figures=figures, strides=strides, groups=("all", "bipedal") if bipedal else ("all",))
+    return scored(path, result, figures=figures, strides=strides, groups=("all", "bipedal") if bipedal else ("all",))
 
 
-def score_optitrack(path: Path, meta: Meta, how: RunSettings) -> Scored:
-    """The marker has a clock and a span of its own: scored where both are known."""
-    truth, went = truth_of(path), run(path, how, calibration=in_dataset(path))
+def score_optitrack(path: Path, meta: Meta, settings: RunSettings) -> Scored:
+    """Score against a marker with its own clock and time span, over the time when both are known."""
+    truth, result = truth_of(path), run(path, settings, calibration=in_dataset(path))
     both = (truth["gt_t"] >= truth["t"][0]) & (truth["gt_t"] <= truth["t"][-1])
-    t, places, foot = truth["gt_t"][both], truth["gt_pos"][both], went.feet[Foot.RIGHT]
-    times, rests = marker_rests(t, places)
-    strides = surveyed_score(times, rests, foot.t, foot.positions, foot.step_lengths)
-    return scored(path, went, figures=_track_figures(foot, t, places), strides=strides)
+    t, places, foot = truth["gt_t"][both], truth["gt_pos"][both], result.feet[Foot.RIGHT]
+    times, stances = marker_stances(t, places)
+    strides = surveyed_score(times, stances, foot.t, foot.positions, foot.step_lengths)
+    return scored(path, result, figures=_track_figures(foot, t, places), strides=strides)
 
 
 def _track_figures(foot: FootRun, t: Any, truth: Any) -> Figures:
@@ -52,20 +52,20 @@ def _track_figures(foot: FootRun, t: Any, truth: Any) -> Figures:
     }
 
 
-def score_loop(path: Path, meta: Meta, how: RunSettings) -> Scored:
-    """From the last live position to the first: the foot ended where it began."""
-    went = run(path, how)
-    foot = went.feet[Foot.RIGHT]
+def score_loop(path: Path, meta: Meta, settings: RunSettings) -> Scored:
+    """Score the distance from the last live position to the first: the foot ends where it started."""
+    result = run(path, settings)
+    foot = result.feet[Foot.RIGHT]
     figures: Figures = {}
     if len(foot.t):
         figures = _closed(foot.positions[0], foot.positions[-1])
         figures["path"] = float(meta["path_m_about"])
         figures["relative"] = (figures["end_error"] or 0.0) / float(meta["path_m_about"])
-    return scored(path, went, figures=figures)
+    return scored(path, result, figures=figures)
 
 
 def _closed(first: Any, last: Any) -> Figures:
-    """Where a walk ended that ended where it began."""
+    """Return the errors of a walk that ends where it started."""
     away = last - first
     return {
         "end_error": float(np.linalg.norm(away)),
@@ -75,13 +75,17 @@ def _closed(first: Any, last: Any) -> Figures:
 
 
 AUTHORS = {"exp31": 0.31, "exp33": 1.17, "exp37": 2.31, "exp39": 1.11, "exp41": 0.94, "exp45": 1.80}
-"""Mean position error of the authors' own system at the surveyed strides, m: INS with an LSTM as zero-velocity detector
-(log in the repository mtahakoroglu/LLIO-aided-iPyShoe). It lost strides of the other trials."""
+"""Mean position error of the authors' own system at the surveyed strides, m.
+
+The system is an INS with an LSTM as zero-velocity detector (log in the repository mtahakoroglu/LLIO-aided-iPyShoe).
+It lost strides of the other trials.
+"""
 
 
-def score_surveyed(path: Path, meta: Meta, how: RunSettings) -> Scored:
-    truth, went = truth_of(path), run(path, how)
-    foot = went.feet[Foot.RIGHT]
+def score_surveyed(path: Path, meta: Meta, settings: RunSettings) -> Scored:
+    """Score positions and strides against the survey of every footprint."""
+    truth, result = truth_of(path), run(path, settings)
+    foot = result.feet[Foot.RIGHT]
     figures: Figures = {}
     if len(foot.t):
         times, authors = truth["t"][truth["gt_stride_index"]], AUTHORS.get(path.stem)
@@ -97,7 +101,7 @@ def score_surveyed(path: Path, meta: Meta, how: RunSettings) -> Scored:
             "path": surveyed,
             "relative": float(np.mean(errors)) / surveyed,
         }
-    return scored(path, went, figures=figures, strides=_surveyed(truth, foot))
+    return scored(path, result, figures=figures, strides=_surveyed(truth, foot))
 
 
 def _surveyed(truth: Arrays, foot: FootRun) -> StrideScore:
@@ -107,15 +111,18 @@ def _surveyed(truth: Arrays, foot: FootRun) -> StrideScore:
     return surveyed_score(times, places, foot.t, foot.positions, foot.step_lengths)
 
 
-def score_counted(path: Path, meta: Meta, how: RunSettings) -> Scored:
-    """Somebody counted the strides. Where they were is known of some corners only: the ways between those are legs, and
-    a walk that ends at the corner where it began is a closed loop, on one level."""
-    truth, went = truth_of(path), run(path, how)
-    foot = went.feet[Foot.RIGHT]
+def score_counted(path: Path, meta: Meta, settings: RunSettings) -> Scored:
+    """Score the number of strides against a count, and the legs between surveyed corners.
+
+    Only some corners have surveyed positions; the ways between them are legs. A walk that ends at the corner where it
+    started is a closed loop on one level.
+    """
+    truth, result = truth_of(path), run(path, settings)
+    foot = result.feet[Foot.RIGHT]
     true, found = int(meta["n_true_strides"]), len(foot.steps)
     strides = StrideScore(true, min(true, found), max(0, found - true))
     if not meta["corner_points_valid"] or not len(foot.t):
-        return scored(path, went, strides=strides)
+        return scored(path, result, strides=strides)
     ends, corners = truth["t"][truth["gt_stride_index"]], truth["gt_corner_xy"].astype(np.float64)
     legs, figures = Errors(), Figures()
     if meta["n_detected_strides"] == true:
@@ -124,4 +131,4 @@ def score_counted(path: Path, meta: Meta, how: RunSettings) -> Scored:
     if float(np.linalg.norm(corners[-1] - corners[0])) == 0.0:
         first, last = at_times(foot.t, foot.positions, ends[[0, -1]])
         figures = _closed(first, last)
-    return scored(path, went, figures=figures, strides=strides, errors={"leg": legs})
+    return scored(path, result, figures=figures, strides=strides, errors={"leg": legs})

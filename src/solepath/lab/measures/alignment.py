@@ -1,7 +1,7 @@
-"""Laying a track over the truth, and how far apart they then are.
+"""Aligns a track with the truth and measures the distance between them.
 
-The heading and the origin of a foot's own track are its own choice, so a turn about the vertical and a shift are taken
-out before an error is measured: never a scale, never a mirror image.
+A foot's own track has its own heading and origin, so a turn about the vertical and a shift are removed before an
+error is measured. A scale or a mirror image is never removed.
 """
 
 from __future__ import annotations
@@ -18,14 +18,14 @@ Floats = NDArray[np.float64]
 
 @frozen
 class Alignment:
-    """Turn by `yaw` rad about z (counter-clockwise), then shift by `x`, `y` m."""
+    """A turn by `yaw` rad about z (counter-clockwise), then a shift by `x`, `y` m."""
 
     yaw: float
     x: float
     y: float
 
     def apply(self, track: NDArray[Any]) -> Floats:
-        """`track` (n,2) or (n,3) turned and shifted; heights stay as they are."""
+        """Return `track` (n,2) or (n,3) turned and shifted; heights stay as they are."""
         moved = np.array(track, dtype=np.float64)
         c, s = cos(self.yaw), sin(self.yaw)
         moved[:, 0] = c * track[:, 0] - s * track[:, 1] + self.x
@@ -34,10 +34,10 @@ class Alignment:
 
 
 def align(track: NDArray[Any], truth: NDArray[Any]) -> Alignment:
-    """The turn and shift that bring the horizontal points of `track` nearest to `truth` in the least-squares sense.
+    """Return the turn and shift that bring the horizontal points of `track` nearest to `truth` by least squares.
 
-    Both (n,2) or (n,3), row by row the same instants. Closed form: with both centred on their means, the sum of squared
-    distances is least at yaw = atan2(sum of cross products, sum of dot products).
+    Both are (n,2) or (n,3), row by row the same instants. Closed form: with both centred on their means, the sum of
+    squared distances is smallest at yaw = atan2(sum of cross products, sum of dot products).
     """
     ours, theirs = np.asarray(track, np.float64)[:, :2], np.asarray(truth, np.float64)[:, :2]
     our_mean, their_mean = ours.mean(axis=0), theirs.mean(axis=0)
@@ -48,47 +48,49 @@ def align(track: NDArray[Any], truth: NDArray[Any]) -> Alignment:
 
 
 def rms_distance(track: NDArray[Any], truth: NDArray[Any]) -> float:
-    """Root mean square of the Euclidean distance between rows, m."""
+    """Return the root mean square of the Euclidean distance between rows, m."""
     return sqrt(float(np.mean(np.sum((np.asarray(track, np.float64) - truth) ** 2, axis=1))))
 
 
 def path_length(points: NDArray[Any]) -> float:
-    """Length of the line through the points, m."""
+    """Return the length of the line through the points, m."""
     return float(np.sum(np.linalg.norm(np.diff(np.asarray(points, np.float64), axis=0), axis=1)))
 
 
 def distances(points: NDArray[Any]) -> Floats:
-    """How far along the horizontal line through `points` (n,2 or more) each of them is, m."""
+    """Return the distance of each of `points` (n,2 or more) along the horizontal line through them, m."""
     steps = np.linalg.norm(np.diff(np.asarray(points, np.float64)[:, :2], axis=0), axis=1)
     return np.concatenate([[0.0], np.cumsum(steps)])
 
 
 def aligned_at_start(track: NDArray[Any], truth: NDArray[Any], over: float) -> Floats:
-    """`track` turned and shifted so that it fits `truth` best over the first `over` m (up to the first point that is so
-    far along the truth)."""
+    """Return `track` turned and shifted so that it fits `truth` best over the first `over` m.
+
+    The fit ends with the first point that is `over` m along the truth.
+    """
     first = max(2, int(np.searchsorted(distances(truth), over)) + 1)
     return align(track[:first], truth[:first]).apply(track)
 
 
 @frozen
 class TrackError:
-    """How far a track is from the truth over a trial, after the best turn and shift; m."""
+    """Distance of a track from the truth over a trial after the best turn and shift, m."""
 
     rms_2d: float
-    """Root mean square of the horizontal Euclidean distance."""
+    """Root mean square of the horizontal Euclidean distance, m."""
     rms_3d: float
-    """The same with heights, whose mean difference is taken out as the third part of the shift."""
+    """Root mean square of the distance in space, m, after the mean height difference is removed."""
     rms_z: float
-    """Of the heights alone, after that."""
+    """Root mean square of the height error, m, after the mean height difference is removed."""
 
     @property
     def armse_2d(self) -> float:
-        """pyshoe's figure, the root mean square over samples and both axes: the Euclidean one / sqrt 2."""
+        """The figure of pyshoe, m: root mean square over samples and both axes, the Euclidean one / sqrt 2."""
         return self.rms_2d / sqrt(2.0)
 
 
 def track_error(track: NDArray[Any], truth: NDArray[Any]) -> TrackError:
-    """Error of `track` (n,3) against `truth` (n,3), row by row the same instants."""
+    """Return the error of `track` (n,3) against `truth` (n,3), row by row the same instants."""
     moved = align(track, truth).apply(track)
     moved[:, 2] += float(np.mean(truth[:, 2] - moved[:, 2]))
     return TrackError(
@@ -98,6 +100,6 @@ def track_error(track: NDArray[Any], truth: NDArray[Any]) -> TrackError:
     )
 
 
-def at_times(t: Floats, positions: Floats, wanted: NDArray[Any]) -> Floats:
-    """`positions` (n,3) known at `t` (n,), at the times `wanted` (m,): linear between, held before and after."""
-    return np.column_stack([np.interp(wanted, t, positions[:, axis]) for axis in range(positions.shape[1])])
+def at_times(t: Floats, positions: Floats, times: NDArray[Any]) -> Floats:
+    """Return `positions` (n,3) known at `t` (n,) at `times` (m,): linear between, constant before and after."""
+    return np.column_stack([np.interp(times, t, positions[:, axis]) for axis in range(positions.shape[1])])

@@ -1,4 +1,4 @@
-"""What was told of labelled time, by what was true; and lift rides found."""
+"""Counts of reported activity by true activity, and lift rides found."""
 
 from __future__ import annotations
 
@@ -14,14 +14,16 @@ CLASSES = tuple(activity for activity in Activity if activity is not Activity.UN
 
 @frozen
 class ActivityScore:
-    """Counts of labelled samples and of rides; scores of several recordings add up."""
+    """Counts of labelled samples and of rides. Scores of several recordings can be added."""
 
     samples: Mapping[tuple[Activity, Activity], int] = field(factory=dict)
-    """(what was true, what was told): how many."""
+    """Number of samples by (true activity, reported activity)."""
     rides_true: int = 0
+    """Number of true rides."""
     rides_found: int = 0
-    """Of the true ones, with the right direction."""
+    """Number of true rides that were found with the right direction."""
     rides_invented: int = 0
+    """Number of reported rides that match no true one."""
 
     def __add__(self, other: ActivityScore) -> ActivityScore:
         return ActivityScore(
@@ -31,32 +33,36 @@ class ActivityScore:
             self.rides_invented + other.rides_invented,
         )
 
-    def told_of(self, true: Activity) -> dict[Activity, int]:
-        """What was told of the samples of one activity."""
-        return {told: count for (was, told), count in self.samples.items() if was is true}
+    def reported_for(self, true: Activity) -> dict[Activity, int]:
+        """Return the number of samples by reported activity, for the samples of one true activity."""
+        return {reported: count for (was, reported), count in self.samples.items() if was is true}
 
     def f1(self, activity: Activity) -> float | None:
-        """2 x right / (true + told); None where it neither was nor was told."""
+        """Return 2 x right / (true + reported); None when the activity is neither true nor reported."""
         right = self.samples.get((activity, activity), 0)
-        true = sum(self.told_of(activity).values())
-        told = sum([count for (_, said), count in self.samples.items() if said is activity])
-        return 2.0 * right / (true + told) if true + told else None
+        true = sum(self.reported_for(activity).values())
+        reported = sum([count for (_, answer), count in self.samples.items() if answer is activity])
+        return 2.0 * right / (true + reported) if true + reported else None
 
     @property
     def accuracy(self) -> float | None:
-        """Share of labelled samples of which the right activity was told."""
+        """Share of labelled samples for which the right activity was reported."""
         every = sum(self.samples.values())
-        return sum([count for (was, told), count in self.samples.items() if was is told]) / every if every else None
+        return (
+            sum([count for (was, reported), count in self.samples.items() if was is reported]) / every
+            if every
+            else None
+        )
 
     @property
     def most_frequent(self) -> float | None:
-        """What always telling the most frequent activity would come to."""
+        """Accuracy of a method that always reports the most frequent activity."""
         every = sum(self.samples.values())
-        return max([sum(self.told_of(activity).values()) for activity in Activity]) / every if every else None
+        return max([sum(self.reported_for(activity).values()) for activity in Activity]) / every if every else None
 
     @property
     def figures(self) -> dict[str, float | None]:
-        """By name, as in tables and JSON."""
+        """Figures by name, as in tables and JSON."""
         return {
             "accuracy": self.accuracy,
             "most_frequent": self.most_frequent,
@@ -68,10 +74,13 @@ class ActivityScore:
 
     @property
     def table(self) -> dict[str, dict[str, int]]:
-        """{true: {told: samples}} by name, in the order of the enum, those that never were left out."""
-        told = [activity for activity in Activity if any(said is activity for _, said in self.samples)]
+        """Confusion matrix {true: {reported: samples}} by name, in the order of the enum.
+
+        Activities that never occur are left out.
+        """
+        reported = [activity for activity in Activity if any(answer is activity for _, answer in self.samples)]
         return {
-            was.value: {said.value: self.samples.get((was, said), 0) for said in told}
+            was.value: {answer.value: self.samples.get((was, answer), 0) for answer in reported}
             for was in CLASSES
-            if self.told_of(was)
+            if self.reported_for(was)
         }

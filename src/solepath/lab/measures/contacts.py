@@ -1,4 +1,4 @@
-"""True heel-strikes and toe-offs, from labels and from contact switches."""
+"""Finds true heel-strikes and toe-offs in labels and in the signals of contact switches."""
 
 from __future__ import annotations
 
@@ -8,23 +8,24 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-DEAD = 150.0
-"""A switch whose counts range less than this between unloaded and loaded is dead or too weak to tell anything."""
+LEAST_RANGE = 150.0
+"""Smallest range of a working switch between unloaded and loaded, counts; less is dead or too weak."""
 CLOSES, OPENS = 0.20, 0.10
-"""Shares of a switch's range at which contact begins and ends: well above its rest level, early in its slope."""
+"""Shares of a switch's range at which contact starts and ends: well above its unloaded level, early in its slope."""
 FORCE = 20.0
-"""N that a foot on the ground shows at the least."""
+"""Smallest force of a foot on the ground, N."""
 SHORTEST = 0.15
-"""s; contacts and flights shorter than this are bounces of the switch."""
+"""Shortest contact or flight, s; a shorter one is a bounce of the switch."""
 
 
 def switch_contacts(t: NDArray[Any], counts: NDArray[Any]) -> list[tuple[float, float]] | None:
-    """The spans of contact [begin, end] in s of one pressure switch, `counts` (n,) at `t` (n,); None when it is dead.
+    """Return the spans of contact [start, end] in s of one pressure switch; None when it is dead.
 
-    The span that the recording begins in, and the one that it ends in, are left out: one of their edges is not seen.
+    `counts` (n,) are its readings at `t` (n,). The spans in which the recording starts and ends are left out, because
+    one of their edges is not seen.
     """
     unloaded, loaded = np.percentile(counts, [2.0, 97.0])
-    if loaded - unloaded < DEAD:
+    if loaded - unloaded < LEAST_RANGE:
         return None
     closes, opens = (unloaded + share * (loaded - unloaded) for share in (CLOSES, OPENS))
     edges: list[tuple[float, bool]] = []
@@ -38,7 +39,10 @@ def switch_contacts(t: NDArray[Any], counts: NDArray[Any]) -> list[tuple[float, 
 
 
 def force_contacts(t: NDArray[Any], force: NDArray[Any]) -> list[tuple[float, float]]:
-    """The spans of contact [begin, end] in s of a force (n,) at `t` (n,), N; those cut off at an end are left out."""
+    """Return the whole spans of contact [start, end] in s of a force (n,), N, at `t` (n,).
+
+    Spans cut off at an end of the recording are left out.
+    """
     closed = force > FORCE
     turns = np.flatnonzero(closed[1:] != closed[:-1]) + 1
     edges = without_bounces([(float(t[k]), bool(closed[k])) for k in turns])
@@ -46,7 +50,7 @@ def force_contacts(t: NDArray[Any], force: NDArray[Any]) -> list[tuple[float, fl
 
 
 def without_bounces(edges: Sequence[tuple[float, bool]]) -> list[tuple[float, bool]]:
-    """The edges without the pairs that lie closer together than a contact or a flight can be."""
+    """Return the edges without the pairs that are closer together than a contact or a flight can be."""
     kept: list[tuple[float, bool]] = []
     for edge in edges:
         if kept and edge[0] - kept[-1][0] < SHORTEST:
@@ -57,11 +61,11 @@ def without_bounces(edges: Sequence[tuple[float, bool]]) -> list[tuple[float, bo
 
 
 def merged(spans: Sequence[tuple[float, float]], gap: float = 1e-3) -> list[tuple[float, float]]:
-    """Spans in order of time, those joined that touch within `gap` s."""
+    """Return the spans in order of time, with spans joined that touch within `gap` s."""
     joined: list[tuple[float, float]] = []
-    for begin, end in sorted(spans):
-        if joined and begin <= joined[-1][1] + gap:
+    for start, end in sorted(spans):
+        if joined and start <= joined[-1][1] + gap:
             joined[-1] = (joined[-1][0], max(end, joined[-1][1]))
         else:
-            joined.append((begin, end))
+            joined.append((start, end))
     return joined

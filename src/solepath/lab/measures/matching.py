@@ -1,4 +1,4 @@
-"""Found events against true ones: matched one to one within 250 ms; F1, median offset and its spread; signed errors."""
+"""Matches found events with true ones, one to one within 250 ms: F1, median offset, its spread, and signed errors."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from attrs import frozen
 
 @frozen
 class Errors:
-    """Signed errors, ours less the true: of legs relative to the true length (0.01 is 1 %), of stride times in s."""
+    """Signed errors, ours less the true value: relative for legs (0.01 is 1 %), in s for stride times."""
 
     values: tuple[float, ...] = ()
 
@@ -20,27 +20,27 @@ class Errors:
 
     @property
     def mean(self) -> float | None:
-        """Mean magnitude."""
+        """Mean magnitude of the errors."""
         return float(np.mean(np.abs(self.values))) if self.values else None
 
     @property
     def median(self) -> float | None:
-        """Median magnitude."""
+        """Median magnitude of the errors."""
         return float(np.median(np.abs(self.values))) if self.values else None
 
     @property
     def bias(self) -> float | None:
-        """Median with its sign: positive when ours are too long."""
+        """Signed median of the errors: positive when ours are too long."""
         return float(np.median(self.values)) if self.values else None
 
 
 TOLERANCE = 0.25
-"""s; design: "matched within 250 ms"."""
+"""Largest distance of a match, s; design: "matched within 250 ms"."""
 
 
 @frozen
 class Matching:
-    """What became of the true and the found events of one kind. `offsets`: found minus true, s, of each match."""
+    """Numbers of true and found events of one kind; `offsets`: found minus true, s, of each match."""
 
     n_true: int = 0
     n_found: int = 0
@@ -51,13 +51,13 @@ class Matching:
 
     @property
     def f1(self) -> float | None:
-        """2 x matched / (true + found); None where there was nothing to find and nothing found."""
+        """F1, 2 x matched / (true + found); None when there is no true and no found event."""
         total = self.n_true + self.n_found
         return 2.0 * len(self.offsets) / total if total else None
 
     @property
     def bias(self) -> float | None:
-        """Median offset, s: positive when we are late."""
+        """Median offset, s: positive when found events are late."""
         return float(np.median(self.offsets)) if self.offsets else None
 
     @property
@@ -74,10 +74,10 @@ class Matching:
 def match(
     true: Iterable[float], found: Iterable[float], *, windows: Sequence[tuple[float, float]] | None = None
 ) -> Matching:
-    """Pairs of true and found times, the closest first, each used once, none further apart than TOLERANCE.
+    """Match true and found times, the closest first, each used once, none further apart than TOLERANCE.
 
-    `windows`: the spans of time that are labelled, s; a found event that lies outside all of them, each widened by the
-    tolerance, is neither right nor wrong and is left out. None: from the first to the last true event.
+    `windows` are the labelled spans of time, s. A found event outside all of them, each widened by the tolerance, is
+    neither right nor wrong and is left out. None stands for the span from the first to the last true event.
     """
     truth = sorted(true)
     if windows is None:
@@ -88,8 +88,10 @@ def match(
 
 
 def pairs(true: Sequence[float], found: Sequence[float], tolerance: float) -> list[tuple[int, int]]:
-    """(index in `true`, index in `found`) of the pairs no further apart than `tolerance`, the closest first served,
-    each used once; in the order of `true`. Both are in order of time."""
+    """Return (index in `true`, index in `found`) of the pairs within `tolerance`, in the order of `true`.
+
+    The closest pairs are taken first and each time is used once. Both inputs are in order of time.
+    """
     near: list[tuple[float, int, int]] = []
     for i, t in enumerate(true):
         around = range(bisect_left(found, t - 2.0 * tolerance), bisect_right(found, t + 2.0 * tolerance))
@@ -106,8 +108,10 @@ def pairs(true: Sequence[float], found: Sequence[float], tolerance: float) -> li
 
 
 def interval_errors(true: Iterable[float], found: Iterable[float], *, longest: float) -> Errors:
-    """By how much the time from a found event to the next differs from that between the true ones that they were
-    matched with, s. Only of true ones that follow each other within `longest` s, both of which were matched."""
+    """Return the errors, s, of the intervals between found events that match consecutive true events.
+
+    Only true events that follow each other within `longest` s and are both matched count.
+    """
     truth, ours = sorted(true), sorted(found)
     by_true = dict(pairs(truth, ours, TOLERANCE))
     both = [k for k in range(len(truth) - 1) if k in by_true and k + 1 in by_true]

@@ -1,4 +1,4 @@
-"""What the scores of one recording are, and what they come to over several."""
+"""Scores of one recording, and their summary over several."""
 
 from __future__ import annotations
 
@@ -18,23 +18,25 @@ Figures = dict[str, float | None]
 
 @frozen
 class Scored:
-    """The scores of one recording. `figures` are averaged over recordings, all else is pooled."""
+    """Scores of one recording. `figures` are averaged over recordings, everything else is pooled."""
 
     recording: str
     figures: Figures = field(factory=dict)
     events: dict[str, Matching] = field(factory=dict)
-    """By kind: heel_strike, toe_off."""
+    """Matched events by kind: heel_strike, toe_off."""
     strides: StrideScore | None = None
     activity: ActivityScore | None = None
     errors: dict[str, Errors] = field(factory=dict)
-    """By kind: leg and body_leg (relative), stride_time (s)."""
+    """Errors by kind: leg and body_leg (relative), stride_time (s)."""
     groups: tuple[str, ...] = ("all",)
-    """The averages that this recording belongs to."""
+    """Names of the groups that this recording belongs to."""
     samples: int = 0
+    """Number of samples."""
     seconds: float = 0.0
+    """Wall time that the session took, s."""
 
     def flat(self) -> Figures:
-        """Every figure of this recording by its name in tables and JSON."""
+        """Return every figure of this recording by its name in tables and JSON."""
         flat = dict(self.figures)
         for kind, matching in self.events.items():
             flat |= {
@@ -68,7 +70,7 @@ class Scored:
 
 @frozen
 class Summary:
-    """Of one group of recordings."""
+    """Averages and pooled figures of one group of recordings."""
 
     group: str
     count: int
@@ -77,10 +79,11 @@ class Summary:
     together: Figures
     """Figures of the pooled events, strides, activities and errors."""
     confusion: dict[str, dict[str, int]] | None = None
-    """{true activity: {told activity: samples}}, where activities were scored."""
+    """Confusion matrix {true activity: {reported activity: samples}}, when activities were scored."""
 
 
 def summarise(scores: Sequence[Scored], group: str) -> Summary:
+    """Return the summary of the recordings of one group."""
     members = [score for score in scores if group in score.groups]
     keys = list(dict.fromkeys(key for score in members for key in score.figures))
     values = {key: [v for s in members if (v := s.figures.get(key)) is not None] for key in keys}

@@ -1,5 +1,5 @@
-"""Experiments of the papers, walked again by emulated wearers with emulated sensors.
+"""Experiments of the papers, repeated by emulated wearers with emulated sensors.
 
-Every figure is of a session that heard what the sensors sent; the truth is only compared with. What sensors do wrong
-comes from the data sheets in emulate/sensors/parts.py.
+Every figure comes from a session that receives the sensors' samples; the truth is used only for comparison. Sensor
+errors come from the data sheets in emulate/sensors/parts.py.
 """

@@ -1,8 +1,8 @@
 """Liu et al. 2015: wearers with a 20 Hz SensorTag in each insole, in a building of 56 m by 63 m, without any anchor.
 
-What the paper measured and this walks again (footstep_walks.py): the 63 m corridor by one foot, by the common method
-and by two (fig. 13 b), steps (c), activities (a), turns (d, e), and the place on the floor plan (f to h). Most figures
-of the paper are drawn, not printed: rows without a figure of the paper's have none.
+The experiments of the paper are repeated here (footstep_walks.py): the 63 m corridor by one foot, by the common method
+and by two feet (fig. 13 b), steps (c), activities (a), turns (d, e), and the place on the floor plan (f to h). Most
+figures of the paper are drawn, not printed; their rows have no figure of the paper's.
 """
 
 from __future__ import annotations
@@ -15,25 +15,25 @@ from ...emulate.routes.building import BUILDING
 from ...papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from ...types import Activity, Turn
 from ..measures.confusion import ActivityScore
-from ..processes import Progress, each
+from ..processes import Progress, run_jobs
 from . import footstep_walks, published
 from .footstep_walks import CORRIDOR, FootstepWalked, walked
 from .tables import Drawn, Floor, PictureTrack, Reproduction, row_of
 
 NAME = FOOTSTEP_TRACKER.name
 FIRST = 100_000
-"""Wearers from here on: nothing was learnt from any of them (lab/train/emulated.py)."""
+"""First seed of the wearers; nothing was learnt from this one or later ones (lab/train/emulated.py)."""
 WEARERS = 8
-"""Section V-E: "we invited eight different users"."""
+"""Number of wearers; section V-E: "we invited eight different users"."""
 
 
 def reproduce(
     walks: int | None = None, seed: int = 1, *, processes: int = 1, progress: Progress | None = None
 ) -> Reproduction:
-    """So many wearers, each of whom walks all of it."""
+    """Return the results of `walks` wearers, each of whom walks every experiment."""
     count = WEARERS if walks is None else walks
     seeds = [FIRST + 1000 * seed + k for k in range(count)]
-    done = list(each(walked, seeds, processes=processes, progress=progress))
+    done = list(run_jobs(walked, seeds, processes=processes, progress=progress))
     places = [place for one in done for place in one.places]
     rows = [
         _row("corridor, one foot %", [100.0 * one.one_foot / CORRIDOR for one in done]),
@@ -62,7 +62,7 @@ _row = partial(row_of, published.FOOTSTEP_TRACKER)
 
 
 def _share(counts: Iterable[tuple[int, int]]) -> float:
-    """Per cent right of (right, all) pairs."""
+    """Return the percentage right of (right, all) pairs."""
     pairs = list(counts)
     return 100.0 * sum([right for right, _ in pairs]) / max(1, sum([of for _, of in pairs]))
 
@@ -79,10 +79,10 @@ def _notes(done: list[FootstepWalked]) -> tuple[str, ...]:
     lines = []
     windows = sum([one.windows for one in done], ActivityScore())
     for activity in Activity:
-        told = windows.told_of(activity)
-        if told:
-            share = 100.0 * told.get(activity, 0) / sum(told.values())
-            lines.append(f"{activity.value}: {share:.1f} % of {sum(told.values())} windows right.")
+        reported = windows.reported_for(activity)
+        if reported:
+            share = 100.0 * reported.get(activity, 0) / sum(reported.values())
+            lines.append(f"{activity.value}: {share:.1f} % of {sum(reported.values())} windows right.")
     for turn in Turn:
         pairs = [one.classes[turn] for one in done]
         lines.append(f"Turn {turn.value}: {_share(pairs):.1f} % right.")

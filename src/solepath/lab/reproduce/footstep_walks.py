@@ -1,6 +1,6 @@
-"""What one wearer of the footstep-tracker experiments walks: corridor, activities, turns, a way through the building.
+"""Walks of one wearer of the footstep-tracker experiments: corridor, activities, turns, a way through the building.
 
-Two CC2541 in the insoles at 20 Hz (section IV, "System Deployment"), another pair of devices for every wearer.
+There are two CC2541 in the insoles at 20 Hz (section IV, "System Deployment"), another pair for every wearer.
 """
 
 from __future__ import annotations
@@ -27,25 +27,29 @@ from ..emulated import activity as emulated_activity
 from ..emulated import place as emulated_place
 from ..emulated.place import PlaceScore
 from ..measures.confusion import ActivityScore
-from .walks import heard
+from .walks import run_session
 
 RATE = 20.0
-"""Hz."""
+"""Sampling rate, Hz."""
 KNOWN_WAY = 20.0
-"""m that are walked ahead for the toe-out angle (fig. 10)."""
+"""Length of the walk from which the toe-out angle is calibrated, m (fig. 10)."""
 CORRIDOR = 63.0
-"""m."""
+"""Length of the corridor, m."""
 BY_HEIGHT = 0.413
-"""Step length over stature: the common method of fig. 13 (b) multiplies the steps by "a step length estimated by the
-user's height"; the paper does not say how, this is the factor that pedometers use for a woman (0.415 for a man)."""
+"""Step length over stature.
+
+The common method of fig. 13 (b) multiplies the steps by "a step length estimated by the user's height". The paper does
+not give the rule; this is the factor that pedometers use for a woman (0.415 for a man).
+"""
 INCREMENTS = tuple(radians(angle) for angle in range(-180, 181, 30) if angle)
-"""Of fig. 13 (d)."""
+"""Turn angles of fig. 13 (d), rad."""
 CLASSES = {Turn.LEFT: (0.5 * pi,), Turn.RIGHT: (-0.5 * pi,), Turn.ABOUT: (pi, -pi)}
+"""Turn angles of each class, rad."""
 
 
 @frozen
-class Wears:
-    """Who walks, with toes more or less out, and the stature, m."""
+class WearerData:
+    """A wearer, with toes more or less out, and the wearer's stature, m."""
 
     who: Wearer
     stature: float
@@ -53,29 +57,31 @@ class Wears:
 
 @frozen
 class FootstepWalked:
-    """What came of one wearer; lengths in m, angles in degrees, shares of one."""
+    """Results of one wearer; lengths in m, angles in degrees, shares as fractions of one."""
 
     one_foot: float
-    """Off at the end of the corridor."""
+    """Error at the end of the corridor by one foot, m."""
     by_height: float
+    """Error at the end of the corridor by stature, m."""
     two_feet: float
+    """Error at the end of the corridor by both feet, m."""
     step_one: tuple[float, ...]
-    """How far off the length of each step was, signed, by one foot ..."""
+    """Signed error of the length of each stride by one foot, m."""
     step_two: tuple[float, ...]
-    """... and by the mean of a step and the other foot's before it."""
+    """Signed error of the mean of a stride and the other foot's stride before it, m."""
     windows: ActivityScore
-    """Two-second windows of another walk of somebody else, on stairs and in lifts."""
+    """Score of two-second windows on another walk of another wearer, with stairs and lifts."""
     turned: dict[float, float]
-    """By the true turn, how far off the angle was."""
+    """Error of the turn angle, degrees, by true angle, degrees."""
     classes: dict[Turn, tuple[int, int]]
-    """(right, all)."""
+    """Number of turns classified right and number of all, by class."""
     places: tuple[PlaceScore, ...]
-    """Along the way of the paper's case study, and along another."""
+    """Scores of the place along the way of the paper's case study, and along another way."""
 
 
 def walked(seed: int) -> FootstepWalked:
-    """All that one wearer walks."""
-    known = Wears(*random_wearer(np.random.default_rng([seed, 17])))
+    """Return the results of all walks of one wearer."""
+    known = WearerData(*random_wearer(np.random.default_rng([seed, 17])))
     calibration = _calibrated(known, seed)
     windows = emulated_activity.score(FOOTSTEP_TRACKER, seed).windows
     turned, classes = _turns(known, calibration, seed)
@@ -83,13 +89,13 @@ def walked(seed: int) -> FootstepWalked:
     return FootstepWalked(*_corridor(known, calibration, seed), windows, turned, classes, places)
 
 
-def _worn(known: Wears, route: Route, seed: int) -> EmulatedWalk:
+def _worn(known: WearerData, route: Route, seed: int) -> EmulatedWalk:
     tags = {site: CC2541(rate=RATE, mounting=IN_SOLE) for site in SITE_OF_FOOT.values()}
     return emulate(route, wearer=known.who, devices=tags, seed=seed)
 
 
-def _calibrated(known: Wears, seed: int) -> Calibration:
-    """The toe-out of both feet, from a walk of known length (fig. 10); none where that gives no angle."""
+def _calibrated(known: WearerData, seed: int) -> Calibration:
+    """Return the toe-out of both feet from a walk of known length (fig. 10); none where that gives no angle."""
     walk = _worn(known, Route().stand(3.0).walk(KNOWN_WAY, 1.2).stop(2.0), seed + 500)
     try:
         return learnt(toe_out(walk.packets, KNOWN_WAY))
@@ -98,7 +104,7 @@ def _calibrated(known: Wears, seed: int) -> Calibration:
 
 
 def _corridor(
-    known: Wears, calibration: Calibration, seed: int
+    known: WearerData, calibration: Calibration, seed: int
 ) -> tuple[float, float, float, tuple[float, ...], tuple[float, ...]]:
     walk = _worn(known, corridor().route, seed)
     session = Session(FOOTSTEP_TRACKER, calibration=calibration)
@@ -127,7 +133,7 @@ def _corridor(
 
 
 def _true_length(walk: EmulatedWalk, step: StrideTaken) -> float | None:
-    """Of the step whose swing was this one's, m."""
+    """Return the length of the true stride with the same swing as this one, m."""
     if step.t_toe_off is None or step.t_heel_strike is None:
         return None
     middle = 0.5 * (step.t_toe_off + step.t_heel_strike)
@@ -137,13 +143,16 @@ def _true_length(walk: EmulatedWalk, step: StrideTaken) -> float | None:
     return None
 
 
-def _turns(known: Wears, calibration: Calibration, seed: int) -> tuple[dict[float, float], dict[Turn, tuple[int, int]]]:
+def _turns(
+    known: WearerData, calibration: Calibration, seed: int
+) -> tuple[dict[float, float], dict[Turn, tuple[int, int]]]:
     rng = np.random.default_rng([seed, 18])
     turned: dict[float, float] = {}
     for angle in INCREMENTS:
         made = _turn(known, calibration, angle, rng, seed)
         off = sum([one.angle for one in made]) - angle
-        turned[round(degrees(angle))] = abs(degrees(remainder(off, 2.0 * pi)))  # about is about, to either side
+        # a turn about to the left equals one to the right
+        turned[round(degrees(angle))] = abs(degrees(remainder(off, 2.0 * pi)))
     classes = {}
     for turn, angles in CLASSES.items():
         right = 0
@@ -156,20 +165,25 @@ def _turns(known: Wears, calibration: Calibration, seed: int) -> tuple[dict[floa
 
 
 PER_CLASS = 10
-"""Turns of each class and wearer; the paper has 30 of three wearers to train with, and five new ones."""
+"""Turns of each class and wearer; the paper has 30 of three wearers for training, and five new ones."""
 TURN_SPREAD = radians(15.0)
-"""Nobody turns by 90 degrees exactly: standard deviation; as the classifier was trained (lab/train/turns.py)."""
+"""Standard deviation of the turn angle, rad, because nobody turns by exactly 90 degrees.
+
+The classifier was trained with the same value (lab/train/turns.py).
+"""
 
 
-def _turn(known: Wears, calibration: Calibration, angle: float, rng: np.random.Generator, seed: int) -> list[TurnMade]:
-    """Walk, turn, walk."""
+def _turn(
+    known: WearerData, calibration: Calibration, angle: float, rng: np.random.Generator, seed: int
+) -> list[TurnMade]:
+    """Return the turns reported while the wearer walks, turns and walks."""
     radius = float(rng.uniform(0.0, 1.2))
     route = Route(speed=float(rng.uniform(0.9, 1.3))).stand(2.5).walk(6.0).turn(angle, radius if radius > 0.4 else 0.0)
     walk = _worn(known, route.walk(6.0).stop(3.0), seed)
-    return [event for event in heard(FOOTSTEP_TRACKER, walk.packets, calibration) if isinstance(event, TurnMade)]
+    return [event for event in run_session(FOOTSTEP_TRACKER, walk.packets, calibration) if isinstance(event, TurnMade)]
 
 
-def _placed(known: Wears, calibration: Calibration, way: BuildingWalk, seed: int) -> PlaceScore:
+def _placed(known: WearerData, calibration: Calibration, way: BuildingWalk, seed: int) -> PlaceScore:
     walk = _worn(known, way.route, seed)
-    events = heard(FOOTSTEP_TRACKER, walk.packets, calibration, BUILDING)
+    events = run_session(FOOTSTEP_TRACKER, walk.packets, calibration, BUILDING)
     return emulated_place.score(way, walk.walker, walk.truth, events)

@@ -1,10 +1,10 @@
 """Chen et al. 2019: 20 walks of 20 m, and 91 m through a building, with two smart insoles at 30 Hz.
 
-Each walk has another pair of insoles, and the shoe is measured anew in five postures, three times each (section III-C).
-A recording is 20 s of walking for the pressure noise (section III-B), a halt, and then the 20 m; the sessions hear what
-comes after the halt. Distances are the sums of stride lengths, as in section IV-B; of the corridor the drift of that
-sum, as in section IV-C. The corridor's shape is not in the text; here it is once around the inner block of a floor
-(emulate/routes/laps.py).
+Each walk has another pair of insoles, and the shoe is measured again in five postures, three times each (section
+III-C). A recording is 20 s of walking for the pressure noise (section III-B), a halt, and then the 20 m; the sessions
+receive the samples after the halt. Distances are the sums of stride lengths, as in section IV-B. For the corridor the
+drift of that sum counts, as in section IV-C. The paper does not give the corridor's shape; here it is once around the
+inner block of a floor (emulate/routes/laps.py).
 """
 
 from __future__ import annotations
@@ -28,31 +28,31 @@ from ...papers.kupt_dfpc.recipe import KUPT, KUPT_DFPC, ZUPT
 from ...papers.kupt_dfpc.shoe import fit_shoe
 from ...types import SITE_OF_FOOT, Foot
 from ..measures.alignment import Floats
-from ..processes import Progress, each
+from ..processes import Progress, run_jobs
 from . import published
 from .tables import Boxes, Drawn, FigureRow, Floor, PictureTrack, Reproduction, row_of, statistics
-from .walks import cut, heard, laid, rest_after, then, thinned
+from .walks import align_track, cut, join_routes, rest_after, run_session, thin_out
 
 NAME = KUPT_DFPC.name
 WALKS = 20
 RATE = 30.0
-"""Hz, section III-A."""
+"""Sampling rate, Hz (section III-A)."""
 SPEED = 1.3
-"""m/s: comfortable."""
+"""Comfortable walking speed, m/s."""
 DISTANCE = 20.0
-"""m."""
+"""Length of a walk, m."""
 CORRIDOR = 91.0
-"""m, section IV-C."""
+"""Length of the corridor walk, m (section IV-C)."""
 EVERY = 4
-"""The paper walked its corridor once; here for every so many walks of 20 m, since one says little."""
+"""Number of walks of 20 m for each corridor walk. The paper has one corridor walk, which is too few."""
 NOISE_WALK = straight(20.0 * SPEED, SPEED).stand(4.0)
-"""20 s for the pressure noise, and a halt."""
+"""Walk of 20 s for the pressure noise, and a halt."""
 FEET = {Foot.LEFT: "L", Foot.RIGHT: "R"}
 
 
 @frozen
 class KuptJob:
-    """One walk; `corridor`: of CORRIDOR m instead of DISTANCE."""
+    """One walk; `corridor` makes it CORRIDOR m long instead of DISTANCE."""
 
     seed: int
     corridor: bool = False
@@ -60,8 +60,12 @@ class KuptJob:
 
 @frozen
 class KuptWalked:
-    """`distances` by row and `true`, how far each foot really went, m. Of the corridor only: `tracks`, where each step
-    ended, the true path first, and `closing`, from the end of each to its start, m."""
+    """Results of one walk.
+
+    `distances` has the walked distance by row and `true` the real one of each foot, m. Only a corridor walk has
+    `tracks`, the positions at which strides ended with the true path first, and `closing`, the distance of each end
+    from its start, m.
+    """
 
     distances: dict[str, float]
     true: dict[Foot, float]
@@ -72,12 +76,12 @@ class KuptWalked:
 def reproduce(
     walks: int | None = None, seed: int = 1, *, processes: int = 1, progress: Progress | None = None
 ) -> Reproduction:
-    """So many walks of 20 m, and for every EVERY of them one through the corridor, one at least."""
+    """Return the results of `walks` walks of 20 m, with one corridor walk for every EVERY of them, at least one."""
     count = WALKS if walks is None else walks
     corridors = max(1, count // EVERY)
     jobs = [KuptJob(1000 * seed + 500 + k, corridor=True) for k in range(corridors)]
     jobs += [KuptJob(1000 * seed + k) for k in range(1, count + 1)]
-    done = list(each(walk, jobs, processes=processes, progress=progress))
+    done = list(run_jobs(walk, jobs, processes=processes, progress=progress))
     long, short = done[:corridors], done[corridors:]
     paper = published.KUPT_DFPC
     rows = tuple([row_of(paper, name, [one.distances[name] for one in short]) for name in paper])
@@ -99,58 +103,58 @@ def _notes(rows: tuple[FigureRow, ...], short: list[KuptWalked], long: list[Kupt
     squares = {row.name: np.mean([(value - DISTANCE) ** 2 for value in row.values]) for row in rows}
     off = ", ".join(f"{name} {float(np.sqrt(square)):.2f}" for name, square in squares.items())
     paths = statistics([one.true[foot] for one in short for foot in Foot])
-    told = [f"Root mean square of the error of {len(short)} walks, m: {off}."]
-    told.append(f"The feet really went {paths.mean:.2f} m on average.")
+    lines = [f"Root mean square of the error of {len(short)} walks, m: {off}."]
+    lines.append(f"The feet really went {paths.mean:.2f} m on average.")
     for name, drift in published.CORRIDOR_DRIFT.items():
-        off_by = [one.distances[name] - _went(one, name) for one in long]
+        off_by = [one.distances[name] - _true_distance(one, name) for one in long]
         share = 100.0 * float(np.mean(np.abs(off_by))) / CORRIDOR
         ends = float(np.mean([one.closing[name] for one in long]))
-        told.append(
+        lines.append(
             f"{CORRIDOR:g} m of corridors, {name}: distance off by {', '.join(f'{off:+.2f}' for off in off_by)} m, "
             f"{share:.2f} % of it on average, end {ends:.2f} m from the start of this closed way; paper "
             f"{drift:.2f} m, {100.0 * drift / CORRIDOR:.2f} %."
         )
-    told.append(
+    lines.append(
         f"The paper contradicts itself: the mean of KUPT-L is {published.KUPT_DFPC['KUPT-L'].mean} m in table I and "
         f"{published.KUPT_L_MEAN_IN_TEXT} m in the text below it."
     )
-    return tuple(told)
+    return tuple(lines)
 
 
-def _went(one: KuptWalked, name: str) -> float:
-    """How far the foot went whose distance this is; that of both feet is the mean of theirs, m."""
+def _true_distance(one: KuptWalked, name: str) -> float:
+    """Return the true distance of the foot of this row, m; the mean of both feet for a row of both."""
     feet = [foot for foot, letter in FEET.items() if name.endswith(f"-{letter}")] or list(Foot)
     return float(np.mean([one.true[foot] for foot in feet]))
 
 
 def walk(job: KuptJob) -> KuptWalked:
-    """One walk: emulate it, calibrate on its first part, hear the second with each recipe."""
+    """Emulate one walk, calibrate on its first part and run each recipe on the second."""
     route = corridor(CORRIDOR, SPEED) if job.corridor else straight(DISTANCE, SPEED)
     walked = emulate(
-        then(NOISE_WALK, route),
+        join_routes(NOISE_WALK, route),
         devices={SITE_OF_FOOT[foot]: Insole(rate=RATE, cell_part=WORN_RESISTIVE) for foot in Foot},
         seed=job.seed,
     )
     halt = rest_after(walked.walker, NOISE_WALK)
     parts = cut(walked, halt)
     known = merged(merged(parts.layouts, measured_shoe(job.seed)), pressure_noise(parts.before))
-    said = {recipe.name: heard(recipe, parts.after, known) for recipe in (ZUPT, KUPT, KUPT_DFPC)}
+    events_of = {recipe.name: run_session(recipe, parts.after, known) for recipe in (ZUPT, KUPT, KUPT_DFPC)}
     distances = {
-        f"{recipe.upper()}-{letter}": sum(s.length for s in _steps(said[recipe], foot))
+        f"{recipe.upper()}-{letter}": sum(s.length for s in _steps(events_of[recipe], foot))
         for recipe in ("zupt", "kupt")
         for foot, letter in FEET.items()
     }
-    fused = [event for event in said[NAME] if isinstance(event, StrideFused)]
+    fused = [event for event in events_of[NAME] if isinstance(event, StrideFused)]
     distances["KUPT+DFPC"] = fused[-1].distance if fused else 0.0
     true = {foot: sum(step.length for step in walked.truth.steps(foot) if step.t_heel_off > halt) for foot in Foot}
     if not job.corridor:
         return KuptWalked(distances, true)
-    tracks, closing = _tracks(walked.truth, halt, said["zupt"], fused)
+    tracks, closing = _tracks(walked.truth, halt, events_of["zupt"], fused)
     return KuptWalked(distances, true, tracks, closing)
 
 
 def measured_shoe(seed: int) -> Calibration:
-    """What rulers and static postures tell of the shoe."""
+    """Return the calibration that rulers and static postures give for the shoe."""
     with TemporaryDirectory() as folder:
         file = Path(folder) / "postures.csv"
         write_postures(file, postures(seed=seed))
@@ -164,13 +168,13 @@ def _steps(events: list[Event], foot: Foot) -> list[StrideTaken]:
 def _tracks(
     truth: Truth, halt: float, zupt: list[Event], fused: list[StrideFused]
 ) -> tuple[tuple[PictureTrack, ...], dict[str, float]]:
-    """Where steps ended, laid on the floor by their first two metres, and how far each end is from its start, m."""
+    """Return tracks of stride ends, aligned over their first two metres, and each end's distance from its start, m."""
     ends = {f"ZUPT-{FEET[foot]}": [(step.t_end, foot, step.position) for step in _steps(zupt, foot)] for foot in Foot}
-    # the place after each stride is the end of the chosen foot's path; between its own strides that stands still
+    # the position after a stride is the end of the chosen foot's path, which does not change between its own strides
     ends["KUPT+DFPC"] = [(one.t, one.foot, one.position) for one in fused if one.foot is one.chosen]
     path = _true_path(truth, halt)
     start = path[0].copy()
-    tracks, closing = [PictureTrack("true path", thinned(path - start), Drawn.TRUTH)], {}
+    tracks, closing = [PictureTrack("true path", thin_out(path - start), Drawn.TRUTH)], {}
     for name, places in ends.items():
         if len(places) < 2:
             continue
@@ -178,19 +182,19 @@ def _tracks(
         true = np.array(
             [_true_places(truth, foot, t)[0] for t, foot in [(halt, places[0][1]), *(p[:2] for p in places)]]
         )
-        tracks.append(PictureTrack(name, thinned(laid(track, true) - start), Drawn.DOTS))
+        tracks.append(PictureTrack(name, thin_out(align_track(track, true) - start), Drawn.DOTS))
         closing[name] = float(np.linalg.norm(track[-1] - track[0]))
     return tuple(tracks), closing
 
 
 def _true_places(truth: Truth, foot: Foot, t: float | Floats) -> Floats:
-    """(x, y) on the floor at each instant, (n, 2), m."""
+    """Return (x, y) on the floor at each instant, (n, 2), m."""
     places: Floats = truth.pose(foot, t).position[:, :2] + truth.feet[foot].origin[:2]
     return places
 
 
 def _true_path(truth: Truth, halt: float) -> Floats:
-    """Midway between the feet, (n, 2), m."""
+    """Return the path midway between the feet, (n, 2), m."""
     t = np.arange(halt, truth.duration, 0.2)
     left, right = (_true_places(truth, foot, t) for foot in Foot)
     middle: Floats = 0.5 * (left + right)

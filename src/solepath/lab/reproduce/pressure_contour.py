@@ -1,14 +1,14 @@
-"""Bebek et al. 2010: six half-hour walks that end where they began, a boot with 24 cells and an IMU in its heel.
+"""Bebek et al. 2010: six half-hour walks that end where they start, a boot with 24 cells and an IMU in its heel.
 
 Each walk is one recording: laps of the calibration square on marked steps, a halt, and the half hour (fig. 13). The
 calibration comes from the laps, for each recipe from its own positions ("the same ZUPT'ing and calibration techniques
-are applied"); the sessions hear what comes after the halt. A loop-closing error is the horizontal distance between a
-track's beginning and its end.
+are applied"); the sessions receive the samples after the halt. A loop-closing error is the horizontal distance between
+a track's start and its end.
 
-Lengths are those of table I. Of the fourth walk the paper says that it was the square, of the fifth that it was random;
-here the shorter half of the six are rounds of the square and the longer ones random. The wearer's pace is that of the
-calibration walks, 235 m in five minutes, or faster where the half hour asks for it; what is left of the half hour is
-stood. The rate of the samples is not in the paper.
+Lengths are those of table I. The paper says that the fourth walk was the square and the fifth random; here the shorter
+half of the six are rounds of the square and the longer ones random. The wearer's pace is that of the calibration walks,
+235 m in five minutes, or faster where the half hour requires it; in the rest of the half hour the wearer stands. The
+rate of the samples is not in the paper.
 """
 
 from __future__ import annotations
@@ -29,34 +29,35 @@ from ...papers.pressure_contour.recipe import GYROSCOPE, PRESSURE_CONTOUR
 from ...papers.pressure_contour.square import square_drift
 from ...types import SITE_OF_FOOT, Foot
 from ..measures.alignment import Floats
-from ..processes import Progress, each
+from ..processes import Progress, run_jobs
 from . import published
 from .tables import Drawn, Floor, PictureTrack, Reproduction, row_of
-from .walks import cut, heard, laid, rest_after, then, thinned
+from .walks import align_track, cut, join_routes, rest_after, run_session, thin_out
 
 NAME = PRESSURE_CONTOUR.name
 WALKS = 6
 RATE = 50.0
-"""Hz (assumed)."""
+"""Sampling rate, Hz (assumed)."""
 HALF_HOUR = 1800.0
-"""s."""
+"""Duration of the paper's walks, s."""
 LASTING = HALF_HOUR
-"""s of each walk; the lengths of LOOPS go with it."""
+"""Duration of each walk, s; the lengths of LOOPS scale with it."""
 LAPS = 5
-"""Of the calibration square; "four to six"."""
+"""Number of laps of the calibration square; "four to six"."""
 PACE = 0.8
-"""m/s: 235 m in 5 min (section V-D); faster where the half hour asks for more."""
+"""Walking speed, m/s: 235 m in 5 min (section V-D); faster where the half hour requires it."""
 FOOT = Foot.RIGHT
-"""Whose boot it is (assumed)."""
+"""Foot that wears the boot (assumed)."""
 RECIPES = {"Gyroscope": GYROSCOPE, "Pressure": PRESSURE_CONTOUR}
 IN_FIGURES = {3: "square (fig. 14)", 4: "random walk (fig. 16)"}
-"""Of LOOPS those that the paper draws; these are walked first."""
+"""Indices of the LOOPS that the paper draws, with their titles; these are walked first."""
 ORDER = (*IN_FIGURES, 0, 1, 2, 5)
+"""Indices of LOOPS in the order in which they are walked."""
 
 
 @frozen
 class ContourJob:
-    """One half hour, as the walk of this number in LOOPS."""
+    """One half-hour walk, with the length of the entry `number` of LOOPS."""
 
     seed: int
     number: int
@@ -65,13 +66,13 @@ class ContourJob:
 
     @property
     def square(self) -> bool:
-        """Rounds of the square, else a random walk."""
+        """True for rounds of the square, False for a random walk."""
         return published.LOOPS[self.number].distance < PACE * HALF_HOUR
 
 
 @frozen
 class ContourWalked:
-    """Loop-closing errors by row, m, of so many m walked, and the tracks, the true path first."""
+    """Loop-closing errors by row, m, the walked `distance`, m, and the tracks, the true path first."""
 
     number: int
     distance: float
@@ -82,10 +83,10 @@ class ContourWalked:
 def reproduce(
     walks: int | None = None, seed: int = 1, *, processes: int = 1, progress: Progress | None = None
 ) -> Reproduction:
-    """So many half hours."""
+    """Return the results of `walks` half-hour walks."""
     count = WALKS if walks is None else walks
     jobs = [ContourJob(1000 * seed + k, ORDER[k % len(ORDER)], LASTING, LAPS) for k in range(count)]
-    done = list(each(walk, jobs, processes=processes, progress=progress))
+    done = list(run_jobs(walk, jobs, processes=processes, progress=progress))
     paper = published.PRESSURE_CONTOUR
     rows = [row_of(paper, f"{name} m", [one.closing[name] for one in done]) for name in RECIPES]
     rows += [row_of(paper, f"{name} %", [100.0 * w.closing[name] / w.distance for w in done], 3) for name in RECIPES]
@@ -118,7 +119,7 @@ def _notes(done: list[ContourWalked]) -> tuple[str, ...]:
 
 
 def route_of(job: ContourJob) -> tuple[Route, Route]:
-    """The calibration laps with a halt of half a minute, and all of it."""
+    """Return the calibration laps with a halt of half a minute, and the whole route."""
     distance = published.LOOPS[job.number].distance * job.lasting / HALF_HOUR
     before = square(job.laps, speed=PACE).stand(28.0)
     if job.square:
@@ -127,35 +128,35 @@ def route_of(job: ContourJob) -> tuple[Route, Route]:
         pause = max(1.0, job.lasting / count - lap.length / PACE)
         whole = before
         for _ in range(count):
-            whole = then(whole, evolve(lap, actions=(*lap.actions[1:-1], Stand(pause))))
+            whole = join_routes(whole, evolve(lap, actions=(*lap.actions[1:-1], Stand(pause))))
         return before, whole
     after = field_walk(job.lasting, distance / job.lasting, job.seed)
     turned = after.end.heading
-    return before, then(before, after.turn(atan2(-sin(turned), cos(turned))).stand(2.0))
+    return before, join_routes(before, after.turn(atan2(-sin(turned), cos(turned))).stand(2.0))
 
 
 def walk(job: ContourJob) -> ContourWalked:
-    """One half hour: emulate it, calibrate on its laps, hear the rest with either recipe."""
+    """Emulate one half hour, calibrate on its laps and run either recipe on the rest."""
     before, whole = route_of(job)
     walked = emulate(whole, devices={SITE_OF_FOOT[FOOT]: boot(FOOT, RATE)}, seed=job.seed)
     halt = rest_after(walked.walker, before)
     parts = cut(walked, halt)
     ends = [step.t_end for step in walked.truth.steps(FOOT) if step.t_end > halt]
-    path = thinned(_places(walked, np.array([halt, *ends])))
+    path = thin_out(_places(walked, np.array([halt, *ends])))
     closing, tracks = {}, [PictureTrack("true path", path, Drawn.TRUTH)]
     for name, recipe in RECIPES.items():
         drift = square_drift(parts.before, foot=FOOT, recipe=recipe, calibration=parts.layouts).kept
-        events = heard(recipe, parts.after, merged(parts.layouts, Calibration(drift={FOOT: drift})))
+        events = run_session(recipe, parts.after, merged(parts.layouts, Calibration(drift={FOOT: drift})))
         steps = [one for one in events if isinstance(one, StrideTaken) and one.final]
         track = np.array([(0.0, 0.0), *((x, y) for x, y, _ in (one.position for one in steps))])
         true = _places(walked, np.array([halt, *(one.t_end for one in steps)]))
         closing[name] = float(np.linalg.norm(track[-1] - track[0]))
-        tracks.append(PictureTrack(name.lower(), thinned(laid(track, true, over=10.0))))
+        tracks.append(PictureTrack(name.lower(), thin_out(align_track(track, true, over=10.0))))
     return ContourWalked(job.number, whole.length - before.length, closing, tuple(tracks))
 
 
 def _places(walked: EmulatedWalk, t: Floats) -> Floats:
-    """(x, y) of the boot's sensor from where it was at the first of these instants, m."""
+    """Return (x, y) of the boot's sensor relative to its place at the first of these instants, m."""
     places: Floats = walked.truth.pose(FOOT, t).position[:, :2]
     places -= places[0].copy()
     return places

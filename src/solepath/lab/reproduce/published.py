@@ -1,4 +1,4 @@
-"""The figures that the papers print, as they print them.
+"""Figures of the papers, as printed.
 
 Chen et al. 2019: D. Chen and others, "Smart Insole-Based Indoor Localization System for Internet of Things
 Applications", IEEE Internet of Things Journal. Bebek et al. 2010: O. Bebek and others, "Personal Navigation via
@@ -24,13 +24,13 @@ KUPT_DFPC: Table = {
     "KUPT-R": Statistics(20.44, 0.5, 20.14, 20.36, 20.52),
     "KUPT+DFPC": Statistics(20.08, 0.51, 19.74, 20.06, 20.46),
 }
-"""Table I: walked distance in m, of 20 walks of 20 m."""
+"""Table I: walked distance in m of 20 walks of 20 m."""
 
 KUPT_L_MEAN_IN_TEXT = 19.68
-"""m. The text below the table has another mean of KUPT-L than the table; its accuracy of 2.1 % is that of the table."""
+"""Mean of KUPT-L in the text below table I, m. It differs from the table, which has the stated accuracy of 2.1 %."""
 
 CORRIDOR_DRIFT = {"ZUPT-L": 11.15, "ZUPT-R": 7.43, "KUPT+DFPC": 0.78}
-"""Section IV-C: drift of the total walking distance over about 91 m, m (fig. 13 draws the tracks)."""
+"""Drift of the total walking distance over about 91 m, m (section IV-C; fig. 13 draws the tracks)."""
 
 
 PRESSURE_CONTOUR_TITLE = "Bebek et al. 2010, table I"
@@ -53,8 +53,11 @@ LOOPS = (
     Loop(1848.0, 3.89, 1.45),
     Loop(1811.0, 9.39, 9.33),
 )
-"""Table I, experiments 1 to 6. The fourth is the square of fig. 14, the fifth the random walk of figs. 15 and 16; of
-the others the paper does not say which they were."""
+"""Experiments 1 to 6 of table I.
+
+The fourth is the square of fig. 14, the fifth the random walk of figs. 15 and 16. The paper does not describe the
+others.
+"""
 
 
 PRESSURE_CONTOUR: Table = {
@@ -63,9 +66,11 @@ PRESSURE_CONTOUR: Table = {
     "Gyroscope %": statistics([100.0 * loop.gyroscope / loop.distance for loop in LOOPS]),
     "Pressure %": statistics([100.0 * loop.pressure / loop.distance for loop in LOOPS]),
 }
-"""Statistics of LOOPS: loop-closing error in m and in % of the path. Means and deviations in m are those that the paper
-prints (4.87 +- 2.75 and 4.30 +- 3.15); its mean percentages, 0.40 and 0.35, are those of the mean errors over the
-mean distance instead."""
+"""Statistics of LOOPS: loop-closing error in m and in % of the path.
+
+Means and deviations in m are those that the paper prints (4.87 +- 2.75 and 4.30 +- 3.15). Its mean percentages, 0.40
+and 0.35, are those of the mean errors over the mean distance instead.
+"""
 
 
 WALKING_MODES_TITLE = "Gong et al. 2023, table 4"
@@ -99,13 +104,15 @@ CORNERS: dict[str, dict[str, tuple[XY, XY, XY]]] = {
         "IV": ((-0.0044, 0.01), (-0.0007, 0.0075), (0.0176, 0.0178)),
     },
 }
-"""Table 4, point -> method -> mean, median and standard deviation of the deviation in x and y. The table heads its
-columns mm. Nobody steps on a mark to some hundredths of a millimetre and no inertial sensor resolves that, so the
-figures are taken for m here."""
+"""Mean, median and standard deviation of the deviation in x and y by point and method, m (table 4).
+
+The table heads its columns mm. Nobody steps on a mark to some hundredths of a millimetre and no inertial sensor
+resolves that, so the figures are taken for m here.
+"""
 
 
 def corner_row(point: str, method: str, axis: str) -> str:
-    """What the row of a point, a method and an axis (x, y) is called."""
+    """Return the row name of a point, a method and an axis (x, y)."""
     return f"{point} {method} {axis}"
 
 
@@ -115,7 +122,7 @@ WALKING_MODES: Table = {
     for method, (mean, median, std) in methods.items()
     for k, axis in enumerate("xy")
 }
-"""Table 4 as rows. Quartiles are not in it; its variances are the squares of its deviations."""
+"""Table 4 as rows, m. It has no quartiles; its variances are the squares of its deviations."""
 
 
 FOOTSTEP_TRACKER_TITLE = "Liu et al. 2015, section V and fig. 13"
@@ -129,8 +136,11 @@ FOOTSTEP_TRACKER: Table = {
     "place m": Statistics(mean=1.0),
     "steps until decided": Statistics(mean=6.0),
 }
-"""Of the text of sections V-C to V-F: 9.23 m, 9.2 m and 2.64 m off after 63 m; "a location error in 1m" on average, and
-"the initial location is determined after six steps" for one user."""
+"""Figures in the text of sections V-C to V-F.
+
+They are 9.23 m, 9.2 m and 2.64 m off after 63 m; "a location error in 1m" on average; and "the initial location is
+determined after six steps" for one user.
+"""
 
 
 SHOE_SENSING_TITLE = "Li et al. 2016, tables 1 and 2, figs. 21 to 35"
@@ -156,11 +166,15 @@ SHOE_SENSING: Table = {
     "walking, course deg": Statistics(5.65, 3.88),
     "jogging, course deg": Statistics(7.09, 6.94),
 }
-"""Table 1; sections 3.4.2 and 4.2.3 (figs. 13, 14, 23, 24); section 4.2.4 (figs. 26 to 32); table 2; section 4.2.5
-(figs. 33, 34). Errors of single steps, without their signs. What the text calls variance or mean square error is taken
-for the standard deviation."""
+"""Table 1; sections 3.4.2 and 4.2.3 (figs. 13, 14, 23, 24); section 4.2.4 (figs. 26 to 32); table 2; section 4.2.5.
+
+Section 4.2.5 has figs. 33 and 34. Errors are of single steps, without their signs. The text's variance or mean square
+error is taken for the standard deviation.
+"""
 
 NORMALISED = 22.5
-"""Table 2 is the mean error of a step over its length, divided by this ("the accuracy of the two sensors differ
-22.5-fold"): 9.17 % / 22.5 = 0.41 % walking, 8.13 % jogging, 20.0 % downstairs; upstairs it is that of the height,
-12.5 %."""
+"""Divisor of table 2, which has the mean error of a step over its length, divided by this number.
+
+"The accuracy of the two sensors differ 22.5-fold": 9.17 % / 22.5 = 0.41 % walking, 8.13 % jogging, 20.0 % downstairs;
+upstairs the error is that of the height, 12.5 %.
+"""

@@ -1,8 +1,8 @@
 """Li et al. 2016: walking, jogging, stairs and five minutes in a building with an MPU-6050 on one shoe at 100 Hz.
 
 Twenty wearers take a hundred steps at a walk and at a jog, two flights of stairs upwards and two downwards, and walk
-for five minutes (shoe_walks.py). Rows are of single steps, all wearers together, unless they say otherwise. The figures
-21 and 22 are drawn in the paper and not printed.
+for five minutes (shoe_walks.py). Rows are of single steps, all wearers together, unless stated otherwise. The paper
+draws figures 21 and 22 and does not print their values.
 """
 
 from __future__ import annotations
@@ -14,23 +14,23 @@ import numpy as np
 
 from ...papers.shoe_sensing.recipe import SHOE_SENSING
 from ..measures.matching import Errors
-from ..processes import Progress, each
+from ..processes import Progress, run_jobs
 from . import published
 from .shoe_walks import STATES, ShoeWalked, walked
 from .tables import Drawn, FigureRow, Floor, PictureTrack, Reproduction, row_of
 
 NAME = SHOE_SENSING.name
 WALKS = 20
-"""Section 4.2.1: "20 rounds"."""
+"""Number of wearers; section 4.2.1: "20 rounds"."""
 ON_STAIRS = ("upstairs", "downstairs")
 
 
 def reproduce(
     walks: int | None = None, seed: int = 1, *, processes: int = 1, progress: Progress | None = None
 ) -> Reproduction:
-    """So many wearers, each of whom walks all of it."""
+    """Return the results of `walks` wearers, each of whom walks every experiment."""
     count = WALKS if walks is None else walks
-    done = list(each(walked, [1000 * seed + k for k in range(count)], processes=processes, progress=progress))
+    done = list(run_jobs(walked, [1000 * seed + k for k in range(count)], processes=processes, progress=progress))
     return Reproduction(
         name=NAME,
         paper_title=published.SHOE_SENSING_TITLE,
@@ -46,7 +46,7 @@ _row = partial(row_of, published.SHOE_SENSING, digits=3)
 
 
 def _extraction(done: Sequence[ShoeWalked]) -> list[FigureRow]:
-    """Figs. 21 and 22, by wearer."""
+    """Return the rows of figs. 21 and 22, by wearer."""
     rows = []
     for state in STATES:
         rows.append(_row(f"{state}, steps by energy %", [one.energy[state].extracted for one in done], digits=1))
@@ -58,7 +58,7 @@ def _extraction(done: Sequence[ShoeWalked]) -> list[FigureRow]:
 
 
 def _table_1(done: Sequence[ShoeWalked]) -> list[FigureRow]:
-    """Of steps whose heights were left as they are, as the paper's must have been."""
+    """Return the rows of table 1, of strides whose heights are not corrected, as the paper's must have been."""
     plane = [a for one in done for state in STATES[:2] for a in one.before[state].angles]
     stairs = [_row(f"{state} deg/m", [a for one in done for a in one.before[state].angles]) for state in ON_STAIRS]
     return [_row("plane deg/m", plane), *stairs]
@@ -89,12 +89,12 @@ def _lengths(done: Sequence[ShoeWalked]) -> list[FigureRow]:
 
 
 def _relative(errors: Sequence[tuple[float, float]]) -> float:
-    """Mean error without its sign over the mean of what is true, as the paper has it."""
+    """Return the mean unsigned error over the mean true value, as the paper computes it."""
     off, true = (Errors(values).mean for values in zip(*errors, strict=True))
     return off / true if off is not None and true else 0.0
 
 
-def _ways(done: Sequence[ShoeWalked]) -> list[FigureRow]:
+def _course_rows(done: Sequence[ShoeWalked]) -> list[FigureRow]:
     return [
         *[
             _row(f"{state}, course deg", [abs(off) for one in done for off in one.energy[state].courses], digits=2)
@@ -105,11 +105,11 @@ def _ways(done: Sequence[ShoeWalked]) -> list[FigureRow]:
     ]
 
 
-PARTS = (_extraction, _table_1, _heights, _lengths, _ways)
+PARTS = (_extraction, _table_1, _heights, _lengths, _course_rows)
 
 
 def _panels(done: Sequence[ShoeWalked]) -> tuple[Floor, ...]:
-    """Fig. 35 from above and from the side, of the first wearer."""
+    """Return fig. 35 from above and from the side, for the first wearer."""
     tour = done[0].tour
     views = (("five minutes (fig. 35), from above", tour.above), ("height over the way", tour.aside))
     return tuple(
@@ -121,7 +121,7 @@ def _panels(done: Sequence[ShoeWalked]) -> tuple[Floor, ...]:
 
 
 def _notes(done: Sequence[ShoeWalked]) -> tuple[str, ...]:
-    return (*DEFINED, *_lengths_told(done), *_heights_told(done), *_tours_told(done), *PAPER)
+    return (*DEFINED, *_length_notes(done), *_height_notes(done), *_tour_notes(done), *PAPER)
 
 
 DEFINED = (
@@ -141,30 +141,30 @@ PAPER = (
 )
 
 
-def _lengths_told(done: Sequence[ShoeWalked]) -> list[str]:
+def _length_notes(done: Sequence[ShoeWalked]) -> list[str]:
     lines = []
     for state in STATES:
         steps = [one.energy[state] for one in done]
         lengths = [pair for one in steps for pair in one.lengths]
         if not lengths:
             continue
-        merged, parted = sum([one.merged for one in steps]), sum([one.parted for one in steps])
+        merged, split = sum([one.merged for one in steps]), sum([one.split for one in steps])
         worst = max([abs(error) for error, _ in lengths])
         line = (
             f"{state.capitalize()}: steps of {np.mean([true for _, true in lengths]):.2f} m on average, lengths right "
             f"to {100.0 * (1.0 - _relative(lengths)):.1f} %, at worst off by {worst:.2f} m"
         )
         others = [abs(error) for one in steps for error in one.whole]
-        if merged + parted and others:
+        if merged + split and others:
             line += (
                 f"; of {len(lengths)} steps {merged} were told as one with the step before, whose stance was missed, "
-                f"and {parted} in two pieces; the others are at worst off by {max(others):.2f} m"
+                f"and {split} in two pieces; the others are at worst off by {max(others):.2f} m"
             )
         lines.append(f"{line}.")
     return lines
 
 
-def _heights_told(done: Sequence[ShoeWalked]) -> list[str]:
+def _height_notes(done: Sequence[ShoeWalked]) -> list[str]:
     lines = [
         "Heights after elimination say little: a step that is judged level ends exactly as high as it began, by "
         "construction, on any floor, a ramp too. What is left comes of level steps that were not judged so."
@@ -186,14 +186,15 @@ def _heights_told(done: Sequence[ShoeWalked]) -> list[str]:
     return lines
 
 
-def _tours_told(done: Sequence[ShoeWalked]) -> list[str]:
+def _tour_notes(done: Sequence[ShoeWalked]) -> list[str]:
     tours = [one.tour for one in done]
     off = [one.off for one in tours]
     share = 100.0 * sum(off) / sum([one.way for one in tours])
     turned = [abs(one.heading) for one in tours]
     heights = [abs(one.height) for one in tours]
     return [
-        f"Five minutes: flights told exactly in {sum([one.told == one.true for one in tours])} of {len(done)} walks; "
+        f"Five minutes: flights told exactly in {sum([one.reported == one.true for one in tours])} of {len(done)} "
+        "walks; "
         f"the end is off by {np.mean(off):.1f} m on average, {share:.1f} % of the way, and by {max(off):.1f} m at "
         f"worst, its height by {np.mean(heights):.2f} m and {max(heights):.2f} m.",
         f"The heading of the five minutes' last steps is off by {np.mean(turned):.0f} degrees on average and "

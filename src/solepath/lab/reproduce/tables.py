@@ -1,4 +1,4 @@
-"""The table of an experiment: a row of five statistics for each figure that was measured walk by walk."""
+"""Tables of an experiment: a row of five statistics for each figure that was measured walk by walk."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from attrs import frozen
 
 
 class Drawn(Enum):
-    """How points are drawn."""
+    """Style in which points are drawn."""
 
     TRUTH = "truth"  # a dashed line in the background
     LINE = "line"
@@ -21,7 +21,7 @@ class Drawn(Enum):
 
 @frozen
 class PictureTrack:
-    """Places on a floor, `points` (x, y) in m, in the order in which they were walked."""
+    """Named places on a floor, `points` (x, y) in m, in the order in which they were walked."""
 
     name: str
     points: tuple[tuple[float, float], ...]
@@ -39,8 +39,7 @@ class Floor:
 
 @frozen
 class Boxes:
-    """A box for each of these rows of the table, the paper's beside ours where it has quartiles; `target` is what they
-    should be."""
+    """Box plots of table rows, with the paper's box beside ours where it has quartiles; `target` is the true value."""
 
     title: str
     rows: tuple[str, ...]
@@ -53,7 +52,7 @@ Panel = Floor | Boxes
 
 @frozen
 class Statistics:
-    """As table I of Chen et al. 2019 has them; None where there are too few values, or a paper does not say."""
+    """The columns of table I of Chen et al. 2019; None for too few values, or where a paper has none."""
 
     mean: float | None = None
     std: float | None = None
@@ -65,12 +64,15 @@ class Statistics:
 STATISTICS = tuple(a.name for a in attrs.fields(Statistics))
 
 Table = dict[str, Statistics]
-"""Row -> its statistics, in the order in which they are shown."""
+"""Statistics by row name, in the order of the rows."""
 
 
 def statistics(values: Sequence[float]) -> Statistics:
-    """Of one figure over walks. `std` has n - 1 below the line: that is how table I of Bebek et al. 2010 goes from its
-    six walks to its own mean and deviation. Quartiles are linear between the ordered values; no paper says how."""
+    """Return the statistics of one figure over walks.
+
+    `std` divides by n - 1: so table I of Bebek et al. 2010 gets its mean and deviation from its six walks. Quartiles
+    are interpolated linearly between the ordered values; no paper states its rule.
+    """
     if not values:
         return Statistics()
     q1, median, q3 = (float(q) for q in np.quantile(values, [0.25, 0.5, 0.75]))
@@ -80,35 +82,35 @@ def statistics(values: Sequence[float]) -> Statistics:
 
 @frozen
 class FigureRow:
-    """One figure of an experiment: `values` of ours, one for each walk, and `paper`, what the paper printed of its."""
+    """One figure of an experiment: `values` of ours, one for each walk, and `paper`, the printed statistics."""
 
     name: str
     values: tuple[float, ...]
     paper: Statistics
     digits: int = 2
-    """After the point, as the paper prints it."""
+    """Number of digits after the point, as the paper prints it."""
 
 
 def row_of(paper: Table, name: str, values: Iterable[float], digits: int = 2) -> FigureRow:
-    """The row of `values` beside what the paper's table says under the same name, if anything."""
+    """Return the row of `values` beside the entry of the paper's table under the same name, if any."""
     return FigureRow(name, tuple(values), paper.get(name, Statistics()), digits)
 
 
 @frozen
 class Reproduction:
-    """An experiment of a paper, walked again by emulated wearers.
+    """An experiment of a paper, repeated by emulated wearers.
 
-    `unit` is that of the rows; `notes` are sentences for people: what else was found, and what the paper leaves open.
+    `unit` is the unit of the rows. `notes` are sentences for readers: other findings, and what the paper leaves open.
     """
 
     name: str
     paper_title: str
     walked: str
-    """What was emulated, in a sentence without its full stop."""
+    """Description of what was emulated, a sentence without its full stop."""
     unit: str
     rows: tuple[FigureRow, ...]
     panels: tuple[Panel, ...] = ()
-    """The paper's main figure."""
+    """Panels of the paper's main figure."""
     notes: tuple[str, ...] = ()
 
     @property
@@ -121,8 +123,10 @@ class Reproduction:
 
 
 def as_json(done: Reproduction) -> dict[str, Any]:
-    """{"name", "emulated": true, "table": {row: {"mean", "std", "q1", "median", "q3"}}, "paper": the same}; null for
-    what cannot be said of so few walks, or is not in the paper."""
+    """Return {"name", "emulated": true, "table": {row: {"mean", "std", "q1", "median", "q3"}}, "paper": ...}.
+
+    "paper" has the form of "table". Null stands for a statistic of too few walks, or one that is not in the paper.
+    """
     return {
         "name": done.name,
         "emulated": True,

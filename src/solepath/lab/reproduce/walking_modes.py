@@ -1,13 +1,13 @@
-"""Gong et al. 2023: 40 rectangles of 2.8 m by 4.0 m, four wearers of ten each, with seven attitude sensors and two
-insoles of 99 cells at 50 Hz, by touchdown methods I to IV.
+"""Gong et al. 2023: 40 rectangles of 2.8 m by 4.0 m by touchdown methods I to IV.
 
-The wearers are those of table 3 (emulate/wearers/gait.py). They walk from A over B, C and D back to A, turning left
-without a halt. At each corner every foot has a step that comes down nearest to it; a deviation is where a session has
-these two touchdowns, less where the feet truly came down, the mean of both.
+Four wearers walk ten rectangles each, with seven attitude sensors and two insoles of 99 cells at 50 Hz. The wearers
+are those of table 3 (emulate/wearers/gait.py). They walk from A over B, C and D back to A, turning left without a
+halt. At each corner every foot has a step that comes down nearest to it. A deviation is the session's position of
+these two touchdowns less the true footprints, averaged over both.
 
-The floor is surveyed, as the paper's was: sessions know how the first side lies to the sensors' common north. Method IV
-compensates by what each wearer's own marked walks (section 3.3) showed on another day: other walks, sensors strapped on
-anew.
+The floor is surveyed, as the paper's was: sessions know the direction of the first side relative to the sensors'
+common north. Method IV compensates by the errors of each wearer's own marked walks (section 3.3) on another day: other
+walks, with sensors strapped on again.
 """
 
 from __future__ import annotations
@@ -33,24 +33,27 @@ from ...recipes import Recipe
 from ...recording.decoded import DecodedRecording
 from ...types import SITE_OF_FOOT, Foot, Sample
 from ...types.vector import GRAVITY
-from ..processes import Progress, each
+from ..processes import Progress, run_jobs
 from . import published
 from .published import corner_row
 from .tables import Drawn, Floor, PictureTrack, Reproduction, row_of, statistics
-from .walks import heard
+from .walks import run_session
 
 NAME = WALKING_MODES.name
 WALKS = 40
 RATE = 50.0
-"""Hz, section 3.1."""
+"""Sampling rate, Hz (section 3.1)."""
 CELLS = 99
 STEPS, REPEATS = 50, 3
-"""Of each marked walk, section 3.3: "50 steps at a time and repeated this three times along each path"."""
+"""Number of steps of a marked walk, and number of its repeats.
+
+Section 3.3: "50 steps at a time and repeated this three times along each path".
+"""
 METHODS = {"I": TOUCHDOWN_HEIGHT, "II": TOUCHDOWN_ACCELERATION, "III": TOUCHDOWN_PRESSURE, "IV": WALKING_MODES}
 PLACES = {"A": (0.0, 0.0), "B": (ALONG, 0.0), "C": (ALONG, ACROSS), "D": (0.0, ACROSS)}
-"""m; the walk begins and ends at A."""
+"""Positions of the corners, m; the walk starts and ends at A."""
 NEAR = 0.4
-"""s: a touchdown further than this from the true one is another step's; then the place is that of the latest before."""
+"""Largest distance of a touchdown from the true one, s; without one the latest touchdown before gives the place."""
 
 
 @frozen
@@ -63,8 +66,8 @@ class ModesJob:
 
 
 @frozen
-class Learning:
-    """The marked walks of one wearer: so many steps in each mode, so many times."""
+class MarkedWalks:
+    """The marked walks of one wearer: `steps` steps in each mode, `repeats` times."""
 
     subject: int
     seed: int
@@ -74,21 +77,22 @@ class Learning:
 
 @frozen
 class ModesWalked:
-    """(x, y) where each method has the wearer, less where the wearer was, by corner, m."""
+    """Results of one rectangle."""
 
     off: dict[str, dict[str, tuple[float, float]]]
+    """Error (x, y) of the wearer's position by method and corner, m."""
 
 
 def reproduce(
     walks: int | None = None, seed: int = 1, *, processes: int = 1, progress: Progress | None = None
 ) -> Reproduction:
-    """So many rectangles, by the four wearers in turn."""
+    """Return the results of `walks` rectangles, walked by the four wearers in turn."""
     count = WALKS if walks is None else walks
     wearers = list(range(min(count, len(SUBJECTS))))
-    learning = [Learning(subject, 1000 * seed + 500 + 10 * subject, STEPS, REPEATS) for subject in wearers]
-    known = list(each(learn, learning, processes=processes, progress=progress, after=count))
+    learning = [MarkedWalks(subject, 1000 * seed + 500 + 10 * subject, STEPS, REPEATS) for subject in wearers]
+    known = list(run_jobs(learn, learning, processes=processes, progress=progress, after=count))
     jobs = [ModesJob(k % len(known), 1000 * seed + k, known[k % len(known)]) for k in range(count)]
-    done = list(each(walk, jobs, processes=processes, progress=progress, before=len(wearers)))
+    done = list(run_jobs(walk, jobs, processes=processes, progress=progress, before=len(wearers)))
     rows = tuple(
         row_of(published.WALKING_MODES, corner_row(point, method, axis), [one.off[method][point][k] for one in done], 4)
         for point in PLACES
@@ -123,7 +127,7 @@ def _panels(done: Sequence[ModesWalked]) -> tuple[Floor, Floor]:
 
 
 def _notes(done: Sequence[ModesWalked]) -> tuple[str, ...]:
-    told = []
+    lines = []
     for point in PLACES:
         ours, theirs = [], []
         for method in METHODS:
@@ -131,36 +135,38 @@ def _notes(done: Sequence[ModesWalked]) -> tuple[str, ...]:
             ours.append(f"{method} {100.0 * (statistics(lengths).mean or 0.0):.1f}")
             mean, _, _ = published.CORNERS[point][method]
             theirs.append(f"{method} {100.0 * float(np.hypot(*mean)):.1f}")
-        told.append(
+        lines.append(
             f"{point}: ours is off by {', '.join(ours)} cm on average; the paper's means are off by "
             f"{', '.join(theirs)} cm."
         )
-    told.append(
+    lines.append(
         "IV compensates each wearer by what the wearer's own marked walks showed; the table that the recipe ships, the "
         "paper's table 1, does worse on these wearers."
     )
-    told.append("How the first side lies to the sensors' common north is given to all four methods, not found by them.")
-    told.append("The paper heads its table mm; its figures are taken for m, and so are ours. It has no quartiles.")
-    return tuple(told)
+    lines.append(
+        "How the first side lies to the sensors' common north is given to all four methods, not found by them."
+    )
+    lines.append("The paper heads its table mm; its figures are taken for m, and so are ours. It has no quartiles.")
+    return tuple(lines)
 
 
-def known_of(wearer: Wearer) -> Calibration:
-    """What a tape measure, scales and the maker of the insoles say."""
+def known_calibration(wearer: Wearer) -> Calibration:
+    """Return the calibration that a tape measure, scales and the maker of the insoles give."""
     shoe = wearer.shoe
     insoles = {foot: InsoleCalibration(layout=layout(CELLS, foot, shoe.length, shoe.width)) for foot in Foot}
     return Calibration(insoles=insoles, limbs=wearer.limbs, weight=GRAVITY * wearer.mass)
 
 
 def worn(walker: Walker, known: Calibration, seed: int) -> list[Sample]:
-    """What the seven sensors and both insoles say of a walk; `seed`: of how they are strapped on, and their errors."""
+    """Return the samples of the seven sensors and both insoles; `seed` draws their errors and their mounting."""
     layouts = {SITE_OF_FOOT[foot]: one.layout for foot, one in known.insoles.items() if one.layout is not None}
     return limb_samples(walker, RATE, seed=seed, layouts=layouts, cell_part=WORN_RESISTIVE)
 
 
-def learn(job: Learning) -> Calibration:
-    """What is known of a wearer after marked walks in every mode, with sensors strapped on anew for each round."""
+def learn(job: MarkedWalks) -> Calibration:
+    """Return a wearer's calibration after marked walks in every mode, with sensors strapped on again for each round."""
     wearer = SUBJECTS[job.subject]
-    known = known_of(wearer)
+    known = known_calibration(wearer)
     errors = []
     for strapped in range(job.seed, job.seed + job.repeats):
         for k, mode in enumerate(MODES):
@@ -176,7 +182,7 @@ def learn(job: Learning) -> Calibration:
 
 
 def walk(job: ModesJob) -> ModesWalked:
-    """One rectangle by all methods."""
+    """Run all methods on one rectangle."""
     walker = Walker(rectangle(), SUBJECTS[job.subject], job.seed)
     samples = worn(walker, job.calibration, job.seed)
     passed = corners(walker)
@@ -188,15 +194,15 @@ def walk(job: ModesJob) -> ModesWalked:
 
 
 def _touchdowns(recipe: Recipe, samples: Sequence[Sample], calibration: Calibration) -> dict[Foot, list[TouchedDown]]:
-    """What a session says that knows how the first side of the rectangle lies."""
+    """Return the touchdowns by foot of a session that knows the direction of the rectangle's first side."""
     modes = next(part for part in recipe.parts if isinstance(part, Modes))
     known = evolve(modes, settings=evolve(modes.settings, heading=0.0))
-    said = heard(recipe.exchanged(Modes, known), samples, calibration)
-    return {foot: [e for e in said if isinstance(e, TouchedDown) and e.final and e.foot is foot] for foot in Foot}
+    events = run_session(recipe.exchanged(Modes, known), samples, calibration)
+    return {foot: [e for e in events if isinstance(e, TouchedDown) and e.final and e.foot is foot] for foot in Foot}
 
 
 def _deviation(walker: Walker, corner: LapCorner, down: dict[Foot, list[TouchedDown]]) -> tuple[float, float]:
-    """Of the middle between the two footprints at a corner, m."""
+    """Return the deviation of the middle between the two footprints at a corner, m."""
     dx = dy = 0.0
     for foot in Foot:
         x, y = _place(walker, foot, walker.plan.strides[foot][corner.steps[foot] - 1].heel_strike, down[foot])
@@ -206,7 +212,7 @@ def _deviation(walker: Walker, corner: LapCorner, down: dict[Foot, list[TouchedD
 
 
 def _place(walker: Walker, foot: Foot, t: float, down: Sequence[TouchedDown]) -> tuple[float, float]:
-    """Where the foot came down at `t` s, or stood then when no touchdown was seen."""
+    """Return the place where the foot came down at `t` s, or where it stood when no touchdown was found."""
     near = [one for one in down if abs(one.t - t) < NEAR]
     if near:
         x, y, _ = min(near, key=lambda one: abs(one.t - t)).position

@@ -1,4 +1,4 @@
-"""What the experiments have in common: emulated walks, cut in two where a wearer stood, and sessions that hear them."""
+"""Shared steps of the experiments: emulated walks, cut in two where a wearer stands, and sessions that receive them."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from ..measures.alignment import Floats, align
 from ..measures.strides import ALIGNED_OVER
 
 
-def then(first: Route, second: Route) -> Route:
-    """One after the other, the second from where and whither the first ends."""
+def join_routes(first: Route, second: Route) -> Route:
+    """Return both routes in sequence; the second starts where the first ends, in its direction."""
     return evolve(first, actions=(*first.actions, *second.actions), speed=second.speed)
 
 
 def rest_after(walker: Walker, first: Route) -> float:
-    """The middle of the stand with which `first`, the beginning of the walker's route, ends, s."""
+    """Return the middle of the stand that ends `first`, the beginning of the walker's route, s."""
     walked = [not isinstance(action, Stand) for action in first.actions]
     stretches = sum(now and not before for before, now in zip([False, *walked], walked, strict=False))
     bouts = walker.plan.bouts
@@ -36,8 +36,10 @@ def rest_after(walker: Walker, first: Route) -> float:
 
 @frozen(eq=False)
 class WalkParts:
-    """A walk decoded and cut in two: samples `before` and `after`, and where the cells are, which an app that hears the
-    devices from the beginning would know too."""
+    """A decoded walk cut in two: samples `before` and `after`, and `layouts`, the positions of the cells.
+
+    An app that is connected to the devices from the start has the positions of the cells too.
+    """
 
     before: tuple[Sample, ...]
     after: tuple[Sample, ...]
@@ -45,34 +47,36 @@ class WalkParts:
 
 
 def cut(walk: EmulatedWalk, t: float) -> WalkParts:
-    """The samples of a walk's packets, measured before and after `t` s."""
-    heard = decode_recording(walk.packets)
-    insoles = {foot: InsoleCalibration(layout=layout) for foot, layout in heard.layouts.items()}
-    before, after = (tuple([one for one in heard.samples if (one.t < t) is first]) for first in (True, False))
+    """Return the samples of a walk's packets, measured before and after `t` s."""
+    decoded = recorded(walk.packets)
+    insoles = {foot: InsoleCalibration(layout=layout) for foot, layout in decoded.layouts.items()}
+    before, after = (tuple([one for one in decoded.samples if (one.t < t) is first]) for first in (True, False))
     return WalkParts(before, after, Calibration(insoles=insoles))
 
 
-def heard(
+def run_session(
     recipe: Recipe,
     items: Iterable[Packet | Sample],
     calibration: Calibration | None = None,
     floorplan: FloorPlan | None = None,
 ) -> list[Event]:
-    """All that a session of the recipe says."""
+    """Return all events of a session of the recipe."""
     session = Session(recipe, calibration=calibration, floorplan=floorplan)
     return session.feed(items) + session.finish()
 
 
-def laid(track: Floats, truth: Floats, over: float = ALIGNED_OVER) -> Floats:
-    """`track` (n, 2) turned and shifted onto `truth` (n, 2), row by row the same instants, so that both are as near as
-    can be over the first `over` metres."""
+def align_track(track: Floats, truth: Floats, over: float = ALIGNED_OVER) -> Floats:
+    """Return `track` (n, 2) turned and shifted to fit `truth` (n, 2) best over the first `over` metres.
+
+    Rows of both are the same instants.
+    """
     far = np.linalg.norm(truth - truth[0], axis=1) > over
     count = int(np.argmax(far)) + 1 if far.any() else len(truth)
     return align(track[:count], truth[:count]).apply(track)
 
 
-def thinned(points: Iterable[Sequence[float]], most: int = 4000) -> tuple[tuple[float, float], ...]:
-    """(x, y) of at most so many of these places, evenly chosen, the last one among them."""
+def thin_out(points: Iterable[Sequence[float]], most: int = 4000) -> tuple[tuple[float, float], ...]:
+    """Return (x, y) of at most `most` of these points, evenly chosen, the last one among them."""
     all_of = [(float(p[0]), float(p[1])) for p in points]
     every = -(-len(all_of) // most) or 1
     return tuple(all_of[::-1][::every][::-1])

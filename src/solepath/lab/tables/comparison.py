@@ -1,4 +1,4 @@
-"""Tables of a comparison: a session against the truth of an emulated walk, a reproduction against the paper."""
+"""Comparison tables: a session against the truth of an emulated walk, a reproduction against the paper."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ EVENTS = {"heel_strike": "heel-strike", "foot_flat": "foot-flat", "heel_off": "h
 
 
 def comparison_table(comparisons: Sequence[FootComparison]) -> str:
+    """Return the table of both feet's strides and events against the truth."""
     rows = [
         ["steps walked", *(str(c.steps_true) for c in comparisons)],
         ["steps found", *(str(c.steps_found) for c in comparisons)],
@@ -29,7 +30,7 @@ def comparison_table(comparisons: Sequence[FootComparison]) -> str:
 
 
 def place_table(score: PlaceScore) -> str:
-    """The place on the floor plan, while the wearer is on a floor."""
+    """Return the table of positions on the floor plan, for strides while the wearer is on a floor."""
     rows = [
         ["steps placed", str(score.steps)],
         ["one candidate, the true one, after steps", "-" if score.decided is None else str(score.decided)],
@@ -41,7 +42,7 @@ def place_table(score: PlaceScore) -> str:
 
 
 def reproduced(done: Reproduction) -> str:
-    """The table of ours with the paper's beside it, and what else is to be said, a sentence a line."""
+    """Return the table of our figures beside the paper's, and the notes, a sentence a line."""
     first, *others = STATISTICS
     header = [done.unit, f"ours: {first}", *others, f"paper: {first}", *others]
     rows = [[row.name, *_cells(statistics(row.values), row), *_cells(row.paper, row)] for row in done.rows]

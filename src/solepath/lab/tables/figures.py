@@ -1,4 +1,4 @@
-"""Figures of reproduced experiments as files, drawn with matplotlib (the `figures` extra)."""
+"""Draws the figures of reproduced experiments as files with matplotlib (the `figures` extra)."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from matplotlib.patches import Rectangle
 from ..reproduce.tables import Boxes, Drawn, Floor, PictureTrack, Reproduction, Statistics
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00")
-"""Told apart by colour-blind readers too (Okabe and Ito 2008)."""
+"""Colours that colour-blind readers can distinguish (Okabe and Ito 2008)."""
 MARKERS = ("o", "s", "^", "D", "v")
 GREY = "0.55"
 INCHES = 5.4
-"""Side of a panel."""
+"""Side of a panel, inches."""
 
 
 def formats() -> list[str]:
-    """The endings of files that can be drawn, without the dot."""
+    """Return the extensions of the files that can be drawn, without the dot."""
     return sorted(FigureCanvasBase.get_supported_filetypes())
 
 
 def draw(done: Reproduction, path: Path) -> None:
-    """The panels side by side into a file, in the format that its ending names. OSError when it cannot be written."""
+    """Draw the panels side by side into a file, in the format of its extension. OSError is raised when that fails."""
     figure = Figure(figsize=(INCHES * max(1, len(done.panels)), INCHES), layout="constrained")
     axes = figure.subplots(1, max(1, len(done.panels)), squeeze=False)[0]
     for ax, panel in zip(axes, done.panels, strict=False):
@@ -65,7 +65,7 @@ def _boxes(ax: Axes, panel: Boxes, done: Reproduction) -> None:
 
 
 def _printed_box(ax: Axes, left: float, paper: Statistics) -> None:
-    """Quartiles and median are all that a paper prints."""
+    """Draw a paper's box from quartiles and median, which are all that a paper prints."""
     if paper.q1 is None or paper.q3 is None or paper.median is None:
         return
     ax.add_patch(Rectangle((left, paper.q1), 0.3, paper.q3 - paper.q1, facecolor="0.9", edgecolor=GREY))

@@ -1,4 +1,4 @@
-"""Scores in short, as the Markdown table that docs/accuracy.md quotes."""
+"""Short scores as the Markdown table that docs/accuracy.md quotes."""
 
 from __future__ import annotations
 
@@ -34,7 +34,10 @@ EVENTS = {"heel_strike": "heel-strike", "toe_off": "toe-off"}
 
 
 def accuracy_table(results: Sequence[Result]) -> str:
-    """One line a figure over all recordings of each data set; a column for each recipe where there are several."""
+    """Return the table with one line a figure over all recordings of each data set.
+
+    It has one column for the result, or one for each recipe when there are several.
+    """
     recipes = list(dict.fromkeys(result.recipe for result in results))
     rows: dict[tuple[str, str], dict[str, str]] = {}
     for result in results:
@@ -46,15 +49,16 @@ def accuracy_table(results: Sequence[Result]) -> str:
             bipedal = [other for other in result.summaries if other.group == "bipedal"]
             figures = [
                 *_places(summary), *_shares(summary, BETTER), *(row for other in bipedal for row in _bipedal(other)),
-                *_strides(summary.together), *_legs(summary.together), *_events(summary.together), *_did(summary),
+                *_strides(summary.together), *_legs(summary.together), *_events(summary.together),
+                *_activities(summary),
             ]  # fmt: skip
             for what, figure in figures:
                 rows.setdefault((data, what), {})[result.recipe] = figure
     heads = ["came to"] if len(recipes) == 1 else [f"`{recipe}`" for recipe in recipes]
     lines = [_line("data", "measured", *heads), "|" + "---|" * (2 + len(heads))]
     before = ""
-    for (data, what), told in rows.items():
-        lines.append(_line("" if data == before else data, what, *(told.get(recipe, "-") for recipe in recipes)))
+    for (data, what), entries in rows.items():
+        lines.append(_line("" if data == before else data, what, *(entries.get(recipe, "-") for recipe in recipes)))
         before = data
     return "\n".join(lines)
 
@@ -64,12 +68,12 @@ def _line(*cells: str) -> str:
 
 
 def _places(summary: Summary) -> list[tuple[str, str]]:
-    told = []
+    entries = []
     for key, what in PLACES.items():
         if key in summary.mean:
             mean, median = (f"{number(part[key], 3)} m" for part in (summary.mean, summary.median))
-            told.append((what, mean if summary.count == 1 else f"mean {mean}, median {median}"))
-    return told
+            entries.append((what, mean if summary.count == 1 else f"mean {mean}, median {median}"))
+    return entries
 
 
 def _shares(summary: Summary, named: dict[str, str]) -> list[tuple[str, str]]:
@@ -82,47 +86,55 @@ def _bipedal(summary: Summary) -> list[tuple[str, str]]:
 
 
 def _strides(pooled: Figures) -> list[tuple[str, str]]:
-    told = []
+    entries = []
     if (true := pooled.get("strides_true")) is not None:
         found, invented = (number(pooled[f"strides_{what}"], 0) for what in ("found", "invented"))
-        told.append(("strides", f"{found} of {number(true, 0)} found, {invented} invented"))
+        entries.append(("strides", f"{found} of {number(true, 0)} found, {invented} invented"))
     if (error := pooled.get("stride_error")) is not None:
         median = percent(pooled["stride_error_median"])
-        told.append(("stride length error", f"mean {percent(error)} %, median {median} %"))
-    return told
+        entries.append(("stride length error", f"mean {percent(error)} %, median {median} %"))
+    return entries
 
 
 def _legs(pooled: Figures) -> list[tuple[str, str]]:
-    told = []
+    entries = []
     for kind, what in LEGS.items():
         if pooled.get(f"{kind}_error") is not None:
             mean, median = (percent(pooled[f"{kind}_{part}"]) for part in ("error", "error_median"))
-            told.append((f"{what} ({number(pooled[f'{kind}_count'], 0)})", f"median error {median} %, mean {mean} %"))
+            entries.append(
+                (f"{what} ({number(pooled[f'{kind}_count'], 0)})", f"median error {median} %, mean {mean} %")
+            )
     if (error := pooled.get("stride_time_error")) is not None:
         median = milliseconds(pooled["stride_time_error_median"])
-        told.append(("stride time", f"median error {median} ms, mean {milliseconds(error)} ms"))
-    return told
+        entries.append(("stride time", f"median error {median} ms, mean {milliseconds(error)} ms"))
+    return entries
 
 
 def _events(pooled: Figures) -> list[tuple[str, str]]:
-    told = []
+    entries = []
     for kind, what in EVENTS.items():
         if (true := pooled.get(f"{kind}_true")) is not None:
             bias, mad = (milliseconds(pooled[f"{kind}_{part}"]) for part in ("bias", "mad"))
             figures = f"F1 {number(pooled[f'{kind}_f1'], 3)}, median offset {bias} ms, MAD {mad} ms"
-            told.append((f"{number(true, 0)} {what}s", figures))
-    return told
+            entries.append((f"{number(true, 0)} {what}s", figures))
+    return entries
 
 
-def _did(summary: Summary) -> list[tuple[str, str]]:
-    """Activities."""
-    pooled, told = summary.together, []
+def _activities(summary: Summary) -> list[tuple[str, str]]:
+    """Return the lines about activities."""
+    pooled, entries = summary.together, []
     if (accuracy := pooled.get("accuracy")) is not None:
-        told.append(("labelled time told right", f"{percent(accuracy)} %"))
-        told.append(("the same by always telling the most frequent activity", f"{percent(pooled['most_frequent'])} %"))
+        entries.append(("labelled time told right", f"{percent(accuracy)} %"))
+        entries.append(
+            ("the same by always telling the most frequent activity", f"{percent(pooled['most_frequent'])} %")
+        )
         f1 = {activity: pooled[f"f1_{activity.value.lower()}"] for activity in CLASSES}
-        told += [(f"F1 of {activity.value}", number(value, 3)) for activity, value in f1.items() if value is not None]
+        entries += [
+            (f"F1 of {activity.value}", number(value, 3)) for activity, value in f1.items() if value is not None
+        ]
     if rides := pooled.get("rides_true"):
         found, invented = (number(pooled[f"rides_{what}"], 0) for what in ("found", "invented"))
-        told.append(("lift rides, with their direction", f"{found} of {number(rides, 0)} found, {invented} invented"))
-    return told + _shares(summary, STAIRS)
+        entries.append(
+            ("lift rides, with their direction", f"{found} of {number(rides, 0)} found, {invented} invented")
+        )
+    return entries + _shares(summary, STAIRS)

@@ -10,7 +10,7 @@ from ...show.tables.table import milliseconds, number, percent, table
 from ...types import Activity
 from ..evaluate.ablation import COLUMNS as MAIN_FIGURES
 from ..evaluate.ablation import Column
-from ..evaluate.changes import DIGITS, Changes, Scores, Verdict, compared, missing
+from ..evaluate.changes import DIGITS, Changes, Scores, Verdict, compare_scores, missing
 from ..evaluate.report import Result
 from ..measures.confusion import CLASSES
 from ..measures.score import Figures, Summary
@@ -26,7 +26,7 @@ def _degrees(value: float | None) -> str:
 
 
 def _short(activity: Activity) -> str:
-    """As in `stairs up`, `lift down`."""
+    """Return the activity's name as in `stairs up`, `lift down`."""
     return activity.value.lower().replace("_", " ").replace("elevator", "lift")
 
 
@@ -90,11 +90,11 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
     "stairs_direction": ("direction right %", percent),
     "level_called": ("on the level: called stairs %", percent),
 }
-"""Every figure by its name in JSON: how its column is headed, and how it is written."""
+"""Column title and number format of every figure, by the figure's name in JSON."""
 
 
 def score_table(result: Result) -> str:
-    """Title, table with a line a recording (where there are few) and the averages, and what failed."""
+    """Return title, table and failures. The table has a line a recording (when there are few) and the averages."""
     data_set = result.data_set
     header = ["recording", *(COLUMNS[key][0] for key in data_set.figures)]
     rows: list[Sequence[str]] = []
@@ -117,16 +117,16 @@ def score_table(result: Result) -> str:
 
 
 def _confusion(summary: Summary) -> str:
-    """What was told of the labelled samples of each activity, %."""
+    """Return the table of reported activities for the labelled samples of each activity, %."""
     counts = summary.confusion or {}
-    told = [activity for activity in Activity if any(activity.value in row for row in counts.values())]
+    reported = [activity for activity in Activity if any(activity.value in row for row in counts.values())]
     rows = []
     for activity in CLASSES:
         if (row := counts.get(activity.value)) is not None:
             every = sum(row.values())
-            shares = [percent(row.get(other.value, 0) / every) for other in told]
+            shares = [percent(row.get(other.value, 0) / every) for other in reported]
             rows.append([_short(activity), *shares, number(float(every), 0)])
-    return table(["% of what was, told as", *map(_short, told), "samples"], rows)
+    return table(["% of what was, told as", *map(_short, reported), "samples"], rows)
 
 
 def _row(name: str, figures: Figures, keys: Sequence[str]) -> list[str]:
@@ -134,7 +134,7 @@ def _row(name: str, figures: Figures, keys: Sequence[str]) -> list[str]:
 
 
 def ablation_table(results: Sequence[Result], markdown: bool = False) -> str:
-    """A line for each recipe, a column for each main figure that was scored."""
+    """Return a table with a line for each recipe and a column for each main figure that was scored."""
     recipes = list(dict.fromkeys(result.recipe for result in results))
     scored = {result.data_set.name for result in results}
     columns = [column for column in MAIN_FIGURES if column.data_set in scored]
@@ -161,7 +161,7 @@ GROUPS = ("mean", "median", "together")
 
 
 def changes_table(changes: Changes) -> str:
-    """Every figure of the groups, and of the recordings those that changed; then what is on one side only."""
+    """Return every figure of the groups, the figures of recordings that changed, and what is on one side only."""
     rows: list[Sequence[str]] = []
     for change in changes.changes:
         if change.what.split()[0] in GROUPS or change.verdict is not Verdict.SAME:
@@ -175,19 +175,19 @@ def changes_table(changes: Changes) -> str:
     lines = [f"{changes.data_set}, {changes.recipe}, compared: {', '.join(counts)} (SI units)"]
     if rows:
         lines.append(table(HEADER, rows))
-    if changes.gone:
-        lines.append(f"scored then and not now: {', '.join(changes.gone)}")
+    if changes.removed:
+        lines.append(f"scored then and not now: {', '.join(changes.removed)}")
     if changes.new:
         lines.append(f"not scored then: {', '.join(changes.new)}")
     return "\n".join(lines)
 
 
 def comparison_tables(was: Scores, now: Scores) -> str:
-    """A table for each data set that is in both, and what is in one only."""
-    parts = [changes_table(changes) for changes in compared(was, now)]
-    gone, new = missing(was, now), missing(now, was)
-    if gone:
-        parts.append(f"evaluated then and not now: {', '.join(gone)}")
+    """Return a table for each data set that is in both evaluations, and the names that are in one only."""
+    parts = [changes_table(changes) for changes in compare_scores(was, now)]
+    removed, new = missing(was, now), missing(now, was)
+    if removed:
+        parts.append(f"evaluated then and not now: {', '.join(removed)}")
     if new:
         parts.append(f"not evaluated then: {', '.join(new)}")
     return "\n\n".join(parts)

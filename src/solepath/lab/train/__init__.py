@@ -1,4 +1,4 @@
-"""Scripts that learn the parameters that the live parts ship with, each from data that it is never scored on.
+"""Scripts that learn the parameters of the live parts, each from data on which it is never scored.
 
-They may use numpy; what they write is a small readable file beside the part that reads it.
+They may use numpy. Each writes a small readable file beside the part that reads it.
 """

@@ -2,12 +2,12 @@
 
     python -m solepath.lab.train.activities DATA_DIR [--out FILE] [--without FOLD]
 
-writes activities.json beside the part, or FILE. Same data, same file. `--without`: leave out the wearers of a fold
-of hugadb (folds.py, from 0), for who wants to score on them.
+writes activities.json beside the part, or FILE. The same data give the same file. `--without` leaves out the wearers
+of a fold of hugadb (hugadb.py, from 0), for scoring on them.
 
-Learnt from: hugadb, as recorded and at other rates; level walks of other wearers, sensors and mountings (walking is all
-that is known of them, so only blocks with a step count); emulated wearers with seeds from 101. Neither the recorded
-stairs of gaitmap_examples nor those of xio_closed_walks are among them.
+The data are hugadb, as recorded and at other rates; level walks of other wearers, sensors and mountings (only walking
+is known of them, so only blocks with a step count); and emulated wearers with seeds from 101. The recorded stairs of
+gaitmap_examples and xio_closed_walks are not among them.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ from ...recording.samples import load_samples
 from ...types import SITE_OF_FOOT, Activity, Foot, Sample, Site
 from ...types.vector import TIE, ZERO
 from . import emulated
-from .activities_course import LabelledCourse, Said, chances, shifts
+from .activities_course import FootEvidence, LabelledCourse, chances, shifts
 from .activities_net import CLASSES, networks, usual
 from .hugadb import FOLDS, Span, labels, recordings, spans
 
@@ -55,7 +55,7 @@ Floats = NDArray[np.float64]
 Label = Callable[[float], Activity | None]
 
 STRAPDOWN = Recipe("strapdown", ShoeDetector(), LinearDedrift())
-"""Steps as a plain zero-velocity method sees them: the features of a step must not be one recipe's."""
+"""Recipe of a plain zero-velocity method, because the features of a step must not depend on one recipe."""
 WAYS: tuple[tuple[float | None, Recipe], ...] = (
     (None, recipes.DEFAULT),
     (100.0, recipes.DEFAULT),
@@ -64,10 +64,13 @@ WAYS: tuple[tuple[float | None, Recipe], ...] = (
     (None, STRAPDOWN),
     (20.0, STRAPDOWN),
 )
-"""Rate in Hz (None: as recorded) and recipe in which each recording is seen."""
-MISTAKEN = ("various_03_05", "various_03_06")
-"""Labelled as going down, but each stride rises by 0.4 m and swings as two steps up at a time do with other wearers:
-the label is taken for a slip, and nothing is learnt from them."""
+"""Rate in Hz (None: as recorded) and recipe with which each recording is processed."""
+MISLABELLED = ("various_03_05", "various_03_06")
+"""Recordings whose labels are taken for mistakes, so that nothing is learnt from them.
+
+They are labelled as going down, but each stride rises by 0.4 m and swings as two steps up at a time do with other
+wearers.
+"""
 LEVEL_WALKS = ("ipol_10m_uturn", "gumushane_gcp", "felius_2min_walk", "tripod_treadmill")
 EMULATED = range(emulated.FIRST_TO_LEARN_FROM, emulated.FIRST_TO_LEARN_FROM + 16)
 WORN: tuple[tuple[float, Imu, Mounting] | CC2650 | CC2541, ...] = (
@@ -80,24 +83,27 @@ WORN: tuple[tuple[float, Imu, Mounting] | CC2650 | CC2541, ...] = (
     (50.0, MPU6050, ON_INSTEP),
     (10.0, MPU9250, IN_SOLE),
 )
-"""What the emulated wearers wear, in turn: rate in Hz, inertial sensor and where it sits, or a device as it is sold."""
+"""Sensors of the emulated wearers, in rotation: rate in Hz, inertial sensor and mounting, or a device as it is sold."""
 EMULATOR = 2000
-"""The number of all emulated wearers together."""
+"""Wearer number of all emulated wearers together."""
 AFOOT = 0.0
-"""Feature 1 (the stillest block of five) of a foot that walks all the time: a variance of |acc| above 1 (m/s^2)^2."""
+"""Limit of feature 1 (the stillest block of five) for a foot that walks all the time.
+
+It stands for a variance of |acc| above 1 (m/s^2)^2.
+"""
 PURE = 0.9
-"""A block of which less has one label is left out."""
+"""Smallest share of one label in a block that is used."""
 
 
 @frozen(eq=False)
 class Blocks:
-    """Features (n, COUNT), classes (n) and whose they are (n): a number for each wearer and source."""
+    """Features (n, COUNT), classes (n) and wearers (n): a number for each wearer and source."""
 
     features: Floats
     classes: NDArray[np.int64]
     wearers: NDArray[np.int64]
     course: LabelledCourse | None = None
-    """The whole recording, where what follows what is learnt from it."""
+    """The whole recording, when the sequence of activities is learnt from it."""
 
 
 def blocks_of(
@@ -108,39 +114,42 @@ def blocks_of(
     only_steps: bool = False,
     followed: Sequence[Span] | None = None,
 ) -> Blocks:
-    """The labelled blocks of both feet. `only_steps`: those with a step in them. `followed`: what was done when, of a
-    recording whose course is learnt from."""
+    """Return the labelled blocks of both feet.
+
+    `only_steps` keeps the blocks with a step in them. `followed` has the true activities of a recording from which the
+    sequence of activities is learnt.
+    """
     rows: list[list[float]] = []
     classes: list[int] = []
-    begin = samples[0].t
-    seen: dict[int, dict[Foot, Said]] = {}
+    t_start = samples[0].t
+    seen: dict[int, dict[Foot, FootEvidence]] = {}
     for foot in Foot:
         own = [sample for sample in samples if sample.site.foot is foot and sample.acc is not None]
-        for index, features, force in _features(foot, own, begin, recipe):
+        for index, features, force in _features(foot, own, t_start, recipe):
             seen.setdefault(index, {})[foot] = features, force
-            now = _pure(label, begin + index * BLOCK)
-            if now is not None and (not only_steps or (features[STRIDE] and features[1] > AFOOT)):
+            now = _pure(label, t_start + index * BLOCK)
+            if now is not None and (not only_steps or (features[STEP] and features[1] > AFOOT)):
                 rows.append(features)
                 classes.append(CLASSES[now])
     n = len(rows)
-    course = None if followed is None else LabelledCourse(begin, seen, tuple(followed), wearer != EMULATOR)
+    course = None if followed is None else LabelledCourse(t_start, seen, tuple(followed), wearer != EMULATOR)
     return Blocks(np.array(rows).reshape(n, COUNT), np.array(classes, dtype=np.int64), np.full(n, wearer), course)
 
 
 def _features(
-    foot: Foot, samples: Sequence[Sample], begin: float, recipe: Recipe
-) -> Iterator[tuple[int, list[float], BlockForce | None]]:
+    foot: Foot, samples: Sequence[Sample], t_start: float, recipe: Recipe
+) -> Iterator[tuple[int, list[float], Felt | None]]:
     parts = deepcopy(recipe)
     tracker = FootTracker(foot, parts.detector, parts.corrector, cues=parts.cues)
     window = FootBlocks()
     for sample in samples:
         events = tracker.feed(sample)
-        index = int((sample.t - begin + TIE) / BLOCK)
+        index = int((sample.t - t_start + TIE) / BLOCK)
         if window.index is None or index > window.index:
             if window.index is not None:
                 window.close()
                 judged = window.index - REACH
-                found = window.features(judged, begin + (judged + 0.5) * BLOCK)
+                found = window.features(judged, t_start + (judged + 0.5) * BLOCK)
                 if found is not None:
                     yield judged, found, block_force(window.block(judged), window.resolution)
             rest = tracker.rest
@@ -151,28 +160,28 @@ def _features(
             window.add_events(events, tracker.corrector.position[2])
 
 
-def _pure(label: Label, begin: float) -> Activity | None:
-    """The label of nearly all of a block that begins then; None when it changes or is none."""
+def _pure(label: Label, t_start: float) -> Activity | None:
+    """Return the label of at least the share PURE of the block that starts at `t_start` s; None when there is none."""
     n = 20
-    found = [label(begin + BLOCK * (k + 0.5) / n) for k in range(n)]
+    found = [label(t_start + BLOCK * (k + 0.5) / n) for k in range(n)]
     most = max(set(found), key=found.count)
     return most if found.count(most) >= PURE * n else None
 
 
 def hugadb(folder: Path, without: frozenset[int]) -> Iterator[Blocks]:
-    """All wearers but these, in every of `WAYS`."""
+    """Yield the blocks of all wearers but `without`, with every entry of `WAYS`."""
     for one in recordings(folder):
-        if one.subject in without or one.path.stem in MISTAKEN:
+        if one.subject in without or one.path.stem in MISLABELLED:
             continue
-        times, told = labels(one.path)
+        times, known = labels(one.path)
         at = np.array(times)
 
-        def label(t: float, at: Floats = at, told: list[Activity | None] = told) -> Activity | None:
+        def label(t: float, at: Floats = at, known: list[Activity | None] = known) -> Activity | None:
             k = int(np.searchsorted(at, t))
-            return told[k] if k < len(told) else None
+            return known[k] if k < len(known) else None
 
         samples = list(load_samples(one.path))
-        done = spans(times, told)
+        done = spans(times, known)
         for rate, recipe in WAYS:
             seen = samples if rate is None else resampled(samples, rate)
             followed = done if (rate, recipe) == WAYS[0] else None
@@ -180,7 +189,7 @@ def hugadb(folder: Path, without: frozenset[int]) -> Iterator[Blocks]:
 
 
 def level_walks(data: Path) -> Iterator[Blocks]:
-    """Recorded walks without stairs, every other one."""
+    """Yield the blocks of every other recorded walk without stairs."""
     for number, folder in enumerate(LEVEL_WALKS):
         for path in sorted((data / folder).glob("*.npz"))[::2]:
             samples = sorted(load_samples(path), key=attrgetter("t"))
@@ -188,7 +197,7 @@ def level_walks(data: Path) -> Iterator[Blocks]:
 
 
 def emulated_walks(seeds: Iterable[int] = EMULATED) -> Iterator[Blocks]:
-    """Each of another wearer."""
+    """Yield the blocks of each emulated walk; every seed has another wearer."""
     for seed in seeds:
         walker = emulated.walker(seed, jogging=True)
         samples = _worn(walker, WORN[seed % len(WORN)], seed)
@@ -213,8 +222,10 @@ def _worn(walker: Walker, device: tuple[float, Imu, Mounting] | CC2650 | CC2541,
 
 
 def resampled(samples: Sequence[Sample], rate: float) -> list[Sample]:
-    """The same at another rate, Hz: smoothed over half an interval where that is longer, as sensors do, and linear
-    between samples."""
+    """Return the samples at another rate, Hz, interpolated linearly between samples.
+
+    They are first smoothed over half an interval where that is longer, as sensors do.
+    """
     found: list[Sample] = []
     for foot in Foot:
         own = [one for one in samples if one.site.foot is foot and one.acc is not None]
@@ -233,8 +244,8 @@ def resampled(samples: Sequence[Sample], rate: float) -> list[Sample]:
     return sorted(found, key=attrgetter("t"))
 
 
-def learnt(parts: Iterable[Blocks], note: str) -> MotionModel:
-    """The model of all of them."""
+def fit_model(parts: Iterable[Blocks], note: str) -> MotionModel:
+    """Return the model that is learnt from all these blocks."""
     held = [part for part in parts if len(part.classes)]
     features = np.concatenate([part.features for part in held])
     classes = np.concatenate([part.classes for part in held])
@@ -245,15 +256,15 @@ def learnt(parts: Iterable[Blocks], note: str) -> MotionModel:
     return attrs.evolve(model, shifts=shifts(courses, model))
 
 
-def trained(data: Path, without: int | None) -> MotionModel:
-    """The model without the wearers of that fold."""
+def train_model(data: Path, without: int | None) -> MotionModel:
+    """Return the model without the wearers of the fold `without`."""
     left_out = frozenset[int]() if without is None else FOLDS[without]
     fold = "all wearers" if without is None else f"the wearers but {sorted(left_out)}"
     note = (
-        f"{fold} of HuGaDB (without {' and '.join(MISTAKEN)}) as recorded and at 100, 20 and 10 Hz; level walks of "
+        f"{fold} of HuGaDB (without {' and '.join(MISLABELLED)}) as recorded and at 100, 20 and 10 Hz; level walks of "
         f"{', '.join(LEVEL_WALKS)}; emulated wearers, seeds {EMULATED[0]} to {EMULATED[-1]}"
     )
-    return learnt([*hugadb(data / "hugadb", left_out), *level_walks(data), *emulated_walks()], note)
+    return fit_model([*hugadb(data / "hugadb", left_out), *level_walks(data), *emulated_walks()], note)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -261,14 +272,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("data", type=Path)
     parser.add_argument("--out", type=Path, default=Path(motion.__file__).with_name("activities.json"))
     parser.add_argument("--without", type=int, choices=range(len(FOLDS)))
-    told = parser.parse_args(arguments)
-    model = trained(told.data, told.without)
-    told.out.write_text(_lines(to_json(model), 0) + "\n", encoding="utf-8")
+    options = parser.parse_args(arguments)
+    model = train_model(options.data, options.without)
+    options.out.write_text(_lines(to_json(model), 0) + "\n", encoding="utf-8")
     return 0
 
 
 def _lines(value: object, depth: int) -> str:
-    """JSON with a line for each row of numbers."""
+    """Return JSON with a line for each row of numbers."""
     inner, close = "\n" + " " * (depth + 1), "\n" + " " * depth
     if isinstance(value, dict):
         rows = [f"{json.dumps(key)}: {_lines(one, depth + 1)}" for key, one in value.items()]

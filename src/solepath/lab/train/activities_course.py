@@ -1,4 +1,4 @@
-"""What `Activities` learns of how activities follow each other: the chances of a change, and when it is dated.
+"""Learns for `Activities` how activities follow each other: the chances of a change, and its time.
 
 A change is seen in the half second whose window looks more like the new activity. The people who labelled it dated it
 by other signs (the foot on the first tread, the doors of the lift), so the median of the difference is learnt.
@@ -23,41 +23,41 @@ from ...types import Activity, Foot
 from .activities_net import CLASSES
 from .hugadb import APART, Span
 
-Said = tuple[list[float], BlockForce | None]
-"""Features of a foot in a block, and what a lift would be felt in."""
+FootEvidence = tuple[list[float], Felt | None]
+"""Features of a foot in a block, and the forces in which a lift can be detected."""
 
 WORTH = 0.5
-"""`DEFAULT_CHANCES` counts so much beside what was seen: chances must hold of others than these wearers too."""
+"""Weight of `SUPPOSED` beside the observed chances, which must hold for other wearers too."""
 NEAR = 4.0
-"""A change that was seen further, s, from one that was labelled is another."""
+"""Largest time between a detected change and a labelled one, s."""
 FEWEST = 8
-"""Of fewer changes nothing is learnt."""
+"""Smallest number of changes from which a time shift is learnt."""
 FINEST = 0.05
-"""s."""
+"""Resolution of a time shift, s."""
 
 
 @frozen(eq=False)
 class LabelledCourse:
-    """A recording in blocks from `begin` s on, what each foot said of each, and what was done."""
+    """A recording in blocks from `t_start` s on, with each foot's evidence in each block, and the true activities."""
 
-    begin: float
-    seen: Mapping[int, Mapping[Foot, Said]]
+    t_start: float
+    seen: Mapping[int, Mapping[Foot, FootEvidence]]
     done: tuple[Span, ...]
     by_hand: bool = True
-    """People dated it, and not an emulator."""
+    """True when people labelled the times, False for an emulator."""
 
 
 def changes(done: Sequence[Span]) -> list[tuple[float, Activity, Activity]]:
-    """When, from what, to what."""
+    """Return (time, activity before, activity after) of each change."""
     return [(after[0], before[2], after[2]) for before, after in pairwise(done) if after[0] - before[1] < APART]
 
 
 def chances(courses: Sequence[LabelledCourse]) -> Chances:
-    """Of each change within a block."""
-    counts = [[1e-6 * chance for chance in row] for row in DEFAULT_CHANCES]
+    """Return the chance of each change within a block."""
+    counts = [[1e-6 * chance for chance in row] for row in SUPPOSED]
     for course in courses:
-        for begin, end, activity in course.done:
-            counts[CLASSES[activity]][CLASSES[activity]] += (end - begin) / BLOCK
+        for t_start, end, activity in course.done:
+            counts[CLASSES[activity]][CLASSES[activity]] += (end - t_start) / BLOCK
         for _, before, after in changes(course.done):
             counts[CLASSES[before]][CLASSES[after]] += 1.0
     return tuple(
@@ -69,8 +69,11 @@ def chances(courses: Sequence[LabelledCourse]) -> Chances:
 
 
 def shifts(courses: Sequence[LabelledCourse], model: MotionModel) -> Shifts:
-    """How much later than seen each change is dated: the median of those dated by hand and that of the emulated ones,
-    the mean of both where there are enough of either."""
+    """Return the time by which each change is labelled later than detected, s.
+
+    It is the median for changes labelled by hand and that for emulated ones, or the mean of both medians where there
+    are enough changes of either kind.
+    """
     later: dict[tuple[Activity, Activity], dict[bool, list[float]]] = {}
     for course in courses:
         seen = changes(followed(course, model))
@@ -89,25 +92,25 @@ def shifts(courses: Sequence[LabelledCourse], model: MotionModel) -> Shifts:
 
 
 def followed(course: LabelledCourse, model: MotionModel) -> list[Span]:
-    """What the part makes of it, as spans."""
+    """Return the spans that the part reports for the recording."""
     courses = Hypotheses()
-    begun: list[tuple[float, Activity]] = []
+    starts: list[tuple[float, Activity]] = []
     last = max(course.seen, default=-1)
     for index in range(last + 1):
         feet = course.seen.get(index, {})
-        said = [feet.get(foot) for foot in Foot]
-        t = course.begin + index * BLOCK
+        evidence = [feet.get(foot) for foot in Foot]
+        t = course.t_start + index * BLOCK
         courses.update(
             BlockEvidence(
                 t=t,
-                motions=motion_votes(model, [None if one is None else one[0] for one in said]),
-                forces=tuple([None if one is None else one[1] for one in said]),
-                climbs=NO_EVIDENCE,
+                motions=motions(model, [None if one is None else one[0] for one in evidence]),
+                felt=tuple([None if one is None else one[1] for one in evidence]),
+                climbs=NOTHING,
                 before=None,
                 after=None,
             ),
             model.chain,
         )
-        begun += [(segment.t, segment.activity) for segment, _, _ in courses.settle(t if index < last else 1e9)]
-    ends = [*[t for t, _ in begun[1:]], course.begin + (last + 1) * BLOCK]
-    return [(t, end, activity) for (t, activity), end in zip(begun, ends, strict=True)]
+        starts += [(segment.t, segment.activity) for segment, _, _ in courses.settle(t if index < last else 1e9)]
+    ends = [*[t for t, _ in starts[1:]], course.t_start + (last + 1) * BLOCK]
+    return [(t, end, activity) for (t, activity), end in zip(starts, ends, strict=True)]

@@ -1,7 +1,7 @@
 """The small networks of `Activities`: one hidden layer, fitted by stochastic gradient descent (Adam: Kingma, Ba 2015).
 
-Some features are hidden from the network in every pass, so that it can do without them: those of the track and of the
-steps. Those of the track are also disturbed by as much as tracks of clipping accelerometers are wrong.
+The features of the track and of the steps are hidden from the network for some blocks in every pass, so that it works
+without them. The features of the steps are also disturbed by as much as tracks of clipping accelerometers are wrong.
 """
 
 from __future__ import annotations
@@ -32,12 +32,15 @@ BATCH = 512
 RATE = 3e-3
 DECAY = 1e-3
 WITHOUT_TRACK, WITHOUT_STEP = 0.1, 0.2
-"""Shares of blocks in a pass that are seen without."""
+"""Shares of blocks in a pass without the features of the track, and without those of the step."""
 LEAST_SPREAD = 0.02
 
 
 def weights(classes: Numbers, wearers: Numbers) -> Floats:
-    """A class of a wearer counts by the root of its number of blocks: neither the rare nor the busy alone decide."""
+    """Return the weight of each block: 1 over the root of the number of blocks of its class and wearer.
+
+    So a class of a wearer counts by that root, and neither the rare nor the frequent classes alone decide.
+    """
     found = np.ones(len(classes))
     for wearer in np.unique(wearers):
         for k in range(len(MOTIONS)):
@@ -48,15 +51,17 @@ def weights(classes: Numbers, wearers: Numbers) -> Floats:
 
 
 def networks(features: Floats, classes: Numbers, wearers: Numbers) -> tuple[Network, Network]:
-    """Of feet with a gyroscope, and of the accelerometer alone: `features` (n, COUNT), `classes` (n) as in CLASSES,
-    `wearers` (n)."""
+    """Return the network of feet with a gyroscope, and that of the accelerometer alone.
+
+    `features` are (n, COUNT), `classes` (n) as in CLASSES, `wearers` (n).
+    """
     turned = features[:, GYRO] > 0.0
     whole = learn(features[turned], classes[turned], wearers[turned])
     return whole, learn(features[:, :GYRO], classes, wearers)
 
 
 def learn(features: Floats, classes: Numbers, wearers: Numbers, seed: int = 0) -> Network:
-    """The network of these blocks."""
+    """Return the network that is fitted to these blocks."""
     rng = np.random.default_rng(seed)
     weight = weights(classes, wearers)
     mean, spread = features.mean(0), features.std(0) + 0.01
@@ -69,8 +74,8 @@ def learn(features: Floats, classes: Numbers, wearers: Numbers, seed: int = 0) -
         seen = ((disturbed(features, rng) if inputs > GYRO else features) - mean) / spread
         rate = RATE * 0.5 * (1.0 + np.cos(np.pi * epoch / EPOCHS))
         order = rng.permutation(len(seen))
-        for begin in range(0, len(order), BATCH):
-            batch = order[begin : begin + BATCH]
+        for start in range(0, len(order), BATCH):
+            batch = order[start : start + BATCH]
             count += 1
             for k, slope in enumerate(_slopes(held, seen[batch], classes[batch], weight[batch])):
                 first[k] += 0.1 * (slope - first[k])
@@ -87,7 +92,7 @@ def learn(features: Floats, classes: Numbers, wearers: Numbers, seed: int = 0) -
 
 
 def usual(features: Floats, classes: Numbers) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
-    """Mean and deviation of the features of the accelerometer, for each of MOTIONS."""
+    """Return mean and deviation of the features of the accelerometer, for each of MOTIONS."""
     alone = [features[classes == k][:, :GYRO] for k in range(len(MOTIONS))]
     return (
         tuple([row_of(one.mean(0)) for one in alone]),
@@ -96,7 +101,7 @@ def usual(features: Floats, classes: Numbers) -> tuple[tuple[Row, ...], tuple[Ro
 
 
 def _slopes(held: list[Floats], x: Floats, y: Numbers, weight: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-    """Of the weighted cross-entropy, and of the decay of the weights."""
+    """Return the gradient of the weighted cross-entropy and of the decay of the weights."""
     inner = np.tanh(x @ held[0] + held[1])
     outer = inner @ held[2] + held[3]
     likely = np.exp(outer - outer.max(1, keepdims=True))
@@ -113,7 +118,7 @@ def _slopes(held: list[Floats], x: Floats, y: Numbers, weight: Floats) -> tuple[
 
 
 def disturbed(features: Floats, rng: np.random.Generator) -> Floats:
-    """As other sensors might have seen the same."""
+    """Return the features with errors as other sensors might have them."""
     found = features.copy()
     n = len(found)
     stepped = found[:, STRIDE] > 0.0
@@ -127,5 +132,5 @@ def disturbed(features: Floats, rng: np.random.Generator) -> Floats:
 
 
 def row_of(values: Floats) -> Row:
-    """Rounded as the file of the model has them."""
+    """Return the values rounded as in the file of the model."""
     return tuple([float(f"{value:.5g}") for value in values.tolist()])

@@ -2,12 +2,12 @@
 
     python -m solepath.lab.train.footstep_activity HUGADB
 
-writes footstep_activity.json beside the part. Same data, same file.
+writes footstep_activity.json beside the part. The same data give the same file.
 
-Liu et al. 2015 take the thresholds from cumulative distributions (fig. 6): here a threshold is where the two curves lie
-furthest apart, so the share of what should lie below and does not, plus that of what should lie above, is least. The
-mixture has one component an activity and a source of data; what is running is one of walking's components, because
-running is none of the paper's activities.
+Liu et al. 2015 take the thresholds from cumulative distributions (fig. 6). Here a threshold is where the two curves are
+furthest apart, so that the sum of two shares is smallest: of what should be below and is not, and of what should be
+above and is not. The mixture has one component for each activity and source of data. Running is a component of
+walking, because it is none of the paper's activities.
 """
 
 from __future__ import annotations
@@ -36,41 +36,43 @@ from .hugadb import labels, recordings
 
 LIFTS = (Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN)
 SHRUNK = 0.1
-"""Share of the covariance within all classes in that of each: few windows know little of it."""
+"""Share of the common covariance in that of each class, because few windows determine it badly."""
 AROUND = 10
-"""Windows on either side whose median is the mean of standing here."""
+"""Number of windows on either side whose median is the local mean of standing."""
 BESIDE = 4
-"""Windows before and after a ride that may hold its pulses too: labels pressed by hand are about a second off."""
+"""Number of windows before and after a ride that may hold its pulses; labels pressed by hand are about a second off."""
 EDGE = 0.5
-"""s that labels pressed by hand are not believed at their ends."""
+"""Time at both ends of a label that is not used, s, because labels are pressed by hand."""
 WALKS = 12
-"""Emulated ones."""
-QUIET = 10.0
-"""Variance of a_z, m^2/s^4, above which nobody stands still: only for what the other threshold is learnt from."""
+"""Number of emulated walks."""
+STILL_VARIANCE = 10.0
+"""Variance of a_z, m^2/s^4, above which nobody stands still; used only to learn the other threshold."""
 
 
 @frozen
 class LabelledWindow:
-    """One window of the feet that were heard."""
+    """One window of the feet that have samples."""
 
     index: int
     activity: Activity | None
-    """What the wearer did all through it; None where that changed, or nobody says."""
+    """Activity during the whole window; None when it changes or is not labelled."""
     middle: Activity | None
-    """The same in its middle."""
+    """Activity in the middle of the window; None when it is not labelled."""
     feet: tuple[FootWindow, ...]
 
 
 @frozen
-class Taught:
+class RecordingWindows:
     """The windows of one recording. `source`: the kind of data that it is of."""
 
     source: str
     windows: tuple[LabelledWindow, ...]
 
 
-def features(source: str, samples: Iterable[Sample], t: NDArray[Any], activities: Sequence[Activity | None]) -> Taught:
-    """The windows of a recording, whose activities are `activities` at `t` (n,), s."""
+def features(
+    source: str, samples: Iterable[Sample], t: NDArray[Any], activities: Sequence[Activity | None]
+) -> RecordingWindows:
+    """Return the windows of a recording, whose activities are `activities` at `t` (n,), s."""
     feet: dict[Foot, FootWindows] = {}
     origin: float | None = None
     found: dict[int, list[FootWindow]] = {}
@@ -82,35 +84,35 @@ def features(source: str, samples: Iterable[Sample], t: NDArray[Any], activities
     for foot in Foot:
         for window in feet[foot].ready if foot in feet else ():
             found.setdefault(window.index, []).append(window)
-    told = []
+    labelled = []
     for index, windows in sorted(found.items()):
         end = (origin or 0.0) + (index + 1) * HOP
         first, middle, last = np.searchsorted(t, [end - WINDOW - EDGE, end - 0.5 * WINDOW, end + EDGE])
         during = set(activities[first:last])
         at = activities[min(int(middle), len(activities) - 1)]
-        told.append(LabelledWindow(index, during.pop() if len(during) == 1 else None, at, tuple(windows)))
-    return Taught(source, tuple(told))
+        labelled.append(LabelledWindow(index, during.pop() if len(during) == 1 else None, at, tuple(windows)))
+    return RecordingWindows(source, tuple(labelled))
 
 
-def of_recording(path: Path) -> Taught:
-    """The windows of one of hugadb's recordings."""
+def of_recording(path: Path) -> RecordingWindows:
+    """Return the windows of one of hugadb's recordings."""
     t, activities = labels(path)
     return features("hugadb", load_samples(path), np.array(t), activities)
 
 
-def train(taught: Sequence[Taught], trained_on: str) -> WindowModel:
-    """The model of those windows. ValueError where an activity of the paper is missing among them."""
+def train(examples: Sequence[RecordingWindows], trained_on: str) -> WindowModel:
+    """Return the model of those windows. Raise ValueError when they lack an activity of the paper."""
     still, moving = [], []
-    for told in (told for one in taught for told in one.windows):
-        level = _level(told)
-        if told.activity is Activity.STANDING or told.activity in LIFTS:
+    for labelled in (labelled for one in examples for labelled in one.windows):
+        level = _level(labelled)
+        if labelled.activity is Activity.STANDING or labelled.activity in LIFTS:
             still.append(level)
-        elif told.activity is not None:
+        elif labelled.activity is not None:
             moving.append(level)
     if not still or not moving:
         raise ValueError("there are no windows of standing, or none of walking")
-    standing, riding = _pulses(taught)
-    mixtures = _mixtures(taught)
+    standing, riding = _pulses(examples)
+    mixtures = _mixtures(examples)
     return WindowModel(
         trained_on=trained_on,
         moving=_rounded(float(np.exp(threshold(still, moving)))),
@@ -118,12 +120,12 @@ def train(taught: Sequence[Taught], trained_on: str) -> WindowModel:
         walking=mixtures[Activity.WALKING],
         stairs_up=mixtures[Activity.STAIRS_UP],
         stairs_down=mixtures[Activity.STAIRS_DOWN],
-        transitions=_transitions(taught),
+        transitions=_transitions(examples),
     )
 
 
 def threshold(below: Sequence[float], above: Sequence[float]) -> float:
-    """Where the cumulative distributions lie furthest apart: the middle of all such places."""
+    """Return the value at which the cumulative distributions are furthest apart: the middle of all such values."""
     low, high = np.sort(below), np.sort(above)
     places = np.unique(np.concatenate([low, high]))
     between = 0.5 * (places[1:] + places[:-1])
@@ -134,26 +136,26 @@ def threshold(below: Sequence[float], above: Sequence[float]) -> float:
     return float(0.5 * (places[best[0]] + places[best[-1] + 1]))
 
 
-def _level(told: LabelledWindow) -> float:
-    """Logarithm of the mean variance of the feet."""
-    return float(np.log(np.mean([window.variance for window in told.feet]) + LEAST_VARIANCE))
+def _level(labelled: LabelledWindow) -> float:
+    """Return the logarithm of the mean variance of the feet."""
+    return float(np.log(np.mean([window.variance for window in labelled.feet]) + LEAST_VARIANCE))
 
 
-def _pulses(taught: Sequence[Taught]) -> tuple[list[float], list[float]]:
-    """(how far the mean of each window of standing is from its neighbours', the weaker pulse of each lift ride)."""
+def _pulses(examples: Sequence[RecordingWindows]) -> tuple[list[float], list[float]]:
+    """Return how far each standing window's mean is from its neighbours', and the weaker pulse of each lift ride."""
     standing: list[float] = []
     riding: list[float] = []
-    for one in taught:
-        quiet = [told for told in one.windows if _level(told) < np.log(QUIET)]
-        means = np.array([np.mean([window.mean for window in told.feet]) for told in quiet])
+    for one in examples:
+        still_windows = [labelled for labelled in one.windows if _level(labelled) < np.log(STILL_VARIANCE)]
+        means = np.array([np.mean([window.mean for window in labelled.feet]) for labelled in still_windows])
         off = [
             mean - float(np.median(means[max(0, k - AROUND) : k + AROUND + 1])) for k, mean in enumerate(means.tolist())
         ]
-        of_ride = [told.middle in LIFTS for told in quiet]
-        for k, told in enumerate(quiet):
-            if told.activity is Activity.STANDING and not any(of_ride[max(0, k - BESIDE) : k + BESIDE + 1]):
+        of_ride = [labelled.middle in LIFTS for labelled in still_windows]
+        for k, labelled in enumerate(still_windows):
+            if labelled.activity is Activity.STANDING and not any(of_ride[max(0, k - BESIDE) : k + BESIDE + 1]):
                 standing.append(abs(off[k]))
-        for activity, ride in groupby(range(len(quiet)), key=lambda k: quiet[k].middle):
+        for activity, ride in groupby(range(len(still_windows)), key=lambda k: still_windows[k].middle):
             if activity in LIFTS:
                 numbers = list(ride)
                 values = off[max(0, numbers[0] - BESIDE) : numbers[-1] + BESIDE + 1]
@@ -161,14 +163,14 @@ def _pulses(taught: Sequence[Taught]) -> tuple[list[float], list[float]]:
     return standing, riding or [1.0]
 
 
-def _mixtures(taught: Sequence[Taught]) -> dict[Activity, tuple[Gaussian, ...]]:
-    """The Gaussians of each state of the hidden Markov model."""
+def _mixtures(examples: Sequence[RecordingWindows]) -> dict[Activity, tuple[Gaussian, ...]]:
+    """Return the Gaussians of each state of the hidden Markov model."""
     groups: dict[tuple[Activity, str], list[tuple[float, ...]]] = {}
-    for one in taught:
-        for told in one.windows:
-            if told.activity in MOVING or told.activity is Activity.RUNNING:
-                whole = [x for x in map(seen, told.feet) if len(x) == len(window_model.FEATURES)]
-                groups.setdefault((told.activity, one.source), []).extend(whole)
+    for one in examples:
+        for labelled in one.windows:
+            if labelled.activity in MOVING or labelled.activity is Activity.RUNNING:
+                whole = [x for x in map(seen, labelled.feet) if len(x) == len(window_model.FEATURES)]
+                groups.setdefault((labelled.activity, one.source), []).extend(whole)
     fit = {key: np.array(rows) for key, rows in groups.items() if len(rows) > 2 * len(window_model.FEATURES)}
     every, size = sum(map(len, fit.values())), len(window_model.FEATURES)
     common = sum((np.cov(rows.T) * len(rows) for rows in fit.values()), np.zeros((size, size))) / max(every, 1)
@@ -187,10 +189,10 @@ def _gaussian(rows: NDArray[Any], common: NDArray[Any], weight: float) -> Gaussi
     return Gaussian(_rounded(weight), tuple([_rounded(value) for value in rows.mean(axis=0).tolist()]), triangle)
 
 
-def _transitions(taught: Sequence[Taught]) -> tuple[tuple[float, ...], ...]:
-    """From one window to the next, counted; as if each had been seen once more."""
+def _transitions(examples: Sequence[RecordingWindows]) -> tuple[tuple[float, ...], ...]:
+    """Return the transition probabilities from one window to the next, counted, with one more count for each."""
     counts = np.ones((3, 3))
-    for one in taught:
+    for one in examples:
         for before, after in zip(one.windows, one.windows[1:], strict=False):
             if before.middle in MOVING and after.middle in MOVING:
                 counts[MOVING.index(before.middle), MOVING.index(after.middle)] += 1.0
@@ -202,8 +204,8 @@ def _rounded(value: float) -> float:
     return float(f"{value:.5g}")
 
 
-def of_emulated(seed: int) -> Taught:
-    """The windows of an emulated walk with some jogging."""
+def of_emulated(seed: int) -> RecordingWindows:
+    """Return the windows of an emulated walk with some jogging."""
     walked = emulated.walk(seed, jogging=True)
     truth = walked.truth
     t = np.arange(0.0, truth.duration, 1.0 / emulated.RATE)
@@ -211,11 +213,11 @@ def of_emulated(seed: int) -> Taught:
 
 
 def main(folder: Path) -> None:
-    """Write the model of all there is beside the part that reads it."""
-    taught = [of_recording(one.path) for one in recordings(folder)]
+    """Write the model of all data beside the part that reads it."""
+    examples = [of_recording(one.path) for one in recordings(folder)]
     first, last = emulated.FIRST_TO_LEARN_FROM, emulated.FIRST_TO_LEARN_FROM + WALKS - 1
-    taught += [of_emulated(seed) for seed in range(first, last + 1)]
-    model = train(taught, f"hugadb, all wearers, and emulated walks at 20 Hz, seeds {first} to {last}")
+    examples += [of_emulated(seed) for seed in range(first, last + 1)]
+    model = train(examples, f"hugadb, all wearers, and emulated walks at 20 Hz, seeds {first} to {last}")
     file = Path(window_model.__file__).with_name("footstep_activity.json")
     file.write_text(json.dumps(attrs.asdict(model), indent=1) + "\n", encoding="utf-8")
 

@@ -1,10 +1,10 @@
 """The classifier of turns (body/gait/turns.py): `python -m solepath.lab.train.turns` prints its weights.
 
-As in Liu et al. 2015 (IEEE MASS), section V.E: wearers turn 30 times to the left, to the right and about, and a linear
-SVM learns to tell these by the degrees of both feet. The turns are emulated (turns.csv beside this file, one a line:
-seed, class, degrees of the left foot and of the right one): a wearer of some size with a 20 Hz SensorTag in either sole
-walks 4 m, turns on the spot or along an arc of up to 1.2 m, and walks on. What is said here of a turn is what the
-recipe footstep-tracker measured. `--emulate` makes turns.csv anew, from seeds that nothing is scored on.
+As in Liu et al. 2015 (IEEE MASS), section V.E, wearers turn 30 times to the left, to the right and about, and a linear
+SVM learns to classify the turns by the angles of both feet. The turns are emulated (turns.csv beside this file has one
+a line: seed, class, angle of the left foot and of the right one in degrees). A wearer of some size with a 20 Hz
+SensorTag in either sole walks 4 m, turns on the spot or along an arc of up to 1.2 m, and walks on. The angles are those
+that the recipe footstep-tracker measured. `--emulate` writes turns.csv again, from seeds that nothing is scored on.
 """
 
 from __future__ import annotations
@@ -33,11 +33,11 @@ from ...types import SITE_OF_FOOT, Turn
 DATA = Path(__file__).with_name("turns.csv")
 FIRST_TO_LEARN_FROM = 101
 EACH = 30
-"""Turns of each class (section V.E)."""
+"""Number of turns of each class (section V.E)."""
 WEARERS = 3
 ANGLES = {Turn.LEFT: 90.0, Turn.RIGHT: -90.0, Turn.ABOUT: 180.0}
 SPREAD = 15.0
-"""Nobody turns by 90 degrees exactly: standard deviation, degrees."""
+"""Standard deviation of the turn angle, degrees, because nobody turns by exactly 90 degrees."""
 ROUNDS = 20_000
 SLACK = 1e-3
 """Weight of the margin against the errors."""
@@ -45,7 +45,7 @@ SLACK = 1e-3
 
 @frozen
 class Example:
-    """One turn: what was walked, and what each foot turned, degrees."""
+    """One turn: its class, and the angle of each foot, degrees."""
 
     seed: int
     turn: Turn
@@ -54,7 +54,7 @@ class Example:
 
 
 def walk(seed: int, turn: Turn) -> EmulatedWalk:
-    """Somebody walks, turns and walks on; the same for the same seed."""
+    """Return a walk with one turn; the same for the same seed."""
     rng = np.random.default_rng([seed, 7, list(Turn).index(turn)])
     angle = radians(float(rng.normal(ANGLES[turn], SPREAD)))
     if turn is Turn.ABOUT and rng.uniform() < 0.5:
@@ -62,14 +62,14 @@ def walk(seed: int, turn: Turn) -> EmulatedWalk:
     radius = 0.0 if rng.uniform() < 0.3 else float(rng.uniform(0.3, 1.2))
     route = Route().stand(2.5).walk(4.0, float(rng.uniform(0.9, 1.4))).turn(angle, radius).walk(4.0).stop(2.0)
     devices = {site: CC2541(rate=20.0, mounting=IN_SOLE) for site in SITE_OF_FOOT.values()}
-    # one of WEARERS in each hundred of seeds, by turns
+    # the seeds of each hundred use WEARERS wearers in rotation
     who, _ = random_wearer(np.random.default_rng([seed // 100, seed % WEARERS, 11]))
     return emulate(route, wearer=who, devices=devices, seed=seed)
 
 
-def measured(walked: EmulatedWalk) -> TurnProcess | None:
-    """The largest turn that the recipe found in a walk."""
-    session, direction = Session(FOOTSTEP_TRACKER), TurnDetector()
+def largest_turn(walked: EmulatedWalk) -> TurnProcess | None:
+    """Return the largest turn that the recipe finds in a walk."""
+    session, direction = Session(FOOTSTEP_TRACKER), Direction()
     steps = [event for packet in walked.packets for event in session.feed(packet) if isinstance(event, StrideTaken)]
     found = [direction.add_stride(step) for step in steps]
     if steps:
@@ -78,20 +78,23 @@ def measured(walked: EmulatedWalk) -> TurnProcess | None:
     return max(turns, key=lambda one: abs(one.angle), default=None)
 
 
-def emulated(seeds: Iterable[int]) -> list[Example]:
-    """A turn of each class for every seed, but for those of which the recipe saw nothing."""
+def emulated_examples(seeds: Iterable[int]) -> list[Example]:
+    """Return a turn of each class for every seed, without those in which the recipe finds no turn."""
     examples = []
     for seed in seeds:
         for turn in ANGLES:
-            found = measured(walk(seed, turn))
+            found = largest_turn(walk(seed, turn))
             if found is not None and found.left is not None and found.right is not None:
                 examples.append(Example(seed, turn, round(degrees(found.left), 1), round(degrees(found.right), 1)))
     return examples
 
 
-def trained(examples: list[Example]) -> dict[Turn, tuple[float, ...]]:
-    """One linear function for each class against the others: least SLACK |w|^2 / 2 + mean hinge loss, by subgradient
-    steps over all examples at once (Shalev-Shwartz et al. 2011, Pegasos), of which the second half is averaged."""
+def train_weights(examples: list[Example]) -> dict[Turn, tuple[float, ...]]:
+    """Return one linear function for each class against the others.
+
+    It minimises SLACK |w|^2 / 2 + mean hinge loss by subgradient steps over all examples at once (Shalev-Shwartz et al.
+    2011, Pegasos), and averages the second half of the steps.
+    """
     examples = [*examples, *(_mirrored(one) for one in examples)]
     x = np.array([features(radians(one.left), radians(one.right)) for one in examples])
     found: dict[Turn, tuple[float, ...]] = {}
@@ -109,20 +112,20 @@ def trained(examples: list[Example]) -> dict[Turn, tuple[float, ...]]:
 
 
 def _mirrored(one: Example) -> Example:
-    """The same turn to the other side, by feet that have changed places: no wearer's left is special."""
+    """Return the same turn to the other side with the feet exchanged, because left and right are equivalent."""
     other = {Turn.LEFT: Turn.RIGHT, Turn.RIGHT: Turn.LEFT, Turn.ABOUT: Turn.ABOUT}
     return Example(one.seed, other[one.turn], -one.right, -one.left)
 
 
 def read(path: Path = DATA) -> list[Example]:
-    """The turns in a file."""
+    """Return the turns in a file."""
     with path.open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     return [Example(int(r["seed"]), Turn[r["class"]], float(r["left"]), float(r["right"])) for r in rows]
 
 
 def write(examples: list[Example], path: Path = DATA) -> None:
-    """The file of these turns."""
+    """Write the turns to a file."""
     with path.open("w", encoding="utf-8", newline="") as file:
         rows = csv.writer(file, lineterminator="\n")
         rows.writerow(["seed", "class", "left", "right"])
@@ -133,8 +136,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m solepath.lab.train.turns", description=__doc__)
     parser.add_argument("--emulate", action="store_true", help="make turns.csv anew")
     if parser.parse_args().emulate:
-        write(emulated(range(FIRST_TO_LEARN_FROM, FIRST_TO_LEARN_FROM + EACH)))
-    for turn, weights in trained(read()).items():
+        write(emulated_examples(range(FIRST_TO_LEARN_FROM, FIRST_TO_LEARN_FROM + EACH)))
+    for turn, weights in train_weights(read()).items():
         print(f"    Turn.{turn.name}: {weights},")
 
 

@@ -1,4 +1,4 @@
-"""Where a part is tried: a detector by itself, a corrector or cues in a foot, a part of the body at a wearer."""
+"""Test harnesses for parts: a detector alone, a corrector or cues within a foot, a part of the body within a wearer."""
 
 from __future__ import annotations
 
@@ -25,24 +25,27 @@ from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Sample
 from ..types.vector import IDENTITY, ZERO
 
 GAPS = ((2.5, 2.6), (5.0, 5.4))
-"""What is left out of every `EVERY` seconds for a corrector or cues, s: gaps to bridge, and gaps to leap over."""
+"""Spans that are removed from every `EVERY` seconds for a corrector or cues, s: a short gap and a long one."""
 EVERY = 6.0
+"""Period of the gaps, s."""
 UNIT = 1e-6
-"""The length of a unit quaternion differs by no more from 1."""
+"""Largest deviation of the length of a unit quaternion from 1."""
 
 
 @define
-class ByItself:
-    """A detector, and what it is told."""
+class DetectorHarness:
+    """Runs a detector alone, with the loads of an insole."""
 
     part: Detector
     insole: InsoleLoads
     t: float | None = field(default=None, init=False)
 
     def with_gaps(self, samples: list[Sample]) -> list[Sample]:
+        """Return all samples; a detector is tried without gaps."""
         return samples
 
-    def cells_alone(self, samples: list[Sample]) -> list[Sample]:
+    def pressure_only(self, samples: list[Sample]) -> list[Sample]:
+        """Return no samples, because a detector needs inertial ones."""
         return []
 
     def restart(self) -> None:
@@ -58,8 +61,8 @@ class ByItself:
     def finish(self) -> list[Any]:
         return []
 
-    def unsound(self, stance: Any) -> Iterator[str]:
-        """What a corrector could make nothing of."""
+    def problems(self, stance: Any) -> Iterator[str]:
+        """Yield a sentence for every value of a stance that a corrector cannot use."""
         if not isinstance(stance, Stance):
             yield f"update returns a Stance, not a {type(stance).__name__}"
             return
@@ -74,34 +77,36 @@ class ByItself:
 
 
 @define
-class OnAWalk:
-    """Where a part is tried on a walk with gaps, and on cells without an inertial sensor after it."""
+class WalkHarness:
+    """Runs a part on a walk with gaps, and after that on cells without an inertial sensor."""
 
     t: float = field(default=0.0, init=False)
-    """The newest sample, s."""
+    """Time of the newest sample, s."""
 
     def with_gaps(self, samples: list[Sample]) -> list[Sample]:
-        began = samples[0].t if samples else 0.0
-        return [s for s in samples if not any([a < (s.t - began) % EVERY < b for a, b in GAPS])]
+        """Return the samples without those in GAPS."""
+        t_start = samples[0].t if samples else 0.0
+        return [s for s in samples if not any([a < (s.t - t_start) % EVERY < b for a, b in GAPS])]
 
-    def cells_alone(self, samples: list[Sample]) -> list[Sample]:
+    def pressure_only(self, samples: list[Sample]) -> list[Sample]:
+        """Return later samples with pressure and without inertial values."""
         return [Sample(self.t + 1.0 + s.t - samples[0].t, s.site, pressure=s.pressure) for s in samples if s.pressure]
 
     def finish(self) -> list[Any]:
         return []
 
-    def unsound(self, said: Any) -> Iterator[str]:
-        """What no session could go on with."""
+    def problems(self, output: Any) -> Iterator[str]:
+        """Yield a sentence for every output that a session cannot use."""
         return iter(())
 
 
 @define
-class InFoot(OnAWalk):
-    """A corrector or cues in the place that a session has for it."""
+class FootHarness(WalkHarness):
+    """Runs a corrector or cues in the place that a session has for it."""
 
     tracker: FootTracker
     name: str
-    """Of that place."""
+    """Name of the attribute of FootTracker that holds the part."""
 
     @property
     def part(self) -> Any:
@@ -123,12 +128,12 @@ class InFoot(OnAWalk):
 
 
 @define
-class Corrects(InFoot):
-    """A corrector."""
+class CorrectorHarness(FootHarness):
+    """Runs a corrector within a foot."""
 
-    def unsound(self, said: Any) -> Iterator[str]:
-        """What no event may be made of."""
-        _, _, found, _ = said
+    def problems(self, output: Any) -> Iterator[str]:
+        """Yield a sentence for every value of the corrector from which no event can be made."""
+        _, _, found, _ = output
         if found is None:
             return
         position, velocity, (w, x, y, z), spread, error_index = found
@@ -144,12 +149,12 @@ class Corrects(InFoot):
 
 
 @define
-class Sees(InFoot):
-    """Cues."""
+class CuesHarness(FootHarness):
+    """Runs cues within a foot."""
 
-    def unsound(self, said: Any) -> Iterator[str]:
-        """What cannot have been seen."""
-        t, events, _, sagittal = said
+    def problems(self, output: Any) -> Iterator[str]:
+        """Yield a sentence for every cue that lies in the future and every value that is not finite."""
+        t, events, _, sagittal = output
         for event in events:
             if isinstance(event, HeelStrike | FootFlat | HeelOff | ToeOff) and not event.t <= t:
                 yield f"a cue is of the past, not a {type(event).__name__} of {event.t:.3f} s in a sample of {t:.3f} s"
@@ -158,8 +163,8 @@ class Sees(InFoot):
 
 
 @define
-class AtWearer(OnAWalk):
-    """A part of the body, after those of the default recipe."""
+class WearerHarness(WalkHarness):
+    """Runs a part of the body, after the parts of the default recipe."""
 
     wearer: WearerParts
 
@@ -183,8 +188,8 @@ class AtWearer(OnAWalk):
     def finish(self) -> list[Any]:
         return [self.wearer.finish(self.t)]
 
-    def unsound(self, events: Any) -> Iterator[str]:
-        """What is no event of this moment."""
+    def problems(self, events: Any) -> Iterator[str]:
+        """Yield a sentence for every output that is not an event, or whose time is after it was known."""
         for event in events:
             if not isinstance(event, Happening):
                 yield f"a part returns events, a Shift, a HeightShift or a Replacement, not a {type(event).__name__}"
@@ -192,31 +197,32 @@ class AtWearer(OnAWalk):
                 yield f"an event was when it was known or earlier, not a {type(event).__name__} of {event.t} s"
 
 
-def placed(part: Any, foot: Foot, layout: Layout | None) -> ByItself | InFoot | AtWearer:
+def harness_for(part: Any, foot: Foot, layout: Layout | None) -> DetectorHarness | FootHarness | WearerHarness:
+    """Return the harness for a part of this kind. Raise TypeError when it extends none of the four kinds."""
     kinds = type(part).__mro__
     if Detector in kinds:
         insole = InsoleLoads()
         if layout is not None:
             insole.set_layout(layout)
             part.set_layout(layout)
-        return ByItself(part, insole)
-    place: InFoot
+        return DetectorHarness(part, insole)
+    harness: FootHarness
     if Corrector in kinds:
-        place = Corrects(FootTracker(foot, Cycle(), part), "corrector")
+        harness = CorrectorHarness(FootTracker(foot, Cycle(), part), "corrector")
     elif Cues in kinds:
-        place = Sees(FootTracker(foot, Cycle(), ErrorStateFilter(), cues=part), "cues")
+        harness = CuesHarness(FootTracker(foot, Cycle(), ErrorStateFilter(), cues=part), "cues")
     elif Part in kinds:
         wearer = WearerParts(WearerSettings(evolve(DEFAULT, parts=(*DEFAULT.parts, part)), Calibration()))
         wearer.walks_on(None)
         if layout is not None:
             site = SITE_OF_FOOT[foot]
             wearer.receive(site, LayoutKnown(t=0.0, known_at=0.0, site=site, layout=layout))
-        return AtWearer(wearer)
+        return WearerHarness(wearer)
     else:
         raise TypeError(f"{type(part).__name__} extends neither Detector nor Corrector nor Cues nor Part")
     if layout is not None:
-        place.tracker.set_layout(layout)
-    return place
+        harness.tracker.set_layout(layout)
+    return harness
 
 
 def _finite(values: Iterable[float]) -> bool:
