@@ -171,7 +171,7 @@ def overhead() -> float:
 
 def parts_of(items: list[Sample], recipe: Recipe, plan: IndexedPlan) -> dict[str, float]:
     """Return microseconds a sample that activities, turns and the place on a plan take in a walk through a building."""
-    kinds: dict[str, type[Part]] = {"activity": ActivityPart, "turns": Turns, "place": Readings}
+    kinds: dict[str, type[Part]] = {"activity": ActivityPart, "turns": Turns, "place": PlaceHypotheses}
     found: dict[str, list[float]] = {name: [] for name in kinds}
     for _ in range(RUNS):
         session = Session(recipe, floorplan=plan)

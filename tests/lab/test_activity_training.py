@@ -27,10 +27,10 @@ def test_frequent_climbing_makes_stairs_likelier() -> None:
 
 
 def test_without_recordings_the_chances_are_the_supposed_ones() -> None:
-    for row, supposed in zip(chances([]), SUPPOSED, strict=True):
+    for row, supposed in zip(chances([]), DEFAULT_CHANCES, strict=True):
         assert all(isclose(a, b, abs_tol=1e-5) for a, b in zip(row, supposed, strict=True))
 
 
 def test_every_activity_may_follow_standing() -> None:
-    chain = chain_of(SUPPOSED, ())
+    chain = chain_of(DEFAULT_CHANCES, ())
     assert all(STAND in [source for source, _ in chain.before[state]] for state in range(UP))

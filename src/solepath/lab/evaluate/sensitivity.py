@@ -30,7 +30,7 @@ from ...foot.settings import CycleSettings, ErrorStateSettings
 from ...foot.stance.cycle import Cycle
 from ...recipes import DEFAULT, Recipe
 from ..measures.score import Scored
-from ..processes import each
+from ..processes import run_jobs
 from .ablation import COLUMNS, Column
 from .jobs import EvaluationJob, find, recordings
 from .report import Result
@@ -148,7 +148,7 @@ def evaluate(
             for data_set, part in data_sets
             for path, meta in part
         ]
-    outcomes = each(SensitivityJob.run, jobs, processes=processes)
+    outcomes = run_jobs(SensitivityJob.run, jobs, processes=processes)
     for number, factor in variants:
         results = []
         for data_set, part in data_sets:

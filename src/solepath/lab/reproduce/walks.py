@@ -14,7 +14,6 @@ from ...emulate.wearers.walker import Walker
 from ...events import Event
 from ...floorplan.plan import FloorPlan
 from ...recipes import Recipe
-from ...recording.decoded import decode_recording
 from ...session import Session
 from ...types import Packet, Sample
 from ..measures.alignment import Floats, align
@@ -48,7 +47,7 @@ class WalkParts:
 
 def cut(walk: EmulatedWalk, t: float) -> WalkParts:
     """Return the samples of a walk's packets, measured before and after `t` s."""
-    decoded = recorded(walk.packets)
+    decoded = decode_recording(walk.packets)
     insoles = {foot: InsoleCalibration(layout=layout) for foot, layout in decoded.layouts.items()}
     before, after = (tuple([one for one in decoded.samples if (one.t < t) is first]) for first in (True, False))
     return WalkParts(before, after, Calibration(insoles=insoles))

@@ -128,7 +128,7 @@ def blocks_of(
         for index, features, force in _features(foot, own, t_start, recipe):
             seen.setdefault(index, {})[foot] = features, force
             now = _pure(label, t_start + index * BLOCK)
-            if now is not None and (not only_steps or (features[STEP] and features[1] > AFOOT)):
+            if now is not None and (not only_steps or (features[STRIDE] and features[1] > AFOOT)):
                 rows.append(features)
                 classes.append(CLASSES[now])
     n = len(rows)
@@ -138,7 +138,7 @@ def blocks_of(
 
 def _features(
     foot: Foot, samples: Sequence[Sample], t_start: float, recipe: Recipe
-) -> Iterator[tuple[int, list[float], Felt | None]]:
+) -> Iterator[tuple[int, list[float], BlockForce | None]]:
     parts = deepcopy(recipe)
     tracker = FootTracker(foot, parts.detector, parts.corrector, cues=parts.cues)
     window = FootBlocks()

@@ -23,11 +23,11 @@ from ...types import Activity, Foot
 from .activities_net import CLASSES
 from .hugadb import APART, Span
 
-FootEvidence = tuple[list[float], Felt | None]
+FootEvidence = tuple[list[float], BlockForce | None]
 """Features of a foot in a block, and the forces in which a lift can be detected."""
 
 WORTH = 0.5
-"""Weight of `SUPPOSED` beside the observed chances, which must hold for other wearers too."""
+"""Weight of `DEFAULT_CHANCES` beside the observed chances, which must hold for other wearers too."""
 NEAR = 4.0
 """Largest time between a detected change and a labelled one, s."""
 FEWEST = 8
@@ -54,7 +54,7 @@ def changes(done: Sequence[Span]) -> list[tuple[float, Activity, Activity]]:
 
 def chances(courses: Sequence[LabelledCourse]) -> Chances:
     """Return the chance of each change within a block."""
-    counts = [[1e-6 * chance for chance in row] for row in SUPPOSED]
+    counts = [[1e-6 * chance for chance in row] for row in DEFAULT_CHANCES]
     for course in courses:
         for t_start, end, activity in course.done:
             counts[CLASSES[activity]][CLASSES[activity]] += (end - t_start) / BLOCK
@@ -103,9 +103,9 @@ def followed(course: LabelledCourse, model: MotionModel) -> list[Span]:
         courses.update(
             BlockEvidence(
                 t=t,
-                motions=motions(model, [None if one is None else one[0] for one in evidence]),
-                felt=tuple([None if one is None else one[1] for one in evidence]),
-                climbs=NOTHING,
+                motions=motion_votes(model, [None if one is None else one[0] for one in evidence]),
+                forces=tuple([None if one is None else one[1] for one in evidence]),
+                climbs=NO_EVIDENCE,
                 before=None,
                 after=None,
             ),

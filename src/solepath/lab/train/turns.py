@@ -69,7 +69,7 @@ def walk(seed: int, turn: Turn) -> EmulatedWalk:
 
 def largest_turn(walked: EmulatedWalk) -> TurnProcess | None:
     """Return the largest turn that the recipe finds in a walk."""
-    session, direction = Session(FOOTSTEP_TRACKER), Direction()
+    session, direction = Session(FOOTSTEP_TRACKER), TurnDetector()
     steps = [event for packet in walked.packets for event in session.feed(packet) if isinstance(event, StrideTaken)]
     found = [direction.add_stride(step) for step in steps]
     if steps:

@@ -13,9 +13,9 @@ from __future__ import annotations
 
 from math import atan2
 
-from ...body.place.rows import Row, resampled
 from ...body.place.noise import next_random
 from ...body.place.placing import Placing
+from ...body.place.rows import Row, resampled
 from ...body.place.sway import sway_rows
 from ...floorplan.index import IndexedPlan
 from ...floorplan.plan import Point
