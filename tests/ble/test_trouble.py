@@ -21,7 +21,7 @@ from strap import Strap
 from virtual import virtually
 
 from solepath.ble import Backend, BluetoothError, DeviceConfig, Devices, scan
-from solepath.ble.trouble import sentence
+from solepath.ble.trouble import describe_error
 from solepath.emulate.devices.attributes import Outgoing
 from solepath.link.devices.cc2650 import PROFILE as CC2650
 
@@ -69,12 +69,12 @@ async def test_to_enter_or_to_scan_without_bluetooth_is_an_error_that_says_what_
 
 @pytest.mark.parametrize("words", ["Not connected", "disconnected", "the link was lost"])
 def test_a_lost_connection_is_told_in_one_phrase_with_what_comes_next(words: str) -> None:
-    assert sentence(BleakError(words)).startswith("the connection was lost: the device is sought again")
+    assert describe_error(BleakError(words)).startswith("the connection was lost: the device is sought again")
 
 
 @pytest.mark.parametrize("code", list(BleakGATTProtocolErrorCode))
 def test_every_att_error_has_one_line(code: BleakGATTProtocolErrorCode) -> None:
-    words = sentence(BleakGATTProtocolError(code))
+    words = describe_error(BleakGATTProtocolError(code))
     assert words and "\n" not in words
     assert "pair" in words or f"0x{int(code):02X}" in words
 
