@@ -144,7 +144,7 @@ async def test_who_gives_up_waiting_loses_no_packet() -> None:
 @virtually
 async def test_a_fault_of_the_program_itself_is_raised_to_whoever_takes_packets() -> None:
     class Faulty(DeviceConfig):
-        def fits(self, *given: Any) -> bool:
+        def matches(self, *given: Any) -> bool:
             return True
 
         def is_address(self, address: str) -> bool:

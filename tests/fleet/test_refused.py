@@ -30,7 +30,7 @@ def test_where_only_the_session_cannot_go_on_what_is_held_does(vector: dict[str,
     rest, expected = read_rest(after), vector["kept"]
     assert isinstance(told.event, StateRejected) and told.number == vector["identity"]["told"]
     assert (rest.ended, rest.session) == (expected["ended"], None)
-    assert [[span.run, span.first, span.end] for span in rest.left.spans] == expected["spans"]
+    assert [[span.run, span.first, span.end] for span in rest.unused.spans] == expected["spans"]
     assert [list(place) for place in rest.held] == expected["held"]
 
 

@@ -58,7 +58,7 @@ def test_a_state_says_what_the_protocol_says(vector: dict[str, Any]) -> None:
     identity = read_identity(state)
     if vector["result"] == "refused":
         known = vector["identity"]
-        assert identity == (None if known is None else Identity(**known))
+        assert identity == (None if known is None else Identity(known["run"], known["next"], known["told"], known["known"]))
         (first, *_) = FLEET.step(WEARER, state, [shown(300, 7)])[1]
         assert isinstance(first.event, StateRejected)
         assert first.number == (first_number(7, 300) if known is None else known["told"])
@@ -67,8 +67,8 @@ def test_a_state_says_what_the_protocol_says(vector: dict[str, Any]) -> None:
     rest = read_rest(state)
     assert identity == Identity(*[fields[name] for name in ("run", "next", "told", "known")])
     assert (rest.ended, rest.failure, rest.session) == (fields["ended"], fields["failure"], None)
-    assert [[span.run, span.first, span.end] for span in rest.left.spans] == fields["spans"]
-    assert [[*runs] for runs in rest.left.forgotten] == fields["forgotten"]
+    assert [[span.run, span.first, span.end] for span in rest.unused.spans] == fields["spans"]
+    assert [[*runs] for runs in rest.unused.forgotten] == fields["forgotten"]
     assert [*astuple(rest.strays)] == fields["strays"]
     assert [held_as_told(place, what) for place, what in rest.held.items()] == fields["held"]
     assert write_state(identity, rest) == state
