@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath.floorplan.importers.earth import Tangent
-from solepath.floorplan.importers.osm_tags import levels_told
+from solepath.floorplan.importers.osm_tags import parse_levels
 from solepath.floorplan.importers.reading import plan_of_bytes
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor, ConnectorKind, Door, FloorPlan, FloorPlanError, Point
@@ -68,19 +68,19 @@ def house() -> Map:
     ("-1-1", [-1.0, 0.0, 1.0]), ("3-1", [1.0, 2.0, 3.0]), ("-0", [0.0]),
 ])  # fmt: skip
 def test_levels_are_single_ones_lists_and_ranges(text: str, found: list[float]) -> None:
-    assert levels_told(text) == found
+    assert parse_levels(text) == found
 
 
 @pytest.mark.parametrize("text", ["", "EG", "0;", "1-", "1--", "0,1", "1e3", "٣", "0-99999", "nan"])
 def test_other_values_tell_no_levels(text: str) -> None:
     with pytest.raises(FloorPlanError):
-        levels_told(text)
+        parse_levels(text)
 
 
 @given(st.text(alphabet="0123456789-;. x", max_size=10))
 def test_any_value_tells_levels_in_order_or_none(text: str) -> None:
     try:
-        found = levels_told(text)
+        found = parse_levels(text)
     except FloorPlanError:
         return
     assert found == sorted(set(found))

@@ -84,7 +84,7 @@ class Connection:
     _no_stream_since: float = field(default=0.0, init=False)
     """Start of the time without any stream data, over all attempts, s."""
     _streamed: bool = field(default=False, init=False)
-    """Whether the current or last connection brought stream data."""
+    """True if the current or last connection brought stream data."""
     _wrong_since: dict[str, float] = field(factory=dict, init=False)
     """Addresses of wrong devices, each with the time at which that was found, s."""
 

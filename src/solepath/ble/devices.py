@@ -62,7 +62,7 @@ class Devices:
         self._waiter: asyncio.Future[None] | None = None
         self._taken = 0
         self._entered = False
-        """Whether the devices were entered at least once."""
+        """True if the devices were entered at least once."""
         self._in_use = False
         self._fault: asyncio.Task[None] | None = None
         free = [site for site in Site if site not in {one.site for one in configs}]

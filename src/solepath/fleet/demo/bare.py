@@ -1,7 +1,7 @@
-"""The same walks through sessions alone, without an engine: `python -m solepath.fleet.demo.bare RUN PART`.
+"""Reference run of the walks through sessions alone: `python -m solepath.fleet.demo.bare RUN PART`.
 
-This is the reference: the events, and the time that `Session.feed` takes for them, one wearer after the other and with
-the packets prepared beforehand.
+It writes the events, and the time that `Session.feed` takes for them, one wearer after the other and with the packets
+prepared beforehand.
 """
 
 from __future__ import annotations

@@ -81,7 +81,7 @@ class Cost:
 
     @property
     def had_effect(self) -> bool:
-        """Whether something had to be repeated or restored: bundles read again, or a state reopened."""
+        """True if something had to be repeated or restored: bundles read again, or a state reopened."""
         return bool(self.replayed or self.reopened)
 
 

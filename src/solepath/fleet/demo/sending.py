@@ -57,10 +57,10 @@ class Remark:
 
 @frozen(eq=False)
 class Sending:
-    """What a phone sends.
+    """The output of a phone.
 
-    `bundles` holds what arrives, one for each period. `ordered` holds the session's input in order. `remarks` holds the
-    events that the fleet itself must emit.
+    `bundles` holds the items that arrive, one bundle for each period. `ordered` holds the session's input in order.
+    `remarks` holds the events that the fleet itself must emit.
     """
 
     bundles: tuple[tuple[Item, ...], ...]

@@ -56,7 +56,7 @@ class Keyed:
 
     @property
     def ended(self) -> bool:
-        """Whether the wearer has taken the sensors off, and nothing came since that starts a session."""
+        """True if the wearer has taken the sensors off, and nothing came since that starts a session."""
         return self._order.ended
 
     def feed(self, sent: Iterable[Sent | Unreadable]) -> list[NumberedEvent]:
@@ -100,7 +100,7 @@ class Keyed:
             self._pending, self._opened_state = (StateRejected, "nothing of the state can be read"), state
             self._numbered = False
             return
-        window, self._next_event, self._known_at = self._sessions.window, identity.emitted, identity.known
+        window, self._next_event, self._known_at = self._sessions.window, identity.next_event, identity.known
         self._order = Order(window, identity.run, identity.next)
         try:
             rest = read_rest(state)

@@ -48,7 +48,7 @@ class _ReceivedNumbers:
 
     @property
     def is_consistent(self) -> bool:
-        """Whether the ranges rise, are not empty, do not touch, and end before `end`."""
+        """True if the ranges rise, are not empty, do not touch, and end before `end`."""
         bounds = [bound for part in self.missing for bound in part]
         rising = all(low < high for low, high in pairwise([-1, *bounds, self.end]))
         return rising and len(self.missing) <= RANGES

@@ -53,7 +53,7 @@ class Order:
     """Current run; -1 before anything has passed."""
     next: int = 0
     ended: bool = False
-    """Whether the End of this run has passed."""
+    """True if the End of this run has passed."""
     held: dict[tuple[int, int], Payload] = field(factory=dict)
     unused: UnusedNumbers = field(factory=UnusedNumbers)
     strays: Strays = field(factory=Strays)
@@ -97,7 +97,7 @@ class Order:
 
     def _switch_run(self, run: int, number: int, what: Payload) -> Passed:
         """Switch to the run of this row; the held rows pass first, since they are waited for no longer."""
-        first = self.unused.take(run)
+        first = self.unused.reenter(run)
         passed = self._release(waits=False)
         self._enter(run, first)
         self.strays = Strays()

@@ -39,7 +39,7 @@ class End:
 
 @frozen
 class Sent:
-    """What the phone of `wearer` sends: a packet as it arrived there, a Tick that time has passed, or the End.
+    """An item that the phone of `wearer` sends: a packet as it arrived there, a Tick that time has passed, or the End.
 
     `number` counts 0, 1, 2, ... without holes within a `run`. A phone that cannot continue its count starts a new run,
     at 0, under a larger number (the time in ms, or the last run + 1 if that is more); the session goes on.
