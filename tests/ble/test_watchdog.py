@@ -20,7 +20,7 @@ def test_a_stream_that_never_began_is_set_up_again_and_then_given_up() -> None:
     dog = Watchdog(("acc",), PATIENCE, t_start=10.0)
     assert dog.check(11.9) is None
     remedies = []
-    while (due := dog.due()) is not None and len(remedies) <= TRIES:
+    while (due := dog.next_check_at()) is not None and len(remedies) <= TRIES:
         remedies.append(dog.check(due))
     assert remedies == [("acc", Remedy.SET_UP)] * TRIES + [("acc", Remedy.RECONNECT)]
 
@@ -28,7 +28,7 @@ def test_a_stream_that_never_began_is_set_up_again_and_then_given_up() -> None:
 def test_each_remedy_is_given_its_time() -> None:
     dog = Watchdog(("acc",), PATIENCE, t_start=0.0)
     assert dog.check(5.0) == ("acc", Remedy.SET_UP)
-    assert dog.due() == 7.0
+    assert dog.next_check_at() == 7.0
     assert dog.check(6.9) is None
 
 
@@ -51,7 +51,7 @@ def test_a_remedy_that_worked_is_there_again_for_the_next_time() -> None:
 
 def test_where_silence_is_legal_there_is_nothing_to_watch() -> None:
     dog = Watchdog((), PATIENCE, t_start=0.0)
-    assert dog.due() is None
+    assert dog.next_check_at() is None
     assert dog.check(1e6) is None
 
 
@@ -79,7 +79,7 @@ def test_only_a_stream_that_was_silent_too_long_is_ever_named(moments: list[tupl
 def test_a_look_when_it_is_due_finds_something_and_no_look_before_does(moments: list[tuple[float, str | None]]) -> None:
     dog, now = Watchdog(STREAMS, PATIENCE, t_start=0.0), 0.0
     for wait, heard in moments:
-        due = dog.due()
+        due = dog.next_check_at()
         assert due is not None and due >= now
         if heard is not None and now + wait < due:
             now += wait

@@ -43,8 +43,8 @@ def test_what_is_remembered_is_bounded_and_never_lets_a_number_pass_twice(number
     for wearer in map(str, range(2 * limit)):
         assert once.first(wearer, 0)
     state = once.snapshot()["state"]
-    assert isinstance(state, dict) and isinstance(state["_heard"], dict)
-    assert len(state["_heard"]) == limit
+    assert isinstance(state, dict) and isinstance(state["_received"], dict)
+    assert len(state["_received"]) == limit
 
 
 def test_of_many_holes_the_lowest_counts_as_heard() -> None:
@@ -85,10 +85,10 @@ SAVED = Once.after({"anna": 7}).snapshot()
     "saved",
     [
         None, {}, {"solepath.once": 2, "state": {}}, {"solepath.once": 1}, {"solepath.once": 1, "state": {}},
-        {"solepath.once": 1, "state": {"limit": 0, "_heard": {}}},
-        {"solepath.once": 1, "state": {"limit": 9, "_heard": {"anna": {"end": -1, "missing": []}}}},
-        {"solepath.once": 1, "state": {"limit": 9, "_heard": {"anna": {"end": 3, "missing": [[2, 5]]}}}},
-        {"solepath.once": 1, "state": {"limit": 9, "_heard": {"anna": {"end": 9, "missing": [[4, 5], [1, 2]]}}}},
+        {"solepath.once": 1, "state": {"limit": 0, "_received": {}}},
+        {"solepath.once": 1, "state": {"limit": 9, "_received": {"anna": {"end": -1, "missing": []}}}},
+        {"solepath.once": 1, "state": {"limit": 9, "_received": {"anna": {"end": 3, "missing": [[2, 5]]}}}},
+        {"solepath.once": 1, "state": {"limit": 9, "_received": {"anna": {"end": 9, "missing": [[4, 5], [1, 2]]}}}},
     ],
 )  # fmt: skip
 def test_what_is_no_snapshot_is_refused(saved: object) -> None:

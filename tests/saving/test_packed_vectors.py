@@ -21,8 +21,8 @@ from walks import machines, samples
 from solepath import Foot, Phase, Session, recipes
 from solepath.foot.stance.shoe import ShoeDetector
 from solepath.saving.codec import save
-from solepath.saving.packed import Lists, Streams, read, told_of, write
-from solepath.saving.schema import MADE_AGAIN, NOT_SAVED, check_of, described, record_of
+from solepath.saving.packed import Lists, Streams, identify_record, read, write
+from solepath.saving.schema import MADE_AGAIN, NOT_SAVED, describe, record_of, schema_checksum
 from solepath.saving.streams import from_bytes, to_bytes
 
 FILE = json.loads((PROTOCOL / "snapshot" / "states.json").read_text("utf-8"))
@@ -108,8 +108,8 @@ def test_a_record_of_every_kind_comes_back_and_is_read_by_its_schema_alone(made:
     assert save(again) == (saved | {"limit": 0.75} if made else saved)
     assert again.plan is None and again.rows.maxlen == 3 and again.raw == one.raw
     state = record_of(Wardrobe, made)
-    parts = {told_of(record): described(record) for record in (record_of(Cap), record_of(Cap, True), record_of(Bag))}
-    tree = Tree(described(state), parts, body)
+    parts = {identify_record(record): describe(record) for record in (record_of(Cap), record_of(Cap, True), record_of(Bag))}
+    tree = Tree(describe(state), parts, body)
     (fields,) = tree.roots()
     assert not tree.left()
     assert json.dumps(fields) == json.dumps(less(fields, saved))
@@ -134,7 +134,7 @@ def test_a_state_of_the_file_is_read_by_the_schema_beside_it(state: dict[str, An
 def test_the_first_state_of_the_file_is_what_is_packed_today() -> None:
     (state,) = FILE["states"]
     assert state["hex"] == body_of(used(), made=True).hex()
-    assert state["schema"] == described(record_of(Wardrobe, made=True))
+    assert state["schema"] == describe(record_of(Wardrobe, made=True))
 
 
 @cache
@@ -173,9 +173,9 @@ def test_a_session_with_a_detector_of_the_apps_own_is_read_with_its_schema_besid
     session = Session(evolve(recipes.DEFAULT, name="own", detector=Mine()))
     session.feed(samples(cells=0)[:50])
     record = record_of(Mine, made=True)
-    assert told_of(record) == f"Mine {check_of(described(record)):08x}"
+    assert identify_record(record) == f"Mine {schema_checksum(describe(record)):08x}"
     told = printed()
-    tree = Tree(told["session"], told["parts"] | {told_of(record): described(record)}, session.pack()[16:])
+    tree = Tree(told["session"], told["parts"] | {identify_record(record): describe(record)}, session.pack()[16:])
     _, state = tree.roots()
     assert not tree.left()
     assert state["wearer"]["feet"]["left"]["detector"]["kind"] == "Mine"

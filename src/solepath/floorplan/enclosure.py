@@ -35,13 +35,13 @@ class Enclosure:
     the largest number of places.
     """
 
-    __slots__ = ("_bottom", "_hull", "_left", "_outside", "_closed_doors", "_space", "_walls", "columns", "open_end", "order",
-                 "rows")  # fmt: skip
+    __slots__ = ("_bottom", "_hull", "_left", "_outside", "_closed_doors", "_space", "_walls", "columns", "open_end",
+                 "order", "rows")  # fmt: skip
 
     def __init__(self, level: Level, walls: Walls, most: int = MOST_PLACES) -> None:
         self._walls = walls
-        self._closed_doors = Walls([(door.start, door.end) for door in level.doors if door.start != door.end] + _find_posts(level),
-                           min(most, MOST_CELLS))  # fmt: skip
+        doors = [(door.start, door.end) for door in level.doors if door.start != door.end]
+        self._closed_doors = Walls(doors + _find_posts(level), min(most, MOST_CELLS))
         lines = self._walls.ends + self._closed_doors.ends
         xs = [x for ax, _, bx, _ in lines for x in (ax, bx)] or [0.0]
         ys = [y for _, ay, _, by in lines for y in (ay, by)] or [0.0]
@@ -52,10 +52,10 @@ class Enclosure:
         self.columns, self.rows = ceil(width / self._space) + 3, ceil(depth / self._space) + 3
         self._outside = bytearray(self.columns * self.rows)
         self.order: list[int] = []
-        """The places outside, from the nearest to the farthest from the way in, by number."""
+        """Numbers of the places outside, in the order of their distance from the start of the flood fill."""
         self._flood(*self._find_barriers(lines))
         self.open_end: Point | None = next(self._open_ends(), None)
-        """An end of a wall, out of doors, at which no other wall goes on; None when there is none."""
+        """End of a wall, outside, at which no other wall goes on; None when there is none."""
         points = [point for ax, ay, bx, by in lines for point in ((ax, ay), (bx, by))]
         self._hull = _hull(points) if self.open_end is not None else []
 

@@ -170,7 +170,7 @@ class AtWearer(OnAWalk):
     @part.setter
     def part(self, part: Any) -> None:
         self.wearer.parts[-1] = part
-        self.wearer.walks_on(None)
+        self.wearer.set_plan(None)
 
     def restart(self) -> None:
         for foot in self.wearer.feet:
@@ -207,7 +207,7 @@ def placed(part: Any, foot: Foot, layout: Layout | None) -> ByItself | InFoot | 
         place = Sees(FootTracker(foot, Cycle(), ErrorStateFilter(), cues=part), "cues")
     elif Part in kinds:
         wearer = WearerParts(WearerSettings(evolve(DEFAULT, parts=(*DEFAULT.parts, part)), Calibration()))
-        wearer.walks_on(None)
+        wearer.set_plan(None)
         if layout is not None:
             site = SITE_OF_FOOT[foot]
             wearer.receive(site, LayoutKnown(t=0.0, known_at=0.0, site=site, layout=layout))

@@ -21,7 +21,7 @@ from ..foot.navigate.corrector import Corrector
 from ..foot.rejection import ABSURD_ACC, ABSURD_GYRO
 from ..foot.stance.stance import Detector
 from ..saving.codec import Json, SnapshotError, load, save
-from ..saving.schema import record_of, remembers
+from ..saving.schema import record_of, has_state
 from ..types import Foot, Layout, Sample, Site
 from ..types.vector import IDENTITY
 from .places import placed
@@ -83,7 +83,7 @@ def broken(
 def _unsettled(before: Any, after: Any) -> list[str]:
     """Settings that are not what they were: a packed session would lose that."""
     cls = type(before)
-    settings = record_of(cls, made=True).defaults if remembers(cls) else {}
+    settings = record_of(cls, made=True).defaults if has_state(cls) else {}
     return [name for name in settings if getattr(before, name) != getattr(after, name)]
 
 
