@@ -1,7 +1,7 @@
 """The session, which an app holds: packets or samples in, events out.
 
-A session opens no socket, reads no clock, starts no thread. It is a plain record, so it can be saved at any moment and
-continue elsewhere; the same input gives the same events on every machine, however it is cut into calls.
+It opens no socket, reads no clock, starts no thread, and is a plain record that can be saved at any moment. The same
+input gives the same events on every machine, however it is cut into calls.
 """
 
 from __future__ import annotations
@@ -38,15 +38,16 @@ A_NUMBER = (float, int)
 class Session:
     """One wearer: packets or samples in, events out.
 
-    `recipe` says which parts to use. `calibration` describes the wearer, shoes and insoles. `poses` also emits
-    FootMoved, the live position at every sample, and WearerMoved after every stride; `pressures` emits FootPressed, the
-    loads of an insole's cells. `devices` gives the address of the device at a site (`Packet.device`, in upper or lower
-    case); a site without one is bound to the first device whose packet arrives. `profiles` are devices of the app's
-    own. `floorplan` is that of the building, indexed once (IndexedPlan) where many sessions share it; `start` is the
-    wearer's first place on it. Raises ValueError for an impossible calibration, floor plan or start.
+    `recipe` names the parts. `calibration` describes the wearer, shoes and insoles. `poses` also emits FootMoved, the
+    live position at every sample, and WearerMoved after every stride; `pressures` emits FootPressed, the loads of an
+    insole's cells. `devices` gives the address of the device at a site (`Packet.device`, in upper or lower case); a
+    site without one is bound to the first device that sends. `profiles` are devices of the app's own. `floorplan` is
+    indexed once (IndexedPlan) where many sessions share it; `start` is the first place on it. ValueError for impossible
+    values of these.
 
     `feed`, `advance` and `finish` return the events that became known, in that order. `feed` is total: any bytes give
-    events, never an exception, unless a reader or a part of the app's own is itself wrong.
+    events, never an exception, unless a reader or a part of the app's own is itself wrong. It raises TypeError for an
+    item that is neither packet nor sample, after using the items before it, and ValueError after `finish`.
 
     Latency: zero velocity and live position with the sample. Heel-strike and toe-off one sample once a foot has pushed
     off the first time; a foot that does not push off is known to swing after 0.15 s (0.4 s right after a heel-strike).
@@ -83,10 +84,7 @@ class Session:
         return f"<Session {self._state.wearer.settings.recipe.name} at {self._state.now} s>"
 
     def feed(self, data: Packet | Sample | Iterable[Packet | Sample]) -> list[Event]:
-        """Add packets (as they arrive) or samples (in the order of their time) and return the events.
-
-        Raises TypeError for an item that is neither (earlier items have been used by then), ValueError after `finish`.
-        """
+        """Add packets (as they arrive) or samples (in the order of their time) and return the events."""
         state = self._state
         if state.finished:
             raise ValueError("this session is finished")
@@ -104,10 +102,7 @@ class Session:
         return events
 
     def advance(self, now: float) -> list[Event]:
-        """Let time pass until `now` (s, the clock of the packets) without input: silence may become an event.
-
-        Raises ValueError for a time that is not finite.
-        """
+        """Let time pass until `now` (s, packets' clock): silence may become an event. ValueError if not finite."""
         if not isfinite(as_float(now)):
             raise ValueError(f"now is {now}")
         state = self._state
@@ -132,10 +127,7 @@ class Session:
         return events
 
     def bind(self, site: Site, device: str) -> None:
-        """Bind `site` to the device with this address from now on; "" binds it to the next device that sends.
-
-        This serves to replace a broken device. Data of the device before (layout, ranges, clock) is forgotten.
-        """
+        """Bind `site` to another device, "" for the next that sends; layout, ranges and clock before are forgotten."""
         if not isinstance(site, Site) or not isinstance(device, str):
             raise TypeError("a Site is bound to the address of a device, a str")
         state = self._state
@@ -257,21 +249,16 @@ class Session:
     ) -> Session:
         """Return a session that continues from the snapshot `saved`.
 
-        A snapshot holds no functions and no floor plan: `profiles`, `floorplan` and `parts`, the classes of the app's
-        own parts, must be given again, and the app must keep their functions the same. Raises SnapshotError for no
-        sound snapshot of this version, and for one that was taken with other devices, another floor plan or other
-        parts.
+        A snapshot holds no functions and no floor plan: give `profiles`, `floorplan` and `parts`, the classes of the
+        app's own parts, again; the app must keep their functions the same. Raises SnapshotError for no sound snapshot
+        of this version, and for one taken with other devices, another floor plan or other parts.
         """
         from .snapshot import restore_state
 
         return cls._from_state(restore_state(saved, parts), profiles, floorplan)
 
     def pack(self) -> bytes:
-        """Return the whole state in 10 to 20 kB, in about 0.3 ms: for many sessions that are saved often.
-
-        The format is that of protocol/snapshot.md; the recipe is not in it. Needs numpy. Raises TypeError and
-        SnapshotError as `snapshot` does.
-        """
+        """Return the state in 10 to 20 kB, in about 0.3 ms (protocol/snapshot.md), without its recipe. Needs numpy."""
         from .packed import pack
 
         return pack(self._state)
@@ -289,9 +276,9 @@ class Session:
         """Return a session that continues from packed bytes.
 
         `recipe` must be the same as then; the other arguments are those of `restore`. Only the recipe's name and the
-        kind of every part are compared; settings of `recipe` hold from here on, so that a tuned recipe can continue.
-        Raises SnapshotError when these differ, for other bytes, and where `restore` does. A checksum detects damage,
-        not intent: load only states from a trusted source, as with code.
+        kind of every part are compared; settings of `recipe` hold from here on, so a tuned recipe can continue. Raises
+        SnapshotError if they differ, for other bytes, and where `restore` does. A checksum detects damage, not intent:
+        trust a state like code.
         """
         from .packed import unpack
 

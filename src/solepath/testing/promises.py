@@ -21,7 +21,7 @@ from ..foot.navigate.corrector import Corrector
 from ..foot.rejection import ABSURD_ACC, ABSURD_GYRO
 from ..foot.stance.stance import Detector
 from ..saving.codec import Json, SnapshotError, load, save
-from ..saving.schema import record_of, has_state
+from ..saving.schema import has_state, record_of
 from ..types import Foot, Layout, Sample, Site
 from ..types.vector import IDENTITY
 from .places import placed
