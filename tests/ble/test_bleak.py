@@ -53,7 +53,7 @@ def raising(beneath: Backend, request: str, error: Exception, at: str = "", unti
         *((request, AttributeError("'NoneType' object has no attribute 'call'")) for request in REQUESTS[1:]),
     ],  # an AttributeError in connecting is one more failed attempt for bleak-retry-connector
 )
-def test_a_fault_of_bleak_in_one_foots_client_is_told_and_outlived_and_the_other_foot_hears_nothing_of_it(
+def test_a_fault_of_bleak_in_one_foots_client_is_reported_and_survived_and_does_not_affect_the_other_foot(
     request_: str, error: Exception, caplog: pytest.LogCaptureFixture
 ) -> None:
     devices = strap(1, faults="1 * disconnect"), strap(2)
@@ -74,7 +74,7 @@ def test_a_fault_of_bleak_in_one_foots_client_is_told_and_outlived_and_the_other
 
 
 @pytest.mark.parametrize("error", REFUSALS, ids=["winrt", "bluez"])
-def test_what_is_refused_beside_the_stream_under_any_name_is_told_with_its_channel_and_the_foot_streams(
+def test_a_rejection_beside_the_stream_is_reported_with_its_channel_and_the_foot_streams(
     error: Exception,
 ) -> None:
     for request in ("read_gatt_char", "start_notify"):
@@ -90,7 +90,7 @@ def test_what_is_refused_beside_the_stream_under_any_name_is_told_with_its_chann
         assert len([packet for packet in packets if packet.channel == "receiver/connected"]) == 1
 
 
-def test_a_setting_that_is_refused_under_any_name_is_told_and_what_was_to_be_read_after_it_too() -> None:
+def test_a_rejected_setting_is_reported_and_so_is_the_read_after_it() -> None:
     more = evolve(STRAP.channel("strap/page"), name="strap/beside", how=Access.WRITE)
     profile = evolve(
         READ_AFTER,
@@ -105,14 +105,14 @@ def test_a_setting_that_is_refused_under_any_name_is_told_and_what_was_to_be_rea
 
 
 @pytest.mark.parametrize("error", REFUSALS, ids=["winrt", "bluez"])
-def test_a_stream_that_is_refused_is_no_connection(error: Exception) -> None:
+def test_a_stream_that_is_rejected_is_no_connection(error: Exception) -> None:
     backend = raising(asked(strap()).backend, "start_notify", error, where="strap/beat", until=3.0)
     packets = received(backend, DeviceConfig(PELVIS, address(1), STRAP), seconds=12.0)
     assert len([packet for packet in packets if packet.channel == "receiver/connected"]) > 2
     assert [packet for packet in packets if packet.channel == "strap/beat"]
 
 
-def test_an_insole_whose_info_nobody_understands_is_named_and_told_what_can_be_done() -> None:
+def test_an_insole_with_unreadable_info_is_reported_with_a_remedy() -> None:
     bench = Bench(Route().stand(9.0), devices={LEFT: Insole(cells=8)})
     base: Any = MemoryRadio(bench.peripherals).backend
 

@@ -85,7 +85,7 @@ def frames(count: int) -> Callable[[list[Packet]], bool]:
     return lambda heard: heard[-1].channel == "insole/frame" and len(of(heard, "insole/frame")) >= count
 
 
-def test_a_scan_tells_who_advertises_and_leaves_the_adapter_alone_afterwards(on_a_bus):
+def test_a_scan_lists_advertising_devices_and_leaves_the_adapter_alone_afterwards(on_a_bus):
     async def main(address):
         async with Bluez(bench(left_foot=Insole(), right_foot=CC2650()).peripherals).serving(address) as bluez:
             return await scan(0.5), bluez.is_idle
@@ -152,7 +152,7 @@ def test_a_lost_link_is_made_again_and_the_stream_goes_on(on_a_bus):
     assert said == [Connected, Disconnected, Connected]
 
 
-def test_bluetooth_that_is_switched_off_is_told_and_waited_for(on_a_bus):
+def test_bluetooth_that_is_switched_off_is_reported_and_waited_for(on_a_bus):
     worn = bench()
 
     async def main(address):
@@ -168,7 +168,7 @@ def test_bluetooth_that_is_switched_off_is_told_and_waited_for(on_a_bus):
     assert len(of(before, "receiver/disconnected")) == len(of(after, "receiver/connected")) == 1
 
 
-def test_a_bluetooth_service_that_dies_is_told_and_its_successor_used(on_a_bus):
+def test_a_bluetooth_service_that_dies_is_reported_and_its_successor_used(on_a_bus):
     worn = bench()
 
     async def main(address):
@@ -188,7 +188,7 @@ def test_a_bluetooth_service_that_dies_is_told_and_its_successor_used(on_a_bus):
     assert len(of(after, "receiver/connected")) == 1
 
 
-def test_a_device_that_must_be_paired_says_so_and_is_paired_if_that_is_wanted(on_a_bus):
+def test_a_device_that_must_be_paired_is_reported_and_is_paired_on_request(on_a_bus):
     worn = bench("0 left_foot pairing")
 
     async def main(address):
@@ -203,7 +203,7 @@ def test_a_device_that_must_be_paired_says_so_and_is_paired_if_that_is_wanted(on
     assert not troubles(heard)
 
 
-def test_a_write_that_is_refused_is_told_with_the_devices_own_code(on_a_bus):
+def test_a_write_that_is_rejected_is_reported_with_the_devices_own_code(on_a_bus):
     worn = bench("0 left_foot refuse insole/control")
 
     async def main(address):
@@ -225,7 +225,7 @@ def test_a_write_that_is_refused_is_told_with_the_devices_own_code(on_a_bus):
     ],
     ids=["no service", "no adapter", "off"],
 )
-def test_what_keeps_bluetooth_from_being_used_is_told_at_once(on_a_bus, bluez, said):
+def test_a_reason_why_bluetooth_cannot_be_used_is_reported_at_once(on_a_bus, bluez, said):
     async def main(address):
         if bluez is None:
             await scan(0.1)

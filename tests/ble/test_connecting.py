@@ -25,7 +25,7 @@ from solepath.types import Site
 from solepath.wire.fields import parse_text
 
 
-def test_a_device_that_left_before_it_was_connected_is_soon_looked_for_again():
+def test_a_device_that_left_before_it_was_connected_is_soon_searched_for_again():
     bench = Bench(Route().stand(5.0), faults=parse_faults("0.005 left_foot vanish 300"))
 
     packets = received(MemoryRadio(bench.peripherals).backend, DeviceConfig(None, "solepath L"), seconds=60.0)
@@ -35,7 +35,7 @@ def test_a_device_that_left_before_it_was_connected_is_soon_looked_for_again():
     assert unheard.startswith("no device 'solepath L' is heard") and 20.0 < searching < 30.0
 
 
-def test_a_device_that_is_heard_and_does_not_answer_is_told_when_patience_ends_not_some_attempts_later():
+def test_an_advertising_device_that_does_not_answer_is_reported_when_patience_ends_not_later():
     """As when another program holds it, on systems that go on telling of it."""
     beneath = asked(Strap("strap 1", address(1))).backend
 
@@ -49,7 +49,7 @@ def test_a_device_that_is_heard_and_does_not_answer_is_told_when_patience_ends_n
     assert told.data.decode().endswith("see that no other program or phone holds it")
 
 
-def test_attempts_that_fail_do_not_begin_patience_anew():
+def test_failed_attempts_do_not_restart_patience():
     """The device refuses its stream for a while, then is heard no more."""
     device = Odd("strap 1", address(1), faults=parse_faults("5 * vanish"))
 
@@ -82,7 +82,7 @@ def test_a_link_that_breaks_every_second_is_made_again_each_time(every, share):
     assert max(b.t - a.t for a, b in pairwise(beats)) < 1.5
 
 
-def test_a_scan_that_fails_later_is_told_where_something_is_sought_and_is_begun_anew() -> None:
+def test_a_scan_that_fails_later_is_reported_to_searches_and_is_restarted() -> None:
     errors: list[Exception | None] = [None, None, BleakDBusError("org.bluez.Error.NotReady", []), BleakError("odd")]
     backend = failing(MemoryRadio([strap(1, faults="3 * disconnect"), strap(2)]).backend, errors)
 
@@ -95,7 +95,7 @@ def test_a_scan_that_fails_later_is_told_where_something_is_sought_and_is_begun_
     assert times(packets, "strap/beat")[-1] > 11.0
 
 
-def test_a_scan_that_hears_nothing_any_more_is_begun_anew() -> None:
+def test_a_scan_without_advertisements_is_restarted() -> None:
     """As after Bluetooth was switched off and on, on systems that do not tell."""
     device = strap(faults="5 * disconnect")
     beneath = MemoryRadio([device]).backend

@@ -107,7 +107,7 @@ def test_a_device_that_takes_only_commands_and_has_a_service_twice_is_listened_t
     assert not times(packets, "receiver/trouble")
 
 
-def test_what_a_device_does_not_have_to_be_set_is_told_and_passed_over() -> None:
+def test_a_missing_setting_is_reported_and_skipped() -> None:
     device = strap()
     more = evolve(STRAP.channel("strap/control"), name="strap/nothing", characteristic=BATTERY)
     setup = (Write("strap/nothing", b"\x01"), *STRAP.setup)
@@ -117,7 +117,7 @@ def test_what_a_device_does_not_have_to_be_set_is_told_and_passed_over() -> None
     assert len(times(packets, "strap/beat")) > 4 * RATE
 
 
-def test_every_packet_says_when_it_arrived_and_from_which_device() -> None:
+def test_every_packet_has_its_arrival_time_and_device() -> None:
     device = strap()
     device.log = []
     packets = got(asked(device), ONE)
@@ -129,7 +129,7 @@ def test_every_packet_says_when_it_arrived_and_from_which_device() -> None:
     assert [packet.t for packet in packets] == sorted(packet.t for packet in packets)
 
 
-def test_while_nothing_comes_time_is_told_to_pass_five_times_a_second() -> None:
+def test_without_packets_five_ticks_a_second_are_emitted() -> None:
     packets = got(asked(), ONE, seconds=5.0, patience=100.0)
     assert set(channels(packets, but="")) == {"receiver/tick"}
     assert len(packets) in (24, 25)

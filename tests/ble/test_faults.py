@@ -117,7 +117,7 @@ def test_over_the_smallest_mtu_the_same_frames_come_in_fragments(tier: str) -> N
 
 
 @both
-def test_a_disconnection_in_mid_stride_is_told_the_gap_too_and_its_step_is_degraded(tier: str) -> None:
+def test_a_disconnection_in_mid_stride_is_reported_with_the_gap_and_its_stride_is_degraded(tier: str) -> None:
     found = events(heard(tier, "8.6 * disconnect", 16.0, route=WALK))
     order = of((Connected, Disconnected, SampleGap), found)  # type: ignore[arg-type]
     assert [type(event) for event in order] == [Connected, Disconnected, Connected, SampleGap]
@@ -141,13 +141,13 @@ def test_a_link_that_is_lost_while_a_frozen_stream_is_set_up_again_is_made_again
 
 
 @both
-def test_a_device_that_begins_anew_is_a_clock_reset(tier: str) -> None:
+def test_a_device_that_restarts_is_a_clock_reset(tier: str) -> None:
     [reset] = of(ClockReset, events(heard(tier, "4 * restart", 7.0)))
     assert reset.restarted
 
 
 @both
-def test_a_device_that_vanishes_for_a_minute_is_stale_then_looked_for_and_back_within_seconds(tier: str) -> None:
+def test_a_device_that_vanishes_for_a_minute_is_stale_then_searched_for_and_back_within_seconds(tier: str) -> None:
     found = events(heard(tier, "4 * vanish 60", 75.0))
     order = of((StreamStale, Disconnected, LinkTrouble, Connected, StreamResumed), found)  # type: ignore[arg-type]
     kinds = [type(event) for event in order]
@@ -163,7 +163,7 @@ def test_a_device_that_vanishes_for_a_minute_is_stale_then_looked_for_and_back_w
 @pytest.mark.parametrize(
     ("device", "control"), [(SMALL, "insole/control"), (Tag(), "cc2650/movement-config")], ids=["insole", "cc2650"]
 )
-def test_a_setup_that_is_refused_is_told_in_words_and_made_again(tier: str, device: Device, control: str) -> None:
+def test_a_rejected_setup_is_reported_and_repeated(tier: str, device: Device, control: str) -> None:
     found = events(heard(tier, f"0 * refuse {control}", 8.0, device=device))
     [trouble] = of(LinkTrouble, found)
     assert trouble.what.startswith(f"{control} was not set to ")
@@ -175,7 +175,7 @@ def test_a_setup_that_is_refused_is_told_in_words_and_made_again(tier: str, devi
 
 
 @both
-def test_a_refusal_beside_the_stream_is_told_and_the_stream_goes_on(tier: str) -> None:
+def test_a_rejection_beside_the_stream_is_reported_and_the_stream_goes_on(tier: str) -> None:
     packets = heard(tier, "0 * refuse cc2650/barometer-config; 0 * refuse device/battery", 5.0, device=Tag())
     found = events(packets)
     words = [event.what for event in of(LinkTrouble, found)]
@@ -196,7 +196,7 @@ def test_a_frozen_stream_is_restarted_and_resumes(tier: str, device: Device) -> 
 
 
 @both
-def test_a_stream_that_stays_frozen_is_connected_anew(tier: str) -> None:
+def test_a_stream_that_stays_frozen_is_connected_again(tier: str) -> None:
     found = events(heard(tier, "4 * freeze; 4.5 * refuse insole/control 2", 12.0))
     order = of((StreamRestarted, Disconnected, Connected, StreamResumed), found)  # type: ignore[arg-type]
     first, *restarted, gone, back, resumed = [type(event) for event in order]
@@ -220,7 +220,7 @@ def test_a_device_that_wakes_on_motion_may_be_silent(tier: str) -> None:
 
 
 @both
-def test_of_two_devices_with_one_name_an_app_is_told_both_addresses(tier: str) -> None:
+def test_two_devices_with_one_name_are_reported_with_both_addresses(tier: str) -> None:
     wanted = (DeviceConfig(LEFT, "CC2650 SensorTag"),)
     found = events(heard(tier, "", 8.0, device=Tag(), wanted=wanted, sites=(LEFT, RIGHT)))
     [trouble] = of(LinkTrouble, found)

@@ -115,7 +115,7 @@ def test_a_count_stands_where_the_dropped_stood_unless_what_was_read_fills_the_r
 
 
 @given(capacities, lives)
-def test_a_session_refuses_nothing_that_comes_out_and_says_how_many_were_dropped(capacity: int, life: Life) -> None:
+def test_a_session_accepts_every_output_and_counts_the_dropped_packets(capacity: int, life: Life) -> None:
     inbox, session, events, put = Inbox(capacity), Session(), list[Event](), 0
     for moment, one in enumerate([*life, *[None] * 3 * len(life)]):
         if one is not None:
@@ -128,13 +128,13 @@ def test_a_session_refuses_nothing_that_comes_out_and_says_how_many_were_dropped
     assert dropped + sum(isinstance(event, BatteryLevel) for event in events) == put
 
 
-def test_who_takes_one_by_one_too_slowly_hears_not_only_of_drops() -> None:
+def test_a_slow_reader_gets_more_than_counts_of_drops() -> None:
     life: Life = [(LEFT, True)] * 3 + [*[(LEFT, True)] * 4, None] * 20
     _, taken, _ = lived(3, life)
     assert [packet.channel for packet in taken] == [DROPPED, "stream"] * 10
 
 
-def test_who_waits_is_told_of_every_arrival() -> None:
+def test_a_waiting_reader_is_notified_of_every_arrival() -> None:
     told: list[int] = []
     inbox = Inbox(2)
     inbox.on_arrival = lambda: told.append(len(inbox))

@@ -68,7 +68,7 @@ async def client(worn: Bench, backend: Backend, gone: Callable[[BleakClient], No
 
 @pytest.mark.parametrize("tier", TIERS)
 @pytest.mark.parametrize("kind", KINDS)
-def test_who_does_not_pair_is_told_to_and_hears_nothing_else(tier: str, kind: str) -> None:
+def test_without_pairing_only_the_need_to_pair_is_reported(tier: str, kind: str) -> None:
     packets = heard(tier, "0 * pairing", False, 20.0, kind)
     assert streamed(packets, KINDS[kind][0]) == []
     assert set(troubles(packets)) == {"the device wants to be paired first: pair=True, or --pair"}
@@ -76,7 +76,7 @@ def test_who_does_not_pair_is_told_to_and_hears_nothing_else(tier: str, kind: st
 
 @pytest.mark.parametrize("tier", TIERS)
 @pytest.mark.parametrize("kind", KINDS)
-def test_who_pairs_hears_a_device_that_needs_it_also_after_a_reconnect_without_pairing_anew(
+def test_a_paired_device_streams_also_after_a_reconnect_without_pairing_again(
     tier: str, kind: str
 ) -> None:
     # an attempt to pair on the second link would be refused, and told
@@ -100,14 +100,14 @@ def test_pairing_with_a_device_that_does_not_need_it_changes_nothing(tier: str) 
 
 
 @pytest.mark.parametrize("tier", TIERS)
-def test_a_device_that_needs_pairing_from_some_time_on_falls_silent_and_what_to_do_is_told(tier: str) -> None:
+def test_a_device_that_needs_pairing_from_some_time_on_falls_silent_and_the_remedy_is_reported(tier: str) -> None:
     packets = heard(tier, "4 * pairing", False, 12.0)
     assert 3.9 < max(streamed(packets, INSOLE)) < 4.1
     assert any("the device wants to be paired first" in what for what in troubles(packets))
 
 
 @pytest.mark.parametrize("tier", TIERS)
-def test_a_refused_pairing_is_a_connection_that_fails_and_the_next_attempt_is_another(tier: str) -> None:
+def test_a_rejected_pairing_is_a_connection_that_fails_and_the_next_attempt_is_another(tier: str) -> None:
     packets = heard(tier, "0 * pairing; 0 * refuse pairing 2", True, 5.0)  # two, since each search is good for two
     (told,) = troubles(packets)
     assert "the device refused to be paired" in told
@@ -116,7 +116,7 @@ def test_a_refused_pairing_is_a_connection_that_fails_and_the_next_attempt_is_an
 
 @pytest.mark.parametrize("tier", TIERS)
 @virtually
-async def test_an_unpaired_link_reads_what_every_device_tells_of_itself_and_nothing_more(tier: str) -> None:
+async def test_an_unpaired_link_reads_public_values_only(tier: str) -> None:
     worn = bench("0 * pairing")
     async with TIERS[tier](worn) as backend, await client(worn, backend) as host:
         assert await host.read_gatt_char(FIRMWARE)

@@ -52,7 +52,7 @@ async def heard() -> list[Packet]:
         return packets + await hear(devices, LISTENED)
 
 
-def test_a_real_device_is_found_connected_set_up_and_heard_in_order() -> None:
+def test_a_real_device_is_found_connected_set_up_and_read_in_order() -> None:
     packets = asyncio.run(heard())
     frames = [packet for packet in packets if streamed(packet.channel)]
     assert all(a.t <= b.t for a, b in zip(packets, packets[1:], strict=False))

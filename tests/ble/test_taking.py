@@ -119,7 +119,7 @@ async def test_devices_that_were_left_can_be_entered_again_but_not_twice_at_once
 
 
 @virtually
-async def test_two_who_wait_for_the_next_packet_at_once_are_told_that_only_one_may() -> None:
+async def test_a_second_reader_of_the_next_packet_is_an_error() -> None:
     async with Devices([ONE], backend=asked().backend) as devices:
         first = asyncio.create_task(anext(devices))
         await asyncio.sleep(0.1)
@@ -165,7 +165,7 @@ async def test_devices_that_were_never_entered_do_not_end_silently() -> None:
 
 
 @virtually
-async def test_of_two_who_enter_at_once_one_is_told_that_they_are_in_use() -> None:
+async def test_entering_twice_at_once_is_an_error() -> None:
     """Also while the first is still waiting for Bluetooth; and an entry that failed is none."""
     device = strap()
     heard = asked(device)

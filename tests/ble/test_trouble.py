@@ -54,7 +54,7 @@ def without_bluetooth(error: Exception) -> Backend:
 
 @pytest.mark.parametrize("error", UNAVAILABLE, ids=lambda error: " ".join(map(str, error.args))[:50])
 @virtually
-async def test_to_enter_or_to_scan_without_bluetooth_is_an_error_that_says_what_to_do(error: Exception) -> None:
+async def test_to_enter_or_to_scan_without_bluetooth_is_an_error_with_a_remedy(error: Exception) -> None:
     with pytest.raises(BluetoothError) as entered:
         async with Devices([DeviceConfig(PELVIS, "any")], backend=without_bluetooth(error)):
             pass
@@ -68,7 +68,7 @@ async def test_to_enter_or_to_scan_without_bluetooth_is_an_error_that_says_what_
 
 
 @pytest.mark.parametrize("words", ["Not connected", "disconnected", "the link was lost"])
-def test_a_lost_connection_is_told_in_one_phrase_with_what_comes_next(words: str) -> None:
+def test_a_lost_connection_is_reported_in_one_phrase_with_the_next_action(words: str) -> None:
     assert describe_error(BleakError(words)).startswith("the connection was lost: the device is sought again")
 
 

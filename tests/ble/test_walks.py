@@ -9,7 +9,7 @@ from itertools import pairwise
 import pytest
 from airs import bumble, hear, in_virtual_time, whole
 from attrs import evolve
-from walks import said
+from walks import run_session
 
 from solepath import Event, FootFlat, HeelOff, HeelStrike, PacketRejected, PacketsLost, SampleGap, StrideTaken, ToeOff
 from solepath.ble import DeviceConfig, Devices
@@ -95,8 +95,8 @@ def test_a_walk_of_two_insoles_arrives_whole_and_in_order_and_means_the_same_as_
         fed += [packet for packet in arrived if packet.site is site and id(packet) not in known]
     fed.sort(key=lambda packet: packet.t)
 
-    events = said(packets, poses=True)
-    assert events == said(fed, poses=True)
+    events = run_session(packets, poses=True)
+    assert events == run_session(fed, poses=True)
     assert {event.foot for event in events if isinstance(event, StrideTaken)} == set(Foot)
     assert not [event for event in events if isinstance(event, PacketsLost | PacketRejected | SampleGap)]
     if mtu == 23:
@@ -124,7 +124,7 @@ def test_insoles_whose_links_wait_for_connection_events_give_the_same_steps_at_t
         if waits is not None:  # they came in threes, as they do from a radio
             assert min(apart) > 0.99 * interval
             assert len(frames) > 2.9 * len(apart)
-        events = said([evolve(packet, t=packet.t - began) for packet in packets], poses=True)
+        events = run_session([evolve(packet, t=packet.t - began) for packet in packets], poses=True)
         assert not [event for event in events if isinstance(event, PacketsLost | PacketRejected | SampleGap)]
         found.append([event for event in events if isinstance(event, HeelStrike | FootFlat | HeelOff | ToeOff)])
     for foot in Foot:
@@ -157,7 +157,7 @@ def test_sensortags_give_the_steps_of_a_walk_end_to_end(
         packets, began = heard(bench, wanted, bench.truth().duration, interval)
         shifted = [evolve(packet, t=packet.t - began) for packet in packets]
         gathering = Gathering()
-        for event in said(shifted, poses=True):
+        for event in run_session(shifted, poses=True):
             gathering.add(event)
         for foot in compare(bench.truth(), {foot: gathering.foot(foot) for foot in Foot}):
             true += foot.steps_true

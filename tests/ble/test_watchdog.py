@@ -16,7 +16,7 @@ moments = st.lists(
 """(s since the one before, which channel was heard; None: a look)."""
 
 
-def test_a_stream_that_never_began_is_set_up_again_and_then_given_up() -> None:
+def test_a_stream_that_never_started_is_set_up_again_and_then_given_up() -> None:
     dog = Watchdog(("acc",), PATIENCE, t_start=10.0)
     assert dog.check(11.9) is None
     remedies = []

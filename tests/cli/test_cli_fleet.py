@@ -14,7 +14,7 @@ from random import Random
 from time import sleep
 
 import pytest
-from commands import refused, run
+from commands import run, run_failing
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -206,12 +206,12 @@ def test_whoever_interrupts_it_finds_nothing_left(tmp_path: Path) -> None:
 def test_what_cannot_be_is_said_in_one_line(tmp_path: Path) -> None:
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "file").touch()
-    assert "no recipe 'best'" in refused("fleet-demo", "--recipe", "best")
-    assert "there already" in refused("fleet-demo", "--out", tmp_path / "full")
-    assert "more than there are wearers, 1" in refused("fleet-demo", "--wearers", 1, "--processes", 2)
-    assert "at least 1" in refused("fleet-demo", "--seconds", 0.5)
-    assert "is the most" in refused("fleet-demo", "--seconds", 1e6)
-    assert str(tmp_path / "no") in refused("fleet-demo", "--json", tmp_path / "no" / "figures.json")
+    assert "no recipe 'best'" in run_failing("fleet-demo", "--recipe", "best")
+    assert "there already" in run_failing("fleet-demo", "--out", tmp_path / "full")
+    assert "more than there are wearers, 1" in run_failing("fleet-demo", "--wearers", 1, "--processes", 2)
+    assert "at least 1" in run_failing("fleet-demo", "--seconds", 0.5)
+    assert "is the most" in run_failing("fleet-demo", "--seconds", 1e6)
+    assert str(tmp_path / "no") in run_failing("fleet-demo", "--json", tmp_path / "no" / "figures.json")
 
 
 def test_what_is_not_installed_is_named() -> None:

@@ -80,7 +80,7 @@ def test_a_newer_part_takes_the_place_of_the_older_and_the_rest_stays() -> None:
     ],
     ids=lambda text: text[:40],
 )  # fmt: skip
-def test_what_is_no_calibration_is_refused_in_one_sentence(tmp_path: Path, text: str, why: str) -> None:
+def test_what_is_no_calibration_is_rejected_in_one_sentence(tmp_path: Path, text: str, why: str) -> None:
     (tmp_path / "bad.json").write_text(text)
     with pytest.raises(CalibrationError, match=why) as refused:
         read_calibration(tmp_path / "bad.json")
@@ -88,7 +88,7 @@ def test_what_is_no_calibration_is_refused_in_one_sentence(tmp_path: Path, text:
     assert "snapshot" not in str(refused.value), "no words of the inside"
 
 
-def test_a_number_that_is_none_is_refused(tmp_path: Path) -> None:
+def test_a_number_that_is_none_is_rejected(tmp_path: Path) -> None:
     write_calibration(tmp_path / "me.json", WHOLE)
     (tmp_path / "me.json").write_text((tmp_path / "me.json").read_text().replace("700.0", "NaN"))
     with pytest.raises(CalibrationError, match="nan"):
@@ -100,7 +100,7 @@ def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
         read_calibration(tmp_path / "nowhere.json")
 
 
-def test_the_file_is_as_the_protocol_says(tmp_path: Path) -> None:
+def test_the_file_is_as_in_the_protocol(tmp_path: Path) -> None:
     write_calibration(tmp_path / "me.json", WHOLE)
     told = json.loads((tmp_path / "me.json").read_text())
     assert set(told) == {"format", "version", "calibration"}
@@ -114,7 +114,7 @@ def test_a_raw_value_becomes_newtons_by_the_cubic_within_5_to_200() -> None:
     assert in_newtons(Newtons((1.0, 2.0, 0.5, 0.1)), (1.0, 2.0, 10.0, 20.0)) == (0.0, pytest.approx(7.8), 171.0, 200.0)
 
 
-def test_a_layout_of_the_calibration_serves_samples_that_do_not_say_where_their_cells_are() -> None:
+def test_a_layout_of_the_calibration_serves_samples_without_a_layout() -> None:
     session = Session(calibration=WHOLE)
     session.feed(Sample(0.0, Site.LEFT_FOOT, (0.0, 0.0, 9.81), (0.0, 0.0, 0.0), (20.0, 30.0)))
     worn = session.feet[Foot.LEFT].sole.insole.layout
@@ -159,7 +159,7 @@ ABSURD = {
 
 
 @pytest.mark.parametrize("key", ABSURD)
-def test_a_calibration_of_what_cannot_be_is_refused_with_its_file_and_its_key(tmp_path: Path, key: str) -> None:
+def test_a_calibration_of_what_cannot_be_is_rejected_with_its_file_and_its_key(tmp_path: Path, key: str) -> None:
     write_calibration(tmp_path / "me.json", ABSURD[key])
     with pytest.raises(CalibrationError, match=key) as refused:
         read_calibration(tmp_path / "me.json")
@@ -169,7 +169,7 @@ def test_a_calibration_of_what_cannot_be_is_refused_with_its_file_and_its_key(tm
 
 
 @pytest.mark.parametrize("what", [nan, inf, "heavy", True])
-def test_a_weight_that_is_no_number_is_refused(what: Any) -> None:
+def test_a_weight_that_is_no_number_is_rejected(what: Any) -> None:
     with pytest.raises(CalibrationError, match="weight"):
         Session(calibration=Calibration(weight=what))
 
@@ -196,7 +196,7 @@ MISSHAPEN: list[tuple[dict[str, Any], str]] = [
 
 
 @pytest.mark.parametrize(("what", "says"), MISSHAPEN, ids=[says[:40] for _, says in MISSHAPEN])
-def test_a_calibration_of_something_else_than_records_is_refused_by_the_session_in_one_line(
+def test_a_calibration_of_something_else_than_records_is_rejected_by_the_session_in_one_line(
     what: dict[str, Any], says: str
 ) -> None:
     with pytest.raises(CalibrationError) as refused:
@@ -204,7 +204,7 @@ def test_a_calibration_of_something_else_than_records_is_refused_by_the_session_
     assert str(refused.value) == f"calibration: {says}"
 
 
-def test_what_can_be_is_not_refused() -> None:
+def test_what_can_be_is_not_rejected() -> None:
     assert unusable(WHOLE) is None
     assert unusable(Calibration()) is None
     for size in (24, 35, 96, 99):
@@ -259,7 +259,7 @@ def test_cells_that_come_apart_from_the_inertial_samples_are_compared_too() -> N
     assert of(StrideTaken, told) != []
 
 
-def test_a_file_without_an_end_or_too_large_is_refused(tmp_path: Path) -> None:
+def test_a_file_without_an_end_or_too_large_is_rejected(tmp_path: Path) -> None:
     with pytest.raises(CalibrationError, match="/dev/zero: is no regular file"):
         read_calibration("/dev/zero")
     (tmp_path / "large.json").write_bytes(b" " * 20_000_000)

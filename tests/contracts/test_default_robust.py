@@ -84,7 +84,7 @@ def test_strides_are_found_and_about_as_long_when_the_gyroscope_ends_at_250_degr
     assert way(cut) == pytest.approx(way(whole), rel=0.07)
 
 
-def test_what_a_gyroscope_that_ends_at_400_degrees_per_second_missed_is_made_up_for() -> None:
+def test_clipping_of_a_gyroscope_at_400_degrees_per_second_is_corrected() -> None:
     _, whole = tracked(walk())
     cut = clipped(walk(), rate=radians(400.0))
     _, mended = tracked(cut)
@@ -93,7 +93,7 @@ def test_what_a_gyroscope_that_ends_at_400_degrees_per_second_missed_is_made_up_
     assert abs(way(mended) - way(whole)) < 0.3 * abs(way(unmended) - way(whole))
 
 
-def test_what_an_accelerometer_that_ends_at_2_g_missed_is_made_up_for_in_part() -> None:
+def test_clipping_of_an_accelerometer_at_2_g_is_corrected_in_part() -> None:
     _, whole = tracked(walk())
     cut = clipped(walk(), force=2.0 * GRAVITY)
     _, mended = tracked(cut)

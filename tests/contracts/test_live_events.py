@@ -50,7 +50,7 @@ def shown(session: Session, items: list[Sample]) -> list[FootPressed]:
 
 
 @pytest.mark.parametrize("kind", ["packets", "samples"])
-def test_nothing_else_is_said_to_those_who_ask_for_what_is_drawn(kind: str) -> None:
+def test_live_events_change_no_other_events(kind: str) -> None:
     fed = insoles().packets if kind == "packets" else samples()
     plain, asked = Session(), Session(**BOTH)
     said = plain.feed(fed) + plain.finish()
@@ -60,14 +60,14 @@ def test_nothing_else_is_said_to_those_who_ask_for_what_is_drawn(kind: str) -> N
     assert asked.position == plain.position
 
 
-def test_each_is_told_to_those_who_ask_for_it_only() -> None:
+def test_each_live_event_is_emitted_on_request_only() -> None:
     for flags, kinds in (("poses", {"FootMoved", "WearerMoved"}), ("pressures", {"FootPressed"})):
         told = Session(**{flags: True}).feed(insoles().packets)
         assert {type(event).__name__ for event in of(LiveEvent, told)} == kinds
 
 
 @pytest.mark.parametrize("name", ["default", "kupt-dfpc", "walking-modes"])
-def test_after_every_step_it_is_told_where_the_wearer_is_then(name: str) -> None:
+def test_every_stride_is_followed_by_the_position_of_the_wearer(name: str) -> None:
     session = Session(recipes.by_name(name), poses=True)
     steps = 0
     for packet in insoles().packets:
@@ -112,7 +112,7 @@ def test_the_centre_is_where_the_load_is_and_in_the_air_there_is_none() -> None:
     assert told[-1].centre == pytest.approx((0.05 * 0.5 + 0.13 * 0.125 + 0.20 * 0.375, 0.02 * 0.375))
 
 
-def test_in_a_walk_the_centre_goes_from_heel_to_toe_and_is_gone_while_the_foot_swings() -> None:
+def test_in_a_walk_the_centre_goes_from_heel_to_toe_and_is_absent_while_the_foot_swings() -> None:
     session = Session(**BOTH)
     paths: list[list[float]] = [[]]
     swings = centres = 0
@@ -164,7 +164,7 @@ def layouts(events: list[Event]) -> list[tuple[Site, int]]:
     return [(event.site, event.layout.id) for event in of(LayoutKnown, events)]
 
 
-def test_a_calibrations_layout_is_told_once_samples_have_as_many_cells() -> None:
+def test_a_calibrations_layout_is_reported_once_samples_have_as_many_cells() -> None:
     session = Session(calibration=KNOWN, pressures=True)
     told = session.feed(frames(*STEP))
     assert layouts(told) == [(LEFT, 7)]
@@ -174,12 +174,12 @@ def test_a_calibrations_layout_is_told_once_samples_have_as_many_cells() -> None
         assert layouts(one.feed(frames(*STEP, begin=1.0))) == []
 
 
-def test_a_calibrations_layout_of_another_number_of_cells_is_not_told() -> None:
+def test_a_calibrations_layout_of_another_number_of_cells_is_not_reported() -> None:
     session = Session(calibration=KNOWN)
     assert layouts(session.feed(frames(*[(1.0, 2.0)] * 200))) == []
 
 
-def test_what_the_device_says_of_its_cells_stands_and_the_calibration_says_nothing_of_them_any_more() -> None:
+def test_a_layout_of_the_device_replaces_that_of_the_calibration() -> None:
     own = {Foot.LEFT: InsoleCalibration(evolve(layout(96, Foot.LEFT), id=99))}
     packets = [packet for packet in insoles().packets if packet.site is LEFT]
     first = Session(calibration=Calibration(insoles=own)).feed(packets)

@@ -8,7 +8,7 @@ from typing import Any
 import attrs
 import pytest
 from attrs import evolve
-from walks import RECIPES, gone, machines, packets, samples
+from walks import RECIPES, machines, packets, run_machine, samples
 
 from solepath import Calibration, Foot, Recipe, Session, recipes
 from solepath.body.fuse.both_feet import BothFeet, BothFeetSettings
@@ -59,7 +59,7 @@ def changed_in(session: Session) -> list[str]:
 
 @pytest.mark.parametrize("name", WALKS)
 def test_settings_of_every_part_are_after_a_walk_what_they_were_before_it(name: str) -> None:
-    session = machines()[name].load(gone(name).fed)
+    session = machines()[name].load(run_machine(name).fed)
     assert changed_in(session) == []
 
 

@@ -8,7 +8,7 @@ import threading
 
 import pytest
 from attrs import define, evolve, field
-from own import Quiet
+from own import StillDetector
 from walks import samples
 
 from solepath import Calibration, Foot, Session, recipes
@@ -20,7 +20,7 @@ from solepath.recipes import own
 from solepath.types import Cell, shared
 
 
-def test_sessions_are_begun_in_many_threads_at_once() -> None:
+def test_sessions_are_started_in_many_threads_at_once() -> None:
     """Each of a recipe of its own, so that what they hold together changes all the time."""
     failed: list[Exception] = []
 
@@ -46,7 +46,7 @@ def test_sessions_are_begun_in_many_threads_at_once() -> None:
 
 
 @define
-class Likeness(Quiet):
+class Likeness(StillDetector):
     """A detector whose limit is compared by nobody, and a second one that cannot be compared at all."""
 
     limit: float = field(default=0.8, eq=False)
@@ -69,12 +69,12 @@ class Loner(Likeness):
 
 
 @define(slots=False)
-class Loose(Quiet):
+class Loose(StillDetector):
     """It may hold what is in no field."""
 
 
 @pytest.mark.parametrize("kind", [Likeness, Quarrel, Loner])
-def test_an_unpacked_session_has_the_settings_of_its_recipe_whatever_its_detector_says_of_being_equal(
+def test_an_unpacked_session_has_the_settings_of_its_recipe_whatever_the_equality_of_its_detector(
     kind: type[Likeness],
 ) -> None:
     walked = samples(cells=0, rate=50.0)
@@ -88,7 +88,7 @@ def test_an_unpacked_session_has_the_settings_of_its_recipe_whatever_its_detecto
         assert again._state.wearer.settings.recipe is own(recipe), "and it is held once"
 
 
-def test_recipes_are_told_apart_by_all_that_a_part_holds_and_what_no_copy_is_like_is_not_kept() -> None:
+def test_recipes_are_distinguished_by_all_values_of_a_part_and_uncopyable_ones_are_not_kept() -> None:
     one, other = (evolve(recipes.DEFAULT, detector=Loose()) for _ in range(2))
     assert own(one) is own(other)
     other.detector.__dict__["beside"] = 1.0

@@ -59,7 +59,7 @@ def test_the_same_walk_at_another_time_gives_the_same_events_at_that_time(name: 
 def test_silence_becomes_an_event_when_time_passes(name: str) -> None:
     machine = machines()[name]
     middle = len(machine.items) // 2
-    session = machine.begin()
+    session = machine.start()
     session.feed(machine.items[:middle])
     now = machine.items[middle - 1].t
     assert of(StreamStale, session.advance(now + 0.05)) == []
@@ -74,7 +74,7 @@ def test_silence_becomes_an_event_when_time_passes(name: str) -> None:
 
 def test_the_other_foot_makes_time_pass_as_well() -> None:
     machine = machines()["session, whole frames"]
-    session = machine.begin()
+    session = machine.start()
     told = []
     for item in machine.items:
         if item.site is RIGHT or item.t < 3.0:

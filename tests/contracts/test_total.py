@@ -25,7 +25,7 @@ TIMES = st.sampled_from([nan, inf, -inf, 1e300, -1e300, 2e11])
 def cuts(name: str) -> list[tuple[int, Any]]:
     """Snapshots of a machine on its way, and how much it had been fed."""
     machine = machines()[name]
-    one, found = machine.begin(), []
+    one, found = machine.start(), []
     for k, item in enumerate(machine.items):
         if k % (len(machine.items) // CUTS) == 3:
             found.append((k, machine.save(one)))
@@ -105,14 +105,14 @@ KINDS = ("unknown channel", "another device", "no time", "earlier", "site withou
 @pytest.mark.parametrize("name", PACKET_NAMES)
 @given(st.lists(st.tuples(st.integers(10, 10_000), st.sampled_from(KINDS), st.integers(0, 99), TIMES), **SOME))
 @QUICK
-def test_good_packets_say_the_same_whatever_comes_between_them(
+def test_good_packets_give_the_same_events_whatever_comes_between_them(
     name: str, bad: list[tuple[int, str, int, float]]
 ) -> None:
     machine = machines()[name]
     places: dict[int, list[tuple[str, int, float]]] = {}
     for where, *what in bad:
         places.setdefault(10 + where % (len(machine.items) - 10), []).append(tuple(what))
-    one, told = machine.begin(), []
+    one, told = machine.start(), []
     for k, item in enumerate(machine.items):
         told += one.feed(item)
         for what in places.get(k, ()):
@@ -193,12 +193,12 @@ def test_a_sample_that_cannot_be_used_changes_nothing_and_is_named(name: str, ki
 @pytest.mark.parametrize("name", SAMPLE_NAMES)
 @given(st.lists(st.tuples(st.integers(0, 10_000), st.sampled_from(WAYS)), **SOME))
 @QUICK
-def test_good_samples_say_the_same_whatever_comes_between_them(name: str, bad: list[tuple[int, str]]) -> None:
+def test_good_samples_give_the_same_events_whatever_comes_between_them(name: str, bad: list[tuple[int, str]]) -> None:
     machine = machines()[name]
     places: dict[int, list[str]] = {}
     for where, kind in bad:
         places.setdefault(FIRST + where % (len(machine.items) - FIRST), []).append(kind)
-    one, told = machine.begin(), []
+    one, told = machine.start(), []
     for k, item in enumerate(machine.items):
         for kind in places.get(k, ()):
             events = one.feed(spoilt(*around(machine.items, k))[kind][0])
@@ -233,7 +233,7 @@ def test_any_samples_at_all_give_events(name: str, cut: int, fed: list[Sample]) 
     machine.save(one)
 
 
-def test_a_session_that_only_heard_nonsense_is_as_new() -> None:
+def test_a_session_that_only_received_nonsense_is_as_new() -> None:
     session = Session()
     session.feed(Packet(3.0, LEFT, "insole/frame", b"\xf5\x10"))
     session.feed(Packet(nan, RIGHT, "cc2650/movement", bytes(18)))

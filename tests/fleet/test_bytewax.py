@@ -144,7 +144,7 @@ def living() -> int:
     return sum([isinstance(one, Keyed) for one in gc.get_objects()])
 
 
-def test_what_no_phone_can_have_sent_is_told_and_stalls_nobody_else() -> None:
+def test_impossible_rows_are_reported_and_stall_nobody_else() -> None:
     sent, events = site()
     chance = Random(5)
     packet = Packet(0.0, Site.LEFT_FOOT, "x", b"")
@@ -170,7 +170,7 @@ def of_a_version_to_come(state: bytes) -> bytes:
     return first + crc32(first).to_bytes(4, "little") + state[41:]
 
 
-def test_states_that_cannot_go_on_are_told_and_begin_afresh_and_the_others_go_on(
+def test_unusable_states_are_reported_and_restarted_and_the_others_go_on(
     store: RecoveryConfig, tmp_path: Path
 ) -> None:
     sent, events = site()

@@ -77,7 +77,7 @@ class Registry(Mapping[str, Calibration]):
         return 3
 
 
-def test_what_is_known_of_a_wearer_is_looked_up_when_a_session_begins_and_what_is_wrong_is_told() -> None:
+def test_a_calibration_is_read_when_a_session_starts_and_its_faults_are_reported() -> None:
     fleet = Fleet(recipes.by_name("kupt-dfpc"), calibrations=Registry())
     plain = [one.event for one in Fleet(recipes.by_name("kupt-dfpc")).step(WEARER, None, walked().sent[:500])[1]]
     for wearer, failures in (("unknown", 0), ("lost", 1), ("odd", 1), ("known", 0)):
@@ -87,7 +87,7 @@ def test_what_is_known_of_a_wearer_is_looked_up_when_a_session_begins_and_what_i
         assert (events[failures:] == plain) is (wearer != "known")
 
 
-def test_a_job_that_is_wrong_for_every_wearer_is_refused_when_it_is_made() -> None:
+def test_a_job_that_is_wrong_for_every_wearer_is_rejected_when_it_is_made() -> None:
     with pytest.raises(TypeError, match="Recipe"):
         Fleet("default")  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="mapping"):
@@ -117,7 +117,7 @@ def test_a_job_with_devices_of_its_own_goes_to_its_workers_by_name() -> None:
     assert pickle.loads(pickle.dumps(Ours())).step(WEARER, None, walk) == Ours().step(WEARER, None, walk)
 
 
-def test_what_is_sent_and_told_can_be_sent_between_workers() -> None:
+def test_input_and_events_can_be_sent_between_workers() -> None:
     _, told = FLEET.step(WEARER, None, walked().sent[:350])
     both: list[Sent | NumberedEvent | Unreadable] = [*walked().sent[:10], *told, Unreadable(WEARER, "no JSON", 1, 2)]
     assert pickle.loads(pickle.dumps(both)) == both

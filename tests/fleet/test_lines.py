@@ -93,7 +93,7 @@ def test_what_is_new_is_read_at_the_next_start_whatever_the_names_and_lines_that
     assert read(LineSource(tmp_path), ".", state) == ([b"!"], {"w-1.jsonl": 5, "w-3.jsonl": 2})
 
 
-def test_a_line_that_is_too_long_is_refused_and_the_next_is_read(put: Put, tmp_path: Path) -> None:
+def test_a_line_that_is_too_long_is_rejected_and_the_next_is_read(put: Put, tmp_path: Path) -> None:
     longest = b"x" * LONGEST_LINE
     put("a.jsonl", longest + b"\n" + longest + b"y\n" + b"z" * 5 * LONGEST_LINE + b"\n{}\n" + longest + b"abc")
     lines, state = read(LineSource(tmp_path))

@@ -47,7 +47,7 @@ def test_what_is_remembered_is_bounded_and_never_lets_a_number_pass_twice(number
     assert len(state["_received"]) == limit
 
 
-def test_of_many_holes_the_lowest_counts_as_heard() -> None:
+def test_of_many_holes_the_lowest_counts_as_received() -> None:
     once = Once()
     for number in range(1, 2 * RANGES + 2, 2):
         assert once.first("anna", number)
@@ -62,7 +62,7 @@ def test_of_more_wearers_than_there_is_room_for_the_one_silent_longest_is_forgot
     ]  # fmt: skip
 
 
-def test_a_reader_begins_again_from_the_newest_number_of_each_wearer_that_its_table_holds() -> None:
+def test_a_reader_restarts_from_the_newest_number_of_each_wearer_that_its_table_holds() -> None:
     once = Once.after({"anna": 7})
     assert [once.first("anna", number) for number in (0, 6, 7, 8)] == [False, False, False, True]
     assert once.first("bert", 0)
@@ -91,7 +91,7 @@ SAVED = Once.after({"anna": 7}).snapshot()
         {"solepath.once": 1, "state": {"limit": 9, "_received": {"anna": {"end": 9, "missing": [[4, 5], [1, 2]]}}}},
     ],
 )  # fmt: skip
-def test_what_is_no_snapshot_is_refused(saved: object) -> None:
+def test_an_invalid_snapshot_is_rejected(saved: object) -> None:
     assert Once.restore(SAVED).snapshot() == SAVED
     with pytest.raises(SnapshotError):
         Once.restore(saved)

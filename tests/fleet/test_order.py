@@ -34,7 +34,7 @@ def more(one: dict[str, Any]) -> Any:
 
 
 @pytest.mark.parametrize("story", STORIES["stories"], ids=lambda story: story["title"])
-def test_rows_become_what_their_story_says(story: dict[str, Any]) -> None:
+def test_rows_become_the_events_of_their_story(story: dict[str, Any]) -> None:
     fleet, state, numbers = Fleet(window=story["window"]), None, []
     for line in story["rows"]:
         sent = read_line(json.dumps(line["row"]).encode())
@@ -100,7 +100,7 @@ def test_no_row_is_used_twice_and_those_of_a_run_are_used_in_order(arrived: list
     assert all(numbers == sorted(numbers) for run in range(4) for numbers in [[n for of, n in used if of == run]])
 
 
-def test_rows_are_waited_for_as_far_as_the_window_says_and_no_further() -> None:
+def test_rows_are_waited_for_as_far_as_the_window_and_no_further() -> None:
     window = 256
     assert not uses(FLEET.open(WEARER, None).feed([shown(number) for number in range(1, window + 1)]))
     told = uses(FLEET.open(WEARER, None).feed([shown(number) for number in range(1, window + 2)]))
@@ -149,7 +149,7 @@ ENDS = st.builds(lambda number, of: Sent(WEARER, number, End(), of), st.integers
 
 @settings(max_examples=60)
 @given(before=st.lists(ROWS | ENDS, max_size=14), new=st.integers(0, 5) | st.integers(0, MOST))
-def test_whatever_came_before_a_new_run_is_heard_but_for_a_window_of_rows(before: list[Sent], new: int) -> None:
+def test_whatever_came_before_a_new_run_is_used_except_a_window_of_rows(before: list[Sent], new: int) -> None:
     before = [one for one in before if one.run != new]
     _, told = NARROW.step(WEARER, None, [*before, *run(new, 20)])
     heard = [number for of, number in used(told) if of == new]
@@ -175,7 +175,7 @@ def test_rows_of_all_that_was_ever_sent_come_again_and_none_is_used_twice() -> N
     assert len(after) < len(state) + 10
 
 
-def test_a_flood_of_rows_that_are_late_is_told_ever_more_seldom() -> None:
+def test_a_flood_of_rows_that_are_late_is_reported_ever_more_seldom() -> None:
     state, _ = FLEET.step(WEARER, None, [*run(5, 3), shown(0, 9)])
     flood = [one for k in range(2000) for one in (shown(3 + k, 5), shown(1 + k, 9))]
     _, told = FLEET.step(WEARER, state, flood)

@@ -100,7 +100,7 @@ def test_parts_from_the_resumed_number_on_are_removed_and_no_other_file_is(tmp_p
     assert names(tmp_path) == sorted([*mine, FIRST, *(f"part-1-0000000{n}.parquet" for n in range(3))])
 
 
-def test_who_remembers_nothing_sets_the_parts_of_a_run_before_aside_and_says_so(
+def test_without_a_state_the_parts_of_a_run_before_are_hidden_with_a_warning(
     tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     for count in (1, 2, 3):
@@ -197,7 +197,7 @@ def listed(directory: Path) -> list[tuple[str, int]]:
     return sorted((row["wearer"], row["number"]) for row in rows)
 
 
-def test_who_begins_anew_with_fewer_partitions_hides_the_parts_of_those_that_are_no_more(tmp_path: Path) -> None:
+def test_a_restart_with_fewer_partitions_hides_the_parts_of_the_others(tmp_path: Path) -> None:
     """All wearers are numbered anew: of the old events none may stay beside the new."""
     three = written(tmp_path, [None] * 3)
     assert listed(tmp_path) == [("w0", 0), ("w1", 0), ("w2", 0)]

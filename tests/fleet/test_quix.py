@@ -18,7 +18,7 @@ from random import Random
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from walks import ROUGH, insoles, said
+from walks import ROUGH, insoles, run_session
 
 from solepath import recipes
 from solepath.emulate.radio import CLEAN
@@ -52,7 +52,7 @@ def sent_by(wearer: str) -> tuple[Sent, ...]:
 @cache
 def sessions_tell(wearer: str, recipe: str) -> list[dict[str, Any]]:
     """Rows of what a session of his own says."""
-    events = said([sent.what for sent in sent_by(wearer)[:-1]], recipes.by_name(recipe))
+    events = run_session([sent.what for sent in sent_by(wearer)[:-1]], recipes.by_name(recipe))
     return [event_row(NumberedEvent(wearer, number, event)) for number, event in enumerate(events)]
 
 
@@ -124,7 +124,7 @@ def wait_for(topics: Topics, more: int, within: float = 90.0) -> None:
         assert time.monotonic() < end, topics.log()[-3000:]
 
 
-def test_a_job_that_is_killed_tells_everything_again_under_the_same_identity_and_nothing_else(kafka: Broker) -> None:
+def test_a_killed_job_emits_everything_again_under_the_same_identity_and_nothing_else(kafka: Broker) -> None:
     """kill -9 at random moments, once with the loss of its disk; what was told is what an undisturbed job tells."""
     from brokers import kill
 
@@ -198,8 +198,8 @@ def test_messages_without_key_or_sense_are_events_and_stall_nobody(kafka: Broker
         topics.send([(name.encode(), sent_line(Sent(name, 0, End(), run=1))) for name in mine])
         told = topics.finish(topics.start())
     for wearer in mine:
-        said = [row for row in rows(told, wearer) if row["event"] != "SentRejected"]
-        assert unnumbered(said) == unnumbered(sessions_tell(wearer, "default"))
+        session_rows = [row for row in rows(told, wearer) if row["event"] != "SentRejected"]
+        assert unnumbered(session_rows) == unnumbered(sessions_tell(wearer, "default"))
     by_identity = identities(told)
     assert all(len(same) == 1 for same in by_identity.values())
     rejected = [json.loads(message.value) for message in told if b"SentRejected" in message.value]
@@ -210,7 +210,7 @@ def test_messages_without_key_or_sense_are_events_and_stall_nobody(kafka: Broker
     assert max(len(message.value) for message in told) < 20_000
 
 
-def test_a_topic_whose_values_are_read_as_json_is_refused_at_once(kafka: Broker, tmp_path: Path) -> None:
+def test_a_topic_whose_values_are_read_as_json_is_rejected_at_once(kafka: Broker, tmp_path: Path) -> None:
     from quixstreams import Application
     from quixstreams.models import TopicConfig
 

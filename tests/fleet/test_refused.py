@@ -50,7 +50,7 @@ IN_ORDER = OtherState(held={(6, 300): Tick(1.0), (6, 302): Tick(2.0), (7, 0): En
     [[(6, 298)], [(5, 900)], [(6, 301), (6, 200)], [(6, MOST + 1)], [(MOST + 1, 0)]],
     ids=["used", "older run", "one of two", "number", "run"],
 )
-def test_a_state_that_holds_what_cannot_be_held_is_refused(held: list[tuple[int, int]]) -> None:
+def test_a_state_that_holds_what_cannot_be_held_is_rejected(held: list[tuple[int, int]]) -> None:
     """Its checksum holds: whoever wrote it was wrong, or it was damaged before."""
     identity = Identity(6, 299, 1200, 12.25)
     assert read_rest(write_state(identity, IN_ORDER)) == IN_ORDER
@@ -91,14 +91,14 @@ def test_a_session_that_cannot_go_on_is_not_adopted_and_no_state_goes_on_from_a_
     assert uses(rest) == [("used", 0, 0, None)]
 
 
-def test_the_clock_of_a_new_run_may_stand_before_that_of_the_last_and_what_is_told_does_not_go_back() -> None:
+def test_the_clock_of_a_new_run_may_stand_before_that_of_the_last_and_event_times_do_not_go_back() -> None:
     wrong = Unreadable(WEARER, "no JSON")
     sent = [Sent(WEARER, 0, Tick(10.0)), Sent(WEARER, 1, End()), wrong, Sent(WEARER, 0, Tick(1.0), 1), wrong]
     _, told = FLEET.step(WEARER, None, [*sent, Sent(WEARER, 1, Tick(12.0), 1), wrong])
     assert [(one.event.t, one.event.known_at) for one in told] == [(10.0, 10.0), (10.0, 10.0), (12.0, 12.0)]
 
 
-def test_so_many_bytes_are_held_as_the_protocol_says_and_not_one_more() -> None:
+def test_the_held_bytes_are_limited_as_in_the_protocol() -> None:
     def large(number: int, size: int) -> Sent:
         return Sent(WEARER, number, Packet(0.0, Site.PELVIS, "c", bytes(size - 4), "dev"))
 
@@ -117,7 +117,7 @@ def runs_out(after: int, sent: Any, known: Any) -> Any:
     return toys.more(sent, known)
 
 
-def test_who_runs_out_of_memory_is_told_so_and_goes_on_from_the_last_state() -> None:
+def test_out_of_memory_is_raised_and_the_last_state_can_continue() -> None:
     """It is no fault of the wearer: with more memory the same packet is used."""
 
     def fleet(most: int) -> Fleet:

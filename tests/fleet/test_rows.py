@@ -61,7 +61,7 @@ def told_of(sent: Sent) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("line", LINES["lines"], ids=lambda line: line["id"])
-def test_a_line_says_what_the_protocol_says(line: dict[str, Any]) -> None:
+def test_a_line_is_as_in_the_protocol(line: dict[str, Any]) -> None:
     read = read_line(line["line"].encode())
     if line["result"] == "valid":
         assert isinstance(read, Sent) and told_of(read) == line["sent"]
@@ -100,7 +100,7 @@ def test_what_is_no_line_is_unreadable() -> None:
         assert isinstance(read_line(line), Unreadable)
 
 
-def test_a_row_holds_no_more_than_a_phone_has_to_say() -> None:
+def test_a_row_holds_no_more_than_a_phone_sends() -> None:
     row = sent_row(Sent("w", 3, Packet(1.0, Site.PELVIS, "c", bytes(LONGEST_DATA), "d" * LONGEST_NAME)))
     assert isinstance(read_sent(row), Sent)
     for key, value in (("data", bytes(LONGEST_DATA + 1)), ("channel", "c" * 257), ("device", "d" * 257)):
@@ -142,7 +142,7 @@ def test_every_event_of_a_walk_is_a_row_of_the_columns() -> None:
         assert all(value is None or type(value) is EVENT_COLUMNS[name] for name, value in row.items()), one
 
 
-def test_the_protocol_names_all_that_a_fleet_tells() -> None:
+def test_the_protocol_names_all_events_of_a_fleet() -> None:
     page = (PROTOCOL / "fleet.md").read_text()
     for kind in FleetEvent.__args__:
         own = {field.name for field in attrs.fields(kind)} - {"t", "known_at", "final"}

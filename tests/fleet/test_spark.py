@@ -172,7 +172,7 @@ def test_text_that_is_no_text_ends_no_job(spark, tmp_path):
     assert [row["event"] for row in events if row["wearer"] != "w0"] == ["SentRejected"] * 3
 
 
-def test_a_state_that_cannot_go_on_is_told_and_its_wearer_begins_afresh(spark, tmp_path):
+def test_a_state_that_cannot_go_on_is_reported_and_its_wearer_restarts(spark, tmp_path):
     """As after a step back to an older release: its version is 250."""
     from binascii import crc32
 

@@ -53,7 +53,7 @@ def held_as_told(place: tuple[int, int], what: Any) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("vector", STATES["states"], ids=lambda vector: vector["id"])
-def test_a_state_says_what_the_protocol_says(vector: dict[str, Any]) -> None:
+def test_a_state_is_as_in_the_protocol(vector: dict[str, Any]) -> None:
     state = bytes.fromhex(vector["hex"])
     identity = read_identity(state)
     if vector["result"] == "refused":
@@ -102,7 +102,7 @@ def test_a_bit_that_fell_over_anywhere_is_noticed_and_no_identity_is_used_again(
     assert told[0].number >= before
 
 
-def test_a_state_that_was_refused_is_told_once_and_not_before_it_is_needed() -> None:
+def test_a_rejected_state_is_reported_once_and_not_before_it_is_needed() -> None:
     state, before = halfway()
     torn = state[:-3]
     keyed = FLEET.open(WEARER, torn)
@@ -124,7 +124,7 @@ def test_where_nothing_can_be_read_the_first_number_waits_for_a_row_that_has_one
     assert uses(told[1:]) == [("missing", 1_763_800_000_000, 0, 12), ("used", 1_763_800_000_000, 12, None)]
 
 
-def test_a_session_of_another_recipe_or_of_a_building_is_refused_and_the_numbers_go_on() -> None:
+def test_a_session_of_another_recipe_or_of_a_building_is_rejected_and_the_numbers_go_on() -> None:
     state, before = halfway()
     for fleet in (Fleet(recipes.by_name("kupt-dfpc")), Fleet(evolve(DEFAULT, name="mine")), Fleet(floorplan=BUILDING)):
         after, told = fleet.step(WEARER, state, walked().sent[HALF : HALF + 50])

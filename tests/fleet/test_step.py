@@ -24,7 +24,7 @@ LONG = "w" * 10_000
 
 
 @pytest.mark.parametrize("recipe", BOTH, ids=lambda recipe: recipe.name)
-def test_what_is_told_of_a_wearer_is_what_a_session_says_to_the_same_packets(recipe: Recipe) -> None:
+def test_the_events_of_a_wearer_are_those_of_a_session_with_the_same_packets(recipe: Recipe) -> None:
     sent, events = walked(recipe.name).sent, walked(recipe.name).events
     fleet = Fleet(recipe)
     pieces = cut(list(sent), range(0, len(sent), 61))
@@ -48,7 +48,7 @@ def test_a_wearer_leaves_no_trace_in_what_all_wearers_share(recipe: str) -> None
     assert Session.unpack(blank, made).snapshot() == before
 
 
-def test_time_that_passes_is_told_as_a_session_has_it() -> None:
+def test_passing_time_gives_the_events_of_a_session() -> None:
     sent = walked().sent[:300]
     session, last = Session(), sent[-1].what.t
     events = session.advance(-1.0) + [event for one in sent for event in session.feed(one.what)]
@@ -59,7 +59,7 @@ def test_time_that_passes_is_told_as_a_session_has_it() -> None:
     assert events[-1].known_at == last + 5.0
 
 
-def test_a_wearer_goes_on_in_a_new_run_and_begins_anew_after_an_end() -> None:
+def test_a_wearer_goes_on_in_a_new_run_and_restarts_after_an_end() -> None:
     sent, events = walked().sent, walked().events
     half = len(sent) // 2
     restarted = [*sent[:half], *[evolve(one, number=n, run=8) for n, one in enumerate(sent[half:])]]
@@ -167,7 +167,7 @@ POISON = st.builds(
 
 @settings(max_examples=30)
 @given(poison=st.lists(POISON, max_size=40))
-def test_a_wearer_whose_bytes_are_anything_is_told_of_and_stays_small(poison: list[Sent]) -> None:
+def test_a_wearer_with_random_bytes_is_reported_and_stays_small(poison: list[Sent]) -> None:
     state, told = FLEET.step(WEARER, None, poison)
     assert [one.number for one in told] == list(range(len(told)))
     assert len(state) < 30_000

@@ -104,7 +104,7 @@ UNUSABLE = [
 
 
 @pytest.mark.parametrize(("plan", "says"), UNUSABLE, ids=[says[:40] for _, says in UNUSABLE])
-def test_a_plan_that_cannot_be_used_says_why_in_one_line(plan: FloorPlan, says: str) -> None:
+def test_a_plan_that_cannot_be_used_is_rejected_in_one_line(plan: FloorPlan, says: str) -> None:
     assert unusable(plan) == says
     assert warnings(plan) == ()
     with pytest.raises(FloorPlanError):
@@ -118,15 +118,15 @@ def test_plans_within_the_limits_can_be_used_and_remarked_upon(plan: FloorPlan) 
     assert all(line and "\n" not in line for line in warnings(plan))
 
 
-def test_a_closed_house_with_stairs_gives_nothing_to_say() -> None:
+def test_a_closed_house_with_stairs_gives_no_warning() -> None:
     assert warnings(evolve(HOUSE, heights_known=True)) == ()
 
 
-def test_assumed_heights_are_said() -> None:
+def test_assumed_heights_are_a_warning() -> None:
     assert warnings(HOUSE) == ("the plan does not say how high its levels lie",)
 
 
-def test_a_gap_in_the_outer_wall_is_said_and_a_door_in_it_is_none() -> None:
+def test_a_gap_in_the_outer_wall_is_a_warning_and_a_door_in_it_is_not() -> None:
     gap = (Wall((0.0, 0.0), (10.0, 0.0)), Wall((11.0, 0.0), (20.0, 0.0)), *box(0.0, 0.0, 20.0, 10.0)[1:])
     known = evolve(HOUSE, heights_known=True)
     for rooms in ((), (((0.0, 0.0), (20.0, 0.0), (20.0, 10.0), (0.0, 10.0)),)):
@@ -224,7 +224,7 @@ MISSHAPEN = [
 
 
 @pytest.mark.parametrize(("plan", "says"), MISSHAPEN, ids=[says[:40] for _, says in MISSHAPEN])
-def test_a_plan_of_something_else_than_records_is_refused_by_the_session_in_one_line(
+def test_a_plan_of_something_else_than_records_is_rejected_by_the_session_in_one_line(
     plan: FloorPlan, says: str
 ) -> None:
     assert unusable(plan) == says
@@ -250,7 +250,7 @@ NO_STARTS = [
 
 
 @pytest.mark.parametrize(("start", "says"), NO_STARTS, ids=[says[:40] for _, says in NO_STARTS])
-def test_a_start_that_cannot_be_is_refused_by_the_session_in_one_line(start: Start, says: str) -> None:
+def test_a_start_that_cannot_be_is_rejected_by_the_session_in_one_line(start: Start, says: str) -> None:
     with pytest.raises(FloorPlanError) as refused:
         Session(floorplan=HOUSE, start=start)
     assert str(refused.value) == f"start: {says}"
@@ -275,7 +275,7 @@ def test_a_plan_has_no_more_levels_stops_walls_and_corners_than_are_good_for_a_s
     assert unusable(with_level(walls=long)) == "the walls, doors and rooms of the plan come to 504 km; it can have 500"
 
 
-def test_more_walls_around_one_place_than_a_step_can_be_tried_against_are_refused() -> None:
+def test_more_walls_around_one_place_than_a_step_can_be_tried_against_are_rejected() -> None:
     comb = tuple(Wall((0.001 * k, 0.0), (0.001 * k, 1.0)) for k in range(2500))
     with pytest.raises(FloorPlanError, match=r"^level '0': \d+ walls lie around \(-?\d+, -?\d+\)$"):
         IndexedPlan(with_level(walls=comb))

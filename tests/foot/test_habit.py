@@ -7,7 +7,7 @@ from math import hypot, radians
 
 import pytest
 from attrs import evolve
-from one_foot import PHASES, heard, walked, without
+from one_foot import PHASES, feed_new_session, walked, without
 from walks import of
 
 from solepath import Event, Foot, FootFlat, HeelOff, HeelStrike, Sample, SampleGap, StrideTaken, ToeOff
@@ -49,7 +49,7 @@ def test_what_a_gap_in_a_swing_has_hidden_is_told_in_order_and_dated_within_the_
 ) -> None:
     samples, steps = walked()
     a = steps[number].t_toe_off + after
-    told, _ = heard(without(samples, (a, a + duration)))
+    told, _ = feed_new_session(without(samples, (a, a + duration)))
     (gap,) = of(SampleGap, told)
     end = gap.t + gap.duration
     seen = [event for event in of(ToeOff | HeelStrike, told) if gap.t <= event.t <= end]
@@ -67,7 +67,7 @@ def test_a_stride_with_a_gap_in_it_is_degraded_whole_and_no_other_is(
 ) -> None:
     samples, steps = walked()
     a = steps[4].t_toe_off + after
-    told, _ = heard(without(samples, (a, a + duration)))
+    told, _ = feed_new_session(without(samples, (a, a + duration)))
     taken = of(StrideTaken, told)
     assert len(taken) == len(steps)
     assert [step for step in taken if step.degraded] == [around(taken, a + 0.5 * duration)]
@@ -80,7 +80,7 @@ def test_every_step_that_a_gap_reaches_into_is_degraded_wherever_in_the_stride_i
     seen = set[float]()
     for k in range(27):  # all of a stride
         a = steps[4].t_start - 0.02 + 0.04 * k
-        told, _ = heard(without(samples, (a, a + duration)))
+        told, _ = feed_new_session(without(samples, (a, a + duration)))
         (gap,) = of(SampleGap, told)
         for step in of(StrideTaken, told):
             within = min(gap.t + gap.duration, step.t_end) - max(gap.t, step.t_start)
@@ -92,10 +92,10 @@ def test_every_step_that_a_gap_reaches_into_is_degraded_wherever_in_the_stride_i
 
 def test_a_sample_at_the_end_of_its_range_degrades_the_step_it_is_in_even_when_flat_is_dated_back() -> None:
     samples, steps = walked()
-    uncut = of(StrideTaken, heard(samples)[0])
+    uncut = of(StrideTaken, feed_new_session(samples)[0])
     for k in range(12):
         t = steps[4].t_end - 0.03 + 0.01 * k
-        told, _ = heard([evolve(sample, saturated=abs(sample.t - t) < 0.005) for sample in samples])
+        told, _ = feed_new_session([evolve(sample, saturated=abs(sample.t - t) < 0.005) for sample in samples])
         taken = of(StrideTaken, told)
         assert len(taken) == len(uncut)
         (hit,) = (sample.t for sample in samples if abs(sample.t - t) < 0.005)
@@ -105,10 +105,10 @@ def test_a_sample_at_the_end_of_its_range_degrades_the_step_it_is_in_even_when_f
 def test_a_foot_that_stands_through_a_gap_goes_nowhere() -> None:
     samples, steps = walked()
     last = steps[-1].t_end
-    straight, uncut = heard(samples)
+    straight, uncut = feed_new_session(samples)
     # who has stood for longer than between two strides has halted, and takes none in a long gap either
     for a, b in ((0.8, 1.4), (last + 0.2, last + 0.5), (last + 0.8, last + 1.8)):
-        told, session = heard(without(samples, (a, b)))
+        told, session = feed_new_session(without(samples, (a, b)))
         assert of(SampleGap, told)
         assert len(of(StrideTaken, told)) == len(of(StrideTaken, straight)) == len(steps)
         swings = [type(event) for event in of(ToeOff | HeelStrike, straight)]
@@ -121,7 +121,7 @@ def test_a_foot_that_stands_through_a_gap_goes_nowhere() -> None:
 def test_a_gap_over_whole_strides_invents_no_more_of_them_than_there_were(duration: float) -> None:
     samples, steps = walked()
     a = steps[3].t_toe_off
-    told, _ = heard(without(samples, (a, a + duration)))
+    told, _ = feed_new_session(without(samples, (a, a + duration)))
     assert len(steps) - 3 <= len(of(StrideTaken, told)) <= len(steps)
     (gap,) = of(SampleGap, told)
     assert len([step for step in of(StrideTaken, told) if gap.t < step.t < gap.t + gap.duration]) <= 2
@@ -133,7 +133,7 @@ def test_a_gap_is_neither_stillness_nor_speed() -> None:
     for number in range(2, len(steps) - 1):
         for share in (0.05, 0.3, 0.5, 0.7, 0.9):
             a = steps[number].t_start + share * (steps[number].t_end - steps[number].t_start)
-            told, _ = heard(without(samples, (a, a + 0.12)))
+            told, _ = feed_new_session(without(samples, (a, a + 0.12)))
             assert len(of(ToeOff, told)) == len(of(HeelStrike, told)) == len(steps)
             assert len(of(HeelOff, told)) == len(of(FootFlat, told)) == len(steps)
 
@@ -144,7 +144,7 @@ def test_phases_that_nobody_saw_say_so_and_all_others_that_they_were_seen() -> N
     for k in range(27):
         a = steps[4].t_start - 0.02 + 0.04 * k
         for duration in (0.3, 0.8):
-            told, _ = heard(without(samples, (a, a + duration)))
+            told, _ = feed_new_session(without(samples, (a, a + duration)))
             (gap,) = of(SampleGap, told)
             end = gap.t + gap.duration
             for event in of(PHASES, told):
@@ -154,7 +154,7 @@ def test_phases_that_nobody_saw_say_so_and_all_others_that_they_were_seen() -> N
                 # a cue may look back into a gap, but not over half of it
                 assert event.inferred or not gap.t + 0.01 < event.t < end - 0.16
     assert hidden == {HeelStrike, FootFlat, HeelOff, ToeOff}
-    assert not any(event.inferred for event in of(PHASES, heard(samples)[0]))
+    assert not any(event.inferred for event in of(PHASES, feed_new_session(samples)[0]))
 
 
 def turned(told: list[Event]) -> float:
@@ -178,7 +178,7 @@ def test_a_gentle_turn_stays_a_turn_through_a_gap_in_every_other_stride(
     name: str, duration: float, within: float
 ) -> None:
     samples, steps = walked(GENTLE[name])
-    told, _ = heard(gapped(samples, steps, duration, 2))
+    told, _ = feed_new_session(gapped(samples, steps, duration, 2))
     assert len(of(SampleGap, told)) >= 7
     assert turned(told) == pytest.approx(radians(120), abs=radians(within))
 
@@ -187,7 +187,7 @@ def test_a_gentle_turn_stays_a_turn_through_a_gap_in_every_other_stride(
 @pytest.mark.parametrize(("duration", "within"), [(0.08, 10.0), (0.12, 10.0), (0.3, 20.0)])
 def test_a_sharp_turn_is_hardly_straightened_by_gaps(name: str, duration: float, within: float) -> None:
     samples, steps = walked(SHARP[name])
-    told, _ = heard(gapped(samples, steps, duration, 2))
+    told, _ = feed_new_session(gapped(samples, steps, duration, 2))
     assert of(SampleGap, told)
     assert abs(turned(told)) == pytest.approx(abs(sum(step.heading_change for step in steps)), abs=radians(within))
 
@@ -197,7 +197,7 @@ def test_who_turns_about_on_the_spot_is_not_taken_to_walk_on_in_a_short_gap(seed
     """Nothing of the last stride is like it, so a straight line is the better guess."""
     route = Route().stand(2.0).walk(5.0, 1.2).stop(1.0).turn(radians(180)).walk(5.0).stop()
     samples, steps = walked(route, seed)
-    told, _ = heard(gapped(samples, steps, 0.12, 2))
+    told, _ = feed_new_session(gapped(samples, steps, 0.12, 2))
     assert of(SampleGap, told)
     assert turned(told) == pytest.approx(sum(step.heading_change for step in steps), abs=radians(8))
 
@@ -213,7 +213,7 @@ def test_a_turn_that_was_seen_is_not_taken_back_with_that_of_a_gap() -> None:
 
 def test_who_goes_straight_on_keeps_the_heading_through_a_gap_in_every_stride() -> None:
     samples, steps = walked()
-    told, _ = heard(gapped(samples, steps, 0.3, 1))
+    told, _ = feed_new_session(gapped(samples, steps, 0.3, 1))
     assert len(of(SampleGap, told)) > 4
     assert turned(told) == pytest.approx(0.0, abs=radians(4))
 

@@ -23,7 +23,7 @@ def run(*arguments: object) -> subprocess.CompletedProcess[str]:
     return subprocess.CompletedProcess(arguments, status, out.getvalue(), err.getvalue())
 
 
-def refused(*arguments: object) -> str:
+def run_failing(*arguments: object) -> str:
     """The one line with which it ends."""
     done = run(*arguments)
     assert done.stdout == ""

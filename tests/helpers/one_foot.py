@@ -35,6 +35,6 @@ def without(samples: tuple[Sample, ...], *gaps: tuple[float, float]) -> list[Sam
     return [sample for sample in samples if not any(a < sample.t < b for a, b in gaps)]
 
 
-def heard(samples: list[Sample] | tuple[Sample, ...]) -> tuple[list[Event], Session]:
+def feed_new_session(samples: list[Sample] | tuple[Sample, ...]) -> tuple[list[Event], Session]:
     session = Session()
     return session.feed(samples), session

@@ -36,8 +36,8 @@ def emulator(*arguments: object, port: int = 0) -> Iterator[tuple[subprocess.Pop
     """Emulated devices, and where they are: tcp:HOST:PORT."""
     with started("emulate", "--listen", f"127.0.0.1:{port}", *arguments) as process:
         assert process.stdout is not None
-        said, where = process.stdout.readline().rsplit(maxsplit=1)
-        assert said == "serving at"
+        text, where = process.stdout.readline().rsplit(maxsplit=1)
+        assert text == "serving at"
         yield process, where
 
 

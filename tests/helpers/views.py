@@ -24,7 +24,7 @@ def fed(
     part: Part, tracker: FootTracker, sample: Sample, events: Sequence[Event], other: float | None = None
 ) -> list[Any]:
     """What a part says of a sample of a foot and of what came of it."""
-    said = [*part.feed(seen(tracker, sample, events, other))] if part.needs_samples else []
+    outputs = [*part.feed(seen(tracker, sample, events, other))] if part.needs_samples else []
     for event in events:
-        said += part.receive(event)
-    return said
+        outputs += part.receive(event)
+    return outputs

@@ -33,7 +33,7 @@ from solepath.foot.stance.pressure import MaximumPressure, TwoArea
 from solepath.foot.stance.shoe import ShoeDetector
 from solepath.link.decoder import Decoder
 from solepath.recipes import DEFAULT, Recipe
-from solepath.saving import codec as machine
+from solepath.saving import codec
 from solepath.session import Session
 from solepath.types import Foot, Packet, Sample, Site
 
@@ -78,7 +78,7 @@ def columns_of(walker: Walker, foot: Foot) -> dict[str, np.ndarray]:
     return {key: np.array([getattr(s, key) for s in found]) for key in ("t", "acc", "gyro")}
 
 
-def said(items: Iterable[Item], recipe: Recipe = DEFAULT, **given: Any) -> list[Any]:
+def run_session(items: Iterable[Item], recipe: Recipe = DEFAULT, **given: Any) -> list[Any]:
     """All that a session says of these items, and at the end."""
     session = Session(recipe, **given)
     return session.feed(items) + session.finish()
@@ -90,12 +90,12 @@ class Machine:
 
     name: str
     items: tuple[Item, ...]
-    begin: Callable[[], Any]
+    start: Callable[[], Any]
     load: Callable[[Any], Any]
 
     def save(self, one: Any) -> Any:
         """Its snapshot, after a trip through strict JSON."""
-        value = one.snapshot() if isinstance(one, Session) else machine.save(one)
+        value = one.snapshot() if isinstance(one, Session) else codec.save(one)
         return json.loads(json.dumps(value, allow_nan=False))
 
     def repacked(self, one: Any) -> Any:
@@ -105,8 +105,8 @@ class Machine:
     def events(self, items: tuple[Item, ...] | None = None) -> list[Any]:
         """All that comes out when it is fed one item at a time and then finished."""
         if items is None:
-            return [event for events in told(self.name) for event in events]
-        one = self.begin()
+            return [event for events in machine_events(self.name) for event in events]
+        one = self.start()
         events = [event for item in items for event in one.feed(item)]
         return events + one.finish()
 
@@ -114,31 +114,31 @@ class Machine:
 def _session(name: str, items: tuple[Item, ...], recipe: Recipe = DEFAULT) -> Machine:
     pressures = name in ("fragments", "samples with pressure")  # in a few: it makes most of what is said
 
-    def begin() -> Session:
+    def start() -> Session:
         return Session(recipe, poses=True, pressures=pressures)
 
-    return Machine(f"session, {name}", items, begin, Session.restore)
+    return Machine(f"session, {name}", items, start, Session.restore)
 
 
 def _placed(name: str, items: tuple[Item, ...], recipe: Recipe) -> Machine:
     """A session in a building whose wearer's first steps are known, and the rest has to be found out."""
     building = IndexedPlan(BUILDING)
-    start = Start("0", (COLUMNS[0], 12.0))
+    first_place = Start("0", (COLUMNS[0], 12.0))
 
-    def begin() -> Session:
-        return Session(recipe, poses=True, floorplan=building, start=start)
+    def start() -> Session:
+        return Session(recipe, poses=True, floorplan=building, start=first_place)
 
-    return Machine(f"session, {name}", items, begin, partial(Session.restore, floorplan=building))
+    return Machine(f"session, {name}", items, start, partial(Session.restore, floorplan=building))
 
 
 def _decoder(name: str, items: tuple[Packet, ...]) -> Machine:
-    def begin() -> Decoder:
+    def start() -> Decoder:
         return Decoder(LEFT)
 
     def load(saved: Any) -> Decoder:
-        return machine.load(Decoder, saved, recipes.part_class)
+        return codec.load(Decoder, saved, recipes.part_class)
 
-    return Machine(f"decoder, {name}", tuple(item for item in items if item.site is LEFT), begin, load)
+    return Machine(f"decoder, {name}", tuple(item for item in items if item.site is LEFT), start, load)
 
 
 @cache
@@ -183,10 +183,10 @@ def machines() -> dict[str, Machine]:
 
 
 @frozen
-class Gone:
+class MachineRun:
     """What became of a machine that was fed its items one by one, and then finished."""
 
-    told: tuple[tuple[Any, ...], ...]
+    events: tuple[tuple[Any, ...], ...]
     """What it said to each item, and at the end."""
     fed: Any
     """Its snapshot after the last item."""
@@ -195,19 +195,19 @@ class Gone:
 
 
 @cache
-def gone(name: str) -> Gone:
+def run_machine(name: str) -> MachineRun:
     """Found out once, for all that compare with it."""
     known = machines()[name]
-    one = known.begin()
+    one = known.start()
     events = [tuple(one.feed(item)) for item in known.items]
     fed = known.save(one)
     events.append(tuple(one.finish()))
-    return Gone(tuple(events), fed, known.save(one))
+    return MachineRun(tuple(events), fed, known.save(one))
 
 
-def told(name: str) -> tuple[tuple[Any, ...], ...]:
+def machine_events(name: str) -> tuple[tuple[Any, ...], ...]:
     """What a machine says to each of its items, and at the end."""
-    return gone(name).told
+    return run_machine(name).events
 
 
 RECIPES = (

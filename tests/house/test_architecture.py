@@ -29,7 +29,7 @@ def test_every_room_is_in_the_picture_and_every_room_of_the_picture_is_there() -
     assert pictured == there - {"__init__", "__main__"}
 
 
-def test_a_quiet_frame_goes_the_way_that_the_page_shows() -> None:
+def test_a_frame_without_events_makes_the_calls_of_the_page() -> None:
     session, quiet = Session(), list[str]()
     for packet in insoles().packets:
         calls: list[str] = []

@@ -62,7 +62,7 @@ def test_every_program_is_run_by_a_test():
             assert f'"{page}"' in tests or f'DOCS / "{page.removeprefix("docs/")}"' in tests, page
 
 
-def test_what_a_command_is_said_to_print_stands_there():
+def test_a_command_prints_what_the_document_shows():
     marks = [mark for text in PAGES.values() for mark in re.findall(r"^<!-- (\S+) -->\n```", text, re.MULTILINE)]
     assert len(marks) > 10
     assert not [mark for mark in marks if not below(mark)]
@@ -85,7 +85,7 @@ def test_the_line_for_the_phases_prints_both_tables():
     assert ["SWING", "RIGHT", "RIGHT", "RIGHT", "FLIGHT"] in rows
 
 
-def test_what_the_wearer_did_is_told(played):
+def test_activities_of_the_wearer_are_reported(played):
     _, names = played("docs/activities.md")
     with redirect_stdout(io.StringIO()) as out:
         names["did"](LiftRidden(t=9.0, known_at=9.5, t_start=2.0, up=False, height=-3.0))
@@ -100,7 +100,7 @@ def test_gait_parameters_are_printed(played):
     assert out.getvalue().splitlines()[0].split()[0] in ("left", "right")
 
 
-def test_a_session_with_a_floor_plan_says_where(played):
+def test_a_session_with_a_floor_plan_reports_the_place(played):
     _, names = played("docs/floorplans.md")
     names["indoors"].feed(WALK.packets)
     assert names["indoors"].place.level == "0"

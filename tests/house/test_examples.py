@@ -45,7 +45,7 @@ def test_an_emulated_walk_ends_where_its_route_ends():
     assert float(says[7]) == pytest.approx(float(ends[9]), abs=0.5)
 
 
-def test_emulated_insoles_are_heard_over_bluetooth():
+def test_emulated_insoles_are_received_over_bluetooth():
     told = run("bluetooth").splitlines()
     assert {"left_foot: connected to solepath L", "right_foot: connected to solepath R"} <= set(told)
     steps = [line for line in told if " step of " in line]
@@ -53,7 +53,7 @@ def test_emulated_insoles_are_heard_over_bluetooth():
     assert sum(float(line.split()[3]) for line in steps) == pytest.approx(8.0, rel=0.05)  # 4 m with each foot
 
 
-def test_the_loop_tells_the_steps_of_a_recording(tmp_path):
+def test_the_loop_prints_the_strides_of_a_recording(tmp_path):
     walk = emulate(ROUTE, radio=Radio(corrupt=0.02), seed=2)
     told = run("own_loop", recorded(tmp_path / "walk.jsonl", walk.packets))
     for foot in Foot:
@@ -93,7 +93,7 @@ def test_a_device_of_ones_own_is_one_file_and_its_vectors():
     assert "battery 87%" in told[0]
 
 
-def test_two_insoles_tell_how_far_both_feet_have_gone():
+def test_two_insoles_give_the_way_of_both_feet():
     lines = run("two_insoles").splitlines()
     assert [line.split()[0] for line in lines[:2]] == ["left", "right"]
     assert all("96 cells" in line for line in lines[:2])

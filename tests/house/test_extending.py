@@ -35,7 +35,7 @@ def test_there_are_five_programs_and_each_fits_a_screen() -> None:
     assert len(programs) == 5 and all([len(program.splitlines()) <= 50 for program in programs])
 
 
-def test_a_device_that_is_declared_in_forty_lines_gives_steps_and_tells_a_lost_packet() -> None:
+def test_a_device_that_is_declared_in_forty_lines_gives_strides_and_reports_a_lost_packet() -> None:
     lines = told(DEVICE)
     assert sum(line.startswith("StrideTaken(") for line in lines) == steps(6)
     (lost,) = [line for line in lines if line.startswith("PacketsLost(")]

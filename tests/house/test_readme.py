@@ -34,7 +34,7 @@ def test_it_is_short():
     assert len(README.splitlines()) <= 300
 
 
-def test_its_loop_hears_every_step_of_a_walk(tmp_path, monkeypatch):
+def test_its_loop_gets_every_stride_of_a_walk(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     walk = emulate(Route().stand(2).walk(6, speed=1.3).stop(2), radio=Radio(corrupt=0.02), seed=1)
     recorded(Path("walk.jsonl"), walk.packets)

@@ -43,13 +43,13 @@ def test_every_event_is_public() -> None:
 EVERY = (*Event.__args__, *solepath.fleet.FleetEvent.__args__)
 
 
-def test_every_event_says_how_late_it_is_known() -> None:
+def test_every_event_documents_its_latency() -> None:
     """In the text of its class, not of the one that all share."""
     for kind in EVERY:
         assert {"known", "latency"} & set(re.findall(r"[a-z]+", kind.__dict__["__doc__"].lower())), kind
 
 
-def test_every_number_of_an_event_says_its_unit_or_what_it_counts() -> None:
+def test_every_number_of_an_event_documents_its_unit_or_count() -> None:
     for kind in EVERY:
         lines = inspect.getsource(kind).splitlines()
         for line, after in zip(lines, [*lines[1:], ""], strict=True):
@@ -90,7 +90,7 @@ def test_every_public_class_method_and_property_has_a_docstring() -> None:
     assert [name for name, thing in members() if not documented(thing)] == []
 
 
-def test_every_module_says_what_it_is_for() -> None:
+def test_every_module_documents_its_purpose() -> None:
     trees = {path: ast.parse(path.read_text()) for path in ROOT.rglob("*.py")}
     assert [path for path, tree in trees.items() if tree.body and not ast.get_docstring(tree)] == []
 

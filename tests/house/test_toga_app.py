@@ -50,7 +50,7 @@ def shown(canvas: Any, what: str) -> list[Any]:
     return [done[1] for done in canvas._impl.draw_instructions if isinstance(done, tuple) and done[0] == what]
 
 
-async def test_after_a_walk_the_labels_say_what_was_walked_and_the_canvases_show_it(example: Any) -> None:
+async def test_after_a_walk_the_labels_show_the_walk_and_the_canvases_show_it(example: Any) -> None:
     app = opened(example)
     assert {label.text for label in app.figures.values()} == {"0", "–"}
     app.begin(of(WALK.packets))
@@ -87,7 +87,7 @@ async def test_one_sample_that_is_far_too_high_does_not_pale_what_the_soles_show
     assert [one["text"] for one in shown(app.soles, "fill text")] == ["L", "R"]
 
 
-async def test_the_emulated_wearer_can_be_stopped_and_what_stops_the_sensors_is_told(example: Any) -> None:
+async def test_the_emulated_wearer_can_be_stopped_and_the_reason_why_sensors_stop_is_reported(example: Any) -> None:
     async def broken() -> AsyncIterator[Packet]:
         raise OSError("Bluetooth is off: switch it on")
         yield WALK.packets[0]

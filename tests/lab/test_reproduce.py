@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from commands import refused, run
+from commands import run, run_failing
 
 from solepath.cli.reproduce import NAMES
 from solepath.emulate.routes import ways
@@ -158,7 +158,7 @@ def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeyp
 
 
 def test_an_experiment_that_there_is_not_is_refused_in_one_line():
-    assert refused("reproduce", "kupt") == (
+    assert run_failing("reproduce", "kupt") == (
         "solepath: there is no experiment 'kupt'; there are: " + ", ".join(NAMES) + "\n"
     )
 
@@ -172,8 +172,8 @@ def test_no_walks_are_refused(walks):
 def test_what_cannot_be_written_is_said_before_anybody_walks(tmp_path):
     pytest.importorskip("matplotlib")
     nowhere = tmp_path / "none" / "table.json"
-    assert f"{nowhere}: No such file" in refused("reproduce", "kupt-dfpc", "--json", nowhere)
-    assert "ends in none of" in refused("reproduce", "kupt-dfpc", "--figure", tmp_path / "figure.docx")
+    assert f"{nowhere}: No such file" in run_failing("reproduce", "kupt-dfpc", "--json", nowhere)
+    assert "ends in none of" in run_failing("reproduce", "kupt-dfpc", "--figure", tmp_path / "figure.docx")
     assert list(tmp_path.iterdir()) == []
 
 

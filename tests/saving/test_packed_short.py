@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from attrs import define, evolve
 from fleets import WEARER, walked
-from own import Quiet
+from own import StillDetector
 
 from solepath import Calibration, Session, SnapshotError, recipes
 from solepath.fleet import Fleet
@@ -19,7 +19,7 @@ SHORT: list[Exception] = []
 
 
 @define
-class Large(Quiet):
+class Large(StillDetector):
     """A detector that takes room."""
 
     def __deepcopy__(self, memo: Any) -> Large:
@@ -35,7 +35,7 @@ def afterwards_there_is_room() -> Iterator[None]:
 
 
 @pytest.mark.parametrize("short", [MemoryError(), RecursionError("too deep")], ids=["memory", "stack"])
-def test_a_session_that_there_is_no_room_for_is_not_said_to_be_damaged(short: Exception) -> None:
+def test_a_session_that_there_is_no_room_for_is_not_reported_as_damaged(short: Exception) -> None:
     recipe = evolve(recipes.DEFAULT, name="large", detector=Large(0.5 if isinstance(short, MemoryError) else 0.6))
     session = Session(recipe)
     session.feed([one.what for one in walked().sent[:200]])
@@ -50,7 +50,7 @@ def test_a_session_that_there_is_no_room_for_is_not_said_to_be_damaged(short: Ex
     assert Session.unpack(saved, recipe).pack() == saved
 
 
-def test_near_the_end_of_the_stack_a_good_state_is_not_said_to_be_damaged() -> None:
+def test_near_the_end_of_the_stack_a_good_state_is_not_reported_as_damaged() -> None:
     saved = Session().pack()
 
     def deeper(by: int) -> Session:

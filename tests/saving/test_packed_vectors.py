@@ -148,7 +148,7 @@ def printed() -> dict[str, Any]:
 def sessions() -> Iterator[Session]:
     yield from map(Session, map(recipes.by_name, recipes.NAMES))
     for name in ("session, whole frames", "session, cc2650", "session, footstep-tracker", "session, kupt-dfpc"):
-        session = machines()[name].begin()
+        session = machines()[name].start()
         session.feed(machines()[name].items[:700])
         yield session
 
@@ -187,7 +187,7 @@ class Mine(ShoeDetector):
 
 
 @pytest.mark.parametrize("body", FILE["bodies"], ids=lambda body: body["id"])
-def test_a_body_holds_what_it_is_said_to_hold(body: dict[str, Any]) -> None:
+def test_a_body_holds_the_documented_values(body: dict[str, Any]) -> None:
     data = bytes.fromhex(body["hex"])
     if body["result"] == "valid":
         expected = {**body["streams"], "bytes": bytes.fromhex(body["streams"]["bytes"])}

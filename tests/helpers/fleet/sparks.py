@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from walks import insoles, said
+from walks import insoles, run_session
 
 from solepath.emulate.routes.route import Route
 from solepath.fleet import End, NumberedEvent, Sent, event_row, sent_row
@@ -71,7 +71,7 @@ def sent(wearer: int, walk: int) -> list[Sent]:
 @cache
 def says(walk: int, recipe: str) -> tuple[Row, ...]:
     """Rows of what a bare session says of the same walk."""
-    events = said(insoles(ROUTE, seed=walk, cells=48).packets, by_name(recipe))
+    events = run_session(insoles(ROUTE, seed=walk, cells=48).packets, by_name(recipe))
     return tuple(event_row(NumberedEvent("", number, event)) for number, event in enumerate(events))
 
 
