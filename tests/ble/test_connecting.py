@@ -44,9 +44,9 @@ def test_an_advertising_device_that_does_not_answer_is_reported_when_patience_en
             await asyncio.Event().wait()
 
     packets = received(Backend(Client, beneath.scanner), ONE, seconds=55.0, patience=7.0)
-    [told] = [packet for packet in packets if packet.channel == "receiver/trouble"]
-    assert told.t == pytest.approx(7.0, abs=0.1)
-    assert told.data.decode().endswith("see that no other program or phone holds it")
+    [trouble] = [packet for packet in packets if packet.channel == "receiver/trouble"]
+    assert trouble.t == pytest.approx(7.0, abs=0.1)
+    assert trouble.data.decode().endswith("see that no other program or phone holds it")
 
 
 def test_failed_attempts_do_not_restart_patience():
@@ -54,9 +54,9 @@ def test_failed_attempts_do_not_restart_patience():
     device = Odd("strap 1", address(1), faults=parse_faults("5 * vanish"))
 
     packets = received(asked(device).backend, ONE, seconds=30.0)
-    told = [(p.t, p.data.decode()) for p in packets if p.channel == "receiver/trouble"]
-    unheard = [t for t, words in told if words.startswith("no strap")]
-    assert told[0][0] < 1.0 and len(unheard) == 1 and unheard[0] == pytest.approx(10.5, abs=2.0)
+    trouble = [(p.t, p.data.decode()) for p in packets if p.channel == "receiver/trouble"]
+    unheard = [t for t, words in trouble if words.startswith("no strap")]
+    assert trouble[0][0] < 1.0 and len(unheard) == 1 and unheard[0] == pytest.approx(10.5, abs=2.0)
 
 
 class Odd(Strap):
@@ -102,14 +102,14 @@ def test_a_scan_without_advertisements_is_restarted() -> None:
     scanner: Any = beneath.scanner
 
     class Scanner(scanner):
-        began = 0.0
+        started_at = 0.0
 
         async def start(self) -> None:
-            self.began = now()
+            self.started_at = now()
             await super().start()
 
         def call_detection_callbacks(self, *given: Any) -> None:
-            if now() < 5.0 or self.began > 20.0:
+            if now() < 5.0 or self.started_at > 20.0:
                 super().call_detection_callbacks(*given)
 
     packets = received(Backend(beneath.client, Scanner), ONE, seconds=90.0)
@@ -123,8 +123,8 @@ def test_a_signal_that_no_radio_measures_and_a_name_that_is_no_text_are_no_fault
     scanner: Any = beneath.scanner
 
     class Scanner(scanner):
-        def call_detection_callbacks(self, device: Any, said: Any) -> None:
-            super().call_detection_callbacks(device, said._replace(rssi=127, local_name="str\ud800p"))
+        def call_detection_callbacks(self, device: Any, advertisement: Any) -> None:
+            super().call_detection_callbacks(device, advertisement._replace(rssi=127, local_name="str\ud800p"))
 
     packets = received(Backend(beneath.client, Scanner), ONE, seconds=3.0)
     assert times(packets, "strap/beat")

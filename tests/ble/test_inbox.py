@@ -109,9 +109,9 @@ def test_a_count_stands_where_the_dropped_stood_unless_what_was_read_fills_the_r
         mine, came = [packet for packet in left if packet.site is site], [one for one in put if one.site is site]
         for packet in mine:
             count = parse_dropped(packet.data) if packet.channel == DROPPED else 1
-            gone, came = came[:count], came[count:]
-            assert packet.channel != DROPPED or {one.channel for one in gone} == {"stream"}
-            assert packet.channel == DROPPED or gone == [packet]
+            dropped_first, came = came[:count], came[count:]
+            assert packet.channel != DROPPED or {one.channel for one in dropped_first} == {"stream"}
+            assert packet.channel == DROPPED or dropped_first == [packet]
 
 
 @given(capacities, lives)
@@ -135,9 +135,9 @@ def test_a_slow_reader_gets_more_than_counts_of_drops() -> None:
 
 
 def test_a_waiting_reader_is_notified_of_every_arrival() -> None:
-    told: list[int] = []
+    reported_counts: list[int] = []
     inbox = Inbox(2)
-    inbox.on_arrival = lambda: told.append(len(inbox))
+    inbox.on_arrival = lambda: reported_counts.append(len(inbox))
     for moment in range(3):
         inbox.put(Packet(float(moment), LEFT, "any", b""), True)
-    assert told == [1, 2, 3]
+    assert reported_counts == [1, 2, 3]

@@ -31,9 +31,9 @@ def feet(device: Device, faults: str = "") -> Bench:
 
 
 def got(
-    peripherals: tuple[Peripheral, ...], wanted: list[DeviceConfig], seconds: float = 6.0, **more: float
+    peripherals: tuple[Peripheral, ...], configs: list[DeviceConfig], seconds: float = 6.0, **more: float
 ) -> list[Packet]:
-    return received(MemoryRadio(peripherals).backend, *wanted, seconds=seconds, **more)
+    return received(MemoryRadio(peripherals).backend, *configs, seconds=seconds, **more)
 
 
 def connected(packets: list[Packet]) -> dict[Site, str]:
@@ -51,9 +51,9 @@ def test_a_device_is_found_by_its_address_or_by_its_name(which: str) -> None:
     assert connected(packets) == {RIGHT: "F0:5E:00:00:00:02"}
     assert streams(packets) == {RIGHT}
     assert not troubles(packets)
-    [said] = [packet for packet in packets if packet.channel == "receiver/connected"]
-    assert parse_connected(said.data).name == "solepath R"
-    assert parse_connected(said.data).signal == -50
+    [connected_packet] = [packet for packet in packets if packet.channel == "receiver/connected"]
+    assert parse_connected(connected_packet.data).name == "solepath R"
+    assert parse_connected(connected_packet.data).signal == -50
 
 
 @pytest.mark.parametrize("turned", [False, True])
@@ -149,7 +149,7 @@ def test_when_one_of_the_two_is_switched_off_the_other_is_taken() -> None:
 
 
 @pytest.mark.parametrize(
-    "wanted",
+    "configs",
     [
         [],
         [DeviceConfig(LEFT, "one"), DeviceConfig(LEFT, "two")],
@@ -161,9 +161,9 @@ def test_when_one_of_the_two_is_switched_off_the_other_is_taken() -> None:
         [DeviceConfig(LEFT, "one"), *[DeviceConfig(None, profile=INSOLE)] * 2],
     ],
 )
-def test_indistinguishable_configs_are_an_error_before_anything_is_done(wanted: list[DeviceConfig]) -> None:
+def test_indistinguishable_configs_are_an_error_before_anything_is_done(configs: list[DeviceConfig]) -> None:
     with pytest.raises(ValueError):
-        Devices(wanted)
+        Devices(configs)
 
 
 def test_distinguishable_configs_are_no_error() -> None:
@@ -181,16 +181,16 @@ def test_a_device_of_unknown_kind_is_reported_and_left() -> None:
 
 @pytest.mark.parametrize("which", [address(1), "strap 1"])
 def test_a_device_of_another_kind_than_configured_is_reported_and_left(which: str) -> None:
-    heard = asked(strap())
-    packets = received(heard.backend, DeviceConfig(LEFT, which, CC2650), seconds=20.0)
+    belt = asked(strap())
+    packets = received(belt.backend, DeviceConfig(LEFT, which, CC2650), seconds=20.0)
     assert not connected(packets)
     assert troubles(packets) == ["strap 1 is no cc2650: it has no cc2650/movement"]
-    assert {what for _, what, _ in heard.log} == {"connect", "disconnect"}
+    assert {what for _, what, _ in belt.log} == {"connect", "disconnect"}
 
 
 def test_a_device_of_ones_own_kind_is_found_by_name_or_by_what_it_advertises() -> None:
-    for wanted in (DeviceConfig(PELVIS, "strap 1", STRAP), DeviceConfig(PELVIS, profile=STRAP)):
-        packets = got((strap(1),), [wanted])
+    for configs in (DeviceConfig(PELVIS, "strap 1", STRAP), DeviceConfig(PELVIS, profile=STRAP)):
+        packets = got((strap(1),), [configs])
         assert connected(packets) == {PELVIS: address(1)}
         assert streams(packets, "strap/beat") == {PELVIS}
 
@@ -216,16 +216,16 @@ def test_after_its_patience_an_absent_device_is_complained_of_once() -> None:
     packets = got((), [DeviceConfig(LEFT, "solepath L")], seconds=300.0, patience=7.0)
     [words] = troubles(packets)
     assert words.startswith("no device 'solepath L' is heard: switch it on, bring it near")
-    [said] = [packet for packet in packets if packet.channel == "receiver/trouble"]
-    assert (said.site, said.device) == (LEFT, "")
-    assert said.t == pytest.approx(7.0, abs=0.6)
+    [connected_packet] = [packet for packet in packets if packet.channel == "receiver/trouble"]
+    assert (connected_packet.site, connected_packet.device) == (LEFT, "")
+    assert connected_packet.t == pytest.approx(7.0, abs=0.6)
 
 
 def test_an_absent_device_never_delays_another() -> None:
     bench = feet(Insole())
 
-    def first(wanted: list[DeviceConfig]) -> float:
-        packets = got((bench[RIGHT],), wanted)
+    def first(configs: list[DeviceConfig]) -> float:
+        packets = got((bench[RIGHT],), configs)
         bench[RIGHT].disconnected(6.0)
         return min(packet.t for packet in packets if packet.channel == "insole/frame")
 
@@ -236,21 +236,21 @@ def test_an_absent_device_never_delays_another() -> None:
 
 @virtually
 async def test_only_one_scanner_works_at_a_time_and_none_once_all_are_found() -> None:
-    heard = asked(*(strap(number, faults=f"{4 + number} * disconnect") for number in range(1, 5)))
-    wanted = [DeviceConfig(site, address(n), STRAP) for n, site in enumerate(list(Site)[:4], 1)]
-    async with Devices(wanted, backend=heard.backend) as devices:
+    belt = asked(*(strap(number, faults=f"{4 + number} * disconnect") for number in range(1, 5)))
+    configs = [DeviceConfig(site, address(n), STRAP) for n, site in enumerate(list(Site)[:4], 1)]
+    async with Devices(configs, backend=belt.backend) as devices:
         await hear(devices, 3.0)
         assert {one.state for one in devices.connections} == {ConnectionState.LISTENING}
-        assert heard.scanning == 0
+        assert belt.scanning == 0
         await hear(devices, 10.0)
-    assert heard.scanning == 0
-    assert heard.most == 1
+    assert belt.scanning == 0
+    assert belt.most == 1
 
 
 @virtually
 async def test_a_scan_lists_known_and_unknown_devices() -> None:
-    began = now()
+    started_at = now()
     found = await scan(2.0, backend=MemoryRadio((*feet(Insole()).peripherals, strap())).backend)
-    assert now() - began == pytest.approx(2.0)
+    assert now() - started_at == pytest.approx(2.0)
     kinds = {one.address: one.profile.name if one.profile else None for one in found}
     assert kinds == {TAGS[0]: "insole", TAGS[1]: "insole", address(1): None}

@@ -29,8 +29,8 @@ def taken_late(capacity: int, wait: float) -> list[Packet]:
 
     async def main() -> list[Packet]:
         bench = Bench(Route().stand(25.0), seed=3)
-        wanted = [DeviceConfig(peripheral.site, peripheral.address) for peripheral in bench.peripherals]
-        async with Devices(wanted, backend=MemoryRadio(bench.peripherals).backend, capacity=capacity) as devices:
+        configs = [DeviceConfig(peripheral.site, peripheral.address) for peripheral in bench.peripherals]
+        async with Devices(configs, backend=MemoryRadio(bench.peripherals).backend, capacity=capacity) as devices:
             await asyncio.sleep(wait)
             sent.extend(sum(p.sent.values()) for p in bench.peripherals)
         return [packet async for packet in devices]
@@ -79,20 +79,20 @@ async def test_an_app_that_takes_a_packet_every_now_and_then_gets_them_in_order(
 @virtually
 async def test_to_leave_disconnects_and_leaves_no_task_behind() -> None:
     devices = [strap(n) for n in (1, 2)]
-    wanted = [
+    configs = [
         DeviceConfig(LEFT, address(1), STRAP),
         DeviceConfig(RIGHT, address(2), STRAP),
         DeviceConfig(PELVIS, "absent", STRAP),
     ]
-    async with Devices(wanted, backend=MemoryRadio(devices).backend) as heard:
-        await hear(heard, 3.0)
+    async with Devices(configs, backend=MemoryRadio(devices).backend) as open_devices:
+        await hear(open_devices, 3.0)
         assert all(device.is_connected for device in devices)
     assert not any(device.is_connected for device in devices)
     assert not others()
-    rest = [packet async for packet in heard]
-    assert [packet async for packet in heard] == []
+    rest = [packet async for packet in open_devices]
+    assert [packet async for packet in open_devices] == []
     await asyncio.sleep(0.0)
-    assert {one.state for one in heard.connections} == {ConnectionState.SEEKING}
+    assert {one.state for one in open_devices.connections} == {ConnectionState.SEEKING}
     assert {packet.site for packet in rest if packet.channel == "receiver/disconnected"} == {LEFT, RIGHT}
 
 
@@ -100,10 +100,10 @@ async def test_to_leave_disconnects_and_leaves_no_task_behind() -> None:
 @virtually
 async def test_to_leave_at_any_moment_leaves_nothing_behind(moment: float) -> None:
     device = strap()
-    heard = asked(device)
-    async with Devices([ONE], backend=heard.backend):
+    open_devices = asked(device)
+    async with Devices([ONE], backend=open_devices.backend):
         await asyncio.sleep(moment)
-    assert not others() and not device.is_connected and heard.scanning == 0
+    assert not others() and not device.is_connected and open_devices.scanning == 0
 
 
 @virtually
@@ -168,14 +168,14 @@ async def test_devices_that_were_never_entered_do_not_end_silently() -> None:
 async def test_entering_twice_at_once_is_an_error() -> None:
     """Also while the first is still waiting for Bluetooth; and an entry that failed is none."""
     device = strap()
-    heard = asked(device)
-    devices = Devices([ONE], backend=slowly(heard.backend))
+    open_devices = asked(device)
+    devices = Devices([ONE], backend=slowly(open_devices.backend))
     first, second = await asyncio.gather(devices.__aenter__(), devices.__aenter__(), return_exceptions=True)
     assert first is devices and isinstance(second, RuntimeError)
     await hear(devices, 3.0)
     await devices.__aexit__(None, None, None)
-    assert not others() and heard.scanning == 0 and not device.is_connected
-    broken = Devices([ONE], backend=failing(heard.backend, [BleakError("odd")]))
+    assert not others() and open_devices.scanning == 0 and not device.is_connected
+    broken = Devices([ONE], backend=failing(open_devices.backend, [BleakError("odd")]))
     with pytest.raises(BluetoothError):
         await broken.__aenter__()
     async with broken:

@@ -87,23 +87,23 @@ class Fleeting(Strap):
     def __init__(self, *lasting: float) -> None:
         super().__init__("strap 1", address(1))
         self.lasting = [*lasting]
-        self.begun: list[float] = []
+        self.start_times: list[float] = []
 
     def connected(self, now: float, mtu: int) -> None:
-        self.begun.append(now)
+        self.start_times.append(now)
         super().connected(now, mtu)
 
     def hang_up(self, now: float) -> bool:
-        nth = len(self.begun) - 1
-        lost = self.is_connected and nth < len(self.lasting) and now - self.begun[-1] >= self.lasting[nth]
+        nth = len(self.start_times) - 1
+        lost = self.is_connected and nth < len(self.lasting) and now - self.start_times[-1] >= self.lasting[nth]
         return super().hang_up(now) or lost
 
     def poll(self, now: float) -> list[Outgoing]:
-        said = super().poll(now)
-        return said if len(self.begun) > self.silent else []
+        output = super().poll(now)
+        return output if len(self.start_times) > self.silent else []
 
     def pauses(self) -> list[float]:
-        return [b - a for a, b in zip(self.begun, self.begun[1:], strict=False)]
+        return [b - a for a, b in zip(self.start_times, self.start_times[1:], strict=False)]
 
 
 def test_a_device_that_fails_again_and_again_is_tried_less_and_less_often_and_never_given_up() -> None:
@@ -113,8 +113,10 @@ def test_a_device_that_fails_again_and_again_is_tried_less_and_less_often_and_ne
     assert pauses[0] < 0.6
     assert pauses[:5] == sorted(pauses[:5])
     assert all(8.0 <= pause < 8.6 for pause in pauses[6:]) and len(pauses) > 12
-    told = times(packets, "receiver/trouble")
-    assert [round(b - a) for a, b in zip(told, told[1:], strict=False)] == pytest.approx([60] * (len(told) - 1), abs=9)
+    report_times = times(packets, "receiver/trouble")
+    assert [round(b - a) for a, b in zip(report_times, report_times[1:], strict=False)] == pytest.approx(
+        [60] * (len(report_times) - 1), abs=9
+    )
 
 
 def test_links_that_break_before_anything_comes_are_made_less_and_less_often_until_one_holds() -> None:

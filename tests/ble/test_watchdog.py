@@ -58,11 +58,11 @@ def test_where_silence_is_legal_there_is_nothing_to_watch() -> None:
 @given(moments)
 def test_only_a_stream_that_was_silent_too_long_is_ever_named(moments: list[tuple[float, str | None]]) -> None:
     dog, now, last = Watchdog(STREAMS, PATIENCE, t_start=0.0), 0.0, dict.fromkeys(STREAMS, 0.0)
-    for wait, heard in moments:
+    for wait, channel in moments:
         now += wait
-        if heard is not None:
-            dog.add_notification(heard, now)
-            last[heard] = now
+        if channel is not None:
+            dog.add_notification(channel, now)
+            last[channel] = now
             continue
         frozen = dog.check(now)
         silent = [stream for stream in STREAMS if now >= last[stream] + PATIENCE]
@@ -78,12 +78,12 @@ def test_only_a_stream_that_was_silent_too_long_is_ever_named(moments: list[tupl
 @given(moments)
 def test_a_look_when_it_is_due_finds_something_and_no_look_before_does(moments: list[tuple[float, str | None]]) -> None:
     dog, now = Watchdog(STREAMS, PATIENCE, t_start=0.0), 0.0
-    for wait, heard in moments:
+    for wait, channel in moments:
         due = dog.next_check_at()
         assert due is not None and due >= now
-        if heard is not None and now + wait < due:
+        if channel is not None and now + wait < due:
             now += wait
-            dog.add_notification(heard, now)
+            dog.add_notification(channel, now)
             assert dog.check(now) is None
         else:
             now = due
@@ -96,11 +96,11 @@ def test_a_look_when_it_is_due_finds_something_and_no_look_before_does(moments: 
 @given(moments)
 def test_a_device_is_reconnected_only_after_every_try_failed_in_a_row(moments: list[tuple[float, str | None]]) -> None:
     dog, now, remedied, tries = Watchdog(("acc",), PATIENCE, t_start=0.0), 0.0, 0.0, 0
-    for wait, heard in moments:
+    for wait, channel in moments:
         now += wait
-        if heard is not None:
-            dog.add_notification(heard, now)
-            tries = 0 if heard == "acc" and now > remedied else tries
+        if channel is not None:
+            dog.add_notification(channel, now)
+            tries = 0 if channel == "acc" and now > remedied else tries
         frozen = dog.check(now)
         if frozen is None:
             continue

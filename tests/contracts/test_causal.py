@@ -91,7 +91,9 @@ def test_events_of_a_foot_follow_each_other_and_times_never_run_back(name: str) 
     follows = {HeelStrike: {ToeOff, HeelOff}, ToeOff: {HeelOff, FootFlat, HeelStrike}}
     machine_events = fed_singly(name)
     for foot in {event.foot for event in of(FootMoved, machine_events)}:
-        phases = [e for e in machine_events if isinstance(e, HeelStrike | FootFlat | HeelOff | ToeOff) and e.foot is foot]
+        phases = [
+            e for e in machine_events if isinstance(e, HeelStrike | FootFlat | HeelOff | ToeOff) and e.foot is foot
+        ]
         for before, after in zip(phases, phases[1:], strict=False):
             assert after.t >= before.t and after.known_at >= before.known_at
             assert type(before) in follows.get(type(after), {type(before)})

@@ -68,9 +68,9 @@ def test_a_calibration_that_does_not_fit_the_insoles_is_left_out_not_changed() -
     cubic = Newtons((0.0, 1.0, 0.0, 0.0))
     odd = Calibration({foot: InsoleCalibration(newtons=cubic, noise=(1.0,) * 9) for foot in Foot})
     session, plain = Session(calibration=odd), Session()
-    told, usual = session.feed(packets()["whole frames"]), plain.feed(packets()["whole frames"])
+    emitted, usual = session.feed(packets()["whole frames"]), plain.feed(packets()["whole frames"])
     assert changed_in(session) == []
-    assert {type(event).__name__ for event in told} - {type(event).__name__ for event in usual} == {"Limitation"}
+    assert {type(event).__name__ for event in emitted} - {type(event).__name__ for event in usual} == {"Limitation"}
     assert session.position == plain.position
     for foot, tracker in session.feet.items():
         assert tracker.sole.insole.in_newtons

@@ -24,7 +24,7 @@ def test_sessions_are_started_in_many_threads_at_once() -> None:
     """Each of a recipe of its own, so that what they hold together changes all the time."""
     failed: list[Exception] = []
 
-    def begin(k: int) -> None:
+    def start_sessions(k: int) -> None:
         try:
             for i in range(25):
                 mine = BothFeet(BothFeetSettings(reach=1.0 + 0.001 * (1000 * k + i)))
@@ -35,7 +35,7 @@ def test_sessions_are_started_in_many_threads_at_once() -> None:
     usual = sys.getswitchinterval()
     sys.setswitchinterval(1e-5)
     try:
-        threads = [threading.Thread(target=begin, args=(k,)) for k in range(3)]
+        threads = [threading.Thread(target=start_sessions, args=(k,)) for k in range(3)]
         for thread in threads:
             thread.start()
         for thread in threads:

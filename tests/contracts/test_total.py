@@ -112,15 +112,15 @@ def test_good_packets_give_the_same_events_whatever_comes_between_them(
     places: dict[int, list[tuple[str, int, float]]] = {}
     for where, *what in bad:
         places.setdefault(10 + where % (len(machine.items) - 10), []).append(tuple(what))
-    one, told = machine.start(), []
+    one, emitted = machine.start(), []
     for k, item in enumerate(machine.items):
-        told += one.feed(item)
+        emitted += one.feed(item)
         for what in places.get(k, ()):
             if item.channel.startswith("device/"):
                 continue  # battery and firmware are any device's
             events = one.feed(certainly_bad(item, *what))
             assert [type(event) for event in events] == [PacketRejected], what
-    assert told + one.finish() == machine.events()
+    assert emitted + one.finish() == machine.events()
 
 
 def test_bytes_that_are_not_a_bytes_object_are_bytes_all_the_same() -> None:
@@ -198,13 +198,13 @@ def test_good_samples_give_the_same_events_whatever_comes_between_them(name: str
     places: dict[int, list[str]] = {}
     for where, kind in bad:
         places.setdefault(FIRST + where % (len(machine.items) - FIRST), []).append(kind)
-    one, told = machine.start(), []
+    one, emitted = machine.start(), []
     for k, item in enumerate(machine.items):
         for kind in places.get(k, ()):
             events = one.feed(spoilt(*around(machine.items, k))[kind][0])
             assert [type(event) for event in events] == [SampleRejected]
-        told += one.feed(item)
-    assert told + one.finish() == machine.events()
+        emitted += one.feed(item)
+    assert emitted + one.finish() == machine.events()
 
 
 _FLOATS = st.floats(allow_nan=True, allow_infinity=True)
@@ -245,6 +245,6 @@ def test_a_session_that_only_received_nonsense_is_as_new() -> None:
 
 def test_a_sample_cannot_be_known_before_it_was() -> None:
     session = Session(poses=True)
-    told = session.feed([evolve(sample, known_at=sample.t - 3.0) for sample in samples()])
-    assert len(of(FootMoved, told)) > 500
-    strict(told)
+    emitted = session.feed([evolve(sample, known_at=sample.t - 3.0) for sample in samples()])
+    assert len(of(FootMoved, emitted)) > 500
+    strict(emitted)

@@ -16,30 +16,30 @@ WEARERS = st.sampled_from(["anna", "bert", ""])
 IDENTITIES = st.lists(st.tuples(WEARERS, st.integers(0, 12)), max_size=60)
 
 
-def passed(once: Once, told: list[tuple[str, int]]) -> list[tuple[str, int]]:
-    return [identity for identity in told if once.first(*identity)]
+def passed(once: Once, delivered: list[tuple[str, int]]) -> list[tuple[str, int]]:
+    return [identity for identity in delivered if once.first(*identity)]
 
 
 @given(IDENTITIES)
 @example([("anna", number) for number in (0, 1, 2, 5, 6, 2, 3, 4, 5, 6, 7)])  # of a producer that was killed
-def test_whatever_the_order_each_identity_passes_the_first_time_only(told: list[tuple[str, int]]) -> None:
-    assert passed(Once(), told) == list(dict.fromkeys(told))
+def test_whatever_the_order_each_identity_passes_the_first_time_only(delivered: list[tuple[str, int]]) -> None:
+    assert passed(Once(), delivered) == list(dict.fromkeys(delivered))
 
 
 @given(IDENTITIES, st.integers(0, 60))
-def test_a_reader_that_was_saved_goes_on_as_if_nothing_had_happened(told: list[tuple[str, int]], cut: int) -> None:
+def test_a_reader_that_was_saved_goes_on_as_if_nothing_had_happened(delivered: list[tuple[str, int]], cut: int) -> None:
     once = Once()
-    before = passed(once, told[:cut])
+    before = passed(once, delivered[:cut])
     again = Once.restore(json.loads(json.dumps(once.snapshot())))
     assert again == once
-    assert before + passed(again, told[cut:]) == passed(Once(), told)
+    assert before + passed(again, delivered[cut:]) == passed(Once(), delivered)
 
 
 @given(st.lists(st.integers(0, 10**9), max_size=300), st.integers(1, 4))
 def test_what_is_remembered_is_bounded_and_never_lets_a_number_pass_twice(numbers: list[int], limit: int) -> None:
     once = Once(limit)
-    heard = [n for n in numbers if once.first("anna", n)]
-    assert len(set(heard)) == len(heard)
+    accepted = [n for n in numbers if once.first("anna", n)]
+    assert len(set(accepted)) == len(accepted)
     for wearer in map(str, range(2 * limit)):
         assert once.first(wearer, 0)
     state = once.snapshot()["state"]

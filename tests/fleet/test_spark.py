@@ -17,7 +17,7 @@ from typing import Any
 
 import pytest
 from here import HELPERS
-from sparks import CONF, MASTER, Row, deliver, expected, in_order, needed, of_sessions, put, sent, told
+from sparks import CONF, MASTER, Row, deliver, expected, in_order, needed, of_sessions, put, read_output, sent
 from toys import BASE
 
 from solepath.fleet import EVENT_COLUMNS, Fleet, NumberedEvent, Sent, event_row, sent_line, sent_row
@@ -51,7 +51,7 @@ def run(rows: Any, directory: Path, fleet: Fleet | Callable[[], Fleet] | None = 
     events = gait(rows, Fleet() if fleet is None else fleet, states)
     writer = events.writeStream.format("parquet").option("checkpointLocation", str(directory / "checkpoint"))
     writer.trigger(availableNow=True).start(str(directory / "told")).awaitTermination()
-    return told(directory / "told")
+    return read_output(directory / "told")
 
 
 def stream(spark: Any, directory: Path, files: int = 1) -> Any:
@@ -76,7 +76,7 @@ def test_other_readers_find_the_files_that_spark_finds(spark, tmp_path):
     assert list((tmp_path / "told/_spark_metadata").glob("*.compact"))
     nobodys = tmp_path / "told" / "part-of-a-killed-task.snappy.parquet"
     nobodys.write_bytes(b"PAR1")
-    assert told(tmp_path / "told") == events == in_order(
+    assert read_output(tmp_path / "told") == events == in_order(
         row.asDict() for row in spark.read.parquet(str(tmp_path / "told")).collect()
     )  # fmt: skip
 
@@ -94,8 +94,8 @@ def test_messages_as_kafka_has_them_give_the_same_events(spark, tmp_path):
     parquet.write_table(table({"key": keys, "value": values}), tmp_path / "sent/messages.parquet")
     rows = spark.readStream.schema("key binary, value binary").parquet(str(tmp_path / "sent"))
     events = run(rows, tmp_path)
-    refused = [row["wearer"] for row in events if row["event"] == "SentRejected"]
-    assert sorted(refused) == ["w0", "w0", "w0", "w3", "\ufffd\ufffd"]
+    rejected = [row["wearer"] for row in events if row["event"] == "SentRejected"]
+    assert sorted(rejected) == ["w0", "w0", "w0", "w3", "\ufffd\ufffd"]
     rest = [row for row in events if row["event"] != "SentRejected"]
     of = [[without_number(row) for row in rest if row["wearer"] == f"w{wearer}"] for wearer in range(2)]
     assert of == [[without_number(row) for row in expected(2) if row["wearer"] == f"w{wearer}"] for wearer in range(2)]
@@ -122,9 +122,9 @@ def test_a_fleet_with_a_device_of_ones_own_is_made_where_it_is_used(spark, tmp_p
     (tmp_path / "sent").mkdir()
     put(tmp_path / "sent/toy.parquet", [sent_row(Sent("w0", number, one)) for number, one in enumerate(packets)], 0)
     events = run(stream(spark, tmp_path / "sent"), tmp_path, of_toys)
-    said = Session(profiles=[BASE]).feed(packets)
+    fed_events = Session(profiles=[BASE]).feed(packets)
     assert {"BatteryLevel", "PacketRejected"} <= {row["event"] for row in events}
-    assert events == [event_row(NumberedEvent("w0", number, event)) for number, event in enumerate(said)]
+    assert events == [event_row(NumberedEvent("w0", number, event)) for number, event in enumerate(fed_events)]
 
 
 def anything(count: int) -> Iterator[Row]:

@@ -193,11 +193,11 @@ def test_with_rooms_one_is_inside_them_and_on_doorsteps_and_in_stairwells() -> N
 
 @given(st.lists(places, min_size=3, max_size=9, unique=True), st.lists(places, min_size=1, max_size=10))
 def test_the_grid_of_rooms_agrees_with_counting_the_edges(
-    ring: list[tuple[float, float]], asked: list[tuple[float, float]]
+    ring: list[tuple[float, float]], points: list[tuple[float, float]]
 ) -> None:
     plan = IndexedPlan(FloorPlan("one", (Level("0", "", 0, 0.0, (Wall((-9.0, -9.0), (9.0, 9.0)),), (),
                                                (tuple(ring),)),)))  # fmt: skip
-    for x, y in asked:
+    for x, y in points:
         odd = False
         for (ax, ay), (bx, by) in pairwise([*ring, ring[0]]):
             if (ay > y) != (by > y) and x < ax + (y - ay) * (bx - ax) / (by - ay):

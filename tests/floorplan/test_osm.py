@@ -215,12 +215,12 @@ def test_anything_drawn_with_any_tags_is_a_plan_or_rejected(
     relations: list[tuple[list[tuple[int, str]], dict[str, str]]],
 ) -> None:
     drawn = Map().way(box(0, 0, 6, 6), indoor="room", level="0")
-    for i, (places, closed, told) in enumerate(ways):
-        drawn.way([*places, places[0]] if closed and places else places, i + 1, **told)
-    for place, told in nodes:
-        drawn.node(place, **told)
-    for members, told in relations:
-        drawn.relation(members, **told)
+    for i, (places, closed, level_tag) in enumerate(ways):
+        drawn.way([*places, places[0]] if closed and places else places, i + 1, **level_tag)
+    for place, level_tag in nodes:
+        drawn.node(place, **level_tag)
+    for members, level_tag in relations:
+        drawn.relation(members, **level_tag)
     try:
         IndexedPlan(drawn.plan())
     except FloorPlanError as error:

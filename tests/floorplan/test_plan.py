@@ -103,9 +103,9 @@ UNUSABLE = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("plan", "says"), UNUSABLE, ids=[says[:40] for _, says in UNUSABLE])
-def test_a_plan_that_cannot_be_used_is_rejected_in_one_line(plan: FloorPlan, says: str) -> None:
-    assert unusable(plan) == says
+@pytest.mark.parametrize(("plan", "message"), UNUSABLE, ids=[message[:40] for _, message in UNUSABLE])
+def test_a_plan_that_cannot_be_used_is_rejected_in_one_line(plan: FloorPlan, message: str) -> None:
+    assert unusable(plan) == message
     assert warnings(plan) == ()
     with pytest.raises(FloorPlanError):
         IndexedPlan(plan)
@@ -223,14 +223,14 @@ MISSHAPEN = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("plan", "says"), MISSHAPEN, ids=[says[:40] for _, says in MISSHAPEN])
+@pytest.mark.parametrize(("plan", "message"), MISSHAPEN, ids=[message[:40] for _, message in MISSHAPEN])
 def test_a_plan_of_something_else_than_records_is_rejected_by_the_session_in_one_line(
-    plan: FloorPlan, says: str
+    plan: FloorPlan, message: str
 ) -> None:
-    assert unusable(plan) == says
-    with pytest.raises(FloorPlanError) as refused:
+    assert unusable(plan) == message
+    with pytest.raises(FloorPlanError) as error:
         Session(floorplan=plan)
-    assert str(refused.value) == says
+    assert str(error.value) == message
 
 
 NO_STARTS = [
@@ -249,11 +249,11 @@ NO_STARTS = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("start", "says"), NO_STARTS, ids=[says[:40] for _, says in NO_STARTS])
-def test_a_start_that_cannot_be_is_rejected_by_the_session_in_one_line(start: Start, says: str) -> None:
-    with pytest.raises(FloorPlanError) as refused:
+@pytest.mark.parametrize(("start", "message"), NO_STARTS, ids=[message[:40] for _, message in NO_STARTS])
+def test_a_start_that_cannot_be_is_rejected_by_the_session_in_one_line(start: Start, message: str) -> None:
+    with pytest.raises(FloorPlanError) as error:
         Session(floorplan=HOUSE, start=start)
-    assert str(refused.value) == f"start: {says}"
+    assert str(error.value) == f"start: {message}"
 
 
 def test_a_plan_has_no_more_levels_stops_walls_and_corners_than_are_good_for_a_session() -> None:

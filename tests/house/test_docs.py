@@ -117,12 +117,12 @@ def test_a_wearer_of_a_fleet_goes_through_its_step_and_through_its_job(played, t
         lines = sent[(hour - 8) * len(sent) // 4 : (hour - 7) * len(sent) // 4]
         (tmp_path / "sent" / f"w-17-{hour:02}.jsonl").write_bytes(b"".join(lines))
     (tmp_path / "sent" / "w-16.jsonl").write_bytes(b"\xff no line of anybody's \xff\n")
-    (told, _), names = played("docs/fleet.md")
+    (emitted, _), names = played("docs/fleet.md")
     testing.run_main(names["flow"])
     nobody, *rows = sorted(parquet.read_table(tmp_path / "told").to_pylist(), key=lambda row: row["wearer"])
     assert (nobody["wearer"], nobody["event"]) == ("", "SentRejected")
     assert sorted((row["wearer"], row["number"], row["event"]) for row in rows) == sorted(
-        (wearer, int(number), event) for wearer, number, event in map(str.split, told.splitlines())
+        (wearer, int(number), event) for wearer, number, event in map(str.split, emitted.splitlines())
     )
     steps = [row for row in rows if row["event"] == "StrideTaken"]
     assert len(steps) == sum(len(walk.truth.steps(foot)) for foot in Foot)
@@ -215,9 +215,9 @@ def _options(command: ArgumentParser) -> list[str]:
 
 def test_all_options_of_the_table_of_commands_exist():
     table = PAGES["docs/commands.md"].split("| command | what it does |\n", 1)[1].split("\n\n", 1)[0]
-    told = {re.split(r"[ `]", line)[3]: set(re.findall(r"--[a-z-]+", line)) for line in table.splitlines()[1:]}
-    assert told.keys() == commands().keys()
-    for name, options in told.items():
+    emitted = {re.split(r"[ `]", line)[3]: set(re.findall(r"--[a-z-]+", line)) for line in table.splitlines()[1:]}
+    assert emitted.keys() == commands().keys()
+    for name, options in emitted.items():
         known = commands()[name]._option_string_actions.keys()
         assert options <= known, name
         missing = {option for option in known if option.startswith("--")} - options - {"--help"}
@@ -264,8 +264,10 @@ def test_columns_are_those_that_are_written():
 
 def test_the_table_of_parts_has_them_all():
     parts = re.findall(r"^\| (`[A-Z].*?) \| `(solepath[\w.]+)` \|", PAGES["docs/parts.md"], re.MULTILINE)
-    told = {getattr(import_module(module), name) for names, module in parts for name in re.findall(r"`(\w+)`", names)}
-    assert told == {InsoleLoads, *map(part_class, PARTS)}
+    emitted = {
+        getattr(import_module(module), name) for names, module in parts for name in re.findall(r"`(\w+)`", names)
+    }
+    assert emitted == {InsoleLoads, *map(part_class, PARTS)}
 
 
 def test_the_demonstration_of_100_m_comes_to_what_is_quoted():

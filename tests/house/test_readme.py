@@ -58,8 +58,8 @@ def test_its_table_names_every_event():
 
 def test_its_table_names_every_command():
     (subparsers,) = (a for a in parser()._actions if isinstance(a.choices, dict))
-    told = [re.split(r"[ `]", line)[3] for line in README.splitlines() if line.startswith("| `solepath ")]
-    assert sorted(told) == sorted(subparsers.choices)
+    listed = [re.split(r"[ `]", line)[3] for line in README.splitlines() if line.startswith("| `solepath ")]
+    assert sorted(listed) == sorted(subparsers.choices)
     assert all(isinstance(command, ArgumentParser) for command in subparsers.choices.values())
 
 

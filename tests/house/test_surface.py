@@ -55,8 +55,8 @@ def test_every_number_of_an_event_documents_its_unit_or_count() -> None:
         for line, after in zip(lines, [*lines[1:], ""], strict=True):
             name, _, annotation = line.strip().partition(": ")
             if name in {f.name for f in attrs.fields(kind)} and annotation.split(" ")[0] in ("float", "int"):
-                told = after.strip().startswith('"""') or f"`{name}`" in (kind.__doc__ or "")
-                assert told, f"{kind.__name__}.{name}"
+                has_document = after.strip().startswith('"""') or f"`{name}`" in (kind.__doc__ or "")
+                assert has_document, f"{kind.__name__}.{name}"
 
 
 def documented(thing: Any) -> bool:
@@ -96,13 +96,13 @@ def test_every_module_documents_its_purpose() -> None:
 
 
 def test_every_alias_is_followed_by_a_text() -> None:
-    told = set()
+    has_document = set()
     for file in ("types/records.py", "events/__init__.py"):
         body = ast.parse((ROOT / file).read_text()).body
         for node, after in zip(body, body[1:], strict=False):
             if isinstance(node, ast.Assign) and isinstance(after, ast.Expr) and isinstance(after.value, ast.Constant):
-                told |= {ast.unparse(target) for target in node.targets}
-    assert told >= ALIASES
+                has_document |= {ast.unparse(target) for target in node.targets}
+    assert has_document >= ALIASES
 
 
 def test_a_session_has_the_words_that_the_design_promises() -> None:

@@ -56,12 +56,12 @@ async def test_after_a_walk_the_labels_show_the_walk_and_the_canvases_show_it(ex
     app.begin(of(WALK.packets))
     assert app.start.text == "Stop" and not app.show.enabled
     await app.listening
-    said = {name: label.text for name, label in app.figures.items()}
+    labels = {name: label.text for name, label in app.figures.items()}
     true = [step for foot in Foot for step in WALK.truth.steps(foot)]
-    assert int(said["steps"]) == len(true)
-    assert float(said["length"]) == pytest.approx(1.4, abs=0.1)
-    assert float(said["cadence"]) == pytest.approx(111, abs=5)
-    assert abs(float(said["asymmetry"].rstrip("%"))) < 5.0
+    assert int(labels["steps"]) == len(true)
+    assert float(labels["length"]) == pytest.approx(1.4, abs=0.1)
+    assert float(labels["cadence"]) == pytest.approx(111, abs=5)
+    assert abs(float(labels["asymmetry"].rstrip("%"))) < 5.0
     assert app.activity.text == "standing" and app.status.text == "ended"
     assert app.start.text == "Insoles" and app.show.enabled
     cells, track = shown(app.soles, "rect"), shown(app.map, "line to")

@@ -52,7 +52,7 @@ def test_a_walk_in_two_insoles_gives_the_same_steps_as_the_walk_itself(tmp_path)
     path = log.save(tmp_path / "phone.log")
 
     def steps(packets) -> list[tuple[Foot, int, float]]:
-        taken = walks.of(StrideTaken, walks.said(packets))
+        taken = walks.of(StrideTaken, walks.run_session(packets))
         return [(step.foot, step.number, round(step.length, 2)) for step in taken]
 
     assert steps(open_btsnoop(path, report=pytest.fail)) == steps(walk.packets) != []

@@ -123,7 +123,9 @@ def test_a_session_is_not_unpacked_with_another_recipe_or_other_parts() -> None:
 
 
 OWN = evolve(recipes.DEFAULT, name="quiet", detector=StillDetector())
-Other = define(type("StillDetector", (), {"__annotations__": {"limit": "float"}, "limit": 0.8, "update": StillDetector.update}))
+Other = define(
+    type("StillDetector", (), {"__annotations__": {"limit": "float"}, "limit": 0.8, "update": StillDetector.update})
+)
 
 
 def test_a_detector_that_has_other_fields_now_is_named() -> None:

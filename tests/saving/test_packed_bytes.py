@@ -31,7 +31,7 @@ def packed() -> bytes:
     return bytes(session.pack())
 
 
-def refused_or_sound(data: bytes) -> None:
+def rejected_or_sound(data: bytes) -> None:
     """SnapshotError, or a session that can be packed again."""
     try:
         session = Session.unpack(data)
@@ -46,7 +46,7 @@ def test_any_bytes_are_rejected(data: bytes, with_header: bool) -> None:
     with pytest.raises(SnapshotError):
         Session.unpack(data)
     if with_header:
-        refused_or_sound(signed(packed()[: HEADER.size] + data))
+        rejected_or_sound(signed(packed()[: HEADER.size] + data))
 
 
 @pytest.mark.parametrize("data", [None, 5, "sole", [], {}, b"", b"sole", bytearray(b"sole"), memoryview(b"x" * 99)])
@@ -72,9 +72,7 @@ def test_every_flipped_bit_is_noticed(data: st.DataObject) -> None:
 
 @given(st.data(), st.integers(1, 40), st.sampled_from(["flip", "cut", "insert", "zero", "fill"]))
 @settings(max_examples=150)
-def test_damage_behind_a_right_checksum_is_always_rejected(
-    data: st.DataObject, length: int, how: str
-) -> None:
+def test_damage_behind_a_right_checksum_is_always_rejected(data: st.DataObject, length: int, how: str) -> None:
     saved = packed()
     at = HEADER.size + data.draw(st.one_of(st.integers(0, 40), st.integers(0, len(saved) - HEADER.size - 1)))
     inside = {
@@ -84,7 +82,7 @@ def test_damage_behind_a_right_checksum_is_always_rejected(
         "zero": bytes(length),
         "fill": b"\xff" * length,
     }[how]
-    refused_or_sound(signed(saved[:at] + inside + saved[at + length :]))
+    rejected_or_sound(signed(saved[:at] + inside + saved[at + length :]))
 
 
 @pytest.mark.parametrize("counts", [(2**32 - 1,) * 4, (2**31, 0, 0, 0), (0, 2**31, 0, 0), (0, 0, 2**31, 0), (0,) * 4])

@@ -78,6 +78,6 @@ def test_a_fleet_that_is_short_of_memory_stops_and_goes_on_from_the_state_that_i
     with pytest.raises(MemoryError):
         fleet.step(WEARER, state, walked().sent[200:300])
     SHORT.clear()
-    after, told = fleet.step(WEARER, state, walked().sent[200:300])
-    assert told == keyed.feed(walked().sent[200:300]) != []
+    after, emitted = fleet.step(WEARER, state, walked().sent[200:300])
+    assert emitted == keyed.feed(walked().sent[200:300]) != []
     assert after == keyed.state()

@@ -108,7 +108,9 @@ def test_a_record_of_every_kind_comes_back_and_is_read_by_its_schema_alone(made:
     assert save(again) == (saved | {"limit": 0.75} if made else saved)
     assert again.plan is None and again.rows.maxlen == 3 and again.raw == one.raw
     state = record_of(Wardrobe, made)
-    parts = {identify_record(record): describe(record) for record in (record_of(Cap), record_of(Cap, True), record_of(Bag))}
+    parts = {
+        identify_record(record): describe(record) for record in (record_of(Cap), record_of(Cap, True), record_of(Bag))
+    }
     tree = Tree(describe(state), parts, body)
     (fields,) = tree.roots()
     assert not tree.left()
@@ -141,8 +143,8 @@ def test_the_first_state_of_the_file_is_what_is_packed_today() -> None:
 def printed() -> dict[str, Any]:
     """What the command says."""
     command = [sys.executable, "-m", "solepath.session.schema"]
-    told: dict[str, Any] = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)
-    return told
+    documented: dict[str, Any] = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)
+    return documented
 
 
 def sessions() -> Iterator[Session]:
@@ -154,14 +156,14 @@ def sessions() -> Iterator[Session]:
 
 
 def test_every_session_is_read_by_the_printed_schema_alone() -> None:
-    told = printed()
+    documented = printed()
     for session in sessions():
         data = session.pack()
         magic, form, version, made_with, check = HEADER.unpack_from(data)
-        assert (magic, form, version) == (b"sole", 2, told["version"])
-        assert made_with == zlib.crc32(json.dumps(told["session"], separators=(",", ":")).encode())
+        assert (magic, form, version) == (b"sole", 2, documented["version"])
+        assert made_with == zlib.crc32(json.dumps(documented["session"], separators=(",", ":")).encode())
         assert check == zlib.crc32(data[:12] + bytes(4) + data[16:])
-        tree = Tree(told["session"], told["parts"], data[16:])
+        tree = Tree(documented["session"], documented["parts"], data[16:])
         head, state = tree.roots()
         assert not tree.left()
         assert head["recipe"] == session.recipe.name
@@ -174,8 +176,10 @@ def test_a_session_with_a_detector_of_the_apps_own_is_read_with_its_schema_besid
     session.feed(samples(cells=0)[:50])
     record = record_of(Mine, made=True)
     assert identify_record(record) == f"Mine {schema_checksum(describe(record)):08x}"
-    told = printed()
-    tree = Tree(told["session"], told["parts"] | {identify_record(record): describe(record)}, session.pack()[16:])
+    documented = printed()
+    tree = Tree(
+        documented["session"], documented["parts"] | {identify_record(record): describe(record)}, session.pack()[16:]
+    )
     _, state = tree.roots()
     assert not tree.left()
     assert state["wearer"]["feet"]["left"]["detector"]["kind"] == "Mine"

@@ -42,10 +42,10 @@ def lacking() -> str | None:
     java = shutil.which("java", path=f"{home}/bin" if home else None)
     if java is None:
         return "Spark needs Java 17, and there is no java here"
-    told = subprocess.run([java, "-version"], capture_output=True, text=True, check=False).stderr
-    version = re.search(r'version "(\d+)', told)
+    java_version = subprocess.run([java, "-version"], capture_output=True, text=True, check=False).stderr
+    version = re.search(r'version "(\d+)', java_version)
     if version is None or int(version[1]) < 17:
-        return f"Spark needs Java 17, and here is {told.splitlines()[0] if told else 'none'}"
+        return f"Spark needs Java 17, and here is {java_version.splitlines()[0] if java_version else 'none'}"
     try:
         import pyspark  # noqa: F401
         from google import protobuf  # noqa: F401
@@ -69,14 +69,14 @@ def sent(wearer: int, walk: int) -> list[Sent]:
 
 
 @cache
-def says(walk: int, recipe: str) -> tuple[Row, ...]:
+def session_rows(walk: int, recipe: str) -> tuple[Row, ...]:
     """Rows of what a bare session says of the same walk."""
     events = run_session(insoles(ROUTE, seed=walk, cells=48).packets, by_name(recipe))
     return tuple(event_row(NumberedEvent("", number, event)) for number, event in enumerate(events))
 
 
 def expected(wearers: int, recipe: str = DEFAULT.name) -> list[Row]:
-    rows = [{**row, "wearer": f"w{w}"} for w in range(wearers) for row in says(w % WALKS, recipe)]
+    rows = [{**row, "wearer": f"w{w}"} for w in range(wearers) for row in session_rows(w % WALKS, recipe)]
     return in_order(rows)
 
 
@@ -124,7 +124,7 @@ def put(path: Path, rows: list[Row], age: int) -> None:
     os.utime(path, (1.7e9 + age, 1.7e9 + age))
 
 
-def told(directory: Path) -> list[Row]:
+def read_output(directory: Path) -> list[Row]:
     """What is in the files that count, by somebody who is not Spark."""
     from pyarrow import parquet
 
