@@ -169,7 +169,9 @@ def test_a_file_that_is_no_calibration_is_not_overwritten(tmp_path):
     gauge.write_text(GAUGE)
     assert "notes.txt: is not JSON" in run_failing("calibrate", "newton", gauge, "--out", out)
     assert out.read_text() == "my notes"
-    assert "No such file or directory" in run_failing("calibrate", "newton", gauge, "--out", tmp_path / "none" / "me.json")
+    assert "No such file or directory" in run_failing(
+        "calibrate", "newton", gauge, "--out", tmp_path / "none" / "me.json"
+    )
 
 
 def test_every_kind_of_calibration_is_in_the_help():
@@ -183,7 +185,9 @@ def test_every_kind_of_calibration_is_in_the_help():
 def test_what_is_no_regular_file_is_neither_read_nor_written(bare, tmp_path, device):
     (tmp_path / "postures.csv").write_text(POSTURES)
     assert f"{device}: is no regular file" in run_failing("track", bare, "--calibration", device)
-    assert f"{device}: is no regular file" in run_failing("calibrate", "shoe", tmp_path / "postures.csv", "--out", device)
+    assert f"{device}: is no regular file" in run_failing(
+        "calibrate", "shoe", tmp_path / "postures.csv", "--out", device
+    )
 
 
 def test_what_cannot_be_is_not_written_over_what_is_known(tmp_path):

@@ -164,7 +164,9 @@ def test_what_is_said_of_a_page_that_nobody_asks_for_is_refused(recording: Path)
         line = run_failing("track", recording, *given)
         assert line == f"solepath: {given[0]} is for the page: it goes with --view\n"
     assert "--no-browser is for the page: it goes with --view" in run_failing("live", "--no-browser")
-    assert "--no-browser is for the page, and --terminal shows none" in run_failing("demo", "--terminal", "--no-browser")
+    assert "--no-browser is for the page, and --terminal shows none" in run_failing(
+        "demo", "--terminal", "--no-browser"
+    )
 
 
 def test_without_aiohttp_the_page_is_refused_with_how_to_install_it(recording: Path, monkeypatch: pytest.MonkeyPatch):
@@ -174,7 +176,9 @@ def test_without_aiohttp_the_page_is_refused_with_how_to_install_it(recording: P
 
 
 def test_a_report_that_cannot_be_written_is_refused_before_anything_is_computed(recording: Path, tmp_path: Path):
-    assert "no such file or directory" in run_failing("track", recording, "--report", tmp_path / "none" / "r.html").lower()
+    assert (
+        "no such file or directory" in run_failing("track", recording, "--report", tmp_path / "none" / "r.html").lower()
+    )
 
 
 def test_live_sensors_and_their_silence_are_seen_on_the_page(tmp_path: Path):

@@ -110,7 +110,9 @@ def test_an_about_turn_that_the_track_has_wrong_by_a_hundred_degrees_is_put_righ
 def evolve_angle(received: FloorEvents) -> FloorEvents:
     """The turn is told as the about-turn that it is: feet tell turns better than tracks that are led by saturated
     sensors."""
-    return FloorEvents([evolve(event, angle=3.2) for event in received.events if isinstance(event, TurnMade)], received.here)
+    return FloorEvents(
+        [evolve(event, angle=3.2) for event in received.events if isinstance(event, TurnMade)], received.here
+    )
 
 
 def unknown_heights() -> IndexedPlan:

@@ -50,7 +50,9 @@ def test_a_long_value_is_read_whole_at_any_mtu(tmp_path):
         log.discover(0x40, INSOLE)
         log.add_request(0x40, "0a1500", b"\x0b" + value[: mtu - 1])
         for offset in range(mtu - 1, len(value) + 1, mtu - 1):
-            log.add_request(0x40, struct.pack("<BHH", 0x0C, INFO, offset).hex(), b"\x0d" + value[offset : offset + mtu - 1])
+            log.add_request(
+                0x40, struct.pack("<BHH", 0x0C, INFO, offset).hex(), b"\x0d" + value[offset : offset + mtu - 1]
+            )
         log.notify(0x40, FRAME, frames()[0])
         assert data_of(read(log, tmp_path)[0], "insole/info") == [value], mtu
 
