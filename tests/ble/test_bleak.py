@@ -1,4 +1,4 @@
-"""What comes out of bleak beside ATT errors: refusals under other names, and faults of its own."""
+"""Failures of bleak other than ATT errors: rejections under other names, and unexpected exceptions."""
 
 from __future__ import annotations
 

@@ -69,7 +69,7 @@ def on_a_bus(
 
 
 async def until(devices: Devices, enough: Callable[[list[Packet]], bool]) -> list[Packet]:
-    """What comes, up to the packet with which it is enough."""
+    """Return the packets up to the first one that satisfies the condition."""
     received = []
     async with asyncio.timeout(TAKES):
         async for packet in devices:

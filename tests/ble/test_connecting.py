@@ -36,7 +36,7 @@ def test_a_device_that_left_before_it_was_connected_is_soon_searched_for_again()
 
 
 def test_an_advertising_device_that_does_not_answer_is_reported_when_patience_ends_not_later():
-    """As when another program holds it, on systems that go on telling of it."""
+    """Another program may hold the device, on systems that still report its advertisements."""
     beneath = asked(Strap("strap 1", address(1))).backend
 
     class Client(beneath.client):
@@ -50,7 +50,7 @@ def test_an_advertising_device_that_does_not_answer_is_reported_when_patience_en
 
 
 def test_failed_attempts_do_not_restart_patience():
-    """The device refuses its stream for a while, then is heard no more."""
+    """The device rejects its stream for a while, then stops advertising."""
     device = Odd("strap 1", address(1), faults=parse_faults("5 * vanish"))
 
     packets = received(asked(device).backend, ONE, seconds=30.0)
@@ -67,7 +67,7 @@ class Odd(Strap):
 
 
 def weak(every, seconds):
-    """What is heard over a link that breaks so often, s."""
+    """Return the packets received over a link that breaks after these times, s."""
     cuts = [Fault(1.0 + every * k, Site.PELVIS, What.DISCONNECT) for k in range(int(seconds / every))]
 
     device = Strap("strap 1", address(1), faults=cuts)
@@ -96,7 +96,7 @@ def test_a_scan_that_fails_later_is_reported_to_searches_and_is_restarted() -> N
 
 
 def test_a_scan_without_advertisements_is_restarted() -> None:
-    """As after Bluetooth was switched off and on, on systems that do not tell."""
+    """Bluetooth was switched off and on, on systems that do not report it."""
     device = strap(faults="5 * disconnect")
     beneath = MemoryRadio([device]).backend
     scanner: Any = beneath.scanner

@@ -1,4 +1,4 @@
-"""What an app gets from devices, how it may take it, and what is left when it goes."""
+"""Packets that an app receives from devices, the ways to take them, and the state after leaving."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def test_a_battery_that_can_only_be_read_is_read_and_keeps_nobody_from_listening
 
 
 class Odd(Strap):
-    """Its control takes commands only, it has two battery services, and one of its streams refuses."""
+    """A device whose control takes commands only, with two battery services and one stream that it rejects."""
 
     def __init__(self, number: int = 1) -> None:
         super().__init__(f"strap {number}", address(number))

@@ -31,7 +31,7 @@ FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
 ROUTE = Route().stand(3.0).walk(90.0).turn(1.5, radius=2.0).walk(60.0).turn(-1.5, radius=2.0).walk(60.0).stop(3.0)
 SHORTER = Route().stand(3.0).walk(40.0).turn(1.5, radius=2.0).walk(24.0).stop(3.0)
 ROUTES = {200: ROUTE, 60: SHORTER}
-"""By how often the links are cut."""
+"""Routes by the frequency of link losses."""
 FIRST, APART = 3.2, 0.81
 """s: of the walk, and from one cut to the next; the feet take turns, and strides of 1.1 s are cut anywhere."""
 
@@ -43,7 +43,7 @@ def worn() -> dict[Site, Device]:
 
 @define
 class Walked:
-    """What became of the walk, seen by the app."""
+    """Result of the walk, as the app sees it."""
 
     truth: Truth
     started_at: float = 0.0
@@ -56,7 +56,7 @@ class Walked:
     disconnected: int = 0
     rejected: int = 0
     gaps: array[float] = field(factory=lambda: array("d"))
-    """How long they were, s."""
+    """Durations of the gaps, s."""
     tasks: list[int] = field(factory=list)
     """Beside the app's own, at every connection."""
     blocks: list[int] = field(factory=list)

@@ -1,4 +1,4 @@
-"""Each thing that goes wrong on the radio, and what an app sees of it; on both tiers."""
+"""Every fault of the radio, and the events that an app receives for it; on both tiers."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ Life = list[tuple[Site, bool] | None]
 
 
 def lived(capacity: int, life: Life) -> tuple[list[Packet], list[Packet], Inbox]:
-    """What was put, what was taken by then, and the inbox."""
+    """Return the packets that were put, those that were taken, and the inbox."""
     inbox, put, taken = Inbox(capacity), list[Packet](), list[Packet]()
     for moment, one in enumerate(life):
         if one is None:

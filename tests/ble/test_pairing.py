@@ -1,4 +1,4 @@
-"""Devices that must be paired with: what an app is told, and how a link comes to be encrypted."""
+"""Devices that require pairing: the messages to an app, and the encryption of a link."""
 
 from __future__ import annotations
 

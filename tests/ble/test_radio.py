@@ -35,7 +35,7 @@ pytestmark = [
 
 
 async def receive() -> list[Packet]:
-    """What the device says, from the connection to LISTENED s after its first samples."""
+    """Return the packets from the connection to LISTENED s after the first samples."""
     found = [one for one in await scan(10.0) if one.address.upper() == ADDRESS.upper()]
     assert found, f"{ADDRESS} is not heard: switch it on, bring it near"
     profile = BY_NAME[PROFILE] if PROFILE else found[0].profile

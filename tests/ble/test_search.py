@@ -1,4 +1,4 @@
-"""Which device an app gets for what it wants."""
+"""Choice of the device for each config."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def got(
 
 
 def connected(packets: list[Packet]) -> dict[Site, str]:
-    """Which device was connected where, at last."""
+    """Return the devices that are connected at the end, by site."""
     return {packet.site: packet.device for packet in packets if packet.channel == "receiver/connected"}
 
 

@@ -25,7 +25,7 @@ from solepath.wire.receiver import parse_dropped
 
 @cache
 def taken_late(capacity: int, wait: float) -> list[Packet]:
-    """What an app gets that takes nothing for so long, and then all."""
+    """Return the packets of an app that takes nothing for a while, and then all."""
 
     async def main() -> list[Packet]:
         bench = Bench(Route().stand(25.0), seed=3)
@@ -183,7 +183,7 @@ async def test_entering_twice_at_once_is_an_error() -> None:
 
 
 def slowly(beneath: Backend) -> Backend:
-    """A Bluetooth whose scans take their time to begin."""
+    """A Bluetooth whose scans start slowly."""
     scanner: Any = beneath.scanner
 
     class Scanner(scanner):

@@ -1,4 +1,4 @@
-"""What an app is told when Bluetooth cannot be used, and how often it is tried again."""
+"""Messages to an app when Bluetooth cannot be used, and the number of attempts."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ def test_every_att_error_has_one_line(code: BleakGATTProtocolErrorCode) -> None:
 
 
 class Fleeting(Strap):
-    """It loses each of its first links after so many s, and says nothing over the first `silent` of them."""
+    """A device that loses its first links after these times, s, and sends nothing over the first `silent` ones."""
 
     silent = 0
 

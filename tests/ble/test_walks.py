@@ -30,7 +30,7 @@ FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
 MINUTE = Route().stand(3.0).walk(20.0).turn(1.5, radius=1.5).walk(40.0, speed=1.2).stop(7.0)
 SOME = Route().stand(3.0).walk(8.0).turn(1.5, radius=1.5).walk(4.0, speed=1.2).stop(3.0)
 LITTLE = Route().stand(1.5).walk(2.5).stop(1.0)
-"""What is sent in pieces costs as much for each piece."""
+"""Data sent in pieces costs as much for each piece."""
 LASTS = {MINUTE: 60.0, SOME: 15.0, LITTLE: 4.0}
 """s."""
 

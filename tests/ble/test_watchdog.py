@@ -1,4 +1,4 @@
-"""What tells a frozen stream from one that has nothing to say."""
+"""Distinction of a frozen stream from one that has nothing to send."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ PATIENCE = 2.0
 moments = st.lists(
     st.tuples(st.floats(0.0, 3.0), st.sampled_from(["acc", "gyro", "battery", None])), min_size=1, max_size=60
 )
-"""(s since the one before, which channel was heard; None: a look)."""
+"""(time since the one before, s; channel of the notification, or None for a check)."""
 
 
 def test_a_stream_that_never_started_is_set_up_again_and_then_given_up() -> None:

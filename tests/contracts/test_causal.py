@@ -40,7 +40,7 @@ QUICK = settings(max_examples=2, phases=[Phase.generate])
 
 @cache
 def fed_singly(name: str) -> tuple[Any, ...]:
-    """What comes out item by item, without the end."""
+    """Return the events item by item, without those at the end."""
     return tuple(event for events in machine_events(name)[:-1] for event in events)
 
 
@@ -110,7 +110,7 @@ LONGER = Route().stand(1.5).walk(14.0, 1.3).stop(1.0)
 
 
 def late(kind: Any, machine_events: list[Any]) -> list[float]:
-    """How long after they happened events of a kind were known, s."""
+    """Return the latency of the events of a kind, s."""
     return [event.known_at - event.t for event in of(kind, machine_events)]
 
 

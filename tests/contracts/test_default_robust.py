@@ -55,7 +55,7 @@ def tracked(samples: Iterable[Sample], recover: bool = True) -> tuple[FootTracke
 def clipped(
     samples: Iterable[Sample], rate: float = 1e3, force: float = 1e3, range_known: bool = False
 ) -> list[Sample]:
-    """The same of a sensor that ends at `rate` rad/s and `force` m/s^2; `range_known`: it says so."""
+    """Return the samples of a sensor that clips at `rate` rad/s and `force` m/s^2; `range_known` adds its range."""
     cut: list[Sample] = []
     for sample in samples:
         assert sample.acc is not None and sample.gyro is not None

@@ -1,4 +1,4 @@
-"""What is told for whoever draws: where the wearer is after each step, and what the cells show in each sample."""
+"""Live events for drawing: the wearer's position after each stride, and the cells' loads in each sample."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Contracts 5 and 7: any moment can be saved and taken up elsewhere; the same input says the same everywhere."""
+"""Contracts 5 and 7: any moment can be saved and restored elsewhere; equal input gives equal events everywhere."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What sessions of one process hold together never makes one of them another: recipes, layouts, begun sessions."""
+"""Objects that sessions of one process share do not couple them: recipes, layouts, new sessions."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def test_sessions_are_started_in_many_threads_at_once() -> None:
 
 @define
 class Likeness(StillDetector):
-    """A detector whose limit is compared by nobody, and a second one that cannot be compared at all."""
+    """A detector whose limit does not count in comparisons, and a second one that cannot be compared at all."""
 
     limit: float = field(default=0.8, eq=False)
 
@@ -70,7 +70,7 @@ class Loner(Likeness):
 
 @define(slots=False)
 class Loose(StillDetector):
-    """It may hold what is in no field."""
+    """A part that may hold state outside its fields."""
 
 
 @pytest.mark.parametrize("kind", [Likeness, Quarrel, Loner])

@@ -21,14 +21,14 @@ from solepath.emulate.wearers.walker import Walker
 
 
 def moved(item: Any, by: float) -> Any:
-    """The same, `by` s later."""
+    """Return the items `by` s later."""
     if isinstance(item, Sample) and item.known_at is not None:
         return evolve(item, t=item.t + by, known_at=item.known_at + by)
     return evolve(item, t=item.t + by)
 
 
 EARLIER = ("decoder", "session, whole frames", "session, cc2541", "session, samples")
-"""Where clocks and sessions differ; a recipe's parts are no other before zero than after it."""
+"""Time shifts that separate clocks and sessions; a recipe's parts work the same before zero as after it."""
 TIMES = ("t", "known_at", "t_start", "t_end", "t_toe_off", "t_heel_strike")
 
 
@@ -117,7 +117,7 @@ def regular() -> list[Sample]:
 
 
 def jittered(seed: int) -> list[Sample]:
-    """A sensor whose interval wanders from 8 to 12 ms, a millisecond early or late; each sample says when it was."""
+    """Return samples whose interval varies from 8 to 12 ms, 1 ms early or late; each has its true time."""
     rng = np.random.default_rng(seed)
     kept, at = [], 5.0
     while at < len(fine()) - 5:

@@ -75,7 +75,7 @@ def test_any_bytes_anywhere_give_events_and_a_rejected_packet_changes_nothing(na
 
 
 def certainly_bad(packet: Packet, kind: str, number: int, when: float) -> Packet:
-    """Something that nobody can use, made of a good packet."""
+    """Return an unusable item made of a good packet."""
     prefix, data = packet.channel.partition("/")[0], packet.data
     other = "cc2541/gyroscope" if prefix == "insole" else "insole/frame"
     match kind:
@@ -144,7 +144,7 @@ def test_a_receiver_whose_clock_is_set_back_goes_on_finding_steps() -> None:
 
 
 def spoilt(sample: Sample, last: Sample) -> dict[str, tuple[Sample, Rejection]]:
-    """A sample made unusable in every way that there is, and what is said of it; `last`: the one before it."""
+    """Return a sample made unusable in every possible way, and its reported reason; `last` is the one before it."""
     x = (0.0, 0.0, 9.8)
     return {
         "acc nan": (evolve(sample, acc=(0.0, nan, 9.8)), Rejection.NOT_FINITE),
@@ -169,7 +169,7 @@ WAYS = sorted(spoilt(Sample(0.0, LEFT), Sample(0.0, LEFT)))
 
 
 FIRST = len(Site)
-"""Before this item every site has been heard."""
+"""Number of the item before which every site has sent a sample."""
 
 
 def around(items: tuple[Sample, ...], k: int) -> tuple[Sample, Sample]:

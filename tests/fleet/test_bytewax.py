@@ -1,4 +1,4 @@
-"""A fleet on bytewax: what every wearer's session tells is what it tells by itself, however the engine runs it."""
+"""A fleet on bytewax: every wearer's events are those of a session alone, however the engine runs it."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def job(
 
 
 def by_wearer(emitted: Iterable[tuple[str, NumberedEvent]]) -> dict[str, list[Any]]:
-    """The events of each in the order of their numbers, which have no holes; what was told twice was the same."""
+    """Return the events of each wearer in the order of their numbers, without holes; repeated ones must be equal."""
     found: dict[str, dict[int, Any]] = {}
     for wearer, one in emitted:
         assert one.wearer == wearer
@@ -165,7 +165,7 @@ def test_impossible_rows_are_reported_and_stall_nobody_else() -> None:
 
 
 def of_a_version_to_come(state: bytes) -> bytes:
-    """As protocol/fleet.md has it: whatever the version, the first bytes and their checksum can be read."""
+    """Return a state of a later version: its first bytes and their checksum can still be read (protocol/fleet.md)."""
     first = state[:4] + b"\xfe" + state[5:37]
     return first + crc32(first).to_bytes(4, "little") + state[41:]
 

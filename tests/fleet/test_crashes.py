@@ -45,7 +45,7 @@ def expected() -> list[dict[str, Any]]:
 
 
 def held(directory: Path) -> list[dict[str, Any]]:
-    """What a reader finds."""
+    """Return the events that a reader finds."""
     table = parquet.read_table(directory)
     return list(table.sort_by([("wearer", "ascending"), ("number", "ascending")]).to_pylist())
 
@@ -77,7 +77,7 @@ cp -r "$TOLD" told_in_the_end
 
 @pytest.fixture
 def place(tmp_path: Path) -> Path:
-    """Where a small disk can be mounted."""
+    """A directory where a small disk can be mounted."""
     (tmp_path / "disk").mkdir()
     mount = ["unshare", "-rm", "mount", "-t", "tmpfs", "none", str(tmp_path / "disk")]
     if shutil.which("unshare") is None or subprocess.run(mount, capture_output=True).returncode:
@@ -86,7 +86,7 @@ def place(tmp_path: Path) -> Path:
 
 
 def until_full(place: Path, sent: Path, parts_directory: str, store: str, room: int) -> str:
-    """What the job says when it ends for want of room."""
+    """Return the message of the job that ends because the disk is full."""
     environment = {**ENVIRONMENT, "TOLD": parts_directory, "ROOM": str(room)}
     apart = ["unshare", "-rm", "sh", "-c", FULL, "sh", *JOB, sent, parts_directory, store]
     subprocess.run(apart, env=environment, cwd=place, check=True)

@@ -34,7 +34,7 @@ WRONG = evolve(toys.NUMBERED, readers={"toy/data": toys.data, "toy/more": raises
 
 
 def make_sent(number: int, k: int, what: int | None = None) -> Sent:
-    """Of the toy: its k-th packet of data, or more of it."""
+    """Return the k-th packet of data of the toy device."""
     if what is None:
         data, channel = struct.pack(">HIBf", k, 0, 1, 9.80665), "toy/data"
     else:
@@ -59,7 +59,7 @@ def test_a_reader_of_an_apps_own_that_raises_costs_its_wearer_a_fresh_start_and_
 
 
 class Registry(Mapping[str, Calibration]):
-    """What is known of wearers, looked up one by one; of some it is wrong, or the look-up fails."""
+    """Calibrations of wearers, looked up one by one; some are wrong, and some look-ups fail."""
 
     def __getitem__(self, wearer: str) -> Calibration:
         if wearer == "lost":
@@ -125,7 +125,7 @@ def test_input_and_events_can_be_sent_between_workers() -> None:
 
 @frozen
 class Located(Packet):
-    """A packet that says more."""
+    """A packet with further fields."""
 
     where: str = "gym"
 

@@ -22,7 +22,7 @@ NARROW = Fleet(window=3)
 
 
 def as_used(gives: list[dict[str, Any]]) -> list[tuple[Any, ...]]:
-    """What a story says, as `uses` has it; that an end was used shows in no event."""
+    """Return the outcome of a story in the form of `uses`; no event shows that an end was used."""
     words = {"used": "number", "missing": "first", "rejected": "number"}
     return [(one["what"], one["run"], one[words[one["what"]]], more(one)) for one in gives if one["what"] != "ended"]
 

@@ -39,7 +39,7 @@ def make_events(count: int, wearers: int = 3) -> list[NumberedEvent]:
 
 
 def rows(directory: Path) -> list[dict[str, Any]]:
-    """What a reader finds, in the order of the files."""
+    """Return the rows that a reader finds, in the order of the files."""
     return list(parquet.read_table(directory).to_pylist())
 
 
@@ -54,7 +54,7 @@ def by_identity(found: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 
 def names(directory: Path) -> list[str]:
-    """Of all files, without the run in them."""
+    """Return the names of all files, without the run in them."""
     return sorted(re.sub(r"(part-\w+)-\d+-", r"\1-", path.name) for path in directory.iterdir())
 
 
@@ -136,7 +136,7 @@ def test_who_forgot_once_what_was_remembered_has_it_all_back_with_the_next_start
 
 @contextmanager
 def files_of_at_most(size: int) -> Iterator[None]:
-    """The system refuses to make any file of this process longer."""
+    """Let the system reject any longer file of this process."""
     resource = pytest.importorskip("resource", reason="this system does not limit the length of files")
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
@@ -162,7 +162,7 @@ def test_a_part_that_cannot_be_written_is_named_and_leaves_nothing(tmp_path: Pat
 @given(st.lists(st.sampled_from(["write", "write many", "close", "count", "crash"]), max_size=15))
 @settings(max_examples=20)
 def test_however_often_it_crashes_each_event_is_there_once(steps: list[str]) -> None:
-    """What the engine remembers is what a `close` gave, perhaps not the last: it was killed before it could."""
+    """The engine's state is from any earlier `close`, since it may be killed before it keeps the last one."""
     all_events, at = make_events(60), 0
     with TemporaryDirectory() as name:
         parts = PartFiles(Path(name), group=5)
@@ -192,13 +192,13 @@ def written(directory: Path, resumes: list[Place | None], number: int = 0) -> li
 
 
 def listed(directory: Path) -> list[tuple[str, int]]:
-    """What a reader finds."""
+    """Return the files that a reader finds."""
     rows = parquet.read_table(directory).to_pylist()
     return sorted((row["wearer"], row["number"]) for row in rows)
 
 
 def test_a_restart_with_fewer_partitions_hides_the_parts_of_the_others(tmp_path: Path) -> None:
-    """All wearers are numbered anew: of the old events none may stay beside the new."""
+    """All wearers are numbered again, so no old event may stay beside the new ones."""
     three = written(tmp_path, [None] * 3)
     assert listed(tmp_path) == [("w0", 0), ("w1", 0), ("w2", 0)]
     two = written(tmp_path, [None] * 2)

@@ -51,13 +51,13 @@ def sent_by(wearer: str) -> tuple[Sent, ...]:
 
 @cache
 def session_rows_of(wearer: str, recipe: str) -> list[dict[str, Any]]:
-    """Rows of what a session of his own says."""
+    """Return the rows of the wearer's own session."""
     events = run_session([sent.what for sent in sent_by(wearer)[:-1]], recipes.by_name(recipe))
     return [event_row(NumberedEvent(wearer, number, event)) for number, event in enumerate(events)]
 
 
 def messages(wearers: tuple[str, ...] = WEARERS, lines: int = 5) -> list[tuple[bytes, bytes]]:
-    """What their phones send at the same time, `lines` in a message."""
+    """Return the messages that the phones send at the same time, with `lines` lines in each."""
     sent = []
     for wearer in wearers:
         mine = [sent_line(one) for one in sent_by(wearer)]
@@ -87,7 +87,7 @@ def expected(recipe: str = "default") -> set[tuple[str, int]]:
 
 
 def once(read_messages: list[Message]) -> dict[str, list[dict[str, Any]]]:
-    """By wearer, what a reader of the topic keeps; one Once for each partition."""
+    """Return the rows that a reader of the topic keeps, by wearer, with one Once for each partition."""
     readers: dict[int, Once] = {}
     kept: dict[str, list[dict[str, Any]]] = {}
     for message in read_messages:
@@ -98,7 +98,7 @@ def once(read_messages: list[Message]) -> dict[str, list[dict[str, Any]]]:
 
 
 def each_once(read_messages: list[Message]) -> int:
-    """All that was to be told was, under an identity that means one thing; of how many."""
+    """Check that every expected event was emitted under a unique identity; return their number."""
     by_identity = identities(read_messages)
     assert by_identity.keys() == expected()
     assert all(len(same) == 1 for same in by_identity.values())
@@ -118,14 +118,14 @@ def test_events_through_kafka_are_those_of_a_session_wearer_by_wearer(kafka: Bro
 
 
 def wait_for(topics: Topics, more: int, within: float = 90.0) -> None:
-    """Until so many more messages were told than there are."""
+    """Wait until so many further messages are in the topic."""
     goal, end = len(topics.read_messages()) + more, time.monotonic() + within
     while len(topics.read_messages()) < goal and not topics.done():
         assert time.monotonic() < end, topics.log()[-3000:]
 
 
 def test_a_killed_job_emits_everything_again_under_the_same_identity_and_nothing_else(kafka: Broker) -> None:
-    """kill -9 at random moments, once with the loss of its disk; what was told is what an undisturbed job tells."""
+    """The job is killed at random moments, once with the loss of its disk; its events equal those without kills."""
     from brokers import kill
 
     random, walks, kills = Random(8), messages(lines=1), 5

@@ -1,4 +1,4 @@
-"""States that are refused and what goes on all the same; mistakes of a job, clocks that go back, bounds reached."""
+"""Rejected states and their consequences, errors of a job, clocks that go back, and limits."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ IN_ORDER = OtherState(held={(6, 300): Tick(1.0), (6, 302): Tick(2.0), (7, 0): En
     ids=["used", "older run", "one of two", "number", "run"],
 )
 def test_a_state_that_holds_what_cannot_be_held_is_rejected(held: list[tuple[int, int]]) -> None:
-    """Its checksum holds: whoever wrote it was wrong, or it was damaged before."""
+    """Its checksum is right: its writer was wrong, or it was damaged before."""
     identity = Identity(6, 299, 1200, 12.25)
     assert read_rest(write_state(identity, IN_ORDER)) == IN_ORDER
     state = write_state(identity, OtherState(held={place: Tick(1.0) for place in held}))
@@ -118,7 +118,7 @@ def runs_out(after: int, sent: Any, known: Any) -> Any:
 
 
 def test_out_of_memory_is_raised_and_the_last_state_can_continue() -> None:
-    """It is no fault of the wearer: with more memory the same packet is used."""
+    """The wearer is not at fault: with more memory the same packet is used."""
 
     def fleet(most: int) -> Fleet:
         return Fleet(profiles=[evolve(toys.NUMBERED, readers={"toy/more": partial(runs_out, most)})])

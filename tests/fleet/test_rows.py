@@ -50,7 +50,7 @@ ANYTHING = st.recursive(
 
 
 def as_fields(sent: Sent) -> dict[str, Any]:
-    """What was sent, in the words of the lines."""
+    """Return the item with the keys of the lines."""
     match sent.what:
         case Packet(t, site, channel, data, device):
             what = {"t": t, "site": site.value, "channel": channel, "data": data.hex(), "device": device}

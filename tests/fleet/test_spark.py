@@ -45,7 +45,7 @@ def spark() -> Iterator[Any]:
 
 
 def run(rows: Any, directory: Path, fleet: Fleet | Callable[[], Fleet] | None = None, states: Any = None) -> list[Row]:
-    """All that is there through the fleet, into files below `directory`."""
+    """Send all input files through the fleet, into files below `directory`."""
     from solepath.fleet.spark import gait
 
     events = gait(rows, Fleet() if fleet is None else fleet, states)
@@ -173,7 +173,7 @@ def test_text_that_is_no_text_ends_no_job(spark, tmp_path):
 
 
 def test_a_state_that_cannot_go_on_is_reported_and_its_wearer_restarts(spark, tmp_path):
-    """As after a step back to an older release: its version is 250."""
+    """The state has version 250, as after a step back to an older release."""
     from binascii import crc32
 
     fleet = Fleet()
@@ -200,7 +200,7 @@ def test_a_state_that_cannot_go_on_is_reported_and_its_wearer_restarts(spark, tm
 
 
 def test_states_of_a_checkpoint_go_on_in_a_job_of_more_partitions(spark, tmp_path):
-    """The number of partitions is for the life of a checkpoint; a new job begins with the states of the old one."""
+    """A checkpoint has a fixed number of partitions; a new job starts with the states of the old one."""
     deliver(tmp_path / "sent", wearers=4, files=5)
     later = tmp_path / "later"
     later.mkdir()

@@ -1,4 +1,4 @@
-"""A job on Spark in processes of its own, past a kill -9 and a full disk: test_spark.py says how to run it."""
+"""A Spark job in processes of its own, with a kill -9 and a full disk; test_spark.py explains how to run it."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Job:
             self.process.stdout.close()
 
     def batches(self) -> int:
-        """How many are done with."""
+        """Return the number of finished batches."""
         return len(list(self.checkpoint.glob("commits/[0-9]*")))
 
     def until(self, batches: int) -> None:

@@ -30,12 +30,12 @@ from solepath.types.vector import IDENTITY, ZERO
 STATES = json.loads((PROTOCOL / "fleet" / "states.json").read_text())
 FLEET = Fleet()
 HALF = 350
-"""Rows: the walk has begun."""
+"""Number of rows after which the walk has started."""
 
 
 @cache
 def halfway() -> tuple[bytes, int]:
-    """A state in the middle of a walk, and how many events were told before."""
+    """Return a state in the middle of a walk, and the number of events before it."""
     state, emitted = FLEET.step(WEARER, None, walked().sent[:HALF])
     return state, len(emitted)
 

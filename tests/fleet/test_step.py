@@ -1,4 +1,4 @@
-"""The keyed step of a fleet: what it tells of a wearer is what a session says, and nothing that is sent can stop it."""
+"""The keyed step of a fleet: its events are those of a session, and no input can stop it."""
 
 from __future__ import annotations
 

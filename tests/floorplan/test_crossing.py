@@ -1,4 +1,4 @@
-"""Whether a straight move crosses a wall: exactly, for every move and every wall."""
+"""Test of straight moves against walls: exact for every move and every wall."""
 
 from __future__ import annotations
 

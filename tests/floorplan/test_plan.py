@@ -1,4 +1,4 @@
-"""What a floor plan must be, what is said of one, and how doors are cut out of walls."""
+"""Requirements on a floor plan, warnings about one, and doors cut out of walls."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""A small office of two floors, and somebody who walks in it: places on the plan in, what a body tells of them out.
+"""A small office of two floors, and a pedestrian in it: places on the plan in, events and positions of a body out.
 
-The track errs as recorded ones do: 2 % of every length, 5 degrees a minute, 3 % of every step, and nobody knows how it
-lies in the plan.
+The track errs as recorded ones do: 2 % of every length, 5 degrees a minute, 3 % of every step, and its heading in the
+plan is unknown.
 """
 
 from __future__ import annotations
@@ -122,7 +122,7 @@ Method = Particles | SnakeGame
 
 @define
 class FloorEvents:
-    """What a body tells at once, and where the wearer truly is (None: nowhere that counts)."""
+    """Simultaneous events of a body, and the true place of the wearer (None if it does not count)."""
 
     events: list[Event]
     here: Position
@@ -132,7 +132,7 @@ class FloorEvents:
 
 @define
 class Pedestrian:
-    """Walks, rides and climbs; `received` is what came of it."""
+    """Walks, rides and climbs; `received` holds the resulting events."""
 
     seed: int
     level: str = "0"
@@ -147,7 +147,7 @@ class Pedestrian:
     turned: float = field(init=False)
     count: int = 0
     late: list[Event] = field(factory=list)
-    """FloorEvents with the third step from now."""
+    """Events that are emitted with the third step from now."""
     wait: int = 0
 
     def __attrs_post_init__(self) -> None:
@@ -157,7 +157,7 @@ class Pedestrian:
         self.turned = self.random.uniform(-pi, pi)
 
     def known_to(self, part: Method) -> Pedestrian:
-        """It is told where the first step begins, and how the track is turned."""
+        """Set the start of the first step and the heading of the track."""
         part.set_out(Start(self.level, self.place, -self.turned))
         return self
 
@@ -241,7 +241,7 @@ def activity_changed(t: float, known_at: float, activity: Activity) -> ActivityC
 
 
 def follow(part: Method, received: list[FloorEvents], plan: IndexedPlan = OFFICE) -> list[Event]:
-    """What it says of all this."""
+    """Return all events of the part."""
     return [event for one in received for event in part.follow(plan, one.events, one.here)]
 
 
@@ -250,7 +250,7 @@ def placed(events: list[Event]) -> list[Placed]:
 
 
 def lost(events: list[Event]) -> list[str]:
-    """Why the place was lost each time."""
+    """Return the reason of every PlaceLost."""
     return [event.what for event in events if isinstance(event, PlaceLost)]
 
 

@@ -16,7 +16,7 @@ from solepath.recording.btsnoop import open_btsnoop
 
 EPOCH = 0x00DCDDB30F2F8000
 T_START = 1_790_000_000_250_000
-"""us since 1970 at which the logs begin: 2026-09-21."""
+"""Start of the logs, us since 1970: 2026-09-21."""
 H1, H4, MONITOR = 1001, 1002, 2001
 LEFT, RIGHT, TAG, OTHER = "C1:00:00:00:00:0A", "C1:00:00:00:00:0B", "C1:00:00:00:00:0C", "C1:00:00:00:00:0D"
 COMMAND, ACL, EVENT = 1, 2, 4
@@ -64,7 +64,7 @@ class Log:
         self.event(0x05, struct.pack("<BHB", 0, handle, reason))
 
     def acl(self, handle: int, pdu: bytes, sent: bool, channel: int = 4, keep: slice = slice(None)) -> None:
-        """One L2CAP PDU, in pieces where it is long; `keep` says which of them are logged."""
+        """Log one L2CAP PDU, in pieces if it is long; `keep` selects the logged pieces."""
         whole = struct.pack("<HH", len(pdu), channel) + pdu
         pieces = [whole[k : k + self.piece] for k in range(0, len(whole), self.piece)]
         for k, piece in list(enumerate(pieces))[keep]:
@@ -115,7 +115,7 @@ MOVEMENT = bytes(range(18))
 
 
 def insoles_log(packets: Iterable[Packet]) -> Log:
-    """What a phone writes down of two insoles: it finds them, asks what they have, and hears their frames."""
+    """Return a phone's log of two insoles: it finds them, reads their attributes, and receives their frames."""
     log = Log()
     handles = {Site.LEFT_FOOT: 0x40, Site.RIGHT_FOOT: 0x41}
     for handle, address in zip(handles.values(), (LEFT, RIGHT), strict=True):

@@ -1,4 +1,4 @@
-"""Walks that tests share, and every machine of the library under one handle, for what must hold of all of them."""
+"""Walks that tests share, and every session and decoder of the library under one handle, for tests of all of them."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ from solepath.types import Foot, Packet, Sample, Site
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 ROUGH = Radio(loss=0.05, duplicate=0.02, corrupt=0.02, truncate=0.02, latency=0.01, jitter=0.04)
-"""What a session must live with: lost, doubled, damaged and late packets."""
+"""A radio that a session must tolerate: lost, doubled, damaged and late packets."""
 SHORT = Route().stand(1.5).walk(3.0, 1.3).turn(radians(60), radius=1.5).walk(2.0).stop(1.0)
 """About 8 s, three or four steps of each foot."""
 
@@ -59,7 +59,7 @@ def samples(route: Route = SHORT, cells: int = 24, rate: float = 100.0, seed: in
 
 
 def both_feet(walker: Walker, rate: float, part: Imu, cells: int = 0, **more: Any) -> tuple[Sample, ...]:
-    """What two sensors have of a walker, in the order of time."""
+    """Return the samples of two sensors of a walker, in the order of time."""
     both = [
         sample
         for foot in Foot
@@ -79,14 +79,14 @@ def columns_of(walker: Walker, foot: Foot) -> dict[str, np.ndarray]:
 
 
 def run_session(items: Iterable[Item], recipe: Recipe = DEFAULT, **given: Any) -> list[Any]:
-    """All that a session says of these items, and at the end."""
+    """Return all events of a session for these items, with those at the end."""
     session = Session(recipe, **given)
     return session.feed(items) + session.finish()
 
 
 @frozen
 class Machine:
-    """Something that is fed, saved and restored. `items`: what a test feeds it, in order."""
+    """A session or decoder that is fed, saved and restored; `items` are the test's input, in order."""
 
     name: str
     items: tuple[Item, ...]
@@ -94,16 +94,16 @@ class Machine:
     load: Callable[[Any], Any]
 
     def save(self, one: Any) -> Any:
-        """Its snapshot, after a trip through strict JSON."""
+        """Return its snapshot, after a round trip through strict JSON."""
         value = one.snapshot() if isinstance(one, Session) else codec.save(one)
         return json.loads(json.dumps(value, allow_nan=False))
 
     def repacked(self, one: Any) -> Any:
-        """The same through its packed form; itself where it has none."""
+        """Return it after a round trip through its packed form; itself if it has none."""
         return Session.unpack(one.pack(), one.recipe, floorplan=one._plan) if isinstance(one, Session) else one
 
     def events(self, items: tuple[Item, ...] | None = None) -> list[Any]:
-        """All that comes out when it is fed one item at a time and then finished."""
+        """Return all events when it is fed one item at a time and then finished."""
         if items is None:
             return [event for events in machine_events(self.name) for event in events]
         one = self.start()
@@ -163,7 +163,7 @@ def packets() -> dict[str, tuple[Packet, ...]]:
 
 @cache
 def machines() -> dict[str, Machine]:
-    """Every machine that there is, by name."""
+    """Return every machine by name."""
     plain, pressed = samples(cells=0, rate=50.0), samples(rate=50.0)
     found = [_session(name, items) for name, items in packets().items()]
     found += [_decoder(name, items) for name, items in packets().items()]
@@ -184,19 +184,19 @@ def machines() -> dict[str, Machine]:
 
 @frozen
 class MachineRun:
-    """What became of a machine that was fed its items one by one, and then finished."""
+    """Result of a machine that was fed its items one by one, and then finished."""
 
     events: tuple[tuple[Any, ...], ...]
-    """What it said to each item, and at the end."""
+    """Events after each item, and at the end."""
     fed: Any
-    """Its snapshot after the last item."""
+    """Snapshot after the last item."""
     ended: Any
-    """And after the end."""
+    """Snapshot after the end."""
 
 
 @cache
 def run_machine(name: str) -> MachineRun:
-    """Found out once, for all that compare with it."""
+    """Return the result, computed once for all tests that compare with it."""
     known = machines()[name]
     one = known.start()
     events = [tuple(one.feed(item)) for item in known.items]
@@ -206,7 +206,7 @@ def run_machine(name: str) -> MachineRun:
 
 
 def machine_events(name: str) -> tuple[tuple[Any, ...], ...]:
-    """What a machine says to each of its items, and at the end."""
+    """Return a machine's events after each of its items, and at the end."""
     return run_machine(name).events
 
 
@@ -221,7 +221,7 @@ RECIPES = (
     "shoe-sensing",
     "acceleration-magnitude",
 )
-"""Of the recipes, those that have a part of their own."""
+"""Recipes that have a part of their own."""
 
 
 @cache
@@ -244,7 +244,7 @@ _STREAMS = (
     "thingy",
 )
 DEVICES = ("few frames", *_STREAMS)
-"""Of `packets`, known without emulating anything."""
+"""Names of `packets`, known without emulating anything."""
 PACKET_NAMES = (
     *(f"{kind}, {device}" for kind in ("session", "decoder") for device in _STREAMS),
     *(f"session, {recipe}" for recipe in RECIPES),
@@ -268,7 +268,7 @@ SAMPLE_NAMES = tuple(
     )
 )
 NAMES = PACKET_NAMES + SAMPLE_NAMES
-"""Of `machines`, known without emulating anything: test ids must not cost a walk."""
+"""Names of `machines`, known without emulating anything: test ids must not cost a walk."""
 
 
 def of(kind: Any, events: list[Any]) -> list[Any]:

@@ -166,7 +166,7 @@ def test_a_plain_class_of_hot_code_is_saved_and_goes_on(played):
 
 
 def test_the_loop_over_bluetooth_is_a_program(played):
-    """It runs in examples/bluetooth.py, against emulated insoles."""
+    """The loop runs in examples/bluetooth.py, against emulated insoles."""
     _, names = played("docs/bluetooth.md")
     assert names["listen"].__name__ == "listen"
 
@@ -225,7 +225,7 @@ def test_all_options_of_the_table_of_commands_exist():
 
 
 def anchors(text: str) -> set[str]:
-    """Of its headings, as a forge makes them."""
+    """Return the anchors of its headings, as a forge makes them."""
     prose = re.sub(r"^```.*?^```", "", text, flags=re.DOTALL | re.MULTILINE)
     titles = re.findall(r"^#+ (.+)$", prose, re.MULTILINE)
     return {re.sub(r"[^\w -]", "", title).lower().replace(" ", "-") for title in titles}

@@ -1,4 +1,4 @@
-"""Every program in examples/ runs as its first lines say, and tells what they promise."""
+"""Every program in examples/ runs as its first lines describe, and prints what they promise."""
 
 import ast
 import subprocess
@@ -19,7 +19,7 @@ ROUTE = Route().stand(2.0).walk(6.0, speed=1.3).stop(1.5)
 
 
 def run(name: str, *arguments: object) -> str:
-    """What the program prints; it must end well and have nothing to complain about."""
+    """Return the output of the program; it must end well and without warnings."""
     command = [sys.executable, EXAMPLES / f"{name}.py", *map(str, arguments)]
     done = subprocess.run(command, capture_output=True, stdin=subprocess.DEVNULL, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")

@@ -1,4 +1,4 @@
-"""docs/extending.md: its programs run as they stand there, and do what the page says."""
+"""The programs of docs/extending.md run unchanged and do what the page describes."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ DEVICE, DETECTOR, CORRECTOR, CUES, RECIPE = range(5)
 
 @cache
 def output(which: int) -> list[str]:
-    """What a program of the page prints."""
+    """Return the output of a program of the page."""
     program = compile(blocks(PAGE, "python")[which], "docs/extending.md", "exec")
     with redirect_stdout(io.StringIO()) as out:
         exec(program, {"__name__": "extending"})

@@ -1,4 +1,4 @@
-"""Who may import whom: the arrows between the rooms, and what `import solepath` brings along."""
+"""Allowed imports between the folders, and the modules that `import solepath` loads."""
 
 from __future__ import annotations
 

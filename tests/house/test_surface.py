@@ -1,4 +1,4 @@
-"""The public surface: what `from solepath import ...` gives, and that all of it says what it is."""
+"""The public surface: the names of `from solepath import ...`, all of them documented."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from solepath.types import Packet
 
 ROOT = Path(solepath.__file__).parent
 ALIASES = {"Event", "Quat", "Vec3"}
-"""Names of types that Python has no place for a docstring on; the text below them in their file says what they are."""
+"""Names of types that Python gives no docstring; the text below them in their file documents them."""
 
 
 def test_the_names_are_sorted_and_each_can_be_imported() -> None:

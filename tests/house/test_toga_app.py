@@ -1,4 +1,4 @@
-"""The example app on Toga's test backend: what its labels say and its canvases show after an emulated walk."""
+"""The example app on Toga's test backend: its labels and canvases after an emulated walk."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ async def of(packets: tuple[Packet, ...]) -> AsyncIterator[Packet]:
 
 
 def shown(canvas: Any, what: str) -> list[Any]:
-    """What was drawn on it of a kind: rect, line to, arc."""
+    """Return the drawn items of a kind: rect, line to, arc."""
     return [done[1] for done in canvas._impl.draw_instructions if isinstance(done, tuple) and done[0] == what]
 
 

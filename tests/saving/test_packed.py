@@ -1,6 +1,6 @@
-"""The packed form of a session: small, bit for bit, and refused when it is anything else.
+"""The packed form of a session: small, exact to the bit, and anything else is rejected.
 
-That a session packed at any moment is what it was is asked of all of them in test_contract_saved.py.
+tests/contracts/test_saved.py checks that a session packed at any moment continues unchanged.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from solepath.types import WalkingMode
 
 
 def exact(session: Session) -> str:
-    """All that it remembers, in order, -0.0 and 0.0 told apart."""
+    """Return the whole state, in order, with -0.0 distinguished from 0.0."""
     return json.dumps(session.snapshot())
 
 

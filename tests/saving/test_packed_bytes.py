@@ -1,4 +1,4 @@
-"""What packed bytes may be: numbers to the bit, and for anything else SnapshotError, whatever it is."""
+"""Packed bytes: numbers are exact to the bit, and all other bytes raise SnapshotError."""
 
 from __future__ import annotations
 

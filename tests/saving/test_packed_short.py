@@ -1,4 +1,4 @@
-"""Where memory or the stack is short the state is not to blame: nobody is told that it is bad, and it goes on later."""
+"""Shortage of memory or stack: the state is not reported as damaged, and can continue later."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from solepath import Calibration, Session, SnapshotError, recipes
 from solepath.fleet import Fleet
 
 SHORT: list[Exception] = []
-"""What copying a detector ends in, if anything."""
+"""Exceptions with which copying a detector may end."""
 
 
 @define

@@ -30,7 +30,7 @@ HEADER = struct.Struct("<4sHHII")
 
 
 class Hat(Protocol):
-    """What a `Wardrobe` has on top."""
+    """The hat of a `Wardrobe`."""
 
     size: float
 
@@ -118,7 +118,7 @@ def test_a_record_of_every_kind_comes_back_and_is_read_by_its_schema_alone(made:
 
 
 def less(part: Any, whole: Any) -> Any:
-    """Of the whole what is in the part."""
+    """Return the part of the whole that has the keys of `part`."""
     if isinstance(part, dict):
         return {key: less(value, whole[key]) for key, value in part.items()}
     if isinstance(part, list):
@@ -141,7 +141,7 @@ def test_the_first_state_of_the_file_is_what_is_packed_today() -> None:
 
 @cache
 def printed() -> dict[str, Any]:
-    """What the command says."""
+    """Return the output of the command."""
     command = [sys.executable, "-m", "solepath.session.schema"]
     documented: dict[str, Any] = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)
     return documented

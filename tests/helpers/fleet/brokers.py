@@ -30,7 +30,7 @@ class Message:
 
 @define
 class Topics:
-    """A pair of topics, of what is sent and what is told, and the jobs between them, a consumer group of their own."""
+    """A pair of topics, for input and events, and the jobs between them, with a consumer group of their own."""
 
     address: str
     name: str
@@ -79,7 +79,7 @@ class Topics:
         return +self.committed() == +self.put
 
     def read_messages(self) -> list[Message]:
-        """All that is in the topic, partition by partition, in order."""
+        """Return all messages of the topic, partition by partition, in order."""
         consumer = Consumer(
             {"bootstrap.servers": self.address, "group.id": f"{self.name}-reader", "enable.partition.eof": True}
         )
@@ -95,7 +95,7 @@ class Topics:
         return found
 
     def finish(self, job: subprocess.Popen[bytes], state: str = "state", within: float = 180.0) -> list[Message]:
-        """What is told when the job has done with all that was sent; it is killed then."""
+        """Return the messages when the job has used all input; then kill it."""
         end = time.monotonic() + within
         while not self.done():
             assert job.poll() is None, f"the job ended by itself:\n{self.log(state)[-3000:]}"
@@ -112,7 +112,7 @@ class Topics:
 
 
 def kill(job: subprocess.Popen[bytes]) -> None:
-    """As kill -9 does it."""
+    """Kill it as `kill -9` does."""
     job.kill()
     job.wait()
 

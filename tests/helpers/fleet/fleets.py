@@ -48,7 +48,7 @@ def shown(number: int, run: int = 0, wearer: str = WEARER) -> Sent:
 def stepped(
     fleet: Fleet, cuts: Iterable[Iterable[Item]], state: bytes | None = None
 ) -> tuple[bytes, list[NumberedEvent]]:
-    """What `Fleet.step` makes of each piece, with the state carried as bytes from one to the next."""
+    """Return the events of `Fleet.step` for each piece, with the state passed on as bytes."""
     emitted: list[NumberedEvent] = []
     for piece in cuts:
         state, some = fleet.step(WEARER, state, piece)
@@ -63,7 +63,7 @@ def cut(items: list[Item], at: Iterable[int]) -> list[list[Item]]:
 
 
 def uses(emitted: Iterable[NumberedEvent]) -> list[tuple[str, int | None, int | None, object]]:
-    """Of rows as `shown` makes them: (what, run, number, how many or why)."""
+    """Return the outcome of rows that `shown` makes: (what, run, number, count or reason)."""
     found: list[tuple[str, int | None, int | None, object]] = []
     for one in emitted:
         match one.event:

@@ -1,4 +1,4 @@
-"""Wearers of one site as their phones send, all at once, and what a session tells of each."""
+"""Wearers of one site as their phones send, all at once, and the events of each one's session."""
 
 from __future__ import annotations
 

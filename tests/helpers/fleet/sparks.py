@@ -1,4 +1,4 @@
-"""What tests of a fleet on Spark share: whether Spark can run here, what phones send, and what is to be told of it."""
+"""Helpers of the tests of a fleet on Spark: whether Spark can run here, phones' rows, and expected events."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ Row = dict[str, Any]
 
 
 def lacking() -> str | None:
-    """Why Spark cannot run here."""
+    """Return why Spark cannot run here."""
     home = os.environ.get("JAVA_HOME")
     java = shutil.which("java", path=f"{home}/bin" if home else None)
     if java is None:
@@ -62,7 +62,7 @@ def needed() -> None:
 
 
 def sent(wearer: int, walk: int) -> list[Sent]:
-    """All that the phone of one wearer sends."""
+    """Return all rows that the phone of one wearer sends."""
     packets = insoles(ROUTE, seed=walk, cells=48).packets
     what = [*packets, End()]
     return [Sent(f"w{wearer}", number, one) for number, one in enumerate(what)]
@@ -70,7 +70,7 @@ def sent(wearer: int, walk: int) -> list[Sent]:
 
 @cache
 def session_rows(walk: int, recipe: str) -> tuple[Row, ...]:
-    """Rows of what a bare session says of the same walk."""
+    """Return the rows of a session alone for the same walk."""
     events = run_session(insoles(ROUTE, seed=walk, cells=48).packets, by_name(recipe))
     return tuple(event_row(NumberedEvent("", number, event)) for number, event in enumerate(events))
 
@@ -125,7 +125,7 @@ def put(path: Path, rows: list[Row], age: int) -> None:
 
 
 def read_output(directory: Path) -> list[Row]:
-    """What is in the files that count, by somebody who is not Spark."""
+    """Return the rows of the files that count, read without Spark."""
     from pyarrow import parquet
 
     return in_order(row for path in committed(directory) for row in parquet.read_table(path).to_pylist())
