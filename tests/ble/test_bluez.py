@@ -42,10 +42,9 @@ BUS = "DBUS_SYSTEM_BUS_ADDRESS"
 
 def bench(faults: str = "", **devices: Device) -> Bench:
     worn = {Site(site): device for site, device in devices.items()} or {LEFT: Insole()}
-    started_at = (
-        monotonic() - 0.5 * DRAIN
-    )  # of whatever the machine's clock shows: no battery changes while a test lasts
-    found = Bench(Route().walk(20.0), devices=worn, started_at=started_at, faults=parse_faults(faults))
+    # at this offset no battery changes while a test lasts, whatever the machine's clock shows
+    started_at = monotonic() - 0.5 * DRAIN
+    found = Bench(Route().walk(20.0), devices=worn, began=started_at, faults=parse_faults(faults))
     found.prepare()
     return found
 
