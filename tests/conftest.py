@@ -1,4 +1,4 @@
-"""What tests share: where the recorded data are, and what the default recipe makes of them."""
+"""Shared fixtures: the folder of recorded data, and the default recipe's results on them."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ settings.load_profile("unhurried")
 
 @pytest.fixture(scope="session")
 def data_dir() -> Path:
-    """The folder of recorded data: SOLEPATH_DATA says where, or it lies beside the checkout; without it, a skip."""
+    """Return the folder of recorded data, SOLEPATH_DATA or beside the checkout; skip the test without it."""
     named = os.environ.get("SOLEPATH_DATA")
     folder = Path(named) if named else Path(__file__).resolve().parents[2] / "shared" / "data"
     if not folder.is_dir():

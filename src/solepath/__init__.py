@@ -76,7 +76,7 @@ _LATER = {
     "read_floorplan": "floorplan.importers.reading",
     "to_frame": "events.frame",
 }
-"""What an app may never need is loaded when it is first asked for: name -> module."""
+"""Names that are imported when they are first used, each with its module: many apps never need them."""
 
 
 def __getattr__(name: str) -> object:

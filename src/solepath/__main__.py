@@ -5,6 +5,6 @@ if __name__ == "__main__":
         from .cli import main
 
         status = main()
-    except KeyboardInterrupt:  # while it was being loaded
+    except KeyboardInterrupt:  # while the module was being imported
         status = 130
     raise SystemExit(status)

@@ -152,7 +152,7 @@ def _watched(session: Session, what: str | type[Part]) -> Timed:
     else:
         place = next(k for k, one in enumerate(wearer.parts) if isinstance(one, what))
         part = wearer.parts[place] = Timed(wearer.parts[place])
-        wearer._choose()
+        wearer._choose_sampled()
     return part
 
 

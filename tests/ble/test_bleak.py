@@ -1,4 +1,4 @@
-"""What comes out of bleak beside ATT errors: refusals under other names, and faults of its own."""
+"""Failures of bleak other than ATT errors: rejections under other names, and unexpected exceptions."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from solepath.types import Site
 
 PELVIS = Site.PELVIS
 REQUESTS = ("connect", "read_gatt_char", "start_notify", "write_gatt_char", "disconnect")
-REFUSALS = [
+REJECTIONS = [
     BleakError("Could not read characteristic: Access Denied"),
     BleakDBusError("org.bluez.Error.NotPermitted", ["Read not permitted"]),
 ]
@@ -36,13 +36,13 @@ def raising(beneath: Backend, request: str, error: Exception, at: str = "", unti
     class Client(base):
         pass
 
-    async def ask(self: Any, *given: Any, **more: Any) -> Any:
+    async def request_once(self: Any, *given: Any, **more: Any) -> Any:
         channel = given[0].obj.channel if given and hasattr(given[0], "obj") else ""
         if self.address.startswith(at) and channel.startswith(where) and asyncio.get_running_loop().time() < until:
             raise error
         return await getattr(base, request)(self, *given, **more)
 
-    setattr(Client, request, ask)
+    setattr(Client, request, request_once)
     return Backend(Client, beneath.scanner)
 
 
@@ -53,7 +53,7 @@ def raising(beneath: Backend, request: str, error: Exception, at: str = "", unti
         *((request, AttributeError("'NoneType' object has no attribute 'call'")) for request in REQUESTS[1:]),
     ],  # an AttributeError in connecting is one more failed attempt for bleak-retry-connector
 )
-def test_a_fault_of_bleak_in_one_foots_client_is_told_and_outlived_and_the_other_foot_hears_nothing_of_it(
+def test_a_fault_of_bleak_in_one_foots_client_is_reported_and_survived_and_does_not_affect_the_other_foot(
     request_: str, error: Exception, caplog: pytest.LogCaptureFixture
 ) -> None:
     devices = strap(1, faults="1 * disconnect"), strap(2)
@@ -73,10 +73,8 @@ def test_a_fault_of_bleak_in_one_foots_client_is_told_and_outlived_and_the_other
         assert type(error).__name__ in words and str(error) in words and "sought again" in words
 
 
-@pytest.mark.parametrize("error", REFUSALS, ids=["winrt", "bluez"])
-def test_what_is_refused_beside_the_stream_under_any_name_is_told_with_its_channel_and_the_foot_streams(
-    error: Exception,
-) -> None:
+@pytest.mark.parametrize("error", REJECTIONS, ids=["winrt", "bluez"])
+def test_a_rejection_beside_the_stream_is_reported_with_its_channel_and_the_foot_streams(error: Exception) -> None:
     for request in ("read_gatt_char", "start_notify"):
         bench = Bench(Route().stand(9.0), devices={LEFT: Insole(cells=8)})
         backend = raising(MemoryRadio(bench.peripherals).backend, request, error, where="device/battery")
@@ -90,29 +88,29 @@ def test_what_is_refused_beside_the_stream_under_any_name_is_told_with_its_chann
         assert len([packet for packet in packets if packet.channel == "receiver/connected"]) == 1
 
 
-def test_a_setting_that_is_refused_under_any_name_is_told_and_what_was_to_be_read_after_it_too() -> None:
+def test_a_rejected_setting_is_reported_and_so_is_the_read_after_it() -> None:
     more = evolve(STRAP.channel("strap/page"), name="strap/beside", access=Access.WRITE)
     profile = evolve(
         READ_AFTER,
         channels=(*READ_AFTER.channels, more),
         setup=(evolve(READ_AFTER.setup[0], channel="strap/beside"), *READ_AFTER.setup),
     )
-    backend = raising(logged_radio(strap()).backend, "write_gatt_char", REFUSALS[0], where="strap/page")
+    backend = raising(logged_radio(strap()).backend, "write_gatt_char", REJECTIONS[0], where="strap/page")
     packets = received(backend, DeviceConfig(PELVIS, address(1), profile), seconds=5.0)
     [words] = troubles(packets)
     assert words.startswith("strap/beside was not set to 0a: ")
     assert len([packet for packet in packets if packet.channel == "strap/beat"]) > 4 * RATE
 
 
-@pytest.mark.parametrize("error", REFUSALS, ids=["winrt", "bluez"])
-def test_a_stream_that_is_refused_is_no_connection(error: Exception) -> None:
+@pytest.mark.parametrize("error", REJECTIONS, ids=["winrt", "bluez"])
+def test_a_stream_that_is_rejected_is_no_connection(error: Exception) -> None:
     backend = raising(logged_radio(strap()).backend, "start_notify", error, where="strap/beat", until=3.0)
     packets = received(backend, DeviceConfig(PELVIS, address(1), STRAP), seconds=12.0)
     assert len([packet for packet in packets if packet.channel == "receiver/connected"]) > 2
     assert [packet for packet in packets if packet.channel == "strap/beat"]
 
 
-def test_an_insole_whose_info_nobody_understands_is_named_and_told_what_can_be_done() -> None:
+def test_an_insole_with_unreadable_info_is_reported_with_a_remedy() -> None:
     bench = Bench(Route().stand(9.0), devices={LEFT: Insole(cells=8)})
     base: Any = MemoryRadio(bench.peripherals).backend
 

@@ -42,8 +42,9 @@ BUS = "DBUS_SYSTEM_BUS_ADDRESS"
 
 def bench(faults: str = "", **devices: Device) -> Bench:
     worn = {Site(site): device for site, device in devices.items()} or {LEFT: Insole()}
-    began = monotonic() - 0.5 * BATTERY_STEP  # no battery changes while a test lasts
-    found = Bench(Route().walk(20.0), devices=worn, started_at=began, faults=parse_faults(faults))
+    # at this offset no battery changes while a test lasts, whatever the machine's clock shows
+    started_at = monotonic() - 0.5 * BATTERY_STEP
+    found = Bench(Route().walk(20.0), devices=worn, started_at=started_at, faults=parse_faults(faults))
     found.prepare()
     return found
 
@@ -67,14 +68,14 @@ def on_a_bus(
 
 
 async def until(devices: Devices, enough: Callable[[list[Packet]], bool]) -> list[Packet]:
-    """What comes, up to the packet with which it is enough."""
-    heard = []
+    """Return the packets up to the first one that satisfies the condition."""
+    received = []
     async with asyncio.timeout(TAKES):
         async for packet in devices:
-            heard.append(packet)
-            if enough(heard):
+            received.append(packet)
+            if enough(received):
                 break
-    return heard
+    return received
 
 
 def of(packets: list[Packet], channel: str, site: Site = LEFT) -> list[bytes]:
@@ -82,10 +83,10 @@ def of(packets: list[Packet], channel: str, site: Site = LEFT) -> list[bytes]:
 
 
 def frames(count: int) -> Callable[[list[Packet]], bool]:
-    return lambda heard: heard[-1].channel == "insole/frame" and len(of(heard, "insole/frame")) >= count
+    return lambda received: received[-1].channel == "insole/frame" and len(of(received, "insole/frame")) >= count
 
 
-def test_a_scan_tells_who_advertises_and_leaves_the_adapter_alone_afterwards(on_a_bus):
+def test_a_scan_lists_advertising_devices_and_leaves_the_adapter_alone_afterwards(on_a_bus):
     async def main(address):
         async with Bluez(bench(left_foot=Insole(), right_foot=CC2650()).peripherals).serving(address) as bluez:
             return await scan(0.5), bluez.is_idle
@@ -106,21 +107,21 @@ def test_every_frame_of_two_insoles_arrives_once_and_in_order(on_a_bus):
     async def main(address):
         async with Bluez(both.peripherals).serving(address) as bluez:
             async with Devices([DeviceConfig(None, "solepath R"), DeviceConfig(None, "solepath L")]) as devices:
-                heard = await until(
-                    devices, lambda heard: all(len(of(heard, "insole/frame", s)) > 150 for s in (LEFT, RIGHT))
+                received = await until(
+                    devices, lambda received: all(len(of(received, "insole/frame", s)) > 150 for s in (LEFT, RIGHT))
                 )
                 tasks = others()
             left = others()
-            return heard, bluez.is_idle, len(tasks) - len(left)
+            return received, bluez.is_idle, len(tasks) - len(left)
 
-    heard, idle, ended = on_a_bus(main)
+    received, idle, ended = on_a_bus(main)
     for site in (LEFT, RIGHT):
-        arrived = of(heard, "insole/frame", site)
+        arrived = of(received, "insole/frame", site)
         assert arrived == [sent.value for sent in both[site].log if sent.channel == "insole/frame"][: len(arrived)]
         # what is read comes once, although BlueZ tells of it as if it had been notified
         once = ["insole/info", "device/firmware", "device/battery", "insole/control", "receiver/connected"]
-        assert [len(of(heard, channel, site)) for channel in once] == [1] * len(once)
-    assert not troubles(heard)
+        assert [len(of(received, channel, site)) for channel in once] == [1] * len(once)
+    assert not troubles(received)
     assert idle and ended >= 3  # the search, and two connections
     assert not any(device.is_connected for device in both.peripherals)
 
@@ -130,13 +131,13 @@ def test_a_sensortag_obeys_its_setup(on_a_bus):
 
     async def main(address):
         async with Bluez(tag.peripherals).serving(address), Devices([DeviceConfig(LEFT, tag[LEFT].address)]) as devices:
-            return await until(devices, lambda heard: len(of(heard, "cc2650/movement")) == 10)
+            return await until(devices, lambda received: len(of(received, "cc2650/movement")) == 10)
 
-    heard = on_a_bus(main)
-    assert all(any(data[6:12]) for data in of(heard, "cc2650/movement"))  # axes that are off are zero
+    received = on_a_bus(main)
+    assert all(any(data[6:12]) for data in of(received, "cc2650/movement"))  # axes that are off are zero
     for write in PROFILE.setup:
-        assert write.value in of(heard, write.channel)
-    assert not troubles(heard)
+        assert write.value in of(received, write.channel)
+    assert not troubles(received)
 
 
 def test_a_lost_link_is_made_again_and_the_stream_goes_on(on_a_bus):
@@ -144,43 +145,45 @@ def test_a_lost_link_is_made_again_and_the_stream_goes_on(on_a_bus):
 
     async def main(address):
         async with Bluez(worn.peripherals).serving(address) as bluez, Devices([THE_LEFT]) as devices:
-            heard = await until(devices, frames(10))
+            received = await until(devices, frames(10))
             bluez.lose()
-            return heard + await until(devices, frames(10))
+            return received + await until(devices, frames(10))
 
-    said = [type(event) for event in Session().feed(on_a_bus(main)) if isinstance(event, Connected | Disconnected)]
-    assert said == [Connected, Disconnected, Connected]
+    connection_events = [
+        type(event) for event in Session().feed(on_a_bus(main)) if isinstance(event, Connected | Disconnected)
+    ]
+    assert connection_events == [Connected, Disconnected, Connected]
 
 
-def test_bluetooth_that_is_switched_off_is_told_and_waited_for(on_a_bus):
+def test_bluetooth_that_is_switched_off_is_reported_and_waited_for(on_a_bus):
     worn = bench()
 
     async def main(address):
         async with Bluez(worn.peripherals).serving(address) as bluez, Devices([THE_LEFT]) as devices:
-            heard = await until(devices, frames(10))
+            received = await until(devices, frames(10))
             bluez.power(False)
-            heard += await until(devices, lambda heard: bool(troubles(heard)))
+            received += await until(devices, lambda received: bool(troubles(received)))
             bluez.power(True)
-            return heard, await until(devices, frames(10))
+            return received, await until(devices, frames(10))
 
     before, after = on_a_bus(main)
     assert troubles(before) == ["cannot look for devices: Bluetooth is off: turn it on"]
     assert len(of(before, "receiver/disconnected")) == len(of(after, "receiver/connected")) == 1
 
 
-def test_a_bluetooth_service_that_dies_is_told_and_its_successor_used(on_a_bus):
+def test_a_bluetooth_service_that_dies_is_reported_and_its_successor_used(on_a_bus):
     worn = bench()
 
     async def main(address):
         devices = Devices([THE_LEFT])
         async with Bluez(worn.peripherals).serving(address):
             await devices.__aenter__()
-            heard = await until(devices, frames(10))
-        heard += await until(devices, lambda heard: len(troubles(heard)) == 2)
+            received = await until(devices, frames(10))
+        received += await until(devices, lambda received: len(troubles(received)) == 2)
         async with Bluez(worn.peripherals).serving(address):
             after = await until(devices, frames(10))
             await devices.__aexit__(None, None, None)
-        return heard, after
+        return received, after
 
     before, after = on_a_bus(main)
     dead = "the Bluetooth service does not run: systemctl start bluetooth"
@@ -188,36 +191,36 @@ def test_a_bluetooth_service_that_dies_is_told_and_its_successor_used(on_a_bus):
     assert len(of(after, "receiver/connected")) == 1
 
 
-def test_a_device_that_must_be_paired_says_so_and_is_paired_if_that_is_wanted(on_a_bus):
+def test_a_device_that_must_be_paired_is_reported_and_is_paired_on_request(on_a_bus):
     worn = bench("0 left_foot pairing")
 
     async def main(address):
         async with Bluez(worn.peripherals).serving(address):
             async with Devices([THE_LEFT]) as devices:
-                refused = await until(devices, lambda heard: bool(troubles(heard)))
+                rejected = await until(devices, lambda received: bool(troubles(received)))
             async with Devices([THE_LEFT], pair=True) as devices:
-                return refused, await until(devices, frames(10))
+                return rejected, await until(devices, frames(10))
 
-    refused, heard = on_a_bus(main)
-    assert troubles(refused) == ["the device wants to be paired first: pair=True, or --pair"]
-    assert not troubles(heard)
+    rejected, received = on_a_bus(main)
+    assert troubles(rejected) == ["the device wants to be paired first: pair=True, or --pair"]
+    assert not troubles(received)
 
 
-def test_a_write_that_is_refused_is_told_with_the_devices_own_code(on_a_bus):
+def test_a_write_that_is_rejected_is_reported_with_the_devices_own_code(on_a_bus):
     worn = bench("0 left_foot refuse insole/control")
 
     async def main(address):
         async with Bluez(worn.peripherals).serving(address), Devices([THE_LEFT]) as devices:
             return await until(devices, frames(5))
 
-    heard = on_a_bus(main)
-    assert [what.partition(" (")[0] for what in troubles(heard)] == [
+    received = on_a_bus(main)
+    assert [what.partition(" (")[0] for what in troubles(received)] == [
         "insole/control was not set to 01: the device answered with the ATT error 0x80"
     ]
 
 
 @pytest.mark.parametrize(
-    ("bluez", "said"),
+    ("bluez", "message"),
     [
         (None, "the Bluetooth service does not run: systemctl start bluetooth"),
         (Bluez([], adapter=False), "this machine has no Bluetooth adapter: plug one in"),
@@ -225,7 +228,7 @@ def test_a_write_that_is_refused_is_told_with_the_devices_own_code(on_a_bus):
     ],
     ids=["no service", "no adapter", "off"],
 )
-def test_what_keeps_bluetooth_from_being_used_is_told_at_once(on_a_bus, bluez, said):
+def test_a_reason_why_bluetooth_cannot_be_used_is_reported_at_once(on_a_bus, bluez, message):
     async def main(address):
         if bluez is None:
             await scan(0.1)
@@ -233,7 +236,7 @@ def test_what_keeps_bluetooth_from_being_used_is_told_at_once(on_a_bus, bluez, s
             async with bluez.serving(address):
                 await scan(0.1)
 
-    with pytest.raises(BluetoothError, match=said):
+    with pytest.raises(BluetoothError, match=message):
         on_a_bus(main)
 
 

@@ -25,7 +25,7 @@ from solepath.types import Site
 from solepath.wire.fields import parse_text
 
 
-def test_a_device_that_left_before_it_was_connected_is_soon_looked_for_again():
+def test_a_device_that_left_before_it_was_connected_is_soon_searched_for_again():
     bench = Bench(Route().stand(5.0), faults=parse_faults("0.005 left_foot vanish 300"))
 
     packets = received(MemoryRadio(bench.peripherals).backend, DeviceConfig(None, "solepath L"), seconds=60.0)
@@ -35,8 +35,8 @@ def test_a_device_that_left_before_it_was_connected_is_soon_looked_for_again():
     assert unheard.startswith("no device 'solepath L' is heard") and 20.0 < searching < 30.0
 
 
-def test_a_device_that_is_heard_and_does_not_answer_is_told_when_patience_ends_not_some_attempts_later():
-    """As when another program holds it, on systems that go on telling of it."""
+def test_an_advertising_device_that_does_not_answer_is_reported_when_patience_ends_not_later():
+    """Another program may hold the device, on systems that still report its advertisements."""
     beneath = logged_radio(Strap("strap 1", address(1))).backend
 
     class Client(beneath.client):
@@ -44,19 +44,19 @@ def test_a_device_that_is_heard_and_does_not_answer_is_told_when_patience_ends_n
             await asyncio.Event().wait()
 
     packets = received(Backend(Client, beneath.scanner), ONE, seconds=55.0, patience=7.0)
-    [told] = [packet for packet in packets if packet.channel == "receiver/trouble"]
-    assert told.t == pytest.approx(7.0, abs=0.1)
-    assert told.data.decode().endswith("see that no other program or phone holds it")
+    [trouble] = [packet for packet in packets if packet.channel == "receiver/trouble"]
+    assert trouble.t == pytest.approx(7.0, abs=0.1)
+    assert trouble.data.decode().endswith("see that no other program or phone holds it")
 
 
-def test_attempts_that_fail_do_not_begin_patience_anew():
-    """The device refuses its stream for a while, then is heard no more."""
+def test_failed_attempts_do_not_restart_patience():
+    """The device rejects its stream for a while, then stops advertising."""
     device = Odd("strap 1", address(1), faults=parse_faults("5 * vanish"))
 
     packets = received(logged_radio(device).backend, ONE, seconds=30.0)
-    told = [(p.t, p.data.decode()) for p in packets if p.channel == "receiver/trouble"]
-    unheard = [t for t, words in told if words.startswith("no strap")]
-    assert told[0][0] < 1.0 and len(unheard) == 1 and unheard[0] == pytest.approx(10.5, abs=2.0)
+    trouble = [(p.t, p.data.decode()) for p in packets if p.channel == "receiver/trouble"]
+    unheard = [t for t, words in trouble if words.startswith("no strap")]
+    assert trouble[0][0] < 1.0 and len(unheard) == 1 and unheard[0] == pytest.approx(10.5, abs=2.0)
 
 
 class Odd(Strap):
@@ -67,7 +67,7 @@ class Odd(Strap):
 
 
 def weak(every, seconds):
-    """What is heard over a link that breaks so often, s."""
+    """Return the packets received over a link that breaks after these times, s."""
     cuts = [Fault(1.0 + every * k, Site.PELVIS, FaultKind.DISCONNECT) for k in range(int(seconds / every))]
 
     device = Strap("strap 1", address(1), faults=cuts)
@@ -82,7 +82,7 @@ def test_a_link_that_breaks_every_second_is_made_again_each_time(every, share):
     assert max(b.t - a.t for a, b in pairwise(beats)) < 1.5
 
 
-def test_a_scan_that_fails_later_is_told_where_something_is_sought_and_is_begun_anew() -> None:
+def test_a_scan_that_fails_later_is_reported_to_searches_and_is_restarted() -> None:
     errors: list[Exception | None] = [None, None, BleakDBusError("org.bluez.Error.NotReady", []), BleakError("odd")]
     backend = failing(MemoryRadio([strap(1, faults="3 * disconnect"), strap(2)]).backend, errors)
 
@@ -95,21 +95,21 @@ def test_a_scan_that_fails_later_is_told_where_something_is_sought_and_is_begun_
     assert times(packets, "strap/beat")[-1] > 11.0
 
 
-def test_a_scan_that_hears_nothing_any_more_is_begun_anew() -> None:
-    """As after Bluetooth was switched off and on, on systems that do not tell."""
+def test_a_scan_without_advertisements_is_restarted() -> None:
+    """Bluetooth was switched off and on, on systems that do not report it."""
     device = strap(faults="5 * disconnect")
     beneath = MemoryRadio([device]).backend
     scanner: Any = beneath.scanner
 
     class Scanner(scanner):
-        began = 0.0
+        started_at = 0.0
 
         async def start(self) -> None:
-            self.began = now()
+            self.started_at = now()
             await super().start()
 
         def call_detection_callbacks(self, *given: Any) -> None:
-            if now() < 5.0 or self.began > 20.0:
+            if now() < 5.0 or self.started_at > 20.0:
                 super().call_detection_callbacks(*given)
 
     packets = received(Backend(beneath.client, Scanner), ONE, seconds=90.0)
@@ -123,8 +123,8 @@ def test_a_signal_that_no_radio_measures_and_a_name_that_is_no_text_are_no_fault
     scanner: Any = beneath.scanner
 
     class Scanner(scanner):
-        def call_detection_callbacks(self, device: Any, said: Any) -> None:
-            super().call_detection_callbacks(device, said._replace(rssi=127, local_name="str\ud800p"))
+        def call_detection_callbacks(self, device: Any, advertisement: Any) -> None:
+            super().call_detection_callbacks(device, advertisement._replace(rssi=127, local_name="str\ud800p"))
 
     packets = received(Backend(beneath.client, Scanner), ONE, seconds=3.0)
     assert times(packets, "strap/beat")

@@ -1,4 +1,4 @@
-"""What an app gets from devices, how it may take it, and what is left when it goes."""
+"""Packets that an app receives from devices, the ways to take them, and the state after leaving."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ from solepath.link.profile import Access, Write
 from solepath.types import Packet, Site
 
 
-def got(heard: LoggedRadio, *wanted: DeviceConfig, seconds: float = 5.0, **more: Any) -> list[Packet]:
-    return received(heard.backend, *wanted, seconds=seconds, **more)
+def got(belt: LoggedRadio, *configs: DeviceConfig, seconds: float = 5.0, **more: Any) -> list[Packet]:
+    return received(belt.backend, *configs, seconds=seconds, **more)
 
 
 def channels(packets: list[Packet], *, but: str = "receiver/tick") -> list[str]:
@@ -33,10 +33,10 @@ def channels(packets: list[Packet], *, but: str = "receiver/tick") -> list[str]:
 
 def test_a_device_is_read_then_subscribed_then_written() -> None:
     bench = Bench(ROUTE, devices={LEFT: Insole(), RIGHT: Tag()}, seed=3)
-    heard = logged_radio(*bench.peripherals)
-    got(heard, DeviceConfig(LEFT, "F0:5E:00:00:00:01"), DeviceConfig(RIGHT, "F0:5E:00:00:00:02"))
+    belt = logged_radio(*bench.peripherals)
+    got(belt, DeviceConfig(LEFT, "F0:5E:00:00:00:01"), DeviceConfig(RIGHT, "F0:5E:00:00:00:02"))
     for device, profile in ((bench[LEFT], INSOLE), (bench[RIGHT], CC2650)):
-        did = heard.of(device, "read", "subscribe", "write")
+        did = belt.of(device, "read", "subscribe", "write")
         notify = {channel.name for channel in profile.channels if channel.access is Access.NOTIFY}
         assert {channel for what, channel in did if what == "subscribe"} == notify
         assert [what for what, _ in did] == sorted((what for what, _ in did), key=["read", "subscribe", "write"].index)
@@ -47,10 +47,10 @@ def test_a_device_is_read_then_subscribed_then_written() -> None:
 @pytest.mark.parametrize("faults", ["", "2 * disconnect", "2 * freeze", "2 * refuse strap/control; 2 * disconnect"])
 def test_nothing_is_ever_read_that_is_subscribed(faults: str) -> None:
     device = strap(faults=faults)
-    heard = logged_radio(device)
-    got(heard, DeviceConfig(PELVIS, address(1), READ_AFTER), seconds=12.0)
+    belt = logged_radio(device)
+    got(belt, DeviceConfig(PELVIS, address(1), READ_AFTER), seconds=12.0)
     subscribed: set[str] = set()
-    for what, channel in heard.of(device, "connect", "read", "subscribe"):
+    for what, channel in belt.of(device, "connect", "read", "subscribe"):
         if what == "connect":
             subscribed.clear()
         elif what == "subscribe":
@@ -79,15 +79,15 @@ def test_what_is_to_be_read_after_a_write_comes_right_after_it() -> None:
 
 def test_a_battery_that_can_only_be_read_is_read_and_keeps_nobody_from_listening() -> None:
     device = strap()
-    heard = logged_radio(device)
-    packets = got(heard, ONE)
+    belt = logged_radio(device)
+    packets = got(belt, ONE)
     assert times(packets, "device/battery") and len(times(packets, "strap/beat")) > 4 * RATE
-    assert ("subscribe", "device/battery") not in heard.of(device, "subscribe")
+    assert ("subscribe", "device/battery") not in belt.of(device, "subscribe")
     assert not times(packets, "receiver/trouble")
 
 
 class Odd(Strap):
-    """Its control takes commands only, it has two battery services, and one of its streams refuses."""
+    """A device whose control takes commands only, with two battery services and one stream that it rejects."""
 
     def __init__(self, number: int = 1) -> None:
         super().__init__(f"strap {number}", address(number))
@@ -100,14 +100,14 @@ class Odd(Strap):
 
 def test_a_device_that_takes_only_commands_and_has_a_service_twice_is_listened_to() -> None:
     device = Odd()
-    heard = logged_radio(device)
-    packets = got(heard, ONE)
+    belt = logged_radio(device)
+    packets = got(belt, ONE)
     assert len(times(packets, "strap/beat")) > 4 * RATE
-    assert ("command", "strap/control") in heard.of(device, "write", "command")
+    assert ("command", "strap/control") in belt.of(device, "write", "command")
     assert not times(packets, "receiver/trouble")
 
 
-def test_what_a_device_does_not_have_to_be_set_is_told_and_passed_over() -> None:
+def test_a_missing_setting_is_reported_and_skipped() -> None:
     device = strap()
     more = evolve(STRAP.channel("strap/control"), name="strap/nothing", characteristic=BATTERY)
     setup = (Write("strap/nothing", b"\x01"), *STRAP.setup)
@@ -117,7 +117,7 @@ def test_what_a_device_does_not_have_to_be_set_is_told_and_passed_over() -> None
     assert len(times(packets, "strap/beat")) > 4 * RATE
 
 
-def test_every_packet_says_when_it_arrived_and_from_which_device() -> None:
+def test_every_packet_has_its_arrival_time_and_device() -> None:
     device = strap()
     device.log = []
     packets = got(logged_radio(device), ONE)
@@ -129,7 +129,7 @@ def test_every_packet_says_when_it_arrived_and_from_which_device() -> None:
     assert [packet.t for packet in packets] == sorted(packet.t for packet in packets)
 
 
-def test_while_nothing_comes_time_is_told_to_pass_five_times_a_second() -> None:
+def test_without_packets_five_ticks_a_second_are_emitted() -> None:
     packets = got(logged_radio(), ONE, seconds=5.0, patience=100.0)
     assert set(channels(packets, but="")) == {"receiver/tick"}
     assert len(packets) in (24, 25)
@@ -139,9 +139,9 @@ def test_while_nothing_comes_time_is_told_to_pass_five_times_a_second() -> None:
 
 
 def test_seven_devices_stream_at_once_each_at_its_site() -> None:
-    heard = logged_radio(*(strap(n) for n in range(1, 8)))
-    wanted = [DeviceConfig(site, address(n), STRAP) for n, site in enumerate(Site, 1)]
-    packets = got(heard, *wanted)
+    belt = logged_radio(*(strap(n) for n in range(1, 8)))
+    configs = [DeviceConfig(site, address(n), STRAP) for n, site in enumerate(Site, 1)]
+    packets = got(belt, *configs)
     for n, site in enumerate(Site, 1):
         mine = [packet for packet in packets if packet.site is site and packet.channel == "strap/beat"]
         assert len(mine) > 4 * RATE

@@ -31,7 +31,7 @@ FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
 ROUTE = Route().stand(3.0).walk(90.0).turn(1.5, radius=2.0).walk(60.0).turn(-1.5, radius=2.0).walk(60.0).stop(3.0)
 SHORTER = Route().stand(3.0).walk(40.0).turn(1.5, radius=2.0).walk(24.0).stop(3.0)
 ROUTES = {200: ROUTE, 60: SHORTER}
-"""By how often the links are cut."""
+"""Routes by the frequency of link losses."""
 FIRST, APART = 3.2, 0.81
 """s: of the walk, and from one cut to the next; the feet take turns, and strides of 1.1 s are cut anywhere."""
 
@@ -43,10 +43,10 @@ def worn() -> dict[Site, Device]:
 
 @define
 class Walked:
-    """What became of the walk, seen by the app."""
+    """Result of the walk, as the app sees it."""
 
     truth: Truth
-    began: float = 0.0
+    started_at: float = 0.0
     """The walk's 0 on the loop's clock, s."""
     places: dict[Foot, array[float]] = field(factory=lambda: {foot: array("d") for foot in Foot})
     """Where each foot was said to be at the ends of its true steps: x, y, z and so on. An array is one block of memory,
@@ -56,7 +56,7 @@ class Walked:
     disconnected: int = 0
     rejected: int = 0
     gaps: array[float] = field(factory=lambda: array("d"))
-    """How long they were, s."""
+    """Durations of the gaps, s."""
     tasks: list[int] = field(factory=list)
     """Beside the app's own, at every connection."""
     blocks: list[int] = field(factory=list)
@@ -72,7 +72,7 @@ class Walked:
             case FootMoved(foot=foot, t=t, position=position):
                 done = len(self.places[foot]) // 3
                 ends = self.ends(foot)
-                if done < len(ends) and t - self.began >= ends[done]:
+                if done < len(ends) and t - self.started_at >= ends[done]:
                     self.places[foot].extend(position)
             case StrideTaken():
                 self.steps += 1
@@ -119,16 +119,16 @@ def walk(seed: int, cuts: int = 200) -> Walked:
     walked = Walked(truth)
 
     async def listen() -> None:
-        began = asyncio.get_running_loop().time() + 3.0
-        walked.began = began
-        bench.walk_from(began)
+        started_at = asyncio.get_running_loop().time() + 3.0
+        walked.started_at = started_at
+        bench.walk_from(started_at)
         bench.prepare()
         session = Session(poses=True)
         async with bumble(bench) as backend:
             before, walked.threads_before = others(), threading.active_count()
             async with Devices([DeviceConfig(None, profile=INSOLE)] * 2, backend=backend) as devices:
                 async for packet in devices:
-                    if packet.t > began + truth.duration:
+                    if packet.t > started_at + truth.duration:
                         break
                     for event in session.feed(packet):
                         walked.take(event)

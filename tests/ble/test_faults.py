@@ -1,4 +1,4 @@
-"""Each thing that goes wrong on the radio, and what an app sees of it; on both tiers."""
+"""Every fault of the radio, and the events that an app receives for it; on both tiers."""
 
 from __future__ import annotations
 
@@ -48,19 +48,19 @@ both = pytest.mark.parametrize("tier", TIERS)
 
 
 @cache
-def heard(
+def receive(
     tier: str,
     faults: str,
     seconds: float,
     device: Device = SMALL,
     route: Route = STAND,
-    wanted: tuple[DeviceConfig, ...] = (DeviceConfig(LEFT, FOOT),),
+    configs: tuple[DeviceConfig, ...] = (DeviceConfig(LEFT, FOOT),),
     sites: tuple[Site, ...] = (LEFT,),
 ) -> list[Packet]:
     bench = Bench(route, devices=dict.fromkeys(sites, device), seed=3, faults=parse_faults(faults))
 
     async def main() -> list[Packet]:
-        async with TIERS[tier](bench) as backend, Devices(wanted, backend=backend, patience=5.0) as devices:
+        async with TIERS[tier](bench) as backend, Devices(configs, backend=backend, patience=5.0) as devices:
             return await collect(devices, seconds)
 
     return in_virtual_time(main)
@@ -92,12 +92,12 @@ def frames(packets: list[Packet]) -> list[Packet]:
 def test_spoilt_notifications_are_rejected_with_their_reason_and_those_that_never_came_whole_are_packets_lost(
     tier: str, faults: str, reasons: set[Rejection], rejected: int, lost: int
 ) -> None:
-    found = events(heard(tier, faults, 7.0))
-    told, missed = [event.reason for event in of(PacketRejected, found)], of(PacketsLost, found)
-    assert len(told) == rejected and {*told} <= reasons
-    assert sum(event.count for event in missed) == lost
-    assert {(event.channel, event.site) for event in missed} <= {("insole/frame", LEFT)}
-    assert not missed or missed[0].t == pytest.approx(4.0, abs=0.1)
+    found = events(receive(tier, faults, 7.0))
+    rejection_reasons, losses = [event.reason for event in of(PacketRejected, found)], of(PacketsLost, found)
+    assert len(rejection_reasons) == rejected and {*rejection_reasons} <= reasons
+    assert sum(event.count for event in losses) == lost
+    assert {(event.channel, event.site) for event in losses} <= {("insole/frame", LEFT)}
+    assert not losses or losses[0].t == pytest.approx(4.0, abs=0.1)
 
 
 def by_number(packets: list[Packet]) -> dict[int, InsoleFrame]:
@@ -107,7 +107,7 @@ def by_number(packets: list[Packet]) -> dict[int, InsoleFrame]:
 
 @both
 def test_over_the_smallest_mtu_the_same_frames_come_in_fragments(tier: str) -> None:
-    wide, narrow = heard(tier, "", 5.0), heard(tier, "0 * mtu 23", 5.0)
+    wide, narrow = receive(tier, "", 5.0), receive(tier, "0 * mtu 23", 5.0)
     assert max(len(packet.data) for packet in frames(narrow)) <= 20
     one, other = by_number(wide), by_number(narrow)
     common = one.keys() & other.keys()
@@ -117,8 +117,8 @@ def test_over_the_smallest_mtu_the_same_frames_come_in_fragments(tier: str) -> N
 
 
 @both
-def test_a_disconnection_in_mid_stride_is_told_the_gap_too_and_its_step_is_degraded(tier: str) -> None:
-    found = events(heard(tier, "8.6 * disconnect", 16.0, route=WALK))
+def test_a_disconnection_in_mid_stride_is_reported_with_the_gap_and_its_stride_is_degraded(tier: str) -> None:
+    found = events(receive(tier, "8.6 * disconnect", 16.0, route=WALK))
     order = of((Connected, Disconnected, SampleGap), found)  # type: ignore[arg-type]
     assert [type(event) for event in order] == [Connected, Disconnected, Connected, SampleGap]
     assert order[1].t == pytest.approx(8.6, abs=0.1)  # type: ignore[attr-defined]
@@ -133,7 +133,7 @@ def test_a_disconnection_in_mid_stride_is_told_the_gap_too_and_its_step_is_degra
 
 @both
 def test_a_link_that_is_lost_while_a_frozen_stream_is_set_up_again_is_made_again(tier: str) -> None:
-    found = events(heard(tier, "4 * freeze; 4.5 * hang", 12.0))
+    found = events(receive(tier, "4 * freeze; 4.5 * hang", 12.0))
     order = of((StreamRestarted, Disconnected, Connected, StreamResumed), found)  # type: ignore[arg-type]
     assert [type(e) for e in order] == [Connected, StreamRestarted, Disconnected, Connected, StreamResumed]
     [trouble] = of(LinkTrouble, found)
@@ -141,19 +141,19 @@ def test_a_link_that_is_lost_while_a_frozen_stream_is_set_up_again_is_made_again
 
 
 @both
-def test_a_device_that_begins_anew_is_a_clock_reset(tier: str) -> None:
-    [reset] = of(ClockReset, events(heard(tier, "4 * restart", 7.0)))
+def test_a_device_that_restarts_is_a_clock_reset(tier: str) -> None:
+    [reset] = of(ClockReset, events(receive(tier, "4 * restart", 7.0)))
     assert reset.restarted
 
 
 @both
-def test_a_device_that_vanishes_for_a_minute_is_stale_then_looked_for_and_back_within_seconds(tier: str) -> None:
-    found = events(heard(tier, "4 * vanish 60", 75.0))
+def test_a_device_that_vanishes_for_a_minute_is_stale_then_searched_for_and_back_within_seconds(tier: str) -> None:
+    found = events(receive(tier, "4 * vanish 60", 75.0))
     order = of((StreamStale, Disconnected, LinkTrouble, Connected, StreamResumed), found)  # type: ignore[arg-type]
     kinds = [type(event) for event in order]
     assert kinds == [Connected, Disconnected, StreamStale, LinkTrouble, Connected, StreamResumed]
-    _, gone, stale, trouble, back, resumed = order
-    assert gone.t == pytest.approx(4.0, abs=0.1)  # type: ignore[attr-defined]
+    _, disconnected, stale, trouble, back, resumed = order
+    assert disconnected.t == pytest.approx(4.0, abs=0.1)  # type: ignore[attr-defined]
     assert stale.t == pytest.approx(5.0, abs=0.1)  # type: ignore[attr-defined]
     assert trouble.what.startswith(f"no device '{FOOT}' is heard")  # type: ignore[attr-defined]
     assert 64.0 < back.t < resumed.t < 67.0  # type: ignore[attr-defined]
@@ -163,20 +163,20 @@ def test_a_device_that_vanishes_for_a_minute_is_stale_then_looked_for_and_back_w
 @pytest.mark.parametrize(
     ("device", "control"), [(SMALL, "insole/control"), (Tag(), "cc2650/movement-config")], ids=["insole", "cc2650"]
 )
-def test_a_setup_that_is_refused_is_told_in_words_and_made_again(tier: str, device: Device, control: str) -> None:
-    found = events(heard(tier, f"0 * refuse {control}", 8.0, device=device))
+def test_a_rejected_setup_is_reported_and_repeated(tier: str, device: Device, control: str) -> None:
+    found = events(receive(tier, f"0 * refuse {control}", 8.0, device=device))
     [trouble] = of(LinkTrouble, found)
     assert trouble.what.startswith(f"{control} was not set to ")
     assert "the device answered with the ATT error 0x80" in trouble.what
     [restarted] = of(StreamRestarted, found)
     assert restarted.t < 3.0 and len(of(Connected, found)) == 1
-    packets = heard(tier, f"0 * refuse {control}", 8.0, device=device)
+    packets = receive(tier, f"0 * refuse {control}", 8.0, device=device)
     assert [packet for packet in packets if packet.channel == restarted.channel and packet.t > 7.5]
 
 
 @both
-def test_a_refusal_beside_the_stream_is_told_and_the_stream_goes_on(tier: str) -> None:
-    packets = heard(tier, "0 * refuse cc2650/barometer-config; 0 * refuse device/battery", 5.0, device=Tag())
+def test_a_rejection_beside_the_stream_is_reported_and_the_stream_goes_on(tier: str) -> None:
+    packets = receive(tier, "0 * refuse cc2650/barometer-config; 0 * refuse device/battery", 5.0, device=Tag())
     found = events(packets)
     words = [event.what for event in of(LinkTrouble, found)]
     assert [what.partition(" ")[0] for what in words] == ["device/battery", "cc2650/barometer-config"]
@@ -187,7 +187,7 @@ def test_a_refusal_beside_the_stream_is_told_and_the_stream_goes_on(tier: str) -
 @both
 @pytest.mark.parametrize("device", [SMALL, Tag()], ids=["insole", "cc2650"])
 def test_a_frozen_stream_is_restarted_and_resumes(tier: str, device: Device) -> None:
-    found = events(heard(tier, "4 * freeze", 9.0, device=device))
+    found = events(receive(tier, "4 * freeze", 9.0, device=device))
     order = of((StreamStale, StreamRestarted, StreamResumed), found)  # type: ignore[arg-type]
     assert {type(event) for event in order} == {StreamStale, StreamRestarted, StreamResumed}
     assert len(order) == 3 and isinstance(order[-1], StreamResumed)
@@ -196,12 +196,12 @@ def test_a_frozen_stream_is_restarted_and_resumes(tier: str, device: Device) -> 
 
 
 @both
-def test_a_stream_that_stays_frozen_is_connected_anew(tier: str) -> None:
-    found = events(heard(tier, "4 * freeze; 4.5 * refuse insole/control 2", 12.0))
+def test_a_stream_that_stays_frozen_is_connected_again(tier: str) -> None:
+    found = events(receive(tier, "4 * freeze; 4.5 * refuse insole/control 2", 12.0))
     order = of((StreamRestarted, Disconnected, Connected, StreamResumed), found)  # type: ignore[arg-type]
-    first, *restarted, gone, back, resumed = [type(event) for event in order]
+    first, *restarted, disconnected, back, resumed = [type(event) for event in order]
     assert restarted == [StreamRestarted] * 3
-    assert (first, gone, back, resumed) == (Connected, Disconnected, Connected, StreamResumed)
+    assert (first, disconnected, back, resumed) == (Connected, Disconnected, Connected, StreamResumed)
 
 
 WAKING = evolve(CC2650, setup=(CC2650.setup[0], Write("cc2650/movement-config", b"\xff\x02"), *CC2650.setup[2:]))
@@ -211,8 +211,8 @@ WAKING = evolve(CC2650, setup=(CC2650.setup[0], Write("cc2650/movement-config", 
 def test_a_device_that_wakes_on_motion_may_be_silent(tier: str) -> None:
     """He stands for a while, walks, and stands: the tag sleeps 10 s after its last motion."""
     route = Route().stand(8.0).walk(5.0).stop(25.0)
-    wanted = (DeviceConfig(LEFT, FOOT, WAKING),)
-    packets = heard(tier, "", 36.0, device=Tag(), route=route, wanted=wanted)
+    configs = (DeviceConfig(LEFT, FOOT, WAKING),)
+    packets = receive(tier, "", 36.0, device=Tag(), route=route, configs=configs)
     found = events(packets)
     moved = [packet.t for packet in packets if packet.channel == "cc2650/movement"]
     assert moved and max(moved) < 30.0, "it did fall asleep"
@@ -220,9 +220,9 @@ def test_a_device_that_wakes_on_motion_may_be_silent(tier: str) -> None:
 
 
 @both
-def test_of_two_devices_with_one_name_an_app_is_told_both_addresses(tier: str) -> None:
-    wanted = (DeviceConfig(LEFT, "CC2650 SensorTag"),)
-    found = events(heard(tier, "", 8.0, device=Tag(), wanted=wanted, sites=(LEFT, RIGHT)))
+def test_two_devices_with_one_name_are_reported_with_both_addresses(tier: str) -> None:
+    configs = (DeviceConfig(LEFT, "CC2650 SensorTag"),)
+    found = events(receive(tier, "", 8.0, device=Tag(), configs=configs, sites=(LEFT, RIGHT)))
     [trouble] = of(LinkTrouble, found)
     assert FOOT in trouble.what and "F0:5E:00:00:00:02" in trouble.what
     assert not of(Connected, found)
@@ -230,8 +230,8 @@ def test_of_two_devices_with_one_name_an_app_is_told_both_addresses(tier: str) -
 
 @both
 def test_two_feet_that_lose_their_links_at_once_both_come_back(tier: str) -> None:
-    wanted = (DeviceConfig(None, profile=INSOLE),) * 2
-    found = events(heard(tier, "4 * disconnect", 7.0, wanted=wanted, sites=(LEFT, RIGHT)))
+    configs = (DeviceConfig(None, profile=INSOLE),) * 2
+    found = events(receive(tier, "4 * disconnect", 7.0, configs=configs, sites=(LEFT, RIGHT)))
     for site in (LEFT, RIGHT):
         assert len([event for event in of(Connected, found) if event.site is site]) == 2
         [gap] = [event for event in of(SampleGap, found) if event.site is site]

@@ -26,7 +26,7 @@ Life = list[tuple[Site, bool] | None]
 
 
 def lived(capacity: int, life: Life) -> tuple[list[Packet], list[Packet], Inbox]:
-    """What was put, what was taken by then, and the inbox."""
+    """Return the packets that were put, those that were taken, and the inbox."""
     inbox, put, taken = Inbox(capacity), list[Packet](), list[Packet]()
     for moment, one in enumerate(life):
         if one is None:
@@ -109,13 +109,13 @@ def test_a_count_stands_where_the_dropped_stood_unless_what_was_read_fills_the_r
         mine, came = [packet for packet in left if packet.site is site], [one for one in put if one.site is site]
         for packet in mine:
             count = parse_dropped(packet.data) if packet.channel == DROPPED else 1
-            gone, came = came[:count], came[count:]
-            assert packet.channel != DROPPED or {one.channel for one in gone} == {"stream"}
-            assert packet.channel == DROPPED or gone == [packet]
+            dropped_first, came = came[:count], came[count:]
+            assert packet.channel != DROPPED or {one.channel for one in dropped_first} == {"stream"}
+            assert packet.channel == DROPPED or dropped_first == [packet]
 
 
 @given(capacities, lives)
-def test_a_session_refuses_nothing_that_comes_out_and_says_how_many_were_dropped(capacity: int, life: Life) -> None:
+def test_a_session_accepts_every_output_and_counts_the_dropped_packets(capacity: int, life: Life) -> None:
     inbox, session, events, put = Inbox(capacity), Session(), list[Event](), 0
     for moment, one in enumerate([*life, *[None] * 3 * len(life)]):
         if one is not None:
@@ -128,16 +128,16 @@ def test_a_session_refuses_nothing_that_comes_out_and_says_how_many_were_dropped
     assert dropped + sum(isinstance(event, BatteryLevel) for event in events) == put
 
 
-def test_who_takes_one_by_one_too_slowly_hears_not_only_of_drops() -> None:
+def test_a_slow_reader_gets_more_than_counts_of_drops() -> None:
     life: Life = [(LEFT, True)] * 3 + [*[(LEFT, True)] * 4, None] * 20
     _, taken, _ = lived(3, life)
     assert [packet.channel for packet in taken] == [DROPPED, "stream"] * 10
 
 
-def test_who_waits_is_told_of_every_arrival() -> None:
-    told: list[int] = []
+def test_a_waiting_reader_is_notified_of_every_arrival() -> None:
+    reported_counts: list[int] = []
     inbox = Inbox(2)
-    inbox.on_arrival = lambda: told.append(len(inbox))
+    inbox.on_arrival = lambda: reported_counts.append(len(inbox))
     for moment in range(3):
         inbox.put(Packet(float(moment), LEFT, "any", b""), True)
-    assert told == [1, 2, 3]
+    assert reported_counts == [1, 2, 3]

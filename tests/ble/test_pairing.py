@@ -1,4 +1,4 @@
-"""Devices that must be paired with: what an app is told, and how a link comes to be encrypted."""
+"""Devices that require pairing: the messages to an app, and the encryption of a link."""
 
 from __future__ import annotations
 
@@ -43,14 +43,14 @@ def bench(faults: str, device: Device | None = None) -> Bench:
     return worn
 
 
-def heard(tier: str, faults: str, pair: bool, seconds: float, kind: str = "insole") -> list[Packet]:
+def receive(tier: str, faults: str, pair: bool, seconds: float, kind: str = "insole") -> list[Packet]:
     profile, device = KINDS[kind]
 
     async def listen() -> list[Packet]:
         worn = bench(faults, device)
         worn.walk_from(asyncio.get_running_loop().time())
-        wanted = [DeviceConfig(LEFT, worn[LEFT].address, profile)]
-        async with TIERS[tier](worn) as backend, Devices(wanted, backend=backend, pair=pair) as devices:
+        configs = [DeviceConfig(LEFT, worn[LEFT].address, profile)]
+        async with TIERS[tier](worn) as backend, Devices(configs, backend=backend, pair=pair) as devices:
             return await collect(devices, seconds)
 
     return in_virtual_time(listen)
@@ -60,39 +60,39 @@ def streamed(packets: list[Packet], profile: Profile) -> list[float]:
     return [packet.t for packet in packets if packet.channel in profile.streams]
 
 
-async def client(worn: Bench, backend: Backend, gone: Callable[[BleakClient], None] | None = None) -> BleakClient:
+async def client(
+    worn: Bench, backend: Backend, on_disconnect: Callable[[BleakClient], None] | None = None
+) -> BleakClient:
     device = await BleakScanner.find_device_by_name(worn[LEFT].name, 5.0, backend=backend.scanner)
     assert device is not None
-    return BleakClient(device, gone, backend=backend.client)
+    return BleakClient(device, on_disconnect, backend=backend.client)
 
 
 @pytest.mark.parametrize("tier", TIERS)
 @pytest.mark.parametrize("kind", KINDS)
-def test_who_does_not_pair_is_told_to_and_hears_nothing_else(tier: str, kind: str) -> None:
-    packets = heard(tier, "0 * pairing", False, 20.0, kind)
+def test_without_pairing_only_the_need_to_pair_is_reported(tier: str, kind: str) -> None:
+    packets = receive(tier, "0 * pairing", False, 20.0, kind)
     assert streamed(packets, KINDS[kind][0]) == []
     assert set(troubles(packets)) == {"the device wants to be paired first: pair=True, or --pair"}
 
 
 @pytest.mark.parametrize("tier", TIERS)
 @pytest.mark.parametrize("kind", KINDS)
-def test_who_pairs_hears_a_device_that_needs_it_also_after_a_reconnect_without_pairing_anew(
-    tier: str, kind: str
-) -> None:
+def test_a_paired_device_streams_also_after_a_reconnect_without_pairing_again(tier: str, kind: str) -> None:
     # an attempt to pair on the second link would be refused, and told
-    packets = heard(tier, "0 * pairing; 5 * refuse pairing; 6 * disconnect", True, 10.0, kind)
+    packets = receive(tier, "0 * pairing; 5 * refuse pairing; 6 * disconnect", True, 10.0, kind)
     assert troubles(packets) == []
     connected = [packet.t for packet in packets if packet.channel == "receiver/connected"]
     assert len(connected) == 2
     times = streamed(packets, KINDS[kind][0])
-    first, second = (sum(begun < t < begun + 3.0 for t in times) for begun in connected)
+    first, second = (sum(t_connected < t < t_connected + 3.0 for t in times) for t_connected in connected)
     assert first > 25
     assert second == pytest.approx(first, rel=0.1)
 
 
 @pytest.mark.parametrize("tier", TIERS)
 def test_pairing_with_a_device_that_does_not_need_it_changes_nothing(tier: str) -> None:
-    alone, paired = (heard(tier, "", pair, 5.0) for pair in (False, True))
+    alone, paired = (receive(tier, "", pair, 5.0) for pair in (False, True))
     assert troubles(paired) == []
     frames = [[packet.data for packet in packets if packet.channel == "insole/frame"] for packets in (alone, paired)]
     assert len(frames[0]) > 400
@@ -100,23 +100,23 @@ def test_pairing_with_a_device_that_does_not_need_it_changes_nothing(tier: str) 
 
 
 @pytest.mark.parametrize("tier", TIERS)
-def test_a_device_that_needs_pairing_from_some_time_on_falls_silent_and_what_to_do_is_told(tier: str) -> None:
-    packets = heard(tier, "4 * pairing", False, 12.0)
+def test_a_device_that_needs_pairing_from_some_time_on_falls_silent_and_the_remedy_is_reported(tier: str) -> None:
+    packets = receive(tier, "4 * pairing", False, 12.0)
     assert 3.9 < max(streamed(packets, INSOLE)) < 4.1
     assert any("the device wants to be paired first" in what for what in troubles(packets))
 
 
 @pytest.mark.parametrize("tier", TIERS)
-def test_a_refused_pairing_is_a_connection_that_fails_and_the_next_attempt_is_another(tier: str) -> None:
-    packets = heard(tier, "0 * pairing; 0 * refuse pairing 2", True, 5.0)  # two, since each search is good for two
-    (told,) = troubles(packets)
-    assert "the device refused to be paired" in told
+def test_a_rejected_pairing_is_a_connection_that_fails_and_the_next_attempt_is_another(tier: str) -> None:
+    packets = receive(tier, "0 * pairing; 0 * refuse pairing 2", True, 5.0)  # two, since each search is good for two
+    (trouble,) = troubles(packets)
+    assert "the device refused to be paired" in trouble
     assert len(streamed(packets, INSOLE)) > 300
 
 
 @pytest.mark.parametrize("tier", TIERS)
 @virtually
-async def test_an_unpaired_link_reads_what_every_device_tells_of_itself_and_nothing_more(tier: str) -> None:
+async def test_an_unpaired_link_reads_public_values_only(tier: str) -> None:
     worn = bench("0 * pairing")
     async with TIERS[tier](worn) as backend, await client(worn, backend) as host:
         assert await host.read_gatt_char(FIRMWARE)
@@ -125,9 +125,9 @@ async def test_an_unpaired_link_reads_what_every_device_tells_of_itself_and_noth
             host.write_gatt_char(CONTROL, b"\x01", response=True),
             host.start_notify(FRAME, print),
         ):
-            with pytest.raises(BleakGATTProtocolError) as refused:
+            with pytest.raises(BleakGATTProtocolError) as error:
                 await request
-            assert refused.value.code == BleakGATTProtocolErrorCode.INSUFFICIENT_AUTHENTICATION
+            assert error.value.code == BleakGATTProtocolErrorCode.INSUFFICIENT_AUTHENTICATION
         await host.pair()  # and on the same link it is encrypted from now on
         assert await host.read_gatt_char(INFO)
         await host.pair()

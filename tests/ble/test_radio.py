@@ -34,16 +34,16 @@ pytestmark = [
 ]
 
 
-async def heard() -> list[Packet]:
-    """What the device says, from the connection to LISTENED s after its first samples."""
+async def receive() -> list[Packet]:
+    """Return the packets from the connection to LISTENED s after the first samples."""
     found = [one for one in await scan(10.0) if one.address.upper() == ADDRESS.upper()]
     assert found, f"{ADDRESS} is not heard: switch it on, bring it near"
     profile = BY_NAME[PROFILE] if PROFILE else found[0].profile
     assert profile is not None, "what this is its advertisement does not tell: SOLEPATH_RADIO_PROFILE=NAME"
     # an insole says itself whose it is
-    wanted = DeviceConfig(None if profile.name == "insole" else Site.RIGHT_FOOT, ADDRESS, profile)
+    config = DeviceConfig(None if profile.name == "insole" else Site.RIGHT_FOOT, ADDRESS, profile)
     packets: list[Packet] = []
-    async with Devices([wanted]) as devices:
+    async with Devices([config]) as devices:
         async with asyncio.timeout(PATIENCE):
             async for packet in devices:
                 packets.append(packet)
@@ -52,8 +52,8 @@ async def heard() -> list[Packet]:
         return packets + await collect(devices, LISTENED)
 
 
-def test_a_real_device_is_found_connected_set_up_and_heard_in_order() -> None:
-    packets = asyncio.run(heard())
+def test_a_real_device_is_found_connected_set_up_and_read_in_order() -> None:
+    packets = asyncio.run(receive())
     frames = [packet for packet in packets if streamed(packet.channel)]
     assert all(a.t <= b.t for a, b in zip(packets, packets[1:], strict=False))
     rate = len(frames) / LISTENED

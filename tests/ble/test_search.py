@@ -1,4 +1,4 @@
-"""Which device an app gets for what it wants."""
+"""Choice of the device for each config."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ def feet(device: Device, faults: str = "") -> Bench:
 
 
 def got(
-    peripherals: tuple[Peripheral, ...], wanted: list[DeviceConfig], seconds: float = 6.0, **more: float
+    peripherals: tuple[Peripheral, ...], configs: list[DeviceConfig], seconds: float = 6.0, **more: float
 ) -> list[Packet]:
-    return received(MemoryRadio(peripherals).backend, *wanted, seconds=seconds, **more)
+    return received(MemoryRadio(peripherals).backend, *configs, seconds=seconds, **more)
 
 
 def connected(packets: list[Packet]) -> dict[Site, str]:
-    """Which device was connected where, at last."""
+    """Return the devices that are connected at the end, by site."""
     return {packet.site: packet.device for packet in packets if packet.channel == "receiver/connected"}
 
 
@@ -51,13 +51,13 @@ def test_a_device_is_found_by_its_address_or_by_its_name(which: str) -> None:
     assert connected(packets) == {RIGHT: "F0:5E:00:00:00:02"}
     assert streams(packets) == {RIGHT}
     assert not troubles(packets)
-    [said] = [packet for packet in packets if packet.channel == "receiver/connected"]
-    assert parse_connected(said.data).name == "solepath R"
-    assert parse_connected(said.data).signal == -50
+    [connected_packet] = [packet for packet in packets if packet.channel == "receiver/connected"]
+    assert parse_connected(connected_packet.data).name == "solepath R"
+    assert parse_connected(connected_packet.data).signal == -50
 
 
 @pytest.mark.parametrize("turned", [False, True])
-def test_any_two_insoles_say_themselves_whose_foot_they_are_whichever_is_heard_first(turned: bool) -> None:
+def test_any_two_insoles_report_their_feet_whichever_advertises_first(turned: bool) -> None:
     bench = feet(Insole())
     peripherals = bench.peripherals[::-1] if turned else bench.peripherals
     packets = got(peripherals, [DeviceConfig(None, profile=INSOLE)] * 2)
@@ -66,7 +66,7 @@ def test_any_two_insoles_say_themselves_whose_foot_they_are_whichever_is_heard_f
     assert not troubles(packets)
 
 
-def test_one_insole_of_either_foot_is_enough_for_who_wants_any() -> None:
+def test_one_insole_of_either_foot_is_enough_for_a_config_of_any() -> None:
     bench = feet(Insole())
     packets = got((bench[RIGHT],), [DeviceConfig(None, profile=INSOLE)])
     assert connected(packets) == {RIGHT: bench[RIGHT].address}
@@ -74,14 +74,14 @@ def test_one_insole_of_either_foot_is_enough_for_who_wants_any() -> None:
     assert connected(packets) == {LEFT: bench[LEFT].address}
 
 
-def test_a_left_insole_is_found_though_the_right_one_is_heard_first() -> None:
+def test_a_left_insole_is_found_though_the_right_one_advertises_first() -> None:
     bench = feet(Insole())
     packets = got(bench.peripherals[::-1], [DeviceConfig(LEFT, profile=INSOLE)])
     assert connected(packets) == {LEFT: bench[LEFT].address}
     assert troubles(packets) == ["solepath R is a right foot one: wanted at the left foot"]
 
 
-def test_the_insole_of_the_other_foot_is_refused_in_words() -> None:
+def test_the_insole_of_the_other_foot_is_rejected_with_a_reason() -> None:
     packets = got(feet(Insole()).peripherals, [DeviceConfig(RIGHT, "F0:5E:00:00:00:01")], seconds=30.0)
     assert not connected(packets)
     assert troubles(packets) == ["solepath L is a left foot one: wanted at the right foot"]
@@ -97,14 +97,14 @@ def test_two_insoles_of_one_foot_are_not_taken_for_a_pair() -> None:
     assert connected(packets).keys() == {LEFT, RIGHT}
 
 
-def test_who_wants_any_does_not_take_what_another_named() -> None:
+def test_a_config_of_any_does_not_take_a_device_named_by_another() -> None:
     bench = feet(Insole())
     for which in (bench[LEFT].address, "solepath L"):
         packets = got(bench.peripherals, [DeviceConfig(None, profile=INSOLE), DeviceConfig(LEFT, which)])
         assert connected(packets) == {site: bench[site].address for site in (LEFT, RIGHT)}
 
 
-def test_who_wants_any_insole_gets_none_for_a_foot_that_another_is_wanted_at() -> None:
+def test_a_config_of_any_insole_gets_none_for_a_foot_that_is_configured() -> None:
     bench = feet(Insole())
     packets = got((bench[LEFT],), [DeviceConfig(None, profile=INSOLE), DeviceConfig(LEFT, "F0:00:00:00:00:77")])
     assert not connected(packets)
@@ -112,7 +112,7 @@ def test_who_wants_any_insole_gets_none_for_a_foot_that_another_is_wanted_at() -
     assert "solepath L is one more for the left foot" in troubles(packets)
 
 
-def test_a_device_that_does_not_say_where_it_is_worn_is_not_guessed_to_be_anywhere() -> None:
+def test_a_device_that_does_not_report_its_site_is_not_guessed_to_be_anywhere() -> None:
     packets = got(feet(Tag()).peripherals, [DeviceConfig(None, "F0:5E:00:00:00:01")])
     assert not connected(packets)
     assert troubles(packets) == ["CC2650 SensorTag does not say where it is worn: name a site"]
@@ -136,7 +136,7 @@ def test_when_one_of_the_two_is_named_otherwise_the_other_is_taken() -> None:
     assert min(packet.t for packet in packets if packet.channel == "receiver/connected") > 8.0
 
 
-def test_when_one_of_the_two_is_not_heard_for_a_while_the_other_is_still_not_guessed_to_be_it() -> None:
+def test_when_one_of_the_two_is_silent_for_a_while_the_other_is_still_not_guessed_to_be_it() -> None:
     bench = feet(Tag(), faults="8 right_foot vanish 15")
     packets = got(bench.peripherals, [DeviceConfig(LEFT, "CC2650 SensorTag")], seconds=30.0)
     assert not connected(packets)
@@ -149,7 +149,7 @@ def test_when_one_of_the_two_is_switched_off_the_other_is_taken() -> None:
 
 
 @pytest.mark.parametrize(
-    "wanted",
+    "configs",
     [
         [],
         [DeviceConfig(LEFT, "one"), DeviceConfig(LEFT, "two")],
@@ -161,36 +161,36 @@ def test_when_one_of_the_two_is_switched_off_the_other_is_taken() -> None:
         [DeviceConfig(LEFT, "one"), *[DeviceConfig(None, profile=INSOLE)] * 2],
     ],
 )
-def test_what_cannot_be_told_apart_is_an_error_before_anything_is_done(wanted: list[DeviceConfig]) -> None:
+def test_indistinguishable_configs_are_an_error_before_anything_is_done(configs: list[DeviceConfig]) -> None:
     with pytest.raises(ValueError):
-        Devices(wanted)
+        Devices(configs)
 
 
-def test_what_can_be_told_apart_is_none() -> None:
+def test_distinguishable_configs_are_no_error() -> None:
     Devices([DeviceConfig(LEFT, profile=INSOLE), DeviceConfig(RIGHT, profile=INSOLE)])
     Devices([DeviceConfig(LEFT, profile=CC2650), DeviceConfig(RIGHT, profile=CC2541)])
     Devices([DeviceConfig(None, profile=INSOLE)] * 2)
     Devices([DeviceConfig(LEFT, "one"), DeviceConfig(None, profile=INSOLE)])
 
 
-def test_a_device_of_a_kind_that_nobody_knows_is_told_and_left() -> None:
+def test_a_device_of_unknown_kind_is_reported_and_left() -> None:
     packets = got((strap(),), [DeviceConfig(PELVIS, address(1))], seconds=20.0)
     assert not connected(packets)
     assert troubles(packets) == ["strap 1 is of no kind that is known here: say its profile"]
 
 
 @pytest.mark.parametrize("which", [address(1), "strap 1"])
-def test_a_device_of_another_kind_than_was_said_is_told_and_left(which: str) -> None:
-    heard = logged_radio(strap())
-    packets = received(heard.backend, DeviceConfig(LEFT, which, CC2650), seconds=20.0)
+def test_a_device_of_another_kind_than_configured_is_reported_and_left(which: str) -> None:
+    belt = logged_radio(strap())
+    packets = received(belt.backend, DeviceConfig(LEFT, which, CC2650), seconds=20.0)
     assert not connected(packets)
     assert troubles(packets) == ["strap 1 is no cc2650: it has no cc2650/movement"]
-    assert {what for _, what, _ in heard.log} == {"connect", "disconnect"}
+    assert {what for _, what, _ in belt.log} == {"connect", "disconnect"}
 
 
 def test_a_device_of_ones_own_kind_is_found_by_name_or_by_what_it_advertises() -> None:
-    for wanted in (DeviceConfig(PELVIS, "strap 1", STRAP), DeviceConfig(PELVIS, profile=STRAP)):
-        packets = got((strap(1),), [wanted])
+    for configs in (DeviceConfig(PELVIS, "strap 1", STRAP), DeviceConfig(PELVIS, profile=STRAP)):
+        packets = got((strap(1),), [configs])
         assert connected(packets) == {PELVIS: address(1)}
         assert streams(packets, "strap/beat") == {PELVIS}
 
@@ -216,16 +216,16 @@ def test_after_its_patience_an_absent_device_is_complained_of_once() -> None:
     packets = got((), [DeviceConfig(LEFT, "solepath L")], seconds=300.0, patience=7.0)
     [words] = troubles(packets)
     assert words.startswith("no device 'solepath L' is heard: switch it on, bring it near")
-    [said] = [packet for packet in packets if packet.channel == "receiver/trouble"]
-    assert (said.site, said.device) == (LEFT, "")
-    assert said.t == pytest.approx(7.0, abs=0.6)
+    [connected_packet] = [packet for packet in packets if packet.channel == "receiver/trouble"]
+    assert (connected_packet.site, connected_packet.device) == (LEFT, "")
+    assert connected_packet.t == pytest.approx(7.0, abs=0.6)
 
 
 def test_an_absent_device_never_delays_another() -> None:
     bench = feet(Insole())
 
-    def first(wanted: list[DeviceConfig]) -> float:
-        packets = got((bench[RIGHT],), wanted)
+    def first(configs: list[DeviceConfig]) -> float:
+        packets = got((bench[RIGHT],), configs)
         bench[RIGHT].disconnected(6.0)
         return min(packet.t for packet in packets if packet.channel == "insole/frame")
 
@@ -236,21 +236,21 @@ def test_an_absent_device_never_delays_another() -> None:
 
 @virtually
 async def test_only_one_scanner_works_at_a_time_and_none_once_all_are_found() -> None:
-    heard = logged_radio(*(strap(number, faults=f"{4 + number} * disconnect") for number in range(1, 5)))
-    wanted = [DeviceConfig(site, address(n), STRAP) for n, site in enumerate(list(Site)[:4], 1)]
-    async with Devices(wanted, backend=heard.backend) as devices:
+    belt = logged_radio(*(strap(number, faults=f"{4 + number} * disconnect") for number in range(1, 5)))
+    configs = [DeviceConfig(site, address(n), STRAP) for n, site in enumerate(list(Site)[:4], 1)]
+    async with Devices(configs, backend=belt.backend) as devices:
         await collect(devices, 3.0)
         assert {one.state for one in devices.connections} == {ConnectionState.LISTENING}
-        assert heard.scanning == 0
+        assert belt.scanning == 0
         await collect(devices, 10.0)
-    assert heard.scanning == 0
-    assert heard.most == 1
+    assert belt.scanning == 0
+    assert belt.most == 1
 
 
 @virtually
-async def test_a_scan_tells_of_known_devices_and_of_strangers() -> None:
-    began = now()
+async def test_a_scan_lists_known_and_unknown_devices() -> None:
+    started_at = now()
     found = await scan(2.0, backend=MemoryRadio((*feet(Insole()).peripherals, strap())).backend)
-    assert now() - began == pytest.approx(2.0)
+    assert now() - started_at == pytest.approx(2.0)
     kinds = {one.address: one.profile.name if one.profile else None for one in found}
     assert kinds == {TAGS[0]: "insole", TAGS[1]: "insole", address(1): None}

@@ -25,12 +25,12 @@ from solepath.wire.receiver import parse_dropped
 
 @cache
 def taken_late(capacity: int, wait: float) -> list[Packet]:
-    """What an app gets that takes nothing for so long, and then all."""
+    """Return the packets of an app that takes nothing for a while, and then all."""
 
     async def main() -> list[Packet]:
         bench = Bench(Route().stand(25.0), seed=3)
-        wanted = [DeviceConfig(peripheral.site, peripheral.address) for peripheral in bench.peripherals]
-        async with Devices(wanted, backend=MemoryRadio(bench.peripherals).backend, capacity=capacity) as devices:
+        configs = [DeviceConfig(peripheral.site, peripheral.address) for peripheral in bench.peripherals]
+        async with Devices(configs, backend=MemoryRadio(bench.peripherals).backend, capacity=capacity) as devices:
             await asyncio.sleep(wait)
             sent.extend(sum(p.sent.values()) for p in bench.peripherals)
         return [packet async for packet in devices]
@@ -79,20 +79,20 @@ async def test_an_app_that_takes_a_packet_every_now_and_then_gets_them_in_order(
 @virtually
 async def test_to_leave_disconnects_and_leaves_no_task_behind() -> None:
     devices = [strap(n) for n in (1, 2)]
-    wanted = [
+    configs = [
         DeviceConfig(LEFT, address(1), STRAP),
         DeviceConfig(RIGHT, address(2), STRAP),
         DeviceConfig(PELVIS, "absent", STRAP),
     ]
-    async with Devices(wanted, backend=MemoryRadio(devices).backend) as heard:
-        await collect(heard, 3.0)
+    async with Devices(configs, backend=MemoryRadio(devices).backend) as open_devices:
+        await collect(open_devices, 3.0)
         assert all(device.is_connected for device in devices)
     assert not any(device.is_connected for device in devices)
     assert not others()
-    rest = [packet async for packet in heard]
-    assert [packet async for packet in heard] == []
+    rest = [packet async for packet in open_devices]
+    assert [packet async for packet in open_devices] == []
     await asyncio.sleep(0.0)
-    assert {one.state for one in heard.connections} == {ConnectionState.SEEKING}
+    assert {one.state for one in open_devices.connections} == {ConnectionState.SEEKING}
     assert {packet.site for packet in rest if packet.channel == "receiver/disconnected"} == {LEFT, RIGHT}
 
 
@@ -100,10 +100,10 @@ async def test_to_leave_disconnects_and_leaves_no_task_behind() -> None:
 @virtually
 async def test_to_leave_at_any_moment_leaves_nothing_behind(moment: float) -> None:
     device = strap()
-    heard = logged_radio(device)
-    async with Devices([ONE], backend=heard.backend):
+    open_devices = logged_radio(device)
+    async with Devices([ONE], backend=open_devices.backend):
         await asyncio.sleep(moment)
-    assert not others() and not device.is_connected and heard.scanning == 0
+    assert not others() and not device.is_connected and open_devices.scanning == 0
 
 
 @virtually
@@ -119,7 +119,7 @@ async def test_devices_that_were_left_can_be_entered_again_but_not_twice_at_once
 
 
 @virtually
-async def test_two_who_wait_for_the_next_packet_at_once_are_told_that_only_one_may() -> None:
+async def test_a_second_reader_of_the_next_packet_is_an_error() -> None:
     async with Devices([ONE], backend=logged_radio().backend) as devices:
         first = asyncio.create_task(anext(devices))
         await asyncio.sleep(0.1)
@@ -144,7 +144,7 @@ async def test_who_gives_up_waiting_loses_no_packet() -> None:
 @virtually
 async def test_a_fault_of_the_program_itself_is_raised_to_whoever_takes_packets() -> None:
     class Faulty(DeviceConfig):
-        def fits(self, *given: Any) -> bool:
+        def matches(self, *given: Any) -> bool:
             return True
 
         def is_address(self, address: str) -> bool:
@@ -165,17 +165,17 @@ async def test_devices_that_were_never_entered_do_not_end_silently() -> None:
 
 
 @virtually
-async def test_of_two_who_enter_at_once_one_is_told_that_they_are_in_use() -> None:
+async def test_entering_twice_at_once_is_an_error() -> None:
     """Also while the first is still waiting for Bluetooth; and an entry that failed is none."""
     device = strap()
-    heard = logged_radio(device)
-    devices = Devices([ONE], backend=slowly(heard.backend))
+    open_devices = logged_radio(device)
+    devices = Devices([ONE], backend=slowly(open_devices.backend))
     first, second = await asyncio.gather(devices.__aenter__(), devices.__aenter__(), return_exceptions=True)
     assert first is devices and isinstance(second, RuntimeError)
     await collect(devices, 3.0)
     await devices.__aexit__(None, None, None)
-    assert not others() and heard.scanning == 0 and not device.is_connected
-    broken = Devices([ONE], backend=failing(heard.backend, [BleakError("odd")]))
+    assert not others() and open_devices.scanning == 0 and not device.is_connected
+    broken = Devices([ONE], backend=failing(open_devices.backend, [BleakError("odd")]))
     with pytest.raises(BluetoothError):
         await broken.__aenter__()
     async with broken:
@@ -183,7 +183,7 @@ async def test_of_two_who_enter_at_once_one_is_told_that_they_are_in_use() -> No
 
 
 def slowly(beneath: Backend) -> Backend:
-    """A Bluetooth whose scans take their time to begin."""
+    """A Bluetooth whose scans start slowly."""
     scanner: Any = beneath.scanner
 
     class Scanner(scanner):

@@ -1,4 +1,4 @@
-"""What an app is told when Bluetooth cannot be used, and how often it is tried again."""
+"""Messages to an app when Bluetooth cannot be used, and the number of attempts."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from strap import Strap
 from virtual import virtually
 
 from solepath.ble import Backend, BluetoothError, DeviceConfig, Devices, scan
-from solepath.ble.trouble import sentence
+from solepath.ble.trouble import describe_error
 from solepath.emulate.devices.attributes import Outgoing
 from solepath.link.devices.cc2650 import PROFILE as CC2650
 
@@ -54,7 +54,7 @@ def without_bluetooth(error: Exception) -> Backend:
 
 @pytest.mark.parametrize("error", UNAVAILABLE, ids=lambda error: " ".join(map(str, error.args))[:50])
 @virtually
-async def test_to_enter_or_to_scan_without_bluetooth_is_an_error_that_says_what_to_do(error: Exception) -> None:
+async def test_to_enter_or_to_scan_without_bluetooth_is_an_error_with_a_remedy(error: Exception) -> None:
     with pytest.raises(BluetoothError) as entered:
         async with Devices([DeviceConfig(PELVIS, "any")], backend=without_bluetooth(error)):
             pass
@@ -68,42 +68,42 @@ async def test_to_enter_or_to_scan_without_bluetooth_is_an_error_that_says_what_
 
 
 @pytest.mark.parametrize("words", ["Not connected", "disconnected", "the link was lost"])
-def test_a_lost_connection_is_told_in_one_phrase_with_what_comes_next(words: str) -> None:
-    assert sentence(BleakError(words)).startswith("the connection was lost: the device is sought again")
+def test_a_lost_connection_is_reported_in_one_phrase_with_the_next_action(words: str) -> None:
+    assert describe_error(BleakError(words)).startswith("the connection was lost: the device is sought again")
 
 
 @pytest.mark.parametrize("code", list(BleakGATTProtocolErrorCode))
 def test_every_att_error_has_one_line(code: BleakGATTProtocolErrorCode) -> None:
-    words = sentence(BleakGATTProtocolError(code))
+    words = describe_error(BleakGATTProtocolError(code))
     assert words and "\n" not in words
     assert "pair" in words or f"0x{int(code):02X}" in words
 
 
 class Fleeting(Strap):
-    """It loses each of its first links after so many s, and says nothing over the first `silent` of them."""
+    """A device that loses its first links after these times, s, and sends nothing over the first `silent` ones."""
 
     silent = 0
 
     def __init__(self, *lasting: float) -> None:
         super().__init__("strap 1", address(1))
         self.lasting = [*lasting]
-        self.begun: list[float] = []
+        self.start_times: list[float] = []
 
     def connected(self, now: float, mtu: int) -> None:
-        self.begun.append(now)
+        self.start_times.append(now)
         super().connected(now, mtu)
 
     def hang_up(self, now: float) -> bool:
-        nth = len(self.begun) - 1
-        lost = self.is_connected and nth < len(self.lasting) and now - self.begun[-1] >= self.lasting[nth]
+        nth = len(self.start_times) - 1
+        lost = self.is_connected and nth < len(self.lasting) and now - self.start_times[-1] >= self.lasting[nth]
         return super().hang_up(now) or lost
 
     def poll(self, now: float) -> list[Outgoing]:
-        said = super().poll(now)
-        return said if len(self.begun) > self.silent else []
+        output = super().poll(now)
+        return output if len(self.start_times) > self.silent else []
 
     def pauses(self) -> list[float]:
-        return [b - a for a, b in zip(self.begun, self.begun[1:], strict=False)]
+        return [b - a for a, b in zip(self.start_times, self.start_times[1:], strict=False)]
 
 
 def test_a_device_that_fails_again_and_again_is_tried_less_and_less_often_and_never_given_up() -> None:
@@ -113,8 +113,10 @@ def test_a_device_that_fails_again_and_again_is_tried_less_and_less_often_and_ne
     assert pauses[0] < 0.6
     assert pauses[:5] == sorted(pauses[:5])
     assert all(8.0 <= pause < 8.6 for pause in pauses[6:]) and len(pauses) > 12
-    told = times(packets, "receiver/trouble")
-    assert [round(b - a) for a, b in zip(told, told[1:], strict=False)] == pytest.approx([60] * (len(told) - 1), abs=9)
+    report_times = times(packets, "receiver/trouble")
+    assert [round(b - a) for a, b in zip(report_times, report_times[1:], strict=False)] == pytest.approx(
+        [60] * (len(report_times) - 1), abs=9
+    )
 
 
 def test_links_that_break_before_anything_comes_are_made_less_and_less_often_until_one_holds() -> None:

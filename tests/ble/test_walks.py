@@ -9,7 +9,7 @@ from itertools import pairwise
 import pytest
 from airs import bumble, collect, in_virtual_time, whole
 from attrs import evolve
-from walks import said
+from walks import run_session
 
 from solepath import Event, FootFlat, HeelOff, HeelStrike, PacketRejected, PacketsLost, SampleGap, StrideTaken, ToeOff
 from solepath.ble import DeviceConfig, Devices
@@ -30,13 +30,13 @@ FEET = (Site.LEFT_FOOT, Site.RIGHT_FOOT)
 MINUTE = Route().stand(3.0).walk(20.0).turn(1.5, radius=1.5).walk(40.0, speed=1.2).stop(7.0)
 SOME = Route().stand(3.0).walk(8.0).turn(1.5, radius=1.5).walk(4.0, speed=1.2).stop(3.0)
 LITTLE = Route().stand(1.5).walk(2.5).stop(1.0)
-"""What is sent in pieces costs as much for each piece."""
+"""Data sent in pieces costs as much for each piece."""
 LASTS = {MINUTE: 60.0, SOME: 15.0, LITTLE: 4.0}
 """s."""
 
 
-def heard(
-    bench: Bench, wanted: Sequence[DeviceConfig], seconds: float, interval: float | None = None
+def receive(
+    bench: Bench, configs: Sequence[DeviceConfig], seconds: float, interval: float | None = None
 ) -> tuple[list[Packet], float]:
     """What arrives from the beginning of the search until the walk has lasted so long; and when it began.
 
@@ -44,11 +44,11 @@ def heard(
     """
 
     async def listen() -> tuple[list[Packet], float]:
-        began = asyncio.get_running_loop().time() + 5.0
-        bench.walk_from(began)
+        started_at = asyncio.get_running_loop().time() + 5.0
+        bench.walk_from(started_at)
         bench.prepare()
-        async with bumble(bench, interval) as backend, Devices(wanted, backend=backend) as devices:
-            return await collect(devices, 5.0 + seconds), began
+        async with bumble(bench, interval) as backend, Devices(configs, backend=backend) as devices:
+            return await collect(devices, 5.0 + seconds), started_at
 
     return in_virtual_time(listen)
 
@@ -73,7 +73,7 @@ def test_a_walk_of_two_insoles_arrives_whole_and_in_order_and_means_the_same_as_
     bench = Bench(route, mtu=mtu)
     duration = bench.truth().duration
     assert duration > LASTS[route]
-    packets, began = heard(bench, [DeviceConfig(None, profile=INSOLE)] * 2, duration)
+    packets, started_at = receive(bench, [DeviceConfig(None, profile=INSOLE)] * 2, duration)
     arrived = whole(packets)
 
     # the walk's own frames, as they leave the device without any link
@@ -88,15 +88,15 @@ def test_a_walk_of_two_insoles_arrives_whole_and_in_order_and_means_the_same_as_
         assert len(walked) > 95.0 * duration
         assert [packet.data for packet in walked] == [packet.data for packet in direct[site]]
         # none waited for anything: they were with the radio when they were heard
-        assert max(abs(a.t - began - b.t) for a, b in zip(walked, direct[site], strict=True)) < 0.01
+        assert max(abs(a.t - started_at - b.t) for a, b in zip(walked, direct[site], strict=True)) < 0.01
         stamped = [evolve(b, t=a.t, device=a.device) for a, b in zip(walked, direct[site], strict=True)]
         fed += stamped
         known = {id(packet) for packet in walked}
         fed += [packet for packet in arrived if packet.site is site and id(packet) not in known]
     fed.sort(key=lambda packet: packet.t)
 
-    events = said(packets, poses=True)
-    assert events == said(fed, poses=True)
+    events = run_session(packets, poses=True)
+    assert events == run_session(fed, poses=True)
     assert {event.foot for event in events if isinstance(event, StrideTaken)} == set(Foot)
     assert not [event for event in events if isinstance(event, PacketsLost | PacketRejected | SampleGap)]
     if mtu == 23:
@@ -118,13 +118,13 @@ def test_insoles_whose_links_wait_for_connection_events_give_the_same_steps_at_t
     found: list[list[Event]] = []
     for waits in (None, interval):
         bench = Bench(TAGGED)
-        packets, began = heard(bench, [DeviceConfig(None, profile=INSOLE)] * 2, bench.truth().duration, waits)
+        packets, started_at = receive(bench, [DeviceConfig(None, profile=INSOLE)] * 2, bench.truth().duration, waits)
         frames = [packet.t for packet in packets if packet.site is FEET[0] and packet.channel == "insole/frame"]
         apart = [b - a for a, b in pairwise(frames) if b > a]
         if waits is not None:  # they came in threes, as they do from a radio
             assert min(apart) > 0.99 * interval
             assert len(frames) > 2.9 * len(apart)
-        events = said([evolve(packet, t=packet.t - began) for packet in packets], poses=True)
+        events = run_session([evolve(packet, t=packet.t - started_at) for packet in packets], poses=True)
         assert not [event for event in events if isinstance(event, PacketsLost | PacketRejected | SampleGap)]
         found.append([event for event in events if isinstance(event, HeelStrike | FootFlat | HeelOff | ToeOff)])
     for foot in Foot:
@@ -153,11 +153,11 @@ def test_sensortags_give_the_steps_of_a_walk_end_to_end(
     true = found = invented = 0
     for seed in seeds:
         bench = Bench(TAGGED, devices=dict.fromkeys(FEET, device), seed=seed)
-        wanted = [DeviceConfig(worn.site, worn.address, profile) for worn in bench.peripherals]
-        packets, began = heard(bench, wanted, bench.truth().duration, interval)
-        shifted = [evolve(packet, t=packet.t - began) for packet in packets]
+        configs = [DeviceConfig(worn.site, worn.address, profile) for worn in bench.peripherals]
+        packets, started_at = receive(bench, configs, bench.truth().duration, interval)
+        shifted = [evolve(packet, t=packet.t - started_at) for packet in packets]
         gathering = Gathering()
-        for event in said(shifted, poses=True):
+        for event in run_session(shifted, poses=True):
             gathering.add(event)
         for foot in compare(bench.truth(), {foot: gathering.foot(foot) for foot in Foot}):
             true += foot.steps_true

@@ -1,4 +1,4 @@
-"""What tells a frozen stream from one that has nothing to say."""
+"""Distinction of a frozen stream from one that has nothing to send."""
 
 from __future__ import annotations
 
@@ -13,58 +13,58 @@ PATIENCE = 2.0
 moments = st.lists(
     st.tuples(st.floats(0.0, 3.0), st.sampled_from(["acc", "gyro", "battery", None])), min_size=1, max_size=60
 )
-"""(s since the one before, which channel was heard; None: a look)."""
+"""(time since the one before, s; channel of the notification, or None for a check)."""
 
 
-def test_a_stream_that_never_began_is_set_up_again_and_then_given_up() -> None:
-    dog = Watchdog(("acc",), PATIENCE, began=10.0)
-    assert dog.look(11.9) is None
+def test_a_stream_that_never_started_is_set_up_again_and_then_given_up() -> None:
+    dog = Watchdog(("acc",), PATIENCE, t_start=10.0)
+    assert dog.check(11.9) is None
     remedies = []
-    while (due := dog.due()) is not None and len(remedies) <= TRIES:
-        remedies.append(dog.look(due))
+    while (due := dog.next_check_at()) is not None and len(remedies) <= TRIES:
+        remedies.append(dog.check(due))
     assert remedies == [("acc", Remedy.SET_UP)] * TRIES + [("acc", Remedy.RECONNECT)]
 
 
 def test_each_remedy_is_given_its_time() -> None:
-    dog = Watchdog(("acc",), PATIENCE, began=0.0)
-    assert dog.look(5.0) == ("acc", Remedy.SET_UP)
-    assert dog.due() == 7.0
-    assert dog.look(6.9) is None
+    dog = Watchdog(("acc",), PATIENCE, t_start=0.0)
+    assert dog.check(5.0) == ("acc", Remedy.SET_UP)
+    assert dog.next_check_at() == 7.0
+    assert dog.check(6.9) is None
 
 
 def test_one_of_two_streams_that_froze_is_named() -> None:
-    dog = Watchdog(STREAMS, PATIENCE, began=0.0)
+    dog = Watchdog(STREAMS, PATIENCE, t_start=0.0)
     for k in range(30):
-        dog.heard("acc", 0.1 * k)
-    assert dog.look(2.95) == ("gyro", Remedy.SET_UP)
+        dog.add_notification("acc", 0.1 * k)
+    assert dog.check(2.95) == ("gyro", Remedy.SET_UP)
 
 
 def test_a_remedy_that_worked_is_there_again_for_the_next_time() -> None:
-    dog = Watchdog(("acc",), PATIENCE, began=0.0)
+    dog = Watchdog(("acc",), PATIENCE, t_start=0.0)
     t = 0.0
     for _ in range(5 * TRIES):
         t += PATIENCE + 0.1
-        assert dog.look(t) == ("acc", Remedy.SET_UP)
-        dog.heard("acc", t + 0.1)
-        assert dog.look(t + 0.2) is None
+        assert dog.check(t) == ("acc", Remedy.SET_UP)
+        dog.add_notification("acc", t + 0.1)
+        assert dog.check(t + 0.2) is None
 
 
 def test_where_silence_is_legal_there_is_nothing_to_watch() -> None:
-    dog = Watchdog((), PATIENCE, began=0.0)
-    assert dog.due() is None
-    assert dog.look(1e6) is None
+    dog = Watchdog((), PATIENCE, t_start=0.0)
+    assert dog.next_check_at() is None
+    assert dog.check(1e6) is None
 
 
 @given(moments)
 def test_only_a_stream_that_was_silent_too_long_is_ever_named(moments: list[tuple[float, str | None]]) -> None:
-    dog, now, last = Watchdog(STREAMS, PATIENCE, began=0.0), 0.0, dict.fromkeys(STREAMS, 0.0)
-    for wait, heard in moments:
+    dog, now, last = Watchdog(STREAMS, PATIENCE, t_start=0.0), 0.0, dict.fromkeys(STREAMS, 0.0)
+    for wait, channel in moments:
         now += wait
-        if heard is not None:
-            dog.heard(heard, now)
-            last[heard] = now
+        if channel is not None:
+            dog.add_notification(channel, now)
+            last[channel] = now
             continue
-        frozen = dog.look(now)
+        frozen = dog.check(now)
         silent = [stream for stream in STREAMS if now >= last[stream] + PATIENCE]
         if frozen is None:
             assert not silent
@@ -77,31 +77,31 @@ def test_only_a_stream_that_was_silent_too_long_is_ever_named(moments: list[tupl
 
 @given(moments)
 def test_a_look_when_it_is_due_finds_something_and_no_look_before_does(moments: list[tuple[float, str | None]]) -> None:
-    dog, now = Watchdog(STREAMS, PATIENCE, began=0.0), 0.0
-    for wait, heard in moments:
-        due = dog.due()
+    dog, now = Watchdog(STREAMS, PATIENCE, t_start=0.0), 0.0
+    for wait, channel in moments:
+        due = dog.next_check_at()
         assert due is not None and due >= now
-        if heard is not None and now + wait < due:
+        if channel is not None and now + wait < due:
             now += wait
-            dog.heard(heard, now)
-            assert dog.look(now) is None
+            dog.add_notification(channel, now)
+            assert dog.check(now) is None
         else:
             now = due
-            found = dog.look(now)
+            found = dog.check(now)
             assert found is not None
             if found[1] is Remedy.RECONNECT:
-                dog = Watchdog(STREAMS, PATIENCE, began=now)
+                dog = Watchdog(STREAMS, PATIENCE, t_start=now)
 
 
 @given(moments)
 def test_a_device_is_reconnected_only_after_every_try_failed_in_a_row(moments: list[tuple[float, str | None]]) -> None:
-    dog, now, remedied, tries = Watchdog(("acc",), PATIENCE, began=0.0), 0.0, 0.0, 0
-    for wait, heard in moments:
+    dog, now, remedied, tries = Watchdog(("acc",), PATIENCE, t_start=0.0), 0.0, 0.0, 0
+    for wait, channel in moments:
         now += wait
-        if heard is not None:
-            dog.heard(heard, now)
-            tries = 0 if heard == "acc" and now > remedied else tries
-        frozen = dog.look(now)
+        if channel is not None:
+            dog.add_notification(channel, now)
+            tries = 0 if channel == "acc" and now > remedied else tries
+        frozen = dog.check(now)
         if frozen is None:
             continue
         assert frozen == ("acc", Remedy.SET_UP if tries < TRIES else Remedy.RECONNECT)

@@ -7,7 +7,7 @@ import time
 from pathlib import Path
 
 from programs import TAKES, emulator, run, started, wait_for
-from walks import said
+from walks import run_session
 
 from solepath import Connected, Disconnected, StrideTaken
 from solepath.recording import read_packets
@@ -76,7 +76,7 @@ def test_an_emulator_that_is_killed_is_a_lost_link_and_is_found_again_when_it_is
                 recorder.send_signal(signal.SIGINT)
                 recorder.communicate(timeout=TAKES)
     assert recorder.returncode == 0
-    events = said(read_packets(file))
+    events = run_session(read_packets(file))
     links = [type(event) for event in events if isinstance(event, Connected | Disconnected)]
     assert links[:3] == [Connected, Disconnected, Connected]
 
@@ -89,7 +89,7 @@ def test_sensortags_are_told_apart_by_their_addresses(tmp_path: Path) -> None:
         sides = ["--left", "F0:5E:00:00:00:01", "--right", "F0:5E:00:00:00:02"]
         profile = ["--profile", "cc2541-20hz"]
         run("record", "--via", where, *sides, *profile, "--out", file, "--duration", 9)
-    steps = [event for event in said(read_packets(file)) if isinstance(event, StrideTaken)]
+    steps = [event for event in run_session(read_packets(file)) if isinstance(event, StrideTaken)]
     assert {event.foot.value for event in steps} == {"left", "right"}
 
 
@@ -98,6 +98,6 @@ def test_faults_come_from_a_script(tmp_path: Path) -> None:
     script.write_text("1.0 left_foot disconnect\n2.0 left_foot drop 3\n")
     with emulator("--distance", 5, "--faults", script) as (_, where):
         run("record", "--via", where, "--left", "solepath L", "--out", file, "--duration", 5)
-    names = [type(event).__name__ for event in said(read_packets(file))]
+    names = [type(event).__name__ for event in run_session(read_packets(file))]
     assert [name for name in names if "onnected" in name][:3] == ["Connected", "Disconnected", "Connected"]
     assert "PacketsLost" in names

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from commands import refused, run
+from commands import run, run_failing
 from recordings import recorded
 from walks import columns_of
 
@@ -44,7 +44,7 @@ def test_a_recipe_of_pressure_refuses_samples_without_any(bare):
     assert PRESSED
     for name in PRESSED:
         expected = f"solepath: recipe {name} needs pressure cells; {bare} has none\n"
-        assert refused("track", bare, "--recipe", name) == expected
+        assert run_failing("track", bare, "--recipe", name) == expected
 
 
 def test_track_runs_with_a_calibration(packets, folder):
@@ -70,12 +70,12 @@ def test_evaluate_runs_with_a_calibration_and_refuses_what_is_none(folder, tmp_p
         ends.append(scores["end_error_2d"])
     # 5 cm/s taken off for the 7 s that the foot does not stand: another end, by decimetres
     assert abs(ends[1] - ends[0]) > 0.1
-    assert "none.json: No such file" in refused("evaluate", tmp_path, "--calibration", tmp_path / "none.json")
+    assert "none.json: No such file" in run_failing("evaluate", tmp_path, "--calibration", tmp_path / "none.json")
 
 
 def test_a_file_that_is_no_calibration_is_refused_in_one_line(packets, tmp_path):
     (tmp_path / "wrong.json").write_text("{")
-    assert "wrong.json: is not JSON" in refused("track", packets, "--calibration", tmp_path / "wrong.json")
+    assert "wrong.json: is not JSON" in run_failing("track", packets, "--calibration", tmp_path / "wrong.json")
 
 
 POSTURES = "pitch_deg,L_r_m,L_p2t_m\n" + "".join(
@@ -159,7 +159,7 @@ def test_what_cannot_be_learnt_from_is_refused_in_one_line_and_nothing_is_writte
         (("modes", packets), "takes two files for each walk"),
         (("modes", packets, odd), "odd.csv, line 1: wants one column foot"),
     ]:
-        assert complaint in refused("calibrate", *arguments, "--out", out), arguments
+        assert complaint in run_failing("calibrate", *arguments, "--out", out), arguments
         assert not out.exists()
 
 
@@ -167,9 +167,11 @@ def test_a_file_that_is_no_calibration_is_not_overwritten(tmp_path):
     out, gauge = tmp_path / "notes.txt", tmp_path / "gauge.csv"
     out.write_text("my notes")
     gauge.write_text(GAUGE)
-    assert "notes.txt: is not JSON" in refused("calibrate", "newton", gauge, "--out", out)
+    assert "notes.txt: is not JSON" in run_failing("calibrate", "newton", gauge, "--out", out)
     assert out.read_text() == "my notes"
-    assert "No such file or directory" in refused("calibrate", "newton", gauge, "--out", tmp_path / "none" / "me.json")
+    assert "No such file or directory" in run_failing(
+        "calibrate", "newton", gauge, "--out", tmp_path / "none" / "me.json"
+    )
 
 
 def test_every_kind_of_calibration_is_in_the_help():
@@ -182,15 +184,17 @@ def test_every_kind_of_calibration_is_in_the_help():
 @pytest.mark.parametrize("device", ["/dev/zero", "/dev/full"])
 def test_what_is_no_regular_file_is_neither_read_nor_written(bare, tmp_path, device):
     (tmp_path / "postures.csv").write_text(POSTURES)
-    assert f"{device}: is no regular file" in refused("track", bare, "--calibration", device)
-    assert f"{device}: is no regular file" in refused("calibrate", "shoe", tmp_path / "postures.csv", "--out", device)
+    assert f"{device}: is no regular file" in run_failing("track", bare, "--calibration", device)
+    assert f"{device}: is no regular file" in run_failing(
+        "calibrate", "shoe", tmp_path / "postures.csv", "--out", device
+    )
 
 
 def test_what_cannot_be_is_not_written_over_what_is_known(tmp_path):
     out, below = tmp_path / "me.json", tmp_path / "below.npz"
     write_calibration(out, Calibration(weight=700.0))
     np.savez(below, t=np.arange(400) / 50.0, pressure=np.full((400, 4), -100.0))
-    why = refused("calibrate", "noise", below, "--out", out)
+    why = run_failing("calibrate", "noise", below, "--out", out)
     assert "nothing is written" in why and "insoles.right.noise[0] is -100" in why
     assert calibrated(out) == Calibration(weight=700.0)
 

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 from programs import TAKES, emulator, run, started, wait_for
-from walks import of, said
+from walks import of, run_session
 
 from solepath import Connected
 from solepath.recording import read_packets
@@ -203,7 +203,7 @@ def test_an_insole_that_is_not_heard_at_first_is_taken_when_it_comes(tmp_path: P
             time.sleep(2.0)
             first.kill()
         run("record", "--via", where, "--out", file, "--duration", 10)
-    assert {event.site for event in of(Connected, said(read_packets(file)))} == {Site.LEFT_FOOT, Site.RIGHT_FOOT}
+    assert {event.site for event in of(Connected, run_session(read_packets(file)))} == {Site.LEFT_FOOT, Site.RIGHT_FOOT}
 
 
 def test_the_emulator_tells_who_is_connected_and_what_goes_wrong(tmp_path: Path) -> None:

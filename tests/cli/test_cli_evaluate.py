@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from commands import no_control_codes, refused, run, solepath
+from commands import no_control_codes, run, run_failing, solepath
 from walks import columns_of
 
 from solepath.emulate.routes.route import Route
@@ -68,15 +68,15 @@ def test_evaluate_says_what_figures_were(data, tmp_path):
     was, now, word = line.split()[-3:]
     assert float(was) == pytest.approx(2.0 * float(now), rel=0.02) and word == "better"
     old.write_text("{")
-    assert "old.json: is not JSON" in refused(*command, "--compare", old)
+    assert "old.json: is not JSON" in run_failing(*command, "--compare", old)
 
 
 def test_evaluate_says_what_it_needs(data, tmp_path, monkeypatch):
     monkeypatch.delenv("SOLEPATH_DATA", raising=False)
     needs = "evaluate needs DIR, or the environment variable SOLEPATH_DATA, or --emulated"
-    assert needs in refused("evaluate")
-    assert "does not hold any of the data sets" in refused("evaluate", tmp_path)
-    assert "is not a directory" in refused("evaluate", tmp_path / "none")
-    assert "mars is not one of the data sets" in refused("evaluate", data, "--only", "mars")
-    assert "does not hold pyshoe_vicon" in refused("evaluate", data, "--only", "pyshoe_vicon")
-    assert "there is no recipe 'secret'" in refused("evaluate", data, "--recipe", "secret")
+    assert needs in run_failing("evaluate")
+    assert "does not hold any of the data sets" in run_failing("evaluate", tmp_path)
+    assert "is not a directory" in run_failing("evaluate", tmp_path / "none")
+    assert "mars is not one of the data sets" in run_failing("evaluate", data, "--only", "mars")
+    assert "does not hold pyshoe_vicon" in run_failing("evaluate", data, "--only", "pyshoe_vicon")
+    assert "there is no recipe 'secret'" in run_failing("evaluate", data, "--recipe", "secret")

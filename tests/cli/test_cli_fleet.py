@@ -14,7 +14,7 @@ from random import Random
 from time import sleep
 
 import pytest
-from commands import refused, run
+from commands import run, run_failing
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -26,8 +26,16 @@ from solepath.cli.fleet_demo import verdict
 from solepath.cli.fleet_table import of_kills, of_worth
 from solepath.events import HeelStrike
 from solepath.fleet import NumberedEvent
-from solepath.fleet.demo.child import _told
-from solepath.fleet.demo.compare import Torn, differences, files, holes, of_sessions, read_events, remarked
+from solepath.fleet.demo.child import _read_status
+from solepath.fleet.demo.compare import (
+    UnreadableEvents,
+    compare_remarks,
+    differences,
+    files,
+    find_number_gaps,
+    read_events,
+    session_events,
+)
 from solepath.fleet.demo.kills import Cost, Kill, Outcome, compared, draw
 from solepath.fleet.demo.stage import Engine
 from solepath.fleet.demo.wearers import Wearers
@@ -38,7 +46,7 @@ Kept = tuple[subprocess.CompletedProcess[str], Path]
 SMALL = ("--wearers", "12", "--seconds", "4", "--processes", "1")
 
 
-@pytest.mark.skipif(_told("VmHWM") is None, reason="this system does not tell a program's memory apart")
+@pytest.mark.skipif(_read_status("VmHWM") is None, reason="this system does not tell a program's memory apart")
 def test_the_memory_of_a_process_is_not_that_of_who_started_it() -> None:
     held = b"x" * 400_000_000
     code = "from solepath.fleet.demo.child import memory, most_memory; print(memory(), most_memory())"
@@ -83,12 +91,12 @@ def test_a_fleet_that_does_not_say_what_it_refused_or_what_is_missing_is_found_o
     assert (missing.event, late.event, late.why) == ("NumbersMissing", "SentRejected", "late")
     assert {remark.run is None for remark in expected["w00003"]} == {True, False}
     told = read_events(kept[1] / "told")
-    assert remarked(expected, told) == []
+    assert compare_remarks(expected, told) == []
     for event in ("SentRejected", "NumbersMissing"):
         silent = told.filter(pyarrow.compute.not_equal(told["event"], event))
-        assert differences(of_sessions(told), of_sessions(silent)) == []
-        assert remarked(expected, silent)[0].endswith(" is missing")
-    (line,) = remarked({**expected, "w00005": [missing]}, told)
+        assert differences(session_events(told), session_events(silent)) == []
+        assert compare_remarks(expected, silent)[0].endswith(" is missing")
+    (line,) = compare_remarks({**expected, "w00005": [missing]}, told)
     assert line.startswith("w00005, SentRejected (late) of run ") and line.endswith(" was not expected")
 
 
@@ -123,7 +131,7 @@ def test_a_part_that_is_damaged_is_named(kept: Kept, tmp_path: Path) -> None:
     part.write_bytes(part.read_bytes()[:-40])
     (found,) = compared(expected, told)
     assert str(part) in found and "cannot be read" in found
-    with pytest.raises(Torn):
+    with pytest.raises(UnreadableEvents):
         read_events(told)
 
 
@@ -150,8 +158,8 @@ def test_events_that_are_told_twice_or_otherwise_or_are_not_numbered_on_are_diff
         "anna, event 1 (HeelStrike at 2.0 s) is there, and should not be",
     ]
     hole = read_events(write(tmp_path / "hole", one, heel_strike("anna", 2)))
-    assert holes(expected) == [] and holes(hole) == ["anna has 2 events numbered from 0 to 2"]
-    assert differences(expected, of_sessions(hole)) == []
+    assert find_number_gaps(expected) == [] and find_number_gaps(hole) == ["anna has 2 events numbered from 0 to 2"]
+    assert differences(expected, session_events(hole)) == []
     assert differences(expected, read_events(tmp_path / "nowhere"))[-1].endswith("is missing")
 
 
@@ -198,12 +206,12 @@ def test_whoever_interrupts_it_finds_nothing_left(tmp_path: Path) -> None:
 def test_what_cannot_be_is_said_in_one_line(tmp_path: Path) -> None:
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "file").touch()
-    assert "no recipe 'best'" in refused("fleet-demo", "--recipe", "best")
-    assert "there already" in refused("fleet-demo", "--out", tmp_path / "full")
-    assert "more than there are wearers, 1" in refused("fleet-demo", "--wearers", 1, "--processes", 2)
-    assert "at least 1" in refused("fleet-demo", "--seconds", 0.5)
-    assert "is the most" in refused("fleet-demo", "--seconds", 1e6)
-    assert str(tmp_path / "no") in refused("fleet-demo", "--json", tmp_path / "no" / "figures.json")
+    assert "no recipe 'best'" in run_failing("fleet-demo", "--recipe", "best")
+    assert "there already" in run_failing("fleet-demo", "--out", tmp_path / "full")
+    assert "more than there are wearers, 1" in run_failing("fleet-demo", "--wearers", 1, "--processes", 2)
+    assert "at least 1" in run_failing("fleet-demo", "--seconds", 0.5)
+    assert "is the most" in run_failing("fleet-demo", "--seconds", 1e6)
+    assert str(tmp_path / "no") in run_failing("fleet-demo", "--json", tmp_path / "no" / "figures.json")
 
 
 def test_what_is_not_installed_is_named() -> None:

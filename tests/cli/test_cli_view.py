@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from commands import refused, run
+from commands import run, run_failing
 from programs import TAKES, drawn, emulator, started
 from recordings import into, written
 from shown import frame
@@ -151,30 +151,34 @@ def test_a_damaged_recording_is_played_up_to_the_damage_and_a_page_for_other_mac
 @pytest.mark.parametrize("where", ["8765", "here", ":80", "127.0.0.1:", "127.0.0.1:70000", "127.0.0.1:-1"])
 def test_what_is_no_address_is_refused(where: str, recording: Path):
     for command in (("demo",), ("track", recording), ("live",)):
-        assert "that is not HOST:PORT, as in 127.0.0.1:8765" in refused(*command, f"--view={where}")
+        assert "that is not HOST:PORT, as in 127.0.0.1:8765" in run_failing(*command, f"--view={where}")
 
 
 def test_a_pace_that_no_page_has_is_refused(recording: Path):
-    assert "on the page it is from 0.1 to 32" in refused("track", recording, *ANYWHERE, "--speed", "33")
-    assert "on the page it is from 0.1 to 32" in refused("demo", *ANYWHERE, "--speed", "0.01")
+    assert "on the page it is from 0.1 to 32" in run_failing("track", recording, *ANYWHERE, "--speed", "33")
+    assert "on the page it is from 0.1 to 32" in run_failing("demo", *ANYWHERE, "--speed", "0.01")
 
 
 def test_what_is_said_of_a_page_that_nobody_asks_for_is_refused(recording: Path):
     for given in (("--speed", "4"), ("--no-browser",)):
-        line = refused("track", recording, *given)
+        line = run_failing("track", recording, *given)
         assert line == f"solepath: {given[0]} is for the page: it goes with --view\n"
-    assert "--no-browser is for the page: it goes with --view" in refused("live", "--no-browser")
-    assert "--no-browser is for the page, and --terminal shows none" in refused("demo", "--terminal", "--no-browser")
+    assert "--no-browser is for the page: it goes with --view" in run_failing("live", "--no-browser")
+    assert "--no-browser is for the page, and --terminal shows none" in run_failing(
+        "demo", "--terminal", "--no-browser"
+    )
 
 
 def test_without_aiohttp_the_page_is_refused_with_how_to_install_it(recording: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setitem(sys.modules, "aiohttp", None)
     for command in (("demo",), ("track", recording), ("live",)):
-        assert refused(*command, "--view") == "solepath: --view needs aiohttp: pip install 'solepath[view]'\n"
+        assert run_failing(*command, "--view") == "solepath: --view needs aiohttp: pip install 'solepath[view]'\n"
 
 
 def test_a_report_that_cannot_be_written_is_refused_before_anything_is_computed(recording: Path, tmp_path: Path):
-    assert "no such file or directory" in refused("track", recording, "--report", tmp_path / "none" / "r.html").lower()
+    assert (
+        "no such file or directory" in run_failing("track", recording, "--report", tmp_path / "none" / "r.html").lower()
+    )
 
 
 def test_live_sensors_and_their_silence_are_seen_on_the_page(tmp_path: Path):

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from commands import no_control_codes, one_line, refused, rows_in, run, solepath
+from commands import no_control_codes, one_line, rows_in, run, run_failing, solepath
 from recordings import recorded
-from walks import columns_of, of, said
+from walks import columns_of, of, run_session
 
 from solepath import Event, StrideTaken
 from solepath.emulate.radio import Radio
@@ -95,7 +95,7 @@ def test_steps_and_track_are_tables_of_the_same_walk(tracked):
 @pytest.fixture(scope="module")
 def told(packets) -> list[Event]:
     """What a session says of the same recording."""
-    return said(read_packets(packets), poses=True)
+    return run_session(read_packets(packets), poses=True)
 
 
 def test_every_column_of_steps_is_what_the_session_said(tracked, told):
@@ -186,7 +186,7 @@ BAD_FILES = {
 def test_a_file_that_cannot_be_used_gets_one_line_and_status_2_and_replaces_nothing(tmp_path, name):
     (tmp_path / name).write_bytes(BAD_FILES[name][0])
     (tmp_path / "strides.csv").write_text("of an earlier run\n")
-    line = refused("track", tmp_path / name, "--out", tmp_path)
+    line = run_failing("track", tmp_path / name, "--out", tmp_path)
     assert BAD_FILES[name][1] in line and name in line
     assert {path.name for path in tmp_path.iterdir()} == {name, "strides.csv"}
     assert (tmp_path / "strides.csv").read_text() == "of an earlier run\n"
@@ -208,10 +208,10 @@ def test_packets_of_the_other_foot_only_are_an_error(tmp_path):
 
 
 def test_what_is_not_there_gets_one_line_and_status_2(tmp_path, packets):
-    assert "no such file or directory" in refused("track", tmp_path / "none.npz")
-    assert "is a directory" in refused("track", tmp_path)
-    assert "there is no recipe 'secret'; there are: default" in refused("track", packets, "--recipe", "secret")
-    assert "File exists" in refused("track", packets, "--out", packets)
+    assert "no such file or directory" in run_failing("track", tmp_path / "none.npz")
+    assert "is a directory" in run_failing("track", tmp_path)
+    assert "there is no recipe 'secret'; there are: default" in run_failing("track", packets, "--recipe", "secret")
+    assert "File exists" in run_failing("track", packets, "--out", packets)
 
 
 def test_a_reader_that_leaves_early_is_no_error(packets):

@@ -80,15 +80,15 @@ def test_a_newer_part_takes_the_place_of_the_older_and_the_rest_stays() -> None:
     ],
     ids=lambda text: text[:40],
 )  # fmt: skip
-def test_what_is_no_calibration_is_refused_in_one_sentence(tmp_path: Path, text: str, why: str) -> None:
+def test_what_is_no_calibration_is_rejected_in_one_sentence(tmp_path: Path, text: str, why: str) -> None:
     (tmp_path / "bad.json").write_text(text)
-    with pytest.raises(CalibrationError, match=why) as refused:
+    with pytest.raises(CalibrationError, match=why) as error:
         read_calibration(tmp_path / "bad.json")
-    assert "bad.json" in str(refused.value) and "\n" not in str(refused.value)
-    assert "snapshot" not in str(refused.value), "no words of the inside"
+    assert "bad.json" in str(error.value) and "\n" not in str(error.value)
+    assert "snapshot" not in str(error.value), "no words of the inside"
 
 
-def test_a_number_that_is_none_is_refused(tmp_path: Path) -> None:
+def test_a_number_that_is_none_is_rejected(tmp_path: Path) -> None:
     write_calibration(tmp_path / "me.json", WHOLE)
     (tmp_path / "me.json").write_text((tmp_path / "me.json").read_text().replace("700.0", "NaN"))
     with pytest.raises(CalibrationError, match="nan"):
@@ -100,12 +100,12 @@ def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
         read_calibration(tmp_path / "nowhere.json")
 
 
-def test_the_file_is_as_the_protocol_says(tmp_path: Path) -> None:
+def test_the_file_is_as_in_the_protocol(tmp_path: Path) -> None:
     write_calibration(tmp_path / "me.json", WHOLE)
-    told = json.loads((tmp_path / "me.json").read_text())
-    assert set(told) == {"format", "version", "calibration"}
+    saved = json.loads((tmp_path / "me.json").read_text())
+    assert set(saved) == {"format", "version", "calibration"}
     text = (PROTOCOL / "calibration.md").read_text()
-    for key in (*told["calibration"], *told["calibration"]["shoe"], *told["calibration"]["limbs"]):
+    for key in (*saved["calibration"], *saved["calibration"]["shoe"], *saved["calibration"]["limbs"]):
         assert f"`{key}`" in text
 
 
@@ -114,7 +114,7 @@ def test_a_raw_value_becomes_newtons_by_the_cubic_within_5_to_200() -> None:
     assert in_newtons(Newtons((1.0, 2.0, 0.5, 0.1)), (1.0, 2.0, 10.0, 20.0)) == (0.0, pytest.approx(7.8), 171.0, 200.0)
 
 
-def test_a_layout_of_the_calibration_serves_samples_that_do_not_say_where_their_cells_are() -> None:
+def test_a_layout_of_the_calibration_serves_samples_without_a_layout() -> None:
     session = Session(calibration=WHOLE)
     session.feed(Sample(0.0, Site.LEFT_FOOT, (0.0, 0.0, 9.81), (0.0, 0.0, 0.0), (20.0, 30.0)))
     worn = session.feet[Foot.LEFT].sole.insole.layout
@@ -159,17 +159,17 @@ ABSURD = {
 
 
 @pytest.mark.parametrize("key", ABSURD)
-def test_a_calibration_of_what_cannot_be_is_refused_with_its_file_and_its_key(tmp_path: Path, key: str) -> None:
+def test_a_calibration_of_what_cannot_be_is_rejected_with_its_file_and_its_key(tmp_path: Path, key: str) -> None:
     write_calibration(tmp_path / "me.json", ABSURD[key])
-    with pytest.raises(CalibrationError, match=key) as refused:
+    with pytest.raises(CalibrationError, match=key) as error:
         read_calibration(tmp_path / "me.json")
-    assert "me.json" in str(refused.value) and "\n" not in str(refused.value)
+    assert "me.json" in str(error.value) and "\n" not in str(error.value)
     with pytest.raises(ValueError, match=key):
         Session(calibration=ABSURD[key])
 
 
 @pytest.mark.parametrize("what", [nan, inf, "heavy", True])
-def test_a_weight_that_is_no_number_is_refused(what: Any) -> None:
+def test_a_weight_that_is_no_number_is_rejected(what: Any) -> None:
     with pytest.raises(CalibrationError, match="weight"):
         Session(calibration=Calibration(weight=what))
 
@@ -195,16 +195,16 @@ MISSHAPEN: list[tuple[dict[str, Any], str]] = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("what", "says"), MISSHAPEN, ids=[says[:40] for _, says in MISSHAPEN])
-def test_a_calibration_of_something_else_than_records_is_refused_by_the_session_in_one_line(
-    what: dict[str, Any], says: str
+@pytest.mark.parametrize(("what", "message"), MISSHAPEN, ids=[message[:40] for _, message in MISSHAPEN])
+def test_a_calibration_of_something_else_than_records_is_rejected_by_the_session_in_one_line(
+    what: dict[str, Any], message: str
 ) -> None:
-    with pytest.raises(CalibrationError) as refused:
+    with pytest.raises(CalibrationError) as error:
         Session(calibration=Calibration(**what))
-    assert str(refused.value) == f"calibration: {says}"
+    assert str(error.value) == f"calibration: {message}"
 
 
-def test_what_can_be_is_not_refused() -> None:
+def test_what_can_be_is_not_rejected() -> None:
     assert unusable(WHOLE) is None
     assert unusable(Calibration()) is None
     for size in (24, 35, 96, 99):
@@ -228,22 +228,22 @@ KNOWN = [recipes.by_name(name) for name in ("zupt", "kupt-dfpc", "default")]
 def test_a_calibration_of_another_insole_is_named_and_the_walk_goes_on_without_it(recipe: Recipe) -> None:
     items = samples(cells=96, rate=50.0)
     session, bare = Session(recipe, calibration=OTHERS), Session(recipe)
-    told, plain = session.feed(items), bare.feed(items)
-    assert of(CellsFailed, told) == []
-    left = [event.what for event in of(Limitation, told) if event.site is Site.LEFT_FOOT]
+    saved, plain = session.feed(items), bare.feed(items)
+    assert of(CellsFailed, saved) == []
+    left = [event.what for event in of(Limitation, saved) if event.site is Site.LEFT_FOOT]
     assert [what for what in left if "calibration" in what] == [
         "the calibration's layout has 35 cells, the left insole has 96: it is not used",
         "the calibration's noise is of 35 cells, the left insole has 96: it is not used",
     ]
-    assert of(StrideTaken, told) == of(StrideTaken, plain) != []
+    assert of(StrideTaken, saved) == of(StrideTaken, plain) != []
 
 
 def test_a_first_sample_that_is_cut_short_is_not_of_another_insole() -> None:
     first, *others = samples(cells=96, rate=50.0)
     known = Calibration({foot: InsoleCalibration(layout=layout(96, foot), noise=(0.0,) * 96) for foot in Foot})
     session = Session(recipes.by_name("zupt"), calibration=known)
-    told = session.feed([evolve(first, pressure=(0.0,) * 90), *others])
-    assert of(CellsFailed, told) == [] and of(Limitation, told) == []
+    saved = session.feed([evolve(first, pressure=(0.0,) * 90), *others])
+    assert of(CellsFailed, saved) == [] and of(Limitation, saved) == []
     assert all(foot.sole.insole.layout == layout(96, foot.foot) for foot in session.feet.values())
 
 
@@ -254,12 +254,12 @@ def test_cells_that_come_apart_from_the_inertial_samples_are_compared_too() -> N
         for part in (evolve(s, pressure=None), evolve(s, t=s.t + 0.004, acc=None, gyro=None))
     ]
     session = Session(recipes.by_name("zupt"), calibration=OTHERS)
-    told = session.feed(sorted(apart, key=attrgetter("t")))
-    assert [event for event in of(Limitation, told) if "no pressure" in event.what] == []
-    assert of(StrideTaken, told) != []
+    saved = session.feed(sorted(apart, key=attrgetter("t")))
+    assert [event for event in of(Limitation, saved) if "no pressure" in event.what] == []
+    assert of(StrideTaken, saved) != []
 
 
-def test_a_file_without_an_end_or_too_large_is_refused(tmp_path: Path) -> None:
+def test_a_file_without_an_end_or_too_large_is_rejected(tmp_path: Path) -> None:
     with pytest.raises(CalibrationError, match="/dev/zero: is no regular file"):
         read_calibration("/dev/zero")
     (tmp_path / "large.json").write_bytes(b" " * 20_000_000)

@@ -47,7 +47,7 @@ def test_time_that_is_no_number_cannot_pass(now: float) -> None:
 @pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("session")])
 def test_a_finished_session_is_read_but_not_fed(name: str) -> None:
     machine: Machine = machines()[name]
-    session = machine.begin()
+    session = machine.start()
     session.feed(machine.items[: len(machine.items) // 2])
     session.finish()
     assert session.finish() == session.advance(machine.items[-1].t + 1e4) == []

@@ -12,7 +12,7 @@ import pytest
 from attrs import evolve
 from hypothesis import Phase, given, settings
 from hypothesis import strategies as st
-from walks import NAMES, SHORT, Machine, gone, insoles, machines, of, pieces, samples, told
+from walks import NAMES, SHORT, Machine, insoles, machine_events, machines, of, pieces, run_machine, samples
 
 from solepath import (
     ActivityChanged,
@@ -40,15 +40,15 @@ QUICK = settings(max_examples=2, phases=[Phase.generate])
 
 @cache
 def fed_singly(name: str) -> tuple[Any, ...]:
-    """What comes out item by item, without the end."""
-    return tuple(event for events in told(name)[:-1] for event in events)
+    """Return the events item by item, without those at the end."""
+    return tuple(event for events in machine_events(name)[:-1] for event in events)
 
 
 @pytest.mark.parametrize("name", NAMES)
 def test_nothing_is_known_before_it_was_or_after_the_item_that_settled_it(name: str) -> None:
     machine = machines()[name]
     decoders = {site: Decoder(site) for site in Site}
-    for item, events in zip(machine.items, told(name), strict=False):
+    for item, events in zip(machine.items, machine_events(name), strict=False):
         sampled = [s.t for s in of(Sample, decoders[item.site].feed(item))] if isinstance(item, Packet) else []
         newest = max([item.t, *sampled])
         for event in events:
@@ -63,7 +63,7 @@ def test_nothing_is_known_before_it_was_or_after_the_item_that_settled_it(name: 
 def test_what_was_final_stays_when_more_comes(name: str, data: st.DataObject) -> None:
     machine = machines()[name]
     everything = fed_singly(name)
-    one = machine.begin()
+    one = machine.start()
     some = machine.items[: data.draw(st.integers(1, len(machine.items)))]
     early = [event for item in some for event in one.feed(item)]
     assert tuple(early) == everything[: len(early)]
@@ -75,28 +75,30 @@ def test_what_was_final_stays_when_more_comes(name: str, data: st.DataObject) ->
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("session")])
 def test_an_activity_that_is_final_is_never_replaced_and_a_revision_names_what_it_replaces(name: str) -> None:
-    told: list[ActivityChanged] = []
+    machine_events: list[ActivityChanged] = []
     for event in of(ActivityChanged, list(fed_singly(name))):
-        assert not any(before.final and before.t >= event.t for before in told), event
+        assert not any(before.final and before.t >= event.t for before in machine_events), event
         if event.revises is not None:
-            named = [before for before in told if before.t == event.revises]
-            assert named and not any(before.final for before in told if before.t >= event.revises), event
-            told = [before for before in told if before.t < event.revises]
-        told = [before for before in told if before.t < event.t]
-        told.append(event)
+            named = [before for before in machine_events if before.t == event.revises]
+            assert named and not any(before.final for before in machine_events if before.t >= event.revises), event
+            machine_events = [before for before in machine_events if before.t < event.revises]
+        machine_events = [before for before in machine_events if before.t < event.t]
+        machine_events.append(event)
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("session")])
 def test_events_of_a_foot_follow_each_other_and_times_never_run_back(name: str) -> None:
     follows = {HeelStrike: {ToeOff, HeelOff}, ToeOff: {HeelOff, FootFlat, HeelStrike}}
-    told = fed_singly(name)
-    for foot in {event.foot for event in of(FootMoved, told)}:
-        phases = [e for e in told if isinstance(e, HeelStrike | FootFlat | HeelOff | ToeOff) and e.foot is foot]
+    machine_events = fed_singly(name)
+    for foot in {event.foot for event in of(FootMoved, machine_events)}:
+        phases = [
+            e for e in machine_events if isinstance(e, HeelStrike | FootFlat | HeelOff | ToeOff) and e.foot is foot
+        ]
         for before, after in zip(phases, phases[1:], strict=False):
             assert after.t >= before.t and after.known_at >= before.known_at
             assert type(before) in follows.get(type(after), {type(before)})
             assert type(before) is not type(after)
-        steps = [event for event in of(StrideTaken, told) if event.foot is foot]
+        steps = [event for event in of(StrideTaken, machine_events) if event.foot is foot]
         assert [step.number for step in steps] == list(range(1, len(steps) + 1))
         for step in steps:
             assert step.t_start < step.t_toe_off < step.t_end == step.t
@@ -107,19 +109,19 @@ def test_events_of_a_foot_follow_each_other_and_times_never_run_back(name: str) 
 LONGER = Route().stand(1.5).walk(14.0, 1.3).stop(1.0)
 
 
-def late(kind: Any, told: list[Any]) -> list[float]:
-    """How long after they happened events of a kind were known, s."""
-    return [event.known_at - event.t for event in of(kind, told)]
+def late(kind: Any, machine_events: list[Any]) -> list[float]:
+    """Return the latency of the events of a kind, s."""
+    return [event.known_at - event.t for event in of(kind, machine_events)]
 
 
 @pytest.mark.parametrize("cells", [96, 24, 0])
 def test_at_100_hz_heel_strike_and_toe_off_are_known_within_60_ms_and_a_step_60_ms_after_its_foot_flat(
     cells: int,
 ) -> None:
-    told = Session().feed(insoles(LONGER, CLEAN, cells=cells).packets if cells else samples(LONGER, cells=0))
+    machine_events = Session().feed(insoles(LONGER, CLEAN, cells=cells).packets if cells else samples(LONGER, cells=0))
     for kind in (HeelStrike, ToeOff, FootFlat, StrideTaken):
-        assert len(late(kind, told)) >= 18
-        assert max(late(kind, told)) <= 0.060, kind
+        assert len(late(kind, machine_events)) >= 18
+        assert max(late(kind, machine_events)) <= 0.060, kind
 
 
 def test_live_position_comes_with_the_sample() -> None:
@@ -141,15 +143,15 @@ FAR = st.integers(0, 399).map(lambda k: 400 - k)
 @QUICK
 def test_any_chunking_gives_the_same_events_bit_for_bit(name: str, sizes: list[int], form: Any) -> None:
     machine: Machine = machines()[name]
-    session = machine.begin()
+    session = machine.start()
     found = [event for piece in pieces(machine.items, sizes) for event in session.feed(form(piece))]
     assert exactly(found) == exactly(fed_singly(name))
-    assert machine.save(session) == gone(name).fed
+    assert machine.save(session) == run_machine(name).fed
 
 
-def exactly(told: Any) -> list[str]:
+def exactly(machine_events: Any) -> list[str]:
     """Events to the last bit: == alone takes -0.0 for 0.0 and 1 for 1.0."""
-    return [repr(event) for event in told]
+    return [repr(event) for event in machine_events]
 
 
 def test_packets_and_samples_may_come_mixed() -> None:
@@ -157,9 +159,9 @@ def test_packets_and_samples_may_come_mixed() -> None:
     right = [sample for sample in samples() if sample.site.value == "right_foot"]
     mixed = sorted([*left, *right], key=lambda item: item.t)
     one, other = Session(), Session()
-    told = one.feed(mixed)
-    assert told == [event for item in mixed for event in other.feed(item)]
-    assert {step.foot.value for step in of(StrideTaken, told)} == {"left", "right"}
+    machine_events = one.feed(mixed)
+    assert machine_events == [event for item in mixed for event in other.feed(item)]
+    assert {step.foot.value for step in of(StrideTaken, machine_events)} == {"left", "right"}
 
 
 PLAIN = (float, int, bool, str, type(None))

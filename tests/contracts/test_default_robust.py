@@ -52,13 +52,15 @@ def tracked(samples: Iterable[Sample], recover: bool = True) -> tuple[FootTracke
     return tracker, steps
 
 
-def clipped(samples: Iterable[Sample], rate: float = 1e3, force: float = 1e3, told: bool = False) -> list[Sample]:
-    """The same of a sensor that ends at `rate` rad/s and `force` m/s^2; `told`: it says so."""
+def clipped(
+    samples: Iterable[Sample], rate: float = 1e3, force: float = 1e3, range_known: bool = False
+) -> list[Sample]:
+    """Return the samples of a sensor that clips at `rate` rad/s and `force` m/s^2; `range_known` adds its range."""
     cut: list[Sample] = []
     for sample in samples:
         assert sample.acc is not None and sample.gyro is not None
         gyro, acc = within(sample.gyro, rate), within(sample.acc, force)
-        ends = told and (gyro, acc) != (sample.gyro, sample.acc)
+        ends = range_known and (gyro, acc) != (sample.gyro, sample.acc)
         cut.append(evolve(sample, gyro=gyro, acc=acc, saturated=ends))
     return cut
 
@@ -76,30 +78,32 @@ def lengths(steps: Sequence[StrideTaken]) -> list[float]:
     return [step.length for step in steps]
 
 
-@pytest.mark.parametrize("told", [False, True])
-def test_strides_are_found_and_about_as_long_when_the_gyroscope_ends_at_250_degrees_per_second(told: bool) -> None:
+@pytest.mark.parametrize("range_known", [False, True])
+def test_strides_are_found_and_about_as_long_when_the_gyroscope_ends_at_250_degrees_per_second(
+    range_known: bool,
+) -> None:
     _, whole = tracked(walk())
-    _, cut = tracked(clipped(walk(), rate=radians(250.0), told=told))
+    _, cut = tracked(clipped(walk(), rate=radians(250.0), range_known=range_known))
     assert len(cut) == len(whole) > 8
     assert way(cut) == pytest.approx(way(whole), rel=0.07)
 
 
-def test_what_a_gyroscope_that_ends_at_400_degrees_per_second_missed_is_made_up_for() -> None:
+def test_clipping_of_a_gyroscope_at_400_degrees_per_second_is_corrected() -> None:
     _, whole = tracked(walk())
     cut = clipped(walk(), rate=radians(400.0))
-    _, mended = tracked(cut)
-    assert lengths(mended) == pytest.approx(lengths(whole), rel=0.02)
+    _, corrected = tracked(cut)
+    assert lengths(corrected) == pytest.approx(lengths(whole), rel=0.02)
     _, unmended = tracked(cut, recover=False)
-    assert abs(way(mended) - way(whole)) < 0.3 * abs(way(unmended) - way(whole))
+    assert abs(way(corrected) - way(whole)) < 0.3 * abs(way(unmended) - way(whole))
 
 
-def test_what_an_accelerometer_that_ends_at_2_g_missed_is_made_up_for_in_part() -> None:
+def test_clipping_of_an_accelerometer_at_2_g_is_corrected_in_part() -> None:
     _, whole = tracked(walk())
     cut = clipped(walk(), force=2.0 * GRAVITY)
-    _, mended = tracked(cut)
+    _, corrected = tracked(cut)
     _, unmended = tracked(cut, recover=False)
-    assert len(mended) == len(whole)
-    assert abs(way(mended) - way(whole)) < 0.75 * abs(way(unmended) - way(whole))
+    assert len(corrected) == len(whole)
+    assert abs(way(corrected) - way(whole)) < 0.75 * abs(way(unmended) - way(whole))
 
 
 def test_one_broken_reading_does_not_hide_where_the_range_ends() -> None:
@@ -120,11 +124,11 @@ def test_a_recorded_walk_of_a_clipping_gyroscope_comes_back_to_where_it_went(dat
     assert hypot(u - x, v - y, w - z) < 0.04 * way(steps)
 
 
-@given(begin=st.floats(4.0, 5.2))
+@given(gap_start=st.floats(4.0, 5.2))
 @settings(max_examples=4)
-def test_a_foot_that_walks_from_the_first_sample_on_is_levelled_in_its_second_stance(begin: float) -> None:
+def test_a_foot_that_walks_from_the_first_sample_on_is_levelled_in_its_second_stance(gap_start: float) -> None:
     _, whole = tracked(walk())
-    t = walk()[0].t + begin
+    t = walk()[0].t + gap_start
     _, steps = tracked(sample for sample in walk() if sample.t >= t)
     assert steps[0].t_start - t < 3.0
     late = [step for step in whole if step.t_start > steps[1].t_start - 0.3]

@@ -1,4 +1,4 @@
-"""What is told for whoever draws: where the wearer is after each step, and what the cells show in each sample."""
+"""Live events for drawing: the wearer's position after each stride, and the cells' loads in each sample."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ BOTH = {"poses": True, "pressures": True}
 KNOWN = Calibration(insoles={Foot.LEFT: InsoleCalibration(SOLE)})
 
 
-def frames(*cells: tuple[float, ...], begin: float = 0.0) -> list[Sample]:
+def frames(*cells: tuple[float, ...], t_start: float = 0.0) -> list[Sample]:
     """Samples of the left foot's cells alone, at 100 Hz."""
-    return [Sample(begin + 0.01 * k, LEFT, pressure=values) for k, values in enumerate(cells)]
+    return [Sample(t_start + 0.01 * k, LEFT, pressure=values) for k, values in enumerate(cells)]
 
 
 STEP = (above(100, 100, 50, 150), above(0, 0, 0, 200), TARE, above(30, 10, 0, 0), above(100, 100, 50, 150))
@@ -50,34 +50,36 @@ def shown(session: Session, items: list[Sample]) -> list[FootPressed]:
 
 
 @pytest.mark.parametrize("kind", ["packets", "samples"])
-def test_nothing_else_is_said_to_those_who_ask_for_what_is_drawn(kind: str) -> None:
+def test_live_events_change_no_other_events(kind: str) -> None:
     fed = insoles().packets if kind == "packets" else samples()
-    plain, asked = Session(), Session(**BOTH)
-    said = plain.feed(fed) + plain.finish()
-    told = asked.feed(fed) + asked.finish()
-    assert of(LiveEvent, said) == []
-    assert [repr(event) for event in told if not isinstance(event, LiveEvent)] == [repr(event) for event in said]
-    assert asked.position == plain.position
+    plain, live = Session(), Session(**BOTH)
+    plain_events = plain.feed(fed) + plain.finish()
+    emitted = live.feed(fed) + live.finish()
+    assert of(LiveEvent, plain_events) == []
+    assert [repr(event) for event in emitted if not isinstance(event, LiveEvent)] == [
+        repr(event) for event in plain_events
+    ]
+    assert live.position == plain.position
 
 
-def test_each_is_told_to_those_who_ask_for_it_only() -> None:
+def test_each_live_event_is_emitted_on_request_only() -> None:
     for flags, kinds in (("poses", {"FootMoved", "WearerMoved"}), ("pressures", {"FootPressed"})):
-        told = Session(**{flags: True}).feed(insoles().packets)
-        assert {type(event).__name__ for event in of(LiveEvent, told)} == kinds
+        emitted = Session(**{flags: True}).feed(insoles().packets)
+        assert {type(event).__name__ for event in of(LiveEvent, emitted)} == kinds
 
 
 @pytest.mark.parametrize("name", ["default", "kupt-dfpc", "walking-modes"])
-def test_after_every_step_it_is_told_where_the_wearer_is_then(name: str) -> None:
+def test_every_stride_is_followed_by_the_position_of_the_wearer(name: str) -> None:
     session = Session(recipes.by_name(name), poses=True)
     steps = 0
     for packet in insoles().packets:
-        told = session.feed(packet)
-        taken, moved = of(StrideTaken, told), of(WearerMoved, told)
+        emitted = session.feed(packet)
+        taken, moved = of(StrideTaken, emitted), of(WearerMoved, emitted)
         assert len(moved) == bool(taken)
         steps += len(taken)
         for event in moved:
             here = session.position
-            assert here is not None and told.index(event) > told.index(taken[-1])
+            assert here is not None and emitted.index(event) > emitted.index(taken[-1])
             assert (event.t, event.position, event.covariance) == (here.t, here.position, here.covariance)
             assert event.known_at == max(packet.t, event.t) and not event.final
     assert steps > 5
@@ -85,9 +87,9 @@ def test_after_every_step_it_is_told_where_the_wearer_is_then(name: str) -> None
 
 def test_every_sample_with_cells_is_shown_with_its_own_times() -> None:
     fed = samples()
-    told = shown(Session(pressures=True), list(fed))
-    assert [(e.t, e.foot) for e in told] == [(s.t, s.site.foot) for s in fed if s.pressure]
-    for event in told:
+    emitted = shown(Session(pressures=True), list(fed))
+    assert [(e.t, e.foot) for e in emitted] == [(s.t, s.site.foot) for s in fed if s.pressure]
+    for event in emitted:
         assert len(event.values) == 24 and min(event.values) >= 0.0 and not event.final
         assert event.force == sum(event.values)
 
@@ -99,20 +101,20 @@ def test_a_foot_that_has_not_stepped_yet_is_shown_as_its_cells_have_it() -> None
 
 
 def test_what_cells_show_in_the_air_is_not_shown_once_it_is_known() -> None:
-    told = shown(Session(calibration=KNOWN, pressures=True), frames(*STEP, *STEP))
-    assert [event.values for event in told[:2]] == [*STEP[:2]]
-    assert [event.values for event in told[-3:]] == [(0.0,) * 4, (30.0, 10.0, 0.0, 0.0), (100.0, 100.0, 50.0, 150.0)]
-    assert [event.force for event in told[-3:]] == [0.0, 40.0, 400.0]
+    emitted = shown(Session(calibration=KNOWN, pressures=True), frames(*STEP, *STEP))
+    assert [event.values for event in emitted[:2]] == [*STEP[:2]]
+    assert [event.values for event in emitted[-3:]] == [(0.0,) * 4, (30.0, 10.0, 0.0, 0.0), (100.0, 100.0, 50.0, 150.0)]
+    assert [event.force for event in emitted[-3:]] == [0.0, 40.0, 400.0]
 
 
 def test_the_centre_is_where_the_load_is_and_in_the_air_there_is_none() -> None:
-    told = shown(Session(calibration=KNOWN, pressures=True), frames(*STEP, *STEP))
-    assert told[-3].centre is None
-    assert told[-2].centre == pytest.approx((0.05, 0.005))
-    assert told[-1].centre == pytest.approx((0.05 * 0.5 + 0.13 * 0.125 + 0.20 * 0.375, 0.02 * 0.375))
+    emitted = shown(Session(calibration=KNOWN, pressures=True), frames(*STEP, *STEP))
+    assert emitted[-3].centre is None
+    assert emitted[-2].centre == pytest.approx((0.05, 0.005))
+    assert emitted[-1].centre == pytest.approx((0.05 * 0.5 + 0.13 * 0.125 + 0.20 * 0.375, 0.02 * 0.375))
 
 
-def test_in_a_walk_the_centre_goes_from_heel_to_toe_and_is_gone_while_the_foot_swings() -> None:
+def test_in_a_walk_the_centre_goes_from_heel_to_toe_and_is_absent_while_the_foot_swings() -> None:
     session = Session(**BOTH)
     paths: list[list[float]] = [[]]
     swings = centres = 0
@@ -137,9 +139,9 @@ def test_in_a_walk_the_centre_goes_from_heel_to_toe_and_is_gone_while_the_foot_s
 def test_without_a_layout_cells_are_shown_but_no_centre_of_theirs() -> None:
     learnt = recipes.by_name("kupt-dfpc")  # a recipe of cells learns where they are, but not where from left to right
     for session, learns in ((Session(pressures=True), False), (Session(learnt, pressures=True), True)):
-        told = session.feed(samples())
-        assert any("learnt" in event.what for event in of(Limitation, told)) == learns
-        pressed = of(FootPressed, told)
+        emitted = session.feed(samples())
+        assert any("learnt" in event.what for event in of(Limitation, emitted)) == learns
+        pressed = of(FootPressed, emitted)
         assert len(pressed) > 1000 and {event.centre for event in pressed} == {None}
 
 
@@ -148,43 +150,43 @@ def test_a_sample_of_another_number_of_cells_is_not_shown() -> None:
     session = Session(calibration=KNOWN, pressures=True)
     assert len(shown(session, frames(*STEP))) == 5
     assert shown(session, [evolve(sample, t=1.0) for sample in cut]) == []
-    assert len(shown(session, frames(*STEP, begin=2.0))) == 5
+    assert len(shown(session, frames(*STEP, t_start=2.0))) == 5
 
 
 def test_a_cell_without_a_number_is_shown_as_nothing_even_where_a_cubic_makes_something_of_nothing() -> None:
     cubic = Newtons((5.0, 1.0, 0.0, 0.0), 1.0, 2000.0)
     session = Session(calibration=Calibration(insoles={Foot.LEFT: InsoleCalibration(newtons=cubic)}), pressures=True)
     numberless: Any = (100.0, None, 50.0, 150.0)
-    told = session.feed(frames(*[numberless] * 150))
-    assert [(event.fault, event.cells) for event in of(CellsFailed, told)] == [(CellFault.MISSING, (1,))]
-    assert {event.values for event in of(FootPressed, told)} == {(105.0, 0.0, 55.0, 155.0)}
+    emitted = session.feed(frames(*[numberless] * 150))
+    assert [(event.fault, event.cells) for event in of(CellsFailed, emitted)] == [(CellFault.MISSING, (1,))]
+    assert {event.values for event in of(FootPressed, emitted)} == {(105.0, 0.0, 55.0, 155.0)}
 
 
 def layouts(events: list[Event]) -> list[tuple[Site, int]]:
     return [(event.site, event.layout.id) for event in of(LayoutKnown, events)]
 
 
-def test_a_calibrations_layout_is_told_once_samples_have_as_many_cells() -> None:
+def test_a_calibrations_layout_is_reported_once_samples_have_as_many_cells() -> None:
     session = Session(calibration=KNOWN, pressures=True)
-    told = session.feed(frames(*STEP))
-    assert layouts(told) == [(LEFT, 7)]
-    assert told.index(of(LayoutKnown, told)[0]) < told.index(of(FootPressed, told)[0])
+    emitted = session.feed(frames(*STEP))
+    assert layouts(emitted) == [(LEFT, 7)]
+    assert emitted.index(of(LayoutKnown, emitted)[0]) < emitted.index(of(FootPressed, emitted)[0])
     restored = Session.restore(json.loads(json.dumps(session.snapshot())))
     for one in (session, restored):
-        assert layouts(one.feed(frames(*STEP, begin=1.0))) == []
+        assert layouts(one.feed(frames(*STEP, t_start=1.0))) == []
 
 
-def test_a_calibrations_layout_of_another_number_of_cells_is_not_told() -> None:
+def test_a_calibrations_layout_of_another_number_of_cells_is_not_reported() -> None:
     session = Session(calibration=KNOWN)
     assert layouts(session.feed(frames(*[(1.0, 2.0)] * 200))) == []
 
 
-def test_what_the_device_says_of_its_cells_stands_and_the_calibration_says_nothing_of_them_any_more() -> None:
+def test_a_layout_of_the_device_replaces_that_of_the_calibration() -> None:
     own = {Foot.LEFT: InsoleCalibration(evolve(layout(96, Foot.LEFT), id=99))}
     packets = [packet for packet in insoles().packets if packet.site is LEFT]
     first = Session(calibration=Calibration(insoles=own)).feed(packets)
-    (said,) = layouts(first)
-    assert said[1] != 99
+    (plain_events,) = layouts(first)
+    assert plain_events[1] != 99
     late = Session(calibration=Calibration(insoles=own))
     assert layouts(late.feed(frames((50.0,) * 96))) == [(LEFT, 99)]
-    assert layouts(late.feed(packets)) == [said]
+    assert layouts(late.feed(packets)) == [plain_events]

@@ -65,9 +65,9 @@ def walk_on(session: Session, count: int) -> tuple[list[int], list[int]]:
     """Sizes of the snapshot and steps found, round by round."""
     sizes, steps = [], []
     for packets in rounds(count):
-        told = session.feed(packets)
-        assert all(lost.count < 40 for lost in of(PacketsLost, told)[2:]), "the rounds do not join"
-        steps.append(len(of(StrideTaken, told)))
+        emitted = session.feed(packets)
+        assert all(lost.count < 40 for lost in of(PacketsLost, emitted)[2:]), "the rounds do not join"
+        steps.append(len(of(StrideTaken, emitted)))
         sizes.append(size(session))
     return sizes, steps
 
@@ -93,9 +93,9 @@ def test_a_long_walk_in_samples_leaves_nothing_behind(seconds: float) -> None:
     length = fed[-1].t + 0.04
     session, sizes, found = Session(), [], []
     for k in range(int(seconds / length) + 1):
-        told = session.feed([Sample(s.t + k * length, s.site, s.acc, s.gyro) for s in fed])
+        emitted = session.feed([Sample(s.t + k * length, s.site, s.acc, s.gyro) for s in fed])
         sizes.append(size(session))
-        found.append(len(of(StrideTaken, told)))
+        found.append(len(of(StrideTaken, emitted)))
     check(sizes, found)
 
 
@@ -120,8 +120,10 @@ def test_garbage_without_end_leaves_nothing_behind() -> None:
     session.feed([packet for packet, _ in loop()[:500]])
     before = size(session)
     for k in range(4000):
-        told = session.feed(Packet(5.0 + 1e-3 * k, (LEFT, RIGHT)[k % 2], "insole/frame", bytes([k % 224, k % 251] * 9)))
-        assert len(told) <= 4
+        emitted = session.feed(
+            Packet(5.0 + 1e-3 * k, (LEFT, RIGHT)[k % 2], "insole/frame", bytes([k % 224, k % 251] * 9))
+        )
+        assert len(emitted) <= 4
         session.feed(Packet(5.0, list(Site)[k % 7], f"insole/{k}", b""))
     assert size(session) < before + 3000
     assert of(PacketRejected, session.feed(Packet(9.0, LEFT, "x", b"")))

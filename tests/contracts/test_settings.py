@@ -1,4 +1,4 @@
-"""What a part was made with never changes: a packed state leaves it out, since the recipe makes the same part again."""
+"""Settings of a part never change: a packed state leaves them out, since the recipe makes the same part again."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 import attrs
 import pytest
 from attrs import evolve
-from walks import RECIPES, gone, machines, packets, samples
+from walks import RECIPES, machines, packets, run_machine, samples
 
 from solepath import Calibration, Foot, Recipe, Session, recipes
 from solepath.body.fuse.both_feet import BothFeet, BothFeetSettings
@@ -41,13 +41,13 @@ def changed(fresh: Any, used: Any, path: str = "") -> Iterator[str]:
 
 
 def holds_state(record: Any) -> bool:
-    """It is a part, or was made with parts."""
+    """Return whether it is a part, or has parts among its settings."""
     inner = [getattr(record, f.name) for f in attrs.fields(type(record))]
     return is_part(type(record)) or any(attrs.has(type(one)) and holds_state(one) for one in inner)
 
 
 def changed_in(session: Session) -> list[str]:
-    """The same of all of a session."""
+    """Return the changed settings of all parts of a session."""
     used = session._state.wearer
     fresh = WearerParts(used.settings)
     found = list(changed(fresh, used))
@@ -59,18 +59,18 @@ def changed_in(session: Session) -> list[str]:
 
 @pytest.mark.parametrize("name", WALKS)
 def test_settings_of_every_part_are_after_a_walk_what_they_were_before_it(name: str) -> None:
-    session = machines()[name].load(gone(name).fed)
+    session = machines()[name].load(run_machine(name).fed)
     assert changed_in(session) == []
 
 
 def test_a_calibration_that_does_not_fit_the_insoles_is_left_out_not_changed() -> None:
-    """They tell newtons themselves, and have other cells than the noise was measured of."""
+    """The insoles report newtons themselves, and have other cells than those of the measured noise."""
     cubic = Newtons((0.0, 1.0, 0.0, 0.0))
     odd = Calibration({foot: InsoleCalibration(newtons=cubic, noise=(1.0,) * 9) for foot in Foot})
     session, plain = Session(calibration=odd), Session()
-    told, usual = session.feed(packets()["whole frames"]), plain.feed(packets()["whole frames"])
+    emitted, usual = session.feed(packets()["whole frames"]), plain.feed(packets()["whole frames"])
     assert changed_in(session) == []
-    assert {type(event).__name__ for event in told} - {type(event).__name__ for event in usual} == {"Limitation"}
+    assert {type(event).__name__ for event in emitted} - {type(event).__name__ for event in usual} == {"Limitation"}
     assert session.position == plain.position
     for foot, tracker in session.feet.items():
         assert tracker.sole.insole.in_newtons

@@ -1,4 +1,4 @@
-"""What sessions of one process hold together never makes one of them another: recipes, layouts, begun sessions."""
+"""Objects that sessions of one process share do not couple them: recipes, layouts, new sessions."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import threading
 
 import pytest
 from attrs import define, evolve, field
-from own import Quiet
+from own import StillDetector
 from walks import samples
 
 from solepath import Calibration, Foot, Session, recipes
@@ -20,11 +20,11 @@ from solepath.recipes import own
 from solepath.types import Cell, shared
 
 
-def test_sessions_are_begun_in_many_threads_at_once() -> None:
+def test_sessions_are_started_in_many_threads_at_once() -> None:
     """Each of a recipe of its own, so that what they hold together changes all the time."""
     failed: list[Exception] = []
 
-    def begin(k: int) -> None:
+    def start_sessions(k: int) -> None:
         try:
             for i in range(25):
                 mine = BothFeet(BothFeetSettings(reach=1.0 + 0.001 * (1000 * k + i)))
@@ -35,7 +35,7 @@ def test_sessions_are_begun_in_many_threads_at_once() -> None:
     usual = sys.getswitchinterval()
     sys.setswitchinterval(1e-5)
     try:
-        threads = [threading.Thread(target=begin, args=(k,)) for k in range(3)]
+        threads = [threading.Thread(target=start_sessions, args=(k,)) for k in range(3)]
         for thread in threads:
             thread.start()
         for thread in threads:
@@ -46,8 +46,8 @@ def test_sessions_are_begun_in_many_threads_at_once() -> None:
 
 
 @define
-class Likeness(Quiet):
-    """A detector whose limit is compared by nobody, and a second one that cannot be compared at all."""
+class Likeness(StillDetector):
+    """A detector whose limit does not count in comparisons, and a second one that cannot be compared at all."""
 
     limit: float = field(default=0.8, eq=False)
 
@@ -69,12 +69,12 @@ class Loner(Likeness):
 
 
 @define(slots=False)
-class Loose(Quiet):
-    """It may hold what is in no field."""
+class Loose(StillDetector):
+    """A part that may hold state outside its fields."""
 
 
 @pytest.mark.parametrize("kind", [Likeness, Quarrel, Loner])
-def test_an_unpacked_session_has_the_settings_of_its_recipe_whatever_its_detector_says_of_being_equal(
+def test_an_unpacked_session_has_the_settings_of_its_recipe_whatever_the_equality_of_its_detector(
     kind: type[Likeness],
 ) -> None:
     walked = samples(cells=0, rate=50.0)
@@ -88,7 +88,7 @@ def test_an_unpacked_session_has_the_settings_of_its_recipe_whatever_its_detecto
         assert again._state.wearer.settings.recipe is own(recipe), "and it is held once"
 
 
-def test_recipes_are_told_apart_by_all_that_a_part_holds_and_what_no_copy_is_like_is_not_kept() -> None:
+def test_recipes_are_distinguished_by_all_values_of_a_part_and_uncopyable_ones_are_not_kept() -> None:
     one, other = (evolve(recipes.DEFAULT, detector=Loose()) for _ in range(2))
     assert own(one) is own(other)
     other.detector.__dict__["beside"] = 1.0

@@ -21,14 +21,14 @@ from solepath.emulate.wearers.walker import Walker
 
 
 def moved(item: Any, by: float) -> Any:
-    """The same, `by` s later."""
+    """Return the items `by` s later."""
     if isinstance(item, Sample) and item.known_at is not None:
         return evolve(item, t=item.t + by, known_at=item.known_at + by)
     return evolve(item, t=item.t + by)
 
 
 EARLIER = ("decoder", "session, whole frames", "session, cc2541", "session, samples")
-"""Where clocks and sessions differ; a recipe's parts are no other before zero than after it."""
+"""Time shifts that separate clocks and sessions; a recipe's parts work the same before zero as after it."""
 TIMES = ("t", "known_at", "t_start", "t_end", "t_toe_off", "t_heel_strike")
 
 
@@ -59,12 +59,12 @@ def test_the_same_walk_at_another_time_gives_the_same_events_at_that_time(name: 
 def test_silence_becomes_an_event_when_time_passes(name: str) -> None:
     machine = machines()[name]
     middle = len(machine.items) // 2
-    session = machine.begin()
+    session = machine.start()
     session.feed(machine.items[:middle])
     now = machine.items[middle - 1].t
     assert of(StreamStale, session.advance(now + 0.05)) == []
-    told = session.advance(now + 30.0)
-    stale = of(StreamStale, told)
+    emitted = session.advance(now + 30.0)
+    stale = of(StreamStale, emitted)
     assert {event.site for event in stale} == {LEFT, RIGHT}
     assert all(now < event.t <= event.known_at == now + 30.0 and event.silent_for > 25.0 for event in stale)
     assert session.advance(now + 31.0) == []
@@ -74,12 +74,12 @@ def test_silence_becomes_an_event_when_time_passes(name: str) -> None:
 
 def test_the_other_foot_makes_time_pass_as_well() -> None:
     machine = machines()["session, whole frames"]
-    session = machine.begin()
-    told = []
+    session = machine.start()
+    emitted = []
     for item in machine.items:
         if item.site is RIGHT or item.t < 3.0:
-            told += session.feed(item)
-    (stale,) = of(StreamStale, told)
+            emitted += session.feed(item)
+    (stale,) = of(StreamStale, emitted)
     assert stale.site is LEFT and stale.t == pytest.approx(4.0, abs=0.1)
 
 
@@ -117,7 +117,7 @@ def regular() -> list[Sample]:
 
 
 def jittered(seed: int) -> list[Sample]:
-    """A sensor whose interval wanders from 8 to 12 ms, a millisecond early or late; each sample says when it was."""
+    """Return samples whose interval varies from 8 to 12 ms, 1 ms early or late; each has its true time."""
     rng = np.random.default_rng(seed)
     kept, at = [], 5.0
     while at < len(fine()) - 5:
@@ -153,10 +153,10 @@ def test_the_same_samples_with_regular_times_on_them_are_another_walk() -> None:
 def test_lost_packets_are_counted_and_their_gap_degrades_the_step() -> None:
     walk = emulate(ROUTE, devices={LEFT: Insole(cells=24)}, radio=CLEAN, seed=3)
     kept = [packet for packet in walk.packets if not 6.0 < packet.t < 6.1]
-    told = Session().feed(kept)
-    (lost,) = of(PacketsLost, told)
-    (gap,) = of(SampleGap, told)
+    emitted = Session().feed(kept)
+    (lost,) = of(PacketsLost, emitted)
+    (gap,) = of(SampleGap, emitted)
     assert lost.count == len(walk.packets) - len(kept) == round(gap.duration * 100) - 1
     assert lost.t == pytest.approx(gap.t + 0.01, abs=1e-3)
-    assert [step.degraded for step in of(StrideTaken, told)].count(True) == 1
-    assert len(of(StrideTaken, told)) == len(walk.truth.steps(Foot.LEFT))
+    assert [step.degraded for step in of(StrideTaken, emitted)].count(True) == 1
+    assert len(of(StrideTaken, emitted)) == len(walk.truth.steps(Foot.LEFT))

@@ -25,7 +25,7 @@ TIMES = st.sampled_from([nan, inf, -inf, 1e300, -1e300, 2e11])
 def cuts(name: str) -> list[tuple[int, Any]]:
     """Snapshots of a machine on its way, and how much it had been fed."""
     machine = machines()[name]
-    one, found = machine.begin(), []
+    one, found = machine.start(), []
     for k, item in enumerate(machine.items):
         if k % (len(machine.items) // CUTS) == 3:
             found.append((k, machine.save(one)))
@@ -75,7 +75,7 @@ def test_any_bytes_anywhere_give_events_and_a_rejected_packet_changes_nothing(na
 
 
 def certainly_bad(packet: Packet, kind: str, number: int, when: float) -> Packet:
-    """Something that nobody can use, made of a good packet."""
+    """Return an unusable item made of a good packet."""
     prefix, data = packet.channel.partition("/")[0], packet.data
     other = "cc2541/gyroscope" if prefix == "insole" else "insole/frame"
     match kind:
@@ -105,22 +105,22 @@ KINDS = ("unknown channel", "another device", "no time", "earlier", "site withou
 @pytest.mark.parametrize("name", PACKET_NAMES)
 @given(st.lists(st.tuples(st.integers(10, 10_000), st.sampled_from(KINDS), st.integers(0, 99), TIMES), **SOME))
 @QUICK
-def test_good_packets_say_the_same_whatever_comes_between_them(
+def test_good_packets_give_the_same_events_whatever_comes_between_them(
     name: str, bad: list[tuple[int, str, int, float]]
 ) -> None:
     machine = machines()[name]
     places: dict[int, list[tuple[str, int, float]]] = {}
     for where, *what in bad:
         places.setdefault(10 + where % (len(machine.items) - 10), []).append(tuple(what))
-    one, told = machine.begin(), []
+    one, emitted = machine.start(), []
     for k, item in enumerate(machine.items):
-        told += one.feed(item)
+        emitted += one.feed(item)
         for what in places.get(k, ()):
             if item.channel.startswith("device/"):
                 continue  # battery and firmware are any device's
             events = one.feed(certainly_bad(item, *what))
             assert [type(event) for event in events] == [PacketRejected], what
-    assert told + one.finish() == machine.events()
+    assert emitted + one.finish() == machine.events()
 
 
 def test_bytes_that_are_not_a_bytes_object_are_bytes_all_the_same() -> None:
@@ -144,7 +144,7 @@ def test_a_receiver_whose_clock_is_set_back_goes_on_finding_steps() -> None:
 
 
 def spoilt(sample: Sample, last: Sample) -> dict[str, tuple[Sample, Rejection]]:
-    """A sample made unusable in every way that there is, and what is said of it; `last`: the one before it."""
+    """Return a sample made unusable in every possible way, and its reported reason; `last` is the one before it."""
     x = (0.0, 0.0, 9.8)
     return {
         "acc nan": (evolve(sample, acc=(0.0, nan, 9.8)), Rejection.NOT_FINITE),
@@ -169,7 +169,7 @@ WAYS = sorted(spoilt(Sample(0.0, LEFT), Sample(0.0, LEFT)))
 
 
 FIRST = len(Site)
-"""Before this item every site has been heard."""
+"""Number of the item before which every site has sent a sample."""
 
 
 def around(items: tuple[Sample, ...], k: int) -> tuple[Sample, Sample]:
@@ -193,18 +193,18 @@ def test_a_sample_that_cannot_be_used_changes_nothing_and_is_named(name: str, ki
 @pytest.mark.parametrize("name", SAMPLE_NAMES)
 @given(st.lists(st.tuples(st.integers(0, 10_000), st.sampled_from(WAYS)), **SOME))
 @QUICK
-def test_good_samples_say_the_same_whatever_comes_between_them(name: str, bad: list[tuple[int, str]]) -> None:
+def test_good_samples_give_the_same_events_whatever_comes_between_them(name: str, bad: list[tuple[int, str]]) -> None:
     machine = machines()[name]
     places: dict[int, list[str]] = {}
     for where, kind in bad:
         places.setdefault(FIRST + where % (len(machine.items) - FIRST), []).append(kind)
-    one, told = machine.begin(), []
+    one, emitted = machine.start(), []
     for k, item in enumerate(machine.items):
         for kind in places.get(k, ()):
             events = one.feed(spoilt(*around(machine.items, k))[kind][0])
             assert [type(event) for event in events] == [SampleRejected]
-        told += one.feed(item)
-    assert told + one.finish() == machine.events()
+        emitted += one.feed(item)
+    assert emitted + one.finish() == machine.events()
 
 
 _FLOATS = st.floats(allow_nan=True, allow_infinity=True)
@@ -233,7 +233,7 @@ def test_any_samples_at_all_give_events(name: str, cut: int, fed: list[Sample]) 
     machine.save(one)
 
 
-def test_a_session_that_only_heard_nonsense_is_as_new() -> None:
+def test_a_session_that_only_received_nonsense_is_as_new() -> None:
     session = Session()
     session.feed(Packet(3.0, LEFT, "insole/frame", b"\xf5\x10"))
     session.feed(Packet(nan, RIGHT, "cc2650/movement", bytes(18)))
@@ -245,6 +245,6 @@ def test_a_session_that_only_heard_nonsense_is_as_new() -> None:
 
 def test_a_sample_cannot_be_known_before_it_was() -> None:
     session = Session(poses=True)
-    told = session.feed([evolve(sample, known_at=sample.t - 3.0) for sample in samples()])
-    assert len(of(FootMoved, told)) > 500
-    strict(told)
+    emitted = session.feed([evolve(sample, known_at=sample.t - 3.0) for sample in samples()])
+    assert len(of(FootMoved, emitted)) > 500
+    strict(emitted)

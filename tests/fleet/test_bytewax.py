@@ -1,4 +1,4 @@
-"""A fleet on bytewax: what every wearer's session tells is what it tells by itself, however the engine runs it."""
+"""A fleet on bytewax: every wearer's events are those of a session alone, however the engine runs it."""
 
 from __future__ import annotations
 
@@ -33,19 +33,19 @@ OFTEN = timedelta(milliseconds=20)
 
 
 def job(
-    items: Iterable[Any], told: list[tuple[str, NumberedEvent]], recipe: str = "default", **options: Any
+    items: Iterable[Any], emitted: list[tuple[str, NumberedEvent]], recipe: str = "default", **options: Any
 ) -> Dataflow:
     """From a list to a list. The source keeps its place in the recovery store, the sink keeps none."""
     flow = Dataflow("job")
     sent = operators.input("sent", flow, TestingSource(items, batch_size=50))
-    operators.output("told", gait("gait", sent, Fleet(RECIPES[recipe]), **options), TestingSink(told))
+    operators.output("told", gait("gait", sent, Fleet(RECIPES[recipe]), **options), TestingSink(emitted))
     return flow
 
 
-def by_wearer(told: Iterable[tuple[str, NumberedEvent]]) -> dict[str, list[Any]]:
-    """The events of each in the order of their numbers, which have no holes; what was told twice was the same."""
+def by_wearer(emitted: Iterable[tuple[str, NumberedEvent]]) -> dict[str, list[Any]]:
+    """Return the events of each wearer in the order of their numbers, without holes; repeated ones must be equal."""
     found: dict[str, dict[int, Any]] = {}
-    for wearer, one in told:
+    for wearer, one in emitted:
         assert one.wearer == wearer
         assert found.setdefault(wearer, {}).setdefault(one.number, one.event) == one.event
     assert all(sorted(numbers) == list(range(len(numbers))) for numbers in found.values())
@@ -66,24 +66,24 @@ def test_each_wearer_has_the_events_of_a_session_of_their_own_also_when_the_job_
     items: list[Any] = list(sent)
     for place in sorted(Random(1).sample(range(len(items)), 3), reverse=True):
         items.insert(place, TestingSource.ABORT())
-    told: list[tuple[str, NumberedEvent]] = []
-    flow = job(items, told, recipe)
+    emitted: list[tuple[str, NumberedEvent]] = []
+    flow = job(items, emitted, recipe)
     for _ in range(3):
         run_main(flow, epoch_interval=OFTEN, recovery_config=store)
-        assert by_wearer(told) != events
+        assert by_wearer(emitted) != events
     run_main(flow, epoch_interval=OFTEN, recovery_config=store)
-    assert by_wearer(told) == events
+    assert by_wearer(emitted) == events
 
 
 def test_wearers_are_divided_among_workers_and_move_when_their_number_changes(store: RecoveryConfig) -> None:
     sent, events = site()
     third = len(sent) // 3
     pause = TestingSource.EOF()
-    told: list[tuple[str, NumberedEvent]] = []
-    flow = job([*sent[:third], pause, *sent[third : 2 * third], pause, *sent[2 * third :]], told)
+    emitted: list[tuple[str, NumberedEvent]] = []
+    flow = job([*sent[:third], pause, *sent[third : 2 * third], pause, *sent[2 * third :]], emitted)
     for workers in (2, 3, 1):
         cluster_main(flow, [], 0, epoch_interval=OFTEN, recovery_config=store, worker_count_per_proc=workers)
-    assert by_wearer(told) == events
+    assert by_wearer(emitted) == events
 
 
 def test_what_was_sent_may_come_in_lists_and_sessions_are_put_away_while_nothing_comes() -> None:
@@ -103,9 +103,9 @@ def test_what_was_sent_may_come_in_lists_and_sessions_are_put_away_while_nothing
                     break
             left.append(living() - before)
 
-    told: list[tuple[str, NumberedEvent]] = []
-    run_main(job(lists(), told, idle=timedelta(milliseconds=1)))
-    assert by_wearer(told) == events
+    emitted: list[tuple[str, NumberedEvent]] = []
+    run_main(job(lists(), emitted, idle=timedelta(milliseconds=1)))
+    assert by_wearer(emitted) == events
     assert left and set(left) == {0}
 
 
@@ -127,16 +127,16 @@ def test_who_has_ended_is_forgotten_after_a_while_though_the_job_stopped_in_betw
             rows = parts.execute("SELECT state_key FROM snaps WHERE step_id LIKE '%gait%' AND ser_change NOT NULL")
             return {wearer for (wearer,) in rows}
 
-    began = [sent(wearer, 0, Tick(1.0)) for wearer in ("ended", "silent", "again")]
+    first_rows = [sent(wearer, 0, Tick(1.0)) for wearer in ("ended", "silent", "again")]
     ended = [sent(wearer, 1, End()) for wearer in ("ended", "again")]
     again, more = (sent("again", number, Tick(2.0 + number), run=1) for number in (0, 1))
-    assert run([*began, *ended], None) == {"ended", "silent", "again"}
+    assert run([*first_rows, *ended], None) == {"ended", "silent", "again"}
     assert run([again], timedelta(hours=1)) == {"ended", "silent", "again"}
     assert run([more], timedelta(milliseconds=1)) == {"silent", "again"}
     assert b"ended" in (tmp_path / "part-0.sqlite3").read_bytes()
     purge(tmp_path)
     assert not any(b"ended" in path.read_bytes() for path in tmp_path.iterdir())
-    assert run([*began, *ended], timedelta(hours=1)) == {"ended", "silent", "again"}
+    assert run([*first_rows, *ended], timedelta(hours=1)) == {"ended", "silent", "again"}
 
 
 def living() -> int:
@@ -144,7 +144,7 @@ def living() -> int:
     return sum([isinstance(one, Keyed) for one in gc.get_objects()])
 
 
-def test_what_no_phone_can_have_sent_is_told_and_stalls_nobody_else() -> None:
+def test_impossible_rows_are_reported_and_stall_nobody_else() -> None:
     sent, events = site()
     chance = Random(5)
     packet = Packet(0.0, Site.LEFT_FOOT, "x", b"")
@@ -155,30 +155,28 @@ def test_what_no_phone_can_have_sent_is_told_and_stalls_nobody_else() -> None:
         for n, channel in enumerate(["insole/frame", "cc2650/movement", "insole/info", "\x00"] * 100)
     ]
     clean = {name: [one for wearer, one in sent if wearer == name] for name in events}
-    told: list[tuple[str, NumberedEvent]] = []
-    run_main(job(mixed({**clean, "poison": junk}), told))
-    found = by_wearer(told)
-    said = found.pop("poison")
+    emitted: list[tuple[str, NumberedEvent]] = []
+    run_main(job(mixed({**clean, "poison": junk}), emitted))
+    found = by_wearer(emitted)
+    poisoned = found.pop("poison")
     assert found == events
-    assert [event.reason for event in said[:7]] == [SentRejection.NOT_SENT] * 6 + [SentRejection.UNREADABLE]
-    assert len(said) >= 300
+    assert [event.reason for event in poisoned[:7]] == [SentRejection.NOT_SENT] * 6 + [SentRejection.UNREADABLE]
+    assert len(poisoned) >= 300
 
 
 def of_a_version_to_come(state: bytes) -> bytes:
-    """As protocol/fleet.md has it: whatever the version, the first bytes and their checksum can be read."""
+    """Return a state of a later version: its first bytes and their checksum can still be read (protocol/fleet.md)."""
     first = state[:4] + b"\xfe" + state[5:37]
     return first + crc32(first).to_bytes(4, "little") + state[41:]
 
 
-def test_states_that_cannot_go_on_are_told_and_begin_afresh_and_the_others_go_on(
-    store: RecoveryConfig, tmp_path: Path
-) -> None:
+def test_unusable_states_are_reported_and_restarted_and_the_others_go_on(store: RecoveryConfig, tmp_path: Path) -> None:
     sent, events = site()
     half = len(sent) // 2
-    told: list[tuple[str, NumberedEvent]] = []
-    flow = job([*sent[:half], TestingSource.EOF(), *sent[half:]], told)
+    emitted: list[tuple[str, NumberedEvent]] = []
+    flow = job([*sent[:half], TestingSource.EOF(), *sent[half:]], emitted)
     run_main(flow, recovery_config=store)
-    before = by_wearer(told)
+    before = by_wearer(emitted)
     with closing(sqlite3.connect(tmp_path / "part-0.sqlite3")) as kept, kept:
         state = "FROM snaps WHERE step_id LIKE '%gait%' AND state_key"
         (newest,) = kept.execute(f"SELECT ser_change {state} = 'limping' ORDER BY snap_epoch DESC").fetchone()
@@ -186,10 +184,10 @@ def test_states_that_cannot_go_on_are_told_and_begin_afresh_and_the_others_go_on
         for wearer, spoiled in new.items():
             kept.execute("UPDATE snaps SET ser_change = ? WHERE state_key = ?", (pickle.dumps((spoiled, None)), wearer))
     run_main(flow, recovery_config=store)
-    whole = [one for wearer, one in told if wearer == "whole"][len(before["whole"]) :]
-    found = by_wearer(one for one in told if one[0] != "whole")
+    whole = [one for wearer, one in emitted if wearer == "whole"][len(before["whole"]) :]
+    found = by_wearer(one for one in emitted if one[0] != "whole")
     assert found["late"] == events["late"]
-    refused, *rest = found["limping"][len(before["limping"]) :]
-    assert isinstance(refused, StateRejected) and "version 254" in refused.detail
+    rejected, *rest = found["limping"][len(before["limping"]) :]
+    assert isinstance(rejected, StateRejected) and "version 254" in rejected.detail
     assert rest == Session().feed(one.what for wearer, one in sent[half:] if wearer == "limping")
     assert isinstance(whole[0].event, StateRejected) and whole[0].number >= len(before["whole"])

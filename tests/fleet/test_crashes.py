@@ -23,7 +23,7 @@ from sites import site
 from solepath.fleet import NumberedEvent, event_row, sent_line
 
 JOB = [sys.executable, str(HELPERS / "fleet" / "fleet_job.py")]
-QUIET = {**os.environ, "RUST_BACKTRACE": "0"}
+ENVIRONMENT = {**os.environ, "RUST_BACKTRACE": "0"}
 
 
 @pytest.fixture
@@ -45,7 +45,7 @@ def expected() -> list[dict[str, Any]]:
 
 
 def held(directory: Path) -> list[dict[str, Any]]:
-    """What a reader finds."""
+    """Return the events that a reader finds."""
     table = parquet.read_table(directory)
     return list(table.sort_by([("wearer", "ascending"), ("number", "ascending")]).to_pylist())
 
@@ -58,8 +58,8 @@ def test_killed_at_any_moments_and_started_again_a_job_leaves_each_event_once(
     first, second = sorted(Random(seed).sample(range(lines), 2))
     job = [*JOB, sent, tmp_path / "told", tmp_path / "store"]
     for line in (first, second - first):
-        assert subprocess.run([*job, "--die-at", str(line)], env=QUIET).returncode == -9
-    assert subprocess.run(job, env=QUIET).returncode == 0
+        assert subprocess.run([*job, "--die-at", str(line)], env=ENVIRONMENT).returncode == -9
+    assert subprocess.run(job, env=ENVIRONMENT).returncode == 0
     assert held(tmp_path / "told") == expected()
 
 
@@ -77,7 +77,7 @@ cp -r "$TOLD" told_in_the_end
 
 @pytest.fixture
 def place(tmp_path: Path) -> Path:
-    """Where a small disk can be mounted."""
+    """A directory where a small disk can be mounted."""
     (tmp_path / "disk").mkdir()
     mount = ["unshare", "-rm", "mount", "-t", "tmpfs", "none", str(tmp_path / "disk")]
     if shutil.which("unshare") is None or subprocess.run(mount, capture_output=True).returncode:
@@ -85,10 +85,10 @@ def place(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def until_full(place: Path, sent: Path, told: str, store: str, room: int) -> str:
-    """What the job says when it ends for want of room."""
-    environment = {**QUIET, "TOLD": told, "ROOM": str(room)}
-    apart = ["unshare", "-rm", "sh", "-c", FULL, "sh", *JOB, sent, told, store]
+def until_full(place: Path, sent: Path, parts_directory: str, store: str, room: int) -> str:
+    """Return the message of the job that ends because the disk is full."""
+    environment = {**ENVIRONMENT, "TOLD": parts_directory, "ROOM": str(room)}
+    apart = ["unshare", "-rm", "sh", "-c", FULL, "sh", *JOB, sent, parts_directory, store]
     subprocess.run(apart, env=environment, cwd=place, check=True)
     assert (place / "ended").read_text() == "1\n"
     return (place / "said").read_text()
@@ -97,9 +97,9 @@ def until_full(place: Path, sent: Path, told: str, store: str, room: int) -> str
 def test_a_full_disk_ends_the_job_with_the_name_of_the_file_and_with_room_it_goes_on_as_if_nothing_had_been(
     place: Path, sent: Path
 ) -> None:
-    said = until_full(place, sent, "disk/told", "store", room=60_000)
+    message = until_full(place, sent, "disk/told", "store", room=60_000)
     part = r"part-[01]-\d+-\d{8}\.parquet"
-    assert re.fullmatch(f"error: .*No space left on device: 'disk/told/{part}'", said.splitlines()[-1])
+    assert re.fullmatch(f"error: .*No space left on device: 'disk/told/{part}'", message.splitlines()[-1])
     assert all(re.fullmatch(part, path.name) for path in (place / "told_then").iterdir())
     then = held(place / "told_then")
     assert then and all(row in expected() for row in then)
@@ -107,6 +107,6 @@ def test_a_full_disk_ends_the_job_with_the_name_of_the_file_and_with_room_it_goe
 
 
 def test_a_full_disk_of_the_recovery_store_ends_the_job_too_and_with_room_it_goes_on(place: Path, sent: Path) -> None:
-    said = until_full(place, sent, "told", "disk/store", room=400_000)
-    assert "database or disk is full" in said.splitlines()[-1]
+    message = until_full(place, sent, "told", "disk/store", room=400_000)
+    assert "database or disk is full" in message.splitlines()[-1]
     assert held(place / "told_in_the_end") == expected()

@@ -33,8 +33,8 @@ def raises(sent: Any, known: Any) -> Reading:
 WRONG = evolve(toys.NUMBERED, readers={"toy/data": toys.data, "toy/more": raises})
 
 
-def said(number: int, k: int, what: int | None = None) -> Sent:
-    """Of the toy: its k-th packet of data, or more of it."""
+def make_sent(number: int, k: int, what: int | None = None) -> Sent:
+    """Return the k-th packet of data of the toy device."""
     if what is None:
         data, channel = struct.pack(">HIBf", k, 0, 1, 9.80665), "toy/data"
     else:
@@ -44,22 +44,22 @@ def said(number: int, k: int, what: int | None = None) -> Sent:
 
 def test_a_reader_of_an_apps_own_that_raises_costs_its_wearer_a_fresh_start_and_nobody_else_anything() -> None:
     fleet = Fleet(profiles=[WRONG], poses=True)
-    walk = [said(k, k) for k in range(20)]
+    walk = [make_sent(k, k) for k in range(20)]
     bare = Session(profiles=[WRONG], poses=True)
     events = [event for one in walk for event in bare.feed(one.what)]
-    wrong = [*walk, said(20, 20, 201), *[said(21 + k, k) for k in range(20)]]
-    _, told = fleet.step(WEARER, None, wrong)
-    failed = told[len(events)].event
-    said_of_it = "RuntimeError: a reader that is wrong about 201"
-    assert failed == WearerFailed(t=bare.now, known_at=bare.now, detail=said_of_it)
-    assert [one.event for one in told if one.event is not failed] == events + events
-    assert [one.number for one in told] == list(range(len(told)))
-    assert stepped(fleet, [[one] for one in wrong])[1] == told
+    wrong = [*walk, make_sent(20, 20, 201), *[make_sent(21 + k, k) for k in range(20)]]
+    _, emitted = fleet.step(WEARER, None, wrong)
+    failed = emitted[len(events)].event
+    expected_detail = "RuntimeError: a reader that is wrong about 201"
+    assert failed == WearerFailed(t=bare.now, known_at=bare.now, detail=expected_detail)
+    assert [one.event for one in emitted if one.event is not failed] == events + events
+    assert [one.number for one in emitted] == list(range(len(emitted)))
+    assert stepped(fleet, [[one] for one in wrong])[1] == emitted
     assert [one.event for one in fleet.step(WEARER, None, walk)[1]] == events
 
 
 class Registry(Mapping[str, Calibration]):
-    """What is known of wearers, looked up one by one; of some it is wrong, or the look-up fails."""
+    """Calibrations of wearers, looked up one by one; some are wrong, and some look-ups fail."""
 
     def __getitem__(self, wearer: str) -> Calibration:
         if wearer == "lost":
@@ -77,7 +77,7 @@ class Registry(Mapping[str, Calibration]):
         return 3
 
 
-def test_what_is_known_of_a_wearer_is_looked_up_when_a_session_begins_and_what_is_wrong_is_told() -> None:
+def test_a_calibration_is_read_when_a_session_starts_and_its_faults_are_reported() -> None:
     fleet = Fleet(recipes.by_name("kupt-dfpc"), calibrations=Registry())
     plain = [one.event for one in Fleet(recipes.by_name("kupt-dfpc")).step(WEARER, None, walked().sent[:500])[1]]
     for wearer, failures in (("unknown", 0), ("lost", 1), ("odd", 1), ("known", 0)):
@@ -87,7 +87,7 @@ def test_what_is_known_of_a_wearer_is_looked_up_when_a_session_begins_and_what_i
         assert (events[failures:] == plain) is (wearer != "known")
 
 
-def test_a_job_that_is_wrong_for_every_wearer_is_refused_when_it_is_made() -> None:
+def test_a_job_that_is_wrong_for_every_wearer_is_rejected_when_it_is_made() -> None:
     with pytest.raises(TypeError, match="Recipe"):
         Fleet("default")  # type: ignore[arg-type]
     with pytest.raises(TypeError, match="mapping"):
@@ -113,19 +113,19 @@ class Ours(Fleet):
 def test_a_job_with_devices_of_its_own_goes_to_its_workers_by_name() -> None:
     with pytest.raises((TypeError, AttributeError)):
         pickle.dumps(Fleet(profiles=[WRONG]))
-    walk = [said(k, k) for k in range(40)]
+    walk = [make_sent(k, k) for k in range(40)]
     assert pickle.loads(pickle.dumps(Ours())).step(WEARER, None, walk) == Ours().step(WEARER, None, walk)
 
 
-def test_what_is_sent_and_told_can_be_sent_between_workers() -> None:
-    _, told = FLEET.step(WEARER, None, walked().sent[:350])
-    both: list[Sent | NumberedEvent | Unreadable] = [*walked().sent[:10], *told, Unreadable(WEARER, "no JSON", 1, 2)]
+def test_input_and_events_can_be_sent_between_workers() -> None:
+    _, emitted = FLEET.step(WEARER, None, walked().sent[:350])
+    both: list[Sent | NumberedEvent | Unreadable] = [*walked().sent[:10], *emitted, Unreadable(WEARER, "no JSON", 1, 2)]
     assert pickle.loads(pickle.dumps(both)) == both
 
 
 @frozen
 class Located(Packet):
-    """A packet that says more."""
+    """A packet with further fields."""
 
     where: str = "gym"
 
@@ -159,6 +159,6 @@ def test_packets_ticks_and_ends_of_classes_of_an_apps_own_are_used_as_what_they_
     fleet = Fleet()
     expected = fleet.step(WEARER, None, sent)
     assert fleet.step(WEARER, None, own) == expected
-    state, told = fleet.step(WEARER, None, own[1:])  # held, for want of the first
+    state, emitted = fleet.step(WEARER, None, own[1:])  # held, for want of the first
     after, rest = fleet.step(WEARER, state, own[:1])
-    assert (after, [*told, *rest]) == expected
+    assert (after, [*emitted, *rest]) == expected

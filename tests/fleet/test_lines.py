@@ -68,12 +68,12 @@ def test_a_job_that_goes_on_from_any_moment_reads_what_comes_behind_it(
         (place / f"{name}.jsonl").write_bytes(b"".join(line + b"\n" for line in part))
     source = LineSource(place, batch=batch)
     partition, before = source.build_part("phones", ".", None), []
-    wanted = [line for line in lines if line.strip()]
-    for _ in range(0, len(wanted) + 1, batch):
-        assert before + read(source, ".", partition.snapshot())[0] == wanted
-        if len(before) < len(wanted):
+    expected = [line for line in lines if line.strip()]
+    for _ in range(0, len(expected) + 1, batch):
+        assert before + read(source, ".", partition.snapshot())[0] == expected
+        if len(before) < len(expected):
             before += partition.next_batch()
-    assert before == wanted
+    assert before == expected
 
 
 def test_what_is_new_is_read_at_the_next_start_whatever_the_names_and_lines_that_are_half_there_wait(
@@ -93,14 +93,14 @@ def test_what_is_new_is_read_at_the_next_start_whatever_the_names_and_lines_that
     assert read(LineSource(tmp_path), ".", state) == ([b"!"], {"w-1.jsonl": 5, "w-3.jsonl": 2})
 
 
-def test_a_line_that_is_too_long_is_refused_and_the_next_is_read(put: Put, tmp_path: Path) -> None:
+def test_a_line_that_is_too_long_is_rejected_and_the_next_is_read(put: Put, tmp_path: Path) -> None:
     longest = b"x" * LONGEST_LINE
     put("a.jsonl", longest + b"\n" + longest + b"y\n" + b"z" * 5 * LONGEST_LINE + b"\n{}\n" + longest + b"abc")
     lines, state = read(LineSource(tmp_path))
     assert lines[0] == longest and lines[3] == b"{}"
     assert [len(line) - LONGEST_LINE for line in lines[1:3] + lines[4:]] == [1, 2, 2]
-    said = [one.what for one in map(read_line, lines) if isinstance(one, Unreadable)]
-    assert ["are the most" in what for what in said] == [False, True, True, False, True]
+    reasons = [one.what for one in map(read_line, lines) if isinstance(one, Unreadable)]
+    assert ["are the most" in what for what in reasons] == [False, True, True, False, True]
     assert state == {"a.jsonl": (tmp_path / "a.jsonl").stat().st_size}
 
 
@@ -129,6 +129,6 @@ def test_who_follows_reads_what_is_written_later_and_does_not_end(put: Put, tmp_
 
 
 def test_a_directory_that_is_none_is_named(tmp_path: Path) -> None:
-    with pytest.raises(NotADirectoryError) as refused:
+    with pytest.raises(NotADirectoryError) as error:
         LineSource(tmp_path / "sent")
-    assert (refused.value.errno, refused.value.filename) == (errno.ENOTDIR, str(tmp_path / "sent"))
+    assert (error.value.errno, error.value.filename) == (errno.ENOTDIR, str(tmp_path / "sent"))

@@ -22,7 +22,7 @@ NARROW = Fleet(window=3)
 
 
 def as_used(gives: list[dict[str, Any]]) -> list[tuple[Any, ...]]:
-    """What a story says, as `uses` has it; that an end was used shows in no event."""
+    """Return the outcome of a story in the form of `uses`; no event shows that an end was used."""
     words = {"used": "number", "missing": "first", "rejected": "number"}
     return [(one["what"], one["run"], one[words[one["what"]]], more(one)) for one in gives if one["what"] != "ended"]
 
@@ -34,14 +34,14 @@ def more(one: dict[str, Any]) -> Any:
 
 
 @pytest.mark.parametrize("story", STORIES["stories"], ids=lambda story: story["title"])
-def test_rows_become_what_their_story_says(story: dict[str, Any]) -> None:
+def test_rows_become_the_events_of_their_story(story: dict[str, Any]) -> None:
     fleet, state, numbers = Fleet(window=story["window"]), None, []
     for line in story["rows"]:
         sent = read_line(json.dumps(line["row"]).encode())
-        state, told = fleet.step(WEARER, state, [sent])
-        numbers += [one.number for one in told]
+        state, emitted = fleet.step(WEARER, state, [sent])
+        numbers += [one.number for one in emitted]
         gives = line["gives"]
-        assert uses(told) == as_used(gives), line["row"]
+        assert uses(emitted) == as_used(gives), line["row"]
         if any(one["what"] in ("used", "ended") for one in gives):
             used = [one["what"] for one in gives if one["what"] in ("used", "ended")]
             assert fleet.open(WEARER, state).ended is (used[-1] == "ended")
@@ -84,11 +84,11 @@ ANY = st.one_of(
 @settings(max_examples=40)
 @given(arrived=st.lists(ANY, max_size=25), cuts=st.lists(st.integers(0, 25), max_size=6))
 def test_how_rows_are_cut_into_calls_changes_nothing_whatever_they_are(arrived: list[Sent], cuts: list[int]) -> None:
-    state, told = stepped(NARROW, cut(arrived, cuts))
+    state, emitted = stepped(NARROW, cut(arrived, cuts))
     keyed = NARROW.open(WEARER, None)
-    assert keyed.feed(arrived) == told
+    assert keyed.feed(arrived) == emitted
     assert keyed.state() == state
-    assert [one.number for one in told] == list(range(len(told)))
+    assert [one.number for one in emitted] == list(range(len(emitted)))
 
 
 @settings(max_examples=40)
@@ -100,12 +100,12 @@ def test_no_row_is_used_twice_and_those_of_a_run_are_used_in_order(arrived: list
     assert all(numbers == sorted(numbers) for run in range(4) for numbers in [[n for of, n in used if of == run]])
 
 
-def test_rows_are_waited_for_as_far_as_the_window_says_and_no_further() -> None:
+def test_rows_are_waited_for_as_far_as_the_window_and_no_further() -> None:
     window = 256
     assert not uses(FLEET.open(WEARER, None).feed([shown(number) for number in range(1, window + 1)]))
-    told = uses(FLEET.open(WEARER, None).feed([shown(number) for number in range(1, window + 2)]))
-    assert told[0] == ("missing", 0, 0, 1)
-    assert [number for _, _, number, _ in told[1:]] == list(range(1, window + 2))
+    emitted = uses(FLEET.open(WEARER, None).feed([shown(number) for number in range(1, window + 2)]))
+    assert emitted[0] == ("missing", 0, 0, 1)
+    assert [number for _, _, number, _ in emitted[1:]] == list(range(1, window + 2))
 
 
 def test_what_was_given_up_long_ago_is_forgotten_but_nothing_is_used_twice() -> None:
@@ -123,24 +123,24 @@ def run(of: int, count: int, first: int = 0) -> list[Sent]:
     return [shown(number, of) for number in range(first, first + count)]
 
 
-def used(told: list[NumberedEvent]) -> list[tuple[int | None, int | None]]:
-    return [(of, number) for what, of, number, _ in uses(told) if what == "used"]
+def used(emitted: list[NumberedEvent]) -> list[tuple[int | None, int | None]]:
+    return [(of, number) for what, of, number, _ in uses(emitted) if what == "used"]
 
 
 def test_a_phone_whose_clock_is_put_right_loses_a_window_of_rows_and_no_more() -> None:
     state, _ = FLEET.step(WEARER, None, run(AHEAD, 20))
     for again in (run(AHEAD, 20), []):
-        _, told = FLEET.step(WEARER, state, [*again, *run(NOW, 400)])
-        assert used(told) == [(NOW, number) for number in range(256, 400)]
-        assert [one.event.count for one in told if isinstance(one.event, SentRejected)] == [2**k for k in range(9)]
-        assert [one.event.count for one in told if isinstance(one.event, NumbersMissing)] == [256]
-        assert [one.number for one in told] == list(range(20, 20 + len(told)))
+        _, emitted = FLEET.step(WEARER, state, [*again, *run(NOW, 400)])
+        assert used(emitted) == [(NOW, number) for number in range(256, 400)]
+        assert [one.event.count for one in emitted if isinstance(one.event, SentRejected)] == [2**k for k in range(9)]
+        assert [one.event.count for one in emitted if isinstance(one.event, NumbersMissing)] == [256]
+        assert [one.number for one in emitted] == list(range(20, 20 + len(emitted)))
 
 
 def test_one_row_of_the_largest_run_there_is_does_not_silence_a_wearer() -> None:
-    _, told = FLEET.step(WEARER, None, [*run(NOW, 20), shown(0, MOST), *run(NOW, 400, 20), *run(NOW + 1, 5)])
+    _, emitted = FLEET.step(WEARER, None, [*run(NOW, 20), shown(0, MOST), *run(NOW, 400, 20), *run(NOW + 1, 5)])
     there = [*range(20), *range(276, 420)]
-    assert sorted(used(told)) == [*[(NOW, number) for number in there], *[(NOW + 1, k) for k in range(5)], (MOST, 0)]
+    assert sorted(used(emitted)) == [*[(NOW, number) for number in there], *[(NOW + 1, k) for k in range(5)], (MOST, 0)]
 
 
 ROWS = st.builds(shown, st.integers(0, 9) | st.integers(0, MOST), st.integers(0, 3) | st.integers(0, MOST))
@@ -149,11 +149,11 @@ ENDS = st.builds(lambda number, of: Sent(WEARER, number, End(), of), st.integers
 
 @settings(max_examples=60)
 @given(before=st.lists(ROWS | ENDS, max_size=14), new=st.integers(0, 5) | st.integers(0, MOST))
-def test_whatever_came_before_a_new_run_is_heard_but_for_a_window_of_rows(before: list[Sent], new: int) -> None:
+def test_whatever_came_before_a_new_run_is_used_except_a_window_of_rows(before: list[Sent], new: int) -> None:
     before = [one for one in before if one.run != new]
-    _, told = NARROW.step(WEARER, None, [*before, *run(new, 20)])
-    heard = [number for of, number in used(told) if of == new]
-    assert len(heard) >= 17 and heard[-13:] == list(range(7, 20))
+    _, emitted = NARROW.step(WEARER, None, [*before, *run(new, 20)])
+    used_numbers = [number for of, number in used(emitted) if of == new]
+    assert len(used_numbers) >= 17 and used_numbers[-13:] == list(range(7, 20))
 
 
 @settings(max_examples=60)
@@ -161,26 +161,26 @@ def test_whatever_came_before_a_new_run_is_heard_but_for_a_window_of_rows(before
 def test_rows_that_the_next_run_overtakes_do_not_lead_back(late: list[int], change: int) -> None:
     ordered = [*run(0, change), *run(1, 20 - change)]
     arrived = [ordered[k] for k in sorted(range(20), key=lambda k: (k + late[k], k))]
-    _, told = NARROW.step(WEARER, None, arrived)
-    assert [number for of, number in used(told) if of == 1] == list(range(20 - change))
-    assert not [one for one in told if isinstance(one.event, NumbersMissing) and one.event.run == 1]
+    _, emitted = NARROW.step(WEARER, None, arrived)
+    assert [number for of, number in used(emitted) if of == 1] == list(range(20 - change))
+    assert not [one for one in emitted if isinstance(one.event, NumbersMissing) and one.event.run == 1]
 
 
 def test_rows_of_all_that_was_ever_sent_come_again_and_none_is_used_twice() -> None:
     sent = [one for of in range(60) for one in run(5 * of, 9)]
-    state, told = NARROW.step(WEARER, None, sent)
-    assert len(used(told)) == len(sent)
-    after, told = NARROW.step(WEARER, state, sent)
-    assert used(told) == [] and all([isinstance(one.event, SentRejected) for one in told])
+    state, emitted = NARROW.step(WEARER, None, sent)
+    assert len(used(emitted)) == len(sent)
+    after, emitted = NARROW.step(WEARER, state, sent)
+    assert used(emitted) == [] and all([isinstance(one.event, SentRejected) for one in emitted])
     assert len(after) < len(state) + 10
 
 
-def test_a_flood_of_rows_that_are_late_is_told_ever_more_seldom() -> None:
+def test_a_flood_of_rows_that_are_late_is_reported_ever_more_seldom() -> None:
     state, _ = FLEET.step(WEARER, None, [*run(5, 3), shown(0, 9)])
     flood = [one for k in range(2000) for one in (shown(3 + k, 5), shown(1 + k, 9))]
-    _, told = FLEET.step(WEARER, state, flood)
-    assert [one.event.count for one in told if isinstance(one.event, SentRejected)] == [2**k for k in range(11)]
-    assert len(used(told)) == 2000
+    _, emitted = FLEET.step(WEARER, state, flood)
+    assert [one.event.count for one in emitted if isinstance(one.event, SentRejected)] == [2**k for k in range(11)]
+    assert len(used(emitted)) == 2000
 
 
 def test_a_phone_that_was_started_again_with_a_clock_at_nought_is_followed_after_19_packets_of_each_site() -> None:
@@ -189,6 +189,6 @@ def test_a_phone_that_was_started_again_with_a_clock_at_nought_is_followed_after
     shifted = [evolve(one, what=evolve(one.what, t=one.what.t + 50_000.0)) for one in sent[:half]]
     state, _ = FLEET.step(WEARER, None, shifted)
     again = [evolve(one, number=number, run=1) for number, one in enumerate(sent[half:])]
-    told = [one.event for one in FLEET.step(WEARER, state, again)[1]]
-    assert [e.reason for e in told if isinstance(e, PacketRejected)].count(Rejection.TIME_BACKWARDS) == 2 * 19
-    assert sum(isinstance(event, StrideTaken) for event in told) >= 2
+    emitted = [one.event for one in FLEET.step(WEARER, state, again)[1]]
+    assert [e.reason for e in emitted if isinstance(e, PacketRejected)].count(Rejection.TIME_BACKWARDS) == 2 * 19
+    assert sum(isinstance(event, StrideTaken) for event in emitted) >= 2

@@ -28,7 +28,7 @@ Place = tuple[int, int]
 """Run and number of a part, which an engine remembers."""
 
 
-def told(count: int, wearers: int = 3) -> list[NumberedEvent]:
+def make_events(count: int, wearers: int = 3) -> list[NumberedEvent]:
     """Events of a few wearers by turns."""
     events = [
         HeelStrike(t=0.1, known_at=0.12, foot=Foot.LEFT),
@@ -39,7 +39,7 @@ def told(count: int, wearers: int = 3) -> list[NumberedEvent]:
 
 
 def rows(directory: Path) -> list[dict[str, Any]]:
-    """What a reader finds, in the order of the files."""
+    """Return the rows that a reader finds, in the order of the files."""
     return list(parquet.read_table(directory).to_pylist())
 
 
@@ -54,7 +54,7 @@ def by_identity(found: list[dict[str, Any]]) -> list[dict[str, Any]]:
 
 
 def names(directory: Path) -> list[str]:
-    """Of all files, without the run in them."""
+    """Return the names of all files, without the run in them."""
     return sorted(re.sub(r"(part-\w+)-\d+-", r"\1-", path.name) for path in directory.iterdir())
 
 
@@ -65,11 +65,11 @@ def file(directory: Path, name: str = FIRST) -> Path:
 
 def test_a_part_holds_the_rows_of_its_events_wearer_by_wearer(tmp_path: Path) -> None:
     parts = PartFiles(tmp_path)
-    parts.write(told(20))
+    parts.write(make_events(20))
     assert names(tmp_path) == []
     assert parts.close() == (parts.run, 1)
     assert names(tmp_path) == [FIRST]
-    assert rows(tmp_path) == by_identity([event_row(one) for one in told(20)])
+    assert rows(tmp_path) == by_identity([event_row(one) for one in make_events(20)])
     table = parquet.read_table(file(tmp_path))
     assert table.column_names == list(EVENT_COLUMNS)
     assert [str(kind) for kind in table.schema.types] == [
@@ -79,18 +79,18 @@ def test_a_part_holds_the_rows_of_its_events_wearer_by_wearer(tmp_path: Path) ->
 
 def test_a_part_that_grows_too_long_is_closed_by_itself(tmp_path: Path) -> None:
     parts = PartFiles(tmp_path, group=2)
-    parts.write(told(2 * GROUPS + 1))
+    parts.write(make_events(2 * GROUPS + 1))
     assert names(tmp_path) == [FIRST]
     assert parts.close() == (parts.run, 2)
     assert parquet.ParquetFile(file(tmp_path)).num_row_groups == GROUPS
-    assert by_identity(rows(tmp_path)) == by_identity([event_row(one) for one in told(2 * GROUPS + 1)])
+    assert by_identity(rows(tmp_path)) == by_identity([event_row(one) for one in make_events(2 * GROUPS + 1)])
 
 
 def test_parts_from_the_resumed_number_on_are_removed_and_no_other_file_is(tmp_path: Path) -> None:
     runs = {}
     for partition in ("0", "1"):
         parts = PartFiles(tmp_path, partition)
-        for one in told(3):
+        for one in make_events(3):
             put(parts, [one])
         runs[partition] = parts.run
     mine = [".part-1-00000009.parquet.writing", "notes.txt"]
@@ -100,31 +100,31 @@ def test_parts_from_the_resumed_number_on_are_removed_and_no_other_file_is(tmp_p
     assert names(tmp_path) == sorted([*mine, FIRST, *(f"part-1-0000000{n}.parquet" for n in range(3))])
 
 
-def test_who_remembers_nothing_sets_the_parts_of_a_run_before_aside_and_says_so(
+def test_without_a_state_the_parts_of_a_run_before_are_hidden_with_a_warning(
     tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
     for count in (1, 2, 3):
-        put(PartFiles(tmp_path), told(count))
-        assert rows(tmp_path) == by_identity([event_row(one) for one in told(count)])
+        put(PartFiles(tmp_path), make_events(count))
+        assert rows(tmp_path) == by_identity([event_row(one) for one in make_events(count)])
     assert names(tmp_path) == [f".{FIRST}.replaced"] * 2 + [FIRST]
     kept = [parquet.ParquetFile(path).metadata.num_rows for path in sorted(tmp_path.iterdir())]
     assert kept == [1, 2, 3]
-    said = f"{tmp_path}: a new run begins, and the parts of the one before are hidden (1). "
-    assert [message.startswith(said) for message in caplog.messages] == [True, True]
+    warning = f"{tmp_path}: a new run begins, and the parts of the one before are hidden (1). "
+    assert [message.startswith(warning) for message in caplog.messages] == [True, True]
 
 
 def test_who_forgot_once_what_was_remembered_has_it_all_back_with_the_next_start(
     tmp_path: Path, caplog: pytest.LogCaptureFixture
 ) -> None:
-    parts, all_told = PartFiles(tmp_path), told(4)
-    known = [put(parts, [one]) for one in all_told[:3]]
-    put(PartFiles(tmp_path), all_told[:1])
-    assert rows(tmp_path) == [event_row(all_told[0])]
+    parts, all_events = PartFiles(tmp_path), make_events(4)
+    known = [put(parts, [one]) for one in all_events[:3]]
+    put(PartFiles(tmp_path), all_events[:1])
+    assert rows(tmp_path) == [event_row(all_events[0])]
     caplog.clear()
     parts = PartFiles(tmp_path, "0", (known[0][0], 2))
-    assert rows(tmp_path) == [event_row(one) for one in all_told[:2]]
-    put(parts, all_told[2:])
-    assert by_identity(rows(tmp_path)) == by_identity([event_row(one) for one in all_told])
+    assert rows(tmp_path) == [event_row(one) for one in all_events[:2]]
+    put(parts, all_events[2:])
+    assert by_identity(rows(tmp_path)) == by_identity([event_row(one) for one in all_events])
     assert caplog.messages == [
         f"{tmp_path}: an earlier run goes on, and its parts are back (2); those of another are hidden (1)"
     ]
@@ -136,7 +136,7 @@ def test_who_forgot_once_what_was_remembered_has_it_all_back_with_the_next_start
 
 @contextmanager
 def files_of_at_most(size: int) -> Iterator[None]:
-    """The system refuses to make any file of this process longer."""
+    """Let the system reject any longer file of this process."""
     resource = pytest.importorskip("resource", reason="this system does not limit the length of files")
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, before[1]))
@@ -148,37 +148,37 @@ def files_of_at_most(size: int) -> Iterator[None]:
 
 def test_a_part_that_cannot_be_written_is_named_and_leaves_nothing(tmp_path: Path) -> None:
     parts = PartFiles(tmp_path)
-    number = put(parts, told(1))
-    parts.write(told(20)[1:])
-    with files_of_at_most(1000), pytest.raises(OSError) as refused:
+    number = put(parts, make_events(1))
+    parts.write(make_events(20)[1:])
+    with files_of_at_most(1000), pytest.raises(OSError) as error:
         parts.close()
-    assert refused.value.errno == errno.EFBIG
-    assert refused.value.filename == str(tmp_path / f"part-0-{parts.run}-00000001.parquet")
+    assert error.value.errno == errno.EFBIG
+    assert error.value.filename == str(tmp_path / f"part-0-{parts.run}-00000001.parquet")
     assert names(tmp_path) == [FIRST]
-    put(PartFiles(tmp_path, "0", number), told(20)[1:])
-    assert by_identity(rows(tmp_path)) == by_identity([event_row(one) for one in told(20)])
+    put(PartFiles(tmp_path, "0", number), make_events(20)[1:])
+    assert by_identity(rows(tmp_path)) == by_identity([event_row(one) for one in make_events(20)])
 
 
 @given(st.lists(st.sampled_from(["write", "write many", "close", "count", "crash"]), max_size=15))
 @settings(max_examples=20)
 def test_however_often_it_crashes_each_event_is_there_once(steps: list[str]) -> None:
-    """What the engine remembers is what a `close` gave, perhaps not the last: it was killed before it could."""
-    all_told, at = told(60), 0
+    """The engine's state is from any earlier `close`, since it may be killed before it keeps the last one."""
+    all_events, at = make_events(60), 0
     with TemporaryDirectory() as name:
         parts = PartFiles(Path(name), group=5)
         counts = (parts.close(), 0)
         for step in steps:
             if step.startswith("write"):
-                upto = min(len(all_told), at + (1 if step == "write" else 13))
-                parts.write(all_told[at:upto])
+                upto = min(len(all_events), at + (1 if step == "write" else 13))
+                parts.write(all_events[at:upto])
                 at = upto
             elif step == "crash":
                 parts, at = PartFiles(Path(name), "0", counts[0], group=5), counts[1]
             else:
                 number = parts.close()
                 counts = (number, at) if step == "count" else counts
-        put(parts, all_told[at:])
-        assert by_identity(rows(Path(name))) == by_identity([event_row(one) for one in all_told])
+        put(parts, all_events[at:])
+        assert by_identity(rows(Path(name))) == by_identity([event_row(one) for one in all_events])
 
 
 STRIKE = HeelStrike(t=0.1, known_at=0.12, foot=Foot.LEFT)
@@ -192,13 +192,13 @@ def written(directory: Path, resumes: list[Place | None], number: int = 0) -> li
 
 
 def listed(directory: Path) -> list[tuple[str, int]]:
-    """What a reader finds."""
+    """Return the files that a reader finds."""
     rows = parquet.read_table(directory).to_pylist()
     return sorted((row["wearer"], row["number"]) for row in rows)
 
 
-def test_who_begins_anew_with_fewer_partitions_hides_the_parts_of_those_that_are_no_more(tmp_path: Path) -> None:
-    """All wearers are numbered anew: of the old events none may stay beside the new."""
+def test_a_restart_with_fewer_partitions_hides_the_parts_of_the_others(tmp_path: Path) -> None:
+    """All wearers are numbered again, so no old event may stay beside the new ones."""
     three = written(tmp_path, [None] * 3)
     assert listed(tmp_path) == [("w0", 0), ("w1", 0), ("w2", 0)]
     two = written(tmp_path, [None] * 2)
@@ -232,9 +232,9 @@ def test_a_directory_with_the_name_of_a_part_is_no_part_and_is_named_where_it_is
     strange.mkdir()
     parts = PartFiles(tmp_path, "0", place)
     parts.write([NumberedEvent("w", 1, STRIKE)])
-    with pytest.raises(OSError) as refused:
+    with pytest.raises(OSError) as error:
         parts.close()
-    assert refused.value.filename == str(tmp_path / f"part-0-{parts.run}-00000001.parquet")
+    assert error.value.filename == str(tmp_path / f"part-0-{parts.run}-00000001.parquet")
     strange.rmdir()
     put(PartFiles(tmp_path, "0", place), [NumberedEvent("w", 1, STRIKE)])
     assert listed(tmp_path) == [("w", 0), ("w", 1)]
@@ -245,7 +245,7 @@ def test_a_directory_with_the_name_of_a_part_is_no_part_and_is_named_where_it_is
 )
 def test_a_wearer_of_any_name_ends_no_job(tmp_path: Path, wearer: str, name: str) -> None:
     """A key may hold half a character, as JSON lets it; a table holds UTF-8."""
-    told: list[Any] = [NumberedEvent(wearer, 0, STRIKE), NumberedEvent("w", 0, STRIKE)]
-    put(PartFiles(tmp_path), told)
+    make_events: list[Any] = [NumberedEvent(wearer, 0, STRIKE), NumberedEvent("w", 0, STRIKE)]
+    put(PartFiles(tmp_path), make_events)
     assert listed(tmp_path) == sorted([(name, 0), ("w", 0)])
-    assert event_row(told[0])["wearer"] == name
+    assert event_row(make_events[0])["wearer"] == name

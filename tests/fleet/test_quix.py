@@ -18,7 +18,7 @@ from random import Random
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from walks import ROUGH, insoles, said
+from walks import ROUGH, insoles, run_session
 
 from solepath import recipes
 from solepath.emulate.radio import CLEAN
@@ -50,14 +50,14 @@ def sent_by(wearer: str) -> tuple[Sent, ...]:
 
 
 @cache
-def sessions_tell(wearer: str, recipe: str) -> list[dict[str, Any]]:
-    """Rows of what a session of his own says."""
-    events = said([sent.what for sent in sent_by(wearer)[:-1]], recipes.by_name(recipe))
+def session_rows_of(wearer: str, recipe: str) -> list[dict[str, Any]]:
+    """Return the rows of the wearer's own session."""
+    events = run_session([sent.what for sent in sent_by(wearer)[:-1]], recipes.by_name(recipe))
     return [event_row(NumberedEvent(wearer, number, event)) for number, event in enumerate(events)]
 
 
 def messages(wearers: tuple[str, ...] = WEARERS, lines: int = 5) -> list[tuple[bytes, bytes]]:
-    """What their phones send at the same time, `lines` in a message."""
+    """Return the messages that the phones send at the same time, with `lines` lines in each."""
     sent = []
     for wearer in wearers:
         mine = [sent_line(one) for one in sent_by(wearer)]
@@ -65,44 +65,44 @@ def messages(wearers: tuple[str, ...] = WEARERS, lines: int = 5) -> list[tuple[b
     return [(key, value) for _, key, value in sorted(sent)]
 
 
-def rows(told: list[Message], wearer: str) -> list[dict[str, Any]]:
-    return [json.loads(message.value) for message in told if message.key == wearer.encode()]
+def rows(read_messages: list[Message], wearer: str) -> list[dict[str, Any]]:
+    return [json.loads(message.value) for message in read_messages if message.key == wearer.encode()]
 
 
-def unnumbered(told: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    return [{key: value for key, value in row.items() if key != "number"} for row in told]
+def unnumbered(read_messages: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    return [{key: value for key, value in row.items() if key != "number"} for row in read_messages]
 
 
-def identities(told: list[Message]) -> dict[tuple[str, int], set[tuple[bytes | None, bytes, int]]]:
+def identities(read_messages: list[Message]) -> dict[tuple[str, int], set[tuple[bytes | None, bytes, int]]]:
     """(wearer, number) -> each different message under it, with its partition."""
     found: dict[tuple[str, int], set[tuple[bytes | None, bytes, int]]] = {}
-    for message in told:
+    for message in read_messages:
         row = json.loads(message.value)
         found.setdefault((row["wearer"], row["number"]), set()).add((message.key, message.value, message.partition))
     return found
 
 
 def expected(recipe: str = "default") -> set[tuple[str, int]]:
-    return {(row["wearer"], row["number"]) for wearer in WEARERS for row in sessions_tell(wearer, recipe)}
+    return {(row["wearer"], row["number"]) for wearer in WEARERS for row in session_rows_of(wearer, recipe)}
 
 
-def once(told: list[Message]) -> dict[str, list[dict[str, Any]]]:
-    """By wearer, what a reader of the topic keeps; one Once for each partition."""
+def once(read_messages: list[Message]) -> dict[str, list[dict[str, Any]]]:
+    """Return the rows that a reader of the topic keeps, by wearer, with one Once for each partition."""
     readers: dict[int, Once] = {}
     kept: dict[str, list[dict[str, Any]]] = {}
-    for message in told:
+    for message in read_messages:
         row = json.loads(message.value)
         if readers.setdefault(message.partition, Once()).first(row["wearer"], row["number"]):
             kept.setdefault(row["wearer"], []).append(row)
     return kept
 
 
-def each_once(told: list[Message]) -> int:
-    """All that was to be told was, under an identity that means one thing; of how many."""
-    by_identity = identities(told)
+def each_once(read_messages: list[Message]) -> int:
+    """Check that every expected event was emitted under a unique identity; return their number."""
+    by_identity = identities(read_messages)
     assert by_identity.keys() == expected()
     assert all(len(same) == 1 for same in by_identity.values())
-    assert once(told) == {wearer: sessions_tell(wearer, "default") for wearer in WEARERS}
+    assert once(read_messages) == {wearer: session_rows_of(wearer, "default") for wearer in WEARERS}
     return len(by_identity)
 
 
@@ -110,22 +110,22 @@ def each_once(told: list[Message]) -> int:
 def test_events_through_kafka_are_those_of_a_session_wearer_by_wearer(kafka: Broker, recipe: str) -> None:
     with kafka.topics(f"whole-{recipe}", recipe=recipe) as topics:
         topics.send(messages())
-        told = topics.finish(topics.start())
+        read_messages = topics.finish(topics.start())
         for wearer in WEARERS:
-            assert rows(told, wearer) == sessions_tell(wearer, recipe)
-        assert len(told) == len(expected(recipe))
-        assert {message.partition for message in told} == {0, 1}
+            assert rows(read_messages, wearer) == session_rows_of(wearer, recipe)
+        assert len(read_messages) == len(expected(recipe))
+        assert {message.partition for message in read_messages} == {0, 1}
 
 
 def wait_for(topics: Topics, more: int, within: float = 90.0) -> None:
-    """Until so many more messages were told than there are."""
-    goal, end = len(topics.told()) + more, time.monotonic() + within
-    while len(topics.told()) < goal and not topics.done():
+    """Wait until so many further messages are in the topic."""
+    goal, end = len(topics.read_messages()) + more, time.monotonic() + within
+    while len(topics.read_messages()) < goal and not topics.done():
         assert time.monotonic() < end, topics.log()[-3000:]
 
 
-def test_a_job_that_is_killed_tells_everything_again_under_the_same_identity_and_nothing_else(kafka: Broker) -> None:
-    """kill -9 at random moments, once with the loss of its disk; what was told is what an undisturbed job tells."""
+def test_a_killed_job_emits_everything_again_under_the_same_identity_and_nothing_else(kafka: Broker) -> None:
+    """The job is killed at random moments, once with the loss of its disk; its events equal those without kills."""
     from brokers import kill
 
     random, walks, kills = Random(8), messages(lines=1), 5
@@ -142,8 +142,8 @@ def test_a_job_that_is_killed_tells_everything_again_under_the_same_identity_and
             if number == 3:
                 shutil.rmtree(topics.directory / topics.name / "state")
         topics.send(walks[kills * len(walks) // (kills + 1) :])
-        told = topics.finish(topics.start())
-    assert len(told) > each_once(told), "no kill fell between a commit and what was told after it"
+        read_messages = topics.finish(topics.start())
+    assert len(read_messages) > each_once(read_messages), "no kill fell between a commit and what was told after it"
 
 
 TAKEN_OVER = "Recovery process complete"
@@ -196,21 +196,21 @@ def test_messages_without_key_or_sense_are_events_and_stall_nobody(kafka: Broker
         topics.send(messages(mine), timestamp=1)
         topics.send(poison())
         topics.send([(name.encode(), sent_line(Sent(name, 0, End(), run=1))) for name in mine])
-        told = topics.finish(topics.start())
+        read_messages = topics.finish(topics.start())
     for wearer in mine:
-        said = [row for row in rows(told, wearer) if row["event"] != "SentRejected"]
-        assert unnumbered(said) == unnumbered(sessions_tell(wearer, "default"))
-    by_identity = identities(told)
+        session_rows = [row for row in rows(read_messages, wearer) if row["event"] != "SentRejected"]
+        assert unnumbered(session_rows) == unnumbered(session_rows_of(wearer, "default"))
+    by_identity = identities(read_messages)
     assert all(len(same) == 1 for same in by_identity.values())
-    rejected = [json.loads(message.value) for message in told if b"SentRejected" in message.value]
+    rejected = [json.loads(message.value) for message in read_messages if b"SentRejected" in message.value]
     strange = {row["wearer"] for row in rejected} - set(mine)
     assert strange == {"null", "someone", "unkeyed/0", "unkeyed/1"}
     assert sum(row["wearer"].startswith("unkeyed/") for row in rejected) == 2 * 3 * len(NO_NAMES) + 1
-    assert len(once(told)["null"]) == len(once(told)["someone"]) - 1 == 2 * 3
-    assert max(len(message.value) for message in told) < 20_000
+    assert len(once(read_messages)["null"]) == len(once(read_messages)["someone"]) - 1 == 2 * 3
+    assert max(len(message.value) for message in read_messages) < 20_000
 
 
-def test_a_topic_whose_values_are_read_as_json_is_refused_at_once(kafka: Broker, tmp_path: Path) -> None:
+def test_a_topic_whose_values_are_read_as_json_is_rejected_at_once(kafka: Broker, tmp_path: Path) -> None:
     from quixstreams import Application
     from quixstreams.models import TopicConfig
 

@@ -1,4 +1,4 @@
-"""States that are refused and what goes on all the same; mistakes of a job, clocks that go back, bounds reached."""
+"""Rejected states and their consequences, errors of a job, clocks that go back, and limits."""
 
 from __future__ import annotations
 
@@ -26,19 +26,19 @@ FLEET = Fleet()
 
 @pytest.mark.parametrize("vector", [one for one in STATES if "kept" in one], ids=lambda vector: vector["id"])
 def test_where_only_the_session_cannot_go_on_what_is_held_does(vector: dict[str, Any]) -> None:
-    after, (told,) = FLEET.step(WEARER, bytes.fromhex(vector["hex"]), [])
+    after, (emitted,) = FLEET.step(WEARER, bytes.fromhex(vector["hex"]), [])
     rest, expected = read_rest(after), vector["kept"]
-    assert isinstance(told.event, StateRejected) and told.number == vector["identity"]["told"]
+    assert isinstance(emitted.event, StateRejected) and emitted.number == vector["identity"]["told"]
     assert (rest.ended, rest.session) == (expected["ended"], None)
-    assert [[span.run, span.first, span.end] for span in rest.left.spans] == expected["spans"]
+    assert [[span.run, span.first, span.end] for span in rest.unused.spans] == expected["spans"]
     assert [list(place) for place in rest.held] == expected["held"]
 
 
 def test_rows_that_were_held_when_a_session_was_lost_are_used_in_their_turn() -> None:
-    state, told = Fleet(window=4).step(WEARER, None, [*walked().sent[:100], shown(102), shown(103)])
+    state, emitted = Fleet(window=4).step(WEARER, None, [*walked().sent[:100], shown(102), shown(103)])
     damaged = state[:-1] + bytes([state[-1] ^ 1])
-    _, (refused, *rest) = Fleet(window=4).step(WEARER, damaged, [shown(100), shown(101)])
-    assert isinstance(refused.event, StateRejected) and refused.number == len(told)
+    _, (rejected, *rest) = Fleet(window=4).step(WEARER, damaged, [shown(100), shown(101)])
+    assert isinstance(rejected.event, StateRejected) and rejected.number == len(emitted)
     assert uses(rest) == [("used", 0, number, None) for number in (100, 101, 102, 103)]
 
 
@@ -50,14 +50,14 @@ IN_ORDER = OtherState(held={(6, 300): Tick(1.0), (6, 302): Tick(2.0), (7, 0): En
     [[(6, 298)], [(5, 900)], [(6, 301), (6, 200)], [(6, MOST + 1)], [(MOST + 1, 0)]],
     ids=["used", "older run", "one of two", "number", "run"],
 )
-def test_a_state_that_holds_what_cannot_be_held_is_refused(held: list[tuple[int, int]]) -> None:
-    """Its checksum holds: whoever wrote it was wrong, or it was damaged before."""
+def test_a_state_that_holds_what_cannot_be_held_is_rejected(held: list[tuple[int, int]]) -> None:
+    """Its checksum is right: its writer was wrong, or it was damaged before."""
     identity = Identity(6, 299, 1200, 12.25)
     assert read_rest(write_state(identity, IN_ORDER)) == IN_ORDER
     state = write_state(identity, OtherState(held={place: Tick(1.0) for place in held}))
-    after, told = Fleet(window=0).step(WEARER, state, [shown(305, 6), shown(306, 6)])
-    assert isinstance(told[0].event, StateRejected)
-    assert uses(told[1:]) == [("missing", 6, 299, 6), ("used", 6, 305, None), ("used", 6, 306, None)]
+    after, emitted = Fleet(window=0).step(WEARER, state, [shown(305, 6), shown(306, 6)])
+    assert isinstance(emitted[0].event, StateRejected)
+    assert uses(emitted[1:]) == [("missing", 6, 299, 6), ("used", 6, 305, None), ("used", 6, 306, None)]
     assert FLEET.open(WEARER, after).state() == after
 
 
@@ -86,19 +86,19 @@ def test_a_session_that_cannot_go_on_is_not_adopted_and_no_state_goes_on_from_a_
         with pytest.raises(SnapshotError, match=why):
             FLEET.adopt(snapshot)
     state = write_state(Identity(-1, 0, 0, 1.0), OtherState(session=finished().pack()))
-    _, (refused, *rest) = FLEET.step(WEARER, state, [shown(0)])
-    assert isinstance(refused.event, StateRejected) and "finished" in refused.event.detail
+    _, (rejected, *rest) = FLEET.step(WEARER, state, [shown(0)])
+    assert isinstance(rejected.event, StateRejected) and "finished" in rejected.event.detail
     assert uses(rest) == [("used", 0, 0, None)]
 
 
-def test_the_clock_of_a_new_run_may_stand_before_that_of_the_last_and_what_is_told_does_not_go_back() -> None:
+def test_the_clock_of_a_new_run_may_stand_before_that_of_the_last_and_event_times_do_not_go_back() -> None:
     wrong = Unreadable(WEARER, "no JSON")
     sent = [Sent(WEARER, 0, Tick(10.0)), Sent(WEARER, 1, End()), wrong, Sent(WEARER, 0, Tick(1.0), 1), wrong]
-    _, told = FLEET.step(WEARER, None, [*sent, Sent(WEARER, 1, Tick(12.0), 1), wrong])
-    assert [(one.event.t, one.event.known_at) for one in told] == [(10.0, 10.0), (10.0, 10.0), (12.0, 12.0)]
+    _, emitted = FLEET.step(WEARER, None, [*sent, Sent(WEARER, 1, Tick(12.0), 1), wrong])
+    assert [(one.event.t, one.event.known_at) for one in emitted] == [(10.0, 10.0), (10.0, 10.0), (12.0, 12.0)]
 
 
-def test_so_many_bytes_are_held_as_the_protocol_says_and_not_one_more() -> None:
+def test_the_held_bytes_are_limited_as_in_the_protocol() -> None:
     def large(number: int, size: int) -> Sent:
         return Sent(WEARER, number, Packet(0.0, Site.PELVIS, "c", bytes(size - 4), "dev"))
 
@@ -107,8 +107,8 @@ def test_so_many_bytes_are_held_as_the_protocol_says_and_not_one_more() -> None:
     assert sum(sizes) == HELD == 65_536, "as the protocol has it"
     exactly = [large(number, size) for number, size in enumerate(sizes, 1)]
     assert FLEET.open(WEARER, None).feed(exactly) == []
-    told = FLEET.open(WEARER, None).feed([*exactly[:-1], large(len(sizes), most + 1)])
-    assert isinstance(told[0].event, NumbersMissing) and told[0].event.count == 1
+    emitted = FLEET.open(WEARER, None).feed([*exactly[:-1], large(len(sizes), most + 1)])
+    assert isinstance(emitted[0].event, NumbersMissing) and emitted[0].event.count == 1
 
 
 def runs_out(after: int, sent: Any, known: Any) -> Any:
@@ -117,8 +117,8 @@ def runs_out(after: int, sent: Any, known: Any) -> Any:
     return toys.more(sent, known)
 
 
-def test_who_runs_out_of_memory_is_told_so_and_goes_on_from_the_last_state() -> None:
-    """It is no fault of the wearer: with more memory the same packet is used."""
+def test_out_of_memory_is_raised_and_the_last_state_can_continue() -> None:
+    """The wearer is not at fault: with more memory the same packet is used."""
 
     def fleet(most: int) -> Fleet:
         return Fleet(profiles=[evolve(toys.NUMBERED, readers={"toy/more": partial(runs_out, most)})])
@@ -128,5 +128,5 @@ def test_who_runs_out_of_memory_is_told_so_and_goes_on_from_the_last_state() -> 
     state = keyed.state()
     with pytest.raises(MemoryError):
         keyed.feed([battery])
-    _, told = fleet(255).step(WEARER, state, [battery])
-    assert told and not any(isinstance(one.event, SentRejected) for one in told)
+    _, emitted = fleet(255).step(WEARER, state, [battery])
+    assert emitted and not any(isinstance(one.event, SentRejected) for one in emitted)

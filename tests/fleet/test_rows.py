@@ -49,8 +49,8 @@ ANYTHING = st.recursive(
 )
 
 
-def told_of(sent: Sent) -> dict[str, Any]:
-    """What was sent, in the words of the lines."""
+def as_fields(sent: Sent) -> dict[str, Any]:
+    """Return the item with the keys of the lines."""
     match sent.what:
         case Packet(t, site, channel, data, device):
             what = {"t": t, "site": site.value, "channel": channel, "data": data.hex(), "device": device}
@@ -61,10 +61,10 @@ def told_of(sent: Sent) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("line", LINES["lines"], ids=lambda line: line["id"])
-def test_a_line_says_what_the_protocol_says(line: dict[str, Any]) -> None:
+def test_a_line_is_as_in_the_protocol(line: dict[str, Any]) -> None:
     read = read_line(line["line"].encode())
     if line["result"] == "valid":
-        assert isinstance(read, Sent) and told_of(read) == line["sent"]
+        assert isinstance(read, Sent) and as_fields(read) == line["sent"]
         assert (sent_line(read) == line["line"].encode() + b"\n") is line["canonical"]
     else:
         assert isinstance(read, Unreadable) and read.what
@@ -100,7 +100,7 @@ def test_what_is_no_line_is_unreadable() -> None:
         assert isinstance(read_line(line), Unreadable)
 
 
-def test_a_row_holds_no_more_than_a_phone_has_to_say() -> None:
+def test_a_row_holds_no_more_than_a_phone_sends() -> None:
     row = sent_row(Sent("w", 3, Packet(1.0, Site.PELVIS, "c", bytes(LONGEST_DATA), "d" * LONGEST_NAME)))
     assert isinstance(read_sent(row), Sent)
     for key, value in (("data", bytes(LONGEST_DATA + 1)), ("channel", "c" * 257), ("device", "d" * 257)):
@@ -116,8 +116,8 @@ def test_tables_may_bring_bytes_and_numbers_of_their_own_kinds() -> None:
 
 
 def test_an_event_is_a_row_with_its_identity_its_times_its_foot_and_the_rest_as_json() -> None:
-    told = NumberedEvent("w", 7, HeelStrike(t=1.5, known_at=1.75, foot=Foot.LEFT))
-    row = event_row(told)
+    numbered = NumberedEvent("w", 7, HeelStrike(t=1.5, known_at=1.75, foot=Foot.LEFT))
+    row = event_row(numbered)
     assert row.keys() == EVENT_COLUMNS.keys()
     rest = json.loads(row.pop("fields"))
     assert row == {
@@ -135,14 +135,14 @@ def test_an_event_without_a_foot_or_with_a_time_that_is_none_is_a_row_too() -> N
 
 
 def test_every_event_of_a_walk_is_a_row_of_the_columns() -> None:
-    _, told = Fleet(poses=True, pressures=True).step("w", None, walked().sent[:300])
-    assert len(told) > 300
-    for one in told:
+    _, numbered = Fleet(poses=True, pressures=True).step("w", None, walked().sent[:300])
+    assert len(numbered) > 300
+    for one in numbered:
         row = event_row(one)
         assert all(value is None or type(value) is EVENT_COLUMNS[name] for name, value in row.items()), one
 
 
-def test_the_protocol_names_all_that_a_fleet_tells() -> None:
+def test_the_protocol_names_all_events_of_a_fleet() -> None:
     page = (PROTOCOL / "fleet.md").read_text()
     for kind in FleetEvent.__args__:
         own = {field.name for field in attrs.fields(kind)} - {"t", "known_at", "final"}

@@ -17,7 +17,7 @@ from typing import Any
 
 import pytest
 from here import HELPERS
-from sparks import CONF, MASTER, Row, deliver, expected, in_order, needed, of_sessions, put, sent, told
+from sparks import CONF, MASTER, Row, deliver, expected, in_order, needed, of_sessions, put, read_output, sent
 from toys import BASE
 
 from solepath.fleet import EVENT_COLUMNS, Fleet, NumberedEvent, Sent, event_row, sent_line, sent_row
@@ -45,13 +45,13 @@ def spark() -> Iterator[Any]:
 
 
 def run(rows: Any, directory: Path, fleet: Fleet | Callable[[], Fleet] | None = None, states: Any = None) -> list[Row]:
-    """All that is there through the fleet, into files below `directory`."""
+    """Send all input files through the fleet, into files below `directory`."""
     from solepath.fleet.spark import gait
 
     events = gait(rows, Fleet() if fleet is None else fleet, states)
     writer = events.writeStream.format("parquet").option("checkpointLocation", str(directory / "checkpoint"))
     writer.trigger(availableNow=True).start(str(directory / "told")).awaitTermination()
-    return told(directory / "told")
+    return read_output(directory / "told")
 
 
 def stream(spark: Any, directory: Path, files: int = 1) -> Any:
@@ -76,7 +76,7 @@ def test_other_readers_find_the_files_that_spark_finds(spark, tmp_path):
     assert list((tmp_path / "told/_spark_metadata").glob("*.compact"))
     nobodys = tmp_path / "told" / "part-of-a-killed-task.snappy.parquet"
     nobodys.write_bytes(b"PAR1")
-    assert told(tmp_path / "told") == events == in_order(
+    assert read_output(tmp_path / "told") == events == in_order(
         row.asDict() for row in spark.read.parquet(str(tmp_path / "told")).collect()
     )  # fmt: skip
 
@@ -94,8 +94,8 @@ def test_messages_as_kafka_has_them_give_the_same_events(spark, tmp_path):
     parquet.write_table(table({"key": keys, "value": values}), tmp_path / "sent/messages.parquet")
     rows = spark.readStream.schema("key binary, value binary").parquet(str(tmp_path / "sent"))
     events = run(rows, tmp_path)
-    refused = [row["wearer"] for row in events if row["event"] == "SentRejected"]
-    assert sorted(refused) == ["w0", "w0", "w0", "w3", "\ufffd\ufffd"]
+    rejected = [row["wearer"] for row in events if row["event"] == "SentRejected"]
+    assert sorted(rejected) == ["w0", "w0", "w0", "w3", "\ufffd\ufffd"]
     rest = [row for row in events if row["event"] != "SentRejected"]
     of = [[without_number(row) for row in rest if row["wearer"] == f"w{wearer}"] for wearer in range(2)]
     assert of == [[without_number(row) for row in expected(2) if row["wearer"] == f"w{wearer}"] for wearer in range(2)]
@@ -122,9 +122,9 @@ def test_a_fleet_with_a_device_of_ones_own_is_made_where_it_is_used(spark, tmp_p
     (tmp_path / "sent").mkdir()
     put(tmp_path / "sent/toy.parquet", [sent_row(Sent("w0", number, one)) for number, one in enumerate(packets)], 0)
     events = run(stream(spark, tmp_path / "sent"), tmp_path, of_toys)
-    said = Session(profiles=[BASE]).feed(packets)
+    fed_events = Session(profiles=[BASE]).feed(packets)
     assert {"BatteryLevel", "PacketRejected"} <= {row["event"] for row in events}
-    assert events == [event_row(NumberedEvent("w0", number, event)) for number, event in enumerate(said)]
+    assert events == [event_row(NumberedEvent("w0", number, event)) for number, event in enumerate(fed_events)]
 
 
 def anything(count: int) -> Iterator[Row]:
@@ -172,8 +172,8 @@ def test_text_that_is_no_text_ends_no_job(spark, tmp_path):
     assert [row["event"] for row in events if row["wearer"] != "w0"] == ["SentRejected"] * 3
 
 
-def test_a_state_that_cannot_go_on_is_told_and_its_wearer_begins_afresh(spark, tmp_path):
-    """As after a step back to an older release: its version is 250."""
+def test_a_state_that_cannot_go_on_is_reported_and_its_wearer_restarts(spark, tmp_path):
+    """The state has version 250, as after a step back to an older release."""
     from binascii import crc32
 
     fleet = Fleet()
@@ -200,7 +200,7 @@ def test_a_state_that_cannot_go_on_is_told_and_its_wearer_begins_afresh(spark, t
 
 
 def test_states_of_a_checkpoint_go_on_in_a_job_of_more_partitions(spark, tmp_path):
-    """The number of partitions is for the life of a checkpoint; a new job begins with the states of the old one."""
+    """A checkpoint has a fixed number of partitions; a new job starts with the states of the old one."""
     deliver(tmp_path / "sent", wearers=4, files=5)
     later = tmp_path / "later"
     later.mkdir()

@@ -1,4 +1,4 @@
-"""A job on Spark in processes of its own, past a kill -9 and a full disk: test_spark.py says how to run it."""
+"""A Spark job in processes of its own, with a kill -9 and a full disk; test_spark.py explains how to run it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 from here import EXAMPLES
-from sparks import CONF, MASTER, deliver, expected, needed, told
+from sparks import CONF, MASTER, deliver, expected, needed, read_output
 
 from solepath.fleet.spark_files import committed
 
@@ -27,11 +27,11 @@ _needed = pytest.fixture(needed, scope="module", autouse=True)
 class Job:
     """examples/spark_gait.py in processes of its own: the driver, its JVM and the Python workers."""
 
-    def __init__(self, directory: Path, told: str = "told", checkpoint: str = "checkpoint") -> None:
-        self.told, self.checkpoint, self.log = directory / told, directory / checkpoint, directory / f"{told}.log"
+    def __init__(self, directory: Path, output: str = "told", checkpoint: str = "checkpoint") -> None:
+        self.output, self.checkpoint, self.log = directory / output, directory / checkpoint, directory / f"{output}.log"
         conf = " ".join(f"--conf {key}={value}" for key, value in CONF.items())
         place = {"PYSPARK_SUBMIT_ARGS": f"--master {MASTER} {conf} pyspark-shell", "SPARK_LOCAL_IP": "127.0.0.1"}
-        command = [sys.executable, JOB, directory / "sent", self.told, self.checkpoint, "--files", "1"]
+        command = [sys.executable, JOB, directory / "sent", self.output, self.checkpoint, "--files", "1"]
         with self.log.open("w") as log:
             self.process = subprocess.Popen(
                 command, env=os.environ | place, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=log,
@@ -48,7 +48,7 @@ class Job:
             self.process.stdout.close()
 
     def batches(self) -> int:
-        """How many are done with."""
+        """Return the number of finished batches."""
         return len(list(self.checkpoint.glob("commits/[0-9]*")))
 
     def until(self, batches: int) -> None:
@@ -57,9 +57,9 @@ class Job:
             time.sleep(0.02)
 
     def end(self) -> str:
-        told, _ = self.process.communicate()
+        read_output, _ = self.process.communicate()
         assert self.process.returncode == 0, self.log.read_text()[-3000:]
-        return told
+        return read_output
 
     def kill(self) -> int:
         """kill -9 of all of it at once. Returns how many processes there were."""
@@ -88,16 +88,18 @@ def _is_dead(pid: int) -> bool:
 
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="finds the processes of a job in /proc")
 @pytest.mark.parametrize(("wearers", "kills"), [(25, 2), pytest.param(1000, 1, marks=pytest.mark.soak)])
-def test_a_job_that_is_killed_in_mid_stream_tells_what_one_that_runs_through_tells(tmp_path, wearers, kills):
+def test_a_job_that_is_killed_in_mid_stream_emits_the_events_of_one_that_is_not(tmp_path, wearers, kills):
     files = 10
     rows = deliver(tmp_path / "sent", wearers, files)
-    begun = time.monotonic()
+    started_at = time.monotonic()
     with Job(tmp_path, "through", "through-checkpoint") as job:
         job.until(1)
         first = time.monotonic()
         batches = job.end()
         seconds = (time.monotonic() - first) / (files - 1)
-    print(f"\n{wearers} wearers, {rows} rows in {time.monotonic() - begun:.0f} s with Spark's own start\n{batches}")
+    print(
+        f"\n{wearers} wearers, {rows} rows in {time.monotonic() - started_at:.0f} s with Spark's own start\n{batches}"
+    )
 
     chance = random.Random(time.time_ns())
     for _ in range(kills):
@@ -110,10 +112,10 @@ def test_a_job_that_is_killed_in_mid_stream_tells_what_one_that_runs_through_tel
         assert processes >= 3 and 1 <= done < files
     with Job(tmp_path) as job:
         job.end()
-    events = told(job.told)
-    written = set(job.told.glob("*.parquet"))
-    print(f"{len(events)} events; {len(written) - len(set(committed(job.told)))} files that nobody finished")
-    assert events == told(tmp_path / "through") == expected(wearers)
+    events = read_output(job.output)
+    written = set(job.output.glob("*.parquet"))
+    print(f"{len(events)} events; {len(written) - len(set(committed(job.output)))} files that nobody finished")
+    assert events == read_output(tmp_path / "through") == expected(wearers)
 
 
 @pytest.fixture
@@ -137,4 +139,4 @@ def test_a_job_whose_disk_is_full_ends_and_goes_on_when_there_is_room(tmp_path, 
     subprocess.run(["mount", "-o", "remount,size=64m", small_disk], check=True)
     with Job(tmp_path) as job:
         job.end()
-    assert told(small_disk) == expected(10)
+    assert read_output(small_disk) == expected(10)

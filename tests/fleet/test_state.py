@@ -30,17 +30,17 @@ from solepath.types.vector import IDENTITY, ZERO
 STATES = json.loads((PROTOCOL / "fleet" / "states.json").read_text())
 FLEET = Fleet()
 HALF = 350
-"""Rows: the walk has begun."""
+"""Number of rows after which the walk has started."""
 
 
 @cache
 def halfway() -> tuple[bytes, int]:
-    """A state in the middle of a walk, and how many events were told before."""
-    state, told = FLEET.step(WEARER, None, walked().sent[:HALF])
-    return state, len(told)
+    """Return a state in the middle of a walk, and the number of events before it."""
+    state, emitted = FLEET.step(WEARER, None, walked().sent[:HALF])
+    return state, len(emitted)
 
 
-def held_as_told(place: tuple[int, int], what: Any) -> dict[str, Any]:
+def held_as_fields(place: tuple[int, int], what: Any) -> dict[str, Any]:
     match what:
         case Packet(t, site, channel, data, device):
             packet = {"t": t, "site": site.value, "channel": channel, "data": data.hex(), "device": device}
@@ -53,12 +53,14 @@ def held_as_told(place: tuple[int, int], what: Any) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("vector", STATES["states"], ids=lambda vector: vector["id"])
-def test_a_state_says_what_the_protocol_says(vector: dict[str, Any]) -> None:
+def test_a_state_is_as_in_the_protocol(vector: dict[str, Any]) -> None:
     state = bytes.fromhex(vector["hex"])
     identity = read_identity(state)
     if vector["result"] == "refused":
         known = vector["identity"]
-        assert identity == (None if known is None else Identity(**known))
+        assert identity == (
+            None if known is None else Identity(known["run"], known["next"], known["told"], known["known"])
+        )
         (first, *_) = FLEET.step(WEARER, state, [shown(300, 7)])[1]
         assert isinstance(first.event, StateRejected)
         assert first.number == (first_number(7, 300) if known is None else known["told"])
@@ -67,10 +69,10 @@ def test_a_state_says_what_the_protocol_says(vector: dict[str, Any]) -> None:
     rest = read_rest(state)
     assert identity == Identity(*[fields[name] for name in ("run", "next", "told", "known")])
     assert (rest.ended, rest.failure, rest.session) == (fields["ended"], fields["failure"], None)
-    assert [[span.run, span.first, span.end] for span in rest.left.spans] == fields["spans"]
-    assert [[*runs] for runs in rest.left.forgotten] == fields["forgotten"]
+    assert [[span.run, span.first, span.end] for span in rest.unused.spans] == fields["spans"]
+    assert [[*runs] for runs in rest.unused.forgotten] == fields["forgotten"]
     assert [*astuple(rest.strays)] == fields["strays"]
-    assert [held_as_told(place, what) for place, what in rest.held.items()] == fields["held"]
+    assert [held_as_fields(place, what) for place, what in rest.held.items()] == fields["held"]
     assert write_state(identity, rest) == state
     assert FLEET.open(WEARER, state).state() == state
 
@@ -84,11 +86,11 @@ def test_every_version_up_to_the_newest_is_read_and_has_an_example() -> None:
 @given(state=st.one_of(st.binary(max_size=80), st.binary(max_size=60).map(lambda rest: halfway()[0][:41] + rest)))
 def test_any_bytes_give_a_fresh_start_and_never_an_exception(state: bytes) -> None:
     sent = [shown(HALF, 5), Unreadable(WEARER, "no row"), shown(HALF + 1, 5)]
-    after, told = Fleet(window=0).step(WEARER, state, sent)
-    assert isinstance(told[0].event, StateRejected)
-    assert [one.number for one in told] == list(range(told[0].number, told[0].number + len(told)))
-    assert [what for what, *_ in uses(told[1:])][-3:] == ["used", "rejected", "used"]
-    assert Fleet(window=0).step(WEARER, after, [shown(HALF + 2, 5)])[1][0].number == told[-1].number + 1
+    after, emitted = Fleet(window=0).step(WEARER, state, sent)
+    assert isinstance(emitted[0].event, StateRejected)
+    assert [one.number for one in emitted] == list(range(emitted[0].number, emitted[0].number + len(emitted)))
+    assert [what for what, *_ in uses(emitted[1:])][-3:] == ["used", "rejected", "used"]
+    assert Fleet(window=0).step(WEARER, after, [shown(HALF + 2, 5)])[1][0].number == emitted[-1].number + 1
 
 
 @settings(max_examples=40)
@@ -97,20 +99,20 @@ def test_a_bit_that_fell_over_anywhere_is_noticed_and_no_identity_is_used_again(
     state, before = halfway()
     damaged = bytearray(state)
     damaged[place % len(state)] ^= 1 << bit
-    _, told = FLEET.step(WEARER, bytes(damaged), walked().sent[HALF : HALF + 5])
-    assert isinstance(told[0].event, StateRejected)
-    assert told[0].number >= before
+    _, emitted = FLEET.step(WEARER, bytes(damaged), walked().sent[HALF : HALF + 5])
+    assert isinstance(emitted[0].event, StateRejected)
+    assert emitted[0].number >= before
 
 
-def test_a_state_that_was_refused_is_told_once_and_not_before_it_is_needed() -> None:
+def test_a_rejected_state_is_reported_once_and_not_before_it_is_needed() -> None:
     state, before = halfway()
     torn = state[:-3]
     keyed = FLEET.open(WEARER, torn)
     assert keyed.state() == torn, "nothing happened yet"
     assert [one.number for one in keyed.feed([])] == [before]
     assert keyed.feed([]) == []
-    after, told = FLEET.step(WEARER, torn, [])
-    assert after == keyed.state() and isinstance(told[0].event, StateRejected)
+    after, emitted = FLEET.step(WEARER, torn, [])
+    assert after == keyed.state() and isinstance(emitted[0].event, StateRejected)
     assert FLEET.step(WEARER, after, []) == (after, [])
 
 
@@ -118,29 +120,29 @@ def test_where_nothing_can_be_read_the_first_number_waits_for_a_row_that_has_one
     keyed = Fleet(window=0).open(WEARER, b"not a state")
     assert keyed.feed([Unreadable(WEARER, "no row"), Sent(WEARER, -1, End())]) == []
     assert keyed.state() == b"not a state"
-    told = keyed.feed([shown(12, 1_763_800_000_000)])
-    assert told[0].number == 64 * (1_763_800_000_000 + 13)
-    assert isinstance(told[0].event, StateRejected)
-    assert uses(told[1:]) == [("missing", 1_763_800_000_000, 0, 12), ("used", 1_763_800_000_000, 12, None)]
+    emitted = keyed.feed([shown(12, 1_763_800_000_000)])
+    assert emitted[0].number == 64 * (1_763_800_000_000 + 13)
+    assert isinstance(emitted[0].event, StateRejected)
+    assert uses(emitted[1:]) == [("missing", 1_763_800_000_000, 0, 12), ("used", 1_763_800_000_000, 12, None)]
 
 
-def test_a_session_of_another_recipe_or_of_a_building_is_refused_and_the_numbers_go_on() -> None:
+def test_a_session_of_another_recipe_or_of_a_building_is_rejected_and_the_numbers_go_on() -> None:
     state, before = halfway()
     for fleet in (Fleet(recipes.by_name("kupt-dfpc")), Fleet(evolve(DEFAULT, name="mine")), Fleet(floorplan=BUILDING)):
-        after, told = fleet.step(WEARER, state, walked().sent[HALF : HALF + 50])
-        assert isinstance(told[0].event, StateRejected) and told[0].event.detail
-        assert [one.number for one in told] == list(range(before, before + len(told)))
-        assert told[0].event.t == read_identity(state).known
+        after, emitted = fleet.step(WEARER, state, walked().sent[HALF : HALF + 50])
+        assert isinstance(emitted[0].event, StateRejected) and emitted[0].event.detail
+        assert [one.number for one in emitted] == list(range(before, before + len(emitted)))
+        assert emitted[0].event.t == read_identity(state).known
         assert fleet.step(WEARER, after, walked().sent[HALF + 50 : HALF + 150])[1], "and the wearer is followed again"
 
 
 def test_after_the_end_a_tombstone_is_left_which_every_job_can_read() -> None:
-    state, told = FLEET.step(WEARER, None, walked().sent)
+    state, emitted = FLEET.step(WEARER, None, walked().sent)
     assert len(state) == 54 and FLEET.open(WEARER, state).ended
     other = Fleet(recipes.by_name("kupt-dfpc"))
     assert other.step(WEARER, state, walked().sent) == (state, [])
     again, more = other.step(WEARER, state, [evolve(one, run=1) for one in walked().sent[:HALF]])
-    assert more[0].number == len(told) and not other.open(WEARER, again).ended
+    assert more[0].number == len(emitted) and not other.open(WEARER, again).ended
 
 
 def test_a_state_keeps_what_is_held_whatever_it_is() -> None:
@@ -187,9 +189,9 @@ def test_a_detector_of_ones_own_that_cannot_be_saved_costs_its_wearer_the_sessio
     assert len(state) < 1000
     restored = fleet.open(WEARER, state)
     rest = walked().sent[HALF : HALF + 100]
-    told = keyed.feed(rest)
-    assert type(told[0].event).__name__ == "WearerFailed" and told[0].number == before
-    assert restored.feed(rest) == told, "in memory and from bytes it goes on alike"
+    emitted = keyed.feed(rest)
+    assert type(emitted[0].event).__name__ == "WearerFailed" and emitted[0].number == before
+    assert restored.feed(rest) == emitted, "in memory and from bytes it goes on alike"
     assert restored.state() == keyed.state()
 
 
@@ -200,6 +202,6 @@ def test_a_phone_hands_its_wearer_over() -> None:
     assert read_identity(state).known == whole.now
     numbers = count()
     rest = [evolve(one, number=next(numbers), run=3) for one in sent[HALF:]]
-    _, told = FLEET.step(WEARER, state, rest)
-    assert (*first, *[one.event for one in told]) == walked().events
-    assert [one.number for one in told] == list(range(len(told)))
+    _, emitted = FLEET.step(WEARER, state, rest)
+    assert (*first, *[one.event for one in emitted]) == walked().events
+    assert [one.number for one in emitted] == list(range(len(emitted)))

@@ -1,4 +1,4 @@
-"""The keyed step of a fleet: what it tells of a wearer is what a session says, and nothing that is sent can stop it."""
+"""The keyed step of a fleet: its events are those of a session, and no input can stop it."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ LONG = "w" * 10_000
 
 
 @pytest.mark.parametrize("recipe", BOTH, ids=lambda recipe: recipe.name)
-def test_what_is_told_of_a_wearer_is_what_a_session_says_to_the_same_packets(recipe: Recipe) -> None:
+def test_the_events_of_a_wearer_are_those_of_a_session_with_the_same_packets(recipe: Recipe) -> None:
     sent, events = walked(recipe.name).sent, walked(recipe.name).events
     fleet = Fleet(recipe)
     pieces = cut(list(sent), range(0, len(sent), 61))
-    state, told = stepped(fleet, pieces)
-    assert tuple(one.event for one in told) == events
+    state, emitted = stepped(fleet, pieces)
+    assert tuple(one.event for one in emitted) == events
     assert sum(isinstance(event, StrideTaken) for event in events) >= 6
-    assert [(one.wearer, one.number) for one in told] == [(WEARER, number) for number in range(len(told))]
+    assert [(one.wearer, one.number) for one in emitted] == [(WEARER, number) for number in range(len(emitted))]
     keyed = fleet.open(WEARER, None)
-    assert [one for piece in pieces for one in keyed.feed(piece)] == told
+    assert [one for piece in pieces for one in keyed.feed(piece)] == emitted
     assert keyed.state() == state
 
 
@@ -48,26 +48,26 @@ def test_a_wearer_leaves_no_trace_in_what_all_wearers_share(recipe: str) -> None
     assert Session.unpack(blank, made).snapshot() == before
 
 
-def test_time_that_passes_is_told_as_a_session_has_it() -> None:
+def test_passing_time_gives_the_events_of_a_session() -> None:
     sent = walked().sent[:300]
     session, last = Session(), sent[-1].what.t
     events = session.advance(-1.0) + [event for one in sent for event in session.feed(one.what)]
     events += session.advance(last + 5.0)
     later = [evolve(one, number=one.number + 1) for one in sent]
-    _, told = FLEET.step(WEARER, None, [Sent(WEARER, 0, Tick(-1)), *later, Sent(WEARER, 301, Tick(last + 5.0))])
-    assert [one.event for one in told] == events
+    _, emitted = FLEET.step(WEARER, None, [Sent(WEARER, 0, Tick(-1)), *later, Sent(WEARER, 301, Tick(last + 5.0))])
+    assert [one.event for one in emitted] == events
     assert events[-1].known_at == last + 5.0
 
 
-def test_a_wearer_goes_on_in_a_new_run_and_begins_anew_after_an_end() -> None:
+def test_a_wearer_goes_on_in_a_new_run_and_restarts_after_an_end() -> None:
     sent, events = walked().sent, walked().events
     half = len(sent) // 2
     restarted = [*sent[:half], *[evolve(one, number=n, run=8) for n, one in enumerate(sent[half:])]]
-    state, told = FLEET.step(WEARER, None, restarted)
-    assert tuple(one.event for one in told) == events
+    state, emitted = FLEET.step(WEARER, None, restarted)
+    assert tuple(one.event for one in emitted) == events
     _, again = FLEET.step(WEARER, state, [evolve(one, run=9) for one in sent])
     assert tuple(one.event for one in again) == events
-    assert [one.number for one in again] == list(range(len(told), 2 * len(told)))
+    assert [one.number for one in again] == list(range(len(emitted), 2 * len(emitted)))
 
 
 ODD_PACKETS: list[Any] = [
@@ -97,11 +97,11 @@ def test_what_cannot_be_used_is_rejected_in_its_turn_and_the_next_is_used(what: 
     keyed = FLEET.open(WEARER, None)
     assert keyed.feed([shown(2), Sent(WEARER, 1, what)]) == []
     assert len(keyed.state()) < 1000
-    told = keyed.feed([shown(0)])
-    assert [(what, number) for what, _, number, _ in uses(told)] == [("used", 0), ("rejected", 1), ("used", 2)]
-    rejected = told[1].event
+    emitted = keyed.feed([shown(0)])
+    assert [(what, number) for what, _, number, _ in uses(emitted)] == [("used", 0), ("rejected", 1), ("used", 2)]
+    rejected = emitted[1].event
     assert isinstance(rejected, SentRejected) and rejected.detail and len(rejected.detail) <= 200
-    assert FLEET.step(WEARER, None, [shown(0), Sent(WEARER, 1, what), shown(2)])[1] == told
+    assert FLEET.step(WEARER, None, [shown(0), Sent(WEARER, 1, what), shown(2)])[1] == emitted
 
 
 @pytest.mark.parametrize(
@@ -116,8 +116,8 @@ def test_what_cannot_be_used_is_rejected_in_its_turn_and_the_next_is_used(what: 
     ids=["whole", "huge", "infinite", "bytearray", "memoryview"],
 )
 def test_what_a_session_takes_or_rejects_by_itself_is_left_to_it(packet: Packet) -> None:
-    (told,) = FLEET.step(WEARER, None, [Sent(WEARER, 0, packet)])[1]
-    assert repr(told.event) == repr(Session().feed(packet)[0])
+    (emitted,) = FLEET.step(WEARER, None, [Sent(WEARER, 0, packet)])[1]
+    assert repr(emitted.event) == repr(Session().feed(packet)[0])
 
 
 @pytest.mark.parametrize(
@@ -142,15 +142,15 @@ def test_what_a_session_takes_or_rejects_by_itself_is_left_to_it(packet: Packet)
     ids=range(15),
 )
 def test_what_has_no_place_in_the_order_is_rejected_at_once(item: Any) -> None:
-    state, told = FLEET.step(WEARER, None, [item, shown(0)])
-    assert [(what, number) for what, _, number, _ in uses(told)] == [("rejected", None), ("used", 0)]
-    assert len(told[0].event.detail) <= 200 and len(state) < 1000
+    state, emitted = FLEET.step(WEARER, None, [item, shown(0)])
+    assert [(what, number) for what, _, number, _ in uses(emitted)] == [("rejected", None), ("used", 0)]
+    assert len(emitted[0].event.detail) <= 200 and len(state) < 1000
 
 
 @pytest.mark.parametrize("wearer", ["", LONG, "\ud83d", "ü\n"], ids=["none", "long", "half", "odd"])
 def test_any_text_is_a_wearer(wearer: str) -> None:
-    state, told = FLEET.step(wearer, None, [shown(0, wearer=wearer), Unreadable("", "no JSON")])
-    assert [one.wearer for one in told] == [wearer, wearer] and len(state) < 1000
+    state, emitted = FLEET.step(wearer, None, [shown(0, wearer=wearer), Unreadable("", "no JSON")])
+    assert [one.wearer for one in emitted] == [wearer, wearer] and len(state) < 1000
 
 
 REAL = st.deferred(lambda: st.sampled_from([one.what.data for one in walked().sent[:40]]))
@@ -167,8 +167,8 @@ POISON = st.builds(
 
 @settings(max_examples=30)
 @given(poison=st.lists(POISON, max_size=40))
-def test_a_wearer_whose_bytes_are_anything_is_told_of_and_stays_small(poison: list[Sent]) -> None:
-    state, told = FLEET.step(WEARER, None, poison)
-    assert [one.number for one in told] == list(range(len(told)))
+def test_a_wearer_with_random_bytes_is_reported_and_stays_small(poison: list[Sent]) -> None:
+    state, emitted = FLEET.step(WEARER, None, poison)
+    assert [one.number for one in emitted] == list(range(len(emitted)))
     assert len(state) < 30_000
     assert FLEET.open(WEARER, state).state() == state

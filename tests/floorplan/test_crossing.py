@@ -1,4 +1,4 @@
-"""Whether a straight move crosses a wall: exactly, for every move and every wall."""
+"""Test of straight moves against walls: exact for every move and every wall."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ any_float = st.floats(allow_nan=True, allow_infinity=True)
 
 
 @given(lines, lines)
-def test_lines_touch_when_fractions_say_so(a: Line, b: Line) -> None:
+def test_lines_touch_exactly_when_fractions_do(a: Line, b: Line) -> None:
     assert touch(*a[0], *a[1], *b[0], *b[1]) == exactly_touch(a, b)
 
 
@@ -192,12 +192,12 @@ def test_with_rooms_one_is_inside_them_and_on_doorsteps_and_in_stairwells() -> N
 
 
 @given(st.lists(places, min_size=3, max_size=9, unique=True), st.lists(places, min_size=1, max_size=10))
-def test_the_grid_of_rooms_says_what_counting_the_edges_says(
-    ring: list[tuple[float, float]], asked: list[tuple[float, float]]
+def test_the_grid_of_rooms_agrees_with_counting_the_edges(
+    ring: list[tuple[float, float]], points: list[tuple[float, float]]
 ) -> None:
     plan = IndexedPlan(FloorPlan("one", (Level("0", "", 0, 0.0, (Wall((-9.0, -9.0), (9.0, 9.0)),), (),
                                                (tuple(ring),)),)))  # fmt: skip
-    for x, y in asked:
+    for x, y in points:
         odd = False
         for (ax, ay), (bx, by) in pairwise([*ring, ring[0]]):
             if (ay > y) != (by > y) and x < ax + (y - ay) * (bx - ax) / (by - ay):

@@ -76,6 +76,6 @@ def test_places_without_an_anchor_get_their_south_west_corner() -> None:
 
 
 @pytest.mark.parametrize(("latitude", "longitude"), [(48.5, 11.57), (-48.15, -168.43), (91.0, 0.0), (math.nan, 0.0)])
-def test_what_is_far_from_the_anchor_is_refused(latitude: float, longitude: float) -> None:
+def test_what_is_far_from_the_anchor_is_rejected(latitude: float, longitude: float) -> None:
     with pytest.raises(FloorPlanError):
         Tangent(Anchor(48.15, 11.57)).plan(latitude, longitude)

@@ -51,7 +51,7 @@ def test_the_house_is_what_it_looks_like() -> None:
 
 
 @pytest.mark.parametrize("case", INVALID["cases"], ids=[one["id"] for one in INVALID["cases"]])
-def test_a_file_that_does_not_fit_says_what_does_not(case: dict[str, Any], tmp_path: Path) -> None:
+def test_a_file_that_does_not_fit_is_rejected_with_the_reason(case: dict[str, Any], tmp_path: Path) -> None:
     path = tmp_path / "plan"
     path.write_bytes(archive(case["files"]) if "files" in case else case["text"].encode())
     with pytest.raises(FloorPlanError) as caught:
@@ -108,12 +108,12 @@ def test_a_room_with_a_hole_does_not_hold_what_is_in_the_hole() -> None:
         assert plan.inside(0, x, y)
 
 
-def test_an_outline_that_does_not_close_is_a_room_and_said() -> None:
+def test_an_outline_that_does_not_close_is_a_room_and_remarked() -> None:
     room = [[0, 0], [10, 0], [10, 10], [0, 10], [0, 1]]
     plan = plan_of_bytes(geojson(feature("wall", "Polygon", [SQUARE]), feature("room", "Polygon", [room])))
-    said = "feature 2 on level '0': its outline does not close, it ends 1.00 m from where it begins"
-    assert plan.remarks == (said,)
-    assert said in warnings(plan)
+    remark = "feature 2 on level '0': its outline does not close, it ends 1.00 m from where it begins"
+    assert plan.remarks == (remark,)
+    assert remark in warnings(plan)
     assert IndexedPlan(plan).inside(0, 5.0, 5.0)
 
 
@@ -149,7 +149,7 @@ def test_a_bomb_is_not_unpacked(monkeypatch: pytest.MonkeyPatch) -> None:
         plan_of_bytes(bomb)
 
 
-def test_a_damaged_or_strangely_packed_archive_is_refused() -> None:
+def test_a_damaged_or_strangely_packed_archive_is_rejected() -> None:
     packed = archive(imdf_files())
     for damaged in (packed[: len(packed) // 2], b"PK\x03\x04", packed[:200] + b"\xff" * 50 + packed[250:]):
         with pytest.raises(FloorPlanError):
@@ -163,7 +163,7 @@ def test_a_damaged_or_strangely_packed_archive_is_refused() -> None:
         plan_of_bytes(bytes(locked))
 
 
-def test_files_that_cannot_be_read_say_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_unreadable_files_are_rejected(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(FloorPlanError, match="No such file or directory$"):
         read_floorplan(tmp_path / "none.json")
     with pytest.raises(FloorPlanError, match="has no manifest.json"):
@@ -187,7 +187,7 @@ json_values = st.recursive(
 )  # fmt: skip
 
 
-def reads_or_refuses(data: bytes) -> None:
+def reads_or_rejects(data: bytes) -> None:
     try:
         plan = plan_of_bytes(data)
     except FloorPlanError as error:
@@ -197,19 +197,19 @@ def reads_or_refuses(data: bytes) -> None:
 
 
 @given(st.binary(max_size=200), st.sampled_from([b"", b"{", b"<osm>", b"PK\x03\x04", b"\xff\xfe", b"\xef\xbb\xbf{"]))
-def test_any_bytes_are_a_plan_or_refused(data: bytes, begin: bytes) -> None:
-    reads_or_refuses(begin + data)
+def test_any_bytes_are_a_plan_or_rejected(data: bytes, prefix: bytes) -> None:
+    reads_or_rejects(prefix + data)
 
 
 @given(st.lists(json_values, max_size=4), st.dictionaries(st.sampled_from(["frame", "anchor", "name", "elevations"]),
                                                            json_values, max_size=2))  # fmt: skip
-def test_any_features_are_a_plan_or_refused(more: list[Any], members: dict[str, Any]) -> None:
-    reads_or_refuses(json.dumps({**json.loads(geojson()), "features": more, **members}).encode())
+def test_any_features_are_a_plan_or_rejected(more: list[Any], members: dict[str, Any]) -> None:
+    reads_or_rejects(json.dumps({**json.loads(geojson()), "features": more, **members}).encode())
 
 
-def changed(draw: st.DrawFn, told: Any) -> Any:
+def changed(draw: st.DrawFn, content: Any) -> Any:
     """The JSON value with one of its parts, anywhere, replaced by any other."""
-    whole = {"it": told}
+    whole = {"it": content}
     inside, key = whole, "it"
     for _ in range(draw(st.integers(0, 8))):
         there = inside[key]  # type: ignore[index]
@@ -222,12 +222,12 @@ def changed(draw: st.DrawFn, told: Any) -> Any:
 
 
 @given(st.data(), st.sampled_from(["local", "wgs84", "level", "unit", "opening", "manifest"]))
-def test_the_house_with_anything_changed_is_a_plan_or_refused(data: st.DataObject, what: str) -> None:
+def test_the_house_with_anything_changed_is_a_plan_or_rejected(data: st.DataObject, what: str) -> None:
     if what in ("local", "wgs84"):
         name = "house.geojson" if what == "local" else "house-wgs84.geojson"
-        told = changed(data.draw, json.loads((FILES / name).read_text()))
-        reads_or_refuses(json.dumps(told).encode())
+        content = changed(data.draw, json.loads((FILES / name).read_text()))
+        reads_or_rejects(json.dumps(content).encode())
         return
     files = imdf_files()
     name = f"{what}.json" if what == "manifest" else f"{what}.geojson"
-    reads_or_refuses(archive({**files, name: changed(data.draw, json.loads(files[name]))}))
+    reads_or_rejects(archive({**files, name: changed(data.draw, json.loads(files[name]))}))

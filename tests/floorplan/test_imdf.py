@@ -45,8 +45,8 @@ def unit(own: str, category: str, coordinates: Any, at: str = "L0", geometry: st
 def plan_of(units: list[dict[str, Any]], levels: list[dict[str, Any]] | None = None, language: str = "en",
             **others: list[dict[str, Any]]) -> FloorPlan:  # fmt: skip
     files = {"level": levels or [level()], "unit": units, **others}
-    told = {f"{name}.geojson": {"type": "FeatureCollection", "features": some} for name, some in files.items()}
-    return plan_of_bytes(archive({"manifest.json": {"version": "1.0.0", "language": language}, **told}))
+    collections = {f"{name}.geojson": {"type": "FeatureCollection", "features": some} for name, some in files.items()}
+    return plan_of_bytes(archive({"manifest.json": {"version": "1.0.0", "language": language}, **collections}))
 
 
 def test_the_outline_of_a_level_is_a_wall_unless_it_is_outdoors() -> None:
@@ -61,7 +61,9 @@ def test_the_outline_of_a_level_is_a_wall_unless_it_is_outdoors() -> None:
     ("walkway", False, True), ("lobby", False, True), ("platform", False, True), ("ramp", False, True),
     ("stairs", False, True), ("escalator", False, True), ("elevator", False, True), ("steps", False, True),
 ])  # fmt: skip
-def test_what_a_unit_is_says_whether_a_walkway_is_open_to_it(category: str, walled: bool, inside: bool) -> None:
+def test_the_category_of_a_unit_decides_whether_a_walkway_is_open_to_it(
+    category: str, walled: bool, inside: bool
+) -> None:
     plan = IndexedPlan(plan_of([unit("w", "walkway", box(0, 0, 20, 5)), unit("u", category, box(4, 5, 8, 9))]))
     assert plan.crosses(0, 6.0, 4.0, 6.0, 6.0) == walled
     assert plan.inside(0, 6.0, 7.0) == inside

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath.floorplan.importers.earth import Tangent
-from solepath.floorplan.importers.osm_tags import levels_told
+from solepath.floorplan.importers.osm_tags import parse_levels
 from solepath.floorplan.importers.reading import plan_of_bytes
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Anchor, ConnectorKind, Door, FloorPlan, FloorPlanError, Point
@@ -68,19 +68,19 @@ def house() -> Map:
     ("-1-1", [-1.0, 0.0, 1.0]), ("3-1", [1.0, 2.0, 3.0]), ("-0", [0.0]),
 ])  # fmt: skip
 def test_levels_are_single_ones_lists_and_ranges(text: str, found: list[float]) -> None:
-    assert levels_told(text) == found
+    assert parse_levels(text) == found
 
 
 @pytest.mark.parametrize("text", ["", "EG", "0;", "1-", "1--", "0,1", "1e3", "٣", "0-99999", "nan"])
-def test_other_values_tell_no_levels(text: str) -> None:
+def test_other_values_have_no_levels(text: str) -> None:
     with pytest.raises(FloorPlanError):
-        levels_told(text)
+        parse_levels(text)
 
 
 @given(st.text(alphabet="0123456789-;. x", max_size=10))
-def test_any_value_tells_levels_in_order_or_none(text: str) -> None:
+def test_any_value_has_levels_in_order_or_none(text: str) -> None:
     try:
-        found = levels_told(text)
+        found = parse_levels(text)
     except FloorPlanError:
         return
     assert found == sorted(set(found))
@@ -106,7 +106,7 @@ def test_walls_and_pillars_are_solid_and_no_rooms() -> None:
     assert len(plan.plan.levels[0].rooms) == 1
 
 
-def test_a_door_node_is_centred_in_its_wall_as_wide_as_it_says() -> None:
+def test_a_door_node_is_centred_in_its_wall_with_its_width() -> None:
     level = Map().node((5.0, 0.0), door="yes", width="90 cm", ref="D1").way(
         [(0.0, 0.0), (5.0, 0.0), (20.0, 0.0), (20.0, 10.0), (0.0, 10.0), (0.0, 0.0)], indoor="room", level="0"
     ).plan().levels[0]  # fmt: skip
@@ -114,7 +114,7 @@ def test_a_door_node_is_centred_in_its_wall_as_wide_as_it_says() -> None:
     assert [wall.end for wall in level.walls if wall.start == (0.0, 0.0)] == [(0.0, 10.0), (4.55, 0.0)]
 
 
-def test_a_door_on_a_corner_begins_there_along_the_longer_wall() -> None:
+def test_a_door_on_a_corner_starts_there_along_the_longer_wall() -> None:
     level = house().node((20.0, 10.0), entrance="yes").plan().levels[0]
     assert level.doors == (Door((19.0, 10.0), (20.0, 10.0)),)
 
@@ -209,18 +209,18 @@ members_of = st.lists(st.tuples(st.integers(1, 6), st.sampled_from(["outer", "in
 
 @given(st.lists(st.tuples(st.lists(grid, max_size=6), st.booleans(), tags), max_size=5),
        st.lists(st.tuples(grid, tags), max_size=4), st.lists(st.tuples(members_of, tags), max_size=2))  # fmt: skip
-def test_anything_drawn_with_any_tags_is_a_plan_or_refused(
+def test_anything_drawn_with_any_tags_is_a_plan_or_rejected(
     ways: list[tuple[list[Point], bool, dict[str, str]]],
     nodes: list[tuple[Point, dict[str, str]]],
     relations: list[tuple[list[tuple[int, str]], dict[str, str]]],
 ) -> None:
     drawn = Map().way(box(0, 0, 6, 6), indoor="room", level="0")
-    for i, (places, closed, told) in enumerate(ways):
-        drawn.way([*places, places[0]] if closed and places else places, i + 1, **told)
-    for place, told in nodes:
-        drawn.node(place, **told)
-    for members, told in relations:
-        drawn.relation(members, **told)
+    for i, (places, closed, level_tag) in enumerate(ways):
+        drawn.way([*places, places[0]] if closed and places else places, i + 1, **level_tag)
+    for place, level_tag in nodes:
+        drawn.node(place, **level_tag)
+    for members, level_tag in relations:
+        drawn.relation(members, **level_tag)
     try:
         IndexedPlan(drawn.plan())
     except FloorPlanError as error:

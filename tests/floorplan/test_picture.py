@@ -34,12 +34,12 @@ def test_a_picture_is_xml_whatever_levels_lifts_and_recordings_are_called(level:
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
-def test_a_full_disk_is_told_with_the_name_of_the_picture() -> None:
+def test_a_full_disk_is_reported_with_the_name_of_the_picture() -> None:
     with pytest.raises(OSError, match="/dev/full"):
         PlanPicture(named("0", "lift")).write(Path("/dev/full"), "walk")
 
 
-def test_a_picture_that_cannot_be_written_is_told_before_the_walk_is_computed(tmp_path: Path) -> None:
+def test_a_picture_that_cannot_be_written_is_reported_before_the_walk_is_computed(tmp_path: Path) -> None:
     walk = recorded(tmp_path / "walk.jsonl", insoles().packets[:400])
     (tmp_path / "out" / "plan.svg").mkdir(parents=True)
     plan = FILES / "house.geojson"

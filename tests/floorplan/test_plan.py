@@ -1,4 +1,4 @@
-"""What a floor plan must be, what is said of one, and how doors are cut out of walls."""
+"""Requirements on a floor plan, warnings about one, and doors cut out of walls."""
 
 from __future__ import annotations
 
@@ -103,9 +103,9 @@ UNUSABLE = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("plan", "says"), UNUSABLE, ids=[says[:40] for _, says in UNUSABLE])
-def test_a_plan_that_cannot_be_used_says_why_in_one_line(plan: FloorPlan, says: str) -> None:
-    assert unusable(plan) == says
+@pytest.mark.parametrize(("plan", "message"), UNUSABLE, ids=[message[:40] for _, message in UNUSABLE])
+def test_a_plan_that_cannot_be_used_is_rejected_in_one_line(plan: FloorPlan, message: str) -> None:
+    assert unusable(plan) == message
     assert warnings(plan) == ()
     with pytest.raises(FloorPlanError):
         IndexedPlan(plan)
@@ -118,15 +118,15 @@ def test_plans_within_the_limits_can_be_used_and_remarked_upon(plan: FloorPlan) 
     assert all(line and "\n" not in line for line in warnings(plan))
 
 
-def test_a_closed_house_with_stairs_gives_nothing_to_say() -> None:
+def test_a_closed_house_with_stairs_gives_no_warning() -> None:
     assert warnings(evolve(HOUSE, heights_known=True)) == ()
 
 
-def test_assumed_heights_are_said() -> None:
+def test_assumed_heights_are_a_warning() -> None:
     assert warnings(HOUSE) == ("the plan does not say how high its levels lie",)
 
 
-def test_a_gap_in_the_outer_wall_is_said_and_a_door_in_it_is_none() -> None:
+def test_a_gap_in_the_outer_wall_is_a_warning_and_a_door_in_it_is_not() -> None:
     gap = (Wall((0.0, 0.0), (10.0, 0.0)), Wall((11.0, 0.0), (20.0, 0.0)), *box(0.0, 0.0, 20.0, 10.0)[1:])
     known = evolve(HOUSE, heights_known=True)
     for rooms in ((), (((0.0, 0.0), (20.0, 0.0), (20.0, 10.0), (0.0, 10.0)),)):
@@ -223,14 +223,14 @@ MISSHAPEN = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("plan", "says"), MISSHAPEN, ids=[says[:40] for _, says in MISSHAPEN])
-def test_a_plan_of_something_else_than_records_is_refused_by_the_session_in_one_line(
-    plan: FloorPlan, says: str
+@pytest.mark.parametrize(("plan", "message"), MISSHAPEN, ids=[message[:40] for _, message in MISSHAPEN])
+def test_a_plan_of_something_else_than_records_is_rejected_by_the_session_in_one_line(
+    plan: FloorPlan, message: str
 ) -> None:
-    assert unusable(plan) == says
-    with pytest.raises(FloorPlanError) as refused:
+    assert unusable(plan) == message
+    with pytest.raises(FloorPlanError) as error:
         Session(floorplan=plan)
-    assert str(refused.value) == says
+    assert str(error.value) == message
 
 
 NO_STARTS = [
@@ -249,11 +249,11 @@ NO_STARTS = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize(("start", "says"), NO_STARTS, ids=[says[:40] for _, says in NO_STARTS])
-def test_a_start_that_cannot_be_is_refused_by_the_session_in_one_line(start: Start, says: str) -> None:
-    with pytest.raises(FloorPlanError) as refused:
+@pytest.mark.parametrize(("start", "message"), NO_STARTS, ids=[message[:40] for _, message in NO_STARTS])
+def test_a_start_that_cannot_be_is_rejected_by_the_session_in_one_line(start: Start, message: str) -> None:
+    with pytest.raises(FloorPlanError) as error:
         Session(floorplan=HOUSE, start=start)
-    assert str(refused.value) == f"start: {says}"
+    assert str(error.value) == f"start: {message}"
 
 
 def test_a_plan_has_no_more_levels_stops_walls_and_corners_than_are_good_for_a_session() -> None:
@@ -275,7 +275,7 @@ def test_a_plan_has_no_more_levels_stops_walls_and_corners_than_are_good_for_a_s
     assert unusable(with_level(walls=long)) == "the walls, doors and rooms of the plan come to 504 km; it can have 500"
 
 
-def test_more_walls_around_one_place_than_a_step_can_be_tried_against_are_refused() -> None:
+def test_more_walls_around_one_place_than_a_step_can_be_tried_against_are_rejected() -> None:
     comb = tuple(Wall((0.001 * k, 0.0), (0.001 * k, 1.0)) for k in range(2500))
     with pytest.raises(FloorPlanError, match=r"^level '0': \d+ walls lie around \(-?\d+, -?\d+\)$"):
         IndexedPlan(with_level(walls=comb))

@@ -8,7 +8,7 @@ from typing import Any
 from attrs import define
 from hypothesis import given
 from hypothesis import strategies as st
-from own import Quiet
+from own import StillDetector
 
 from solepath.foot.attitude import Rest, SampleSpan
 from solepath.foot.navigate.error_state import ErrorStateFilter
@@ -90,10 +90,10 @@ def test_a_gap_is_crossed_with_the_scale_and_bias_of_any_other_sample(
     seen: list[tuple[Vec3, Vec3]] = []
 
     @define
-    class Sees(Quiet):
+    class Sees(StillDetector):
         def update(self, t: float, dt: float, acc: Vec3, gyro: Vec3, *rest: Any) -> Stance:
             seen.append((acc, gyro))
-            return Quiet.update(self, t, dt, acc, gyro, *rest)
+            return StillDetector.update(self, t, dt, acc, gyro, *rest)
 
     tracker = FootTracker(Foot.LEFT, Sees(), ErrorStateFilter())
     tracker.rest.scale, tracker.rest.bias = scale, bias

@@ -9,7 +9,7 @@ from random import Random
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from one_foot import PHASES, heard, walked, without
+from one_foot import PHASES, feed_new_session, walked, without
 from walks import of
 
 from solepath import Event, Foot, Session, StrideTaken
@@ -189,7 +189,7 @@ def test_however_many_gaps_there_are_no_stride_is_longer_or_higher_than_a_stride
     while t < 50.0:
         holes.append((t, t + random.choice([0.1, 0.2, 0.4, 0.7, 1.0])))
         t += random.uniform(0.3, 4.0)
-    events, _ = heard(without(tuple(walker.samples(Foot.LEFT, rate)), *holes))
+    events, _ = feed_new_session(without(tuple(walker.samples(Foot.LEFT, rate)), *holes))
     longest = max(step.length for step in walker.truth().steps(Foot.LEFT))
     for step in of(StrideTaken, events):
         if step.degraded:

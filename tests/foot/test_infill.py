@@ -7,7 +7,7 @@ from math import hypot, radians
 
 import pytest
 from attrs import evolve
-from one_foot import PHASES, heard, walked, without
+from one_foot import PHASES, feed_new_session, walked, without
 from walks import of
 
 from solepath import Event, Foot, FootFlat, HeelOff, HeelStrike, Sample, SampleGap, StrideTaken, ToeOff
@@ -49,7 +49,7 @@ def test_events_that_a_gap_has_hidden_are_reported_in_order_with_times_in_the_ga
 ) -> None:
     samples, steps = walked()
     a = steps[number].t_toe_off + after
-    events, _ = heard(without(samples, (a, a + duration)))
+    events, _ = feed_new_session(without(samples, (a, a + duration)))
     (gap,) = of(SampleGap, events)
     end = gap.t + gap.duration
     seen = [event for event in of(ToeOff | HeelStrike, events) if gap.t <= event.t <= end]
@@ -65,7 +65,7 @@ def test_events_that_a_gap_has_hidden_are_reported_in_order_with_times_in_the_ga
 def test_only_the_stride_with_a_gap_is_degraded(after: float, duration: float, hidden: tuple[type[Event], ...]) -> None:
     samples, steps = walked()
     a = steps[4].t_toe_off + after
-    events, _ = heard(without(samples, (a, a + duration)))
+    events, _ = feed_new_session(without(samples, (a, a + duration)))
     taken = of(StrideTaken, events)
     assert len(taken) == len(steps)
     assert [step for step in taken if step.degraded] == [around(taken, a + 0.5 * duration)]
@@ -78,7 +78,7 @@ def test_every_stride_that_a_gap_touches_is_degraded(duration: float) -> None:
     seen = set[float]()
     for k in range(27):  # all of a stride
         a = steps[4].t_start - 0.02 + 0.04 * k
-        events, _ = heard(without(samples, (a, a + duration)))
+        events, _ = feed_new_session(without(samples, (a, a + duration)))
         (gap,) = of(SampleGap, events)
         for step in of(StrideTaken, events):
             within = min(gap.t + gap.duration, step.t_end) - max(gap.t, step.t_start)
@@ -90,10 +90,10 @@ def test_every_stride_that_a_gap_touches_is_degraded(duration: float) -> None:
 
 def test_a_saturated_sample_degrades_its_stride_even_when_foot_flat_is_dated_back() -> None:
     samples, steps = walked()
-    uncut = of(StrideTaken, heard(samples)[0])
+    uncut = of(StrideTaken, feed_new_session(samples)[0])
     for k in range(12):
         t = steps[4].t_end - 0.03 + 0.01 * k
-        events, _ = heard([evolve(sample, saturated=abs(sample.t - t) < 0.005) for sample in samples])
+        events, _ = feed_new_session([evolve(sample, saturated=abs(sample.t - t) < 0.005) for sample in samples])
         taken = of(StrideTaken, events)
         assert len(taken) == len(uncut)
         (hit,) = (sample.t for sample in samples if abs(sample.t - t) < 0.005)
@@ -103,10 +103,10 @@ def test_a_saturated_sample_degrades_its_stride_even_when_foot_flat_is_dated_bac
 def test_a_foot_that_stands_through_a_gap_goes_nowhere() -> None:
     samples, steps = walked()
     last = steps[-1].t_end
-    straight, uncut = heard(samples)
-    # a wearer who stands for longer than between two strides has halted, and takes no stride in a long gap
+    straight, uncut = feed_new_session(samples)
+    # who has stood for longer than between two strides has halted, and takes none in a long gap either
     for a, b in ((0.8, 1.4), (last + 0.2, last + 0.5), (last + 0.8, last + 1.8)):
-        events, session = heard(without(samples, (a, b)))
+        events, session = feed_new_session(without(samples, (a, b)))
         assert of(SampleGap, events)
         assert len(of(StrideTaken, events)) == len(of(StrideTaken, straight)) == len(steps)
         swings = [type(event) for event in of(ToeOff | HeelStrike, straight)]
@@ -119,7 +119,7 @@ def test_a_foot_that_stands_through_a_gap_goes_nowhere() -> None:
 def test_a_gap_over_whole_strides_adds_no_strides(duration: float) -> None:
     samples, steps = walked()
     a = steps[3].t_toe_off
-    events, _ = heard(without(samples, (a, a + duration)))
+    events, _ = feed_new_session(without(samples, (a, a + duration)))
     assert len(steps) - 3 <= len(of(StrideTaken, events)) <= len(steps)
     (gap,) = of(SampleGap, events)
     assert len([step for step in of(StrideTaken, events) if gap.t < step.t < gap.t + gap.duration]) <= 2
@@ -131,7 +131,7 @@ def test_a_gap_is_neither_stillness_nor_speed() -> None:
     for number in range(2, len(steps) - 1):
         for share in (0.05, 0.3, 0.5, 0.7, 0.9):
             a = steps[number].t_start + share * (steps[number].t_end - steps[number].t_start)
-            events, _ = heard(without(samples, (a, a + 0.12)))
+            events, _ = feed_new_session(without(samples, (a, a + 0.12)))
             assert len(of(ToeOff, events)) == len(of(HeelStrike, events)) == len(steps)
             assert len(of(HeelOff, events)) == len(of(FootFlat, events)) == len(steps)
 
@@ -142,7 +142,7 @@ def test_only_phases_without_samples_are_inferred() -> None:
     for k in range(27):
         a = steps[4].t_start - 0.02 + 0.04 * k
         for duration in (0.3, 0.8):
-            events, _ = heard(without(samples, (a, a + duration)))
+            events, _ = feed_new_session(without(samples, (a, a + duration)))
             (gap,) = of(SampleGap, events)
             end = gap.t + gap.duration
             for event in of(PHASES, events):
@@ -152,7 +152,7 @@ def test_only_phases_without_samples_are_inferred() -> None:
                 # a cue may look back into a gap, but not over half of it
                 assert event.inferred or not gap.t + 0.01 < event.t < end - 0.16
     assert hidden == {HeelStrike, FootFlat, HeelOff, ToeOff}
-    assert not any(event.inferred for event in of(PHASES, heard(samples)[0]))
+    assert not any(event.inferred for event in of(PHASES, feed_new_session(samples)[0]))
 
 
 def turned(events: list[Event]) -> float:
@@ -176,7 +176,7 @@ def test_a_gentle_turn_stays_a_turn_through_a_gap_in_every_other_stride(
     name: str, duration: float, within: float
 ) -> None:
     samples, steps = walked(GENTLE[name])
-    events, _ = heard(gapped(samples, steps, duration, 2))
+    events, _ = feed_new_session(gapped(samples, steps, duration, 2))
     assert len(of(SampleGap, events)) >= 7
     assert turned(events) == pytest.approx(radians(120), abs=radians(within))
 
@@ -185,7 +185,7 @@ def test_a_gentle_turn_stays_a_turn_through_a_gap_in_every_other_stride(
 @pytest.mark.parametrize(("duration", "within"), [(0.08, 10.0), (0.12, 10.0), (0.3, 20.0)])
 def test_a_sharp_turn_is_hardly_straightened_by_gaps(name: str, duration: float, within: float) -> None:
     samples, steps = walked(SHARP[name])
-    events, _ = heard(gapped(samples, steps, duration, 2))
+    events, _ = feed_new_session(gapped(samples, steps, duration, 2))
     assert of(SampleGap, events)
     assert abs(turned(events)) == pytest.approx(abs(sum(step.heading_change for step in steps)), abs=radians(within))
 
@@ -195,7 +195,7 @@ def test_a_turn_on_the_spot_is_no_straight_walk_in_a_short_gap(seed: int) -> Non
     """No part of the last stride is like it, so a straight line is the better estimate."""
     route = Route().stand(2.0).walk(5.0, 1.2).stop(1.0).turn(radians(180)).walk(5.0).stop()
     samples, steps = walked(route, seed)
-    events, _ = heard(gapped(samples, steps, 0.12, 2))
+    events, _ = feed_new_session(gapped(samples, steps, 0.12, 2))
     assert of(SampleGap, events)
     assert turned(events) == pytest.approx(sum(step.heading_change for step in steps), abs=radians(8))
 
@@ -211,7 +211,7 @@ def test_a_turn_without_a_gap_is_not_repaired_with_that_of_a_gap() -> None:
 
 def test_a_straight_walk_keeps_its_heading_with_a_gap_in_every_stride() -> None:
     samples, steps = walked()
-    events, _ = heard(gapped(samples, steps, 0.3, 1))
+    events, _ = feed_new_session(gapped(samples, steps, 0.3, 1))
     assert len(of(SampleGap, events)) > 4
     assert turned(events) == pytest.approx(0.0, abs=radians(4))
 

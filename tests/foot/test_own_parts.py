@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from attrs import define, evolve, field
-from own import CELLS, WALKED, ByMotion, Quiet, Resets
+from own import CELLS, WALKED, ByMotion, Resets, StillDetector
 from walks import of, samples
 
 from solepath import Foot, HeelStrike, Session, SnapshotError, StrideTaken, recipes
@@ -19,8 +19,8 @@ from solepath.saving.codec import load, save
 from solepath.testing.promises import broken
 from solepath.types import Vec3
 
-OWN = evolve(recipes.DEFAULT, name="mine", detector=Quiet(), corrector=Resets(), cues=ByMotion())
-PARTS = [Quiet, Resets, ByMotion]
+OWN = evolve(recipes.DEFAULT, name="mine", detector=StillDetector(), corrector=Resets(), cues=ByMotion())
+PARTS = [StillDetector, Resets, ByMotion]
 
 
 def test_a_walk_with_parts_of_ones_own_is_saved_and_goes_on_when_their_classes_are_named() -> None:
@@ -44,8 +44,8 @@ def test_a_walk_with_parts_of_ones_own_is_saved_and_goes_on_when_their_classes_a
         assert json.dumps(second.snapshot()) == json.dumps(whole.snapshot())
 
 
-def test_after_a_clock_restart_an_own_detector_keeps_only_its_settings() -> None:
-    session = Session(evolve(OWN, detector=Quiet(limit=0.7)))
+def test_a_clock_that_begins_anew_leaves_a_detector_of_ones_own_with_its_settings_alone() -> None:
+    session = Session(evolve(OWN, detector=StillDetector(limit=0.7)))
     session.feed(WALKED[:50])
     tracker = session.feet[Foot.LEFT]
     assert tracker.detector != evolve(OWN.detector, limit=0.7)
@@ -62,18 +62,18 @@ def test_own_cues_get_the_layout_and_work_for_an_insole_alone() -> None:
 
 def test_classes_that_are_no_parts_or_share_a_name_are_rejected() -> None:
     saved = Session(OWN).snapshot()
-    other = define(type("Quiet", (), {"__annotations__": {}}))
+    other = define(type("StillDetector", (), {"__annotations__": {}}))
     with pytest.raises(TypeError, match="attrs class"):
         Session.restore(saved, parts=[int])
     with pytest.raises(ValueError, match="one name"):
-        Session.restore(saved, parts=[Quiet, other])
+        Session.restore(saved, parts=[StillDetector, other])
     with pytest.raises(SnapshotError):
         Session.restore(saved, parts=[other])
 
 
 @define
-class Usual(Quiet):
-    """A detector with bounded windows of recent rates."""
+class Usual(StillDetector):
+    """Beside what was usual lately, by windows that forget by themselves."""
 
     rates: deque[float] = field(factory=lambda: deque(maxlen=8), init=False)
     by_kind: dict[str, deque[float]] = field(factory=dict, init=False)
@@ -83,7 +83,7 @@ class Usual(Quiet):
         self.rates.append(rate)
         self.by_kind.setdefault("all", deque(maxlen=5)).append(rate)
         usual = sum(self.rates) / len(self.rates) + sum(self.by_kind["all"])
-        return Quiet.update(self, t, dt, acc, gyro, *rest)._replace(statistic=usual)
+        return StillDetector.update(self, t, dt, acc, gyro, *rest)._replace(statistic=usual)
 
 
 def test_a_bounded_window_stays_bounded_after_it_was_saved() -> None:
@@ -121,18 +121,18 @@ def test_what_a_snapshot_cannot_hold_is_named_with_its_class_and_field() -> None
         save(Holder(Window()))
     with pytest.raises(SnapshotError, match=r"cannot hold Level\.highest: inf"):
         save(Holder(Level()))
-    with pytest.raises(TypeError, match=r"cannot hold Holder\.held: a Quiet where Window or Level is known"):
-        save(Holder(Quiet()))  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match=r"cannot hold Holder\.held: a StillDetector where Window or Level is known"):
+        save(Holder(StillDetector()))  # type: ignore[arg-type]
 
 
 def test_saving_a_part_that_cannot_be_saved_raises() -> None:
     class Bare:
-        update = Quiet.update
+        update = StillDetector.update
 
-    Same = define(type("ShoeDetector", (), {"__annotations__": {}, "update": Quiet.update}))
+    Same = define(type("ShoeDetector", (), {"__annotations__": {}, "update": StillDetector.update}))
     for detector, what in ((Bare(), "no attrs class"), (Same(), "give it another name")):
         session = Session(evolve(recipes.DEFAULT, detector=detector))
-        session._state.wearer._keep(session._state.wearer._tracker(Foot.LEFT))
+        session._state.wearer._add_tracker(session._state.wearer._tracker(Foot.LEFT))
         for save_it in (session.snapshot, session.pack):
             with pytest.raises(TypeError, match=what):
                 save_it()

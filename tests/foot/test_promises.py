@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 
 import pytest
 from attrs import define, evolve, field
-from own import CELLS, WALKED, ByMotion, Quiet, Resets
+from own import CELLS, WALKED, ByMotion, Resets, StillDetector
 
 from solepath import recipes
 from solepath.body.part import LayoutReported, Part, PartInput, PartOutput
@@ -24,7 +24,7 @@ from solepath.types import Vec3
 from solepath.types.vector import ZERO
 
 OURS = [part for one in map(by_name, NAMES) for part in (one.detector, one.corrector, one.cues)]
-PARTS: dict[str, Any] = {type(part).__name__: part for part in (*OURS, Quiet(), Resets(), ByMotion())}
+PARTS: dict[str, Any] = {type(part).__name__: part for part in (*OURS, StillDetector(), Resets(), ByMotion())}
 
 
 @pytest.mark.parametrize("name", PARTS)
@@ -33,32 +33,32 @@ def test_the_parts_that_recipes_have_keep_their_promises(name: str) -> None:
 
 
 @define
-class Hoarder(Quiet):
+class Hoarder(StillDetector):
     seen: list[float] = field(factory=list, init=False)
 
     def update(self, t: float, *rest: Any) -> Stance:
         self.seen.append(t)
-        return Quiet.update(self, t, *rest)
+        return StillDetector.update(self, t, *rest)
 
 
 @define
-class Restless(Quiet):
+class Restless(StillDetector):
     def update(self, t: float, *rest: Any) -> Stance:
-        return Quiet.update(self, t, *rest)._replace(statistic=float(next(TURNS)))
+        return StillDetector.update(self, t, *rest)._replace(statistic=float(next(TURNS)))
 
 
 TURNS = count()
 
 
 @define(slots=False)
-class Forgetful(Quiet):
+class Forgetful(StillDetector):
     def update(self, t: float, *rest: Any) -> Stance:
         self.__dict__["calls"] = self.__dict__.get("calls", 0.0) + 1.0
-        return Quiet.update(self, t, *rest)._replace(statistic=self.__dict__["calls"])
+        return StillDetector.update(self, t, *rest)._replace(statistic=self.__dict__["calls"])
 
 
 @define
-class Sharing(Quiet):
+class Sharing(StillDetector):
     window: deque[float] = field(factory=deque, init=False)
 
     def __deepcopy__(self, memo: Any) -> Sharing:
@@ -70,38 +70,38 @@ class Sharing(Quiet):
         self.window.append(t)
         while len(self.window) > 10:
             self.window.popleft()
-        return Quiet.update(self, t, *rest)
+        return StillDetector.update(self, t, *rest)
 
 
 @define
-class Reckless(Quiet):
+class Reckless(StillDetector):
     def update(self, t: float, *rest: Any) -> Stance:
         return Stance((nan, 0.0, 0.0), 0.0, inf, True)  # type: ignore[arg-type]
 
 
 @define
-class Altered(Quiet):
+class Altered(StillDetector):
     counts: dict[str, int] = field(factory=Counter, init=False)
 
     def update(self, t: float, *rest: Any) -> Stance:
         self.counts["still" if self.since else "moving"] += 1
-        return Quiet.update(self, t, *rest)._replace(statistic=float("missing" in self.counts))
+        return StillDetector.update(self, t, *rest)._replace(statistic=float("missing" in self.counts))
 
 
 @define
-class Learning(Quiet):
+class Learning(StillDetector):
     def update(self, t: float, *rest: Any) -> Stance:
         self.limit = 0.9
-        return Quiet.update(self, t, *rest)
+        return StillDetector.update(self, t, *rest)
 
 
 @define
-class Lost(Quiet):
+class Lost(StillDetector):
     best: float = field(default=0.0, init=False)
 
     def update(self, t: float, *rest: Any) -> Stance:
         self.best = inf
-        return Quiet.update(self, t, *rest)
+        return StillDetector.update(self, t, *rest)
 
 
 @define
@@ -209,7 +209,7 @@ def test_a_broken_promise_is_named(part: Any, what: str) -> None:
 
 
 def test_a_detector_that_returns_something_else_or_has_unsavable_fields_is_named() -> None:
-    class Odd(Quiet):
+    class Odd(StillDetector):
         def update(self, t: float, *rest: Any) -> Any:
             return True
 

@@ -1,4 +1,4 @@
-"""The command line in this process, with nobody at a terminal, or in one of its own."""
+"""The command line in this process, without a terminal, or in a process of its own."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from solepath.cli import main
 
 
 def run(*arguments: object) -> subprocess.CompletedProcess[str]:
-    """What a command ends with and prints."""
+    """Return the exit status and the output of a command."""
     with redirect_stdout(io.StringIO()) as out, redirect_stderr(io.StringIO()) as err:
         try:
             status = main([str(argument) for argument in arguments])
@@ -23,8 +23,8 @@ def run(*arguments: object) -> subprocess.CompletedProcess[str]:
     return subprocess.CompletedProcess(arguments, status, out.getvalue(), err.getvalue())
 
 
-def refused(*arguments: object) -> str:
-    """The one line with which it ends."""
+def run_failing(*arguments: object) -> str:
+    """Return the one line with which the command fails."""
     done = run(*arguments)
     assert done.stdout == ""
     one_line(done)
@@ -32,7 +32,7 @@ def refused(*arguments: object) -> str:
 
 
 def solepath(*arguments: object, **environment: str) -> subprocess.CompletedProcess[str]:
-    """The same of a process of its own."""
+    """Return the exit status and the output of a command in a process of its own."""
     clean = {key: value for key, value in os.environ.items() if key != "SOLEPATH_DATA"}
     return subprocess.run(
         [sys.executable, "-m", "solepath", *map(str, arguments)],
@@ -57,6 +57,6 @@ def one_line(done: subprocess.CompletedProcess[str]) -> str:
 
 
 def rows_in(path: Path) -> list[dict[str, str]]:
-    """Of a table that a command wrote."""
+    """Return the rows of a table that a command wrote."""
     with path.open(newline="") as file:
         return list(csv.DictReader(file))

@@ -99,7 +99,7 @@ EVERY = (ORPHE, DOT, THINGY)
 
 
 def sent(worn: Worn, walker: Walker, foot: Foot) -> list[Notification]:
-    """All that the device on a foot sends, from reading and writing on."""
+    """Return all packets of the device on a foot, from the first read and write on."""
     profile, cells = worn.driver.profile, layout(8, foot)
     samples = walker.samples(foot, worn.rate, LSM6DSOX, layout=cells if worn is ORPHE else None)
     values = [(channel, worn.read[channel](foot)) for channel in profile.reads]

@@ -20,8 +20,8 @@ def archive(files: dict[str, Any], folder: str = "", compression: int = zipfile.
     """A zip archive of JSON values or bytes."""
     packed = BytesIO()
     with zipfile.ZipFile(packed, "w", compression) as file:
-        for name, told in files.items():
-            file.writestr(folder + name, told if isinstance(told, bytes) else json.dumps(told))
+        for name, content in files.items():
+            file.writestr(folder + name, content if isinstance(content, bytes) else json.dumps(content))
     return packed.getvalue()
 
 

@@ -1,7 +1,7 @@
-"""A small office of two floors, and somebody who walks in it: places on the plan in, what a body tells of them out.
+"""A small office of two floors, and a pedestrian in it: places on the plan in, events and positions of a body out.
 
-The track errs as recorded ones do: 2 % of every length, 5 degrees a minute, 3 % of every step, and nobody knows how it
-lies in the plan.
+The track errs as recorded ones do: 2 % of every length, 5 degrees a minute, 3 % of every step, and its heading in the
+plan is unknown.
 """
 
 from __future__ import annotations
@@ -121,8 +121,8 @@ Method = Particles | SnakeGame
 
 
 @define
-class Told:
-    """What a body tells at once, and where the wearer truly is (None: nowhere that counts)."""
+class FloorEvents:
+    """Simultaneous events of a body, and the true place of the wearer (None if it does not count)."""
 
     events: list[Event]
     here: Position
@@ -132,13 +132,13 @@ class Told:
 
 @define
 class Pedestrian:
-    """Walks, rides and climbs; `told` is what came of it."""
+    """Walks, rides and climbs; `received` holds the resulting events."""
 
     seed: int
     level: str = "0"
     place: Point = (0.0, 0.0)
     stride: float = 0.62
-    told: list[Told] = field(factory=list)
+    received: list[FloorEvents] = field(factory=list)
     t: float = 0.0
     track: Vec3 = (0.0, 0.0, 0.0)
     random: Random = field(init=False)
@@ -147,7 +147,7 @@ class Pedestrian:
     turned: float = field(init=False)
     count: int = 0
     late: list[Event] = field(factory=list)
-    """Told with the third step from now."""
+    """Events that are emitted with the third step from now."""
     wait: int = 0
 
     def __attrs_post_init__(self) -> None:
@@ -157,15 +157,15 @@ class Pedestrian:
         self.turned = self.random.uniform(-pi, pi)
 
     def known_to(self, part: Method) -> Pedestrian:
-        """It is told where the first step begins, and how the track is turned."""
+        """Set the start of the first step and the heading of the track."""
         part.set_out(Start(self.level, self.place, -self.turned))
         return self
 
     def here(self) -> Position:
         return Position(self.t, self.track, (0.01, 0.0, 0.0, 0.01, 0.0, 0.01))
 
-    def say(self, *events: Event) -> None:
-        self.told.append(Told(list(events), self.here()))
+    def emit(self, *events: Event) -> None:
+        self.received.append(FloorEvents(list(events), self.here()))
 
     def step(self, dx: float, dy: float, dz: float = 0.0, counts: bool = True, degraded: bool = False) -> None:
         """One step of one foot, in the plan's frame, m."""
@@ -186,7 +186,9 @@ class Pedestrian:
         foot, stride = (Foot.LEFT, Foot.RIGHT)[self.count % 2], 2.0 * hypot(ex, ey)
         events.append(stepped(self.t, foot, self.count, self.track, degraded, stride))
         sure = counts and not self.late
-        self.told.append(Told(events, self.here(), self.level if sure else None, self.place if sure else None))
+        self.received.append(
+            FloorEvents(events, self.here(), self.level if sure else None, self.place if sure else None)
+        )
 
     def walk(self, *ways: Point) -> None:
         for x1, y1 in ways:
@@ -200,25 +202,27 @@ class Pedestrian:
     def ride(self, level: str, height: float | None = None) -> None:
         """From one level to the other; the event comes a second later."""
         up = level > self.level
-        begin = self.t + 3.0
+        start = self.t + 3.0
         self.t += 12.0
         x, y, z = self.track
         self.track, self.level = (x, y, z + (STOREY if up else -STOREY)), level
-        self.say(LiftRidden(t=self.t - 1.0, known_at=self.t, t_start=begin, up=up, height=height))
+        self.emit(LiftRidden(t=self.t - 1.0, known_at=self.t, t_start=start, up=up, height=height))
 
     def climb(self, level: str, name: str, flights: bool = True) -> None:
         """Ten steps, a landing, ten steps back. The activity comes four steps late, and so does its end."""
         up = level > self.level
         ahead, rise = (1.0 if STAIRS[name][1] < 15.0 else -1.0), (STOREY if up else -STOREY) / 20.0
-        began = self.t
+        t_start = self.t
         for k in range(20):
             if k == 4:
-                self.say(doing(began, self.t, Activity.STAIRS_UP if up else Activity.STAIRS_DOWN))
+                self.emit(activity_changed(t_start, self.t, Activity.STAIRS_UP if up else Activity.STAIRS_DOWN))
             self.step(0.0, 0.28 * ahead * (1.0 if k < 10 else -1.0), rise, counts=False)
             if flights and k in (9, 19):
                 height = 10.0 * rise
-                self.say(FlightClimbed(t=self.t, known_at=self.t, t_start=self.t - 5.0, up=up, steps=10, height=height))
-        self.level, self.late, self.wait = level, [doing(self.t, self.t + 1.5, Activity.WALKING)], 3
+                self.emit(
+                    FlightClimbed(t=self.t, known_at=self.t, t_start=self.t - 5.0, up=up, steps=10, height=height)
+                )
+        self.level, self.late, self.wait = level, [activity_changed(self.t, self.t + 1.5, Activity.WALKING)], 3
 
 
 def stepped(
@@ -232,13 +236,13 @@ def stepped(
     )  # fmt: skip
 
 
-def doing(t: float, known_at: float, activity: Activity) -> ActivityChanged:
+def activity_changed(t: float, known_at: float, activity: Activity) -> ActivityChanged:
     return ActivityChanged(t=t, known_at=max(t, known_at), activity=activity, probability=None)
 
 
-def follow(part: Method, told: list[Told], plan: IndexedPlan = OFFICE) -> list[Event]:
-    """What it says of all this."""
-    return [event for one in told for event in part.follow(plan, one.events, one.here)]
+def follow(part: Method, received: list[FloorEvents], plan: IndexedPlan = OFFICE) -> list[Event]:
+    """Return all events of the part."""
+    return [event for one in received for event in part.follow(plan, one.events, one.here)]
 
 
 def placed(events: list[Event]) -> list[Placed]:
@@ -246,7 +250,7 @@ def placed(events: list[Event]) -> list[Placed]:
 
 
 def lost(events: list[Event]) -> list[str]:
-    """Why the place was lost each time."""
+    """Return the reason of every PlaceLost."""
     return [event.what for event in events if isinstance(event, PlaceLost)]
 
 
@@ -261,13 +265,13 @@ def beside(place: Point) -> Point:
     return (x, LOW if y < 15.0 else HIGH)
 
 
-def round_to(begin: Point, end: Point, forwards: bool) -> list[Point]:
+def round_to(start: Point, end: Point, forwards: bool) -> list[Point]:
     """Along the corridor, with the corners on the way: counter-clockwise when forwards."""
-    here, there = _along(begin), _along(end)
+    here, there = _along(start), _along(end)
     whole = 2.0 * (RIGHT - LEFT + HIGH - LOW)
     way = (there - here) % whole if forwards else (here - there) % whole
     corners = [((_along(c) - here) % whole if forwards else (here - _along(c)) % whole, c) for c in CORNERS]
-    return [begin, *[corner for at, corner in sorted(corners) if 0.0 < at < way], end]
+    return [start, *[corner for at, corner in sorted(corners) if 0.0 < at < way], end]
 
 
 def _along(place: Point) -> float:

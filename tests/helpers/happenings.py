@@ -18,7 +18,7 @@ WILD = st.floats()
 
 
 def _value(hint: Any, number: st.SearchStrategy[float]) -> st.SearchStrategy[Any]:
-    """Of an annotation, all its floats drawn from `number`."""
+    """Return a value of an annotation, with all its floats drawn from `number`."""
     arguments = get_args(hint)
     if hint is float:
         return number

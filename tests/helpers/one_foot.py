@@ -14,12 +14,12 @@ PHASES = HeelStrike | FootFlat | HeelOff | ToeOff
 SOLE = Layout(7, Foot.LEFT, (Cell(0.05, 0.01), Cell(0.05, -0.01), Cell(0.13, 0.0), Cell(0.20, 0.02)), 0.26)
 """Two cells at the heel (x < 0.33 x 0.26), one under the arch, one at the forefoot (x > 0.55 x 0.26)."""
 TARE = (10.0, 20.0, 0.0, 30.0)
-"""What its cells show in the air."""
+"""Values of its cells in the air."""
 STRAIGHT = Route().stand(2.0).walk(12.0, 1.3).stop(2.0)
 
 
 def above(*loads: float) -> tuple[float, ...]:
-    """What the cells of SOLE show under these loads."""
+    """Return the values of the cells of SOLE under these loads."""
     return tuple(zero + load for zero, load in zip(TARE, loads, strict=True))
 
 
@@ -31,10 +31,10 @@ def walked(route: Route = STRAIGHT, seed: int = 5) -> tuple[tuple[Sample, ...], 
 
 
 def without(samples: tuple[Sample, ...], *gaps: tuple[float, float]) -> list[Sample]:
-    """What is left of them after gaps from one time to another, s."""
+    """Return the samples outside the gaps, which go from one time to another, s."""
     return [sample for sample in samples if not any(a < sample.t < b for a, b in gaps)]
 
 
-def heard(samples: list[Sample] | tuple[Sample, ...]) -> tuple[list[Event], Session]:
+def feed_new_session(samples: list[Sample] | tuple[Sample, ...]) -> tuple[list[Event], Session]:
     session = Session()
     return session.feed(samples), session

@@ -23,7 +23,7 @@ WALKED = tuple(Walker(Route().stand(2).walk(8).stop(2)).samples(Foot.LEFT, 100.0
 
 
 @define
-class Quiet(Detector):
+class StillDetector(Detector):
     """A foot that turned slowly for a while."""
 
     limit: float = 0.8

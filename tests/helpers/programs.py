@@ -13,7 +13,7 @@ from typing import Any
 
 SOLEPATH = [sys.executable, "-m", "solepath"]
 TAKES = 30.0
-"""s that a program may take to say or do something before the test gives up."""
+"""Time limit for a program to print or do something, s."""
 
 
 @contextmanager
@@ -36,8 +36,8 @@ def emulator(*arguments: object, port: int = 0) -> Iterator[tuple[subprocess.Pop
     """Emulated devices, and where they are: tcp:HOST:PORT."""
     with started("emulate", "--listen", f"127.0.0.1:{port}", *arguments) as process:
         assert process.stdout is not None
-        said, where = process.stdout.readline().rsplit(maxsplit=1)
-        assert said == "serving at"
+        text, where = process.stdout.readline().rsplit(maxsplit=1)
+        assert text == "serving at"
         yield process, where
 
 
@@ -57,7 +57,7 @@ def wait_for(path: Path, what: str, times: int = 1) -> None:
 
 
 def drawn(terminal: int, until: str = "") -> str:
-    """What comes on a terminal, up to these words or until nobody writes to it any more."""
+    """Return the output on a terminal, up to these words or to its end."""
     seen = b""
     try:
         while (not until or until not in seen.decode()) and (part := os.read(terminal, 65536)):

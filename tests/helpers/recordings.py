@@ -14,7 +14,7 @@ PACKETS = [
     Packet(12.5, Site.RIGHT_FOOT, "insole/frame", bytes(range(256))),
     Packet(0.1 + 12.65, Site.PELVIS, "cc2650/keys", b""),
 ]
-"""Some, of which one says nothing."""
+"""Packets, one of which gives no event."""
 
 
 def recorded(path: Path, packets: Iterable[Packet], header: dict[str, Any] | None = None) -> Path:

@@ -15,8 +15,8 @@ from solepath import Packet, Site
 from solepath.recording.btsnoop import open_btsnoop
 
 EPOCH = 0x00DCDDB30F2F8000
-BEGAN = 1_790_000_000_250_000
-"""us since 1970 at which the logs begin: 2026-09-21."""
+T_START = 1_790_000_000_250_000
+"""Start of the logs, us since 1970: 2026-09-21."""
 H1, H4, MONITOR = 1001, 1002, 2001
 LEFT, RIGHT, TAG, OTHER = "C1:00:00:00:00:0A", "C1:00:00:00:00:0B", "C1:00:00:00:00:0C", "C1:00:00:00:00:0D"
 COMMAND, ACL, EVENT = 1, 2, 4
@@ -27,7 +27,7 @@ class Log:
     """Records one after another. `t`: us since 1970, moves on by a millisecond with every record."""
 
     datalink: int = H4
-    t: int = BEGAN
+    t: int = T_START
     piece: int = 251
     """Bytes of L2CAP that one ACL packet holds."""
     records: list[bytes] = field(factory=list)
@@ -55,30 +55,30 @@ class Log:
 
     def connect(self, handle: int, address: str, subevent: int = 0x01) -> None:
         peer = bytes.fromhex(address.replace(":", ""))[::-1]
-        begin = struct.pack("<BBHBB", subevent, 0, handle, 0, 1) + peer
+        start = struct.pack("<BBHBB", subevent, 0, handle, 0, 1) + peer
         own = b"" if subevent == 0x01 else bytes(12)
         end = b"\x00\x01" if subevent == 0x29 else b""
-        self.event(0x3E, begin + own + struct.pack("<HHHB", 12, 0, 500, 0) + end + (b"\xff" if end else b""))
+        self.event(0x3E, start + own + struct.pack("<HHHB", 12, 0, 500, 0) + end + (b"\xff" if end else b""))
 
     def disconnect(self, handle: int, reason: int = 0x08) -> None:
         self.event(0x05, struct.pack("<BHB", 0, handle, reason))
 
     def acl(self, handle: int, pdu: bytes, sent: bool, channel: int = 4, keep: slice = slice(None)) -> None:
-        """One L2CAP PDU, in pieces where it is long; `keep` says which of them are logged."""
+        """Log one L2CAP PDU, in pieces if it is long; `keep` selects the logged pieces."""
         whole = struct.pack("<HH", len(pdu), channel) + pdu
         pieces = [whole[k : k + self.piece] for k in range(0, len(whole), self.piece)]
         for k, piece in list(enumerate(pieces))[keep]:
             boundary = 1 if k else (0 if sent else 2)
             self.record(ACL, struct.pack("<HH", handle | boundary << 12, len(piece)) + piece, sent)
 
-    def asked(self, handle: int, request: str, answer: str | bytes) -> None:
+    def add_request(self, handle: int, request: str, answer: str | bytes) -> None:
         """The host asks, the device answers; hexadecimal."""
         self.acl(handle, bytes.fromhex(request), sent=True)
         self.acl(handle, bytes.fromhex(answer) if isinstance(answer, str) else answer, sent=False)
 
     def mtu(self, handle: int, mtu: int) -> None:
         both = struct.pack("<H", mtu).hex()
-        self.asked(handle, "02" + both, "03" + both)
+        self.add_request(handle, "02" + both, "03" + both)
 
     def discover(self, handle: int, characteristics: dict[int, str]) -> None:
         """As hosts do: by declarations, and a refusal at the end. Value handle -> UUID, short or full."""
@@ -86,8 +86,8 @@ class Log:
             kind = bytes.fromhex(uuid.replace("-", ""))[::-1]
             declared = struct.pack("<HBH", value - 1, 0x10, value) + kind
             first = struct.pack("<H", value - 1).hex()
-            self.asked(handle, f"08{first}ffff0328", bytes([0x09, len(declared)]) + declared)
-        self.asked(handle, "08f0ffffff0328", "0108f0ff0a")
+            self.add_request(handle, f"08{first}ffff0328", bytes([0x09, len(declared)]) + declared)
+        self.add_request(handle, "08f0ffffff0328", "0108f0ff0a")
 
     def notify(
         self, handle: int, attribute: int, value: bytes, keep: slice = slice(None), t: int | None = None
@@ -115,7 +115,7 @@ MOVEMENT = bytes(range(18))
 
 
 def insoles_log(packets: Iterable[Packet]) -> Log:
-    """What a phone writes down of two insoles: it finds them, asks what they have, and hears their frames."""
+    """Return a phone's log of two insoles: it finds them, reads their attributes, and receives their frames."""
     log = Log()
     handles = {Site.LEFT_FOOT: 0x40, Site.RIGHT_FOOT: 0x41}
     for handle, address in zip(handles.values(), (LEFT, RIGHT), strict=True):
@@ -125,7 +125,7 @@ def insoles_log(packets: Iterable[Packet]) -> Log:
     frame = next(iter(INSOLE))
     for packet in packets:
         if packet.channel == "insole/frame":
-            log.notify(handles[packet.site], frame, packet.data, t=BEGAN + 1_000_000 + round(packet.t * 1e6))
+            log.notify(handles[packet.site], frame, packet.data, t=T_START + 1_000_000 + round(packet.t * 1e6))
     return log
 
 
@@ -153,7 +153,9 @@ def data_of(found: list[tuple[str, str, str, bytes]], channel: str, device: str 
     return [data for of, _, name, data in found if (of, name) == (device, channel)]
 
 
-def begin(log: Log, handle: int = 0x40, address: str = LEFT, characteristics: dict[int, str] = INSOLE) -> Log:
+def start_connection(
+    log: Log, handle: int = 0x40, address: str = LEFT, characteristics: dict[int, str] = INSOLE
+) -> Log:
     log.connect(handle, address)
     log.mtu(handle, 247)
     log.discover(handle, characteristics)

@@ -11,7 +11,7 @@ from solepath.types import Foot, Vec3
 
 
 def stride(foot: Foot, t: float, way: Vec3 = (1.2, 0.0, 0.0), **other: Any) -> StrideTaken:
-    """One that goes this way, m, within the second before `t`; `other`: what else is said of it."""
+    """Return a stride of this displacement, m, within the second before `t`; `other` sets further fields."""
     x, y, z = way
     known: dict[str, Any] = {
         "known_at": t, "number": 1, "t_start": t - 1.0, "t_end": t, "displacement": way, "position": (0.0, 0.0, 0.0),

@@ -23,8 +23,8 @@ def seen(tracker: FootTracker, sample: Sample, events: Iterable[Event], other: f
 def fed(
     part: Part, tracker: FootTracker, sample: Sample, events: Sequence[Event], other: float | None = None
 ) -> list[Any]:
-    """What a part says of a sample of a foot and of what came of it."""
-    said = [*part.feed(seen(tracker, sample, events, other))] if part.needs_samples else []
+    """Return the outputs of a part for a sample of a foot and its events."""
+    outputs = [*part.feed(seen(tracker, sample, events, other))] if part.needs_samples else []
     for event in events:
-        said += part.receive(event)
-    return said
+        outputs += part.receive(event)
+    return outputs

@@ -1,4 +1,4 @@
-"""Walks that tests share, and every machine of the library under one handle, for what must hold of all of them."""
+"""Walks that tests share, and every session and decoder of the library under one handle, for tests of all of them."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ from solepath.foot.stance.pressure import MaximumPressure, TwoArea
 from solepath.foot.stance.shoe import ShoeDetector
 from solepath.link.decoder import Decoder
 from solepath.recipes import DEFAULT, Recipe
-from solepath.saving import codec as machine
+from solepath.saving import codec
 from solepath.session import Session
 from solepath.types import Foot, Packet, Sample, Site
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 ROUGH = Radio(loss=0.05, duplicate=0.02, corrupt=0.02, truncate=0.02, latency=0.01, jitter=0.04)
-"""What a session must live with: lost, doubled, damaged and late packets."""
+"""A radio that a session must tolerate: lost, doubled, damaged and late packets."""
 SHORT = Route().stand(1.5).walk(3.0, 1.3).turn(radians(60), radius=1.5).walk(2.0).stop(1.0)
 """About 8 s, three or four steps of each foot."""
 
@@ -59,7 +59,7 @@ def samples(route: Route = SHORT, cells: int = 24, rate: float = 100.0, seed: in
 
 
 def both_feet(walker: Walker, rate: float, part: Imu, cells: int = 0, **more: Any) -> tuple[Sample, ...]:
-    """What two sensors have of a walker, in the order of time."""
+    """Return the samples of two sensors of a walker, in the order of time."""
     both = [
         sample
         for foot in Foot
@@ -78,35 +78,35 @@ def columns_of(walker: Walker, foot: Foot) -> dict[str, np.ndarray]:
     return {key: np.array([getattr(s, key) for s in found]) for key in ("t", "acc", "gyro")}
 
 
-def said(items: Iterable[Item], recipe: Recipe = DEFAULT, **given: Any) -> list[Any]:
-    """All that a session says of these items, and at the end."""
+def run_session(items: Iterable[Item], recipe: Recipe = DEFAULT, **given: Any) -> list[Any]:
+    """Return all events of a session for these items, with those at the end."""
     session = Session(recipe, **given)
     return session.feed(items) + session.finish()
 
 
 @frozen
 class Machine:
-    """Something that is fed, saved and restored. `items`: what a test feeds it, in order."""
+    """A session or decoder that is fed, saved and restored; `items` are the test's input, in order."""
 
     name: str
     items: tuple[Item, ...]
-    begin: Callable[[], Any]
+    start: Callable[[], Any]
     load: Callable[[Any], Any]
 
     def save(self, one: Any) -> Any:
-        """Its snapshot, after a trip through strict JSON."""
-        value = one.snapshot() if isinstance(one, Session) else machine.save(one)
+        """Return its snapshot, after a round trip through strict JSON."""
+        value = one.snapshot() if isinstance(one, Session) else codec.save(one)
         return json.loads(json.dumps(value, allow_nan=False))
 
     def repacked(self, one: Any) -> Any:
-        """The same through its packed form; itself where it has none."""
+        """Return it after a round trip through its packed form; itself if it has none."""
         return Session.unpack(one.pack(), one.recipe, floorplan=one._plan) if isinstance(one, Session) else one
 
     def events(self, items: tuple[Item, ...] | None = None) -> list[Any]:
-        """All that comes out when it is fed one item at a time and then finished."""
+        """Return all events when it is fed one item at a time and then finished."""
         if items is None:
-            return [event for events in told(self.name) for event in events]
-        one = self.begin()
+            return [event for events in machine_events(self.name) for event in events]
+        one = self.start()
         events = [event for item in items for event in one.feed(item)]
         return events + one.finish()
 
@@ -114,31 +114,31 @@ class Machine:
 def _session(name: str, items: tuple[Item, ...], recipe: Recipe = DEFAULT) -> Machine:
     pressures = name in ("fragments", "samples with pressure")  # in a few: it makes most of what is said
 
-    def begin() -> Session:
+    def start() -> Session:
         return Session(recipe, poses=True, pressures=pressures)
 
-    return Machine(f"session, {name}", items, begin, Session.restore)
+    return Machine(f"session, {name}", items, start, Session.restore)
 
 
 def _placed(name: str, items: tuple[Item, ...], recipe: Recipe) -> Machine:
     """A session in a building whose wearer's first steps are known, and the rest has to be found out."""
     building = IndexedPlan(BUILDING)
-    start = Start("0", (COLUMNS[0], 12.0))
+    first_place = Start("0", (COLUMNS[0], 12.0))
 
-    def begin() -> Session:
-        return Session(recipe, poses=True, floorplan=building, start=start)
+    def start() -> Session:
+        return Session(recipe, poses=True, floorplan=building, start=first_place)
 
-    return Machine(f"session, {name}", items, begin, partial(Session.restore, floorplan=building))
+    return Machine(f"session, {name}", items, start, partial(Session.restore, floorplan=building))
 
 
 def _decoder(name: str, items: tuple[Packet, ...]) -> Machine:
-    def begin() -> Decoder:
+    def start() -> Decoder:
         return Decoder(LEFT)
 
     def load(saved: Any) -> Decoder:
-        return machine.load(Decoder, saved, recipes.part_class)
+        return codec.load(Decoder, saved, recipes.part_class)
 
-    return Machine(f"decoder, {name}", tuple(item for item in items if item.site is LEFT), begin, load)
+    return Machine(f"decoder, {name}", tuple(item for item in items if item.site is LEFT), start, load)
 
 
 @cache
@@ -163,7 +163,7 @@ def packets() -> dict[str, tuple[Packet, ...]]:
 
 @cache
 def machines() -> dict[str, Machine]:
-    """Every machine that there is, by name."""
+    """Return every machine by name."""
     plain, pressed = samples(cells=0, rate=50.0), samples(rate=50.0)
     found = [_session(name, items) for name, items in packets().items()]
     found += [_decoder(name, items) for name, items in packets().items()]
@@ -183,31 +183,31 @@ def machines() -> dict[str, Machine]:
 
 
 @frozen
-class Gone:
-    """What became of a machine that was fed its items one by one, and then finished."""
+class MachineRun:
+    """Result of a machine that was fed its items one by one, and then finished."""
 
-    told: tuple[tuple[Any, ...], ...]
-    """What it said to each item, and at the end."""
+    events: tuple[tuple[Any, ...], ...]
+    """Events after each item, and at the end."""
     fed: Any
-    """Its snapshot after the last item."""
+    """Snapshot after the last item."""
     ended: Any
-    """And after the end."""
+    """Snapshot after the end."""
 
 
 @cache
-def gone(name: str) -> Gone:
-    """Found out once, for all that compare with it."""
+def run_machine(name: str) -> MachineRun:
+    """Return the result, computed once for all tests that compare with it."""
     known = machines()[name]
-    one = known.begin()
+    one = known.start()
     events = [tuple(one.feed(item)) for item in known.items]
     fed = known.save(one)
     events.append(tuple(one.finish()))
-    return Gone(tuple(events), fed, known.save(one))
+    return MachineRun(tuple(events), fed, known.save(one))
 
 
-def told(name: str) -> tuple[tuple[Any, ...], ...]:
-    """What a machine says to each of its items, and at the end."""
-    return gone(name).told
+def machine_events(name: str) -> tuple[tuple[Any, ...], ...]:
+    """Return a machine's events after each of its items, and at the end."""
+    return run_machine(name).events
 
 
 RECIPES = (
@@ -221,7 +221,7 @@ RECIPES = (
     "shoe-sensing",
     "acceleration-magnitude",
 )
-"""Of the recipes, those that have a part of their own."""
+"""Recipes that have a part of their own."""
 
 
 @cache
@@ -244,7 +244,7 @@ _STREAMS = (
     "thingy",
 )
 DEVICES = ("few frames", *_STREAMS)
-"""Of `packets`, known without emulating anything."""
+"""Names of `packets`, known without emulating anything."""
 PACKET_NAMES = (
     *(f"{kind}, {device}" for kind in ("session", "decoder") for device in _STREAMS),
     *(f"session, {recipe}" for recipe in RECIPES),
@@ -268,7 +268,7 @@ SAMPLE_NAMES = tuple(
     )
 )
 NAMES = PACKET_NAMES + SAMPLE_NAMES
-"""Of `machines`, known without emulating anything: test ids must not cost a walk."""
+"""Names of `machines`, known without emulating anything: test ids must not cost a walk."""
 
 
 def of(kind: Any, events: list[Any]) -> list[Any]:

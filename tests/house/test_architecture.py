@@ -29,8 +29,8 @@ def test_every_room_is_in_the_picture_and_every_room_of_the_picture_is_there() -
     assert pictured == there - {"__init__", "__main__"}
 
 
-def test_a_quiet_frame_goes_the_way_that_the_page_shows() -> None:
-    session, quiet = Session(), list[str]()
+def test_a_frame_without_events_makes_the_calls_of_the_page() -> None:
+    session, silent_calls = Session(), list[str]()
     for packet in insoles().packets:
         calls: list[str] = []
 
@@ -43,11 +43,11 @@ def test_a_quiet_frame_goes_the_way_that_the_page_shows() -> None:
         events = session.feed(packet)
         sys.setprofile(None)
         if not events and packet.channel == "insole/frame" and packet.t > 4.0:
-            quiet = calls
-    steps = iter(quiet)
+            silent_calls = calls
+    steps = iter(silent_calls)
     for line in block("way").splitlines():
-        wanted = " ".join(line.split()[:2])
-        assert wanted in steps, f"{wanted} is not called there"
+        expected = " ".join(line.split()[:2])
+        assert expected in steps, f"{expected} is not called there"
 
 
 def test_the_parts_of_the_page_work_together_and_go_on_from_a_snapshot() -> None:

@@ -62,7 +62,7 @@ def test_every_program_is_run_by_a_test():
             assert f'"{page}"' in tests or f'DOCS / "{page.removeprefix("docs/")}"' in tests, page
 
 
-def test_what_a_command_is_said_to_print_stands_there():
+def test_a_command_prints_what_the_document_shows():
     marks = [mark for text in PAGES.values() for mark in re.findall(r"^<!-- (\S+) -->\n```", text, re.MULTILINE)]
     assert len(marks) > 10
     assert not [mark for mark in marks if not below(mark)]
@@ -85,7 +85,7 @@ def test_the_line_for_the_phases_prints_both_tables():
     assert ["SWING", "RIGHT", "RIGHT", "RIGHT", "FLIGHT"] in rows
 
 
-def test_what_the_wearer_did_is_told(played):
+def test_activities_of_the_wearer_are_reported(played):
     _, names = played("docs/activities.md")
     with redirect_stdout(io.StringIO()) as out:
         names["did"](LiftRidden(t=9.0, known_at=9.5, t_start=2.0, up=False, height=-3.0))
@@ -100,7 +100,7 @@ def test_gait_parameters_are_printed(played):
     assert out.getvalue().splitlines()[0].split()[0] in ("left", "right")
 
 
-def test_a_session_with_a_floor_plan_says_where(played):
+def test_a_session_with_a_floor_plan_reports_the_place(played):
     _, names = played("docs/floorplans.md")
     names["indoors"].feed(WALK.packets)
     assert names["indoors"].place.level == "0"
@@ -117,12 +117,12 @@ def test_a_wearer_of_a_fleet_goes_through_its_step_and_through_its_job(played, t
         lines = sent[(hour - 8) * len(sent) // 4 : (hour - 7) * len(sent) // 4]
         (tmp_path / "sent" / f"w-17-{hour:02}.jsonl").write_bytes(b"".join(lines))
     (tmp_path / "sent" / "w-16.jsonl").write_bytes(b"\xff no line of anybody's \xff\n")
-    (told, _), names = played("docs/fleet.md")
+    (emitted, _), names = played("docs/fleet.md")
     testing.run_main(names["flow"])
     nobody, *rows = sorted(parquet.read_table(tmp_path / "told").to_pylist(), key=lambda row: row["wearer"])
     assert (nobody["wearer"], nobody["event"]) == ("", "SentRejected")
     assert sorted((row["wearer"], row["number"], row["event"]) for row in rows) == sorted(
-        (wearer, int(number), event) for wearer, number, event in map(str.split, told.splitlines())
+        (wearer, int(number), event) for wearer, number, event in map(str.split, emitted.splitlines())
     )
     steps = [row for row in rows if row["event"] == "StrideTaken"]
     assert len(steps) == sum(len(walk.truth.steps(foot)) for foot in Foot)
@@ -166,7 +166,7 @@ def test_a_plain_class_of_hot_code_is_saved_and_goes_on(played):
 
 
 def test_the_loop_over_bluetooth_is_a_program(played):
-    """It runs in examples/bluetooth.py, against emulated insoles."""
+    """The loop runs in examples/bluetooth.py, against emulated insoles."""
     _, names = played("docs/bluetooth.md")
     assert names["listen"].__name__ == "listen"
 
@@ -215,9 +215,9 @@ def _options(command: ArgumentParser) -> list[str]:
 
 def test_all_options_of_the_table_of_commands_exist():
     table = PAGES["docs/commands.md"].split("| command | what it does |\n", 1)[1].split("\n\n", 1)[0]
-    told = {re.split(r"[ `]", line)[3]: set(re.findall(r"--[a-z-]+", line)) for line in table.splitlines()[1:]}
-    assert told.keys() == commands().keys()
-    for name, options in told.items():
+    emitted = {re.split(r"[ `]", line)[3]: set(re.findall(r"--[a-z-]+", line)) for line in table.splitlines()[1:]}
+    assert emitted.keys() == commands().keys()
+    for name, options in emitted.items():
         known = commands()[name]._option_string_actions.keys()
         assert options <= known, name
         missing = {option for option in known if option.startswith("--")} - options - {"--help"}
@@ -225,7 +225,7 @@ def test_all_options_of_the_table_of_commands_exist():
 
 
 def anchors(text: str) -> set[str]:
-    """Of its headings, as a forge makes them."""
+    """Return the anchors of its headings, as a forge makes them."""
     prose = re.sub(r"^```.*?^```", "", text, flags=re.DOTALL | re.MULTILINE)
     titles = re.findall(r"^#+ (.+)$", prose, re.MULTILINE)
     return {re.sub(r"[^\w -]", "", title).lower().replace(" ", "-") for title in titles}
@@ -264,8 +264,10 @@ def test_columns_are_those_that_are_written():
 
 def test_the_table_of_parts_has_them_all():
     parts = re.findall(r"^\| (`[A-Z].*?) \| `(solepath[\w.]+)` \|", PAGES["docs/parts.md"], re.MULTILINE)
-    told = {getattr(import_module(module), name) for names, module in parts for name in re.findall(r"`(\w+)`", names)}
-    assert told == {InsoleLoads, *map(part_class, PARTS)}
+    emitted = {
+        getattr(import_module(module), name) for names, module in parts for name in re.findall(r"`(\w+)`", names)
+    }
+    assert emitted == {InsoleLoads, *map(part_class, PARTS)}
 
 
 def test_the_demonstration_of_100_m_comes_to_what_is_quoted():

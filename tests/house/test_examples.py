@@ -1,4 +1,4 @@
-"""Every program in examples/ runs as its first lines say, and tells what they promise."""
+"""Every program in examples/ runs as its first lines describe, and prints what they promise."""
 
 import ast
 import subprocess
@@ -19,7 +19,7 @@ ROUTE = Route().stand(2.0).walk(6.0, speed=1.3).stop(1.5)
 
 
 def run(name: str, *arguments: object) -> str:
-    """What the program prints; it must end well and have nothing to complain about."""
+    """Return the output of the program; it must end well and without warnings."""
     command = [sys.executable, EXAMPLES / f"{name}.py", *map(str, arguments)]
     done = subprocess.run(command, capture_output=True, stdin=subprocess.DEVNULL, text=True, check=False)
     assert (done.returncode, done.stderr) == (0, "")
@@ -40,25 +40,25 @@ def test_an_emulated_walk_ends_where_its_route_ends():
     lines = run("emulated_walk").splitlines()
     assert {"HeelStrike", "FootFlat", "HeelOff", "ToeOff"} <= {line.split()[3] for line in lines if " known " in line}
     (ends,) = [line.split() for line in lines if line.startswith("The route ends")]
-    (says,) = [line.split() for line in lines if line.startswith("The session says")]
-    assert float(says[4]) == pytest.approx(float(ends[5]), abs=0.5)
-    assert float(says[7]) == pytest.approx(float(ends[9]), abs=0.5)
+    (session_line,) = [line.split() for line in lines if line.startswith("The session says")]
+    assert float(session_line[4]) == pytest.approx(float(ends[5]), abs=0.5)
+    assert float(session_line[7]) == pytest.approx(float(ends[9]), abs=0.5)
 
 
-def test_emulated_insoles_are_heard_over_bluetooth():
-    told = run("bluetooth").splitlines()
-    assert {"left_foot: connected to solepath L", "right_foot: connected to solepath R"} <= set(told)
-    steps = [line for line in told if " step of " in line]
+def test_emulated_insoles_are_received_over_bluetooth():
+    lines_out = run("bluetooth").splitlines()
+    assert {"left_foot: connected to solepath L", "right_foot: connected to solepath R"} <= set(lines_out)
+    steps = [line for line in lines_out if " step of " in line]
     assert {line.split()[0] for line in steps} == {"left", "right"}
     assert sum(float(line.split()[3]) for line in steps) == pytest.approx(8.0, rel=0.05)  # 4 m with each foot
 
 
-def test_the_loop_tells_the_steps_of_a_recording(tmp_path):
+def test_the_loop_prints_the_strides_of_a_recording(tmp_path):
     walk = emulate(ROUTE, radio=Radio(corrupt=0.02), seed=2)
-    told = run("own_loop", recorded(tmp_path / "walk.jsonl", walk.packets))
+    lines_out = run("own_loop", recorded(tmp_path / "walk.jsonl", walk.packets))
     for foot in Foot:
-        assert told.count(f"{foot.value} step of") == len(walk.truth.steps(foot))
-    assert "a packet was not used: checksum" in told
+        assert lines_out.count(f"{foot.value} step of") == len(walk.truth.steps(foot))
+    assert "a packet was not used: checksum" in lines_out
 
 
 def test_a_walk_that_was_saved_half_way_goes_on_as_if_nothing_had_happened():
@@ -84,16 +84,16 @@ def test_two_recipes_on_one_walk_are_set_beside_the_truth():
 
 
 def test_a_device_of_ones_own_is_one_file_and_its_vectors():
-    first, *told = run("own_device").splitlines()
+    first, *lines_out = run("own_device").splitlines()
     assert first == "the vectors agree"
     true = len(Walker(Route().stand(2).walk(8).stop(2)).truth().steps(Foot.LEFT))
-    assert sum(" step " in line for line in told) == true
-    assert sum("3 packets lost" in line for line in told) == 1
-    assert sum("with a gap in it" in line for line in told) == 1
-    assert "battery 87%" in told[0]
+    assert sum(" step " in line for line in lines_out) == true
+    assert sum("3 packets lost" in line for line in lines_out) == 1
+    assert sum("with a gap in it" in line for line in lines_out) == 1
+    assert "battery 87%" in lines_out[0]
 
 
-def test_two_insoles_tell_how_far_both_feet_have_gone():
+def test_two_insoles_give_the_way_of_both_feet():
     lines = run("two_insoles").splitlines()
     assert [line.split()[0] for line in lines[:2]] == ["left", "right"]
     assert all("96 cells" in line for line in lines[:2])
@@ -102,28 +102,28 @@ def test_two_insoles_tell_how_far_both_feet_have_gone():
 
 
 def test_in_a_building_walls_leave_one_place_of_many():
-    told = run("indoors").splitlines()
-    possible = [int(line.split()[2]) for line in told if " possible place" in line]
+    lines_out = run("indoors").splitlines()
+    possible = [int(line.split()[2]) for line in lines_out if " possible place" in line]
     assert possible == sorted(possible, reverse=True) and possible[0] > possible[-1] == 1
-    did = [line.split()[2] for line in told if line.split()[1:2] == ["s"] and line.split()[2].isupper()]
+    did = [line.split()[2] for line in lines_out if line.split()[1:2] == ["s"] and line.split()[2].isupper()]
     assert did[:2] == ["STANDING", "ELEVATOR_DOWN"] and "WALKING" in did and "ELEVATOR_UP" in did
-    assert float(told[-1].split()[-4]) < 3.0
+    assert float(lines_out[-1].split()[-4]) < 3.0
 
 
 def test_an_app_of_a_thread_and_a_queue_loses_nothing_unsaid_and_ends():
-    told = run("thread_and_queue").splitlines()
+    lines_out = run("thread_and_queue").splitlines()
     for foot in Foot:
-        steps = [line for line in told if f" {foot.value} step of " in line]
+        steps = [line for line in lines_out if f" {foot.value} step of " in line]
         assert len(steps) >= 7 and "with a gap" not in steps[0], "a walk of 16 m, in spite of it all"
-        assert any(f"{foot.value}_foot: nothing comes" in line for line in told)
-        assert any(f"{foot.value}_foot: heard again" in line for line in told)
-    dropped = [int(line.split()[3]) for line in told if "packets dropped, the screen was too slow" in line]
+        assert any(f"{foot.value}_foot: nothing comes" in line for line in lines_out)
+        assert any(f"{foot.value}_foot: heard again" in line for line in lines_out)
+    dropped = [int(line.split()[3]) for line in lines_out if "packets dropped, the screen was too slow" in line]
     assert 100 <= sum(dropped) <= 140, "1.6 s in which 200 packets a second come, and 200 of them can wait"
-    assert sum("paused" in line for line in told) == 1
-    assert told[-1].endswith("closed")
+    assert sum("paused" in line for line in lines_out) == 1
+    assert lines_out[-1].endswith("closed")
 
 
 def test_an_app_of_a_thread_and_a_queue_plays_a_recording(tmp_path):
     walk = recorded(tmp_path / "walk.jsonl", emulate(ROUTE, seed=2).packets)
-    told = run("thread_and_queue", walk, "inf")
-    assert "left step of" in told and "right step of" in told
+    lines_out = run("thread_and_queue", walk, "inf")
+    assert "left step of" in lines_out and "right step of" in lines_out

@@ -1,4 +1,4 @@
-"""docs/extending.md: its programs run as they stand there, and do what the page says."""
+"""The programs of docs/extending.md run unchanged and do what the page describes."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ DEVICE, DETECTOR, CORRECTOR, CUES, RECIPE = range(5)
 
 
 @cache
-def told(which: int) -> list[str]:
-    """What a program of the page prints."""
+def output(which: int) -> list[str]:
+    """Return the output of a program of the page."""
     program = compile(blocks(PAGE, "python")[which], "docs/extending.md", "exec")
     with redirect_stdout(io.StringIO()) as out:
         exec(program, {"__name__": "extending"})
@@ -35,22 +35,22 @@ def test_there_are_five_programs_and_each_fits_a_screen() -> None:
     assert len(programs) == 5 and all([len(program.splitlines()) <= 50 for program in programs])
 
 
-def test_a_device_that_is_declared_in_forty_lines_gives_steps_and_tells_a_lost_packet() -> None:
-    lines = told(DEVICE)
+def test_a_device_that_is_declared_in_forty_lines_gives_strides_and_reports_a_lost_packet() -> None:
+    lines = output(DEVICE)
     assert sum(line.startswith("StrideTaken(") for line in lines) == steps(6)
     (lost,) = [line for line in lines if line.startswith("PacketsLost(")]
     assert "count=1" in lost
 
 
 def test_a_detector_of_ones_own_keeps_its_promises_and_is_restored_with_the_session() -> None:
-    first, last = told(DETECTOR)
+    first, last = output(DETECTOR)
     assert first == "broken promises: []"
     assert last.startswith(f"{steps(10)} strides, LowRate(limit=0.7")
 
 
 def test_a_corrector_and_cues_of_ones_own_keep_their_promises_and_find_the_walk() -> None:
     for which, what in ((CORRECTOR, "strides"), (CUES, "heel-strikes")):
-        first, last = told(which)
+        first, last = output(which)
         assert first == "broken promises: []"
         assert last.startswith(f"{steps(10)} {what}")
 
@@ -58,7 +58,7 @@ def test_a_corrector_and_cues_of_ones_own_keep_their_promises_and_find_the_walk(
 @pytest.mark.parametrize("what", ["default", "no rolling foot", "stance by cells", "each foot alone"])
 def test_each_recipe_of_the_page_finds_the_walk(what: str) -> None:
     truth = emulate(Route().stand(2).walk(6, speed=1.3).stop(1), seed=1).truth
-    (line,) = [line for line in told(RECIPE) if line.startswith(what)]
+    (line,) = [line for line in output(RECIPE) if line.startswith(what)]
     found, _, length, _ = line[len(what) :].split()
     assert int(found) == sum(len(truth.steps(foot)) for foot in Foot)
     assert float(length) == pytest.approx(6.0, abs=0.5)

@@ -1,4 +1,4 @@
-"""Who may import whom: the arrows between the rooms, and what `import solepath` brings along."""
+"""Allowed imports between the folders, and the modules that `import solepath` loads."""
 
 from __future__ import annotations
 
@@ -143,8 +143,8 @@ print(json.dumps([bare, sorted(sys.modules), steps]))
 def test_a_live_session_of_any_device_loads_neither_numpy_nor_bleak_nor_asyncio(tmp_path: Path) -> None:
     file = tmp_path / "packets.json"
     for walked in (insoles().packets, *packets().values()):
-        heard = walked if walked is insoles().packets else walked[: len(walked) // 4]
-        file.write_text(json.dumps([[p.t, p.site.value, p.channel, p.data.hex()] for p in heard]))
+        fed = walked if walked is insoles().packets else walked[: len(walked) // 4]
+        file.write_text(json.dumps([[p.t, p.site.value, p.channel, p.data.hex()] for p in fed]))
         done = subprocess.run([sys.executable, "-c", LISTEN, str(file)], capture_output=True, text=True, check=True)
         bare, live, steps = json.loads(done.stdout)
         assert "solepath.session" in bare

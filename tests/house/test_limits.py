@@ -1,5 +1,4 @@
-"""How large things may be: files, folders, names at the top. Each class has a name of its own, and settings apart from
-state."""
+"""Limits of files, folders and names at the top; unique class names, and settings apart from state."""
 
 from __future__ import annotations
 

@@ -34,7 +34,7 @@ def test_it_is_short():
     assert len(README.splitlines()) <= 300
 
 
-def test_its_loop_hears_every_step_of_a_walk(tmp_path, monkeypatch):
+def test_its_loop_gets_every_stride_of_a_walk(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     walk = emulate(Route().stand(2).walk(6, speed=1.3).stop(2), radio=Radio(corrupt=0.02), seed=1)
     recorded(Path("walk.jsonl"), walk.packets)
@@ -58,8 +58,8 @@ def test_its_table_names_every_event():
 
 def test_its_table_names_every_command():
     (subparsers,) = (a for a in parser()._actions if isinstance(a.choices, dict))
-    told = [re.split(r"[ `]", line)[3] for line in README.splitlines() if line.startswith("| `solepath ")]
-    assert sorted(told) == sorted(subparsers.choices)
+    listed = [re.split(r"[ `]", line)[3] for line in README.splitlines() if line.startswith("| `solepath ")]
+    assert sorted(listed) == sorted(subparsers.choices)
     assert all(isinstance(command, ArgumentParser) for command in subparsers.choices.values())
 
 

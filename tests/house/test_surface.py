@@ -1,4 +1,4 @@
-"""The public surface: what `from solepath import ...` gives, and that all of it says what it is."""
+"""The public surface: the names of `from solepath import ...`, all of them documented."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from solepath.types import Packet
 
 ROOT = Path(solepath.__file__).parent
 ALIASES = {"Event", "Quat", "Vec3"}
-"""Names of types that Python has no place for a docstring on; the text below them in their file says what they are."""
+"""Names of types that Python gives no docstring; the text below them in their file documents them."""
 
 
 def test_the_names_are_sorted_and_each_can_be_imported() -> None:
@@ -43,20 +43,20 @@ def test_every_event_is_public() -> None:
 EVERY = (*Event.__args__, *solepath.fleet.FleetEvent.__args__)
 
 
-def test_every_event_says_how_late_it_is_known() -> None:
+def test_every_event_documents_its_latency() -> None:
     """In the text of its class, not of the one that all share."""
     for kind in EVERY:
         assert {"known", "latency"} & set(re.findall(r"[a-z]+", kind.__dict__["__doc__"].lower())), kind
 
 
-def test_every_number_of_an_event_says_its_unit_or_what_it_counts() -> None:
+def test_every_number_of_an_event_documents_its_unit_or_count() -> None:
     for kind in EVERY:
         lines = inspect.getsource(kind).splitlines()
         for line, after in zip(lines, [*lines[1:], ""], strict=True):
             name, _, annotation = line.strip().partition(": ")
             if name in {f.name for f in attrs.fields(kind)} and annotation.split(" ")[0] in ("float", "int"):
-                told = after.strip().startswith('"""') or f"`{name}`" in (kind.__doc__ or "")
-                assert told, f"{kind.__name__}.{name}"
+                has_document = after.strip().startswith('"""') or f"`{name}`" in (kind.__doc__ or "")
+                assert has_document, f"{kind.__name__}.{name}"
 
 
 def documented(thing: Any) -> bool:
@@ -90,19 +90,19 @@ def test_every_public_class_method_and_property_has_a_docstring() -> None:
     assert [name for name, thing in members() if not documented(thing)] == []
 
 
-def test_every_module_says_what_it_is_for() -> None:
+def test_every_module_documents_its_purpose() -> None:
     trees = {path: ast.parse(path.read_text()) for path in ROOT.rglob("*.py")}
     assert [path for path, tree in trees.items() if tree.body and not ast.get_docstring(tree)] == []
 
 
 def test_every_alias_is_followed_by_a_text() -> None:
-    told = set()
+    has_document = set()
     for file in ("types/records.py", "events/__init__.py"):
         body = ast.parse((ROOT / file).read_text()).body
         for node, after in zip(body, body[1:], strict=False):
             if isinstance(node, ast.Assign) and isinstance(after, ast.Expr) and isinstance(after.value, ast.Constant):
-                told |= {ast.unparse(target) for target in node.targets}
-    assert told >= ALIASES
+                has_document |= {ast.unparse(target) for target in node.targets}
+    assert has_document >= ALIASES
 
 
 def test_a_session_has_the_words_that_the_design_promises() -> None:

@@ -1,4 +1,4 @@
-"""The example app on Toga's test backend: what its labels say and its canvases show after an emulated walk."""
+"""The example app on Toga's test backend: its labels and canvases after an emulated walk."""
 
 from __future__ import annotations
 
@@ -46,22 +46,22 @@ async def of(packets: tuple[Packet, ...]) -> AsyncIterator[Packet]:
 
 
 def shown(canvas: Any, what: str) -> list[Any]:
-    """What was drawn on it of a kind: rect, line to, arc."""
+    """Return the drawn items of a kind: rect, line to, arc."""
     return [done[1] for done in canvas._impl.draw_instructions if isinstance(done, tuple) and done[0] == what]
 
 
-async def test_after_a_walk_the_labels_say_what_was_walked_and_the_canvases_show_it(example: Any) -> None:
+async def test_after_a_walk_the_labels_show_the_walk_and_the_canvases_show_it(example: Any) -> None:
     app = opened(example)
     assert {label.text for label in app.figures.values()} == {"0", "–"}
     app.toggle_listening(of(WALK.packets))
     assert app.start.text == "Stop" and not app.show.enabled
     await app.listening
-    said = {name: label.text for name, label in app.figures.items()}
+    labels = {name: label.text for name, label in app.figures.items()}
     true = [step for foot in Foot for step in WALK.truth.steps(foot)]
-    assert int(said["steps"]) == len(true)
-    assert float(said["length"]) == pytest.approx(1.4, abs=0.1)
-    assert float(said["cadence"]) == pytest.approx(111, abs=5)
-    assert abs(float(said["asymmetry"].rstrip("%"))) < 5.0
+    assert int(labels["steps"]) == len(true)
+    assert float(labels["length"]) == pytest.approx(1.4, abs=0.1)
+    assert float(labels["cadence"]) == pytest.approx(111, abs=5)
+    assert abs(float(labels["asymmetry"].rstrip("%"))) < 5.0
     assert app.activity.text == "standing" and app.status.text == "ended"
     assert app.start.text == "Insoles" and app.show.enabled
     cells, track = shown(app.soles, "rect"), shown(app.map, "line to")
@@ -87,7 +87,7 @@ async def test_one_sample_that_is_far_too_high_does_not_pale_what_the_soles_show
     assert [one["text"] for one in shown(app.soles, "fill text")] == ["L", "R"]
 
 
-async def test_the_emulated_wearer_can_be_stopped_and_what_stops_the_sensors_is_told(example: Any) -> None:
+async def test_the_emulated_wearer_can_be_stopped_and_the_reason_why_sensors_stop_is_reported(example: Any) -> None:
     async def broken() -> AsyncIterator[Packet]:
         raise OSError("Bluetooth is off: switch it on")
         yield WALK.packets[0]

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from commands import refused, run
+from commands import run, run_failing
 
 from solepath.cli.reproduce import NAMES
 from solepath.emulate.routes import ways
@@ -157,8 +157,8 @@ def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeyp
     assert any(of["mean"] is not None for of in table["paper"].values())
 
 
-def test_an_unknown_experiment_is_rejected_in_one_line():
-    assert refused("reproduce", "kupt") == (
+def test_an_experiment_that_there_is_not_is_refused_in_one_line():
+    assert run_failing("reproduce", "kupt") == (
         "solepath: there is no experiment 'kupt'; there are: " + ", ".join(NAMES) + "\n"
     )
 
@@ -172,8 +172,8 @@ def test_fewer_than_one_walk_is_rejected(walks):
 def test_an_unwritable_file_is_reported_before_the_walks_start(tmp_path):
     pytest.importorskip("matplotlib")
     nowhere = tmp_path / "none" / "table.json"
-    assert f"{nowhere}: No such file" in refused("reproduce", "kupt-dfpc", "--json", nowhere)
-    assert "ends in none of" in refused("reproduce", "kupt-dfpc", "--figure", tmp_path / "figure.docx")
+    assert f"{nowhere}: No such file" in run_failing("reproduce", "kupt-dfpc", "--json", nowhere)
+    assert "ends in none of" in run_failing("reproduce", "kupt-dfpc", "--figure", tmp_path / "figure.docx")
     assert list(tmp_path.iterdir()) == []
 
 

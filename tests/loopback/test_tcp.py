@@ -18,7 +18,7 @@ from here import HELPERS
 from strap import BEAT, CONTROL, LEVEL, Strap
 from virtual import find
 
-from solepath.ble.air import Backend
+from solepath.ble.scanning import Backend
 from solepath.emulate.controllers import radio
 from solepath.emulate.controllers.tcp import address_of, reach, serve
 from solepath.emulate.devices.faults import parse_faults

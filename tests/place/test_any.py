@@ -17,8 +17,8 @@ from floors import (
     STAIRS,
     Method,
     Pedestrian,
+    activity_changed,
     beside,
-    doing,
     follow,
     lost,
     office,
@@ -50,7 +50,7 @@ HAPPENINGS = st.one_of(
         st.sampled_from(Foot),
         st.booleans(),
     ),
-    st.builds(lambda t, activity: doing(t, t, activity), TIMES, st.sampled_from(Activity)),
+    st.builds(lambda t, activity: activity_changed(t, t, activity), TIMES, st.sampled_from(Activity)),
     st.builds(
         lambda t, d, up, height: LiftRidden(t=t, known_at=t, t_start=t - d, up=up, height=height),
         TIMES,
@@ -90,9 +90,9 @@ def test_any_events_and_any_track_give_sound_events_and_no_exception(method, sta
         part.set_out(start)
     for events, t, position in tellings:
         here = Position(t, position, (0.0,) * 6)  # type: ignore[arg-type]
-        outputs = part.follow(OFFICE, events, here)
-        assert not outputs or part.place == (outputs[-1] if isinstance(outputs[-1], Placed) else None)
-        for event in outputs:
+        received = part.follow(OFFICE, events, here)
+        assert not received or part.place == (received[-1] if isinstance(received[-1], Placed) else None)
+        for event in received:
             assert isinstance(event, Placed | PlaceLost) and event.known_at >= event.t
             if isinstance(event, Placed):
                 numbers = [*event.position, event.spread, *(c.weight for c in event.candidates)]
@@ -117,8 +117,8 @@ def test_the_state_is_small_and_does_not_grow(part: Method) -> None:
     for _ in range(3):
         one.walk(beside(one.place), (RIGHT, LOW), (RIGHT, HIGH), (6.2, HIGH), (6.2, LOW), beside(one.place))
     found = []
-    for moment in one.told:
-        part.follow(OFFICE, moment.events, moment.here)
+    for received in one.received:
+        part.follow(OFFICE, received.events, received.here)
         sizes.append(packed_size(part))
         if part.place is not None and len(part.place.candidates) == 1:
             found.append(sizes[-1])
@@ -142,7 +142,7 @@ def test_a_start_outside_of_the_plan_is_reported_once_and_the_wearer_is_found_la
     one.ride("0")
     one.walk(beside(one.place), (RIGHT, LOW), (RIGHT, HIGH))
     part.set_out(start)
-    events = follow(part, one.told)
+    events = follow(part, one.received)
     assert len(lost(events)) == 1 and lost(events)[0].startswith(why)
     assert part.place is not None and part.place.level == "0"
 
@@ -150,21 +150,21 @@ def test_a_start_outside_of_the_plan_is_reported_once_and_the_wearer_is_found_la
 def test_a_track_through_walls_is_not_bent_to_the_plan_for_long_but_loses_the_place(part: Method) -> None:
     one = Pedestrian(23, "0", (12.0, LOW)).known_to(part)
     one.walk((20.0, LOW), (20.0, 40.0))  # across the block, where nobody can go, and out of the house
-    events = follow(part, one.told)
+    events = follow(part, one.received)
     assert part.place is None
     assert len(lost(events)) == 1
     assert "the track goes where the plan has no way near (" in lost(events)[0]
-    one.told, one.level, one.place = [], "1", LIFTS["lift south"]
+    one.received, one.level, one.place = [], "1", LIFTS["lift south"]
     one.ride("0")
     one.walk(beside(one.place), (RIGHT, LOW), (RIGHT, HIGH))
-    follow(part, one.told)
+    follow(part, one.received)
     assert part.place is not None, "the next lift finds the wearer again"
 
 
 def test_a_wearer_who_leaves_by_the_door_is_no_longer_on_the_plan(part: Method) -> None:
     one = Pedestrian(24, "0", (20.0, LOW)).known_to(part)
     one.walk((60.0, LOW))
-    events = follow(part, one.told)
+    events = follow(part, one.received)
     assert part.place is None and len(lost(events)) == 1
     assert "the track leaves the plan near (4" in lost(events)[0] and "on level 0" in lost(events)[0]
 
@@ -173,7 +173,7 @@ def test_a_track_that_jumps_loses_the_place(part: Method) -> None:
     one = Pedestrian(25, "0", (12.0, LOW)).known_to(part)
     one.walk((16.0, LOW))
     one.step(500.0, 0.0)
-    assert lost(follow(part, one.told)) == ["the track leaps by more than 100 m"]
+    assert lost(follow(part, one.received)) == ["the track leaps by more than 100 m"]
 
 
 def test_without_start_stairs_and_lifts_the_place_is_reported_as_lost(part: Method) -> None:
@@ -182,7 +182,7 @@ def test_without_start_stairs_and_lifts_the_place_is_reported_as_lost(part: Meth
     one.walk((30.0, LOW))
     one.ride("1")
     what = "no start was given and the plan has neither stairs nor lifts: the place cannot be known"
-    assert lost(follow(part, one.told, bare)) == [what] and part.place is None
+    assert lost(follow(part, one.received, bare)) == [what] and part.place is None
 
 
 def test_stairs_that_the_plan_does_not_have_change_no_level(part: Method) -> None:
@@ -191,7 +191,7 @@ def test_stairs_that_the_plan_does_not_have_change_no_level(part: Method) -> Non
     one.walk(beside(STAIRS["stairs south"]), STAIRS["stairs south"])
     one.climb("1", "stairs south")
     one.walk(beside(STAIRS["stairs south"]), (RIGHT, LOW))
-    events = follow(part, one.told, lifts_only)
+    events = follow(part, one.received, lifts_only)
     assert {event.level for event in events if isinstance(event, Placed)} == {"0"}
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-from commands import refused, run
+from commands import run, run_failing
 from floors import LOW, OFFICE, RIGHT, Pedestrian, follow, office, tour
 from recordings import recorded
 from walks import insoles
@@ -31,7 +31,7 @@ def pictured(plan: FloorPlan, one: Pedestrian, start: Start | None = None) -> El
     part, picture = Particles(), PlanPicture(plan)
     if start is not None:
         part.set_out(start)
-    for event in follow(part, one.told):
+    for event in follow(part, one.received):
         picture.add(event)
     return ElementTree.fromstring(ElementTree.tostring(picture.drawn("a tour <of two> floors & a lift")))
 
@@ -42,11 +42,11 @@ def words(svg: ElementTree.Element) -> list[str]:
 
 def test_the_picture_has_a_panel_for_every_level_a_scale_and_where_the_wearer_was_found_and_ended() -> None:
     svg = pictured(office(), tour(7))
-    texts = words(svg)
-    assert "a tour <of two> floors & a lift" in texts
-    assert {"floor 0 (0), 0.0 m", "floor 1 (1), 3.6 m", "candidate", "stairs", "lift"} <= set(texts)
-    assert {"found", "end", "5 m"} <= set(texts)
-    assert "N" not in texts, "without an anchor nobody knows where north is"
+    received = words(svg)
+    assert "a tour <of two> floors & a lift" in received
+    assert {"floor 0 (0), 0.0 m", "floor 1 (1), 3.6 m", "candidate", "stairs", "lift"} <= set(received)
+    assert {"found", "end", "5 m"} <= set(received)
+    assert "N" not in received, "without an anchor nobody knows where north is"
     tracks = [line for line in svg.iter() if line.tag.endswith("polyline")]
     assert len({line.get("stroke") for line in tracks}) > 5, "coloured by time"
     dots = [float(dot.get("fill-opacity", "1")) for dot in svg.iter() if dot.get("r") == "2.2"]
@@ -73,7 +73,7 @@ def test_the_track_is_broken_where_the_place_was_lost() -> None:
     part = Particles()
     one = Pedestrian(32, "0", (12.0, LOW)).known_to(part)
     one.walk((24.0, LOW))
-    for event in follow(part, one.told):
+    for event in follow(part, one.received):
         picture.add(event)
     whole = len([1 for line in picture.drawn("t").iter() if line.tag == "polyline"])
     picture.breaks |= {6, 12}
@@ -88,8 +88,8 @@ def test_colours_run_from_the_start_to_the_end() -> None:
 
 def test_the_summary_has_the_time_at_which_the_wearer_was_found_and_the_levels() -> None:
     part, places = Particles(), PlaceCounts()
-    for moment in tour(7).told:
-        for event in [*moment.events, *part.follow(OFFICE, moment.events, moment.here)]:
+    for received in tour(7).received:
+        for event in [*received.events, *part.follow(OFFICE, received.events, received.here)]:
             places.add(event)
     assert places.last is not None and places.last.level == "1"
     lines = place_lines(places)
@@ -149,14 +149,14 @@ def test_without_a_floor_plan_nothing_of_it_is_written_or_printed(walk: Path, tm
 def test_a_floor_plan_or_a_start_that_cannot_be_used_is_rejected_in_one_line(
     walk: Path, hall: Path, tmp_path: Path
 ) -> None:
-    assert "give --floorplan, too" in refused("track", walk, "--start", "0,1,2")
+    assert "give --floorplan, too" in run_failing("track", walk, "--start", "0,1,2")
     nonsense = tmp_path / "plan.geojson"
     nonsense.write_text("[1, 2")
-    assert "plan.geojson" in refused("track", walk, "--floorplan", nonsense)
-    assert "No such file" in refused("track", walk, "--floorplan", tmp_path / "none.geojson")
-    assert "the plan has no level '7', only 0, 1" in refused("track", walk, "--floorplan", hall, "--start", "7,1,2")
-    assert "(99, 2) is nowhere on level 0" in refused("track", walk, "--floorplan", hall, "--start", "0,99,2")
-    assert "is not LEVEL,X,Y" in refused("track", walk, "--floorplan", hall, "--start", "0,one,2")
+    assert "plan.geojson" in run_failing("track", walk, "--floorplan", nonsense)
+    assert "No such file" in run_failing("track", walk, "--floorplan", tmp_path / "none.geojson")
+    assert "the plan has no level '7', only 0, 1" in run_failing("track", walk, "--floorplan", hall, "--start", "7,1,2")
+    assert "(99, 2) is nowhere on level 0" in run_failing("track", walk, "--floorplan", hall, "--start", "0,99,2")
+    assert "is not LEVEL,X,Y" in run_failing("track", walk, "--floorplan", hall, "--start", "0,one,2")
 
 
 def test_a_start_is_read_with_and_without_heading_and_commas_in_the_name_of_a_level() -> None:

@@ -16,11 +16,11 @@ from floors import (
     RIGHT,
     STAIRS,
     STOREY,
+    FloorEvents,
     Method,
     Pedestrian,
-    Told,
+    activity_changed,
     beside,
-    doing,
     lost,
     placed,
     round_to,
@@ -54,9 +54,9 @@ class Followed:
         return sum(self.errors) / len(self.errors)
 
 
-def followed(part: Method, moments: list[Told]) -> Followed:
+def followed(part: Method, received: list[FloorEvents]) -> Followed:
     result = Followed()
-    for k, one in enumerate(moments):
+    for k, one in enumerate(received):
         result.events += part.follow(OFFICE, one.events, one.here)
         place = part.place
         if one.place is None or one.level is None:
@@ -77,7 +77,7 @@ def followed(part: Method, moments: list[Told]) -> Followed:
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_a_wearer_who_comes_out_of_some_lift_is_found_and_followed_within_a_metre(part: Method, seed: int) -> None:
-    result = followed(part, tour(seed).told)
+    result = followed(part, tour(seed).received)
     assert result.dropped == 0
     assert result.errors and result.mean <= 1.0
     assert len(lost(result.events)) == 1 and "no start" in lost(result.events)[0]
@@ -86,16 +86,16 @@ def test_a_wearer_who_comes_out_of_some_lift_is_found_and_followed_within_a_metr
 @pytest.mark.soak
 @pytest.mark.parametrize("method", METHODS)
 def test_the_true_candidate_is_never_dropped_in_fifty_walks_and_the_mean_error_is_below_a_metre(method: Method) -> None:
-    results = [followed(method(), tour(seed).told) for seed in range(1, 51)]
+    results = [followed(method(), tour(seed).received) for seed in range(1, 51)]
     assert [result.dropped for result in results] == [0] * 50
     found = [result for result in results if result.errors]
     assert len(found) >= 48
     assert sum(result.mean for result in found) / len(found) <= 1.0
 
 
-def test_while_several_places_are_possible_all_are_reported_with_weights_that_add_up_to_one(part: Method) -> None:
-    moments = tour(4).told
-    first = placed(followed(part, moments[:3]).events)[-1]
+def test_while_several_places_are_possible_all_of_them_are_told_with_weights_that_add_up_to_one(part: Method) -> None:
+    received = tour(4).received
+    first = placed(followed(part, received[:3]).events)[-1]
     assert {candidate.origin for candidate in first.candidates} == set(LIFTS)
     weights = [candidate.weight for candidate in first.candidates]
     assert sum(weights) == pytest.approx(1.0) and weights == sorted(weights, reverse=True)
@@ -109,7 +109,7 @@ def test_a_known_start_finds_the_wearer_with_or_without_the_heading(part: Method
     start = Start("0", one.place, -one.turned if known else None)
     one.walk((RIGHT, LOW), (RIGHT, HIGH), (20.0, HIGH))
     part.set_out(start)
-    result = followed(part, one.told)
+    result = followed(part, one.received)
     assert result.dropped == 0 and lost(result.events) == []
     assert result.errors[-1] <= 1.0
     heading = placed(result.events)[-1].candidates[0].heading
@@ -128,7 +128,7 @@ def test_stairs_lead_to_the_other_level_and_the_height_is_the_plans_not_the_trac
     x, y, z = one.track
     one.track = (x, y, z + 0.4)  # as a track's height drifts
     one.walk(beside(STAIRS["stairs south"]), (RIGHT, LOW), (RIGHT, 15.0))
-    result = followed(part, one.told)
+    result = followed(part, one.received)
     assert result.dropped == 0 and result.mean <= 1.0
     last = placed(result.events)[-1]
     assert last.level == "1" and last.position[2] == STOREY
@@ -140,30 +140,30 @@ def test_stairs_lead_to_the_other_level_and_the_height_is_the_plans_not_the_trac
 def test_a_landing_half_way_up_is_no_level(part: Method) -> None:
     one = Pedestrian(9, "0", (20.0, LOW)).known_to(part)
     one.walk(beside(STAIRS["stairs south"]), STAIRS["stairs south"])
-    one.say(doing(one.t, one.t, Activity.STAIRS_UP))
+    one.emit(activity_changed(one.t, one.t, Activity.STAIRS_UP))
     for _ in range(10):
         one.step(0.0, 0.28, 0.18)
-    one.say(doing(one.t, one.t, Activity.WALKING))
+    one.emit(activity_changed(one.t, one.t, Activity.WALKING))
     for _ in range(2):
         one.step(0.4, 0.0)
-    assert placed(followed(part, one.told).events)[-1].level == "0"
-    one.told = []
-    one.say(doing(one.t, one.t, Activity.STAIRS_UP))
+    assert placed(followed(part, one.received).events)[-1].level == "0"
+    one.received = []
+    one.emit(activity_changed(one.t, one.t, Activity.STAIRS_UP))
     for _ in range(10):
         one.step(0.0, -0.28, 0.18)
-    one.say(doing(one.t, one.t, Activity.WALKING))
+    one.emit(activity_changed(one.t, one.t, Activity.WALKING))
     one.step(0.0, -0.5)
-    assert placed(followed(part, one.told).events)[-1].level == "1"
+    assert placed(followed(part, one.received).events)[-1].level == "1"
 
 
 def test_a_few_steps_that_look_like_stairs_on_level_ground_change_nothing(part: Method) -> None:
     one = Pedestrian(10, "0", (9.0, LOW)).known_to(part)
     one.walk((24.0, LOW))
-    one.say(doing(one.t - 1.0, one.t, Activity.STAIRS_UP))
+    one.emit(activity_changed(one.t - 1.0, one.t, Activity.STAIRS_UP))
     one.walk((26.0, LOW))
-    one.say(doing(one.t, one.t, Activity.WALKING))
+    one.emit(activity_changed(one.t, one.t, Activity.WALKING))
     one.walk((RIGHT, LOW), (RIGHT, HIGH))
-    result = followed(part, one.told)
+    result = followed(part, one.received)
     assert result.dropped == 0 and result.mean <= 1.0
     assert {event.level for event in placed(result.events)} == {"0"}
 
@@ -172,20 +172,20 @@ def test_who_stands_in_a_lift_that_has_stopped_is_on_the_level_that_it_went_to(p
     one = Pedestrian(11, "0", (20.0, LOW)).known_to(part)
     one.walk(beside(LIFTS["lift south"]), LIFTS["lift south"])
     one.ride("1", STOREY)
-    last = placed(followed(part, one.told).events)[-1]
+    last = placed(followed(part, one.received).events)[-1]
     assert last.level == "1" and last.t == one.t and dist(last.position[:2], one.place) <= 1.0
 
 
 def test_a_lift_that_only_the_activity_reports_changes_the_level_too(part: Method) -> None:
     one = Pedestrian(11, "0", (20.0, LOW)).known_to(part)
     one.walk(beside(LIFTS["lift south"]), LIFTS["lift south"])
-    one.say(doing(one.t + 2.0, one.t + 4.0, Activity.ELEVATOR_UP))
+    one.emit(activity_changed(one.t + 2.0, one.t + 4.0, Activity.ELEVATOR_UP))
     one.t += 14.0
-    one.say(doing(one.t, one.t + 1.0, Activity.STANDING))
+    one.emit(activity_changed(one.t, one.t + 1.0, Activity.STANDING))
     one.t += 2.0
     one.level = "1"
     one.walk(beside(LIFTS["lift south"]), (LEFT, LOW), (LEFT, 14.0))
-    last = placed(followed(part, one.told).events)[-1]
+    last = placed(followed(part, one.received).events)[-1]
     assert last.level == "1" and dist(last.position[:2], one.place) <= 1.0
 
 
@@ -196,7 +196,7 @@ def test_a_ride_far_from_the_estimated_place_restarts_the_search(part: Method) -
     one.place, one.level = LIFTS["lift east"], "1"
     one.ride("0")
     one.walk(*round_to(beside(LIFTS["lift east"]), (14.0, LOW), False), (LEFT, LOW), (LEFT, 14.0))
-    result = followed(part, one.told)
+    result = followed(part, one.received)
     last = placed(result.events)[-1]
     true = [c for c in last.candidates if c.level == "0" and dist(c.position[:2], one.place) <= 1.5]
     assert len(last.candidates) <= 3, "the office looks nearly the same from the other side"
@@ -206,14 +206,14 @@ def test_a_ride_far_from_the_estimated_place_restarts_the_search(part: Method) -
 def test_a_gap_in_the_track_widens_the_belief_and_the_wearer_is_followed_on(part: Method) -> None:
     one = Pedestrian(13, "0", (12.0, LOW)).known_to(part)
     one.walk((20.0, LOW))
-    before = placed(followed(part, one.told).events)[-1].spread
-    one.told, one.t = [], one.t + 6.0
+    before = placed(followed(part, one.received).events)[-1].spread
+    one.received, one.t = [], one.t + 6.0
     one.step(6.0, 0.0, degraded=True)
-    after = placed(followed(part, one.told).events)[-1].spread
+    after = placed(followed(part, one.received).events)[-1].spread
     assert after > before + 0.3
-    one.told = []
+    one.received = []
     one.walk((RIGHT, LOW), (RIGHT, HIGH), (20.0, HIGH))
-    result = followed(part, one.told)
+    result = followed(part, one.received)
     assert result.dropped == 0 and result.errors[-1] <= 1.0
 
 
@@ -221,13 +221,13 @@ def test_a_lift_ride_that_was_reported_is_not_reported_again_by_the_activity() -
     part = Particles()
     one = Pedestrian(15, "1", LIFTS["lift south"]).known_to(part)
     one.step(0.0, 0.1)
-    one.say(doing(one.t + 1.0, one.t + 3.0, Activity.ELEVATOR_DOWN))
+    one.emit(activity_changed(one.t + 1.0, one.t + 3.0, Activity.ELEVATOR_DOWN))
     one.t += 12.0
     one.level = "0"
-    one.say(LiftRidden(t=one.t, known_at=one.t, t_start=one.t - 11.0, up=False, height=None))
-    one.say(doing(one.t, one.t + 1.0, Activity.STANDING))
+    one.emit(LiftRidden(t=one.t, known_at=one.t, t_start=one.t - 11.0, up=False, height=None))
+    one.emit(activity_changed(one.t, one.t + 1.0, Activity.STANDING))
     one.walk(beside(one.place), (24.0, LOW))
-    result = followed(part, one.told)
+    result = followed(part, one.received)
     assert placed(result.events)[-1].level == "0" and result.mean < 1.0
 
 
@@ -237,7 +237,7 @@ def test_a_plan_of_rooms_without_walls_far_from_its_zero_is_a_plan_too(part: Met
     part.set_out(Start("0", (1e6 + 20.0, 1e6 + 20.0), 0.0))
     one = Pedestrian(11, "0", (20.0, 20.0))
     one.walk((30.0, 20.0))
-    events = [event for moment in one.told for event in part.follow(hall, moment.events, moment.here)]
+    events = [event for received in one.received for event in part.follow(hall, received.events, received.here)]
     assert len(placed(events)) == len(events) > 5
     x, y, _ = placed(events)[-1].position
     assert dist((x - 1e6, y - 1e6), (20.0, 20.0)) == pytest.approx(10.0, abs=1.5)
@@ -251,5 +251,5 @@ def test_the_track_turned_by_any_angle_leads_to_the_same_place() -> None:
         part = Particles()
         part.set_out(Start("0", one.place, -one.turned))
         one.walk((RIGHT, LOW), (RIGHT, 14.0))
-        ends.append(placed(followed(part, one.told).events)[-1].position)
+        ends.append(placed(followed(part, one.received).events)[-1].position)
     assert max(dist(end[:2], one.place) for end in ends) <= 1.0

@@ -14,11 +14,11 @@ from floors import (
     OFFICE,
     RIGHT,
     STAIRS,
+    FloorEvents,
     Method,
     Pedestrian,
-    Told,
+    activity_changed,
     beside,
-    doing,
     follow,
     office,
     placed,
@@ -37,8 +37,8 @@ def near(part: Method, level: str, place: tuple[float, float]) -> float:
     return sum([one.weight for one in here if dist(one.position[:2], place) < NEAR])
 
 
-def never_drops_the_truth(part: Method, moments: list[Told]) -> None:
-    for one in moments:
+def never_drops_the_truth(part: Method, received: list[FloorEvents]) -> None:
+    for one in received:
         part.follow(OFFICE, one.events, one.here)
         assert one.level is None or one.place is None or near(part, one.level, one.place) > 0.0
 
@@ -46,12 +46,12 @@ def never_drops_the_truth(part: Method, moments: list[Told]) -> None:
 def test_a_wearer_who_walks_past_stairs_that_are_reported_as_climbed_stays_among_the_candidates(part: Method) -> None:
     one = Pedestrian(201, "0", (20.0, LOW)).known_to(part)
     one.walk(beside(STAIRS["stairs south"]))
-    one.say(doing(one.t, one.t, Activity.STAIRS_UP))
+    one.emit(activity_changed(one.t, one.t, Activity.STAIRS_UP))
     for k in range(20):  # to and fro before the stairs, as on two flights
         one.step(0.25 if k < 10 else -0.25, 0.0)
-    one.say(doing(one.t, one.t, Activity.WALKING))
+    one.emit(activity_changed(one.t, one.t, Activity.WALKING))
     one.walk((RIGHT, LOW))
-    never_drops_the_truth(part, one.told)
+    never_drops_the_truth(part, one.received)
     assert part.place is not None and {found.level for found in part.place.candidates} >= {"0"}
 
 
@@ -63,13 +63,13 @@ def test_stairs_up_that_are_reported_as_stairs_down_lead_up_where_there_is_no_wa
     one.walk(beside(STAIRS["stairs south"]), STAIRS["stairs south"])
     one.track = (one.track[0], one.track[1], 0.0)
     for flight, word in enumerate(words):
-        one.say(doing(one.t, one.t, Activity.STAIRS_UP if word == "up" else Activity.STAIRS_DOWN))
+        one.emit(activity_changed(one.t, one.t, Activity.STAIRS_UP if word == "up" else Activity.STAIRS_DOWN))
         for _ in range(10):
             one.step(0.0, 0.28 if flight == 0 else -0.28, counts=False)  # a track that knows no heights
-    one.say(doing(one.t, one.t, Activity.WALKING))
+    one.emit(activity_changed(one.t, one.t, Activity.WALKING))
     one.level = "1"
     one.walk(beside(STAIRS["stairs south"]), (RIGHT, LOW))
-    follow(part, one.told)
+    follow(part, one.received)
     assert near(part, "1", one.place) > 0.1
 
 
@@ -77,13 +77,13 @@ def test_a_wearer_whose_flights_are_reported_up_and_down_may_be_on_either_level(
     one = Pedestrian(203, "1", STAIRS["stairs south"])
     one.step(0.1, 0.0, counts=False)
     for flight, word in enumerate((Activity.STAIRS_UP, Activity.STAIRS_DOWN)):
-        one.say(doing(one.t, one.t, word))
+        one.emit(activity_changed(one.t, one.t, word))
         for _ in range(10):
             one.step(0.0, 0.28 if flight == 0 else -0.28, counts=False)
-    one.say(doing(one.t, one.t, Activity.WALKING))
+    one.emit(activity_changed(one.t, one.t, Activity.WALKING))
     one.level = "0"
     one.walk(beside(STAIRS["stairs south"]), (RIGHT, LOW))
-    follow(part, one.told)
+    follow(part, one.received)
     assert part.place is not None
     assert near(part, "0", one.place) > 0.0
     assert {found.level for found in part.place.candidates} == {"0", "1"}
@@ -100,16 +100,19 @@ def test_an_about_turn_that_the_track_has_wrong_by_a_hundred_degrees_is_put_righ
     one.t += 3.0
     one.step(-0.5, 0.0)
     one.step(-0.6, 0.0)
-    one.say(TurnMade(t=t_start + 3.0, known_at=one.t, t_start=t_start, angle=radians(180.0 + wrong), turn=None))
-    one.told[-1] = evolve_angle(one.told[-1])
+    one.emit(TurnMade(t=t_start + 3.0, known_at=one.t, t_start=t_start, angle=radians(180.0 + wrong), turn=None))
+    one.received[-1] = evolve_angle(one.received[-1])
     one.walk((LEFT, LOW), (LEFT, HIGH))
-    never_drops_the_truth(part, one.told)
+    never_drops_the_truth(part, one.received)
     assert near(part, "0", one.place) > 0.9
 
 
-def evolve_angle(moment: Told) -> Told:
-    """Return the turn as the about-turn that it is: feet measure turns better than tracks of saturated sensors."""
-    return Told([evolve(event, angle=3.2) for event in moment.events if isinstance(event, TurnMade)], moment.here)
+def evolve_angle(received: FloorEvents) -> FloorEvents:
+    """The turn is told as the about-turn that it is: feet tell turns better than tracks that are led by saturated
+    sensors."""
+    return FloorEvents(
+        [evolve(event, angle=3.2) for event in received.events if isinstance(event, TurnMade)], received.here
+    )
 
 
 def unknown_heights() -> IndexedPlan:
@@ -124,13 +127,13 @@ def test_unknown_heights_neither_keep_a_wearer_from_another_level_nor_are_report
     plan = unknown_heights()
     one = Pedestrian(205, "0", (20.0, LOW)).known_to(part)
     one.walk(beside(STAIRS["stairs south"]), STAIRS["stairs south"])
-    one.say(doing(one.t, one.t, Activity.STAIRS_UP))
+    one.emit(activity_changed(one.t, one.t, Activity.STAIRS_UP))
     for k in range(20):
         one.step(0.0, 0.28 if k < 10 else -0.28, rise, counts=False)
-    one.say(doing(one.t, one.t, Activity.WALKING))
+    one.emit(activity_changed(one.t, one.t, Activity.WALKING))
     one.level = "1"
     one.walk(beside(STAIRS["stairs south"]), (RIGHT, LOW), (RIGHT, 14.0))
-    events = follow(part, one.told, plan)
+    events = follow(part, one.received, plan)
     last = placed(events)[-1]
     assert last.level == "1" and near(part, "1", one.place) > 0.9
     assert last.position[2] == pytest.approx(20.0 * rise, abs=1e-3), "the track's own height"
@@ -140,11 +143,11 @@ def test_unknown_heights_neither_keep_a_wearer_from_another_level_nor_are_report
 def test_a_ride_over_a_storey_of_another_height_than_guessed_ends_on_the_next_level(part: Method) -> None:
     one = Pedestrian(206, "0", LIFTS["lift south"]).known_to(part)
     one.step(0.05, 0.0)
-    one.say(LiftRidden(t=one.t + 10.0, known_at=one.t + 11.0, t_start=one.t + 2.0, up=True, height=4.6))
+    one.emit(LiftRidden(t=one.t + 10.0, known_at=one.t + 11.0, t_start=one.t + 2.0, up=True, height=4.6))
     one.t += 12.0
     one.level = "1"
     one.walk(beside(one.place), (24.0, LOW))
-    follow(part, one.told, unknown_heights())
+    follow(part, one.received, unknown_heights())
     assert near(part, "1", one.place) > 0.9
 
 

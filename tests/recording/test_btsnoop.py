@@ -8,7 +8,6 @@ import pytest
 import walks
 from snooped import (
     BATTERY,
-    BEGAN,
     FRAME,
     INFO,
     INSOLE,
@@ -16,13 +15,14 @@ from snooped import (
     MOVEMENT,
     OTHER,
     RIGHT,
+    T_START,
     TAG,
     Log,
-    begin,
     data_of,
     frames,
     full,
     read,
+    start_connection,
 )
 
 from solepath import PacketRejected, Sample, Session, Site
@@ -39,27 +39,27 @@ def test_a_walk_in_two_insoles_gives_the_same_steps_as_the_walk_itself(tmp_path)
     walk = walks.insoles()
     log = Log()
     handles = {Site.LEFT_FOOT: 0x40, Site.RIGHT_FOOT: 0x41}
-    begin(log, 0x40, LEFT)
-    begin(log, 0x41, RIGHT)
+    start_connection(log, 0x40, LEFT)
+    start_connection(log, 0x41, RIGHT)
     for packet in walk.packets:
         if packet.channel == "insole/frame":
-            log.notify(handles[packet.site], FRAME, packet.data, t=BEGAN + 1_000_000 + round(packet.t * 1e6))
+            log.notify(handles[packet.site], FRAME, packet.data, t=T_START + 1_000_000 + round(packet.t * 1e6))
         elif packet.channel == "insole/info":
-            log.asked(handles[packet.site], "0a1500", b"\x0b" + packet.data[:246])
+            log.add_request(handles[packet.site], "0a1500", b"\x0b" + packet.data[:246])
             for offset in range(246, len(packet.data) + 1, 246):
                 blob = struct.pack("<BHH", 0x0C, INFO, offset).hex()
-                log.asked(handles[packet.site], blob, b"\x0d" + packet.data[offset : offset + 246])
+                log.add_request(handles[packet.site], blob, b"\x0d" + packet.data[offset : offset + 246])
     path = log.save(tmp_path / "phone.log")
 
     def steps(packets) -> list[tuple[Foot, int, float]]:
-        taken = walks.of(StrideTaken, walks.said(packets))
+        taken = walks.of(StrideTaken, walks.run_session(packets))
         return [(step.foot, step.number, round(step.length, 2)) for step in taken]
 
     assert steps(open_btsnoop(path, report=pytest.fail)) == steps(walk.packets) != []
 
 
 def test_an_insole_says_itself_of_which_foot_it_is_unless_the_caller_knows_better(tmp_path):
-    log = begin(Log(), address=LEFT)
+    log = start_connection(Log(), address=LEFT)
     log.notify(0x40, FRAME, frames(Site.RIGHT_FOOT)[0])
     assert {site for _, site, _, _ in read(log, tmp_path)[0]} == {"right_foot"}
     there = {LEFT.lower(): Site.LEFT_FOOT}
@@ -72,9 +72,9 @@ ORPHE_INFO = bytes([100, 1, *bytes(6), 2, 3, *bytes(10)])
 
 
 def orphe(characteristics: dict[int, str] = ORPHE, info: bytes = ORPHE_INFO) -> Log:
-    log = begin(Log(), address=TAG, characteristics=characteristics)
-    log.asked(0x40, "0a1500", b"\x0b" + info)
-    log.asked(0x40, "1215000d04", "13")
+    log = start_connection(Log(), address=TAG, characteristics=characteristics)
+    log.add_request(0x40, "0a1500", b"\x0b" + info)
+    log.add_request(0x40, "1215000d04", "13")
     for k in range(30):
         head = struct.pack(">BHBBBH", 56, k, 1, 1, 1, k * 19)
         log.notify(0x40, 0x12, head + struct.pack(">10h", 16384, *[0] * 6, 4096, 0, 0).ljust(96, b"\0"))
@@ -104,8 +104,8 @@ def test_the_foot_and_the_ranges_of_another_makers_insole_are_those_that_it_says
 def test_sensortags_share_characteristics_and_are_told_apart_by_the_others(tmp_path):
     old = {0x31: full(0xAA11), 0x34: full(0xAA41), 0x38: full(0xAA51), 0x3B: full(0xAA52)}
     new = {0x31: full(0xAA81), 0x34: full(0xAA82), 0x37: full(0xAA41)}
-    log = begin(begin(Log(), 0x40, LEFT, old), 0x41, RIGHT, new)
-    log.asked(0x40, "123b0007", "13")
+    log = start_connection(start_connection(Log(), 0x40, LEFT, old), 0x41, RIGHT, new)
+    log.add_request(0x40, "123b0007", "13")
     log.notify(0x40, 0x31, b"\x01\x02\x03")
     log.notify(0x40, 0x34, b"\xb2\xee\xc5\x84")
     log.notify(0x41, 0x31, MOVEMENT)
@@ -119,20 +119,20 @@ def test_sensortags_share_characteristics_and_are_told_apart_by_the_others(tmp_p
 
 
 def test_a_device_whose_place_nobody_knows_is_left_out_and_named(tmp_path):
-    log = begin(begin(Log()), 0x41, TAG, {0x31: full(0xAA81)})
+    log = start_connection(start_connection(Log()), 0x41, TAG, {0x31: full(0xAA81)})
     log.notify(0x40, FRAME, frames()[0])
     log.notify(0x41, 0x31, MOVEMENT)
     found, reports = read(log, tmp_path)
     assert {device for device, *_ in found} == {LEFT}
     assert reports == [f"1 value of {TAG}, a cc2650, left out: nobody says where it was worn"]
-    alone = begin(Log(), 0x41, TAG, {0x31: full(0xAA81)})
+    alone = start_connection(Log(), 0x41, TAG, {0x31: full(0xAA81)})
     alone.notify(0x41, 0x31, MOVEMENT)
     with pytest.raises(RecordingError, match=f"holds no packets of a device whose place is known; .*{TAG}, a cc2650"):
         read(alone, tmp_path)
 
 
 def test_other_peoples_devices_are_counted_not_described(tmp_path):
-    log = begin(begin(Log()), 0x41, OTHER, {0x10: "2a37", 0x12: "2a19", 0x15: "2a26"})
+    log = start_connection(start_connection(Log()), 0x41, OTHER, {0x10: "2a37", 0x12: "2a19", 0x15: "2a26"})
     log.notify(0x40, FRAME, frames()[0])
     log.notify(0x41, 0x10, b"\x00\x48")
     log.notify(0x41, 0x12, b"\x48")
@@ -152,7 +152,7 @@ def test_a_connection_is_known_by_any_of_its_three_events(tmp_path, subevent):
 
 
 def test_a_handle_is_given_to_another_device_and_what_was_discovered_stays_with_the_first(tmp_path):
-    log = begin(Log())
+    log = start_connection(Log())
     log.notify(0x40, FRAME, frames()[0])
     log.disconnect(0x40)
     log.connect(0x40, OTHER)
@@ -205,7 +205,7 @@ def test_what_cannot_be_known_may_be_told(tmp_path):
 
 def test_no_word_makes_one_device_or_attribute_of_another(tmp_path):
     """But what discovery says as well may be said, and an attribute that is of no known kind named."""
-    log = begin(Log(), characteristics=INSOLE | {0x30: full(0x1234)})
+    log = start_connection(Log(), characteristics=INSOLE | {0x30: full(0x1234)})
     log.notify(0x40, FRAME, frames()[0])
     log.notify(0x40, 0x30, b"\x63")
     log.notify(0x40, 0x33, b"\x63")

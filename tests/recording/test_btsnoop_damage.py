@@ -7,7 +7,7 @@ import struct
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from snooped import BEGAN, FRAME, TAG, Log, begin, data_of, frames, info, read
+from snooped import FRAME, T_START, TAG, Log, data_of, frames, info, read, start_connection
 
 from solepath import Packet, Session
 from solepath.recording import RecordingError
@@ -16,7 +16,7 @@ from solepath.recording.btsnoop.att import AttOpcode
 
 
 def test_pieces_that_were_not_logged_cost_their_packet_and_are_counted(tmp_path):
-    log = begin(Log(piece=50))
+    log = start_connection(Log(piece=50))
     log.notify(0x40, FRAME, frames()[0])
     log.notify(0x40, FRAME, frames()[1], keep=slice(0, 2))  # the end is missing
     log.notify(0x40, FRAME, frames()[2])
@@ -28,7 +28,7 @@ def test_pieces_that_were_not_logged_cost_their_packet_and_are_counted(tmp_path)
 
 
 def test_packets_of_other_channels_are_counted_where_they_might_have_been_ours(tmp_path):
-    log = begin(Log())
+    log = start_connection(Log())
     log.notify(0x40, FRAME, frames()[0])
     log.acl(0x40, b"\x0b\x01", sent=False, channel=6)  # pairing
     log.acl(0x40, b"\x1b\x12\0", sent=False, channel=0x41)
@@ -39,7 +39,7 @@ def test_packets_of_other_channels_are_counted_where_they_might_have_been_ours(t
 
 
 def test_records_that_the_logger_cut_short_or_dropped_are_counted(tmp_path):
-    log = begin(Log())
+    log = start_connection(Log())
     log.notify(0x40, FRAME, frames()[0])
     log.record(2, struct.pack("<HHHHBH", 0x2040, 184, 180, 4, 0x1B, FRAME) + b"\xf5", sent=False, original=189)
     log.drops = 7
@@ -52,7 +52,7 @@ def test_records_that_the_logger_cut_short_or_dropped_are_counted(tmp_path):
 @given(cut=st.integers(min_value=1, max_value=10_000))
 @settings(max_examples=40)
 def test_a_torn_tail_costs_one_record_and_is_reported(tmp_path_factory, cut):
-    log = begin(Log())
+    log = start_connection(Log())
     for frame in frames()[:20]:
         log.notify(0x40, FRAME, frame)
     sizes = [len(record) for record in log.records]
@@ -71,7 +71,7 @@ def test_a_torn_tail_costs_one_record_and_is_reported(tmp_path_factory, cut):
 
 
 def test_a_damaged_record_is_named_after_everything_before_it(tmp_path):
-    log = begin(Log())
+    log = start_connection(Log())
     log.notify(0x40, FRAME, frames()[0])
     number = len(log.records) + 1
     log.records.append(struct.pack(">IIIIq", 5, 0xFFFFFFFF, 1, 0, 0))
@@ -110,9 +110,9 @@ def test_what_is_no_log_of_ours_is_refused(tmp_path, content, complaint):
 
 
 def _eventful() -> Log:
-    log = begin(Log(piece=40))
-    log.asked(0x40, "0a1500", b"\x0b" + info()[:60])
-    log.asked(0x40, "1217000a", "13")
+    log = start_connection(Log(piece=40))
+    log.add_request(0x40, "0a1500", b"\x0b" + info()[:60])
+    log.add_request(0x40, "1217000a", "13")
     for frame in frames()[:5]:
         log.notify(0x40, FRAME, frame)
     log.disconnect(0x40)
@@ -134,7 +134,7 @@ PDUS = st.builds(lambda *parts: b"".join(parts), OPCODES, SIZES, SIZES, st.binar
         st.tuples(st.sampled_from((1, 2, 4)), st.binary(max_size=60), st.booleans(), st.integers(0, 10**6)), max_size=6
     ),
     pdus=st.lists(st.tuples(PDUS, st.booleans(), st.integers(0, 10**6)), max_size=20),
-    t=st.sampled_from((0, BEGAN, -(2**62), 2**62)),
+    t=st.sampled_from((0, T_START, -(2**62), 2**62)),
 )
 @example(changes=[], records=[], pdus=[], t=2**62)
 def test_whatever_bytes_a_log_holds_only_a_recording_error_comes_of_it(tmp_path_factory, changes, records, pdus, t):

@@ -23,13 +23,13 @@ from snooped import (
     OTHER,
     RIGHT,
     Log,
-    begin,
     data_of,
     frames,
     full,
     info,
     insole_uuid,
     read,
+    start_connection,
 )
 
 from solepath import Site
@@ -48,9 +48,11 @@ def test_a_long_value_is_read_whole_at_any_mtu(tmp_path):
         log.connect(0x40, LEFT)
         log.mtu(0x40, mtu)
         log.discover(0x40, INSOLE)
-        log.asked(0x40, "0a1500", b"\x0b" + value[: mtu - 1])
+        log.add_request(0x40, "0a1500", b"\x0b" + value[: mtu - 1])
         for offset in range(mtu - 1, len(value) + 1, mtu - 1):
-            log.asked(0x40, struct.pack("<BHH", 0x0C, INFO, offset).hex(), b"\x0d" + value[offset : offset + mtu - 1])
+            log.add_request(
+                0x40, struct.pack("<BHH", 0x0C, INFO, offset).hex(), b"\x0d" + value[offset : offset + mtu - 1]
+            )
         log.notify(0x40, FRAME, frames()[0])
         assert data_of(read(log, tmp_path)[0], "insole/info") == [value], mtu
 
@@ -59,10 +61,10 @@ def test_the_rest_of_one_value_is_not_added_to_another(tmp_path):
     log = Log()
     log.connect(0x40, LEFT)
     log.discover(0x40, INSOLE | {0x20: "2a26"})
-    log.asked(0x40, "0a2000", b"\x0b" + b"v" * 22)
-    log.asked(0x40, "0c15001600", b"\x0d" + b"rest")
-    log.asked(0x40, "0a2000", b"\x0b" + b"w" * 22)
-    log.asked(0x40, "0c20002c00", "010c200007")
+    log.add_request(0x40, "0a2000", b"\x0b" + b"v" * 22)
+    log.add_request(0x40, "0c15001600", b"\x0d" + b"rest")
+    log.add_request(0x40, "0a2000", b"\x0b" + b"w" * 22)
+    log.add_request(0x40, "0c20002c00", "010c200007")
     log.notify(0x40, FRAME, frames()[0][:20])
     found = read(log, tmp_path, sites={LEFT: Site.LEFT_FOOT})[0]
     assert data_of(found, "device/firmware") == [b"v" * 22, b"w" * 22]
@@ -70,9 +72,9 @@ def test_the_rest_of_one_value_is_not_added_to_another(tmp_path):
 
 
 def test_what_was_written_counts_when_the_device_took_it(tmp_path):
-    log = begin(Log(), characteristics={0x31: full(0xAA81), 0x34: full(0xAA82), 0x37: full(0xAA83)})
-    log.asked(0x40, "12340000ff", "0112340080")
-    log.asked(0x40, "1234007f02", "13")
+    log = start_connection(Log(), characteristics={0x31: full(0xAA81), 0x34: full(0xAA82), 0x37: full(0xAA83)})
+    log.add_request(0x40, "12340000ff", "0112340080")
+    log.add_request(0x40, "1234007f02", "13")
     log.acl(0x40, bytes.fromhex("523700") + b"\x0a", sent=True)
     log.acl(0x40, bytes.fromhex("123400" + "7f03"), sent=True)  # the link was lost before an answer
     log.notify(0x40, 0x31, MOVEMENT)
@@ -87,9 +89,9 @@ def test_other_ways_to_discover_to_read_and_to_notify(tmp_path):
     log = Log()
     log.connect(0x40, LEFT)
     log.mtu(0x40, 247)
-    log.asked(0x40, "041200ffff", b"\x05\x02\x12\x00" + frame)  # find information, UUIDs of 128 bits
-    log.asked(0x40, "041a00ffff", "05011a00192a1b000229")  # and of 16
-    log.asked(0x40, "080100ffff262a", b"\x09\x05\x30\x00" + b"1.2")  # read by the characteristic's UUID
+    log.add_request(0x40, "041200ffff", b"\x05\x02\x12\x00" + frame)  # find information, UUIDs of 128 bits
+    log.add_request(0x40, "041a00ffff", "05011a00192a1b000229")  # and of 16
+    log.add_request(0x40, "080100ffff262a", b"\x09\x05\x30\x00" + b"1.2")  # read by the characteristic's UUID
     log.acl(0x40, b"\x23" + struct.pack("<HH", 0x12, len(frames()[0])) + frames()[0] + b"\x1a\0\x01\0\x63", sent=False)
     log.acl(0x40, b"\x1d\x1a\0\x62", sent=False)
     log.acl(0x40, b"\x1e", sent=True)
@@ -142,7 +144,7 @@ def heard_by_us(path: Path) -> list[tuple[int, int, int, bytes]]:
 def test_every_notification_is_what_tshark_says_it_is(tmp_path, datalink, piece):
     """Two insoles with an end and a new beginning under the same handle, and ACL packets in pieces of two links."""
     log = Log(datalink, piece=piece)
-    begin(log, 0x40, LEFT)
+    start_connection(log, 0x40, LEFT)
     log.connect(0x41, RIGHT, subevent=0x0A)
     log.mtu(0x41, 247)
     log.discover(0x41, INSOLE)

@@ -133,7 +133,7 @@ def test_the_samples_in_it_are_those_that_a_session_uses_when_a_site_falls_silen
 
 
 def test_the_events_in_it_are_a_sessions(exported):
-    events = walks.said(walks.insoles().packets, poses=True)
+    events = walks.run_session(walks.insoles().packets, poses=True)
     told = [json.loads(json.dumps(e.to_dict())) for e in events if not isinstance(e, LiveEvent)]
     assert [said for _, _, said in exported["/events"]] == told
     poses = [e for e in events if isinstance(e, FootMoved) and e.foot.value == "left"]

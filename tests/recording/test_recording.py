@@ -207,7 +207,7 @@ def test_a_recording_gives_the_same_events_bit_for_bit(tmp_path, name):
 
     def events(stream) -> list[str]:
         return [
-            repr(event) for event in walks.said(stream, poses=True)
+            repr(event) for event in walks.run_session(stream, poses=True)
         ]  # repr tells every bit of a float, and -0.0 from 0.0
 
     told = events(read_packets(recorded(tmp_path / "walk.jsonl", packets)))

@@ -1,6 +1,6 @@
-"""The packed form of a session: small, bit for bit, and refused when it is anything else.
+"""The packed form of a session: small, exact to the bit, and anything else is rejected.
 
-That a session packed at any moment is what it was is asked of all of them in test_contract_saved.py.
+tests/contracts/test_saved.py checks that a session packed at any moment continues unchanged.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 from attrs import define, evolve
-from own import Quiet
+from own import StillDetector
 from walks import LEFT, RIGHT, ROUGH, SHORT, machines, packets, samples
 
 from solepath import Calibration, Foot, Recipe, Session, SnapshotError, recipes
@@ -29,7 +29,7 @@ from solepath.types import WalkingMode
 
 
 def exact(session: Session) -> str:
-    """All that it remembers, in order, -0.0 and 0.0 told apart."""
+    """Return the whole state, in order, with -0.0 distinguished from 0.0."""
     return json.dumps(session.snapshot())
 
 
@@ -37,7 +37,7 @@ def exact(session: Session) -> str:
 def packed(name: str = "session, whole frames") -> bytes:
     """In the middle of a walk."""
     machine = machines()[name]
-    session = machine.begin()
+    session = machine.start()
     session.feed(machine.items[: len(machine.items) // 2])
     return bytes(session.pack())
 
@@ -56,7 +56,7 @@ def test_the_state_of_two_devices_is_below_20_kB_at_any_moment_of_a_walk(device:
 
 def test_equal_sessions_are_packed_alike_and_packing_changes_nothing() -> None:
     machine = machines()["session, samples with pressure"]
-    one, other = machine.begin(), machine.begin()
+    one, other = machine.start(), machine.start()
     for i, item in enumerate(machine.items[:300]):
         if i % 20 == 0:
             one.pack()
@@ -66,7 +66,7 @@ def test_equal_sessions_are_packed_alike_and_packing_changes_nothing() -> None:
 
 def test_what_was_unpacked_twice_shares_nothing_that_changes() -> None:
     machine = machines()["session, particles"]
-    session = machine.begin()
+    session = machine.start()
     session.feed(machine.items[:400])
     saved = session.pack()
     one, other = (Session.unpack(saved, session.recipe, floorplan=session._plan) for _ in range(2))
@@ -108,7 +108,7 @@ def test_a_session_is_not_unpacked_with_another_recipe_or_other_parts() -> None:
         (recipes.DEFAULT.exchanged(TrackPart, DoubleFoot()), "packed with BothFeet, and this recipe has DoubleFoot"),
         (recipes.DEFAULT.exchanged(Altitude, None), "packed with 6 parts, and this recipe has 5"),
         (OWN, "packed with the recipe 'default', and this is 'quiet'"),
-        (evolve(OWN, name="default"), "packed with Cycle, and this recipe has Quiet"),
+        (evolve(OWN, name="default"), "packed with Cycle, and this recipe has StillDetector"),
     ):
         with pytest.raises(SnapshotError, match=what):
             Session.unpack(packed(), other)
@@ -122,27 +122,29 @@ def test_a_session_is_not_unpacked_with_another_recipe_or_other_parts() -> None:
         Session.unpack(session.pack())
 
 
-OWN = evolve(recipes.DEFAULT, name="quiet", detector=Quiet())
-Other = define(type("Quiet", (), {"__annotations__": {"limit": "float"}, "limit": 0.8, "update": Quiet.update}))
+OWN = evolve(recipes.DEFAULT, name="quiet", detector=StillDetector())
+Other = define(
+    type("StillDetector", (), {"__annotations__": {"limit": "float"}, "limit": 0.8, "update": StillDetector.update})
+)
 
 
 def test_a_detector_that_has_other_fields_now_is_named() -> None:
     session = Session(OWN)
     session.feed(samples()[:50])
-    with pytest.raises(SnapshotError, match="'Quiet' that had other fields"):
+    with pytest.raises(SnapshotError, match="'StillDetector' that had other fields"):
         Session.unpack(session.pack(), evolve(OWN, detector=Other()))
     with pytest.raises(ValueError, match="one name"):
-        Session.unpack(session.pack(), OWN, parts=[Quiet, Other])
+        Session.unpack(session.pack(), OWN, parts=[StillDetector, Other])
     with pytest.raises(TypeError, match="attrs class"):
         Session.unpack(session.pack(), OWN, parts=[int])
 
 
-def test_what_cannot_be_packed_says_so_when_it_is_to_be_packed() -> None:
+def test_an_unpackable_part_raises_when_it_is_packed() -> None:
     for value in (inf, nan, 10**400):
         session = Session(OWN)
         session.feed(samples(cells=0)[:50])
         detector = session.feet[Foot.LEFT].detector
-        assert isinstance(detector, Quiet)
+        assert isinstance(detector, StillDetector)
         detector.since = value
         with pytest.raises(SnapshotError):
             session.pack()
@@ -150,7 +152,7 @@ def test_what_cannot_be_packed_says_so_when_it_is_to_be_packed() -> None:
 
 def test_a_second_state_is_unpacked_without_reading_annotations_again(monkeypatch: pytest.MonkeyPatch) -> None:
     machine = machines()["session, samples with pressure"]
-    session = machine.begin()
+    session = machine.start()
     for item in machine.items[:100]:
         session.feed(item)
     first = machine.repacked(session)

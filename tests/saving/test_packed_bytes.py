@@ -1,4 +1,4 @@
-"""What packed bytes may be: numbers to the bit, and for anything else SnapshotError, whatever it is."""
+"""Packed bytes: numbers are exact to the bit, and all other bytes raise SnapshotError."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ FEW = settings(max_examples=40)
 def packed() -> bytes:
     """In the middle of a walk."""
     machine = machines()["session, whole frames"]
-    session = machine.begin()
+    session = machine.start()
     session.feed(machine.items[: len(machine.items) // 2])
     return bytes(session.pack())
 
 
-def refused_or_sound(data: bytes) -> None:
+def rejected_or_sound(data: bytes) -> None:
     """SnapshotError, or a session that can be packed again."""
     try:
         session = Session.unpack(data)
@@ -42,15 +42,15 @@ def refused_or_sound(data: bytes) -> None:
 
 @given(st.binary(max_size=400), st.booleans())
 @FEW
-def test_any_bytes_are_refused(data: bytes, with_header: bool) -> None:
+def test_any_bytes_are_rejected(data: bytes, with_header: bool) -> None:
     with pytest.raises(SnapshotError):
         Session.unpack(data)
     if with_header:
-        refused_or_sound(signed(packed()[: HEADER.size] + data))
+        rejected_or_sound(signed(packed()[: HEADER.size] + data))
 
 
 @pytest.mark.parametrize("data", [None, 5, "sole", [], {}, b"", b"sole", bytearray(b"sole"), memoryview(b"x" * 99)])
-def test_what_are_no_packed_bytes_is_refused(data: Any) -> None:
+def test_what_are_no_packed_bytes_is_rejected(data: Any) -> None:
     with pytest.raises(SnapshotError, match="not a packed session"):
         Session.unpack(data)
 
@@ -72,9 +72,7 @@ def test_every_flipped_bit_is_noticed(data: st.DataObject) -> None:
 
 @given(st.data(), st.integers(1, 40), st.sampled_from(["flip", "cut", "insert", "zero", "fill"]))
 @settings(max_examples=150)
-def test_damage_behind_a_right_checksum_never_does_worse_than_be_refused(
-    data: st.DataObject, length: int, how: str
-) -> None:
+def test_damage_behind_a_right_checksum_is_always_rejected(data: st.DataObject, length: int, how: str) -> None:
     saved = packed()
     at = HEADER.size + data.draw(st.one_of(st.integers(0, 40), st.integers(0, len(saved) - HEADER.size - 1)))
     inside = {
@@ -84,7 +82,7 @@ def test_damage_behind_a_right_checksum_never_does_worse_than_be_refused(
         "zero": bytes(length),
         "fill": b"\xff" * length,
     }[how]
-    refused_or_sound(signed(saved[:at] + inside + saved[at + length :]))
+    rejected_or_sound(signed(saved[:at] + inside + saved[at + length :]))
 
 
 @pytest.mark.parametrize("counts", [(2**32 - 1,) * 4, (2**31, 0, 0, 0), (0, 2**31, 0, 0), (0, 0, 2**31, 0), (0,) * 4])
@@ -94,7 +92,7 @@ def test_counts_of_what_is_not_there_take_no_memory(counts: tuple[int, ...]) -> 
         Session.unpack(signed(packed()[: HEADER.size] + body))
 
 
-def test_other_versions_forms_and_schemas_are_refused_by_name() -> None:
+def test_other_versions_forms_and_schemas_are_rejected_by_name() -> None:
     saved = packed()
     magic, form, version, made_with, check = HEADER.unpack_from(saved)
     body = saved[HEADER.size :]
@@ -109,7 +107,7 @@ def test_other_versions_forms_and_schemas_are_refused_by_name() -> None:
             Session.unpack(signed(HEADER.pack(magic, *header, check) + body))
 
 
-def test_what_is_left_over_in_any_of_the_streams_is_refused() -> None:
+def test_what_is_left_over_in_any_of_the_streams_is_rejected() -> None:
     floats, ints, flags, data = from_bytes(memoryview(packed())[HEADER.size :])
     for more in ([[], [], [], []], [[0.5], [], [], []], [[], [0], [], []], [[], [], [False], []], [[], [], [], [b"x"]]):
         streams: Any = [floats + more[0], ints + more[1], flags + more[2], [data, *more[3]]]

@@ -1,4 +1,4 @@
-"""Where memory or the stack is short the state is not to blame: nobody is told that it is bad, and it goes on later."""
+"""Shortage of memory or stack: the state is not reported as damaged, and can continue later."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from typing import Any
 import pytest
 from attrs import define, evolve
 from fleets import WEARER, walked
-from own import Quiet
+from own import StillDetector
 
 from solepath import Calibration, Session, SnapshotError, recipes
 from solepath.fleet import Fleet
 
 SHORT: list[Exception] = []
-"""What copying a detector ends in, if anything."""
+"""Exceptions with which copying a detector may end."""
 
 
 @define
-class Large(Quiet):
+class Large(StillDetector):
     """A detector that takes room."""
 
     def __deepcopy__(self, memo: Any) -> Large:
@@ -35,7 +35,7 @@ def afterwards_there_is_room() -> Iterator[None]:
 
 
 @pytest.mark.parametrize("short", [MemoryError(), RecursionError("too deep")], ids=["memory", "stack"])
-def test_a_session_that_there_is_no_room_for_is_not_said_to_be_damaged(short: Exception) -> None:
+def test_a_session_that_there_is_no_room_for_is_not_reported_as_damaged(short: Exception) -> None:
     recipe = evolve(recipes.DEFAULT, name="large", detector=Large(0.5 if isinstance(short, MemoryError) else 0.6))
     session = Session(recipe)
     session.feed([one.what for one in walked().sent[:200]])
@@ -50,7 +50,7 @@ def test_a_session_that_there_is_no_room_for_is_not_said_to_be_damaged(short: Ex
     assert Session.unpack(saved, recipe).pack() == saved
 
 
-def test_near_the_end_of_the_stack_a_good_state_is_not_said_to_be_damaged() -> None:
+def test_near_the_end_of_the_stack_a_good_state_is_not_reported_as_damaged() -> None:
     saved = Session().pack()
 
     def deeper(by: int) -> Session:
@@ -78,6 +78,6 @@ def test_a_fleet_that_is_short_of_memory_stops_and_goes_on_from_the_state_that_i
     with pytest.raises(MemoryError):
         fleet.step(WEARER, state, walked().sent[200:300])
     SHORT.clear()
-    after, told = fleet.step(WEARER, state, walked().sent[200:300])
-    assert told == keyed.feed(walked().sent[200:300]) != []
+    after, emitted = fleet.step(WEARER, state, walked().sent[200:300])
+    assert emitted == keyed.feed(walked().sent[200:300]) != []
     assert after == keyed.state()

@@ -21,8 +21,8 @@ from walks import machines, samples
 from solepath import Foot, Phase, Session, recipes
 from solepath.foot.stance.shoe import ShoeDetector
 from solepath.saving.codec import save
-from solepath.saving.packed import Lists, Streams, read, told_of, write
-from solepath.saving.schema import MADE_AGAIN, NOT_SAVED, check_of, described, record_of
+from solepath.saving.packed import Lists, Streams, identify_record, read, write
+from solepath.saving.schema import MADE_AGAIN, NOT_SAVED, describe, record_of, schema_checksum
 from solepath.saving.streams import from_bytes, to_bytes
 
 FILE = json.loads((PROTOCOL / "snapshot" / "states.json").read_text("utf-8"))
@@ -30,7 +30,7 @@ HEADER = struct.Struct("<4sHHII")
 
 
 class Hat(Protocol):
-    """What a `Wardrobe` has on top."""
+    """The hat of a `Wardrobe`."""
 
     size: float
 
@@ -108,15 +108,17 @@ def test_a_record_of_every_kind_comes_back_and_is_read_by_its_schema_alone(made:
     assert save(again) == (saved | {"limit": 0.75} if made else saved)
     assert again.plan is None and again.rows.maxlen == 3 and again.raw == one.raw
     state = record_of(Wardrobe, made)
-    parts = {told_of(record): described(record) for record in (record_of(Cap), record_of(Cap, True), record_of(Bag))}
-    tree = Tree(described(state), parts, body)
+    parts = {
+        identify_record(record): describe(record) for record in (record_of(Cap), record_of(Cap, True), record_of(Bag))
+    }
+    tree = Tree(describe(state), parts, body)
     (fields,) = tree.roots()
     assert not tree.left()
     assert json.dumps(fields) == json.dumps(less(fields, saved))
 
 
 def less(part: Any, whole: Any) -> Any:
-    """Of the whole what is in the part."""
+    """Return the part of the whole that has the keys of `part`."""
     if isinstance(part, dict):
         return {key: less(value, whole[key]) for key, value in part.items()}
     if isinstance(part, list):
@@ -134,34 +136,34 @@ def test_a_state_of_the_file_is_read_by_the_schema_beside_it(state: dict[str, An
 def test_the_first_state_of_the_file_is_what_is_packed_today() -> None:
     (state,) = FILE["states"]
     assert state["hex"] == body_of(used(), made=True).hex()
-    assert state["schema"] == described(record_of(Wardrobe, made=True))
+    assert state["schema"] == describe(record_of(Wardrobe, made=True))
 
 
 @cache
 def printed() -> dict[str, Any]:
-    """What the command says."""
+    """Return the output of the command."""
     command = [sys.executable, "-m", "solepath.session.schema"]
-    told: dict[str, Any] = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)
-    return told
+    documented: dict[str, Any] = json.loads(subprocess.run(command, capture_output=True, check=True).stdout)
+    return documented
 
 
 def sessions() -> Iterator[Session]:
     yield from map(Session, map(recipes.by_name, recipes.NAMES))
     for name in ("session, whole frames", "session, cc2650", "session, footstep-tracker", "session, kupt-dfpc"):
-        session = machines()[name].begin()
+        session = machines()[name].start()
         session.feed(machines()[name].items[:700])
         yield session
 
 
 def test_every_session_is_read_by_the_printed_schema_alone() -> None:
-    told = printed()
+    documented = printed()
     for session in sessions():
         data = session.pack()
         magic, form, version, made_with, check = HEADER.unpack_from(data)
-        assert (magic, form, version) == (b"sole", 2, told["version"])
-        assert made_with == zlib.crc32(json.dumps(told["session"], separators=(",", ":")).encode())
+        assert (magic, form, version) == (b"sole", 2, documented["version"])
+        assert made_with == zlib.crc32(json.dumps(documented["session"], separators=(",", ":")).encode())
         assert check == zlib.crc32(data[:12] + bytes(4) + data[16:])
-        tree = Tree(told["session"], told["parts"], data[16:])
+        tree = Tree(documented["session"], documented["parts"], data[16:])
         head, state = tree.roots()
         assert not tree.left()
         assert head["recipe"] == session.recipe.name
@@ -173,9 +175,11 @@ def test_a_session_with_a_detector_of_the_apps_own_is_read_with_its_schema_besid
     session = Session(evolve(recipes.DEFAULT, name="own", detector=Mine()))
     session.feed(samples(cells=0)[:50])
     record = record_of(Mine, made=True)
-    assert told_of(record) == f"Mine {check_of(described(record)):08x}"
-    told = printed()
-    tree = Tree(told["session"], told["parts"] | {told_of(record): described(record)}, session.pack()[16:])
+    assert identify_record(record) == f"Mine {schema_checksum(describe(record)):08x}"
+    documented = printed()
+    tree = Tree(
+        documented["session"], documented["parts"] | {identify_record(record): describe(record)}, session.pack()[16:]
+    )
     _, state = tree.roots()
     assert not tree.left()
     assert state["wearer"]["feet"]["left"]["detector"]["kind"] == "Mine"
@@ -187,7 +191,7 @@ class Mine(ShoeDetector):
 
 
 @pytest.mark.parametrize("body", FILE["bodies"], ids=lambda body: body["id"])
-def test_a_body_holds_what_it_is_said_to_hold(body: dict[str, Any]) -> None:
+def test_a_body_holds_the_documented_values(body: dict[str, Any]) -> None:
     data = bytes.fromhex(body["hex"])
     if body["result"] == "valid":
         expected = {**body["streams"], "bytes": bytes.fromhex(body["streams"]["bytes"])}

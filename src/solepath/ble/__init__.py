@@ -1,11 +1,11 @@
 """Real Bluetooth, through bleak: find, connect, set up, listen."""
 
-from .air import NATIVE, Backend, Found, scan
+from .config import DeviceConfig
 from .connection import Connection, ConnectionState
 from .devices import Devices
 from .record import record
+from .scanning import NATIVE, Backend, Found, scan
 from .trouble import BluetoothError
-from .wanted import DeviceConfig
 
 __all__ = [
     "NATIVE",

@@ -1,4 +1,4 @@
-"""One device for as long as it is wanted: sought, connected, set up, listened to, and sought again when it is lost."""
+"""Connection to one configured device: search, connect, set up, listen, and search again when it is lost."""
 
 from __future__ import annotations
 
@@ -13,36 +13,40 @@ from bleak.exc import BleakDeviceNotFoundError
 from bleak_retry_connector import establish_connection
 
 from ..types import Site
-from ..wire.receiver import LONGEST_NAME, build_connected
-from ..wire.receiver import ConnectionFrame as Made
-from .air import WEAKEST, Backend, Found, Scanner
-from .inbox import Emitter, shortened
+from ..wire.receiver import LONGEST_NAME, ConnectionFrame, build_connected
+from .config import DeviceConfig
+from .inbox import Emitter, shorten
 from .listening import Listening
-from .search import FORGET, Search
-from .setup import INFO, Unfit, ask_info, lacking, site_in
-from .trouble import FAILURES, NO_ANSWER, calling, sentence
-from .wanted import DeviceConfig
+from .scanning import WEAKEST, Backend, Found, Scanner
+from .search import PRESENT_FOR, Search
+from .setup import INFO, WrongDevice, find_missing_stream, parse_site, read_info
+from .trouble import FAILURES, NO_ANSWER, bleak_call, describe_error
 
 ATTEMPTS = 2
-"""Times that a device which just advertised is tried to connect to, before it is looked for again."""
+"""Number of attempts to connect to a device that has just advertised, before the search starts again."""
 CONNECTING = 20.0
-"""s that all of this may take, so that a device which left meanwhile is soon looked for again."""
+"""Time limit for all these attempts, s, so that the search for a device that left starts again soon."""
 PAUSE = 0.25
-"""s before the next search after a link that broke soon, and after a connection failed, that is, brought nothing of a
-stream; twice as long after each further failure ..."""
+"""Delay before the next search after a link that broke soon or a connection without stream data, s.
+
+It doubles after each further connection that brought no stream data.
+"""
 LONGEST_PAUSE = 8.0
-"""... up to this."""
-STEADY = 1.0
-"""s of listening after which a link that is lost is sought again at once."""
-PARTING = 5.0
-"""s that a disconnection may take."""
-RECONSIDER = 60.0
-"""s after which a device that was not the one is looked at again: it may have been set to rights."""
+"""Upper limit of the delay before the next search, s."""
+STABLE_AFTER = 1.0
+"""Time of listening after which a lost link is searched for again at once, s."""
+DISCONNECTING = 5.0
+"""Time limit of a disconnection, s."""
+RECHECK_AFTER = 60.0
+"""Time after which a wrong device is tried again, s: its owner may have corrected it."""
 
 
 class ConnectionState(Enum):
-    """What a connection is at: it waits for the device's advertisement, connects to it, reads, subscribes and writes
-    what the profile says, or passes on what comes."""
+    """State of a connection.
+
+    SEEKING waits for the device's advertisement, CONNECTING connects, SETTING_UP reads, subscribes and writes as the
+    profile says, and LISTENING passes packets on.
+    """
 
     SEEKING = "seeking"
     CONNECTING = "connecting"
@@ -52,17 +56,19 @@ class ConnectionState(Enum):
 
 @define(eq=False)
 class Connection:
-    """One wanted device, as `Devices` has it; for an app to look at: `wanted`, `site`, `state`, `signal`, and `address`
-    and `name`, "" as long as they are not known. None of it raises; troubles become packets, and LinkTrouble of those.
+    """The connection of one configured device, as `Devices` holds it.
 
-    `run` is a task of its own, so no device waits for another. What it learns it says with its `emitter`. `pair`: pair
-    when connected. `patience`: s until a device that is not heard is complained of.
-    `siblings`: all connections of the same owner, this one too; no two use one device or stand at one site.
+    An app may read `config`, `site`, `state`, `signal`, `address` and `name`; the last two are "" until they are known.
+    Nothing here raises: troubles become packets, which the session turns into LinkTrouble.
+
+    `run` is a task of its own, so no device waits for another. It reports through `emitter`. `pair` makes it pair when
+    connected. `patience` is the time until a device that does not advertise is reported, s. `siblings` are all
+    connections of the same owner, this one included; no two of them use the same device or the same site.
     """
 
-    wanted: DeviceConfig
+    config: DeviceConfig
     backend: Backend
-    air: Scanner
+    scanner: Scanner
     emitter: Emitter
     siblings: Sequence[Connection]
     pair: bool
@@ -70,106 +76,114 @@ class Connection:
     state: ConnectionState = field(default=ConnectionState.SEEKING, init=False)
     name: str = field(default="", init=False)
     signal: int | None = field(default=None, init=False)
-    """With which it last advertised, dBm; None when nobody knows."""
-    _trying: str = field(default="", init=False)
-    """The address in use just now."""
-    _since: float = field(default=0.0, init=False)
-    """When it began to listen, s."""
-    _lacking_since: float = field(default=0.0, init=False)
-    """From when on nothing of a stream was heard, however often it was tried, s."""
+    """Signal strength of the last advertisement, dBm; None when unknown."""
+    _current_address: str = field(default="", init=False)
+    """Address of the device that is in use now; "" for none."""
+    _listening_since: float = field(default=0.0, init=False)
+    """Start of listening, s."""
+    _no_stream_since: float = field(default=0.0, init=False)
+    """Start of the time without any stream data, over all attempts, s."""
     _streamed: bool = field(default=False, init=False)
-    """Something of a stream came in the connection that is made, or was last."""
-    _unfit: dict[str, float] = field(factory=dict, init=False)
-    """Addresses that were not the one, and when that was seen."""
+    """True if the current or last connection brought stream data."""
+    _wrong_since: dict[str, float] = field(factory=dict, init=False)
+    """Addresses of wrong devices, each with the time at which that was found, s."""
 
     @property
     def site(self) -> Site:
-        """Where packets are said to come from; provisional while a device that says its site was not asked."""
+        """Site that the packets carry; provisional until a device that reports its site was read."""
         return self.emitter.site
 
     @property
     def address(self) -> str:
-        """Of the device, once it is known which it is; from then on no other will do."""
+        """Address of the device once it is known; from then on no other device is accepted."""
         return self.emitter.address
 
     async def run(self) -> None:
-        """For ever."""
-        pause, self._lacking_since = PAUSE, _now()
+        """Keep the device connected; never returns."""
+        pause, self._no_stream_since = PAUSE, _now()
         while True:
-            since, complain = self._lacking_since, self.emitter.complain
-            search = Search(self.air, self.wanted, self.address, self._barred, self.patience, since, complain)
+            since, report_trouble = self._no_stream_since, self.emitter.report_trouble
+            search = Search(
+                self.scanner, self.config, self.address, self._is_excluded, self.patience, since, report_trouble
+            )
             found = await search.run()
-            self._trying, self.signal = found.address, found.signal if found.signal > WEAKEST else None
+            self._current_address, self.signal = found.address, found.signal if found.signal > WEAKEST else None
             self._streamed = False
             try:
                 await self._use(found)
-            except Unfit as error:
-                self._unfit[found.address] = _now()
-                self.emitter.complain(str(error))
+            except WrongDevice as error:
+                self._wrong_since[found.address] = _now()
+                self.emitter.report_trouble(str(error))
             except FAILURES as error:
-                self.emitter.complain(sentence(error))
+                self.emitter.report_trouble(describe_error(error))
             finally:
-                steady = self._streamed and self.state is ConnectionState.LISTENING and _now() - self._since >= STEADY
-                self._trying, self.state = "", ConnectionState.SEEKING
+                stable = (
+                    self._streamed
+                    and self.state is ConnectionState.LISTENING
+                    and _now() - self._listening_since >= STABLE_AFTER
+                )
+                self._current_address, self.state = "", ConnectionState.SEEKING
             if self._streamed:
-                pause, self._lacking_since = PAUSE, _now()
-            if not steady:
+                pause, self._no_stream_since = PAUSE, _now()
+            if not stable:
                 await asyncio.sleep(pause)
             if not self._streamed:
                 pause = min(2.0 * pause, LONGEST_PAUSE)
 
-    def _barred(self, found: Found) -> bool:
-        """Is it another's, or known not to be the one?"""
-        self._unfit = {address: t for address, t in self._unfit.items() if _now() - t < RECONSIDER}
+    def _is_excluded(self, found: Found) -> bool:
+        """Return whether the device belongs to another connection or is known to be wrong."""
+        self._wrong_since = {address: t for address, t in self._wrong_since.items() if _now() - t < RECHECK_AFTER}
         others = (one for one in self.siblings if one is not self)
-        return found.address in self._unfit or any(one._claims(found) for one in others)
+        return found.address in self._wrong_since or any(one._claims(found) for one in others)
 
     def _claims(self, found: Found) -> bool:
-        if self.address or self._trying:
-            return found.address in (self.address, self._trying)
-        return self.wanted.names(found.address, found.name)
+        if self.address or self._current_address:
+            return found.address in (self.address, self._current_address)
+        return self.config.is_named(found.address, found.name)
 
     async def _use(self, found: Found) -> None:
-        """Connect, listen, and return when the connection is lost. Unfit, FAILURES."""
-        profile = self.wanted.profile or found.profile
+        """Connect, listen, and return when the connection is lost. Raises WrongDevice and FAILURES."""
+        profile = self.config.profile or found.profile
         name = found.name or found.address
         if profile is None:
-            raise Unfit(f"{name} is of no kind that is known here: say its profile")
+            raise WrongDevice(f"{name} is of no kind that is known here: say its profile")
         self.state = ConnectionState.CONNECTING
-        gone = asyncio.Event()
-        client = await self._connect(found, name, gone)
+        disconnected = asyncio.Event()
+        client = await self._connect(found, name, disconnected)
         try:
             self.state = ConnectionState.SETTING_UP
-            if lacks := lacking(client, profile):
-                raise Unfit(f"{name} is no {profile.name}: it has no {lacks}")
-            info = await ask_info(client, profile)
-            self._settle(None if info is None else site_in(info, name), found, name)
-            listening = Listening(client, profile, self.emitter, gone, {} if info is None else {INFO: info})
-            self.emitter.say("receiver/connected", build_connected(Made(shortened(name, LONGEST_NAME), self.signal)))
+            if missing := find_missing_stream(client, profile):
+                raise WrongDevice(f"{name} is no {profile.name}: it has no {missing}")
+            info = await read_info(client, profile)
+            self._assign(None if info is None else parse_site(info, name), found, name)
+            listening = Listening(client, profile, self.emitter, disconnected, {} if info is None else {INFO: info})
+            self.emitter.emit(
+                "receiver/connected", build_connected(ConnectionFrame(shorten(name, LONGEST_NAME), self.signal))
+            )
             try:
                 await listening.set_up()
-                self.state, self._since = ConnectionState.LISTENING, _now()
+                self.state, self._listening_since = ConnectionState.LISTENING, _now()
                 await listening.run()
             finally:
                 listening.closed, self._streamed = True, listening.streamed
-                self.emitter.say("receiver/disconnected")
+                self.emitter.emit("receiver/disconnected")
         finally:
             with suppress(*FAILURES):
-                async with calling(PARTING):
+                async with bleak_call(DISCONNECTING):
                     await client.disconnect()
 
-    async def _connect(self, found: Found, name: str, gone: asyncio.Event) -> BleakClient:
-        """`gone` is set when the connection is lost. FAILURES."""
+    async def _connect(self, found: Found, name: str, disconnected: asyncio.Event) -> BleakClient:
+        """Connect to the device; `disconnected` is set when the connection is lost. Raises FAILURES."""
         loop = asyncio.get_running_loop()
-        late = max(self._lacking_since + self.patience, _now() + min(FORGET, self.patience))
-        telling = loop.call_at(late, self.emitter.complain, NO_ANSWER)
+        complain_at = max(self._no_stream_since + self.patience, _now() + min(PRESENT_FOR, self.patience))
+        timer = loop.call_at(complain_at, self.emitter.report_trouble, NO_ANSWER)
         try:
-            async with calling(CONNECTING):
+            async with bleak_call(CONNECTING):
                 client = await establish_connection(
                     BleakClient,
                     found.device,
                     name,
-                    lambda _: gone.set(),
+                    lambda _: disconnected.set(),
                     max_attempts=ATTEMPTS,
                     pair=self.pair,
                     backend=self.backend.client,
@@ -177,22 +191,22 @@ class Connection:
         except TimeoutError as error:
             raise BleakDeviceNotFoundError(found.address) from error
         finally:
-            telling.cancel()
+            timer.cancel()
         if client.is_connected:
-            gone.clear()  # it was set if the first attempt was connected, for a moment
+            disconnected.clear()  # a first attempt that was connected for a moment has set it
         return client
 
-    def _settle(self, said: Site | None, found: Found, name: str) -> None:
-        """This device it is, `said` being where it says that it is worn. Unfit when that is not where it is wanted."""
-        site, wanted = said or self.wanted.site, self.wanted.site
+    def _assign(self, reported: Site | None, found: Found, name: str) -> None:
+        """Take this device for the site that it reports; raise WrongDevice when that site is not the configured one."""
+        site, requested = reported or self.config.site, self.config.site
         if site is None:
-            raise Unfit(f"{name} does not say where it is worn: name a site")
-        if wanted is not None and site is not wanted:
-            raise Unfit(f"{name} is a {_place(site)} one: wanted at the {_place(wanted)}")
+            raise WrongDevice(f"{name} does not say where it is worn: name a site")
+        if requested is not None and site is not requested:
+            raise WrongDevice(f"{name} is a {_place(site)} one: wanted at the {_place(requested)}")
         there = [one for one in self.siblings if one is not self and one.site is site]
-        if any(one.address or one.wanted.site is not None for one in there):
-            raise Unfit(f"{name} is one more for the {_place(site)}")
-        for one in there:  # provisional places are exchanged
+        if any(one.address or one.config.site is not None for one in there):
+            raise WrongDevice(f"{name} is one more for the {_place(site)}")
+        for one in there:  # provisional sites are exchanged
             one.emitter.site = self.site
         self.emitter.site, self.emitter.address, self.name = site, found.address, found.name
 

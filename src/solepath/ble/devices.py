@@ -1,4 +1,4 @@
-"""Devices: what an app holds to hear real sensors.
+"""Devices: the object through which an app receives packets of real sensors.
 
 async with Devices([DeviceConfig(Site.LEFT_FOOT, "F0:F1:F2:F3:F4:F5")]) as devices:
     async for packet in devices:
@@ -11,69 +11,71 @@ import asyncio
 from collections.abc import AsyncIterator, Iterable
 
 from ..types import Packet, Site
-from .air import NATIVE, Backend, Scanner, scanner
+from .config import DeviceConfig, check_configs
 from .connection import Connection, ConnectionState
 from .inbox import Emitter, Inbox
-from .trouble import FAILURES, BluetoothError, sentence
-from .wanted import DeviceConfig, check
+from .scanning import NATIVE, Backend, Scanner, make_scanner
+from .trouble import FAILURES, BluetoothError, describe_error
 
 TICK = 0.2
-"""s without a packet after which there is one that says so."""
+"""Time without a packet after which a packet that reports the passing of time is returned, s."""
 IN_A_ROW = 64
-"""Packets taken at a stretch before Bluetooth gets its turn again."""
+"""Number of packets that are taken in a row before the event loop can serve Bluetooth again."""
 
 
 class Devices:
-    """Any number of devices, found, connected, set up, and connected again whenever they are lost; iterate for packets.
+    """Any number of devices: found, connected, set up, and connected again when lost; iterate for packets.
 
-    Every packet is stamped with the event loop's clock when it arrives (`loop.time()`, usually `time.monotonic()`), and
-    names its device; it can be taken in the loop's next turn. Besides what devices send there is what was read from and
-    written to them, and what only the receiver knows (protocol/receiver.md): connections, troubles in words, packets
-    that were dropped, and the passing of time while nothing comes. All of it is for `Session.feed`, which makes events
-    of it, and for a recording.
+    Every packet carries the time of the event loop's clock at its arrival (`loop.time()`, usually `time.monotonic()`)
+    and the address of its device. It can be taken in the loop's next turn. Besides notifications there are the values
+    that were read and written, and packets of the receiver itself (protocol/receiver.md): connections, troubles as
+    sentences, counts of dropped packets, and the passing of time while nothing arrives. All of them are for
+    `Session.feed`, which turns them into events, and for a recording.
 
-    `capacity`: notifications that wait to be taken; beyond it the oldest are dropped, and a packet says how many.
-    `pair`: pair with each device when it is connected. `patience`: s until a device that is not heard is complained of.
-    `backend`: another Bluetooth than this machine's (loopback). ValueError when nothing is wanted, one site twice, or
-    when nothing tells two devices apart.
+    `capacity` is the number of notifications that can wait; beyond it the oldest are dropped and a packet says how
+    many. `pair` makes every device pair when it is connected. `patience` is the time until a device that does not
+    advertise is reported, s. `backend` replaces this machine's Bluetooth (loopback). Raises ValueError when no device
+    is configured, when two have the same site, or when nothing distinguishes two of them.
 
-    To enter raises BluetoothError when there is no Bluetooth to be used; nothing that happens later does. Leaving
-    disconnects; what has arrived by then can still be iterated.
+    Entering raises BluetoothError when Bluetooth cannot be used; nothing that happens later does. Leaving disconnects;
+    what has arrived by then can still be iterated.
     """
 
     def __init__(
         self,
-        wanted: Iterable[DeviceConfig],
+        configs: Iterable[DeviceConfig],
         *,
         backend: Backend = NATIVE,
         capacity: int = 4000,
         pair: bool = False,
         patience: float = 10.0,
     ) -> None:
-        wanted = tuple(wanted)
-        check(wanted)
+        configs = tuple(configs)
+        check_configs(configs)
         if capacity < 1:
             raise ValueError(f"a capacity of {capacity}")
         self._inbox = Inbox(capacity)
-        self._air = Scanner(backend, self._complain)
+        self._scanner = Scanner(backend, self._report_trouble)
         self._backend = backend
         self._tasks: list[asyncio.Task[None]] = []
         self._connections: list[Connection] = []
         self._waiter: asyncio.Future[None] | None = None
         self._taken = 0
         self._entered = False
-        """At least once."""
+        """True if the devices were entered at least once."""
         self._in_use = False
         self._fault: asyncio.Task[None] | None = None
-        free = [site for site in Site if site not in {one.site for one in wanted}]
-        for one in wanted:
+        free = [site for site in Site if site not in {one.site for one in configs}]
+        for one in configs:
             emitter = Emitter(self._inbox, free.pop(0) if one.site is None else one.site)
-            self._connections.append(Connection(one, backend, self._air, emitter, self._connections, pair, patience))
+            self._connections.append(
+                Connection(one, backend, self._scanner, emitter, self._connections, pair, patience)
+            )
         self._inbox.on_arrival = self._wake
 
     @property
     def connections(self) -> tuple[Connection, ...]:
-        """One for each that is wanted, in that order: site, state, address, name, signal. Read only."""
+        """Connections in the order of the configs: site, state, address, name, signal. Read only."""
         return tuple(self._connections)
 
     async def __aenter__(self) -> Devices:
@@ -81,16 +83,16 @@ class Devices:
             raise RuntimeError("these devices are in use already")
         self._in_use = True
         try:
-            async with scanner(self._backend, lambda _: None):
+            async with make_scanner(self._backend, lambda _: None):
                 pass
         except BaseException as error:
             self._in_use = False
             if isinstance(error, FAILURES):
-                raise BluetoothError(sentence(error)) from error
+                raise BluetoothError(describe_error(error)) from error
             raise
         self._entered = True
-        lives = [self._air.run(), *(connection.run() for connection in self._connections)]
-        self._tasks = [asyncio.create_task(life) for life in lives]
+        runs = [self._scanner.run(), *(connection.run() for connection in self._connections)]
+        self._tasks = [asyncio.create_task(run) for run in runs]
         for task in self._tasks:
             task.add_done_callback(self._ended)
         return self
@@ -108,10 +110,10 @@ class Devices:
         return self
 
     async def __anext__(self) -> Packet:
-        """The next packet; StopAsyncIteration when the devices were left and all is taken. RuntimeError when they were
-        never entered.
+        """Return the next packet.
 
-        A fault of this program in one of the tasks is raised as it is.
+        Raises StopAsyncIteration when the devices were left and all packets are taken, and RuntimeError when they were
+        never entered. An error of this program in one of the tasks is raised unchanged.
         """
         if not self._entered:
             raise RuntimeError("nothing comes of devices before they are entered: async with Devices(...) as devices")
@@ -135,7 +137,7 @@ class Devices:
         return self._next() or Packet(loop.time(), self._connections[0].site, "receiver/tick", b"")
 
     def _next(self) -> Packet | None:
-        """What has arrived; None while there may be more to come."""
+        """Return the oldest packet that has arrived; None while more may come."""
         if self._fault is not None:
             self._fault.result()
         packet = self._inbox.take()
@@ -148,12 +150,12 @@ class Devices:
             self._waiter.set_result(None)
 
     def _ended(self, task: asyncio.Task[None]) -> None:
-        """A task of ours never ends by itself, unless it has a fault."""
+        """Note a fault: these tasks never end by themselves otherwise."""
         if not task.cancelled():
             self._fault = task
         self._wake()
 
-    def _complain(self, what: str) -> None:
+    def _report_trouble(self, what: str) -> None:
         for connection in self._connections:
             if connection.state is ConnectionState.SEEKING:
-                connection.emitter.complain(what)
+                connection.emitter.report_trouble(what)

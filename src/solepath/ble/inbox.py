@@ -1,4 +1,4 @@
-"""Packets between connections, which say them, and whoever takes them: bounded, honest about what did not fit."""
+"""Bounded queue of packets between the connections and their consumer; it counts the packets that it drops."""
 
 from __future__ import annotations
 
@@ -14,120 +14,122 @@ from ..wire.receiver import build_dropped, parse_dropped
 
 DROPPED = "receiver/dropped"
 REPEAT = 60.0
-"""The same trouble is reported again after so long at the earliest, s."""
+"""Shortest interval between two reports of the same trouble, s."""
 LONGEST = 500
-"""Bytes of a trouble."""
+"""Longest text of a trouble, bytes."""
 
 
 @define
 class Inbox:
-    """First in, first out. Holds `capacity` notifications; when one more comes, the oldest goes.
+    """A first-in-first-out queue of `capacity` notifications; one more removes the oldest.
 
-    What was read, written or said by the receiver is not dropped for a notification's sake, so that a recording keeps
-    its ranges and layouts; of that too there is at most `capacity`, the oldest go. What was dropped of a site is told
-    by a packet receiver/dropped where it stood among what was kept of that site. Only when so much was kept that such
-    a packet would not fit is its count told later, with the next.
+    Values that were read or written and reports of the receiver are not dropped to make room for a notification, so
+    that a recording keeps its ranges and layouts. Of these too there are at most `capacity`; beyond it the oldest are
+    dropped. A packet receiver/dropped counts the dropped packets of a site and takes their place among the kept packets
+    of that site. Only when so many packets were kept that this packet would not fit, its count is reported with the
+    next one.
     """
 
     capacity: int
     _packets: deque[tuple[Packet, bool]] = field(factory=deque, init=False)
     _kept: deque[Packet] = field(factory=deque, init=False)
-    """What may not be dropped and was found among the oldest, or comes next; older than all of `_packets`."""
+    """Packets that may not be dropped and were among the oldest, or that come next; all older than `_packets`."""
     _dropped: dict[Site, int] = field(factory=dict, init=False)
-    """Notifications of each site that went since the last packet receiver/dropped."""
-    _passed: dict[Site, Packet] = field(factory=dict, init=False)
-    """By site, the newest that was dropped or kept when it was the oldest: the dropped are told at its time, since
-    what was kept is taken before."""
+    """Number of notifications of each site that were dropped since its last packet receiver/dropped."""
+    _newest_removed: dict[Site, Packet] = field(factory=dict, init=False)
+    """The newest packet of each site that was dropped, or kept as the oldest of the queue.
+
+    The count of the dropped packets carries its time, since the kept packets are taken first.
+    """
     on_arrival: Callable[[], None] | None = field(default=None, init=False)
 
     def __len__(self) -> int:
         return len(self._packets) + len(self._kept) + len(self._dropped)
 
-    def put(self, packet: Packet, notified: bool) -> None:
-        """`notified`: it came by itself, and may be dropped."""
-        self._packets.append((packet, notified))
+    def put(self, packet: Packet, is_notification: bool) -> None:
+        """Add one packet; `is_notification` says that the device sent it unasked, so it may be dropped."""
+        self._packets.append((packet, is_notification))
         if len(self._packets) > self.capacity:
             self._make_room()
         if self.on_arrival is not None:
             self.on_arrival()
 
     def _make_room(self) -> None:
-        packet, notified = self._packets.popleft()
-        if notified:
-            self._passed[packet.site] = packet
+        packet, is_notification = self._packets.popleft()
+        if is_notification:
+            self._newest_removed[packet.site] = packet
             self._drop(packet)
             return
         if packet.site in self._dropped:
-            self._kept.append(self._tell(packet.site))
-        self._passed[packet.site] = packet
+            self._kept.append(self._make_dropped_packet(packet.site))
+        self._newest_removed[packet.site] = packet
         self._kept.append(packet)
         while len(self._kept) > self.capacity:
             counts = (k for k, kept in enumerate(self._kept) if kept.channel == DROPPED)
-            oldest = next(counts, 0)  # a count can be told later, a value cannot
+            oldest = next(counts, 0)  # a count can be reported later, a value cannot
             self._drop(self._kept[oldest])
             del self._kept[oldest]
 
     def _drop(self, packet: Packet) -> None:
-        """Count it; if it is a count itself, add that."""
+        """Count a dropped packet; of a packet that is a count itself, add that count."""
         count = parse_dropped(packet.data) if packet.channel == DROPPED else 1
         self._dropped[packet.site] = self._dropped.get(packet.site, 0) + count
 
-    def _tell(self, site: Site) -> Packet:
-        """How many of the site were dropped that were not told yet."""
-        newest = self._passed[site]
+    def _make_dropped_packet(self, site: Site) -> Packet:
+        """Return the packet that counts the dropped, not yet reported packets of a site."""
+        newest = self._newest_removed[site]
         return Packet(newest.t, site, DROPPED, build_dropped(self._dropped.pop(site)), newest.device)
 
     def take(self) -> Packet | None:
-        """The oldest packet; None when there is none."""
+        """Remove and return the oldest packet; None when there is none."""
         if self._kept:
             return self._kept.popleft()
         if self._dropped:
-            told = self._tell(next(iter(self._dropped)))
-            if self._packets:  # it comes next whatever is dropped meanwhile: who is slow shall not hear of drops alone
+            dropped = self._make_dropped_packet(next(iter(self._dropped)))
+            if self._packets:  # it comes next whatever is dropped now: a slow consumer must not get counts alone
                 packet, _ = self._packets.popleft()
                 if packet.site in self._dropped:
-                    self._kept.append(self._tell(packet.site))
-                self._passed[packet.site] = packet
+                    self._kept.append(self._make_dropped_packet(packet.site))
+                self._newest_removed[packet.site] = packet
                 self._kept.append(packet)
-            return told
+            return dropped
         return self._packets.popleft()[0] if self._packets else None
 
 
 @define(eq=False)
 class Emitter:
-    """Speaks into `inbox`, at once and by the loop's clock, for the device `address` ("" while none is known) at
-    `site`."""
+    """Puts packets into `inbox` at once, at the loop's time, for the device `address` ("" if unknown) at `site`."""
 
     inbox: Inbox
     site: Site
     address: str = ""
     _reported: dict[str, float] = field(factory=dict, init=False)
-    """When each trouble was last reported, s, by its words."""
+    """Time of the last report of each trouble, s, by its text."""
 
-    def pass_on(self, channel: str, data: bytes) -> float:
-        """A notification; when it came, s."""
+    def emit_notification(self, channel: str, data: bytes) -> float:
+        """Emit a notification and return its arrival time, s."""
         packet = self._packet(channel, data)
         self.inbox.put(packet, True)
         return packet.t
 
-    def say(self, channel: str, data: bytes = b"") -> Packet:
-        """What was read, written or became known; not to be dropped."""
+    def emit(self, channel: str, data: bytes = b"") -> Packet:
+        """Emit a packet that may not be dropped: a value that was read or written, or a report of the receiver."""
         packet = self._packet(channel, data)
         self.inbox.put(packet, False)
         return packet
 
-    def complain(self, what: str) -> None:
-        """Report a trouble, by a packet receiver/trouble; the same one again after `REPEAT` at the earliest."""
+    def report_trouble(self, what: str) -> None:
+        """Emit a packet receiver/trouble; the same text again after `REPEAT` at the earliest."""
         now = asyncio.get_running_loop().time()
         if now - self._reported.get(what, -REPEAT) >= REPEAT:
             self._reported = {one: t for one, t in self._reported.items() if now - t < REPEAT}
             self._reported[what] = now
-            self.say("receiver/trouble", build_text(shortened(what, LONGEST)))
+            self.emit("receiver/trouble", build_text(shorten(what, LONGEST)))
 
     def _packet(self, channel: str, data: bytes) -> Packet:
         return Packet(asyncio.get_running_loop().time(), self.site, channel, data, self.address)
 
 
-def shortened(text: str, size: int) -> str:
-    """As much of the text as so many bytes of UTF-8 hold."""
+def shorten(text: str, size: int) -> str:
+    """Return the start of the text that fits into `size` bytes of UTF-8."""
     return text.encode("utf-8")[:size].decode("utf-8", "ignore")

@@ -1,4 +1,4 @@
-"""One connection while it stands: set up, listened to, and watched."""
+"""One established connection: set up, listened to, and watched for frozen streams."""
 
 from __future__ import annotations
 
@@ -19,67 +19,71 @@ from .setup import read, subscribe, write_setup
 from .watchdog import Remedy, Watchdog
 
 SHORTEST = 0.01
-"""s from one look to the next, so that no rounding of a loop's clock makes them follow each other at once."""
+"""Shortest interval between two checks, s: rounding of a loop's clock must not let them follow at once."""
 
 
 @define(eq=False)
 class Listening:
-    """`gone`: set when the connection is lost. `known`: values by channel that were read from it already.
+    """One established connection that passes notifications on.
 
-    `streamed`: something came on one of the streams. `closed`: whatever comes after that is not passed on.
+    `disconnected` is set when the connection is lost. `known` holds values that were read already, by channel.
+    `streamed` is True when stream data arrived. `closed` is True when further notifications are not passed on.
     """
 
     client: BleakClient
     profile: Profile
     emitter: Emitter
-    gone: asyncio.Event
+    disconnected: asyncio.Event
     known: dict[str, bytes] = field(factory=dict)
     streamed: bool = field(default=False, init=False)
     closed: bool = field(default=False, init=False)
     _watchdog: Watchdog = field(factory=lambda: Watchdog((), 0.0, 0.0), init=False)
 
     async def set_up(self) -> None:
-        """Read, then subscribe (a value read after that would come twice on BlueZ), then write. FAILURES."""
+        """Read, then subscribe, then write. Raises FAILURES.
+
+        A value that is read after subscribing would arrive twice on BlueZ.
+        """
         for name in self.profile.reads:
             if name in self.known:
-                self.emitter.say(name, self.known[name])
+                self.emitter.emit(name, self.known[name])
                 continue
             await read(self.client, self.profile.channel(name), self.emitter)
-        await subscribe(self.client, self.profile, self._hearer, self.emitter)
+        await subscribe(self.client, self.profile, self._make_callback, self.emitter)
         written = await write_setup(self.client, self.profile, self.emitter)
         streams = () if may_be_silent(self.emitter.site, written) else self.profile.streams
         self._watchdog = Watchdog(streams, self.profile.stale_after, asyncio.get_running_loop().time())
 
     async def run(self) -> None:
-        """Until the connection is lost, or worth nothing any more. FAILURES."""
+        """Watch until the connection is lost or useless. Raises FAILURES."""
         now = asyncio.get_running_loop().time
-        while not self.gone.is_set():
-            due = self._watchdog.due()
+        while not self.disconnected.is_set():
+            next_check_at = self._watchdog.next_check_at()
             with suppress(TimeoutError):
-                async with asyncio.timeout(None if due is None else max(SHORTEST, due - now())):
-                    await self.gone.wait()
-            frozen = None if self.gone.is_set() else self._watchdog.look(now())
-            if frozen is None:
+                async with asyncio.timeout(None if next_check_at is None else max(SHORTEST, next_check_at - now())):
+                    await self.disconnected.wait()
+            frozen_stream = None if self.disconnected.is_set() else self._watchdog.check(now())
+            if frozen_stream is None:
                 continue
-            channel, remedy = frozen
-            self.emitter.say("receiver/restarted", build_text(channel))
+            channel, remedy = frozen_stream
+            self.emitter.emit("receiver/restarted", build_text(channel))
             if remedy is Remedy.RECONNECT:
                 return
             await write_setup(self.client, self.profile, self.emitter)
 
-    def _hearer(self, channel: str) -> Callable[[BleakGATTCharacteristic, bytearray], None]:
+    def _make_callback(self, channel: str) -> Callable[[BleakGATTCharacteristic, bytearray], None]:
         streams = channel in self.profile.streams
 
-        def heard(_: BleakGATTCharacteristic, data: bytearray) -> None:
+        def callback(_: BleakGATTCharacteristic, data: bytearray) -> None:
             if not self.closed:
                 self.streamed = self.streamed or streams
-                self._watchdog.heard(channel, self.emitter.pass_on(channel, bytes(data)))
+                self._watchdog.add_notification(channel, self.emitter.emit_notification(channel, bytes(data)))
 
-        return heard
+        return callback
 
 
 def may_be_silent(site: Site, written: Sequence[Packet]) -> bool:
-    """Does what was written allow the device to send nothing, as with wake-on-motion?"""
+    """Return whether the written setup allows the device to send nothing, as with wake-on-motion."""
     decoder = Decoder(site)
     for packet in written:
         decoder.feed(packet)

@@ -1,4 +1,4 @@
-"""Packets on their way, written down."""
+"""Recording of packets on their way to a session."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ from ..types import Packet
 async def record(
     packets: AsyncIterable[Packet], path: Path | str, header: Mapping[str, Any] = {}
 ) -> AsyncIterator[Packet]:
-    """The same packets, each in the file before it is passed on, so that a replay feeds a session what was fed live.
+    """Yield the same packets, each written to the file first, so that a replay feeds a session the same input.
 
         async for packet in record(devices, "walk.jsonl"):
             session.feed(packet)
 
-    `header`: further keys of the first line; `began`, the time of day (UTC), and `began_t`, what the packets' clock
-    said then, are this recording's own. RecordingError when the file cannot be made, or not written any further (the
-    disk is full): what is in it stays whole.
+    `header` holds further keys of the first line. `began`, the time of day (UTC), and `began_t`, the packets' clock at
+    that time, are set by this function. Raises RecordingError when the file cannot be made or written any further (the
+    disk is full); what is in it stays intact.
     """
-    with PacketWriter(path, {**header, **beginning()}) as writer:
+    with PacketWriter(path, {**header, **start_keys()}) as writer:
         async for packet in packets:
             writer.write(packet)
             yield packet
 
 
-def beginning() -> dict[str, Any]:
-    """The keys of a header that say when a recording began, now: time of day, and the packets' clock (recording.md)."""
+def start_keys() -> dict[str, Any]:
+    """Return the header keys for a recording that starts now: time of day and packets' clock (recording.md)."""
     now = datetime.now(UTC).isoformat(timespec="milliseconds")
     return {"began": now, "began_t": asyncio.get_running_loop().time()}

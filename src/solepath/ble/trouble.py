@@ -1,4 +1,4 @@
-"""What goes wrong with Bluetooth: caught at every call into bleak, and put in a sentence that says what can be done."""
+"""Failures of Bluetooth: caught at every call into bleak and described in a sentence that says what to do."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from bleak import exc
 from bleak.exc import BleakDBusError, BleakError, BleakGATTProtocolError
 
 LOG = logging.getLogger("solepath.ble")
-LOG.addHandler(logging.NullHandler())  # who wants to see it says so; a terminal is not ours to write to
+LOG.addHandler(logging.NullHandler())  # the app decides whether to show the log; a library does not write to a terminal
 
 
 class BluetoothError(Exception):
-    """Bluetooth cannot be used at all; the message says why, and what can be done."""
+    """Raised when Bluetooth cannot be used at all; the message says why and what to do."""
 
 
-class Surprise(Exception):
-    """Something came out of bleak that it does not promise to raise; the cause has it, and the message names it."""
+class UnexpectedError(Exception):
+    """Raised for an exception that bleak does not document; it is the cause, and the message names it."""
 
     def __init__(self, error: Exception) -> None:
         words = _plain(error)
@@ -31,18 +31,18 @@ class Surprise(Exception):
 if sys.platform == "linux":
     from dbus_fast import AuthError, InvalidAddressError
 
-    FAILURES = (BleakError, OSError, EOFError, TimeoutError, Surprise, AuthError, InvalidAddressError)
+    FAILURES = (BleakError, OSError, EOFError, TimeoutError, UnexpectedError, AuthError, InvalidAddressError)
 else:
-    FAILURES = (BleakError, OSError, EOFError, TimeoutError, Surprise)
-"""What bleak and the systems below it raise when Bluetooth does not do what it should."""
+    FAILURES = (BleakError, OSError, EOFError, TimeoutError, UnexpectedError)
+"""Exceptions that bleak and the systems below it raise when Bluetooth fails."""
 
 
 @asynccontextmanager
-async def calling(seconds: float) -> AsyncIterator[None]:
-    """Around one call into bleak, which may last so long (TimeoutError after that). Nothing but FAILURES comes out.
+async def bleak_call(seconds: float) -> AsyncIterator[None]:
+    """Limit one call into bleak to `seconds` (then TimeoutError); only FAILURES are raised.
 
-    What should never come out of bleak does: its BlueZ client, for one, asserts that its bus is still there while it
-    waits for an answer. That ends this connection, never another one; the traceback is logged.
+    bleak also raises exceptions that it should not: its BlueZ client, for one, asserts that its bus still exists while
+    it waits for an answer. Such an exception ends this connection only; the traceback is logged.
     """
     try:
         async with asyncio.timeout(seconds):
@@ -51,7 +51,7 @@ async def calling(seconds: float) -> AsyncIterator[None]:
         raise
     except Exception as error:
         LOG.error("an unexpected exception out of bleak: the connection is begun anew", exc_info=True)
-        raise Surprise(error) from error
+        raise UnexpectedError(error) from error
 
 
 _REASON = exc.BleakBluetoothNotAvailableReason
@@ -75,7 +75,7 @@ _DBUS = {
 }
 _NOT_PAIRED = "the device wants to be paired first: pair=True, or --pair"
 _NOT_PAIRED_OVER_DBUS = ("org.bluez.Error.NotPermitted", "Not paired")
-"""What BlueZ makes of the codes of _PAIRING, but for that of authorization."""
+"""Error of BlueZ for the codes of `_PAIRING`, except insufficient authorization."""
 _PAIRING = {
     exc.BleakGATTProtocolErrorCode.INSUFFICIENT_AUTHENTICATION,
     exc.BleakGATTProtocolErrorCode.INSUFFICIENT_AUTHORIZATION,
@@ -83,12 +83,12 @@ _PAIRING = {
     exc.BleakGATTProtocolErrorCode.INSUFFICIENT_ENCRYPTION_KEY_SIZE,
 }
 _LOST = ("not connected", "disconnected", "link was lost", "service discovery has not been performed")
-"""How bleak, BlueZ and the loopback say that a connection ended during a request."""
+"""Texts with which bleak, BlueZ and the loopback report that a connection ended during a request."""
 NO_ANSWER = "the device does not answer: bring it near, and see that no other program or phone holds it"
 
 
-def sentence(error: BaseException) -> str:
-    """One line about any of FAILURES."""
+def describe_error(error: BaseException) -> str:
+    """Return one line about any of FAILURES."""
     match error:
         case exc.BleakBluetoothNotAvailableError():
             return _NOT_AVAILABLE[error.reason]
@@ -112,7 +112,7 @@ def sentence(error: BaseException) -> str:
         case retry.BleakAbortedError():
             return "the connection broke off while it was made: bring the device near"
         case retry.BleakConnectionError() if isinstance(error.__cause__, FAILURES):
-            return f"cannot connect: {sentence(error.__cause__)}"
+            return f"cannot connect: {describe_error(error.__cause__)}"
         case BleakError() if any(words in str(error).lower() for words in _LOST):
             return "the connection was lost: the device is sought again, bring it near if this happens often"
         case FileNotFoundError() | ConnectionRefusedError():
@@ -121,12 +121,12 @@ def sentence(error: BaseException) -> str:
             return f"this user may not use Bluetooth ({_plain(error)}): join the group bluetooth"
         case TimeoutError():
             return "the device did not answer in time: it is sought again; if this goes on, switch it off and on"
-        case Surprise():
+        case UnexpectedError():
             return f"Bluetooth failed unexpectedly ({error}): the device is sought again, the log solepath.ble has more"
     return _plain(error)
 
 
 def _plain(error: BaseException) -> str:
-    """The error's own words on one line, or its name when it has none."""
+    """Return the error's own text on one line, or its class name when it has none."""
     words = " ".join((error.strerror or "" if isinstance(error, OSError) else str(error)).split())
     return words[:300] or type(error).__name__

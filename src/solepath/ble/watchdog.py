@@ -1,8 +1,8 @@
-"""Tells a stream that froze from one that has nothing to say.
+"""Watchdog that distinguishes a frozen stream from one that has nothing to send.
 
-The CC2650's movement sensor is known to freeze while its connection stands (firmware before 1.12 on a weak coin
-cell); writing its configuration again wakes it. A device that may be silent by its configuration (wake-on-motion) is
-left alone.
+The CC2650's movement sensor is known to freeze while its connection stands (firmware before 1.12 on a weak coin cell);
+writing its configuration again wakes it. A device that may be silent by its configuration (wake-on-motion) is not
+watched.
 """
 
 from __future__ import annotations
@@ -13,51 +13,52 @@ from attrs import define, field
 
 
 class Remedy(Enum):
-    """What to do about a frozen stream."""
+    """The action against a frozen stream."""
 
     SET_UP = "write the setup again"
     RECONNECT = "disconnect and begin anew"
 
 
 TRIES = 2
-"""Times that the setup is written again before the connection is given up."""
+"""Number of times that the setup is written again before the connection is given up."""
 
 
 @define
 class Watchdog:
-    """One connection. `streams`: the channels that must speak, `patience` s apart at most; none when silence is legal.
+    """The watchdog of one connection.
 
-    `began`: when the device was set up, s.
+    `streams` are the channels that must send, at most `patience` s apart; none when silence is allowed. `t_start` is
+    the time at which the device was set up, s.
     """
 
     streams: tuple[str, ...]
     patience: float
-    began: float
-    _heard: dict[str, float] = field(factory=dict, init=False)
+    t_start: float
+    _last_t: dict[str, float] = field(factory=dict, init=False)
     _tries: int = field(default=0, init=False)
 
-    def heard(self, channel: str, t: float) -> None:
-        """A notification of `channel` came at `t`, s."""
-        self._heard[channel] = t
+    def add_notification(self, channel: str, t: float) -> None:
+        """Note a notification of `channel` at time `t`, s."""
+        self._last_t[channel] = t
 
-    def due(self) -> float | None:
-        """When to look next, s; None: there is nothing to watch."""
-        return min((self._last(stream) for stream in self.streams), default=None)
+    def next_check_at(self) -> float | None:
+        """Return the time of the next check, s; None when there is nothing to watch."""
+        return min((self._frozen_at(stream) for stream in self.streams), default=None)
 
-    def look(self, now: float) -> tuple[str, Remedy] | None:
-        """The channel that froze, if any, and what to do. The time for the remedy to work begins with the call."""
+    def check(self, now: float) -> tuple[str, Remedy] | None:
+        """Return the frozen channel, if any, and what to do; the remedy's time to work starts with this call."""
         for stream in self.streams:
-            if now < self._last(stream):
+            if now < self._frozen_at(stream):
                 continue
             if self._tries >= TRIES:
                 return stream, Remedy.RECONNECT
             self._tries += 1
-            self.began = now
+            self.t_start = now
             return stream, Remedy.SET_UP
-        if all(stream in self._heard and self._heard[stream] > self.began for stream in self.streams):
+        if all(stream in self._last_t and self._last_t[stream] > self.t_start for stream in self.streams):
             self._tries = 0
         return None
 
-    def _last(self, stream: str) -> float:
-        """The moment from which on the stream is frozen."""
-        return max(self._heard.get(stream, self.began), self.began) + self.patience
+    def _frozen_at(self, stream: str) -> float:
+        """Return the time from which the stream counts as frozen, s."""
+        return max(self._last_t.get(stream, self.t_start), self.t_start) + self.patience

@@ -65,7 +65,7 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     _check(options)
-    from ..fleet.demo.compare import Torn
+    from ..fleet.demo.compare import UnreadableEvents
     from ..fleet.demo.run import RunFailed
     from ..fleet.demo.stage import DemoStage
     from ..fleet.demo.wearers import DemoPlan
@@ -78,7 +78,7 @@ def run(options: argparse.Namespace) -> int:
         stage = DemoStage(directory, plan)
         try:
             differences = play(stage, options.kills, keep=options.keep)
-        except (RunFailed, Torn) as failed:
+        except (RunFailed, UnreadableEvents) as failed:
             raise Failure(str(failed)) from None
         print(f"\n{table_of(stage)}")
         if options.json is not None:
@@ -173,7 +173,7 @@ def _leave(stage: DemoStage, out: Path) -> None:
     from shlex import quote
 
     told = out / "told"
-    shutil.copytree(stage.told, told)
+    shutil.copytree(stage.events, told)
     files = f"{told}/*.parquet".replace("'", "''")
     query = f"FROM '{files}' SELECT event, count(*) AS told GROUP BY event ORDER BY told DESC"
     print(f"\nThe events are in {printable(str(told))}. To look at them (pip install duckdb):")

@@ -19,7 +19,7 @@ def of_kills(engine: Engine, run: int, outcome: Outcome) -> list[str]:
     lines = [f"killed run {run}: {_met(engine, cost)}" for cost in outcome.costs]
     if outcome.differences:
         lines[-1] += "; other events"
-    elif any(cost.told for cost in outcome.costs):
+    elif any(cost.had_effect for cost in outcome.costs):
         lines[-1] += "; the same events"
     else:
         lines[-1] += "; nothing was lost that had to come back"

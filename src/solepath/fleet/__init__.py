@@ -1,7 +1,7 @@
 """Many wearers on a stream engine: one pure step per wearer, whose state the engine keeps, moves and recovers.
 
     fleet = Fleet(recipes.DEFAULT)
-    state, told = fleet.step("w-17", None, [Sent("w-17", 0, packet), ...])
+    state, events = fleet.step("w-17", None, [Sent("w-17", 0, packet), ...])
 
 protocol/fleet.md says what a phone sends, in what order it is used, and what a state holds.
 """

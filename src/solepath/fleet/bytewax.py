@@ -1,12 +1,12 @@
-"""A fleet on bytewax: an operator for anybody's dataflow, and a sink for what it tells. Needs the extra `bytewax`.
+"""A fleet on bytewax: an operator for any dataflow, and a sink for its events. Needs the extra `bytewax`.
 
     sent = operators.input("phones", flow, source)                      # of Sent and Unreadable, as read_sent gives
     keyed = operators.key_on("wearer", sent, lambda one: one.wearer)
-    told = gait("gait", keyed, Fleet(recipe))                           # of Told, keyed by wearer
-    operators.output("files", told, ParquetSink("told"))
+    events = gait("gait", keyed, Fleet(recipe))                         # of NumberedEvent, keyed by wearer
+    operators.output("files", events, ParquetSink("told"))
 
-Killed at any moment and started again with its recovery store, a job goes on at the last snapshot: the source, every
-wearer and the sink at the same place. So the files hold each event once, when the source can go back to where it was.
+A job that is killed at any moment and started again with its recovery store goes on at the last snapshot: the source,
+every wearer and the sink at the same place. So the files hold each event once, if the source can go back.
 """
 
 from __future__ import annotations
@@ -35,25 +35,30 @@ from .step.sent import NumberedEvent
 def gait(
     step_id: str, up: KeyedStream[Any], fleet: Fleet, idle: timedelta | None = None, forget: timedelta | None = None
 ) -> KeyedStream[NumberedEvent]:
-    """What the sessions of a fleet tell of what phones sent, wearer by wearer.
+    """Return the events of a fleet's sessions for what phones sent, wearer by wearer.
 
-    `up`: keyed by the wearer's name; Sent and Unreadable, one at a time or in lists. In the recovery store is the state
-    of Fleet.step, and when a wearer who has ended was last heard of. After a restart a session is made again when its
-    wearer is heard of again. `idle`: the session of who sent nothing for so long is put away as bytes until then, which
-    changes memory and not a single event (unless a part of the app's own cannot be saved just then: Fleet.step).
-    `forget`: the state of who has ended, and sent nothing for so long, on the engine's clock and over restarts, is
-    thrown away. It keeps late copies from beginning anything: one that comes after that begins the wearer anew, with
-    events that are numbered from 0 again. bytewax keeps the name (see `purge`).
+    `up` is keyed by the wearer's name and holds Sent and Unreadable, one at a time or in lists. The recovery store
+    holds the state of Fleet.step, and the time of the last row of a wearer who has ended. After a restart a session is
+    made again when its wearer's next row arrives.
+
+    `idle`: the session of a wearer who sent nothing for this time is replaced by its bytes until the next row, which
+    changes memory and no event (unless a part of the app's own cannot be saved at that moment: Fleet.step). `forget`:
+    the state of a wearer who has ended, and sent nothing for this time, on the engine's clock and over restarts, is
+    discarded. Until then it keeps late copies from starting a session; a row that comes after that starts the wearer
+    again, with events that are numbered from 0 again. bytewax keeps the name (see `purge`).
     """
-    named = operators.map("named", up, lambda item: (item[0], item))  # bytewax tells a logic no key
+    named = operators.map("named", up, lambda item: (item[0], item))  # bytewax does not pass the key to a logic
     return operators.stateful_batch(
         "sessions", named, lambda kept: KeyedWearer(fleet, idle, forget, *kept or (None, None))
     )
 
 
 def purge(store: str | Path) -> None:
-    """Take who was forgotten out of the recovery store of a job that does not run: bytewax keeps their names for ever,
-    and SQLite what was written over. What bytewax still counts on stays; run the job with `-b 0`, or that is all."""
+    """Remove forgotten wearers from the recovery store of a job that does not run.
+
+    bytewax keeps their names for ever, and SQLite keeps what was overwritten. What bytewax still relies on stays, which
+    is everything unless the job runs with `-b 0`.
+    """
     for path in sorted(Path(store).glob("part-*.sqlite3")):
         with closing(sqlite3.connect(path)) as kept:
             kept.execute(
@@ -66,9 +71,12 @@ def purge(store: str | Path) -> None:
 
 @frozen
 class ParquetSink(FixedPartitionedSink[NumberedEvent, tuple[int, int]]):
-    """Told, keyed by wearer, as Parquet files in `directory` (fleet/parquet.py), which all workers see; every snapshot
-    closes a part. `partitions`: so many workers write at a time; it stays as it is for the life of a recovery store.
-    The job ends with an OSError that names the file when one cannot be written."""
+    """A sink that writes NumberedEvent, keyed by wearer, as Parquet files into `directory` (fleet/parquet.py).
+
+    All workers must see the directory; every snapshot closes a part. `partitions` is the number of workers that write
+    at a time; it must not change during the life of a recovery store. The job ends with an OSError that names the file
+    when one cannot be written.
+    """
 
     directory: Path = field(converter=Path)
     partitions: int = 1
@@ -93,8 +101,10 @@ class _Partition(StatefulSinkPartition[NumberedEvent, tuple[int, int]]):
 
 @define
 class KeyedWearer(StatefulBatchLogic[tuple[str, Any], NumberedEvent, tuple[bytes | None, datetime | None]]):
-    """One wearer: a session, or its state as bytes, or both while they are the same. `ended`: when the last row came,
-    once the wearer has ended."""
+    """One wearer: a session, or its state as bytes, or both while they are equal.
+
+    `ended` is the time of the last row, once the wearer has ended.
+    """
 
     fleet: Fleet
     idle: timedelta | None
@@ -106,9 +116,9 @@ class KeyedWearer(StatefulBatchLogic[tuple[str, Any], NumberedEvent, tuple[bytes
     def on_batch(self, values: list[tuple[str, Any]]) -> tuple[Iterable[NumberedEvent], bool]:
         keyed = self.keyed = self.keyed or self.fleet.open(values[0][0], self.state)
         self.state = None
-        told = [keyed.feed(sent if isinstance(sent, list | tuple) else [sent]) for _, sent in values]
+        events = [keyed.feed(sent if isinstance(sent, list | tuple) else [sent]) for _, sent in values]
         self.ended = datetime.now(UTC) if keyed.ended else None
-        return list(chain.from_iterable(told)), self.RETAIN
+        return list(chain.from_iterable(events)), self.RETAIN
 
     def notify_at(self) -> datetime | None:
         idle = [datetime.now(UTC) + self.idle] if self.idle is not None and self.keyed is not None else []

@@ -1,5 +1,7 @@
-"""Files of lines in a directory, read byte for byte, each line once. It knows no engine: who reads keeps `read` among
-its own state."""
+"""Files of lines in a directory, read byte for byte, each line once.
+
+This module knows no engine: its user keeps `read` in a state of its own.
+"""
 
 from __future__ import annotations
 
@@ -14,21 +16,27 @@ from attrs import define
 from .rows import LONGEST_LINE
 
 _CUT = LONGEST_LINE + 2
-"""Bytes that a line and its line feed cannot have."""
+"""Length that no line with its line feed reaches, bytes."""
 
 
 @define
 class NamedFiles:
-    """The files in `directory` whose names fit `pattern`, in the order of their names. `read`: bytes of each that were
-    read by now, with the line that came last. Of one that is gone, or became shorter, nothing is known."""
+    """The files in `directory` whose names match `pattern`, in the order of their names.
+
+    `read` holds the number of bytes of each file that were read, up to and with the last line. A file that is removed,
+    or became shorter, loses its entry.
+    """
 
     directory: Path
     pattern: str
     read: dict[str, int]
 
-    def unread(self) -> Iterator[bytes]:
-        """Every line that has its line feed by now, without it; empty ones are passed over. Of a line that is too long
-        comes as much as `read_line` refuses. An OSError that names the file when one cannot be read."""
+    def read_new_lines(self) -> Iterator[bytes]:
+        """Yield every line that has its line feed by now, without it; skip empty ones.
+
+        Of a line that is too long only as much is yielded as makes `read_line` reject it. Raises an OSError that names
+        the file when one cannot be read.
+        """
         sizes = self._sizes()
         self.read = {name: at for name, at in self.read.items() if at <= sizes.get(name, -1)}
         for name in sorted(sizes):
@@ -36,13 +44,13 @@ class NamedFiles:
             if at < sizes[name]:
                 with (self.directory / name).open("rb") as file:
                     file.seek(at)
-                    for line, length in _whole_lines(file):
+                    for line, length in _read_whole_lines(file):
                         self.read[name] = at = at + length
                         if line.strip():
                             yield line
 
-    def waiting(self) -> Iterator[tuple[Path, int]]:
-        """Files that hold something that was not read yet, and how many bytes."""
+    def unread_sizes(self) -> Iterator[tuple[Path, int]]:
+        """Yield the files that hold unread bytes, and how many."""
         for name, size in self._sizes().items():
             left = size - self.read.get(name, 0)
             if left > 0:
@@ -50,20 +58,20 @@ class NamedFiles:
 
     def _sizes(self) -> dict[str, int]:
         found = {}
-        for path in seen(self.directory):
+        for path in visible_paths(self.directory):
             if fnmatch(path.name, self.pattern) and path.is_file():
-                with suppress(FileNotFoundError):  # taken away this moment
+                with suppress(FileNotFoundError):  # removed in the meantime
                     found[path.name] = path.stat().st_size
         return found
 
 
-def seen(directory: Path) -> list[Path]:
-    """What is in it, without what is hidden, as a file on its way often is."""
+def visible_paths(directory: Path) -> list[Path]:
+    """Return the paths in a directory, without hidden ones, as files being transferred often are."""
     return sorted(path for path in directory.iterdir() if not path.name.startswith("."))
 
 
-def _whole_lines(file: BinaryIO) -> Iterator[tuple[bytes, int]]:
-    """Lines without their line feeds, cut where they are too long, and how many bytes of the file each takes."""
+def _read_whole_lines(file: BinaryIO) -> Iterator[tuple[bytes, int]]:
+    """Yield lines without line feeds, cut where they are too long, with the bytes that each takes in the file."""
     while line := file.readline(_CUT):
         length, ended = len(line), line.endswith(b"\n")
         if length < _CUT and not ended:

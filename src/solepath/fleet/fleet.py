@@ -1,4 +1,4 @@
-"""The keyed step: what a stream engine calls for every wearer, with the state that it keeps."""
+"""Fleet: the keyed step that a stream engine calls for every wearer, with the state that the engine keeps."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from .step.state import Identity, OtherState, write_state
 
 
 class Fleet:
-    """The configuration of a job, the same for all wearers and on every worker; it holds nothing of any of them.
+    """The configuration of a job, the same for all wearers and on every worker; it holds no wearer's data.
 
-    `recipe`, `floorplan`, `profiles`, `poses`, `pressures`: as for Session. `calibrations`: what is known of a wearer,
-    looked up when a session of that wearer begins. `parts`: as for Session.restore. `window`: so many rows may overtake
-    one that is late, before it is given up. A new version of the app's own code in `recipe`, `profiles` and `parts` is
-    for the app to keep compatible. TypeError and ValueError as Session raises them.
+    `recipe`, `floorplan`, `profiles`, `poses` and `pressures` are those of Session, `parts` is that of Session.restore.
+    `calibrations` holds the calibration of each wearer, looked up when a session of that wearer starts. `window` is the
+    number of rows that may arrive before a late one, until that one is given up. The app must keep new versions of its
+    own code in `recipe`, `profiles` and `parts` compatible. Raises TypeError and ValueError as Session does.
 
-    It can be pickled when what it is given can, which the constructs of a driver cannot: an engine that sends its job
-    to the workers by pickle takes a class of the app's own, in a module that the workers can import, by name:
+    It can be pickled when its arguments can, which the constructs of a driver cannot. An engine that sends its job to
+    the workers by pickle takes a class of the app's own, in a module that the workers can import, by name:
 
         class Ours(Fleet):
             def __init__(self) -> None:
@@ -56,35 +56,39 @@ class Fleet:
         plan = IndexedPlan(floorplan) if isinstance(floorplan, FloorPlan) else floorplan
         own = (tuple(profiles), tuple(parts))
         self._sessions = Sessions(recipe, calibrations, plan, *own, poses, pressures, window)
-        # what is wrong for all is wrong here, and not in a worker
-        self._sessions.unpack(self._sessions.fresh("", calibrated=False).pack())
+        # an error that concerns all wearers is raised here, not in a worker
+        self._sessions.unpack(self._sessions.make_session("", calibrated=False).pack())
 
     def step(
         self, wearer: str, state: bytes | None, sent: Iterable[Sent | Unreadable]
     ) -> tuple[bytes, list[NumberedEvent]]:
-        """The state and the events of `wearer` after `sent`, given the state before; None for a wearer who is new.
+        """Return the state and the events of `wearer` after `sent`, given the state before; None for a new wearer.
 
-        Pure: the same in gives the same out, on every machine, however it is cut into calls, where parts of the app's
-        own can be saved at any moment. One that cannot, since it holds an infinity just then, costs its wearer the
-        session (WearerFailed) where a state is taken at that moment, and nothing where none is.
+        The step is pure: the same input gives the same output, on every machine and however the input is cut into
+        calls, if parts of the app's own can be saved at any moment. A part that cannot, since it holds an infinity at
+        that moment, ends its wearer's session (WearerFailed) where a state is taken then, and changes nothing where
+        none is.
 
-        It never raises, whatever phones sent; a state that cannot be used gives StateRejected and a fresh start.
-        TypeError, since the job itself is wrong, for a state that is neither bytes nor None and for a `sent` that
-        cannot be gone through. MemoryError where memory runs out.
+        It never raises, whatever phones sent; a state that cannot be used gives StateRejected and a fresh session. It
+        raises TypeError, since the job itself is wrong, for a state that is neither bytes nor None and for a `sent`
+        that cannot be iterated, and MemoryError when memory runs out.
         """
         keyed = self.open(wearer, state)
-        told = keyed.feed(sent)
-        return keyed.state(), told
+        events = keyed.feed(sent)
+        return keyed.state(), events
 
     def open(self, wearer: str, state: bytes | None) -> Keyed:
-        """The same in memory, for engines that keep objects between their snapshots. It raises as `step` does."""
+        """Return the wearer in memory, for engines that keep objects between their snapshots; raises as `step` does."""
         return Keyed(self._sessions, wearer, state)
 
     def adopt(self, snapshot: Any) -> bytes:
-        """A state that goes on from a Session.snapshot taken elsewhere: a phone hands its wearer over, and begins to
-        send at number 0 of a run. Events are numbered from 0. The settings of the job's recipe hold from here on, not
-        those in the snapshot. SnapshotError when it cannot go on here (Session.unpack) or is finished."""
-        session = self._sessions.restored(snapshot)
+        """Return a state that continues a Session.snapshot taken elsewhere.
+
+        A phone hands its wearer over like this, and starts to send at number 0 of a run. Events are numbered from 0.
+        The settings of the job's recipe hold from here on, not those in the snapshot. Raises SnapshotError when it
+        cannot continue here (Session.unpack) or is finished.
+        """
+        session = self._sessions.restore_session(snapshot)
         now = session.now
         identity = Identity(-1, 0, 0, 0.0 if now is None else now)
         return write_state(identity, OtherState(session=session.pack()))

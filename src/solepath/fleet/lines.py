@@ -1,10 +1,10 @@
-"""What phones sent, from a directory of files of lines, for bytewax: as it lies there. Needs the extra `bytewax`.
+"""A bytewax source of phones' rows from a directory of files of lines, unchanged. Needs the extra `bytewax`.
 
     lines = operators.input("phones", flow, LineSource("sent"))          # of bytes
     sent = operators.map("read", lines, read_line)                       # of Sent and Unreadable
 
-bytewax has sources of its own for files. They end the job at a byte that is no UTF-8, and read all files of a directory
-at the same time, so that the hours of one wearer are mixed.
+bytewax has file sources of its own. They end the job at a byte that is no UTF-8, and read all files of a directory at
+the same time, which mixes the hours of one wearer.
 """
 
 from __future__ import annotations
@@ -20,27 +20,29 @@ from pathlib import Path
 from attrs import define, field, frozen
 from bytewax.inputs import FixedPartitionedSource, StatefulSourcePartition
 
-from .files import NamedFiles, seen
+from .files import NamedFiles, visible_paths
 
 _LOG = logging.getLogger(__name__)
 
 
 @frozen
 class LineSource(FixedPartitionedSource[bytes, dict[str, int]]):
-    """The lines of the files in `directory` whose names fit `pattern`, as bytes, without empty ones.
+    """A source of the lines of the files in `directory` whose names match `pattern`, as bytes, without empty ones.
 
     Files are read one after the other in the order of their names (so pad numbers with zeros). Every directory in
-    `directory` is read so too, at the same time as the others: workers, who all see all of them, share the work by
-    directories, and the files of one wearer lie in one of them. What is hidden (its name begins with a dot) is passed
-    over.
+    `directory` is read in the same way, at the same time as the others: all workers see all directories and share the
+    work by directory, and the files of one wearer lie in one of them. Hidden entries (with a name that starts with a
+    dot) are skipped.
 
-    A line counts when its line feed is there: files may grow at their ends. How much of each was read goes into the
-    recovery store, so what is new is read at the next start, or by the same job when it is to `follow`: then it does
-    not end, and looks again so often. A new directory is seen at the next start. What was read to its end may be taken
-    away. Of a line that is too long for `read_line` comes as much as it refuses.
+    A line counts when its line feed has been written: files may grow at their ends. The recovery store holds how much
+    of each file was read, so new lines are read at the next start, or by the same job if `follow` is given: then the
+    job does not end, and checks again after that time. A new directory is seen at the next start. A file that was read
+    to its end may be removed. Of a line that is too long for `read_line` only as much is passed on as makes it reject
+    the line.
 
-    `batch`: lines that are read at a time. NotADirectoryError when there is no such directory; an OSError that names
-    the file when one cannot be read. A job that ends says in a warning which files do not end with a line feed.
+    `batch` is the number of lines read at a time. Raises NotADirectoryError when there is no such directory, and an
+    OSError that names the file when one cannot be read. A job that ends logs a warning for each file that does not end
+    with a line feed.
     """
 
     directory: Path = field(converter=Path)
@@ -53,7 +55,7 @@ class LineSource(FixedPartitionedSource[bytes, dict[str, int]]):
             raise NotADirectoryError(ENOTDIR, strerror(ENOTDIR), str(self.directory))
 
     def list_parts(self) -> list[str]:
-        return [".", *(path.name for path in seen(self.directory) if path.is_dir())]
+        return [".", *(path.name for path in visible_paths(self.directory) if path.is_dir())]
 
     def build_part(self, step_id: str, for_part: str, resume_state: dict[str, int] | None) -> _Directory:
         return _Directory(self, NamedFiles(self.directory / for_part, self.pattern, dict(resume_state or {})))
@@ -67,17 +69,17 @@ class _Directory(StatefulSourcePartition[bytes, dict[str, int]]):
     awake: datetime | None = field(default=None, init=False)
 
     def __attrs_post_init__(self) -> None:
-        self.lines = self.files.unread()
+        self.lines = self.files.read_new_lines()
 
     def next_batch(self) -> list[bytes]:
         lines = list(islice(self.lines, self.source.batch))
         self.awake = None
         if not lines:
             if self.source.follow is None:
-                for path, left in self.files.waiting():
+                for path, left in self.files.unread_sizes():
                     _LOG.warning("%s: the last %d bytes wait for their line feed", path, left)
                 raise StopIteration
-            self.lines, self.awake = self.files.unread(), datetime.now(UTC) + self.source.follow
+            self.lines, self.awake = self.files.read_new_lines(), datetime.now(UTC) + self.source.follow
         return lines
 
     def next_awake(self) -> datetime | None:

@@ -3,14 +3,14 @@
     SELECT wearer, count(*) FROM 'told/*.parquet' WHERE event = 'StrideTaken' GROUP BY wearer       -- DuckDB
     pandas.read_parquet("told")        spark.read.parquet("told")
 
-Needs the extra `bytewax`, or pyarrow itself. It knows no engine: one writes through `PartFiles`, and keeps the number
-of the next part among its own state.
+Needs the extra `bytewax`, or pyarrow itself. This module knows no engine: its user writes through `PartFiles`, and
+keeps the number of the next part in a state of its own.
 
-A part is written under a name that readers pass over, brought to the disk, and renamed. After a crash the engine says
-which part comes next, and those from it on are removed, since their events come again. So the files hold each event
-once; a reader may see those of the last seconds before a crash go away with the restart and come back the same.
+A part is written under a name that readers skip, flushed to the disk, and renamed. After a crash the engine says which
+part comes next; that part and all later ones are removed, since their events come again. So the files hold each event
+once; a reader may see the events of the last seconds before a crash disappear at the restart and come back unchanged.
 
-Every `close` makes a file. Where few walk, close seldom, or join the files of days gone by into another directory, in
+Every `close` makes a file. With few wearers, close seldom, or join the files of past days in another directory, in
 DuckDB by `COPY (SELECT * FROM 'told/*.parquet' ORDER BY wearer, number) TO 'june.parquet'`.
 """
 
@@ -36,39 +36,38 @@ _ARROW = {str: pa.string(), int: pa.int64(), float: pa.float64(), bool: pa.bool_
 SCHEMA = pa.schema([(name, _ARROW[kind]) for name, kind in EVENT_COLUMNS.items()])
 """Columns of the files, in the order of EVENT_COLUMNS."""
 REPEATED = ["wearer", "event", "foot", "final"]
-"""Columns that are worth a dictionary."""
+"""Columns that repeat their values, for which a dictionary saves space."""
 GROUP = 1 << 15
-"""Events of a row group: as rows they take some 40 MB."""
+"""Number of events in a row group: as rows they take about 40 MB."""
 GROUPS = 32
-"""Row groups after which a part is closed in any case."""
+"""Number of row groups after which a part is closed in any case."""
 _NAME = re.compile(
     r"\.?(?P<shown>part-(?P<partition>\w+)-(?P<run>\d+)-(?P<number>\d+)\.parquet)((?P<half>\.writing)|\.replaced)?"
 )
 _LOG = logging.getLogger(__name__)
-_BEGUN = (
+_NEW_RUN = (
     "%s: a new run begins, and the parts of the one before are hidden (%d). Was that one to go on? "
     "Start the job with its recovery store, and they are back"
 )
-_TAKEN_UP = "%s: an earlier run goes on, and its parts are back (%d); those of another are hidden (%d)"
+_RESUMED_RUN = "%s: an earlier run goes on, and its parts are back (%d); those of another are hidden (%d)"
 
 
 @define
 class PartFiles:
-    """The part files of one writer in `directory`, which is made when there is none.
+    """The part files of one writer in `directory`, which is created when missing.
 
-    `partition`: letters and digits that tell this writer from others in the same directory, in whatever process.
-    `resume`: the run and the number of the next part, as the last `close` that counts gave them; parts from there on
-    are removed. None when nothing is remembered: then a new run begins, whose parts are numbered from 0. Parts of
-    another run are hidden from readers then (renamed, `.part-0-1749718800000-00000007.parquet.replaced`), since the
-    events of a fleet that begins anew are numbered anew, and a warning is logged. Whoever resumes that run has its
-    parts back.
+    `partition`, letters and digits, distinguishes this writer from others in the same directory, in any process.
+    `resume` is the run and the number of the next part, as the last `close` that counts returned them; parts from there
+    on are removed. None, when nothing is remembered, starts a new run with parts numbered from 0. Parts of another run
+    are then hidden from readers (renamed, `.part-0-1749718800000-00000007.parquet.replaced`), since the events of a
+    fleet that starts again are numbered again, and a warning is logged. Resuming that run restores its parts.
 
-    `partitions`: all that the job has, in every process. The first hides the parts of others, which were written when
-    the job had more; where nobody says, they are left. `group`: so many events are sorted by wearer and packed as one
-    row group.
+    `partitions` are all partitions of the job, in every process. The first one hides the parts of other partitions,
+    which were written when the job had more; if `partitions` is empty, they stay. `group` is the number of events that
+    are sorted by wearer and packed as one row group.
 
-    OSError, naming the file, when one cannot be written (the disk is full). Nothing of it is left then, on the disk or
-    here: begin again with the last number that counted. ValueError for a partition that is no word.
+    Raises OSError, naming the file, when one cannot be written (the disk is full). Nothing of it is then left on the
+    disk or here: start again with the last number that counted. Raises ValueError for a partition that is no word.
     """
 
     directory: Path
@@ -77,9 +76,9 @@ class PartFiles:
     group: int = GROUP
     partitions: Sequence[str] = ()
     run: int = field(init=False)
-    """In the names of its parts: the time in ms at which it began."""
+    """Time at which the run started, ms; part of the names of its parts."""
     number: int = field(init=False)
-    """Of the part that is open."""
+    """Number of the open part."""
     _rows: list[dict[str, Any]] = field(factory=list, init=False)
     _buffer: Any = field(default=None, init=False)
     _writer: Any = field(default=None, init=False)
@@ -91,19 +90,19 @@ class PartFiles:
         self.directory.mkdir(parents=True, exist_ok=True)
         paths = sorted(self.directory.iterdir())
         names = [name for path in paths if (name := _NAME.fullmatch(path.name)) and path.is_file()]
-        names = [name for name in names if self._is_to_see_to(name["partition"])]
+        names = [name for name in names if self._is_managed(name["partition"])]
         newest = max([int(name["run"]) for name in names], default=0)
         self.run, self.number = self.resume or (max(newest + 1, time_ns() // 1_000_000), 0)
-        self._take_over(names)
-        _settle(self.directory)
+        self._hide_and_restore(names)
+        _sync_directory(self.directory)
 
-    def _is_to_see_to(self, partition: str) -> bool:
+    def _is_managed(self, partition: str) -> bool:
         is_first = self.partition == next(iter(self.partitions), None)
         return partition == self.partition or (is_first and partition not in self.partitions)
 
-    def _take_over(self, names: list[re.Match[str]]) -> None:
-        """Of all that is there, readers see the parts of this run that count."""
-        back = aside = 0
+    def _hide_and_restore(self, names: list[re.Match[str]]) -> None:
+        """Leave visible to readers the parts of this run that count, and no others."""
+        restored = hidden = 0
         for name in names:
             path, shown = self.directory / name[0], self.directory / name["shown"]
             mine = int(name["run"]) == self.run and name["partition"] == self.partition
@@ -111,18 +110,18 @@ class PartFiles:
                 path.unlink()
             elif mine and path != shown:
                 path.rename(shown)
-                back += 1
+                restored += 1
             elif not mine and path == shown:
                 path.rename(shown.with_name(f".{shown.name}.replaced"))
-                aside += 1
-        if aside and self.resume is None:
-            _LOG.warning(_BEGUN, self.directory, aside)
-        elif aside or back:
-            _LOG.warning(_TAKEN_UP, self.directory, back, aside)
+                hidden += 1
+        if hidden and self.resume is None:
+            _LOG.warning(_NEW_RUN, self.directory, hidden)
+        elif hidden or restored:
+            _LOG.warning(_RESUMED_RUN, self.directory, restored, hidden)
 
-    def write(self, told: Iterable[NumberedEvent]) -> None:
-        """Gather events for the part that is open."""
-        for one in told:
+    def write(self, events: Iterable[NumberedEvent]) -> None:
+        """Add events to the open part."""
+        for one in events:
             self._rows.append(event_row(one))
             if len(self._rows) >= self.group:
                 self._flush()
@@ -130,8 +129,10 @@ class PartFiles:
                     self.close()
 
     def close(self) -> tuple[int, int]:
-        """Bring what was gathered to the disk as one part, if it is anything. The run and the number of the next part:
-        what the engine remembers, together with the state of whoever told the events."""
+        """Write the collected events, if any, to the disk as one part; return the run and the next part's number.
+
+        The engine remembers these two numbers together with the state of the source of the events.
+        """
         if self._rows:
             self._flush()
         if self._writer is not None:
@@ -142,7 +143,7 @@ class PartFiles:
         return self.run, self.number
 
     def _flush(self) -> None:
-        """A row group of what was gathered, sorted: a wearer's events stand together, and compress so."""
+        """Write a sorted row group of the collected events: a wearer's events are adjacent and compress better."""
         if self._writer is None:
             self._buffer = pa.BufferOutputStream()
             self._writer = parquet.ParquetWriter(self._buffer, SCHEMA, compression="zstd", use_dictionary=REPEATED)
@@ -152,22 +153,22 @@ class PartFiles:
         self._groups += 1
 
     def _publish(self, data: Any, path: Path) -> None:
-        beside = path.with_name(f".{path.name}.writing")
+        temporary = path.with_name(f".{path.name}.writing")
         try:
-            with beside.open("wb") as file:
+            with temporary.open("wb") as file:
                 file.write(data)
                 file.flush()
                 os.fsync(file.fileno())
-            beside.replace(path)
-            _settle(self.directory)
+            temporary.replace(path)
+            _sync_directory(self.directory)
         except OSError as error:
             with suppress(OSError):
-                beside.unlink(missing_ok=True)
+                temporary.unlink(missing_ok=True)
             raise OSError(error.errno, error.strerror, str(path)) from None
 
 
-def _settle(directory: Path) -> None:
-    """A name is on the disk only when its directory is; Windows has no way to say so and needs none."""
+def _sync_directory(directory: Path) -> None:
+    """Flush the directory: a file name is on the disk only then; Windows has no such call and needs none."""
     if hasattr(os, "O_DIRECTORY"):
         at = os.open(directory, os.O_RDONLY | os.O_DIRECTORY)
         try:

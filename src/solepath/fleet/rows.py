@@ -1,6 +1,6 @@
-"""Rows and lines: what a phone sends and what a wearer's session says, as tables, files and topics hold them.
+"""Rows and lines: what a phone sends and the events of a session, as tables, files and topics hold them.
 
-protocol/fleet.md has both, column by column.
+protocol/fleet.md describes both, column by column.
 """
 
 from __future__ import annotations
@@ -16,24 +16,24 @@ from .step.sent import LONGEST_DATA, LONGEST_NAME, MOST, End, NumberedEvent, Sen
 SENT_COLUMNS: Mapping[str, type] = {
     "wearer": str, "run": int, "number": int, "t": float, "site": str, "channel": str, "data": bytes, "device": str,
 }  # fmt: skip
-"""Columns of `sent_row` and of what is in them; t, site, data and device may be None."""
+"""Columns of `sent_row` with their types; t, site, data and device may be None."""
 EVENT_COLUMNS: Mapping[str, type] = {
     "wearer": str, "number": int, "event": str, "t": float, "known_at": float, "final": bool, "foot": str,
     "fields": str,
 }  # fmt: skip
-"""Columns of `event_row` and of what is in them; t, known_at and foot may be None."""
+"""Columns of `event_row` with their types; t, known_at and foot may be None."""
 
 _SITES = {site.value: site for site in Site}
 LONGEST_LINE = 65_536
-"""Bytes of a line, without its line feed."""
+"""Longest line without its line feed, bytes."""
 
 
 class _RowFlaw(Exception):
-    """What is wrong with a row."""
+    """Raised with the reason why a row cannot be read."""
 
 
 def sent_row(sent: Sent) -> dict[str, Any]:
-    """The row of what a phone sends, with the columns of SENT_COLUMNS."""
+    """Return the row of what a phone sends, with the columns of SENT_COLUMNS."""
     row = {"wearer": sent.wearer, "run": sent.run, "number": sent.number}
     match sent.what:
         case Packet(t, site, channel, data, device):
@@ -45,25 +45,25 @@ def sent_row(sent: Sent) -> dict[str, Any]:
 
 
 def read_sent(row: Any) -> Sent | Unreadable:
-    """What a row says; of one that cannot be read, why, and whatever can be. It never raises."""
+    """Return the content of a row, or Unreadable with the reason and the fields that can be read. Never raises."""
     wearer, number, run = "", None, 0
     try:
         if not isinstance(row, Mapping):
             raise _RowFlaw(f"a row is a mapping, not a {type(row).__name__}")
-        wearer = _name(row, "wearer")
-        run = _count(row, "run", 0)
-        number = _count(row, "number", None)
-        return Sent(wearer, number, _what(row), run)
+        wearer = _read_name(row, "wearer")
+        run = _read_count(row, "run", 0)
+        number = _read_count(row, "number", None)
+        return Sent(wearer, number, _read_payload(row), run)
     except _RowFlaw as flaw:
         return Unreadable(wearer, str(flaw), run, number)
 
 
-def _what(row: Mapping[str, Any]) -> Packet | Tick | End:
-    channel, site = _name(row, "channel"), row.get("site")
+def _read_payload(row: Mapping[str, Any]) -> Packet | Tick | End:
+    channel, site = _read_name(row, "channel"), row.get("site")
     if site is None and channel == "end":
         return End()
     if site is None and channel == "tick":
-        return Tick(_time(row))
+        return Tick(_read_time(row))
     if not isinstance(site, str) or site not in _SITES:
         raise _RowFlaw(f"site is not one of {', '.join(_SITES)}")
     data = row.get("data")
@@ -73,14 +73,14 @@ def _what(row: Mapping[str, Any]) -> Packet | Tick | End:
         raise _RowFlaw(f"data is no bytes but a {type(data).__name__}")
     if len(data) > LONGEST_DATA:
         raise _RowFlaw(f"data of {len(data)} bytes; {LONGEST_DATA} are the most")
-    device = "" if row.get("device") is None else _name(row, "device")
-    return Packet(_time(row), _SITES[site], channel, data, device)
+    device = "" if row.get("device") is None else _read_name(row, "device")
+    return Packet(_read_time(row), _SITES[site], channel, data, device)
 
 
-def _name(row: Mapping[str, Any], key: str) -> str:
+def _read_name(row: Mapping[str, Any], key: str) -> str:
     value = row.get(key)
     if type(value) is str and len(value) <= LONGEST_NAME and value.isascii():
-        return value  # as nearly all are
+        return value  # the fast path, taken for nearly all
     if not isinstance(value, str):
         raise _RowFlaw(f"{key} is no text but a {type(value).__name__}")
     if len(value) > LONGEST_NAME:
@@ -92,13 +92,13 @@ def _name(row: Mapping[str, Any], key: str) -> str:
     return value
 
 
-def _count(row: Mapping[str, Any], key: str, default: int | None) -> int:
+def _read_count(row: Mapping[str, Any], key: str, default: int | None) -> int:
     value = row.get(key)
     if value is None and default is not None:
         return default
     if type(value) is not int:
         try:
-            value = index(_not_bool(value))
+            value = index(_reject_bool(value))
         except TypeError:
             raise _RowFlaw(f"{key} is no whole number but a {type(value).__name__}") from None
     if not 0 <= value <= MOST:
@@ -106,14 +106,14 @@ def _count(row: Mapping[str, Any], key: str, default: int | None) -> int:
     return value
 
 
-def _not_bool(value: Any) -> Any:
+def _reject_bool(value: Any) -> Any:
     if isinstance(value, bool):
         raise TypeError
     return value
 
 
-def _time(row: Mapping[str, Any]) -> float:
-    """Whatever float: what is no time is the session's to reject."""
+def _read_time(row: Mapping[str, Any]) -> float:
+    """Return any float of the row: the session rejects what is no time."""
     value = row.get("t")
     if type(value) is float:
         return value
@@ -126,7 +126,7 @@ def _time(row: Mapping[str, Any]) -> float:
 
 
 def sent_line(sent: Sent) -> bytes:
-    """The same as one line of JSON, with its line feed. ValueError for a time that JSON cannot write."""
+    """Return one line of JSON, with its line feed; raise ValueError for a time that JSON cannot write."""
     row = sent_row(sent)
     if row["data"] is not None:
         row["data"] = row["data"].hex()
@@ -135,9 +135,9 @@ def sent_line(sent: Sent) -> bytes:
 
 
 def read_line(line: Any) -> Sent | Unreadable:
-    """What a line says; of one that cannot be read, why. It never raises."""
+    """Return the content of a line, or Unreadable with the reason. Never raises."""
     try:
-        row = _object(line)
+        row = _parse_object(line)
     except _RowFlaw as flaw:
         return Unreadable("", str(flaw))
     data = row.get("data")
@@ -146,12 +146,12 @@ def read_line(line: Any) -> Sent | Unreadable:
             read = bytes.fromhex(data)
         except ValueError:
             return read_sent(row)
-        if 2 * len(read) == len(data):  # Python takes blanks too
+        if 2 * len(read) == len(data):  # Python accepts blanks too
             row["data"] = read
     return read_sent(row)
 
 
-def _object(line: Any) -> dict[str, Any]:
+def _parse_object(line: Any) -> dict[str, Any]:
     if not isinstance(line, bytes | bytearray):
         raise _RowFlaw(f"a line is bytes, not a {type(line).__name__}")
     if len(line) > LONGEST_LINE:
@@ -165,21 +165,24 @@ def _object(line: Any) -> dict[str, Any]:
     return value
 
 
-def _refuse_constant(name: str) -> None:
+def _reject_constant(name: str) -> None:
     raise _RowFlaw(f"a line with {name}, which is no JSON")
 
 
-_DECODER = json.JSONDecoder(parse_constant=_refuse_constant)
+_DECODER = json.JSONDecoder(parse_constant=_reject_constant)
 _ENCODER = json.JSONEncoder(allow_nan=False, separators=(",", ":"))
 _FIELDS = json.JSONEncoder(allow_nan=False)
 
 
-def event_row(told: NumberedEvent) -> dict[str, Any]:
-    """The row of an event, with the columns of EVENT_COLUMNS. `fields`: what else the event has, as JSON, in the words
-    of events.jsonl. Half a character in the wearer's name is written `\\ud800`: a table holds UTF-8."""
-    record, wearer = told.event.to_dict(), told.wearer
+def event_row(numbered: NumberedEvent) -> dict[str, Any]:
+    r"""Return the row of an event, with the columns of EVENT_COLUMNS.
+
+    `fields` holds the other fields of the event as JSON, with the names of events.jsonl. An unpaired surrogate in the
+    wearer's name is written `\\ud800`, since a table holds UTF-8.
+    """
+    record, wearer = numbered.event.to_dict(), numbered.wearer
     if not wearer.isascii():
         wearer = wearer.encode("utf-8", "backslashreplace").decode()
     first = {key: record.pop(key, None) for key in ("event", "t", "known_at", "final", "foot")}
     fields = _FIELDS.encode(record)
-    return {"wearer": wearer, "number": told.number, **first, "fields": fields}
+    return {"wearer": wearer, "number": numbered.number, **first, "fields": fields}

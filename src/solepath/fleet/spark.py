@@ -1,13 +1,13 @@
-"""A fleet on Spark Structured Streaming: `transformWithState` keeps the state of each wearer, moves it and recovers it.
+"""A fleet on Spark Structured Streaming: `transformWithState` keeps the state of each wearer and recovers it.
 
-    told = gait(rows, Fleet())            # streaming DataFrames: of SENT_SCHEMA in, of EVENT_SCHEMA out
-    told.writeStream.format("parquet").option("checkpointLocation", checkpoint).start(directory)
+    events = gait(rows, Fleet())          # streaming DataFrames: of SENT_SCHEMA in, of EVENT_SCHEMA out
+    events.writeStream.format("parquet").option("checkpointLocation", checkpoint).start(directory)
 
 Needs the extra `spark`, Java 17, and a session that was configured with STORE. examples/spark_gait.py is a whole job.
 
 A micro-batch reads and writes a wearer's state once, and its events come out when it ends. What Spark repeats after a
-crash gives the same events under the same identities (Told), and changes the state once. The files that its sink wrote
-may be a killed task's: Spark passes over those, for other readers see spark_files.py.
+crash gives the same events under the same identities (NumberedEvent), and changes the state once. The sink's files may
+be those of a killed task: Spark ignores these, for other readers see spark_files.py.
 """
 
 from __future__ import annotations
@@ -25,9 +25,12 @@ from . import EVENT_COLUMNS, SENT_COLUMNS, Fleet, Sent, Unreadable, event_row, r
 
 _ROCKS = "org.apache.spark.sql.execution.streaming.state.RocksDBStateStoreProvider"
 STORE = {"spark.sql.streaming.stateStore.providerClass": _ROCKS}
-"""What the Spark session is to be configured with: transformWithState keeps its state in RocksDB only."""
+"""Configuration that the Spark session needs: transformWithState keeps its state in RocksDB only."""
 MOST_LINES = 4096
-"""Of one message; one that has more is refused whole, since every line that cannot be read is told of."""
+"""Largest number of lines in one message.
+
+A message with more is rejected as a whole, since every line that cannot be read is reported.
+"""
 
 
 def _ddl(columns: Mapping[str, type]) -> str:
@@ -36,17 +39,19 @@ def _ddl(columns: Mapping[str, type]) -> str:
 
 
 SENT_SCHEMA, EVENT_SCHEMA = _ddl(SENT_COLUMNS), _ddl(EVENT_COLUMNS)
-"""Rows of solepath.fleet as Spark writes a schema."""
+"""Schemas of the rows of solepath.fleet, in Spark's notation."""
 
 
 def gait(rows: DataFrame, fleet: Fleet | Callable[[], Fleet], states: DataFrame | None = None) -> DataFrame:
-    """Events (EVENT_SCHEMA) of a fleet's sessions, fed what phones sent in any order that the fleet's window covers.
+    """Return the events (EVENT_SCHEMA) of a fleet's sessions for what phones sent.
 
-    `rows`: of SENT_SCHEMA; or messages as Kafka has them, `key` the wearer's name and `value` lines of `sent_line`: the
-    more lines in one, the less they cost. What cannot be read is told, without a wearer under the name "".
-    `fleet` goes to the executors by pickle, with every task. Where it is large, or no pickle takes it (drivers), give a
-    function that makes it, at the top of a module that they can import: it is called once in each process.
-    `states` (wearer string, state binary): what wearers begin with where the checkpoint is new.
+    The rows may come in any order within the fleet's window. `rows` is of SENT_SCHEMA, or holds messages as Kafka has
+    them, `key` the wearer's name and `value` lines of `sent_line`: the more lines in one message, the less each costs.
+    What cannot be read is reported, under the name "" if the wearer is unknown.
+
+    `fleet` goes to the executors by pickle, with every task. For a fleet that is large or cannot be pickled (drivers),
+    give a function that makes it, at the top level of a module that the executors can import: it is called once in each
+    process. `states` (wearer string, state binary) holds the wearers' first states for a new checkpoint.
     """
     if "value" in rows.columns:
         rows = rows.select(_text("key"), "value")
@@ -54,23 +59,23 @@ def gait(rows: DataFrame, fleet: Fleet | Callable[[], Fleet], states: DataFrame 
         columns = [_text(name) if kind is str else name for name, kind in SENT_COLUMNS.items()]
         rows = rows.select(_text("wearer").alias("key"), *columns)
     keyed = rows.fillna("", ["key"]).groupBy("key")
-    begin = None if states is None else states.groupBy("wearer")
-    return keyed.transformWithState(GaitProcessor(fleet), EVENT_SCHEMA, "Append", timeMode="None", initialState=begin)
+    initial = None if states is None else states.groupBy("wearer")
+    return keyed.transformWithState(GaitProcessor(fleet), EVENT_SCHEMA, "Append", timeMode="None", initialState=initial)
 
 
 def _text(name: str) -> Column:
-    # what is no UTF-8 would end the worker, and with it the job, each time that it was started
+    # invalid UTF-8 would end the worker, and with it the job, each time that the job is started
     return f.make_valid_utf8(f.col(name).cast("string")).alias(name)
 
 
 class GaitProcessor(StatefulProcessor):
-    """The keyed step: its only state is the wearer's, as Fleet.step makes it."""
+    """The keyed step; its only state is the wearer's, as Fleet.step returns it."""
 
     def __init__(self, fleet: Fleet | Callable[[], Fleet]) -> None:
         self.fleet = fleet
 
     def init(self, handle: StatefulProcessorHandle) -> None:
-        self._step = (self.fleet if isinstance(self.fleet, Fleet) else _made(self.fleet)).step
+        self._step = (self.fleet if isinstance(self.fleet, Fleet) else _make_fleet(self.fleet)).step
         self._state = handle.getValueState("wearer", "state binary")
 
     def handleInitialState(self, key: Any, initialState: Any, timerValues: TimerValues) -> None:
@@ -80,9 +85,9 @@ class GaitProcessor(StatefulProcessor):
         known = self._state.get()
         # the shuffle brings the rows of a batch in any order; the fleet's window is for what another batch brings
         sent = sorted(chain.from_iterable(map(_read, rows)), key=_place)
-        state, told = self._step(key[0], None if known is None else bytes(known[0]), sent)
+        state, events = self._step(key[0], None if known is None else bytes(known[0]), sent)
         self._state.update((state,))
-        return (Row(**event_row(one)) for one in told)
+        return (Row(**event_row(one)) for one in events)
 
 
 def _read(row: Row) -> list[Sent | Unreadable]:
@@ -92,7 +97,7 @@ def _read(row: Row) -> list[Sent | Unreadable]:
     return [*map(read_line, lines)] if len(lines) <= MOST_LINES else [Unreadable("", f"{len(lines)} lines at once")]
 
 
-_made = lru_cache(lambda make: make())
+_make_fleet = lru_cache(lambda make: make())
 
 
 def _place(sent: Sent | Unreadable) -> tuple[int, int]:

@@ -1,1 +1,1 @@
-"""The building: levels with walls and doors, the stairs and lifts between them, and one fast crossing test."""
+"""The building: levels with walls and doors, the stairs and lifts between them, and a fast test for crossed walls."""

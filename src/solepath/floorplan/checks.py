@@ -1,4 +1,4 @@
-"""What a floor plan must be to be used at all, and what is worth saying of one that can be used."""
+"""Checks of a floor plan: faults that make it unusable, and warnings about a usable one."""
 
 from __future__ import annotations
 
@@ -14,25 +14,28 @@ from .records import FARTHEST, misshapen, shown
 from .rooms import Rooms
 
 WIDEST = 5000.0
+"""Largest width of a building, m: the longest are 4 km."""
 NARROWEST = 1.0
-"""m; of a building. The longest are 4 km, and there is none of less than a step."""
+"""Smallest width of a building, m: none is narrower than a step."""
 
 HIGHEST_STOREY = 50.0
-"""m; from one level to the next."""
+"""Largest height from one level to the next, m."""
 
 MOST_LEVELS = 1000
 MOST_STOPS = 2000
-"""Of all stairs and lifts: a lift of twenty storeys has twenty."""
+"""Largest number of stops of all stairs and lifts: a lift of twenty storeys has twenty."""
 MOST_WALLS = 100_000
 MOST_CORNERS = 100_000
-"""Of rooms, stairwells and cabins, with the doors."""
+"""Largest number of corners of rooms, stairwells and cabins, and of doors."""
 LONGEST = 500e3
-"""m; of all walls, doors and outlines together. Grids are laid along them."""
+"""Largest total length of all walls, doors and outlines, m: grids are laid along them."""
 
 
 def unusable(plan: FloorPlan) -> str | None:
-    """Why a plan cannot be used, in one line: the first thing that is wrong; None when it can. The limits are those of
-    protocol/floorplan.md."""
+    """Return the first fault that makes a plan unusable, in one line; None when it is usable.
+
+    The limits are those of protocol/floorplan.md.
+    """
     return next(_faults(plan), None)
 
 
@@ -154,12 +157,15 @@ def _drawn(level: Level) -> Iterator[tuple[str, tuple[Point, ...]]]:
 
 
 def _is_place(point: Point) -> bool:
-    return abs(point[0]) <= FARTHEST and abs(point[1]) <= FARTHEST  # NaN is not
+    return abs(point[0]) <= FARTHEST and abs(point[1]) <= FARTHEST  # False for NaN
 
 
 def warnings(plan: FloorPlan) -> tuple[str, ...]:
-    """What is worth saying of a plan that can be used, one line each: what its reader remarked, walls that do not
-    close, no stairs or lifts, a level that none of them leads to. It takes about as long as to index the plan."""
+    """Return the warnings about a usable plan, one line each.
+
+    They are the remarks of its reader, walls that do not close, no stairs or lifts, and levels that none of them leads
+    to. Takes about as long as indexing the plan.
+    """
     return (*plan.remarks, *_remarks(plan)) if unusable(plan) is None else ()
 
 
@@ -187,9 +193,9 @@ def _remarks_of_walls(level: Level, cells: int, places: int) -> Iterator[str]:
         yield f"level {level.id!r}: has no walls"
         return
     found = Enclosure(level, Walls([(wall.start, wall.end) for wall in level.walls], cells), places)
-    way_in: Point | None = found.open_end
+    opening: Point | None = found.open_end
     if level.rooms:
-        rooms = Rooms(evolve(level, doors=()), (), places)  # a doorstep is no room
-        way_in = next((place for place in found.outside if rooms.inside(*place)), None)
-    if way_in is not None:
-        yield f"level {level.id!r}: its walls do not close near ({way_in[0]:.1f}, {way_in[1]:.1f})"
+        rooms = Rooms(evolve(level, doors=()), (), places)  # without doors, since a doorstep is no room
+        opening = next((place for place in found.outside if rooms.inside(*place)), None)
+    if opening is not None:
+        yield f"level {level.id!r}: its walls do not close near ({opening[0]:.1f}, {opening[1]:.1f})"

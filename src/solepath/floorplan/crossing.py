@@ -1,13 +1,13 @@
-"""Does a straight move cross a wall? The one test that candidates and particles share, over a uniform grid.
+"""Test whether a straight move crosses a wall, over a uniform grid, for candidates and particles.
 
-A cell of the grid knows the walls within REACH of it and how far it is clear of all walls. A move that is shorter than
-its cell is clear is free at once; other moves up to REACH are tried against the walls that their first cell knows;
-longer ones against those of the cells on their way. A wall is ruled out by the signed distances of both ends from its
-line; only where these leave doubt or the move goes through the line, the exact test (segments.py) decides.
+A cell of the grid knows the walls within REACH of it and its distance from the nearest wall. A move that is shorter
+than this distance is free at once; other moves up to REACH are tested against the walls of their first cell; longer
+ones against the walls of the cells on their way. The signed distances of both ends from a wall's line exclude most
+walls; only where these are uncertain or the move goes through the line, the exact test (segments.py) decides.
 
-Cost of a step's move among 500 walls in rooms of 15 m^2, the mean over moves in all directions from anywhere: 2 us; 0.5
-us in the open, 3 to 5 us where it does cross a wall; half as much again among 10,000 walls. A move of 4 m: 8 us. To sow
-the walls takes about 0.05 ms each, and they take 1.2 kB each; long ones take as much more as they are long.
+Time for a step's move among 500 walls in rooms of 15 m^2, the mean over moves in all directions from anywhere: 2 us;
+0.5 us in the open, 3 to 5 us where it does cross a wall; half as much again among 10,000 walls. A move of 4 m: 8 us.
+Indexing takes about 0.05 ms and 1.2 kB for each wall, for long walls in proportion to their length.
 tests/bench/floorplan.py measures it.
 """
 
@@ -21,40 +21,40 @@ from .plan import Point
 from .segments import distance, touch
 
 REACH = 1.5
-"""m; moves up to this look at one cell only: more than a step, less than a wide corridor."""
+"""Longest move that needs one cell only, m: more than a step, less than a wide corridor."""
 
 CELL = 0.5
-"""m; a cell's side, more where the plan is so large that there would be more than MOST_CELLS."""
+"""Side of a cell, m; larger where the plan would have more than MOST_CELLS."""
 
 MOST_CELLS = 100_000
 
 _REACH2 = REACH * REACH
 
-_SURE = 1e-6
-"""m; beyond it the side of a wall's line is certain: coordinates below 1e7 m are good to 1e-8."""
+_CERTAIN = 1e-6
+"""Distance from a wall's line beyond which the side is certain, m: below 1e7 m, coordinates are good to 1e-8."""
 
 _Wall = tuple[float, float, float, float, float, float, float]
 """(a, b, c) with a x + b y - c the signed distance from the wall's line, and the wall's ends ax, ay, bx, by."""
 
 
 class Walls:
-    """Straight walls in a grid. `walls`: (start, end) in m; none of them a single point."""
+    """Straight walls in a grid; `walls` are (start, end) in m, and none of them is a single point."""
 
     __slots__ = ("_all", "_bottom", "_clear", "_columns", "_left", "_near", "_per_m", "_rows")
 
     def __init__(self, walls: Sequence[tuple[Point, Point]], most: int = MOST_CELLS) -> None:
-        """`most`: cells that the grid may have."""
-        self._all = [_lined(start, end) for start, end in dict.fromkeys(walls)]
+        """Index the walls in a grid of at most `most` cells."""
+        self._all = [_make_wall(start, end) for start, end in dict.fromkeys(walls)]
         grid = Grid(self.ends, REACH + CELL, CELL, most)
         self._left, self._bottom, self._per_m = grid.left, grid.bottom, grid.per_m
         self._columns, self._rows = grid.columns, grid.rows
         self._near: list[tuple[_Wall, ...]] = [()] * (self._columns * self._rows)
         self._clear = [_REACH2] * (self._columns * self._rows)
-        self._sow(grid)
+        self._index(grid)
 
-    def _sow(self, grid: Grid) -> None:
-        """Every wall into the cells that it can be reached from."""
-        half = grid.cell * sqrt(0.5) + 1e-6  # from the centre to a corner, and the rounding of who is in the cell
+    def _index(self, grid: Grid) -> None:
+        """Add every wall to the cells from which it can be reached."""
+        half = grid.cell * sqrt(0.5) + 1e-6  # from the centre to a corner, and the rounding of the assignment to cells
         near: dict[int, list[_Wall]] = {}
         clear: dict[int, float] = {}
         for wall in self._all:
@@ -71,23 +71,25 @@ class Walls:
             self._clear[at] = max(sqrt(clear[at]) - half, 0.0) ** 2
 
     def crosses(self, x0: float, y0: float, x1: float, y1: float) -> bool:
-        """Whether the straight move from (x0, y0) to (x1, y1), m, touches a wall, its own ends and the wall's included.
-        Exact for all finite floats. True for a move with an end that is no number or infinite: nobody goes there."""
+        """Return whether the straight move from (x0, y0) to (x1, y1), m, touches a wall; ends count.
+
+        Exact for all finite floats. True for a move with an end that is NaN or infinite: no such move is possible.
+        """
         dx, dy = x1 - x0, y1 - y0
         long = dx * dx + dy * dy
         across, up = (x0 - self._left) * self._per_m, (y0 - self._bottom) * self._per_m
-        if not long <= _REACH2:  # also where it is no number
+        if not long <= _REACH2:  # also if it is NaN
             return self._crosses_far(x0, y0, x1, y1)
         if not (0.0 <= across < self._columns and 0.0 <= up < self._rows):
-            return False  # out there no wall is within REACH
+            return False  # outside the grid no wall is within REACH
         at = int(up) * self._columns + int(across)
         if long < self._clear[at]:
             return False
         return _touches_any(self._near[at], x0, y0, x1, y1)
 
     @property
-    def thickest(self) -> tuple[int, Point]:
-        """The most walls that a move is ever tried against, and about where that is, m."""
+    def densest(self) -> tuple[int, Point]:
+        """The largest number of walls that a move is tested against, and about where that is, m."""
         counts = [len(walls) for walls in self._near]
         at = max(range(len(counts)), key=counts.__getitem__)
         i, j = at % self._columns, at // self._columns
@@ -95,11 +97,11 @@ class Walls:
 
     @property
     def ends(self) -> list[tuple[float, float, float, float]]:
-        """(ax, ay, bx, by) of every wall, in the order given; one for those that are the same."""
+        """(ax, ay, bx, by) of every wall, in the order given; equal walls appear once."""
         return [wall[3:] for wall in self._all]
 
-    def joined(self, x: float, y: float, own: tuple[float, float, float, float], within: float) -> bool:
-        """Whether a wall other than `own`, and than `own` drawn once more, comes within `within` <= REACH, m."""
+    def is_continued(self, x: float, y: float, own: tuple[float, float, float, float], within: float) -> bool:
+        """Return whether another wall than `own`, or a repetition of it, comes within `within` <= REACH, m."""
         same = (own, (own[2], own[3], own[0], own[1]))
         return any(wall[3:] not in same and distance(*wall[3:], x, y) <= within for wall in self._at(x, y))
 
@@ -120,7 +122,7 @@ class Walls:
         return False
 
     def _at(self, x: float, y: float) -> tuple[_Wall, ...]:
-        """The walls that the cell of a place knows."""
+        """Return the walls that the cell of a place knows."""
         across, up = (x - self._left) * self._per_m, (y - self._bottom) * self._per_m
         inside = 0.0 <= across < self._columns and 0.0 <= up < self._rows
         return self._near[int(up) * self._columns + int(across)] if inside else ()
@@ -130,17 +132,17 @@ def _touches_any(walls: tuple[_Wall, ...], x0: float, y0: float, x1: float, y1: 
     for a, b, c, ax, ay, bx, by in walls:
         before = a * x0 + b * y0 - c
         after = a * x1 + b * y1 - c
-        if before > _SURE:
-            if after > _SURE:
+        if before > _CERTAIN:
+            if after > _CERTAIN:
                 continue
-        elif before < -_SURE and after < -_SURE:
+        elif before < -_CERTAIN and after < -_CERTAIN:
             continue
         if touch(ax, ay, bx, by, x0, y0, x1, y1):
             return True
     return False
 
 
-def _lined(start: Point, end: Point) -> _Wall:
+def _make_wall(start: Point, end: Point) -> _Wall:
     (ax, ay), (bx, by) = start, end
     long = hypot(bx - ax, by - ay)
     a, b = (ay - by) / long, (bx - ax) / long

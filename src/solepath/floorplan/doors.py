@@ -1,4 +1,4 @@
-"""Doors are cut out of walls, and walls out of walls: what lies along a wall leaves a gap in it."""
+"""Gaps in walls: doors are cut out of walls, and walls out of walls."""
 
 from __future__ import annotations
 
@@ -10,20 +10,22 @@ from ..types.attrs import evolve
 from .plan import Level, Point, Wall
 
 BESIDE = 0.3
-"""m; a door whose both ends are this near to a wall's line is in that wall: doors are drawn on one face of a wall, or
-between two rooms whose outlines are a wall's thickness apart."""
+"""Largest distance of both ends of a door from the line of its wall, m.
+
+Doors are drawn on one face of a wall, or between two rooms whose outlines are a wall's thickness apart.
+"""
 
 SHORTEST = 1e-3
-"""m; shorter gaps are not cut and shorter pieces of wall do not stay."""
+"""Shortest gap that is cut and shortest piece of wall that stays, m."""
 
 _ON = 1e-9
-"""m; nearer than this to a wall's line, a door's own end is the end of the wall."""
+"""Distance from a wall's line, m, below which a door's own end is the end of the wall."""
 
 Line = tuple[Point, Point]
 
 
 class Openings:
-    """Lines that leave gaps, found by where they lie. `owners`: whose each one is, where that matters."""
+    """Lines that leave gaps, indexed by position; `owners` says which outline each belongs to, where that matters."""
 
     def __init__(self, lines: Sequence[Line], owners: Sequence[int] = ()) -> None:
         order = sorted(range(len(lines)), key=lambda i: _leftmost(lines[i]))
@@ -31,26 +33,29 @@ class Openings:
         self._lefts = [_leftmost(lines[i]) for i in order]
         self._widest = max((abs(b[0] - a[0]) for a, b in lines), default=0.0)
 
-    def near(self, wall: Wall, beside: float, but: int | None) -> list[Line]:
-        """Those that may lie along a wall, but not those of one owner."""
+    def near(self, wall: Wall, beside: float, excluded: int | None) -> list[Line]:
+        """Return the lines that may lie along a wall, except those of one owner."""
         left, right = min(wall.start[0], wall.end[0]) - beside, max(wall.start[0], wall.end[0]) + beside
         low, high = min(wall.start[1], wall.end[1]) - beside, max(wall.start[1], wall.end[1]) + beside
         first, last = bisect_left(self._lefts, left - self._widest), bisect_right(self._lefts, right)
         return [
             line for line, owner in self._lines[first:last]
-            if owner != but and not (max(line[0][1], line[1][1]) < low or min(line[0][1], line[1][1]) > high)
+            if owner != excluded and not (max(line[0][1], line[1][1]) < low or min(line[0][1], line[1][1]) > high)
         ]  # fmt: skip
 
 
 def with_doors_cut(level: Level) -> Level:
-    """The level with a gap in its walls wherever a door lies along them. Cut once more, it stays as it is."""
+    """Return the level with a gap in its walls wherever a door lies along them; idempotent."""
     return evolve(level, walls=cut(level.walls, Openings([(door.start, door.end) for door in level.doors]), BESIDE))
 
 
-def cut(walls: Iterable[Wall], openings: Openings, beside: float, but: int | None = None) -> tuple[Wall, ...]:
-    """What is left of the walls where each opening that lies along one of them, with both ends within `beside` (m) of
-    its line and at less than 45 degrees to it, has been taken out; the openings of the owner `but` leave no gaps."""
-    return tuple([piece for wall in walls for piece in _pieces(wall, openings.near(wall, beside, but), beside)])
+def cut(walls: Iterable[Wall], openings: Openings, beside: float, excluded: int | None = None) -> tuple[Wall, ...]:
+    """Return the pieces of the walls after every opening along one of them is removed.
+
+    An opening lies along a wall when both its ends are within `beside` (m) of the wall's line and it is at less than 45
+    degrees to it. Openings of the owner `excluded` leave no gaps.
+    """
+    return tuple([piece for wall in walls for piece in _pieces(wall, openings.near(wall, beside, excluded), beside)])
 
 
 def _leftmost(line: Line) -> float:
@@ -63,19 +68,19 @@ def _pieces(wall: Wall, openings: list[Line], beside: float) -> list[Wall]:
         return [wall]
     (ax, ay), (bx, by) = wall.start, wall.end
     pieces = []
-    since, begin = 0.0, wall.start
-    for low, high, end, next_begin in gaps:
+    since, start = 0.0, wall.start
+    for low, high, end, next_start in gaps:
         if low - since >= SHORTEST:
-            pieces.append(Wall(begin, end))
+            pieces.append(Wall(start, end))
         if high > since:
-            since, begin = high, next_begin
+            since, start = high, next_start
     if hypot(bx - ax, by - ay) - since >= SHORTEST:
-        pieces.append(Wall(begin, wall.end))
+        pieces.append(Wall(start, wall.end))
     return pieces
 
 
 def _gap(wall: Wall, opening: Line, beside: float) -> tuple[float, float, Point, Point] | None:
-    """From where to where along the wall an opening goes, m, and these two places; None when it does not."""
+    """Return the start and end of an opening along the wall, m, and these two places; None when it is not along it."""
     (ax, ay), (bx, by) = wall.start, wall.end
     long = hypot(bx - ax, by - ay)
     wide = hypot(opening[1][0] - opening[0][0], opening[1][1] - opening[0][1])
@@ -90,7 +95,7 @@ def _gap(wall: Wall, opening: Line, beside: float) -> tuple[float, float, Point,
         along = ux * (x - ax) + uy * (y - ay)
         place = (x, y) if abs(off) <= _ON else (ax + along * ux, ay + along * uy)
         ends.append((along, place))
-    (low, begin), (high, end) = sorted(ends)
+    (low, start), (high, end) = sorted(ends)
     if high - low < 0.7 * wide or min(high, long) - max(low, 0.0) < SHORTEST:
         return None
-    return max(low, 0.0), min(high, long), begin, end
+    return max(low, 0.0), min(high, long), start, end

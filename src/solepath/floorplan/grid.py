@@ -1,4 +1,4 @@
-"""A uniform grid over straight lines, and which of its cells are near a line."""
+"""A uniform grid over straight lines, with a search for the cells near a line."""
 
 from __future__ import annotations
 
@@ -6,23 +6,28 @@ from collections.abc import Iterable
 from math import ceil, hypot, sqrt
 
 _ROUNDING = 1e-6
-"""m; more than is lost where the ends of a row's stretch are computed."""
+"""Margin, m, above the rounding error of the ends of a row's range."""
 
 CELLS = 2_000_000
-"""Of the grids of all levels of a plan together, ..."""
+"""Largest number of cells of the grids of all levels of a plan together."""
 PLACES = 500_000
-"""... and of the lattices (enclosure.py)."""
+"""Largest number of places of the lattices (enclosure.py) of all levels of a plan together."""
 
 
 def share(most: int, in_all: int, count: int) -> int:
-    """How many cells one of `count` grids may have: `most`, fewer where all of them would come to more than `in_all`.
-    With fewer, the cells are larger: the answers stay the same and take longer."""
+    """Return the largest number of cells of one of `count` grids: `most`, less where all would exceed `in_all`.
+
+    With fewer cells, the cells are larger: the answers stay the same and take longer.
+    """
     return max(min(most, in_all // max(count, 1)), 64)
 
 
 class Grid:
-    """Square cells over all lines (ax, ay, bx, by), m, and `margin` around them. A cell's number counts along x, then
-    along y. `cell`: its side, m, more where there would be more than `most` cells."""
+    """Square cells over all lines (ax, ay, bx, by), m, with a `margin` around them.
+
+    A cell's number counts along x, then along y. `cell` is its side, m; it is larger where there would be more than
+    `most` cells.
+    """
 
     __slots__ = ("bottom", "cell", "columns", "left", "per_m", "rows")
 
@@ -39,13 +44,15 @@ class Grid:
         self.columns, self.rows = max(ceil(width / self.cell), 1), max(ceil(depth / self.cell), 1)
 
     def near(self, ax: float, ay: float, bx: float, by: float, within: float) -> list[tuple[int, float]]:
-        """The cells whose centres are within `within` m of the line, each with the square of how far it is, m^2. Its
-        cost grows with the length of the line, not with the box around it."""
+        """Return the cells whose centres are within `within` m of the line, with their squared distances, m^2.
+
+        The time grows with the length of the line, not with its bounding box.
+        """
         dx, dy = bx - ax, by - ay
         long2, most = dx * dx + dy * dy, within * within
         shrunk = 1.0 / long2 if long2 > 0.0 else 0.0
         west, east = min(ax, bx) - within - _ROUNDING, max(ax, bx) + within + _ROUNDING
-        flat = abs(dy) <= 1e-4 * abs(dx) or dy == 0.0  # then all of it is in a few rows
+        flat = abs(dy) <= 1e-4 * abs(dx) or dy == 0.0  # a nearly horizontal line is in a few rows
         slope, half = (0.0, 0.0) if flat else (dx / dy, within * hypot(dx, dy) / abs(dy) + _ROUNDING)
         found = []
         for j in self._span(min(ay, by) - within - self.bottom, max(ay, by) + within - self.bottom, self.rows):

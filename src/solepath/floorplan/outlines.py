@@ -1,4 +1,4 @@
-"""Closed outlines: rings of points whose last is not the first again."""
+"""Closed outlines: rings of points that do not repeat their first point at the end."""
 
 from __future__ import annotations
 
@@ -11,17 +11,19 @@ Ring = tuple[Point, ...]
 Edges = tuple[tuple[float, float, float, float], ...]
 
 CLOSED = 0.05
-"""m; a ring that ends this near to where it began is closed."""
+"""Distance from its start within which a ring must end to be closed, m."""
 
 
 def without_repeats(points: list[Point]) -> list[Point]:
-    """The points without those that are the same as the one before."""
+    """Return the points without those that equal the one before."""
     return [point for i, point in enumerate(points) if i == 0 or point != points[i - 1]]
 
 
 def ring(points: list[Point]) -> tuple[Ring, float]:
-    """An outline from points whose last one repeats the first, and how far from it that last one is, m. Where this is
-    more than CLOSED the last point stays, as a corner."""
+    """Return an outline from points whose last repeats the first, and the distance of that last point from it, m.
+
+    If the distance is more than CLOSED, the last point stays, as a corner.
+    """
     open_by = hypot(points[-1][0] - points[0][0], points[-1][1] - points[0][1]) if points else 0.0
     kept = without_repeats(points[:-1] if open_by <= CLOSED and len(points) > 1 else points)
     if len(kept) > 1 and kept[0] == kept[-1]:
@@ -30,17 +32,17 @@ def ring(points: list[Point]) -> tuple[Ring, float]:
 
 
 def not_closed(open_by: float) -> str:
-    """What to say of such a ring."""
+    """Return the remark about a ring that does not close."""
     return f"its outline does not close, it ends {open_by:.2f} m from where it begins"
 
 
 def edges(outline: Ring) -> Edges:
-    """The straight lines (ax, ay, bx, by) that an outline is made of."""
+    """Return the straight lines (ax, ay, bx, by) of an outline."""
     return tuple((*a, *b) for a, b in zip(outline, (*outline[1:], *outline[:1]), strict=True))
 
 
 def holds(lines: Edges, x: float, y: float) -> bool:
-    """Whether a place is within these edges, even and odd: how many of them a ray to +x meets."""
+    """Return whether a place is within these edges, by the even-odd rule with a ray to +x."""
     odd = False
     for ax, ay, bx, by in lines:
         if (ay > y) != (by > y) and x < ax + (y - ay) * (bx - ax) / (by - ay):
@@ -49,14 +51,16 @@ def holds(lines: Edges, x: float, y: float) -> bool:
 
 
 def area(outline: Ring) -> float:
-    """m^2; positive where the ring runs counter-clockwise."""
+    """Return the area of the ring, m^2; positive if it runs counter-clockwise."""
     ox, oy = outline[0]
     return 0.5 * sum((ax - ox) * (by - oy) - (bx - ox) * (ay - oy) for ax, ay, bx, by in edges(outline))
 
 
 def middle(outline: Ring) -> Point:
-    """A place within the outline: its centre of area where that is inside, and else the middle of its widest stretch
-    at that height."""
+    """Return a place within the outline.
+
+    It is the centroid if that is inside, else the middle of the widest stretch at that height.
+    """
     lines, (ox, oy) = edges(outline), outline[0]
     x, y = sum(p[0] for p in outline) / len(outline), sum(p[1] for p in outline) / len(outline)
     size = area(outline)
@@ -77,24 +81,29 @@ def middle(outline: Ring) -> Point:
 
 
 def tidy(outline: Ring) -> Ring:
-    """The same outline counter-clockwise and from its leftmost, lowest corner on, without corners that are none,
-    whoever drew it."""
-    way = outline if area(outline) >= 0.0 else outline[::-1]
-    bent = [b for a, b, c in zip((way[-1], *way), way, (*way[1:], way[0]), strict=False) if not _straight(a, b, c)]
-    way = tuple(bent) if len(bent) >= 3 else way
-    first = way.index(min(way))
-    return way[first:] + way[:first]
+    """Return the outline counter-clockwise, from its leftmost, lowest corner on, without corners on straight lines."""
+    ordered = outline if area(outline) >= 0.0 else outline[::-1]
+    bent = [
+        b
+        for a, b, c in zip((ordered[-1], *ordered), ordered, (*ordered[1:], ordered[0]), strict=False)
+        if not _straight(a, b, c)
+    ]
+    ordered = tuple(bent) if len(bent) >= 3 else ordered
+    first = ordered.index(min(ordered))
+    return ordered[first:] + ordered[:first]
 
 
 def _straight(a: Point, b: Point, c: Point) -> bool:
-    """Whether b is no corner: it lies between a and c, within a millimetre of the line."""
+    """Return whether b is no corner: it lies between a and c, within a millimetre of the line."""
     between = (a[0] - b[0]) * (c[0] - b[0]) + (a[1] - b[1]) * (c[1] - b[1]) < 0.0
     return between and distance(*a, *c, *b) <= 1e-3
 
 
 def with_holes(rings: tuple[Ring, ...]) -> Ring:
-    """One ring for an outline and its holes: each hole is joined to it by a cut, walked there and back, which counts
-    for nothing where edges are counted even and odd."""
+    """Return one ring for an outline and its holes.
+
+    Each hole is joined to the outline by a cut, passed in both directions, which the even-odd rule ignores.
+    """
     outline = rings[0] if rings else ()
     for hole in rings[1:]:
         k = hole.index(min(hole))

@@ -1,8 +1,8 @@
 """A floor plan as plain records: levels with walls, doors and rooms, and the stairs and lifts that join them.
 
 Plan frame: x and y in m, right handed, z up; a level's z is its `elevation`. Readers of three formats (reading.py) make
-these records, and so can a program. Walls are solid: where one can go through, a reader has cut the door out of them
-(doors.py). What a plan must and should be is in checks.py.
+these records, and so can a program. Walls are solid: a reader cuts every door out of them (doors.py). checks.py has the
+requirements on a plan.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ Point = tuple[float, float]
 
 
 class FloorPlanError(ValueError):
-    """A floor plan cannot be read or used: one line with the file, the feature and what does not fit."""
+    """Raised when a floor plan cannot be read or used, in one line with the file, the feature and the fault."""
 
 
 @frozen
@@ -30,7 +30,7 @@ class Wall:
 
 @frozen
 class Door:
-    """A straight opening that one can walk through; where it lies on a wall, the wall has a gap."""
+    """A straight opening to walk through; if it lies on a wall, the wall has a gap."""
 
     start: Point
     end: Point
@@ -38,7 +38,7 @@ class Door:
 
 
 class ConnectorKind(Enum):
-    """How a connector takes one to another level."""
+    """Kind of a connector between levels."""
 
     STAIRS = "stairs"
     LIFT = "lift"
@@ -46,8 +46,11 @@ class ConnectorKind(Enum):
 
 @frozen
 class ConnectorStop:
-    """Where a connector meets a level. `place`: where one steps on and off. `outline`: of the stairwell or the cabin on
-    this level, a ring whose last point is not the first again; empty when it is not known."""
+    """The part of a connector on one level.
+
+    `place` is where a person steps on and off. `outline` is that of the stairwell or the cabin on this level, a ring
+    that does not repeat its first point; empty when unknown.
+    """
 
     level: str
     place: Point
@@ -56,8 +59,11 @@ class ConnectorStop:
 
 @frozen
 class Connector:
-    """Stairs or a lift. `stops`: from the lowest to the highest. `flights`: of stairs, per storey; None when it is not
-    known. `rise`: m, of one step of the stairs; None when it is not known."""
+    """Stairs or a lift.
+
+    `stops` go from the lowest to the highest. `flights` is the number of flights of stairs per storey, None when
+    unknown. `rise` is the height of one step of the stairs, m, None when unknown.
+    """
 
     kind: ConnectorKind
     name: str
@@ -68,9 +74,12 @@ class Connector:
 
 @frozen
 class Level:
-    """One storey. `ordinal`: its place in the order of storeys, 0 at the ground. `elevation`: of its floor, m, in the
-    plan's z. `rooms`: outlines within which one can walk, rings whose last point is not the first again; empty when
-    nothing is known of them."""
+    """One storey.
+
+    `ordinal` is its place in the order of storeys, 0 at the ground. `elevation` is the height of its floor, m, in the
+    plan's z. `rooms` are outlines within which a person can walk, rings that do not repeat their first point; empty
+    when unknown.
+    """
 
     id: str
     name: str
@@ -83,8 +92,11 @@ class Level:
 
 @frozen
 class Anchor:
-    """Where on the Earth the plan is. `latitude`, `longitude`: of the plan's origin (0, 0), degrees, WGS84. `bearing`:
-    rad, clockwise from true north to the plan's +y; with 0, +x is east and +y is north."""
+    """Position of the plan on the Earth.
+
+    `latitude` and `longitude` are those of the plan's origin (0, 0), degrees, WGS84. `bearing` is the angle from true
+    north clockwise to the plan's +y, rad; with 0, +x is east and +y is north.
+    """
 
     latitude: float
     longitude: float
@@ -93,10 +105,13 @@ class Anchor:
 
 @frozen
 class FloorPlan:
-    """A building. `levels`: from the lowest to the highest. `connectors`: what joins them. `anchor`: None when nobody
-    knows where the building is, and nobody has to. `heights_known`: False where the file tells no elevations and the
-    reader has put one storey's usual height between the levels: then nothing may be corrected by them. `remarks`: what
-    a reader had to say of the file, one line each; plans are equal whatever they are."""
+    """A building.
+
+    `levels` go from the lowest to the highest. `connectors` join them. `anchor` is None when the position on the Earth
+    is unknown; nothing requires it. `heights_known` is False when the file has no elevations and the reader has assumed
+    one storey's usual height between the levels: then no height may be corrected by them. `remarks` are the reader's,
+    one line each; they do not count in comparisons of plans.
+    """
 
     name: str
     levels: tuple[Level, ...]
@@ -106,19 +121,20 @@ class FloorPlan:
     remarks: tuple[str, ...] = field(default=(), eq=False)
 
     def __deepcopy__(self, memo: object) -> FloorPlan:
-        """Itself: nothing in it can change, and it may have 100,000 walls."""
+        """Return the plan itself: nothing in it can change, and it may have 100,000 walls."""
         return self
 
     @property
     def fingerprint(self) -> int:
-        """The same for equal plans, on every machine; another, but for one chance in 2^32, for others. It is computed
-        anew, in a time that grows with the plan."""
+        """Checksum, the same for equal plans on every machine; others differ but for one chance in 2^32.
+
+        It is computed at each access, in a time that grows with the plan.
+        """
         return checksum(save(evolve(self, remarks=())))
 
     @property
     def origin(self) -> Point:
-        """A round place, m, near which the plan is, wherever its zero may be: what is kept in few digits is kept from
-        there."""
+        """A round place near the plan, m: values stored with few digits are stored relative to it."""
         for level in self.levels:
             for x, y in [wall.start for wall in level.walls[:1]] + [room[0] for room in level.rooms[:1] if room]:
                 return x // 1.0, y // 1.0
@@ -127,7 +143,7 @@ class FloorPlan:
         return 0.0, 0.0
 
     def level(self, name: str) -> Level:
-        """The level with this id. FloorPlanError when there is none."""
+        """Return the level with this id; raise FloorPlanError when there is none."""
         for level in self.levels:
             if level.id == name:
                 return level
@@ -137,8 +153,11 @@ class FloorPlan:
 
 @frozen
 class Start:
-    """Where a wearer sets out. `place`: m, plan frame. `heading`: rad, counter-clockwise from the plan's +x, of the
-    wearer's first heading; None when it is not known. `spread`: how far off `place` may be, m (rms)."""
+    """Initial place of a wearer.
+
+    `place` is in m, plan frame. `heading` is the wearer's first heading, rad, counter-clockwise from the plan's +x,
+    None when unknown. `spread` is the uncertainty of `place`, m (rms).
+    """
 
     level: str
     place: Point

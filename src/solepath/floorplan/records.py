@@ -1,4 +1,4 @@
-"""Whether a floor plan's records hold what they say: a program may have put anything into them."""
+"""Type checks of a floor plan's records: a program may have put anything into them."""
 
 from __future__ import annotations
 
@@ -8,21 +8,23 @@ from typing import Any
 from .plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, Level, Start, Wall
 
 FARTHEST = 1e7
-"""m; of any coordinate from the plan's origin: national grids have up to 1e7."""
+"""Largest absolute coordinate from the plan's origin, m: national grids have up to 1e7."""
 
 HIGHEST_ORDINAL = 100_000
-"""Of a storey, up and down; a reader may count underground levels as it likes."""
+"""Largest absolute ordinal of a storey; a reader may number underground levels freely."""
 
 WIDEST_SPREAD = 5000.0
-"""m; a start that may be anywhere in the largest building is none."""
+"""Largest spread of a start, m: a start anywhere in the largest building says nothing."""
 
 MOST_TURNED = 1000.0
-"""rad; of a heading."""
+"""Largest absolute heading, rad."""
 
 
 def misshapen(plan: FloorPlan) -> Iterator[str]:
-    """What is of another kind than the records of plan.py say, in one line each. The lines after the first one may not
-    be reached: they take for granted that what was named before them is mended."""
+    """Yield one line for each field that is not of the type that plan.py declares.
+
+    Only the first line is reliable: later checks assume that everything before them is right.
+    """
     yield from _kind("the plan", plan, FloorPlan)
     yield from _text("the plan's name", plan.name)
     yield from _kind("heights_known", plan.heights_known, bool)
@@ -79,7 +81,7 @@ def _of_connector(one: Connector) -> Iterator[str]:
 
 
 def no_start(start: Start) -> str | None:
-    """Why nobody can set out like this, on whatever plan, in one line; None when one can."""
+    """Return why this start is invalid on any plan, in one line; None when it is valid."""
     return next(_of_start(start), None)
 
 
@@ -126,7 +128,7 @@ def _all(what: str, some: Any, kind: type) -> Iterator[str]:
 
 
 def shown(value: object) -> str:
-    """A value in a sentence: short, in one line, whatever it is."""
+    """Return a value for use in a sentence: short, on one line, of any type."""
     if isinstance(value, float):
         return f"{value:g}"
     if isinstance(value, int) and not abs(value) < 10**30:

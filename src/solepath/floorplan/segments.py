@@ -1,4 +1,4 @@
-"""Whether two straight lines touch, exactly: the sign of a cross product is never left to rounding."""
+"""Exact geometry of straight lines: the sign of a cross product never depends on rounding."""
 
 from __future__ import annotations
 
@@ -6,25 +6,29 @@ from fractions import Fraction
 from math import hypot
 
 _ROUNDING = 3.4e-16
-"""Shewchuk 1997, Discrete and Computational Geometry 18: (3 + 16 u) u with u = 2^-53 bounds the error of the cross
-product relative to the sum of its two products' sizes."""
+"""Bound of the error of the cross product, relative to the sum of the sizes of its two products.
+
+Shewchuk 1997, Discrete and Computational Geometry 18: (3 + 16 u) u with u = 2^-53.
+"""
 
 _UNDERFLOW = 1e-300
-"""More than can be lost where a product underflows."""
+"""Bound above the loss by underflow of a product."""
 
 
 def side(ax: float, ay: float, bx: float, by: float, cx: float, cy: float) -> int:
-    """1 when c lies to the left of the line from a to b, -1 to its right, 0 on it. Exact for all finite floats; the
-    fractions are asked only where the floats cannot tell."""
+    """Return 1 when c lies to the left of the line from a to b, -1 to its right, 0 on it.
+
+    Exact for all finite floats; fractions are used only where floats cannot decide.
+    """
     ux, uy, vx, vy = bx - ax, cy - ay, by - ay, cx - ax
     left, right = ux * uy, vx * vy
     turn = left - right
-    doubt = _ROUNDING * (abs(left) + abs(right)) + _UNDERFLOW
-    if turn > doubt:
+    error_bound = _ROUNDING * (abs(left) + abs(right)) + _UNDERFLOW
+    if turn > error_bound:
         return 1
-    if turn < -doubt:
+    if turn < -error_bound:
         return -1
-    if (ux == 0.0 or uy == 0.0) and (vx == 0.0 or vy == 0.0):  # a difference is 0 only where both are the same
+    if (ux == 0.0 or uy == 0.0) and (vx == 0.0 or vy == 0.0):  # a difference is 0 only for equal numbers
         return 0
     x, y = Fraction(ax), Fraction(ay)
     exact = (Fraction(bx) - x) * (Fraction(cy) - y) - (Fraction(by) - y) * (Fraction(cx) - x)
@@ -32,8 +36,10 @@ def side(ax: float, ay: float, bx: float, by: float, cx: float, cy: float) -> in
 
 
 def touch(ax: float, ay: float, bx: float, by: float, px: float, py: float, qx: float, qy: float) -> bool:
-    """Whether the straight lines a to b and p to q, ends included, have a point in common. Exact for all finite
-    floats, also where a line is a single point."""
+    """Return whether the straight lines a to b and p to q, ends included, have a point in common.
+
+    Exact for all finite floats, also where a line is a single point.
+    """
     if max(ax, bx) < min(px, qx) or max(px, qx) < min(ax, bx) or max(ay, by) < min(py, qy) or max(py, qy) < min(ay, by):
         return False
     # with overlapping boxes, lines that lie on one straight line touch as well
@@ -44,7 +50,7 @@ def touch(ax: float, ay: float, bx: float, by: float, px: float, py: float, qx: 
 
 
 def distance(ax: float, ay: float, bx: float, by: float, x: float, y: float) -> float:
-    """From (x, y) to the nearest point of the straight line from a to b, m."""
+    """Return the distance from (x, y) to the nearest point of the straight line from a to b, m."""
     dx, dy = bx - ax, by - ay
     long = dx * dx + dy * dy
     along = ((x - ax) * dx + (y - ay) * dy) / long if long > 0.0 else 0.0

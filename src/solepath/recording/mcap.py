@@ -99,10 +99,10 @@ class _SampleKeepingSession(Session):
         super().__init__(poses=True, profiles=profiles)
         self.samples: list[Sample] = []
 
-    def _take(self, site: Site, items: Iterable[Sample | Event], events: list[Event]) -> None:
+    def _use_items(self, site: Site, items: Iterable[Sample | Event], events: list[Event]) -> None:
         items = list(items)
         self.samples += [item for item in items if isinstance(item, Sample)]
-        super()._take(site, items, events)
+        super()._use_items(site, items, events)
 
 
 class McapWriter:

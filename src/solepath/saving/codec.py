@@ -1,7 +1,7 @@
-"""Saving and restoring as JSON: a record becomes an object of its fields (schema.py says what those may be).
+"""Saving and restoring as JSON: a record becomes an object of its fields (schema.py defines the types of fields).
 
 Tuples, lists and deques become lists; a deque with a maxlen {"maxlen": most, "is": list}, an open record {"kind": name
-of its class, "is": its fields}, an enum its value, bytes base64. What is loaded is checked against the annotations.
+of its class, "is": its fields}, an enum its value, bytes base64. Loaded values are checked against the annotations.
 """
 
 from __future__ import annotations
@@ -17,34 +17,40 @@ from math import isfinite
 from typing import Any, TypeVar
 
 from .nodes import DictNode, EnumNode, MaybeNode, Node, OpenNode, RecordNode, RowNode, ScalarNode, TupleNode
-from .schema import is_record, placed, record_of
+from .schema import is_record, locate_error, record_of
 
 T = TypeVar("T")
 
 Json = None | bool | int | float | str | list["Json"] | dict[str, "Json"]
 Classes = Callable[[str], type | None]
-"""The class of an open record by its name; None where there is none. A dict's `get` is one."""
+"""Function that returns the class of an open record by its name, or None, such as a dict's `get`."""
 _Saver = Callable[[Any], Json]
 _Loader = Callable[[Any, Classes], Any]
 
 
 class SnapshotError(ValueError):
-    """A snapshot is not one of ours, is of another version, or does not fit the records of this release."""
+    """Raised for a value that is no snapshot, is of another version, or does not fit this release's records."""
 
 
 def no_class(name: str) -> None:
-    """Knows none: open records are not loaded."""
+    """Return None for every name, so that open records cannot be loaded."""
 
 
 def save(record: object) -> Json:
-    """A JSON-able copy of `record`. TypeError when a field is of a kind that cannot be saved, SnapshotError when it
-    holds a value that cannot; both name its class and the field."""
+    """Return a JSON-able copy of `record`.
+
+    Raises TypeError when a field is of a kind that cannot be saved, SnapshotError when it holds a value that cannot;
+    both name its class and the field.
+    """
     return _codec(record_of(type(record)))[0](record)
 
 
 def load(cls: type[T], value: Json, classes: Classes = no_class) -> T:
-    """The record of class `cls` that `save` turned into `value`. `classes`: looks up the classes of open records.
-    SnapshotError when it does not fit; TypeError for what is no record."""
+    """Return the record of class `cls` that `save` turned into `value`.
+
+    `classes` looks up the classes of open records. Raises SnapshotError when the value does not fit, TypeError when
+    `cls` is no record.
+    """
     loader = _codec(record_of(cls))[1]
     try:
         loaded: T = loader(value, classes)
@@ -56,7 +62,10 @@ def load(cls: type[T], value: Json, classes: Classes = no_class) -> T:
 
 
 def checksum(value: Json) -> int:
-    """CRC-32 of what `save` gave, whatever the order of its keys; minus zero counts as zero: some encoders lose it."""
+    """Return the CRC-32 of a saved value, independent of the order of its keys.
+
+    Minus zero counts as zero, since some encoders lose its sign.
+    """
     text = json.dumps(value, sort_keys=True, separators=(",", ":"))
     return crc32(_MINUS_ZERO.sub("0.0", text).encode())
 
@@ -124,7 +133,7 @@ def _is_float(node: Node) -> bool:
 
 
 def _save_floats(count: int | None, values: Any) -> Json:
-    """Many at once: a call for each takes three times as long. `count`: as many as there must be."""
+    """Save many floats at once, since a call for each takes three times as long; `count` is the required number."""
     numbers: list[Json] = [*map(float, values)]
     if count is not None and len(numbers) != count:
         raise SnapshotError(f"{len(numbers)} items of {count}")
@@ -173,7 +182,7 @@ def _row_codec(kind: type, save_one: _Saver, load_one: _Loader) -> tuple[_Saver,
 
 
 def _deque_codec(save_one: _Saver, load_one: _Loader) -> tuple[_Saver, _Loader]:
-    """A list; where the deque has a maxlen, which the annotation does not tell, a dict with both."""
+    """Return a codec that saves a list or, for a deque with a maxlen, which no annotation has, a dict with both."""
 
     def save_deque(value: Any) -> Json:
         items: list[Json] = [save_one(item) for item in value]
@@ -210,9 +219,9 @@ def _record_codec(node: RecordNode) -> tuple[_Saver, _Loader]:
             try:
                 saved[name] = save_field(getattr(record, name))
             except TypeError as error:
-                raise TypeError(placed(error, cls, name)) from error
+                raise TypeError(locate_error(error, cls, name)) from error
             except ValueError as error:
-                raise SnapshotError(placed(error, cls, name)) from error
+                raise SnapshotError(locate_error(error, cls, name)) from error
         return saved
 
     def load_record(value: Any, classes: Classes) -> Any:
@@ -243,7 +252,7 @@ def _open_codec(node: OpenNode) -> tuple[_Saver, _Loader]:
 
 
 def check_open(node: OpenNode, cls: type) -> None:
-    """TypeError where an object of that class may not be saved there."""
+    """Raise TypeError when an object of that class may not be saved in this open node."""
     if node.known.get(cls.__name__) is cls:
         return
     if not node.others:
@@ -255,7 +264,7 @@ def check_open(node: OpenNode, cls: type) -> None:
 
 
 def class_in(node: OpenNode, kind: Any, classes: Classes) -> type:
-    """The class of that name. SnapshotError where nobody knows it."""
+    """Return the class of that name; raise SnapshotError when it is unknown."""
     found = node.known.get(kind)
     if found is None and node.others and isinstance(kind, str):
         found = classes(kind)

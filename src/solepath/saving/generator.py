@@ -1,5 +1,6 @@
-"""The code that packs and unpacks records: made from the schema of a record, once, since a loop over fields would take
-eight times as long. It is straight-line code:
+"""Generator of the code that packs and unpacks records of one schema.
+
+A loop over fields would take eight times as long. The generated code is straight-line:
 
     def write(o, F, N, M, B):                          def read_0(t, f, n, m, b, F, C):
         x0, x1, x2 = o.up                                  o = new(cls_0)
@@ -13,8 +14,9 @@ eight times as long. It is straight-line code:
         M.append(x3 is not None)
         kinds_0.write(o.corrector, F, N, M, B)
 
-F takes floats, N ints, enums (where in their class), lengths and kinds, M flags, B bytes; f, n, m, b give the next of
-each. `t` is the same record made again: what is not in the schema is its own, and shared. C looks classes up.
+F takes floats, N ints, enums (the index in their class), lengths and kinds, M flags, B bytes; f, n, m, b return the
+next of each. `t` is the same record made again: fields outside the schema are taken from it, and shared. C looks
+classes up.
 """
 
 from __future__ import annotations
@@ -28,8 +30,10 @@ from .schema import is_frozen
 
 
 class CodeGenerator:
-    """The lines that write a record and those within it, and a function of each that reads it. `called`: what they
-    call, by name. `kinds`: what writes and reads open records."""
+    """Collects the lines that write a record and those within it, and a function for each that reads it.
+
+    `called` holds the functions that they call, by name. `kinds` makes the object that writes and reads open records.
+    """
 
     def __init__(self, called: dict[str, Callable[..., Any]], kinds: Callable[[OpenNode], Any]) -> None:
         self.space: dict[str, Any] = {
@@ -39,12 +43,12 @@ class CodeGenerator:
         self.source: list[str] = []
         self.lines: list[str] = []
         self.pending: dict[str, list[str]] = {"F": [], "N": [], "M": []}
-        """Numbers that the next line of their stream takes."""
+        """Numbers that the next line of their stream writes."""
         self.named = 0
         self.readers: dict[RecordNode, str] = {}
 
     def made(self, record: RecordNode) -> tuple[Callable[..., None], Callable[..., Any]]:
-        """The functions that write and read it."""
+        """Return the functions that write and read the record."""
         self.write(record, "o")
         self.flush()
         self.source += ["def write(o, F, N, M, B):", *["    " + line for line in self.lines or ["pass"]]]
@@ -53,7 +57,7 @@ class CodeGenerator:
         return self.space["write"], self.space[reader]
 
     def named_value(self, what: str, value: Any) -> str:
-        """A name of the generated code for an object."""
+        """Return a name of the generated code for an object."""
         name = f"{what}_{len(self.space)}"
         self.space[name] = value
         return name
@@ -63,7 +67,7 @@ class CodeGenerator:
         return f"x{self.named - 1}"
 
     def held(self, what: str) -> str:
-        """A name for it."""
+        """Return a name for the value of an expression, assigning it if needed."""
         if what.isidentifier():
             return what
         held = self.name()
@@ -71,7 +75,7 @@ class CodeGenerator:
         return held
 
     def flush(self, streams: str = "FNM") -> None:
-        """What is pending is written now, before what comes after it in its stream."""
+        """Write the pending numbers now, before later ones of their stream."""
         for stream, parts in self.pending.items():
             if parts and stream in streams:
                 joined = ", ".join(parts)
@@ -79,12 +83,12 @@ class CodeGenerator:
                 parts.clear()
 
     def put(self, stream: str, line: str) -> None:
-        """A line that writes to one stream."""
+        """Add a line that writes to one stream."""
         self.flush(stream)
         self.lines.append(line)
 
     def block(self, opening: str, *written: tuple[Node, str]) -> None:
-        """A block that writes these."""
+        """Add a block that writes these values."""
         self.flush()
         outer, self.lines = self.lines, []
         for node, what in written:
@@ -94,7 +98,7 @@ class CodeGenerator:
         self.lines = outer
 
     def write(self, node: Node, what: str) -> None:
-        """Lines that write a value."""
+        """Add the lines that write a value."""
         match node:
             case ScalarNode(kind) if _stream(node):
                 self.pending[_stream(node)].append(what)
@@ -142,7 +146,7 @@ class CodeGenerator:
             self.block(f"for {item} in {held}:", (of, item))
 
     def reader(self, record: RecordNode) -> str:
-        """The name of the function that reads it."""
+        """Return the name of the function that reads the record."""
         if record in self.readers:
             return self.readers[record]
         function = self.readers[record] = f"read_{len(self.readers)}"
@@ -155,7 +159,7 @@ class CodeGenerator:
         return function
 
     def expression(self, node: Node, t: str) -> str:
-        """What reads a value. `t`: what stands in its place, if it is made again."""
+        """Return the expression that reads a value; `t` stands in its place if it is made again."""
         match node:
             case ScalarNode(kind):
                 return {float: "f()", int: "n()", bool: "m()", bytes: "b(n())", str: "b(n()).decode()"}[kind]
@@ -189,7 +193,7 @@ class CodeGenerator:
 
 
 def _stream(node: Node) -> str:
-    """Of a number; "" of anything else."""
+    """Return the stream of a number; "" for anything else."""
     return {float: "F", int: "N", bool: "M"}.get(node.kind, "") if isinstance(node, ScalarNode) else ""
 
 

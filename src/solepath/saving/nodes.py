@@ -1,4 +1,4 @@
-"""What a schema is made of: one node for every kind of value that a field may hold (schema.py)."""
+"""Nodes of a schema: one class for every kind of value that a field may hold (schema.py)."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ class EnumNode:
 
 @frozen(eq=False)
 class MaybeNode:
-    """None, or what is in it."""
+    """None, or a value of the node `of`."""
 
     of: Node
 
 
 @frozen(eq=False)
 class TupleNode:
-    """A tuple of as many items as there are types."""
+    """A tuple with one node for each item."""
 
     items: tuple[Node, ...]
 
@@ -57,11 +57,11 @@ class OpenNode:
     """A record of one of several classes."""
 
     known: dict[str, type]
-    """By name."""
+    """Classes by name."""
     others: bool
-    """Records of classes that are not known here may stand there too."""
+    """True if records of other classes are allowed too."""
     made: bool
-    """As in `RecordNode`; what is not known here and has no state is whole all the same."""
+    """Like `RecordNode.made`; a record of an unknown class without state is whole all the same."""
 
 
 @frozen(eq=False)
@@ -70,11 +70,11 @@ class RecordNode:
 
     cls: type
     made: bool
-    """Its holder makes it again with its settings, so its state alone is in the fields."""
+    """True if its holder makes it again with its settings, so that `fields` holds its state alone."""
     fields: dict[str, Node]
-    """Those that are saved, in the order of the class."""
+    """Nodes of the saved fields, in the order of the class."""
     defaults: dict[str, Any]
-    """Default of fields that are not saved; of what is made again it is not used."""
+    """Defaults of the fields that are not saved; unused for a record that is made again."""
 
 
 Node = ScalarNode | EnumNode | MaybeNode | TupleNode | RowNode | DictNode | OpenNode | RecordNode

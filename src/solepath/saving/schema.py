@@ -1,20 +1,20 @@
-"""What a record holds: one walk over the type annotations of its class.
+"""Schema of a record, from the type annotations of its class.
 
 A record is an attrs class, or a plain class with annotations in its body (`ClassVar` is none of its fields). Its fields
 are floats, ints, bools, strings, bytes, enums, other records, None or one of these, tuples, lists, deques, and dicts
 whose keys are strings or enums. Nothing else can be saved: no generators, closures, rebound methods or arrays.
 
-An annotation that is a Protocol is *open*: what stands there is a record of any class, saved with the name of its class
-and loaded by a lookup that is handed in. A union of records is open too, with a lookup of its own.
+An annotation that is a Protocol is *open*: it stands for a record of any class, saved with the name of its class and
+loaded by a lookup that the caller passes. A union of records is open too, with a lookup of its own.
 
 Fields that a constructor takes are *settings* and never change; those that it does not take (`init=False`) are *state*.
-A class with state is a *part*. What makes a part makes it with the same settings again, so of such a part the packed
-form has the state alone, and that of the parts among its settings: a part in a setting, and one in a field of state
-that is there from the beginning (its default is not None). Everything else is written whole: parts that come and go,
-and records without state, which are data. Two marks say what these rules do not:
+A class with state is a *part*. The holder of a part makes it again with the same settings, so the packed form of such a
+part has its state alone, and the state of the parts among its settings. This holds for a part in a setting, and for one
+in a field of state that exists from the start (its default is not None). Everything else is written whole: parts that
+come and go, and records without state, which are data. Two marks declare exceptions to these rules:
 
     floorplan: Plan | None = field(default=None, metadata=NOT_SAVED)      its default after loading
-    feet: dict[Foot, Tracker] = field(factory=dict, init=False, metadata=MADE_AGAIN)      of its parts the state alone
+    feet: dict[Foot, Tracker] = field(factory=dict, init=False, metadata=MADE_AGAIN)      the state of its parts alone
 """
 
 from __future__ import annotations
@@ -39,52 +39,54 @@ _RECORDS: dict[tuple[type, bool], RecordNode] = {}
 
 
 def record_of(cls: type, made: bool = False) -> RecordNode:
-    """The schema of a class. `made`: of its state alone. TypeError, which names the class and the field, for what
-    cannot be saved."""
+    """Return the schema of a class; `made` selects its state alone.
+
+    Raises TypeError, which names the class and the field, for a type that cannot be saved.
+    """
     known = _RECORDS.get((cls, made))
     return _Walk().record(cls, made) if known is None else known
 
 
 def record_in(node: OpenNode, cls: type) -> RecordNode:
-    """The schema of a record of that class in an open node."""
-    return record_of(cls, node.made and (cls in node.known.values() or remembers(cls)))
+    """Return the schema of a record of that class in an open node."""
+    return record_of(cls, node.made and (cls in node.known.values() or has_state(cls)))
 
 
 def is_record(cls: Any) -> bool:
-    """Whether it is a class whose fields can be read from its annotations."""
+    """Return whether the fields of the class can be read from its annotations."""
     if not isinstance(cls, type) or issubclass(cls, Enum | tuple):
         return False
     return attrs.has(cls) or bool(typing.get_type_hints(cls))
 
 
 def is_part(cls: Any) -> bool:
-    """Whether it has state beside settings; what is frozen never changes, so it has none."""
+    """Return whether it has state beside settings; a frozen class never changes, so it has none."""
     return is_record(cls) and not is_frozen(cls) and any([not one.is_setting for one in _declared(cls)])
 
 
-def remembers(hint: Any) -> bool:
-    """Whether what stands there is a part, or holds one among its settings."""
+def has_state(hint: Any) -> bool:
+    """Return whether the annotated value is a part, or holds one among its settings."""
     if is_open(hint) or is_part(hint):
         return True
     if is_record(hint):
-        return not is_frozen(hint) and any([remembers(one.hint) for one in _declared(hint)])
-    return any([remembers(one) for one in typing.get_args(hint)])
+        return not is_frozen(hint) and any([has_state(one.hint) for one in _declared(hint)])
+    return any([has_state(one) for one in typing.get_args(hint)])
 
 
 def is_frozen(cls: type) -> bool:
-    """Whether attrs refuses to change it."""
+    """Return whether attrs forbids changes of the class's fields."""
     setter: Any = cls.__setattr__
     return setter is _Frozen.__setattr__
 
 
 def is_open(cls: Any) -> bool:
-    """Whether it stands for records of any class: it is a Protocol."""
+    """Return whether it is a Protocol, which stands for records of any class."""
     return bool(getattr(cls, "_is_protocol", False))
 
 
 @attrs.frozen
 class _Frozen:
-    """What attrs makes of all of them."""
+    """A frozen class, for comparison of its `__setattr__`, which all frozen classes share."""
 
 
 @attrs.frozen
@@ -111,7 +113,7 @@ def _declared(cls: type) -> Iterator[_DeclaredField]:
 
 
 class _Walk:
-    """Reads annotations into nodes."""
+    """Converts annotations to nodes."""
 
     def __init__(self) -> None:
         self.within: list[type] = []
@@ -131,7 +133,7 @@ class _Walk:
             try:
                 node = None if one.mark == NOT_SAVED["saving"] else self.field(one, made)
             except TypeError as error:
-                raise TypeError(placed(error, cls, one.name)) from error
+                raise TypeError(locate_error(error, cls, one.name)) from error
             if node is None:
                 defaults[one.name] = one.default
             else:
@@ -140,11 +142,11 @@ class _Walk:
         return _RECORDS.setdefault((cls, made), RecordNode(cls, made, fields, defaults))
 
     def field(self, one: _DeclaredField, made: bool) -> Node | None:
-        """None for a setting of a record that is made again, and for one that is no part."""
+        """Return the node of a field; None for a setting of a record that is made again, unless it holds parts."""
         if not made:
             return self.node(one.hint, False)
         if one.is_setting:
-            return self.node(one.hint, True) if remembers(one.hint) else None
+            return self.node(one.hint, True) if has_state(one.hint) else None
         kinds = [kind for kind in alternatives(one.hint) if kind is not type(None)]
         there = one.default is not None and all([is_record(kind) or is_open(kind) for kind in kinds])
         made = there and any([is_part(kind) or is_open(kind) for kind in kinds])
@@ -187,21 +189,21 @@ class _Walk:
 
 
 def alternatives(hint: Any) -> tuple[Any, ...]:
-    """What a union is made of; of another type itself."""
+    """Return the members of a union; of another type the type itself."""
     return typing.get_args(hint) if typing.get_origin(hint) in (typing.Union, types.UnionType) else (hint,)
 
 
 _CANNOT = "a snapshot cannot hold "
 
 
-def placed(error: Exception, cls: type, name: str) -> str:
-    """What it says, with the class and the field, once: those of the innermost record are what is to be mended."""
+def locate_error(error: Exception, cls: type, name: str) -> str:
+    """Return the error's text with the class and the field, once: those of the innermost record."""
     return str(error) if str(error).startswith(_CANNOT) else f"{_CANNOT}{cls.__name__}.{name}: {error}"
 
 
-def described(*roots: RecordNode) -> dict[str, Any]:
-    """The schema as plain data (protocol/snapshot.md)."""
-    told: dict[str, Any] = {"roots": [], "records": {}, "enums": {}}
+def describe(*roots: RecordNode) -> dict[str, Any]:
+    """Return the schema as plain data (protocol/snapshot.md)."""
+    data: dict[str, Any] = {"roots": [], "records": {}, "enums": {}}
     numbers: dict[type, int] = {}
 
     def name(cls: type) -> str:
@@ -212,9 +214,9 @@ def described(*roots: RecordNode) -> dict[str, Any]:
 
     def record(node: RecordNode) -> str:
         named = f"state of {name(node.cls)}" if node.made else name(node.cls)
-        if named not in told["records"]:
-            told["records"][named] = {}
-            told["records"][named] = {field: kind(inner) for field, inner in node.fields.items()}
+        if named not in data["records"]:
+            data["records"][named] = {}
+            data["records"][named] = {field: kind(inner) for field, inner in node.fields.items()}
         return named
 
     def kind(node: Node) -> Any:
@@ -222,7 +224,7 @@ def described(*roots: RecordNode) -> dict[str, Any]:
             case ScalarNode(cls):
                 return cls.__name__
             case EnumNode(cls):
-                told["enums"][name(cls)] = [str(word.value) for word in cls]
+                data["enums"][name(cls)] = [str(word.value) for word in cls]
                 return {"enum": name(cls)}
             case MaybeNode(of):
                 return {"maybe": kind(of)}
@@ -237,10 +239,10 @@ def described(*roots: RecordNode) -> dict[str, Any]:
             case RecordNode():
                 return {"record": record(node)}
 
-    told["roots"] = [record(root) for root in roots]
-    return told
+    data["roots"] = [record(root) for root in roots]
+    return data
 
 
-def check_of(told: dict[str, Any]) -> int:
-    """CRC-32 of a schema as plain data."""
-    return crc32(json.dumps(told, separators=(",", ":")).encode())
+def schema_checksum(data: dict[str, Any]) -> int:
+    """Return the CRC-32 of a schema as plain data."""
+    return crc32(json.dumps(data, separators=(",", ":")).encode())

@@ -1,8 +1,8 @@
-"""Numbers as bytes: each in the fewest bytes that give the very same number again.
+"""Numbers as bytes: each in the fewest bytes that restore exactly the same number.
 
-Four streams hold a state: floats, ints, flags and bytes. Three bits tell what a float or an int is (ZERO to RIGHT
-below); a flag is a bit. All little-endian. An int of more than 53 bits, such as a generator's state, is told in decimal
-digits.
+Four streams hold a state: floats, ints, flags and bytes. Three bits give the class of a float or an int (ZERO to RIGHT
+below); a flag is a bit. All little-endian. An int of more than 53 bits, such as a generator's state, is written in
+decimal digits.
 
 numpy does it: a loop over two thousand numbers would take longer than all the rest.
 """
@@ -15,19 +15,22 @@ from typing import Any
 import numpy as np
 
 Units = tuple[float, float]
-"""What a count of the left insole's cells weighs, and one of the right's, N: loads are multiples of it."""
+"""Load of one count of the left insole's cells, and of the right's, N: loads are multiples of it."""
 COUNTS = Struct("<4I2d")
-"""How many floats, ints and flags there are, how many bytes tell large ints, and the units."""
+"""Numbers of floats, ints and flags, length of the digits of large ints, bytes, and the units."""
 
 ZERO, SINGLE, DOUBLE, AGAIN, WHOLE, DECIMAL, LEFT, RIGHT = range(8)
-"""0.0; a float32; a float64; the last float64 again; an int16; one over 10,000; one times a unit."""
+"""Classes of a number.
+
+0.0; a float32; a float64; the last float64 again; an int16; one over 10,000; one times a unit.
+"""
 LARGE = -(2**63)
-"""Stands for an int that a float would not hold."""
+"""Placeholder for an int that a float would not hold."""
 _SHIFTED = (1 << np.arange(0, 24, 3)).astype("f4")
 
 
 def to_bytes(floats: list[float], ints: list[int], flags: list[bool], data: list[bytes], units: Units) -> bytes:
-    """All four as bytes. ValueError or OverflowError for what is no finite number."""
+    """Return all four streams as bytes; raise ValueError or OverflowError for a number that is not finite."""
     try:
         # struct takes a third of the time that numpy needs for a list
         numbers = np.frombuffer(pack(f"<{len(floats) + len(ints)}d", *floats, *ints), "<f8")
@@ -36,93 +39,95 @@ def to_bytes(floats: list[float], ints: list[int], flags: list[bool], data: list
     if not np.isfinite(numbers).all():
         raise ValueError("a number is not finite")
     large = (np.abs(numbers[len(floats) :]) >= 2.0**53).nonzero()[0]
-    told = b""
+    digits = b""
     if len(large):
-        told = b" ".join([b"%d" % ints[i] for i in large])
+        digits = b" ".join([b"%d" % ints[i] for i in large])
         numbers = numbers.copy()
         numbers[len(floats) + large] = LARGE
     return b"".join(
         [
-            COUNTS.pack(len(floats), len(ints), len(flags), len(told), *units),
-            *_classed(numbers, units),
+            COUNTS.pack(len(floats), len(ints), len(flags), len(digits), *units),
+            *_write_numbers(numbers, units),
             np.packbits(np.frombuffer(bytes(flags), np.uint8), bitorder="little").tobytes(),
-            told,
+            digits,
             *data,
         ]
     )
 
 
 def _scaled(k: int, count: Any, units: Units) -> Any:
-    """What an int16 of a class stands for."""
+    """Return the number that an int16 of a class stands for."""
     return count / 1e4 if k == DECIMAL else count * (1.0 if k == WHOLE else units[k - LEFT])
 
 
-def _classed(real: Any, units: Units) -> list[bytes]:
+def _write_numbers(real: Any, units: Units) -> list[bytes]:
     bits = real.view("<i8")
     with np.errstate(all="ignore"):
         single = real.astype("<f4")
         is_single = single.astype("<f8").view("<i8") == bits
-        # what is too large becomes anything, and is not equal then
+        # a number that is too large becomes any other, which is then not equal
         counts = single.astype("<i2")
         is_whole = counts.astype("<f4").view("<i4") == single.view("<i4")
         is_whole &= is_single
         # sums of flags take half the time of masks
         classes = DOUBLE - is_single.view(np.uint8) + np.uint8(WHOLE - SINGLE) * is_whole.view(np.uint8)
         classes *= (bits != 0).view(np.uint8)
-        # one pass for all would take as long again: most numbers are told already
+        # one pass for all would take as long again: most numbers have their class already
         far = (classes == DOUBLE).nonzero()[0]
         far_real, far_bits = real.take(far), bits.take(far)
         far_classes, far_counts = np.full(len(far), DOUBLE, np.uint8), np.zeros(len(far), "<i2")
         scales = {DECIMAL: 1e4} | {k: 1.0 / unit for unit, k in {units[1]: RIGHT, units[0]: LEFT}.items() if unit}
         for k, scale in scales.items():
             count = np.rint(far_real * scale).astype("<i2")
-            told = _scaled(k, count.astype("<f8"), units).view("<i8") == far_bits
-            np.putmask(far_classes, told, k)
-            np.putmask(far_counts, told, count)
+            exact = _scaled(k, count.astype("<f8"), units).view("<i8") == far_bits
+            np.putmask(far_classes, exact, k)
+            np.putmask(far_counts, exact, count)
     doubles = (far_classes == DOUBLE).nonzero()[0]
-    told = far_bits.take(doubles)
-    far_classes[doubles[1:][told[1:] == told[:-1]]] = AGAIN
+    double_bits = far_bits.take(doubles)
+    far_classes[doubles[1:][double_bits[1:] == double_bits[:-1]]] = AGAIN
     classes[far], counts[far] = far_classes, far_counts
     return [
-        _in_threes(classes),
+        _pack_classes(classes),
         counts.take((classes >= WHOLE).nonzero()[0]).tobytes(),
         single.take((classes == SINGLE).nonzero()[0]).tobytes(),
         far_real.take((far_classes == DOUBLE).nonzero()[0]).tobytes(),
     ]
 
 
-def _in_threes(classes: Any) -> bytes:
-    """Eight classes in three bytes, the first in the lowest bits; zeros fill it up."""
+def _pack_classes(classes: Any) -> bytes:
+    """Pack eight classes into three bytes, the first in the lowest bits; zeros fill the rest."""
     # float32 holds 24 bits, and has a fast product
     eights = np.zeros(-(-len(classes) // 8) * 8, "f4")
     eights[: len(classes)] = classes
     packed = (eights.reshape(-1, 8) @ _SHIFTED).astype("<u4")
-    told: bytes = packed.view(np.uint8).reshape(-1, 4)[:, :3].tobytes()
-    return told
+    packed_bytes: bytes = packed.view(np.uint8).reshape(-1, 4)[:, :3].tobytes()
+    return packed_bytes
 
 
 def from_bytes(body: memoryview) -> tuple[list[float], list[int], list[bool], bytes]:
-    """What `to_bytes` was given, the bytes in one. ValueError (or struct's error) for anything else; what it makes of
-    it is never much larger than it is."""
-    count, whole_count, flag_count, told_length, *units = COUNTS.unpack_from(body)
+    """Return the arguments of `to_bytes`, with the bytes joined.
+
+    Raises ValueError (or struct's error) for anything else. The result is never much larger than the input.
+    """
+    count, whole_count, flag_count, digits_length, *units = COUNTS.unpack_from(body)
     cursor = _Cursor(body, COUNTS.size)
-    numbers = _real(cursor, cursor.in_bits(count + whole_count, 3), (units[0], units[1]))
+    numbers = _read_numbers(cursor, cursor.in_bits(count + whole_count, 3), (units[0], units[1]))
     with np.errstate(all="ignore"):
         whole = numbers[count:].astype("<i8")
     if not np.isfinite(numbers).all() or (whole != numbers[count:]).any():
         raise ValueError("a number is not finite, or not whole")
     flags = cursor.in_bits(flag_count, 1)
-    told = cursor.take(told_length).tobytes()
+    digits = cursor.take(digits_length).tobytes()
     ints: list[int] = whole.tolist()
-    if told:
-        large = iter(told.split(b" "))
+    if digits:
+        large = iter(digits.split(b" "))
         ints = [int(next(large)) if i == LARGE else i for i in ints]
         if next(large, None) is not None:
             raise ValueError("large ints are left over")
     return numbers[:count].tolist(), ints, flags.astype(np.bool_).tolist(), cursor.take(None).tobytes()
 
 
-def _real(cursor: _Cursor, classes: Any, units: Units) -> Any:
+def _read_numbers(cursor: _Cursor, classes: Any, units: Units) -> Any:
     real = np.zeros(len(classes), "<f8")
     counts = cursor.array(np.dtype("<i2"), int(np.count_nonzero(classes >= WHOLE))).astype("<f8")
     of_counts = classes[classes >= WHOLE]

@@ -1,4 +1,4 @@
-"""What an app holds: one wearer, packets or samples in, events out."""
+"""The session, which an app holds: one wearer, packets or samples in, events out."""
 
 from .session import A_NUMBER, Session
 

@@ -2,9 +2,9 @@
 
     magic  form  version  schema  check  body        protocol/snapshot.md
 
-`form` is how numbers are written, `version` that of the state, `schema` the CRC-32 of the schema that the body has,
-`check` that of all the rest. The recipe is not in it, nor what it makes: unpacking begins a session of the recipe that
-is given, and fills in what was remembered.
+`form` is the format of numbers, `version` that of the state, `schema` the CRC-32 of the body's schema, `check` that of
+all the rest. The bytes hold neither the recipe nor what it makes: unpacking starts a session of the given recipe, and
+restores its state.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from ..calibration import Calibration
 from ..recipes import Recipe, own
 from ..saving.codec import Classes, SnapshotError
 from ..saving.packed import Lists, Streams, read, write
-from ..saving.schema import check_of, described, record_of
+from ..saving.schema import describe, record_of, schema_checksum
 from ..saving.streams import Units, from_bytes, to_bytes
 from ..types import Foot, shared
 from ..types.attrs import define
-from .snapshot import by_name, check_names
+from .snapshot import check_names, make_class_lookup
 from .state import VERSION, SessionState
 from .wearer import WearerParts, WearerSettings
 
@@ -32,15 +32,15 @@ FORM = 2
 HEADER = Struct("<4sHHII")
 
 KEPT = 16
-"""So many sessions that were just begun are kept, to be filled in again."""
+"""Number of new sessions that are kept, to serve as templates again."""
 
 
 @define
 class Head:
-    """What a session is begun with."""
+    """The arguments of a session."""
 
     recipe: str
-    """Its name."""
+    """Name of the recipe."""
     calibration: Calibration
     poses: bool
     pressures: bool
@@ -49,23 +49,26 @@ class Head:
 
 
 HEAD, STATE = record_of(Head), record_of(SessionState, made=True)
-"""What is in a body: first the one, then the other."""
+"""Schemas of a body: first the head, then the state."""
 
 
 @lru_cache(maxsize=1)
 def schema() -> dict[str, Any]:
-    """Of a body, as plain data."""
-    return described(HEAD, STATE)
+    """Return the schema of a body as plain data."""
+    return describe(HEAD, STATE)
 
 
 @lru_cache(maxsize=1)
 def _schema_check() -> int:
-    return check_of(schema())
+    return schema_checksum(schema())
 
 
 def pack(state: SessionState) -> bytes:
-    """The state as bytes. TypeError when a part of the app's own has a field of a kind that cannot be saved,
-    SnapshotError when it holds a value that cannot."""
+    """Return the state as bytes.
+
+    Raises TypeError when a part of the app's own has a field of a kind that cannot be saved, SnapshotError when it
+    holds a value that cannot.
+    """
     wearer = state.wearer
     known = wearer.settings
     check_names(known.recipe)
@@ -82,7 +85,7 @@ def pack(state: SessionState) -> bytes:
 
 
 def _units(wearer: WearerParts) -> Units:
-    """What a count weighs: its cells' loads are multiples of that."""
+    """Return the load of one count for each foot, N: the loads of its cells are multiples of it."""
     feet = [wearer.feet.get(foot) for foot in Foot]
     layouts = [None if foot is None else foot.sole.insole.layout for foot in feet]
     left, right = [0.0 if layout is None or layout.scale is None else layout.scale for layout in layouts]
@@ -90,31 +93,34 @@ def _units(wearer: WearerParts) -> Units:
 
 
 def unpack(data: Any, recipe: Recipe, parts: Iterable[type] = ()) -> SessionState:
-    """The state that was packed, of a session of this recipe. SnapshotError for anything else; TypeError and ValueError
-    for a recipe or parts that are none, or two of one name."""
+    """Return the packed state, of a session of this recipe.
+
+    Raises SnapshotError for anything else; TypeError and ValueError for an invalid recipe, invalid parts, or two parts
+    of one name.
+    """
     held = own(recipe)
-    classes = by_name(parts)
-    body = _opened(data)
+    classes = make_class_lookup(parts)
+    body = _check_header(data)
     try:
-        return _filled(Streams(*from_bytes(body)), held, classes)
-    except (SnapshotError, MemoryError, RecursionError):  # where room is short the state may be as good as ever
+        return _read_state(Streams(*from_bytes(body)), held, classes)
+    except (SnapshotError, MemoryError, RecursionError):  # out of memory, the state may still be good
         raise
     except Exception as error:
         raise SnapshotError(f"not a packed session: {error or type(error).__name__}") from error
 
 
-def _opened(data: Any) -> memoryview:
-    """The body."""
+def _check_header(data: Any) -> memoryview:
+    """Return the body after checking the header."""
     if not isinstance(data, bytes | bytearray | memoryview):
         raise SnapshotError("not a packed session")
-    told = bytes(data)
-    if len(told) < HEADER.size or not told.startswith(MAGIC):
+    packed = bytes(data)
+    if len(packed) < HEADER.size or not packed.startswith(MAGIC):
         raise SnapshotError("not a packed session")
-    _, form, version, made_with, found = HEADER.unpack_from(told)
+    _, form, version, made_with, found = HEADER.unpack_from(packed)
     if (form, version) != (FORM, VERSION):
         raise SnapshotError(f"packed as version {version}, form {form}; this release reads {VERSION}, {FORM} alone")
     start = HEADER.pack(MAGIC, form, version, made_with, 0)
-    body = memoryview(told)[HEADER.size :]
+    body = memoryview(packed)[HEADER.size :]
     if crc32(body, crc32(start)) != found:
         raise SnapshotError("the packed session was damaged: its checksum is another")
     if made_with != _schema_check():
@@ -125,13 +131,15 @@ def _opened(data: Any) -> memoryview:
 _kept: tuple[tuple[Recipe, Head, SessionState], ...] = ()
 
 
-def _filled(streams: Streams, recipe: Recipe, classes: Classes) -> SessionState:
-    """The state that the streams hold, of a session of this recipe, which is one that nobody changes (recipes.own).
-    SnapshotError where it was another's."""
+def _read_state(streams: Streams, recipe: Recipe, classes: Classes) -> SessionState:
+    """Return the state that the streams hold, of a session of this recipe, which nobody changes (recipes.own).
+
+    Raises SnapshotError when it was of another recipe.
+    """
     head: Head = read(HEAD, streams, classes)
     if head.recipe != recipe.name:
         raise SnapshotError(f"packed with the recipe {head.recipe!r}, and this is {recipe.name!r}")
-    state: SessionState = read(STATE, streams, classes, _begun(recipe, head))
+    state: SessionState = read(STATE, streams, classes, _make_initial_state(recipe, head))
     streams.end()
     for foot in state.wearer.feet.values():
         layout = foot.sole.insole.layout
@@ -140,12 +148,14 @@ def _filled(streams: Streams, recipe: Recipe, classes: Classes) -> SessionState:
     return state
 
 
-def _begun(recipe: Recipe, head: Head) -> SessionState:
-    """A session of the recipe to which nothing has happened: what is unpacked has its settings, which never change.
-    Making one takes longer than all the rest, so the newest are kept; nobody else holds them."""
+def _make_initial_state(recipe: Recipe, head: Head) -> SessionState:
+    """Return a new session's state, whose settings, which never change, the unpacked state shares.
+
+    Making one takes longer than all the rest, so the newest are kept; nothing else holds them.
+    """
     global _kept
-    for known, begun_with, state in _kept:
-        if known is recipe and repr(begun_with) == repr(head):
+    for known, known_head, state in _kept:
+        if known is recipe and repr(known_head) == repr(head):
             return state
     wearer = WearerParts(WearerSettings(recipe, head.calibration, head.poses, head.pressures, head.plan))
     state = SessionState(wearer)

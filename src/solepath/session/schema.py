@@ -1,4 +1,4 @@
-"""`python -m solepath.session.schema`: what a packed session holds, as JSON (protocol/snapshot.md)."""
+"""`python -m solepath.session.schema`: the schema of a packed session, as JSON (protocol/snapshot.md)."""
 
 from __future__ import annotations
 
@@ -6,19 +6,19 @@ import json
 from typing import Any
 
 from ..recipes import LINKS, PARTS, part_class
-from ..saving.packed import told_of
-from ..saving.schema import described, record_of, remembers
+from ..saving.packed import identify_record
+from ..saving.schema import describe, has_state, record_of
 from .packed import schema
 from .state import VERSION
 
 
 def as_data() -> dict[str, Any]:
-    """The version, the schema of a session, and those of links and parts, by what is packed of an open record."""
+    """Return the version, the schema of a session, and those of links and parts by their packed identity."""
     parts = {}
     for name in (*LINKS, *PARTS):
         cls = part_class(name)
-        record = record_of(cls, made=name in PARTS and remembers(cls))
-        parts[told_of(record)] = described(record)
+        record = record_of(cls, made=name in PARTS and has_state(cls))
+        parts[identify_record(record)] = describe(record)
     return {"version": VERSION, "session": schema(), "parts": parts}
 
 

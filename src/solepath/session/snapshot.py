@@ -1,4 +1,4 @@
-"""The state of a session as plain data for JSON, and what must be there for a state to go on."""
+"""The state of a session as plain data for JSON, and the conditions for a state to continue."""
 
 from __future__ import annotations
 
@@ -12,30 +12,30 @@ from ..saving.schema import is_record
 from ..types import Foot, Site
 from ..types.attrs import evolve
 from .state import VERSION, SessionState
-from .wearer import in_order
+from .wearer import sort_by_key
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
 
 
-def taken(state: SessionState) -> dict[str, Json]:
-    """It carries a checksum of itself: a session made of damaged numbers could do anything later."""
+def take_snapshot(state: SessionState) -> dict[str, Json]:
+    """Return the state with a checksum: a session of damaged numbers could do anything later."""
     check_names(state.wearer.settings.recipe)
-    told = save(state)
-    return {"solepath": VERSION, "check": checksum(told), "state": told}
+    saved_state = save(state)
+    return {"solepath": VERSION, "check": checksum(saved_state), "state": saved_state}
 
 
-def restored(saved: Any, parts: Iterable[type]) -> SessionState:
-    """The state that was taken. SnapshotError, TypeError and ValueError as `Session.restore` has them."""
-    classes = by_name(parts)
+def restore_state(saved: Any, parts: Iterable[type]) -> SessionState:
+    """Return the state of a snapshot; raise SnapshotError, TypeError and ValueError as `Session.restore` does."""
+    classes = make_class_lookup(parts)
     if not isinstance(saved, dict) or not saved.keys() >= {"solepath", "check", "state"}:
         raise SnapshotError("not a snapshot of a session")
     version = saved["solepath"]
     if type(version) is not int or version != VERSION:
         raise SnapshotError(f"a snapshot of version {version!r:.80}; this release reads version {VERSION} alone")
     state = load(SessionState, saved["state"], classes)
-    state.decoders = in_order(state.decoders, Site)
-    state.wearer.feet = in_order(state.wearer.feet, Foot)
+    state.decoders = sort_by_key(state.decoders, Site)
+    state.wearer.feet = sort_by_key(state.wearer.feet, Foot)
     if checksum(save(state)) != saved["check"]:
         raise SnapshotError("the snapshot was damaged: its checksum is another")
     settings = state.wearer.settings
@@ -44,15 +44,18 @@ def restored(saved: Any, parts: Iterable[type]) -> SessionState:
 
 
 def check_names(recipe: Recipe) -> None:
-    """TypeError for a part of an app's own that is called as one of ours: it would be restored as that."""
+    """Raise TypeError for a part of the app's own with the name of one of ours: it would be restored as that."""
     for part in (recipe.detector, recipe.corrector, recipe.cues, *recipe.parts, recipe.place):
         name = type(part).__name__
         if name in PARTS and part_class(name) is not type(part):
             raise TypeError(f"it could not tell this {name} from solepath's own: give it another name")
 
 
-def by_name(parts: Iterable[type]) -> Classes:
-    """Looks classes of parts up, an app's first. TypeError for what is no record, ValueError for two of one name."""
+def make_class_lookup(parts: Iterable[type]) -> Classes:
+    """Return a lookup of classes of parts, the app's first.
+
+    Raises TypeError for a class that is no record, ValueError for two of one name.
+    """
     classes = list(dict.fromkeys(parts))
     for cls in classes:
         if not is_record(cls):
@@ -63,8 +66,8 @@ def by_name(parts: Iterable[type]) -> Classes:
     return lambda name: named.get(name) or part_class(name)
 
 
-def must_fit(state: SessionState, known: DeviceKinds, plan: IndexedPlan | None) -> None:
-    """SnapshotError where the state needs another floor plan than `plan`, or a device that is not `known`."""
+def check_fit(state: SessionState, known: DeviceKinds, plan: IndexedPlan | None) -> None:
+    """Raise SnapshotError if the state needs another floor plan than `plan`, or a device that is not `known`."""
     had = state.wearer.settings.plan
     if had != (None if plan is None else plan.fingerprint):
         with_one = "with the floor plan that it had" if had is not None else "without a floor plan"

@@ -1,4 +1,4 @@
-"""All that a session remembers: the wearer, and the decoders of what is worn."""
+"""State of a session: the wearer, and the decoders of the worn devices."""
 
 from __future__ import annotations
 
@@ -8,16 +8,18 @@ from ..types.attrs import define, field
 from .wearer import WearerParts
 
 VERSION = 3
-"""Of all that is remembered: one more for every release that remembers something else, or has other settings. A state
-of another version is refused."""
+"""Version of the state: one more for every release with other state or other settings.
+
+A state of another version is rejected.
+"""
 
 
 @define
 class SessionState:
-    """All that a session remembers."""
+    """The whole state of a session."""
 
     wearer: WearerParts
     now: float | None = field(default=None, init=False)
-    """The latest moment that anything is known of, s."""
+    """Newest time that is known, s."""
     decoders: dict[Site, Decoder] = field(factory=dict, init=False)
     finished: bool = field(default=False, init=False)

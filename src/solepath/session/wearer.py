@@ -1,4 +1,4 @@
-"""One wearer: samples of all sites in, events out. What a session does once packets have become samples."""
+"""One wearer: samples of all sites in, events out, after a session has turned packets into samples."""
 
 from __future__ import annotations
 
@@ -39,35 +39,35 @@ _Calibrated = TypeVar("_Calibrated")
 
 @frozen
 class WearerSettings:
-    """What a session is begun with."""
+    """Settings of a session."""
 
     recipe: Recipe
-    """Read only: others may hold it too."""
+    """The recipe; read only, since others may share it."""
     calibration: Calibration
     poses: bool = False
-    """The feet emit FootMoved; WearerMoved after a stride."""
+    """True to emit FootMoved, and WearerMoved after a stride."""
     pressures: bool = False
-    """FootPressed with every sample of cells."""
+    """True to emit FootPressed with every sample of cells."""
     plan: int | None = None
-    """Fingerprint of the floor plan, with which the recipe's place part is one of the wearer's; None without one."""
+    """Fingerprint of the floor plan, with which the recipe's place part is used; None without one."""
 
 
 @define
 class WearerParts:
-    """Trackers of the feet, and the parts of the body that the recipe has, in their order."""
+    """Trackers of the feet, and the body parts of the recipe in their order."""
 
     settings: WearerSettings
     parts: list[Part] = field(init=False, metadata=MADE_AGAIN)
-    """In the order in which they hear of what is said."""
+    """Parts in the order in which they receive events."""
     sampled: tuple[Part, ...] = field(default=(), init=False, metadata=NOT_SAVED)
-    """Of these the ones that need, for the moment, a sample of which nothing came."""
+    """Parts that currently need every sample, even one without events."""
     feet: dict[Foot, FootTracker] = field(factory=dict, init=False, metadata=MADE_AGAIN)
     height: tuple[float, float] = field(default=(0.0, 0.0), init=False)
-    """By how much the wearer is higher than the feet's tracks say, m, and the variance of that, m^2."""
+    """Height of the wearer above the feet's tracks, m, and its variance, m^2."""
     unsettled: dict[Site, float | None] = field(factory=dict, init=False)
     """The newest ClockUnsettled of each site."""
     unused: list[Site] = field(factory=list, init=False)
-    """Sites whose samples the recipe has no use for; said once."""
+    """Sites whose samples the recipe cannot use; reported once."""
 
     def __attrs_post_init__(self) -> None:
         settings = self.settings
@@ -76,51 +76,56 @@ class WearerParts:
             parts.append(settings.recipe.place or part_class("Particles")())
         self.parts = [deepcopy(part).calibrated(settings.calibration) for part in parts]
 
-    def walks_on(self, plan: IndexedPlan | None) -> None:
-        """For a wearer who is new or restored: the floor plan, which is never saved, is there from now on."""
+    def set_plan(self, plan: IndexedPlan | None) -> None:
+        """Set the floor plan, which is never saved, of a new or restored wearer."""
         for part in self.parts:
             part.ready()
             if hasattr(part, "plan"):
                 part.plan = plan
-        self._choose()
+        self._choose_sampled()
 
-    def _choose(self) -> None:
+    def _choose_sampled(self) -> None:
         self.sampled = tuple([part for part in self.parts if part.needs_samples and not part.idle])
 
-    def feed(self, sample: Sample, scale_is_said: bool) -> list[Event]:
-        """A sample of any site. `scale_is_said`: by its link, which knows the range, so the foot need not."""
+    def feed(self, sample: Sample, scale_reported: bool) -> list[Event]:
+        """Add a sample of any site and return the events.
+
+        `scale_reported` says that its link, which knows the range, checks the scale, so the foot need not.
+        """
         if sample.quat is not None:
             sample = with_sound_attitude(sample)
         foot = sample.site.foot
         if foot is None:
-            return self._limb(sample)
+            return self._feed_limb(sample)
         known = self.feet.get(foot)
         tracker = self._tracker(foot) if known is None else known
-        if scale_is_said:
+        if scale_reported:
             tracker.scale_reported = True
         events = tracker.feed(sample)
-        if tracker.t is None:  # it could not be used: nothing is known of this foot yet
+        if tracker.t is None:  # it could not be used, and the foot has no earlier sample
             return events
         if known is None:
-            self._keep(tracker)
+            self._add_tracker(tracker)
         if events and isinstance(events[0], SampleRejected):
             return events
         t, known_at = sample.t, sample.known_at
         known_at = t if known_at is None or known_at < t else known_at
         if tracker.seen_at is None or t > tracker.seen_at:
             tracker.seen_at = t
-        if not events and sample.air_pressure is None:  # so it is with nearly all samples
+        if not events and sample.air_pressure is None:  # the case of nearly all samples
             view = tracker.view(sample, known_at, (), False, None)
             for part in self.sampled:
-                if said := part.feed(view):
-                    self._take(said, events)
-                    self._flow(events, view, known_at, 1 + next(k for k, one in enumerate(self.parts) if one is part))
+                if output := part.feed(view):
+                    self._apply(output, events)
+                    self._run_parts(
+                        events, view, known_at, 1 + next(k for k, one in enumerate(self.parts) if one is part)
+                    )
                     break
         else:
             stride = any([isinstance(event, StrideTaken) for event in events])
             other = self.feet.get(OTHER[foot])
             view = tracker.view(sample, known_at, tuple(events), stride, None if other is None else other.seen_at)
-            moved = self._flow(events, view, known_at)
+            moved = self._run_parts(events, view, known_at)
             if moved is not None and self.settings.poses and stride:
                 events.append(moved)
         if sample.pressure:
@@ -132,69 +137,71 @@ class WearerParts:
         return events
 
     def receive(self, site: Site, event: Event) -> list[Event]:
-        """What a link says, and what follows from it."""
+        """Use an event of a link; return it and the events that follow from it."""
         if isinstance(event, ClockReset):
             self._reset_parts(site)
         foot = site.foot
         if foot is not None and isinstance(event, LayoutKnown):
             tracker = self._tracker(foot)
             tracker.set_layout(event.layout)
-            self._keep(tracker)
+            self._add_tracker(tracker)
             for part in self.parts:
                 part.receive(LayoutReported(site, event.layout))
         elif foot is not None and isinstance(event, ClockReset):
             self._tracker(foot).reset()
         events = [event]
-        self._flow(events, None, event.known_at)
+        self._run_parts(events, None, event.known_at)
         return events
 
     def unsettle(self, site: Site, until: float | None) -> None:
-        """The times of a site's samples up to `until`, s, are not to be compared with another's."""
+        """Mark the times of a site's samples up to `until`, s, as not comparable with another site's."""
         self.unsettled[site] = until
         for part in self.parts:
             part.receive(ClockUnsettled(site, until))
-        self._choose()
+        self._choose_sampled()
 
     def reset(self, site: Site) -> None:
-        """Another device is worn there from now on."""
+        """Reset the parts and the foot of a site where another device is worn from now on."""
         self._reset_parts(site)
         if site.foot is not None and site.foot in self.feet:
             self.feet[site.foot].reset()
 
     def finish(self, now: float) -> list[Event]:
-        """No more samples come: what the parts held back, which those after them hear of. `now`: s."""
+        """Return the events that the parts held back; no more samples come after `now`, s."""
         events: list[Event] = []
-        self._flow(events, None, now, finishing=True)
+        self._run_parts(events, None, now, finishing=True)
         return events
 
-    def _flow(
+    def _run_parts(
         self, events: list[Event], view: FootView | None, known_at: float, first: int = 0, *, finishing: bool = False
     ) -> WearerMoved | None:
-        """Let the parts, from number `first` on, hear in their order of `view` and `events`; what they say is added.
-        Returns where the wearer is after it, if a part wanted to know."""
+        """Pass `view` and `events` to the parts from number `first` on, in order, and add what they emit.
+
+        Returns the position of the wearer after it, if a part needs it.
+        """
         moved = None
         for part in self.parts[first:]:
-            heard = tuple(events)
-            if part.needs_position and moved is None and any([isinstance(event, MOVEMENTS) for event in heard]):
-                moved = self._moved(known_at)
-            if view is not None and part.needs_samples and (said := part.feed(view)):
-                self._take(said, events)
+            received = tuple(events)
+            if part.needs_position and moved is None and any([isinstance(event, MOVEMENTS) for event in received]):
+                moved = self._make_moved(known_at)
+            if view is not None and part.needs_samples and (output := part.feed(view)):
+                self._apply(output, events)
             if type(part).receive is not Part.receive:
-                for event in heard:
-                    if said := part.receive(event):
-                        self._take(said, events)
+                for event in received:
+                    if output := part.receive(event):
+                        self._apply(output, events)
             if moved is not None and part.needs_position:
-                self._take(part.receive(moved), events)
+                self._apply(part.receive(moved), events)
             if finishing:
-                self._take(part.finish(known_at), events)
-        self._choose()
+                self._apply(part.finish(known_at), events)
+        self._choose_sampled()
         if moved is None and self.settings.poses and any([isinstance(event, StrideTaken) for event in events]):
-            moved = self._moved(known_at)
+            moved = self._make_moved(known_at)
         return moved
 
-    def _take(self, said: Sequence[PartOutput], events: list[Any]) -> None:
-        """What a part said: events, an app's own too, are added to those of the sample, corrections are applied."""
-        for one in said:
+    def _apply(self, output: Sequence[PartOutput], events: list[Any]) -> None:
+        """Add the emitted events, an app's own too, to those of the sample, and apply corrections."""
+        for one in output:
             if isinstance(one, Shift):
                 self.feet[one.foot].shift(one.yaw, one.by)
             elif isinstance(one, HeightShift):
@@ -204,24 +211,24 @@ class WearerParts:
             else:
                 events.append(one)
 
-    def _moved(self, known_at: float) -> WearerMoved | None:
+    def _make_moved(self, known_at: float) -> WearerMoved | None:
         here = self.position
         if here is None:
             return None
         t, place, covariance = here.t, here.position, here.covariance
         return WearerMoved(t=t, known_at=max(t, known_at), position=place, covariance=covariance)
 
-    def _limb(self, sample: Sample) -> list[Event]:
-        """A sample from above the ankle: for the parts that have a use for it."""
-        wrong = wrong_time(sample)
-        if wrong is not None:
-            return [rejected(sample, wrong, None)]
+    def _feed_limb(self, sample: Sample) -> list[Event]:
+        """Pass a sample from above the ankle to the parts that use it."""
+        fault = wrong_time(sample)
+        if fault is not None:
+            return [rejected(sample, fault, None)]
         site, t, known_at = sample.site, sample.t, sample.known_at
         known_at = t if known_at is None or known_at < t else known_at
         events: list[Event] = []
         parts = [part for part in self.parts if site in part.sites]
         for part in parts:
-            self._take(part.feed_limb(sample), events)
+            self._apply(part.feed_limb(sample), events)
         if not parts and site not in self.unused:
             self.unused.append(site)
             what = f"recipe {self.settings.recipe.name} has no use for a sensor at the {site.value}"
@@ -231,11 +238,11 @@ class WearerParts:
     def _reset_parts(self, site: Site) -> None:
         for part in self.parts:
             part.reset(site)
-        self._choose()
+        self._choose_sampled()
 
     @property
     def position(self) -> Position | None:
-        """As the recipe's track has it, at the height that its parts find; None before any sample."""
+        """Position by the recipe's track, at the height that its parts find; None before any sample."""
         poses = {foot: pose for foot, tracker in self.feet.items() if (pose := tracker.pose) is not None}
         track = next((part for part in self.parts if isinstance(part, TrackPart)), None)
         found = None if track is None else track.position(poses)
@@ -246,12 +253,12 @@ class WearerParts:
         xx, xy, xz, yy, yz, zz = found.covariance
         return Position(found.t, (x, y, z + above), (xx, xy, xz, yy, yz, zz + variance))
 
-    def ask(self, name: str) -> Any:
-        """What the first part that has something of this name says of it; None where none has."""
+    def find_attribute(self, name: str) -> Any:
+        """Return this attribute of the first part that has it; None if none has."""
         return next((getattr(part, name) for part in self.parts if hasattr(part, name)), None)
 
     def _tracker(self, foot: Foot) -> FootTracker:
-        """The foot's own tracker, or a new one that nobody holds yet."""
+        """Return the foot's tracker, or a new one that is not held yet."""
         tracker = self.feet.get(foot)
         if tracker is None:
             recipe, known = self.settings.recipe, self.settings.calibration
@@ -272,17 +279,17 @@ class WearerParts:
                 tracker.sole.set_calibrated_layout(layout)
         return tracker
 
-    def _keep(self, tracker: FootTracker) -> None:
+    def _add_tracker(self, tracker: FootTracker) -> None:
         if tracker.foot not in self.feet:
-            self.feet = in_order({**self.feet, tracker.foot: tracker}, Foot)
+            self.feet = sort_by_key({**self.feet, tracker.foot: tracker}, Foot)
 
 
-def in_order(held: dict[_Key, _Held], keys: Iterable[_Key]) -> dict[_Key, _Held]:
-    """The same in the order of the enum: what is done site by site must not depend on who was heard first."""
+def sort_by_key(held: dict[_Key, _Held], keys: Iterable[_Key]) -> dict[_Key, _Held]:
+    """Return the dict in the order of the enum: the result must not depend on which site sent first."""
     return {key: held[key] for key in keys if key in held}
 
 
 def _calibrated(part: _Calibrated, known: Calibration, foot: Foot) -> _Calibrated:
-    """The part of a foot with what is known that concerns it."""
+    """Return the part of a foot, calibrated if it can be."""
     calibrated = getattr(part, "calibrated", None)
     return part if calibrated is None else calibrated(foot, known)

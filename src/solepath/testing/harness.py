@@ -175,7 +175,7 @@ class WearerHarness(WalkHarness):
     @part.setter
     def part(self, part: Any) -> None:
         self.wearer.parts[-1] = part
-        self.wearer.walks_on(None)
+        self.wearer.set_plan(None)
 
     def restart(self) -> None:
         for foot in self.wearer.feet:
@@ -213,7 +213,7 @@ def harness_for(part: Any, foot: Foot, layout: Layout | None) -> DetectorHarness
         harness = CuesHarness(FootTracker(foot, Cycle(), ErrorStateFilter(), cues=part), "cues")
     elif Part in kinds:
         wearer = WearerParts(WearerSettings(evolve(DEFAULT, parts=(*DEFAULT.parts, part)), Calibration()))
-        wearer.walks_on(None)
+        wearer.set_plan(None)
         if layout is not None:
             site = SITE_OF_FOOT[foot]
             wearer.receive(site, LayoutKnown(t=0.0, known_at=0.0, site=site, layout=layout))

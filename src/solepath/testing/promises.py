@@ -20,7 +20,7 @@ from ..foot.navigate.corrector import Corrector
 from ..foot.rejection import ABSURD_ACC, ABSURD_GYRO
 from ..foot.stance.stance import Detector
 from ..saving.codec import Json, SnapshotError, load, save
-from ..saving.schema import record_of, remembers
+from ..saving.schema import has_state, record_of
 from ..types import Foot, Layout, Sample, Site
 from ..types.vector import IDENTITY
 from .harness import harness_for
@@ -82,7 +82,7 @@ def broken(
 def _changed_settings(before: Any, after: Any) -> list[str]:
     """Return the names of the settings that have changed. A packed session would lose such a change."""
     cls = type(before)
-    settings = record_of(cls, made=True).defaults if remembers(cls) else {}
+    settings = record_of(cls, made=True).defaults if has_state(cls) else {}
     return [name for name in settings if getattr(before, name) != getattr(after, name)]
 
 

@@ -30,7 +30,7 @@ class Message:
 
 @define
 class Topics:
-    """A pair of topics, of what is sent and what is told, and the jobs between them, a consumer group of their own."""
+    """A pair of topics, for input and events, and the jobs between them, with a consumer group of their own."""
 
     address: str
     name: str
@@ -72,14 +72,14 @@ class Topics:
         """Messages that the jobs are done with for good, by partition."""
         if self._ears is None:
             self._ears = Consumer({"bootstrap.servers": self.address, "group.id": self.name})
-        asked = [TopicPartition(f"{self.name}-sent", number) for number in range(self.partitions)]
-        return Counter({at.partition: max(at.offset, 0) for at in self._ears.committed(asked, timeout=20)})
+        assigned = [TopicPartition(f"{self.name}-sent", number) for number in range(self.partitions)]
+        return Counter({at.partition: max(at.offset, 0) for at in self._ears.committed(assigned, timeout=20)})
 
     def done(self) -> bool:
         return +self.committed() == +self.put
 
-    def told(self) -> list[Message]:
-        """All that is in the topic, partition by partition, in order."""
+    def read_messages(self) -> list[Message]:
+        """Return all messages of the topic, partition by partition, in order."""
         consumer = Consumer(
             {"bootstrap.servers": self.address, "group.id": f"{self.name}-reader", "enable.partition.eof": True}
         )
@@ -95,14 +95,14 @@ class Topics:
         return found
 
     def finish(self, job: subprocess.Popen[bytes], state: str = "state", within: float = 180.0) -> list[Message]:
-        """What is told when the job has done with all that was sent; it is killed then."""
+        """Return the messages when the job has used all input; then kill it."""
         end = time.monotonic() + within
         while not self.done():
             assert job.poll() is None, f"the job ended by itself:\n{self.log(state)[-3000:]}"
             assert time.monotonic() < end, f"not done: {self.committed()} of {self.put}\n{self.log(state)[-3000:]}"
             time.sleep(0.2)
         kill(job)
-        return self.told()
+        return self.read_messages()
 
     def close(self) -> None:
         for job in self._jobs:
@@ -112,7 +112,7 @@ class Topics:
 
 
 def kill(job: subprocess.Popen[bytes]) -> None:
-    """As kill -9 does it."""
+    """Kill it as `kill -9` does."""
     job.kill()
     job.wait()
 
@@ -143,8 +143,10 @@ def broker(directory: Path) -> Iterator[Broker]:
     at = f"tcp://{address}"
     urls = [f"--listener-url={at}", f"--advertised-listener-url={at}", "--storage-engine=memory://solepath/"]
     with (directory / "broker.log").open("wb") as log:
-        quiet = {"RUST_LOG": "error"}
-        process = subprocess.Popen([str(BROKER), "broker", *urls], stdout=log, stderr=subprocess.STDOUT, env=quiet)
+        environment = {"RUST_LOG": "error"}
+        process = subprocess.Popen(
+            [str(BROKER), "broker", *urls], stdout=log, stderr=subprocess.STDOUT, env=environment
+        )
     try:
         admin = AdminClient({"bootstrap.servers": address, "log_level": 0})
         for _ in range(50):

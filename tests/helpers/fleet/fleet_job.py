@@ -40,17 +40,17 @@ def main() -> None:
     for name in ("sent", "directory", "store"):
         parser.add_argument(name, type=Path)
     parser.add_argument("--die-at", type=int)
-    asked = parser.parse_args()
-    if not asked.store.exists():
-        asked.store.mkdir()
-        init_db_dir(asked.store, 1)
+    options = parser.parse_args()
+    if not options.store.exists():
+        options.store.mkdir()
+        init_db_dir(options.store, 1)
     flow = Dataflow("job")
-    lines = operators.input("phones", flow, LineSource(asked.sent, batch=25))
-    sent = operators.map("read", lines, reader(asked.die_at))
+    lines = operators.input("phones", flow, LineSource(options.sent, batch=25))
+    sent = operators.map("read", lines, reader(options.die_at))
     keyed = operators.key_on("wearer", sent, lambda one: one.wearer)
-    operators.output("files", gait("gait", keyed, Fleet()), ParquetSink(asked.directory, partitions=2))
+    operators.output("files", gait("gait", keyed, Fleet()), ParquetSink(options.directory, partitions=2))
     try:
-        run_main(flow, epoch_interval=timedelta(milliseconds=50), recovery_config=RecoveryConfig(asked.store))
+        run_main(flow, epoch_interval=timedelta(milliseconds=50), recovery_config=RecoveryConfig(options.store))
     except Exception as error:  # bytewax hangs its own around what a sink raised
         raise SystemExit(f"error: {error.__cause__ or error}") from None
 

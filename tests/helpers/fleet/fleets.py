@@ -48,24 +48,24 @@ def shown(number: int, run: int = 0, wearer: str = WEARER) -> Sent:
 def stepped(
     fleet: Fleet, cuts: Iterable[Iterable[Item]], state: bytes | None = None
 ) -> tuple[bytes, list[NumberedEvent]]:
-    """What `Fleet.step` makes of each piece, with the state carried as bytes from one to the next."""
-    told: list[NumberedEvent] = []
+    """Return the events of `Fleet.step` for each piece, with the state passed on as bytes."""
+    emitted: list[NumberedEvent] = []
     for piece in cuts:
         state, some = fleet.step(WEARER, state, piece)
-        told += some
-    return fleet.step(WEARER, state, [])[0], told
+        emitted += some
+    return fleet.step(WEARER, state, [])[0], emitted
 
 
 def cut(items: list[Item], at: Iterable[int]) -> list[list[Item]]:
     """The items in pieces that end at these places."""
     ends = sorted({0, len(items), *(place % (len(items) + 1) for place in at)})
-    return [items[begin:end] for begin, end in pairwise(ends)]
+    return [items[start:end] for start, end in pairwise(ends)]
 
 
-def uses(told: Iterable[NumberedEvent]) -> list[tuple[str, int | None, int | None, object]]:
-    """Of rows as `shown` makes them: (what, run, number, how many or why)."""
+def uses(emitted: Iterable[NumberedEvent]) -> list[tuple[str, int | None, int | None, object]]:
+    """Return the outcome of rows that `shown` makes: (what, run, number, count or reason)."""
     found: list[tuple[str, int | None, int | None, object]] = []
-    for one in told:
+    for one in emitted:
         match one.event:
             case PacketRejected(channel=channel):
                 run, number = channel.removeprefix("story/").split("-")

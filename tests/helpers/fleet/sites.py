@@ -1,4 +1,4 @@
-"""Wearers of one site as their phones send, all at once, and what a session tells of each."""
+"""Wearers of one site as their phones send, all at once, and the events of each one's session."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ def site(recipe: str = "default") -> tuple[tuple[Keyed, ...], Mapping[str, list[
     """What is sent, keyed by wearer, and each wearer's events. All walk as one did over a bad radio, but "late" begins
     to send later and "limping" wears one insole; only "whole" takes the sensors off in the end."""
     packets = [one.what for one in walked().sent if isinstance(one.what, Packet)]
-    heard = {"late": packets[300:], "limping": [packet for packet in packets if packet.site is Site.LEFT_FOOT]}
-    sent = {wearer: [Sent(wearer, n, packet) for n, packet in enumerate(heard[wearer])] for wearer in heard}
-    events = {wearer: Session(RECIPES[recipe]).feed(heard[wearer]) for wearer in heard}
+    inputs = {"late": packets[300:], "limping": [packet for packet in packets if packet.site is Site.LEFT_FOOT]}
+    sent = {wearer: [Sent(wearer, n, packet) for n, packet in enumerate(inputs[wearer])] for wearer in inputs}
+    events = {wearer: Session(RECIPES[recipe]).feed(inputs[wearer]) for wearer in inputs}
     sent["whole"] = [Sent("whole", one.number, one.what) for one in walked().sent]
     session = Session(RECIPES[recipe])
     events["whole"] = session.feed(packets) + session.finish()

@@ -1,4 +1,4 @@
-"""What tests of a fleet on Spark share: whether Spark can run here, what phones send, and what is to be told of it."""
+"""Helpers of the tests of a fleet on Spark: whether Spark can run here, phones' rows, and expected events."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from walks import insoles, said
+from walks import insoles, run_session
 
 from solepath.emulate.routes.route import Route
 from solepath.fleet import End, NumberedEvent, Sent, event_row, sent_row
@@ -37,15 +37,15 @@ Row = dict[str, Any]
 
 
 def lacking() -> str | None:
-    """Why Spark cannot run here."""
+    """Return why Spark cannot run here."""
     home = os.environ.get("JAVA_HOME")
     java = shutil.which("java", path=f"{home}/bin" if home else None)
     if java is None:
         return "Spark needs Java 17, and there is no java here"
-    told = subprocess.run([java, "-version"], capture_output=True, text=True, check=False).stderr
-    version = re.search(r'version "(\d+)', told)
+    java_version = subprocess.run([java, "-version"], capture_output=True, text=True, check=False).stderr
+    version = re.search(r'version "(\d+)', java_version)
     if version is None or int(version[1]) < 17:
-        return f"Spark needs Java 17, and here is {told.splitlines()[0] if told else 'none'}"
+        return f"Spark needs Java 17, and here is {java_version.splitlines()[0] if java_version else 'none'}"
     try:
         import pyspark  # noqa: F401
         from google import protobuf  # noqa: F401
@@ -62,21 +62,21 @@ def needed() -> None:
 
 
 def sent(wearer: int, walk: int) -> list[Sent]:
-    """All that the phone of one wearer sends."""
+    """Return all rows that the phone of one wearer sends."""
     packets = insoles(ROUTE, seed=walk, cells=48).packets
     what = [*packets, End()]
     return [Sent(f"w{wearer}", number, one) for number, one in enumerate(what)]
 
 
 @cache
-def says(walk: int, recipe: str) -> tuple[Row, ...]:
-    """Rows of what a bare session says of the same walk."""
-    events = said(insoles(ROUTE, seed=walk, cells=48).packets, by_name(recipe))
+def session_rows(walk: int, recipe: str) -> tuple[Row, ...]:
+    """Return the rows of a session alone for the same walk."""
+    events = run_session(insoles(ROUTE, seed=walk, cells=48).packets, by_name(recipe))
     return tuple(event_row(NumberedEvent("", number, event)) for number, event in enumerate(events))
 
 
 def expected(wearers: int, recipe: str = DEFAULT.name) -> list[Row]:
-    rows = [{**row, "wearer": f"w{w}"} for w in range(wearers) for row in says(w % WALKS, recipe)]
+    rows = [{**row, "wearer": f"w{w}"} for w in range(wearers) for row in session_rows(w % WALKS, recipe)]
     return in_order(rows)
 
 
@@ -124,8 +124,8 @@ def put(path: Path, rows: list[Row], age: int) -> None:
     os.utime(path, (1.7e9 + age, 1.7e9 + age))
 
 
-def told(directory: Path) -> list[Row]:
-    """What is in the files that count, by somebody who is not Spark."""
+def read_output(directory: Path) -> list[Row]:
+    """Return the rows of the files that count, read without Spark."""
     from pyarrow import parquet
 
     return in_order(row for path in committed(directory) for row in parquet.read_table(path).to_pylist())

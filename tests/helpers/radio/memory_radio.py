@@ -26,7 +26,7 @@ from bleak.backends.service import BleakGATTService, BleakGATTServiceCollection
 from bleak.exc import BleakDeviceNotFoundError, BleakError, BleakGATTProtocolError
 from memory_link import LoopbackLink
 
-from solepath.ble.air import Backend
+from solepath.ble.scanning import Backend
 from solepath.emulate.devices.attributes import SMALLEST_MTU, AttCode, Characteristic
 from solepath.emulate.devices.peripheral import Peripheral
 from solepath.link.profile import standard_uuid

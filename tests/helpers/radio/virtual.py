@@ -13,7 +13,7 @@ from bleak import BleakClient, BleakScanner
 from bleak.backends.device import BLEDevice
 from strap import BEAT, CONTROL, Strap
 
-from solepath.ble.air import Backend
+from solepath.ble.scanning import Backend
 from solepath.emulate.controllers.server import virtual_air
 from solepath.emulate.devices.faults import parse_faults
 

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 from attrs import evolve
-from commands import refused, run
+from commands import run, run_failing
 from recordings import recorded
 from strides import stride
-from walks import LEFT, RIGHT, of, said
+from walks import LEFT, RIGHT, of, run_session
 
 from solepath import Session
 from solepath.body.gait.turn_detector import TurnDetector, TurnProcess
@@ -175,7 +175,7 @@ def test_a_wearer_who_turns_is_told_to_have_turned() -> None:
     right = 0
     for seed in range(3, 7):
         for turn in ANGLES:
-            events = said(walk(seed, turn).packets, FOOTSTEP_TRACKER)
+            events = run_session(walk(seed, turn).packets, FOOTSTEP_TRACKER)
             right += [made.turn for made in of(TurnMade, events) if made.turn is not None] == [turn]
     assert right >= 11  # of 12: who swings a foot round by 170 degrees at once does so too fast for its gyroscope
 
@@ -208,7 +208,7 @@ def test_who_turns_on_the_spot_has_turned_though_the_feet_hardly_leave_the_groun
     device = CC2541(rate=20.0, mounting=IN_SOLE)
     route = Route().stand(2.0).walk(3.0, 1.2).turn(radians(degrees_)).walk(3.0).stop(2.0)
     walked = emulate(route, devices={LEFT: device, RIGHT: evolve(device)}, seed=109)
-    (made,) = of(TurnMade, said(walked.packets, recipe))
+    (made,) = of(TurnMade, run_session(walked.packets, recipe))
     assert made.turn is turn
     assert abs(degrees(made.angle) - degrees_) < 30.0
 
@@ -250,7 +250,7 @@ def test_calibrate_toe_out_writes_what_a_walk_tells_and_nothing_where_it_tells_n
     assert done.returncode == 0 and "toe-out degrees" in done.stdout
     assert set(read_calibration(out).toe_out) == set(Foot)
     for distance in ("20", "80", "1e308"):
-        said_of_it = refused("calibrate", "toe-out", file, "--distance", distance, "--out", other)
+        said_of_it = run_failing("calibrate", "toe-out", file, "--distance", distance, "--out", other)
         assert "nothing is learnt: the steps come to " in said_of_it and "m of the left foot and " in said_of_it
     for distance in ("3", "-3"):
         assert run("calibrate", "toe-out", file, "--distance", distance, "--out", other).returncode == 2

@@ -9,7 +9,7 @@ from math import hypot
 import numpy as np
 import pytest
 from attrs import evolve
-from walks import said
+from walks import run_session
 
 from solepath import recipes
 from solepath.calibration import Calibration, InsoleCalibration
@@ -40,7 +40,7 @@ def samples(seed: int, foot: Foot, rate: float) -> tuple[Sample, ...]:
 
 
 def run(recipe: str, walk: tuple[Sample, ...]) -> list[Event]:
-    return said(walk, recipes.by_name(recipe), calibration=LAYOUTS)
+    return run_session(walk, recipes.by_name(recipe), calibration=LAYOUTS)
 
 
 def steps(events: list[Event]) -> list[StrideTaken]:
@@ -185,7 +185,7 @@ def test_a_session_can_be_saved_at_any_sample_of_its_first_steps() -> None:
 def test_insoles_that_say_nothing_of_their_cells_make_no_step_longer_than_the_wearers() -> None:
     """Before the order of loading has told where the cells are there are no areas, and the foot still stands."""
     walk = samples(223, Foot.RIGHT, 100.0)
-    found, true = steps(said(walk, recipes.by_name("kupt"))), walker(223).truth().steps(Foot.RIGHT)
+    found, true = steps(run_session(walk, recipes.by_name("kupt"))), walker(223).truth().steps(Foot.RIGHT)
     assert len(found) == len(true)
     assert sum(step.length for step in found) == pytest.approx(sum(step.length for step in true), abs=0.6)
     assert max(step.length for step in found) < 1.2 * max(step.length for step in true)

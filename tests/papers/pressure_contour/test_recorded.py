@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from walks import of, said
+from walks import of, run_session
 
 from solepath import StrideTaken
 from solepath.calibration import Calibration
@@ -19,7 +19,7 @@ LONGEST = 2.0
 
 
 def steps(recipe: Recipe, file: Path, calibration: Calibration) -> list[StrideTaken]:
-    return of(StrideTaken, said(load_samples(file), recipe, calibration=calibration))
+    return of(StrideTaken, run_session(load_samples(file), recipe, calibration=calibration))
 
 
 @pytest.mark.parametrize("name", ["shape_C1", "shape_C3", "shape_I2", "shape_L1", "shape_L3", "both_20241113_105919"])

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from attrs import evolve
-from walks import of, said
+from walks import of, run_session
 
 from solepath import StrideTaken
 from solepath.calibration import Calibration, CalibrationError
@@ -69,7 +69,7 @@ def test_a_drift_that_all_laps_agree_on_is_kept_and_then_taken_off() -> None:
     assert found.agreed and found.kept == found.slope
 
     def end(recipe: Recipe, calibration: Calibration) -> StrideTaken:
-        last: StrideTaken = of(StrideTaken, said(samples(), recipe, calibration=calibration))[-1]
+        last: StrideTaken = of(StrideTaken, run_session(samples(), recipe, calibration=calibration))[-1]
         return last
 
     # what the recipe adds, the calibration takes off again, but for the stands, in which nothing is taken off
@@ -106,7 +106,7 @@ def test_the_slope_is_the_mean_of_the_marks_lines() -> None:
 
 
 def test_marks_by_time_say_the_same_as_counted_steps() -> None:
-    steps = of(StrideTaken, said(samples(), GYROSCOPE))
+    steps = of(StrideTaken, run_session(samples(), GYROSCOPE))
     marks = [CornerMark(str(k % PER_LAP), step.t + 0.1) for k, step in enumerate(steps)]
     counted = square_drift(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE)
     assert square_drift(samples(), marks=marks, recipe=GYROSCOPE) == counted
@@ -186,7 +186,7 @@ def test_marks_are_read_from_a_table(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "said"),
+    ("text", "message"),
     [
         ("mark,t\nA1,soon\n", "line 2: t is 'soon', not a number"),
         ("mark,t\nA1,1.0\n,2.0\n", "line 3: nothing in column mark"),
@@ -196,10 +196,10 @@ def test_marks_are_read_from_a_table(tmp_path: Path) -> None:
         ("", "line 1: wants one column mark"),
     ],
 )
-def test_a_table_of_something_else_is_named(tmp_path: Path, text: str, said: str) -> None:
+def test_a_table_of_something_else_is_named(tmp_path: Path, text: str, message: str) -> None:
     file = tmp_path / "marks.csv"
     file.write_text(text)
-    with pytest.raises(CalibrationError, match=said):
+    with pytest.raises(CalibrationError, match=message):
         read_marks(file)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from walks import of, said
+from walks import of, run_session
 
 from solepath import LayoutKnown, Limitation, Session, StrideTaken
 from solepath.emulate.routes.route import Route
@@ -246,7 +246,7 @@ def test_too_few_cells_are_said_once_and_the_walk_goes_on_by_the_gyroscope() -> 
         2, LEFT, (Cell(0.03, 0.0), Cell(0.05, 0.01), Cell(0.20, 0.0), Cell(0.21, 0.02)), 0.285, 0.05, 204.75
     )
     walk = emulate(LAP, devices={Site.LEFT_FOOT: Insole(cells=sparse)}, seed=107)
-    events = said(walk.packets, PRESSURE_CONTOUR)
+    events = run_session(walk.packets, PRESSURE_CONTOUR)
     assert [one.what for one in of(Limitation, events)] == [
         "2 pressure cells under the heel have no contour, 4 are the fewest; the gyroscope says when the foot stands"
     ]

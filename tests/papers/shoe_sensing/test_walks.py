@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from attrs import evolve
 from views import fed
-from walks import both_feet, said
+from walks import both_feet, run_session
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.parts import MPU6050
@@ -43,7 +43,7 @@ def worn(route: Route, seed: int, rate: float = 100.0) -> tuple[tuple[Sample, ..
 
 @cache
 def heard(route: Route, seed: int, rate: float = 100.0, energy: bool = True) -> tuple[Event, ...]:
-    return tuple(said(worn(route, seed, rate)[0], SHOE_SENSING if energy else SHOE_MAGNITUDE))
+    return tuple(run_session(worn(route, seed, rate)[0], SHOE_SENSING if energy else SHOE_MAGNITUDE))
 
 
 def steps(events: tuple[Event, ...], foot: Foot) -> list[StrideTaken]:
@@ -122,7 +122,7 @@ def test_a_foot_that_only_fidgets_is_in_the_end_unknown() -> None:
 
 def test_who_has_stood_for_long_and_sets_out_is_not_unknown() -> None:
     samples, _ = worn(Route().stand(12.0).walk(6.0, 1.3).stop(2.0), 1)
-    told = changes(said(samples, SHOE_SENSING))
+    told = changes(run_session(samples, SHOE_SENSING))
     assert [what for _, what in told] == [Activity.STANDING, Activity.WALKING, Activity.STANDING]
 
 
@@ -187,7 +187,7 @@ def test_recorded_stairs_are_two_flights_upwards_with_a_landing_between(path: st
     file = data_dir / f"{path}.npz"
     if not file.exists():
         pytest.skip(f"no {path} among the recorded data")
-    told = said(load_samples(file), SHOE_SENSING)
+    told = run_session(load_samples(file), SHOE_SENSING)
     flights = [event.up for event in told if isinstance(event, FlightClimbed)]
     assert flights == [True, True]
     assert Activity.STAIRS_UP in {event.activity for event in told if isinstance(event, ActivityChanged)}

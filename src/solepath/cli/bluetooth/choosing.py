@@ -56,7 +56,7 @@ def add_duration(command: argparse.ArgumentParser, unattended: float) -> None:
 def wanted(options: argparse.Namespace) -> list[DeviceConfig]:
     """The devices that were named; none when none was. Failure for a site or profile that there is not."""
     from ...ble import DeviceConfig
-    from ...ble.wanted import check
+    from ...ble.config import check_configs
     from ...link.catalogue import BY_NAME
 
     named = [(Site.LEFT_FOOT, options.left), (Site.RIGHT_FOOT, options.right)]
@@ -72,7 +72,7 @@ def wanted(options: argparse.Namespace) -> list[DeviceConfig]:
     devices = [DeviceConfig(site, which, profile) for site, which in named if which]
     try:
         if devices:
-            check(devices)
+            check_configs(devices)
     except ValueError as error:
         raise Failure(str(error)) from None
     return devices

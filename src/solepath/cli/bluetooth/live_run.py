@@ -12,7 +12,7 @@ from pathlib import Path
 from attrs import define
 
 from ...ble import Devices, scan
-from ...ble.record import beginning
+from ...ble.record import start_keys
 from ...calibration import Calibration
 from ...events import Event
 from ...floorplan.index import IndexedPlan
@@ -125,7 +125,7 @@ class LiveFiles:
         self.failure = self._packets = self._events = None
         try:
             if record is not None:
-                self._packets = PacketWriter(record, beginning())
+                self._packets = PacketWriter(record, start_keys())
             if out is not None:
                 self._events = TrackFiles(out, places=places)
         except (RecordingError, OSError) as error:

@@ -23,7 +23,7 @@ from bumble import att, core, hci, smp
 from bumble.core import AdvertisingData
 from bumble.device import Advertisement, Connection, Peer
 
-from ...ble.air import Backend
+from ...ble.scanning import Backend
 from .radio import VirtualRadio, end_link
 
 _T = TypeVar("_T")

@@ -24,7 +24,7 @@ from bumble.host import Host
 from bumble.profiles.gap import GenericAccessService
 from bumble.transport.common import AsyncPipeSink, Transport
 
-from ...ble.air import Backend
+from ...ble.scanning import Backend
 from ..devices import attributes as emulated
 from ..devices.attributes import AttError
 from ..devices.peripheral import Peripheral

@@ -18,7 +18,7 @@ from bumble import core, hci
 from bumble.transport import open_transport
 from bumble.transport.common import PacketParser, StreamPacketSink, Transport
 
-from ...ble.air import Backend
+from ...ble.scanning import Backend
 from ..devices.peripheral import Peripheral
 from .central import backend_of
 from .controller import VirtualController, VirtualMedium

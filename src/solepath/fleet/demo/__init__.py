@@ -1,1 +1,1 @@
-"""A fleet of emulated wearers on bytewax, killed and restarted, and what came of it beside an uninterrupted run."""
+"""Demonstration: a fleet of emulated wearers on bytewax, killed, restarted, and compared with an uninterrupted run."""

@@ -1,7 +1,7 @@
-"""The same walks through sessions alone, without an engine: `python -m solepath.fleet.demo.bare RUN PART`.
+"""Reference run of the walks through sessions alone: `python -m solepath.fleet.demo.bare RUN PART`.
 
-What it is to be compared with: the events, and how long `Session.feed` takes for them, one wearer after the other and
-with the packets ready beforehand.
+It writes the events, and the time that `Session.feed` takes for them, one wearer after the other and with the packets
+prepared beforehand.
 """
 
 from __future__ import annotations
@@ -19,26 +19,26 @@ from ..fleet import Fleet
 from ..parquet import PartFiles
 from ..step.sent import NumberedEvent, Tick
 from ..step.state import read_rest
-from .child import end_with_parent, settle
-from .job import TOLD
-from .sending import What
+from .child import end_with_parent, freeze_garbage
+from .job import EVENTS
+from .sending import DemoPayload
 from .wearers import DemoWearer, Wearers
 
 MEASURED = 60
-"""Wearers whose states are looked at."""
+"""Number of wearers whose states are measured."""
 
 
 def main(run: str, part: int) -> None:
-    """Write the events, and how long they took, into the directory of a run."""
+    """Write the events, and the time that they took, into the directory of a run."""
     end_with_parent()
     home = Path(run)
     wearers = Wearers.read(home.parent)
     fleet = Fleet(wearers.recipe)
-    parts = PartFiles(home / TOLD, str(part))
-    settle()
+    parts = PartFiles(home / EVENTS, str(part))
+    freeze_garbage()
     taken = cpu = 0.0
     for wearer in wearers.of_part(part):
-        seconds, used, events = _through(wearers.recipe, wearer.heard())
+        seconds, used, events = _through(wearers.recipe, wearer.inputs())
         taken += seconds
         cpu += used
         parts.write(NumberedEvent(wearer.name, number, event) for number, event in enumerate(events))
@@ -48,32 +48,34 @@ def main(run: str, part: int) -> None:
     (home / f"bare-{part}.json").write_text(json.dumps(found), encoding="utf-8")
 
 
-def _through(recipe: Recipe, heard: list[What]) -> tuple[float, float, list[Event]]:
-    """A session from its beginning: s that it took, s of the processor, and what came out."""
+def _through(recipe: Recipe, inputs: list[DemoPayload]) -> tuple[float, float, list[Event]]:
+    """Run a session from its start; return its duration, s, its processor time, s, and its events."""
     events: list[Event] = []
-    began, used = perf_counter(), process_time()
+    t_start, used = perf_counter(), process_time()
     session = Session(recipe)
-    for what in heard:
+    for what in inputs:
         if type(what) is Packet:
             events += session.feed(what)
         elif isinstance(what, Tick):
             events += session.advance(what.t)
         else:
             events += session.finish()
-    return perf_counter() - began, process_time() - used, events
+    return perf_counter() - t_start, process_time() - used, events
 
 
 def _states(fleet: Fleet, wearers: list[DemoWearer], bundles: int) -> list[tuple[int, int, float]]:
-    """Bytes of the wearers' states after each bundle, rows that are held in it, and s that it took to take it: one
-    wearer's after the other's, as an engine does."""
+    """Measure the wearers' states after each bundle: bytes, rows held in it, and time to take it, s.
+
+    The states are taken one wearer after the other, as an engine does.
+    """
     opened, found = [fleet.open(wearer.name, None) for wearer in wearers], []
     for number in range(bundles):
         for keyed, wearer in zip(opened, wearers, strict=True):
             keyed.feed(wearer.bundle(number))
         for keyed in opened:
-            began = perf_counter()
+            t_start = perf_counter()
             state = keyed.state()
-            seconds = perf_counter() - began
+            seconds = perf_counter() - t_start
             found.append((len(state), len(read_rest(state).held), seconds))
     return found
 

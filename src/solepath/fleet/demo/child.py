@@ -1,4 +1,4 @@
-"""What the processes of a demonstration have in common: when they end, how Python collects, and what they used."""
+"""Functions that the processes of a demonstration share: their end, garbage collection, and memory."""
 
 from __future__ import annotations
 
@@ -10,16 +10,18 @@ from pathlib import Path
 from typing import Any
 
 
-def settle() -> None:
-    """What was loaded and read by now stays, and Python's garbage collector does not look through it again. Its
-    thresholds stay as they are: reading packets drops circles of objects, so that higher ones cost memory and save
-    nothing."""
+def freeze_garbage() -> None:
+    """Keep all present objects for ever and exclude them from Python's garbage collection.
+
+    Its thresholds stay as they are: reading packets drops reference cycles, so higher ones cost memory and save
+    nothing.
+    """
     gc.collect()
     gc.freeze()
 
 
 def end_with_parent() -> None:
-    """End when whoever started this process ends, however it ends: its end of our stdin closes then."""
+    """End this process when its parent ends, in any way: the parent's end of our stdin closes then."""
 
     def watch() -> None:
         while os.read(0, 1):
@@ -31,17 +33,16 @@ def end_with_parent() -> None:
 
 
 def memory() -> int | None:
-    """Bytes that this process holds, or held at its largest until now where the system tells only that; None on
-    systems that say neither."""
-    return _told("VmRSS") or most_memory()
+    """Return the bytes that this process holds, or the most so far where only that is known; None if unknown."""
+    return _read_status("VmRSS") or most_memory()
 
 
 def most_memory() -> int | None:
-    """Bytes that this process held at its largest; None on systems that do not say."""
-    # what getrusage says on Linux is no less than what whoever started this process held at its largest
-    told = _told("VmHWM")
-    if told is not None:
-        return told
+    """Return the most bytes that this process has held; None on systems that do not report it."""
+    # on Linux, getrusage returns at least the largest memory of the parent process
+    size = _read_status("VmHWM")
+    if size is not None:
+        return size
     resource: Any
     try:
         import resource
@@ -51,8 +52,8 @@ def most_memory() -> int | None:
     return int(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss) * unit
 
 
-def _told(key: str) -> int | None:
-    """What Linux says of this process, bytes."""
+def _read_status(key: str) -> int | None:
+    """Return one value of Linux's status of this process, bytes; None on other systems."""
     try:
         lines = Path("/proc/self/status").read_text(encoding="utf-8").splitlines()
     except OSError:

@@ -1,4 +1,4 @@
-"""Two directories of events beside each other: the same events, each as often?"""
+"""Comparison of two directories of events: the same events, each as often."""
 
 from __future__ import annotations
 
@@ -18,52 +18,62 @@ from ..parquet import SCHEMA
 from .sending import Remark
 
 NAMED = 3
-"""Differences that are told."""
+"""Number of differences that are reported."""
 KEYS = [(name, "ascending") for name in SCHEMA.names]
 
 
-class Torn(Exception):
-    """Events cannot be read: one sentence."""
+class UnreadableEvents(Exception):
+    """Raised with one sentence when events cannot be read."""
 
 
 def files(directory: Path) -> list[Path]:
-    """The parts that a reader sees."""
+    """Return the parts that a reader sees."""
     return sorted(directory.glob("[!._]*.parquet"))
 
 
 def read_events(directory: Path) -> pa.Table:
-    """All events of a directory, in an order that does not depend on who wrote which when. Torn."""
+    """Return all events of a directory in an order that does not depend on their writers or on the time of writing.
+
+    Raises UnreadableEvents.
+    """
     tables = [SCHEMA.empty_table()]
     for path in files(directory):
         try:
             tables.append(parquet.read_table(path, partitioning=None).cast(SCHEMA))
         except (pa.ArrowInvalid, OSError) as error:
-            raise Torn(f"{printable(str(path))} cannot be read: {printable(str(error))}") from None
+            raise UnreadableEvents(f"{printable(str(path))} cannot be read: {printable(str(error))}") from None
     return pa.concat_tables(tables).combine_chunks().sort_by(KEYS)
 
 
 def differences(expected: pa.Table, found: pa.Table) -> list[str]:
-    """What differs between two tables of `read_events`, the first few of it, a sentence each; [] for the same events,
-    each as often."""
+    """Return the first few differences between two tables of `read_events`, a sentence each.
+
+    The list is empty for the same events, each as often.
+    """
     if expected.equals(found):
         return []
-    wanted, got = (Counter(tuple(row.values()) for row in table.to_pylist()) for table in (expected, found))
-    told = [(row, "is missing") for row in (wanted - got).elements()]
-    told += [(row, "is there, and should not be" if row not in wanted else "is there twice") for row in got - wanted]
-    told.sort(key=lambda one: (one[0][:2], one[1]))
-    first = [f"{wearer}, event {number} ({event} at {t} s) {what}" for (wearer, number, event, t, *_), what in told]
+    expected_rows, found_rows = (
+        Counter(tuple(row.values()) for row in table.to_pylist()) for table in (expected, found)
+    )
+    changes = [(row, "is missing") for row in (expected_rows - found_rows).elements()]
+    changes += [
+        (row, "is there, and should not be" if row not in expected_rows else "is there twice")
+        for row in found_rows - expected_rows
+    ]
+    changes.sort(key=lambda one: (one[0][:2], one[1]))
+    first = [f"{wearer}, event {number} ({event} at {t} s) {what}" for (wearer, number, event, t, *_), what in changes]
     return _first(first)
 
 
 def _first(lines: list[str]) -> list[str]:
-    """The first few, and how many more there are."""
+    """Return the first few lines, and how many more there are."""
     more = [f"and {len(lines) - NAMED} more"] if len(lines) > NAMED else []
     return [*map(printable, lines[:NAMED]), *more]
 
 
-def of_sessions(told: pa.Table) -> pa.Table:
-    """What sessions said, without what only a fleet says, each wearer's events numbered as they come."""
-    kept = told.filter(pc.invert(_of_fleet(told)))
+def session_events(events: pa.Table) -> pa.Table:
+    """Return the events of sessions without those of the fleet, each wearer's numbered in order."""
+    kept = events.filter(pc.invert(_is_fleet_event(events)))
     numbers: list[int] = []
     last, number = None, 0
     for wearer in kept["wearer"].to_pylist():
@@ -73,13 +83,15 @@ def of_sessions(told: pa.Table) -> pa.Table:
     return kept.set_column(SCHEMA.get_field_index("number"), SCHEMA.field("number"), pa.array(numbers, pa.int64()))
 
 
-def remarked(expected: Mapping[str, Iterable[Remark]], told: pa.Table) -> list[str]:
-    """What only a fleet says, beside what is expected of it, by wearer: the first few that are missing or were not
-    expected, a sentence each."""
-    wanted = Counter((wearer, remark) for wearer, remarks in expected.items() for remark in remarks)
-    got = Counter((row["wearer"], _remark(row)) for row in told.filter(_of_fleet(told)).to_pylist())
-    wrong = [(*one, "is missing") for one in (wanted - got).elements()]
-    wrong += [(*one, "was not expected") for one in (got - wanted).elements()]
+def compare_remarks(expected: Mapping[str, Iterable[Remark]], events: pa.Table) -> list[str]:
+    """Compare the events of the fleet with the expected ones, by wearer.
+
+    Returns the first few that are missing or were not expected, a sentence each.
+    """
+    expected_rows = Counter((wearer, remark) for wearer, remarks in expected.items() for remark in remarks)
+    found_rows = Counter((row["wearer"], _remark(row)) for row in events.filter(_is_fleet_event(events)).to_pylist())
+    wrong = [(*one, "is missing") for one in (expected_rows - found_rows).elements()]
+    wrong += [(*one, "was not expected") for one in (found_rows - expected_rows).elements()]
     lines = sorted(
         f"{wearer}, {one.event} ({one.why}) of run {one.run}, number {one.number} {what}" for wearer, one, what in wrong
     )
@@ -93,14 +105,14 @@ def _remark(row: dict[str, Any]) -> Remark:
     return Remark(row["event"], fields.get("run"), fields.get("number"), fields.get("reason", fields.get("detail", "")))
 
 
-def _of_fleet(told: pa.Table) -> Any:
-    """Which of the rows only a fleet says."""
-    return pc.is_in(told["event"], pa.array([kind.__name__ for kind in get_args(FleetEvent)]))
+def _is_fleet_event(events: pa.Table) -> Any:
+    """Return a mask of the rows that only a fleet emits."""
+    return pc.is_in(events["event"], pa.array([kind.__name__ for kind in get_args(FleetEvent)]))
 
 
-def holes(told: pa.Table) -> list[str]:
-    """Wearers whose events are not numbered 0, 1, 2 and so on, the first few, a sentence each."""
-    counts = told.group_by("wearer").aggregate([("number", "min"), ("number", "max"), ("number", "count_distinct")])
+def find_number_gaps(events: pa.Table) -> list[str]:
+    """Return the first few wearers whose events are not numbered 0, 1, 2 and so on, a sentence each."""
+    counts = events.group_by("wearer").aggregate([("number", "min"), ("number", "max"), ("number", "count_distinct")])
     wrong = [
         row
         for row in counts.to_pylist()

@@ -1,9 +1,9 @@
-"""The job of the demonstration, as an engine runs it:
+"""The job of the demonstration, as an engine runs it.
 
     python -m solepath.fleet.demo.job STAGE/RUN SECONDS [NUMBER ADDRESS ADDRESS ...]
 
-STAGE was prepared (wearers.py); events go to STAGE/RUN/told, and beside it what the run has to say of itself. It is
-`python -m bytewax.run`, which takes whole seconds only between two snapshots (-s), too rare for a short run.
+STAGE was prepared (wearers.py); events go to STAGE/RUN/told, and beside it reports of the run. This module replaces
+`python -m bytewax.run`, which takes only whole seconds between two snapshots (-s), too rare for a short run.
 """
 
 from __future__ import annotations
@@ -31,20 +31,23 @@ from ..bytewax import ParquetSink, gait
 from ..fleet import Fleet
 from ..step import keyed
 from ..step.sent import Sent, Unreadable
-from .child import end_with_parent, memory, most_memory, settle
+from .child import end_with_parent, freeze_garbage, memory, most_memory
 from .wearers import Wearers
 
-TOLD, RECOVERY = "told", "recovery"
+EVENTS, RECOVERY = "told", "recovery"
 """Directories of a run."""
 REOPENED = "reopened-"
-"""Files of as many bytes as wearers went on from their states, one for each process."""
+"""Prefix of files, one for each process, with one byte for each wearer who went on from a state."""
 POSITION = Struct("<q")
 
 Keyed = tuple[str, list[Sent | Unreadable]]
 
 
 def main(run: str, every: float, number: int | None, addresses: list[str]) -> None:
-    """One process of the engine. `every`: s between two snapshots. `number`: which of the `addresses` is its own."""
+    """Run one process of the engine.
+
+    `every` is the time between two snapshots, s. `number` is the index of its own address in `addresses`.
+    """
     cli_main(  # type: ignore[no-untyped-call]
         flow(run),
         process_id=number,
@@ -55,7 +58,7 @@ def main(run: str, every: float, number: int | None, addresses: list[str]) -> No
 
 
 def flow(run: str) -> Dataflow:
-    """The dataflow: phones, sessions, files."""
+    """Return the dataflow: phones, sessions, files."""
     end_with_parent()
     home = Path(run)
     wearers = Wearers.read(home.parent)
@@ -64,22 +67,22 @@ def flow(run: str) -> Dataflow:
     dataflow = Dataflow("fleet_demo")
     sent: Any = operators.input("phones", dataflow, Phones(wearers, home, report))
     fleet = CountedSessions(wearers.recipe, home)
-    told = gait("gait", sent, fleet)
-    operators.output("files", told, ParquetSink(home / TOLD, wearers.plan.parts))
+    events = gait("gait", sent, fleet)
+    operators.output("files", events, ParquetSink(home / EVENTS, wearers.plan.parts))
     _warm(Fleet(wearers.recipe), wearers)
-    settle()
+    freeze_garbage()
     return dataflow
 
 
 def _warm(fleet: Fleet, wearers: Wearers) -> None:
-    """What the first packets, the first state and the first restart make once for all is no wearer's."""
+    """Do the one-time work of the first packets, state and restart before it would count for a wearer."""
     first, state = wearers.all[0], None
     for number in range(wearers.bundles):
         state, _ = fleet.step(first.name, state, first.bundle(number))
 
 
 class CountedSessions(Fleet):
-    """Of the sessions that it opens from bytes it leaves a byte each, for whoever kills this."""
+    """A fleet that writes one byte for each session opened from a state, for the process that kills this one."""
 
     __slots__ = ("_file",)
 
@@ -95,29 +98,35 @@ class CountedSessions(Fleet):
 
 @define
 class ProcessReport:
-    """What one process of a run used. `began`, `ended`: s of the system's clock at the first bundle and at the end of
-    the work; `cpu`: s from the one to the other; `empty`, `full`: memory at the first, the most until the second."""
+    """Resources that one process of a run used.
 
-    began: float | None = None
+    `started` and `ended` are times of the system's clock at the first bundle and at the end of the work, s; `cpu` is
+    the processor time between them, s. `empty` is the memory at the first bundle, `full` the most until the end, bytes.
+    """
+
+    started: float | None = None
     ended: float | None = None
     cpu: float = 0.0
     empty: int | None = None
     full: int | None = None
 
-    def begin(self) -> None:
-        if self.began is None:
-            self.began, self.cpu, self.empty = time(), -process_time(), memory()
+    def note_start(self) -> None:
+        """Note time, processor time and memory at the first bundle."""
+        if self.started is None:
+            self.started, self.cpu, self.empty = time(), -process_time(), memory()
 
     def write(self, home: Path) -> None:
-        """At the end of the process: by then the engine has done all that was to do."""
+        """Write the report at the end of the process, when the engine has done all its work."""
         self.cpu += process_time()
         self.ended, self.full = time(), most_memory()
         (home / f"report-{os.getpid()}.json").write_text(json.dumps(asdict(self)), encoding="utf-8")
 
 
 class Phones(FixedPartitionedSource[Keyed, int]):
-    """Bundles of all wearers as fast as they are asked for: the first of each, then the second. They can be read again
-    from any place."""
+    """A source of the bundles of all wearers at full speed: the first of each, then the second.
+
+    They can be read again from any position.
+    """
 
     def __init__(self, wearers: Wearers, home: Path, report: ProcessReport) -> None:
         self._wearers, self._home, self._report = wearers, home, report
@@ -130,18 +139,18 @@ class Phones(FixedPartitionedSource[Keyed, int]):
 
 
 class CountingPart(StatefulSourcePartition[Keyed, int]):
-    """Its state is how many bundles were read."""
+    """One partition of the source; its state is the number of bundles that were read."""
 
     def __init__(self, wearers: Wearers, part: int, at: int, home: Path, report: ProcessReport) -> None:
         self._wearers, self._report = wearers.of_part(part), report
         self._at, self._end = at, len(self._wearers) * wearers.bundles
-        began = {"part": part, "at": at, "end": self._end, "time": time()}
+        started = {"part": part, "at": at, "end": self._end, "time": time()}
         with (home / "began.jsonl").open("a", encoding="utf-8") as file:
-            file.write(json.dumps(began) + "\n")
+            file.write(json.dumps(started) + "\n")
         self._reached = os.open(home / f"reached-{part}", os.O_WRONLY | os.O_CREAT)
 
     def next_batch(self) -> list[Keyed]:
-        self._report.begin()
+        self._report.note_start()
         at = self._at
         if at >= self._end:
             raise StopIteration
@@ -149,7 +158,7 @@ class CountingPart(StatefulSourcePartition[Keyed, int]):
         wearer = self._wearers[who]
         self._at = at + 1
         os.lseek(self._reached, 0, os.SEEK_SET)
-        os.write(self._reached, POSITION.pack(at + 1))  # for whoever kills this, and wants to know what that cost
+        os.write(self._reached, POSITION.pack(at + 1))  # for the process that kills this one and measures the cost
         bundle = wearer.bundle(number)
         return [(wearer.name, bundle)] if bundle else []
 

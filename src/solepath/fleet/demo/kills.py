@@ -1,4 +1,4 @@
-"""When the job is killed, and what each kill cost."""
+"""Times at which the job is killed, and the cost of each kill."""
 
 from __future__ import annotations
 
@@ -14,24 +14,32 @@ from typing import Any
 import pyarrow as pa
 from attrs import evolve, frozen
 
-from .compare import Torn, differences, read_events
+from .compare import UnreadableEvents, differences, read_events
 from .run import LOOK, EngineRun
 
 STARTING = 5
-"""One kill in so many hits the start of a run, or the recovery from the kill before; all others hit reading."""
+"""One kill in this many hits the start of a run, or the recovery from the kill before; all others hit reading."""
 READ = (0.3, 0.95)
-"""Shares of a run's bundles between which the others come, when there is a snapshot to go back to: the engine goes
-back to the last but one,"""
+"""Range of the share of bundles read at which the other kills come.
+
+By then there is a snapshot to go back to; the engine goes back to the last but one.
+"""
 LATER = 0.1
-"""and up to this share of the time of reading later, so that they do not all hit the beginning of a bundle."""
+"""Largest random delay of a kill, as a share of the time of reading.
+
+The delay keeps the kills from always hitting the start of a bundle.
+"""
 SOONER = 0.6
-"""A kill that came after the end is tried anew, so much sooner."""
+"""Factor on the time of a kill that came after the end and is tried again."""
 
 
 @frozen
 class Kill:
-    """`after`: s from the moment when the `share` of the bundles was read, or from the start, or restart, of the job
-    where that is None. `which`: the process that is killed; None for all at once, as when the power fails."""
+    """A planned kill.
+
+    `after` is the time in s after the `share` of the bundles was read or, if that is None, after the start or restart
+    of the job. `which` is the process that is killed; None kills all at once, as in a power failure.
+    """
 
     share: float | None
     after: float
@@ -40,8 +48,12 @@ class Kill:
 
 @frozen
 class KillMark:
-    """A kill that was done. `when`: s of the system's clock. `started`: the job had begun to read. `reached`: bundles
-    of each partition that were read by then. `reopened`: wearers who had gone on from their states by then."""
+    """A kill that was done.
+
+    `when` is its time on the system's clock, s. `started` says that the job had started to read. `reached` is the
+    number of bundles of each partition that were read by then. `reopened` is the number of wearers who had gone on from
+    their states.
+    """
 
     kill: Kill
     when: float
@@ -52,10 +64,13 @@ class KillMark:
 
 @frozen
 class Cost:
-    """What a kill met and cost. `started`: the job had begun to read, or to read again. `reached`: share of the bundles
-    that were read by then. `replayed`: share of them that were read again, `down`: s until the job read again; both
-    None for a kill that was followed by another before the job did. `reopened`: wearers who went on from their states
-    after it."""
+    """Circumstances and cost of a kill.
+
+    `started` says that the job had started to read, or to read again. `reached` is the share of the bundles that were
+    read by then. `replayed` is the share that was read again, and `down` the time until the job read again, s; both are
+    None for a kill that was followed by another before that. `reopened` is the number of wearers who went on from their
+    states.
+    """
 
     kill: Kill
     started: bool
@@ -65,23 +80,28 @@ class Cost:
     reopened: int
 
     @property
-    def told(self) -> bool:
-        """Something had to be made good: read again, or gone on with from a state."""
+    def had_effect(self) -> bool:
+        """True if something had to be repeated or restored: bundles read again, or a state reopened."""
         return bool(self.replayed or self.reopened)
 
 
 @frozen
 class Outcome:
-    """A run that was killed once or more, and went to its end. `differences`: from the uninterrupted run, a sentence
-    each; [] when it told the same events, each as often."""
+    """A run that was killed once or more, and went to its end.
+
+    `differences` are those from the uninterrupted run, a sentence each; empty for the same events, each as often.
+    """
 
     costs: list[Cost]
     differences: list[str]
 
 
 def draw(kills: int, starting: float, reading: float, processes: int, rng: Random) -> list[list[Kill]]:
-    """Kills of each run. `starting`, `reading`: s of a run until it reads, and from then on. Most come at a random
-    moment of reading, and each of these has a run of its own."""
+    """Return the kills of each run.
+
+    `starting` and `reading` are the durations of a run until it reads and from then on, s. Most kills come at a random
+    moment of reading, and each of these has a run of its own.
+    """
     found: list[list[Kill]] = []
     for number in range(1, kills + 1):
         which = None if processes == 1 or rng.random() < 0.5 else rng.randrange(processes)
@@ -96,15 +116,17 @@ def draw(kills: int, starting: float, reading: float, processes: int, rng: Rando
     return found
 
 
-def play(begin: Callable[[], EngineRun], kills: list[Kill], expected: pa.Table) -> Outcome:
-    """A run from its start, killed and restarted, to its end, and what it told beside what was `expected`. RunFailed.
-    A run that was over before a kill came is begun anew, and killed sooner."""
+def play(create_run: Callable[[], EngineRun], kills: list[Kill], expected: pa.Table) -> Outcome:
+    """Run a job from its start to its end with kills and restarts, and compare its events with `expected`.
+
+    A run that ended before a kill came is started again, and killed sooner. Raises RunFailed.
+    """
     while True:
-        run, marks = begin(), list[KillMark]()
+        run, marks = create_run(), list[KillMark]()
         with closing(run):
-            if _killed(run, kills, marks):
+            if _kill_and_restart(run, kills, marks):
                 run.finish()
-                return Outcome(_costs(marks, run.began(), run.reopened()), compared(expected, run.told))
+                return Outcome(_costs(marks, run.starts(), run.reopened()), compared(expected, run.events))
         late = kills[len(marks)]
         share = None if late.share is None else late.share * SOONER
         sooner = evolve(late, share=share, after=late.after * SOONER)
@@ -112,16 +134,16 @@ def play(begin: Callable[[], EngineRun], kills: list[Kill], expected: pa.Table) 
         shutil.rmtree(run.home)
 
 
-def compared(expected: pa.Table, told: Path) -> list[str]:
-    """How the events in a directory differ from those that were expected: a sentence each."""
+def compared(expected: pa.Table, events: Path) -> list[str]:
+    """Return the differences of the events in a directory from the expected ones, a sentence each."""
     try:
-        return differences(expected, read_events(told))
-    except Torn as torn:
+        return differences(expected, read_events(events))
+    except UnreadableEvents as torn:
         return [str(torn)]
 
 
-def _killed(run: EngineRun, kills: list[Kill], marks: list[KillMark]) -> bool:
-    """Kill and restart; False when the job came to its end before."""
+def _kill_and_restart(run: EngineRun, kills: list[Kill], marks: list[KillMark]) -> bool:
+    """Kill and restart the job; return False when it came to its end before."""
     known = 0
     run.start()
     for kill in kills:
@@ -132,18 +154,18 @@ def _killed(run: EngineRun, kills: list[Kill], marks: list[KillMark]) -> bool:
             return False
         moment = time()
         run.kill(kill.which)
-        marks.append(KillMark(kill, moment, len(run.began()) > known, run.reached(), run.reopened()))
-        known = len(run.began())
+        marks.append(KillMark(kill, moment, len(run.starts()) > known, run.reached(), run.reopened()))
+        known = len(run.starts())
         run.start()
     return True
 
 
-def _costs(marks: list[KillMark], began: list[dict[str, Any]], reopened: int) -> list[Cost]:
+def _costs(marks: list[KillMark], starts: list[dict[str, Any]], reopened: int) -> list[Cost]:
     found = []
     until = [*((mark.when, mark.reopened) for mark in marks[1:]), (inf, reopened)]
     for mark, (end, by_then) in zip(marks, until, strict=True):
-        size = sum({one["part"]: one["end"] for one in began}.values())
-        again = {one["part"]: one for one in began if mark.when < one["time"] < end}
+        size = sum({one["part"]: one["end"] for one in starts}.values())
+        again = {one["part"]: one for one in starts if mark.when < one["time"] < end}
         whole = again.keys() >= mark.reached.keys() and bool(again)
         replayed = sum(reached - again[part]["at"] for part, reached in mark.reached.items()) if whole else 0
         down = max(one["time"] for one in again.values()) - mark.when if whole else None

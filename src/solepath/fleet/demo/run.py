@@ -1,4 +1,4 @@
-"""One run of the demonstration's job: its processes, its directory, and what became of it."""
+"""One run of the demonstration's job: its processes, its directory and its result."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ from attrs import define, field
 from bytewax.recovery import init_db_dir
 
 from ...recording import printable
-from .job import POSITION, RECOVERY, REOPENED, TOLD
+from .job import EVENTS, POSITION, RECOVERY, REOPENED
 
 LOOK = 0.005
-"""s between two looks whether a process has ended."""
+"""Interval between two checks for the end of a process, s."""
 PATIENCE = 3.0
-"""s in which the processes of a job end by themselves after one of them was killed; then they are killed too."""
+"""Time for the processes of a job to end by themselves after a kill of one, s; then they are killed too."""
 
 
 class RunFailed(Exception):
-    """A process of a run ended as it should not have: one sentence."""
+    """Raised with one sentence when a process of a run ended with an error."""
 
 
 def start(module: str, *arguments: str, home: Path, log: Path) -> subprocess.Popen[bytes]:
-    """A process of Python that ends when this one does. It hears no Ctrl-C: whoever started it ends it."""
+    """Start a Python process that ends with this one; it does not receive Ctrl-C, so its parent must end it."""
     package = Path(__file__).parents[3]
     path = os.pathsep.join([str(package), *filter(None, [os.environ.get("PYTHONPATH")])])
     with log.open("ab") as out:
@@ -57,7 +57,7 @@ class Children:
         self.kill()
 
     def ended(self, patience: float) -> bool:
-        """Whether all ended within so many s, or one ended badly: the others might wait for it for ever."""
+        """Return whether all ended within `patience` s, or one with an error: the others might wait for it for ever."""
         limit = monotonic() + patience
         while True:
             statuses = [child.poll() for child in self.running]
@@ -67,12 +67,12 @@ class Children:
                 return False
             sleep(LOOK)
 
-    def left(self) -> bool:
-        """Whether one still runs."""
+    def is_running(self) -> bool:
+        """Return whether at least one still runs."""
         return any(child.poll() is None for child in self.running)
 
     def kill(self, which: int | None = None) -> None:
-        """kill -9 of one, or of all."""
+        """Kill one process, or all, as `kill -9` does."""
         killed = self.running if which is None else [self.running[which]]
         for child in killed:
             child.kill()
@@ -83,16 +83,19 @@ class Children:
                     child.stdin.close()
 
     def check(self, what: str, log: Path) -> None:
-        """RunFailed when one of them did not end well; the last line of the log says why."""
+        """Raise RunFailed when one of them ended with an error; the last line of the log says why."""
         for child in self.running:
             if child.returncode:
-                said = log.read_text(encoding="utf-8", errors="replace").strip().splitlines() or ["it said nothing"]
-                raise RunFailed(f"{what} ended with status {child.returncode}: {printable(said[-1])}")
+                lines = log.read_text(encoding="utf-8", errors="replace").strip().splitlines() or ["it said nothing"]
+                raise RunFailed(f"{what} ended with status {child.returncode}: {printable(lines[-1])}")
 
 
 @define
 class EngineRun:
-    """`home`: its directory, on a stage; `processes`: of the engine; `every`: s between two snapshots."""
+    """A run of the engine.
+
+    `home` is its directory on a stage, `processes` the number of processes, `every` the time between two snapshots, s.
+    """
 
     home: Path
     processes: int
@@ -100,19 +103,19 @@ class EngineRun:
     children: Children = field(factory=Children)
 
     @classmethod
-    def begin(cls, home: Path, processes: int, every: float) -> EngineRun:
-        """A run that has read nothing yet."""
+    def create(cls, home: Path, processes: int, every: float) -> EngineRun:
+        """Return a run that has read nothing yet."""
         (home / RECOVERY).mkdir(parents=True)
         init_db_dir(home / RECOVERY, processes)  # type: ignore[no-untyped-call]
         return cls(home, processes, every)
 
     @property
-    def told(self) -> Path:
-        """Where its events are."""
-        return self.home / TOLD
+    def events(self) -> Path:
+        """Directory of its events."""
+        return self.home / EVENTS
 
     def start(self) -> None:
-        """Begin, or go on where the last snapshot was taken."""
+        """Start the job, or continue it from its last snapshot."""
         job = ("solepath.fleet.demo.job", str(self.home), str(self.every))
         self.children = Children()
         for place in _places(self.processes):
@@ -120,7 +123,7 @@ class EngineRun:
             self.children.running.append(child)
 
     def finish(self) -> list[dict[str, Any]]:
-        """Wait for its end; what each process has to report (job.Report). RunFailed."""
+        """Wait for the end and return each process's report (job.ProcessReport). Raises RunFailed."""
         while not self.ended(PATIENCE):
             pass
         self.children.kill()
@@ -128,26 +131,26 @@ class EngineRun:
         return [json.loads(report.read_text(encoding="utf-8")) for report in reports]
 
     def ended(self, patience: float) -> bool:
-        """Whether it came to its end within so many s. RunFailed when that was none."""
+        """Return whether the job came to its end within `patience` s. Raises RunFailed if it failed."""
         if not self.children.ended(patience):
             return False
         self.children.check("the job", self.home / "log")
         return True
 
     def kill(self, which: int | None) -> None:
-        """kill -9 of one process, or all; the others end by themselves, or else likewise."""
+        """Kill one process, or all; the others end by themselves or are killed after PATIENCE."""
         self.children.kill(which)
         limit = monotonic() + PATIENCE
-        while self.children.left() and monotonic() < limit:
+        while self.children.is_running() and monotonic() < limit:
             sleep(LOOK)
         self.children.kill()
 
     def close(self) -> None:
-        """Nothing of it is left running."""
+        """Kill every process that still runs."""
         self.children.kill()
 
     def reached(self) -> dict[int, int]:
-        """How many bundles were read by now, of each partition that was."""
+        """Return the number of bundles read by now, of each partition that has started."""
         found = {}
         for path in self.home.glob("reached-*"):
             data = path.read_bytes()
@@ -156,23 +159,23 @@ class EngineRun:
         return found
 
     def share(self) -> float:
-        """The same as a share of all; 0 before all partitions were opened."""
-        ends = {one["part"]: one["end"] for one in self.began()}
+        """Return the share of all bundles that were read; 0 before all partitions were opened."""
+        ends = {one["part"]: one["end"] for one in self.starts()}
         return sum(self.reached().values()) / sum(ends.values()) if len(ends) == self.processes else 0.0
 
     def reopened(self) -> int:
-        """How many wearers went on from their states by now, after all restarts together."""
+        """Return the number of wearers who went on from their states, over all restarts."""
         return sum(path.stat().st_size for path in self.home.glob(f"{REOPENED}*"))
 
-    def began(self) -> list[dict[str, Any]]:
-        """Each time that a partition was opened: its `part`, where it went on (`at`), its `end`, and when (`time`)."""
+    def starts(self) -> list[dict[str, Any]]:
+        """Return each opening of a partition: its `part`, its position `at`, its `end`, and its `time`."""
         path = self.home / "began.jsonl"
         lines = path.read_text(encoding="utf-8").splitlines() if path.exists() else []
         return [json.loads(line) for line in lines if line.endswith("}")]
 
 
 def _places(processes: int) -> list[tuple[str, ...]]:
-    """What tells each process of a job where the others are."""
+    """Return the arguments that give each process of a job its own number and all addresses."""
     if processes == 1:
         return [()]
     addresses = [f"127.0.0.1:{port}" for port in _free_ports(processes)]
@@ -180,7 +183,7 @@ def _places(processes: int) -> list[tuple[str, ...]]:
 
 
 def _free_ports(count: int) -> list[int]:
-    """Of this machine alone."""
+    """Return free ports of this machine."""
     with ExitStack() as stack:
         sockets = [stack.enter_context(socket.socket()) for _ in range(count)]
         for one in sockets:

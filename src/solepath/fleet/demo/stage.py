@@ -1,5 +1,4 @@
-"""The demonstration as a whole: a stage on which the same walks go through the engine, through sessions alone, and
-through an engine that is killed."""
+"""The whole demonstration: the same walks through the engine, through sessions alone, and through killed engines."""
 
 from __future__ import annotations
 
@@ -16,26 +15,30 @@ from typing import Any
 
 from attrs import define, field, frozen
 
-from .compare import differences, files, holes, of_sessions, read_events, remarked
+from .compare import compare_remarks, differences, files, find_number_gaps, read_events, session_events
 from .kills import Outcome, draw, play
 from .run import Children, EngineRun, start
 from .wearers import DemoPlan, Wearers, prepare
 
 SNAPSHOTS = 8
-"""Snapshots in the time that sessions alone take; the engine takes longer."""
+"""Number of snapshots in the time that sessions alone take; the engine takes longer."""
 OFTEN, RARELY = 0.1, 10.0
-"""s between two snapshots, at the least and the most. bytewax's own is the most."""
+"""Shortest and longest time between two snapshots, s; bytewax's default is the longest."""
 
 FEW = 500
-"""Among fewer wearers than that, memory that the engine itself takes on the way would count as theirs."""
+"""Smallest number of wearers for a memory figure: with fewer, the engine's own growth would count as theirs."""
 
 
 @frozen
 class Engine:
-    """An uninterrupted run. `whole`: s with the start of its processes; `seconds`: s from the first bundle to the end;
-    `every`: s between two snapshots, of which `snapshots` came before the one at the end, as the files tell, since each
-    closes one of every part; `cpu`: s of the processors; `empty`, `full`: memory of all processes at the first
-    bundle and at its most, bytes, None where the system does not say; `events`; `files`."""
+    """Measurements of an uninterrupted run.
+
+    `whole` is the duration with the start of its processes, `seconds` that from the first bundle to the end, s. `every`
+    is the time between two snapshots, s, and `snapshots` their number before the one at the end, counted from the
+    files, since each snapshot closes one of every part. `cpu` is the time of the processors, s. `empty` and `full` are
+    the memory of all processes at the first bundle and at its most, bytes; None where the system does not report it.
+    `events` and `files` are counts.
+    """
 
     whole: float
     seconds: float
@@ -50,10 +53,12 @@ class Engine:
 
 @frozen
 class Bare:
-    """Sessions alone, in as many processes. `rate`: samples/s of all together; `cpu`: s of the processors. `state`,
-    `largest`: bytes of the state of a wearer in the engine while nothing is held behind a missing row, the mean and the
-    most; `held`: the most with rows that are held, None where none ever were; `snapshot`: s that it takes, the
-    median."""
+    """Measurements of sessions alone, in as many processes.
+
+    `rate` is that of all together, samples/s; `cpu` is the time of the processors, s. `state` and `largest` are the
+    mean and the most bytes of a wearer's state in the engine while no row is held; `held` is the most with held rows,
+    None if there were none. `snapshot` is the median time to take a state, s.
+    """
 
     rate: float
     cpu: float
@@ -65,17 +70,20 @@ class Bare:
 
 @define
 class DemoStage:
-    """`at`: an empty directory. Used in this order: `prepare`, `bare`, `uninterrupted`, then `killed`. RunFailed when a
-    process ends as it should not have."""
+    """A demonstration in the empty directory `at`.
+
+    Its methods are used in this order: `prepare`, `bare`, `uninterrupted`, then `killed`. Raises RunFailed when a
+    process ends with an error.
+    """
 
     at: Path
     plan: DemoPlan
     samples: list[int] = field(factory=list, init=False)
-    """Of the wearers of each process."""
+    """Number of samples of the wearers of each process."""
     poisoned: int = field(default=0, init=False)
-    """Wearers who send any bytes."""
+    """Number of wearers who send random bytes."""
     gapped: int = field(default=0, init=False)
-    """Wearers who lose something for good."""
+    """Number of wearers who lose rows for ever."""
     engine: Engine | None = field(default=None, init=False)
     sessions: Bare | None = field(default=None, init=False)
     outcomes: list[Outcome] = field(factory=list, init=False)
@@ -89,8 +97,7 @@ class DemoStage:
 
     @property
     def every(self) -> float:
-        """s between two snapshots: as planned, or so many that a run has several, as far as `bare` says how long it
-        takes."""
+        """Time between two snapshots, s: as planned, or such that a run has several by the duration of `bare`."""
         if self.plan.every is not None:
             return self.plan.every
         if self.sessions is None:
@@ -99,41 +106,41 @@ class DemoStage:
 
     @property
     def memory(self) -> float | None:
-        """Bytes a wearer, beyond what the processes held at the first; None where nobody says, or for a few."""
+        """Growth of memory per wearer, bytes; None if unknown or for few wearers."""
         engine = self.engine
         if engine is None or engine.full is None or engine.empty is None or self.plan.wearers < FEW:
             return None
         return (engine.full - engine.empty) / self.plan.wearers
 
     @property
-    def told(self) -> Path:
-        """The events of the uninterrupted run."""
+    def events(self) -> Path:
+        """Directory with the events of the uninterrupted run."""
         return self.at / "uninterrupted" / "told"
 
     def uninterrupted(self) -> Engine:
-        """The job from its start to its end."""
-        began = monotonic()
-        run = EngineRun.begin(self.told.parent, self.plan.parts, self.every)
+        """Run the job from its start to its end."""
+        t_start = monotonic()
+        run = EngineRun.create(self.events.parent, self.plan.parts, self.every)
         with closing(run):
             run.start()
             reports = run.finish()
-        whole = monotonic() - began
-        seconds = max(r["ended"] for r in reports) - min(r["began"] for r in reports if r["began"] is not None)
+        whole = monotonic() - t_start
+        seconds = max(r["ended"] for r in reports) - min(r["started"] for r in reports if r["started"] is not None)
         self.engine = Engine(
             whole=whole,
             seconds=seconds,
             every=self.every,
-            snapshots=max(len(files(self.told)) // self.plan.parts - 1, 0),
+            snapshots=max(len(files(self.events)) // self.plan.parts - 1, 0),
             cpu=sum(r["cpu"] for r in reports),
             empty=_sum(reports, "empty"),
             full=_sum(reports, "full"),
-            events=len(read_events(self.told)),
-            files=len(files(self.told)),
+            events=len(read_events(self.events)),
+            files=len(files(self.events)),
         )
         return self.engine
 
     def bare(self) -> Bare:
-        """The same through sessions alone."""
+        """Run the same walks through sessions alone."""
         home = self.at / "sessions"
         home.mkdir()
         parts, log = range(self.plan.parts), home / "log"
@@ -154,22 +161,27 @@ class DemoStage:
         return self.sessions
 
     def compare(self) -> list[str]:
-        """How the uninterrupted run differs from the sessions alone, and from what a fleet is to say beside: a sentence
-        each."""
-        engine, sessions = read_events(self.told), read_events(self.at / "sessions" / "told")
+        """Return the differences of the uninterrupted run from the sessions and the expected remarks."""
+        engine, sessions = read_events(self.events), read_events(self.at / "sessions" / "told")
         expected = {wearer.name: wearer.remarks() for wearer in Wearers.read(self.at).all}
-        return [*differences(sessions, of_sessions(engine)), *remarked(expected, engine), *holes(engine)]
+        return [
+            *differences(sessions, session_events(engine)),
+            *compare_remarks(expected, engine),
+            *find_number_gaps(engine),
+        ]
 
     def killed(self, kills: int, *, keep: bool) -> Iterator[Outcome]:
-        """So many kills, each followed by a restart, and each run compared with the uninterrupted one at its end.
-        `keep`: leave what the runs wrote."""
+        """Run jobs with so many kills and restarts, and compare each with the uninterrupted one at its end.
+
+        `keep` leaves the files of the runs.
+        """
         engine = self.engine or self.uninterrupted()
-        expected = read_events(self.told)
+        expected = read_events(self.events)
         starting = engine.whole - engine.seconds
         planned = draw(kills, starting, engine.seconds, self.plan.parts, Random(f"kills {self.plan.seed}"))
         for number, of_run in enumerate(planned, 1):
             home = self.at / f"killed-{number}"
-            outcome = play(partial(EngineRun.begin, home, self.plan.parts, self.every), of_run, expected)
+            outcome = play(partial(EngineRun.create, home, self.plan.parts, self.every), of_run, expected)
             self.outcomes.append(outcome)
             if not keep:
                 shutil.rmtree(home)

@@ -1,4 +1,4 @@
-"""The wearers of a demonstration: who walks what, when, and how it reaches the engine; the same wherever it is asked.
+"""The wearers of a demonstration: their walks, times and transport to the engine, the same in every process.
 
 A stage is a directory with `plan.json` and the shared walks as recordings. Every process of a demonstration reads it,
 so that none has to emulate anything, and what one wearer sends is the same for all.
@@ -25,12 +25,12 @@ from ...recording import PacketWriter, read_packets
 from ...types import Packet, Site
 from ..rows import read_sent
 from ..step.sent import Sent, Tick, Unreadable
-from .sending import Item, Remark, Sending, What, gap, poison, samples_of, sending
+from .sending import DemoPayload, Item, Remark, Sending, count_samples, make_gap, make_poison, make_sending
 
 ROUGH = Radio(loss=0.02, duplicate=0.005, corrupt=0.005, truncate=0.005, latency=0.01, jitter=0.03)
-"""Of a hundred notifications two never arrive, and one is damaged."""
+"""A poor radio: of a hundred notifications two never arrive, and one is damaged."""
 SPEED = 1.3
-"""m/s."""
+"""Walking speed, m/s."""
 DEVICES: dict[str, Device] = {
     "insoles": Insole(cells=48),
     "insoles in fragments": Insole(cells=24, rate=50.0, mtu=23),
@@ -39,40 +39,43 @@ DEVICES: dict[str, Device] = {
     "CC2650": CC2650(presses=(2.0,)),
     "CC2541": CC2541(rate=20.0),
 }
-"""What is worn on both feet, by the name of the walk."""
+"""Device on both feet, by the name of the walk."""
 SILENT = "insoles out of reach"
-"""The walk in which nothing is heard for a while."""
+"""The walk in which nothing arrives for some time."""
 SILENCE = (0.5, 0.65)
-"""From which to which share of it."""
+"""Start and end of that silence, as shares of the walk."""
 
 
 def walk(name: str, seconds: float, seed: int) -> list[Packet]:
-    """What is heard in the first `seconds` of a walk in laps that begins with a stand, in the order of arrival."""
+    """Return the packets of the first `seconds` of a walk in laps that starts with a stand, in arrival order."""
     route, length = Route().stand(1.0), 0.0
     while length < SPEED * seconds:
         route = route.walk(6.0, SPEED).turn(pi / 2, radius=1.5)
         length += 6.0 + 1.5 * pi / 2
     worn = {site: DEVICES[name] for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}
-    heard = [packet for packet in emulate(route, devices=worn, radio=ROUGH, seed=seed).packets if packet.t < seconds]
+    received = [packet for packet in emulate(route, devices=worn, radio=ROUGH, seed=seed).packets if packet.t < seconds]
     if name == SILENT:
-        begin, end = (share * seconds for share in SILENCE)
-        heard = [packet for packet in heard if not begin <= packet.t < end]
-    return heard
+        start, end = (share * seconds for share in SILENCE)
+        received = [packet for packet in received if not start <= packet.t < end]
+    return received
 
 
 POISONED = 97
-"""One in so many wearers sends any bytes, the fourth first."""
+"""One wearer in this many sends random bytes, the fourth first."""
 GAPPED = 10
-"""One in so many loses some of what is sent for good, the sixth first."""
+"""One wearer in this many loses some of its rows for ever, the sixth first."""
 FIRST_RUN = 1_790_000_000_000
-"""ms; when the phones were started."""
+"""Time at which the phones were started, ms."""
 
 
 @frozen
 class DemoPlan:
-    """What decides every byte of a demonstration. `seconds`: of walking. `bundle`: s of it that a phone sends at a
-    time. `parts`: of the source and of the files, and processes. `every`: s between two snapshots; None:
-    as fits the run."""
+    """Settings that determine every byte of a demonstration.
+
+    `seconds` is the duration of walking. `bundle` is the time of walking that a phone sends at once, s. `parts` is the
+    number of partitions of the source and of the files, and of processes. `every` is the time between two snapshots, s;
+    None chooses it to suit the run.
+    """
 
     wearers: int
     seconds: float
@@ -84,7 +87,7 @@ class DemoPlan:
 
 
 def prepare(stage: Path, plan: DemoPlan) -> None:
-    """Emulate the walks and write them and the plan into `stage`, a directory. OSError, RecordingError."""
+    """Emulate the walks and write them and the plan into the directory `stage`. Raises OSError, RecordingError."""
     for number, name in enumerate(DEVICES):
         with PacketWriter(_recording(stage, number)) as writer:
             for packet in walk(name, plan.seconds, plan.seed + number):
@@ -98,7 +101,7 @@ def _recording(stage: Path, number: int) -> Path:
 
 @frozen
 class DemoWearer:
-    """One of them. `shift`: s from the walk's time to his. `run`: of his phone."""
+    """One wearer; `shift` is the offset from the walk's time to its own, s, `run` that of its phone."""
 
     name: str
     sending: Sending
@@ -106,35 +109,35 @@ class DemoWearer:
     run: int
 
     def bundle(self, number: int) -> list[Sent | Unreadable]:
-        """What arrives of him in this piece of time."""
+        """Return what arrives from this wearer in this period."""
         bundles = self.sending.bundles
         if number >= len(bundles):
             return []
         name, run, shift = self.name, self.run, self.shift
-        # most are packets, and the engine is what is to be measured
+        # a fast path for packets, the majority, since the engine is what is measured
         return [
             Sent(name, at, Packet(what.t + shift, what.site, what.channel, what.data), run + k)
             if type(what) is Packet
-            else self._other((k, at, what))
+            else self._make_other((k, at, what))
             for k, at, what in bundles[number]
         ]
 
     def remarks(self) -> list[Remark]:
-        """What the fleet is to say of him beside his session."""
+        """Return the events that the fleet itself must emit for this wearer."""
         return [r if r.run is None else evolve(r, run=self.run + r.run) for r in self.sending.remarks]
 
-    def heard(self) -> list[What]:
-        """What his session is to hear, in order."""
-        return [_later(what, self.shift) for what in self.sending.ordered]
+    def inputs(self) -> list[DemoPayload]:
+        """Return the input of this wearer's session, in order."""
+        return [_shift(what, self.shift) for what in self.sending.ordered]
 
-    def _other(self, item: Item) -> Sent | Unreadable:
+    def _make_other(self, item: Item) -> Sent | Unreadable:
         k, number, what = item
         if isinstance(what, dict):
             return read_sent({**what, "wearer": self.name, "run": self.run + k})
-        return Sent(self.name, number, _later(what, self.shift), self.run + k)
+        return Sent(self.name, number, _shift(what, self.shift), self.run + k)
 
 
-def _later(what: What, shift: float) -> What:
+def _shift(what: DemoPayload, shift: float) -> DemoPayload:
     if isinstance(what, Packet):
         return Packet(what.t + shift, what.site, what.channel, what.data)
     return Tick(what.t + shift) if isinstance(what, Tick) else what
@@ -142,29 +145,30 @@ def _later(what: What, shift: float) -> What:
 
 @define(eq=False)
 class Wearers:
-    """All of them."""
+    """All wearers of a stage."""
 
     plan: DemoPlan
     sendings: list[Sending]
-    """Of those who are sound."""
+    """Sendings of wearers without faults."""
     poisons: list[Sending]
+    """Sendings with random bytes."""
     gaps: list[Sending]
-    """None where walks are too short for one."""
+    """Sendings with lost rows; empty if the walks are too short."""
     all: list[DemoWearer]
 
     @classmethod
     def read(cls, stage: Path) -> Wearers:
-        """Those of a stage."""
+        """Read the wearers of a stage."""
         plan = DemoPlan(**json.loads((stage / "plan.json").read_text(encoding="utf-8")))
         walks = [list(read_packets(_recording(stage, number))) for number in range(len(DEVICES))]
         rng = Random(f"sendings {plan.seed}")
         sendings = []
         for packets in walks:
-            sendings.append(sending(packets, plan.bundle, rng))
-            sendings.append(sending(packets, plan.bundle, rng, ends=True))
-            sendings.append(sending(packets, plan.bundle, rng, runs=2))
-        poisons = [poison(packets, plan.bundle, rng) for packets in walks]
-        gaps = [one for packets in walks if (one := gap(packets, plan.bundle, rng)) is not None]
+            sendings.append(make_sending(packets, plan.bundle, rng))
+            sendings.append(make_sending(packets, plan.bundle, rng, ends=True))
+            sendings.append(make_sending(packets, plan.bundle, rng, runs=2))
+        poisons = [make_poison(packets, plan.bundle, rng) for packets in walks]
+        gaps = [one for packets in walks if (one := make_gap(packets, plan.bundle, rng)) is not None]
         found = []
         for number in range(plan.wearers):
             rng = Random(f"wearer {plan.seed} {number}")
@@ -180,23 +184,23 @@ class Wearers:
 
     @property
     def bundles(self) -> int:
-        """The most that any of them sends."""
+        """Largest number of bundles that a wearer sends."""
         return max(len(one.bundles) for one in chain(self.sendings, self.poisons, self.gaps))
 
     @property
     def poisoned(self) -> int:
-        """How many send any bytes."""
+        """Number of wearers who send random bytes."""
         return sum(one.sending in self.poisons for one in self.all)
 
     @property
     def gapped(self) -> int:
-        """How many lose something for good."""
+        """Number of wearers who lose rows for ever."""
         return sum(one.sending in self.gaps for one in self.all)
 
     def samples(self, part: int) -> int:
-        """Of those of one part. Takes a moment the first time."""
-        return sum(samples_of(one.sending) for one in self.of_part(part))
+        """Return the number of samples of one part's wearers; slow at the first call."""
+        return sum(count_samples(one.sending) for one in self.of_part(part))
 
     def of_part(self, part: int) -> list[DemoWearer]:
-        """Those of one partition, or process."""
+        """Return the wearers of one partition, or process."""
         return self.all[part :: self.plan.parts]

@@ -1,8 +1,8 @@
-"""Every event once, for whoever reads what an engine delivers at least once.
+"""Deduplication for readers of what an engine delivers at least once.
 
-An engine that was killed goes on from what it had kept, and tells again what it told after that: the same events under
-the same identities (wearer, number). A wearer's numbers have no holes, so what was heard is one number a wearer, and a
-few ranges where something is still to come.
+An engine that was killed goes on from its last kept state and emits again what it emitted after that: the same events
+under the same identities (wearer, number). A wearer's numbers have no holes, so the received ones are described by one
+number for each wearer, and a few ranges that are still missing.
 """
 
 from __future__ import annotations
@@ -17,12 +17,15 @@ from ...saving.codec import Json, SnapshotError, load, save
 
 ONCE_VERSION = 1
 RANGES = 16
-"""Of one wearer, that may be missing at a time."""
+"""Largest number of ranges of one wearer that may be missing at a time."""
 
 
 @define
-class _Heard:
-    """What was heard of one wearer: all below `end`, but what is in `missing`, ranges [first, end) in rising order."""
+class _ReceivedNumbers:
+    """Numbers received of one wearer: all below `end` except those in `missing`.
+
+    `missing` holds ranges [first, end) in rising order.
+    """
 
     end: int = 0
     missing: list[tuple[int, int]] = field(factory=list)
@@ -44,8 +47,8 @@ class _Heard:
         return False
 
     @property
-    def sound(self) -> bool:
-        """Ranges that rise, hold something, do not touch, and end before `end`."""
+    def is_consistent(self) -> bool:
+        """True if the ranges rise, are not empty, do not touch, and end before `end`."""
         bounds = [bound for part in self.missing for bound in part]
         rising = all(low < high for low, high in pairwise([-1, *bounds, self.end]))
         return rising and len(self.missing) <= RANGES
@@ -53,56 +56,60 @@ class _Heard:
 
 @define
 class Once:
-    """Tells the first time that an identity is heard from every other time: `if once.first(wearer, number): ...`.
+    """Distinguishes the first delivery of an identity from every later one: `if once.first(wearer, number): ...`.
 
-    Numbers may come in any order; what is missing is let through once when it comes. Of one wearer up to 16 ranges may
-    be missing at a time, and of more the lowest is given up: it counts as heard. `limit`: of so many wearers it is
-    known what was heard, and of more the one that was silent longest is forgotten, so that what is told of it again is
-    let through; there should be room for all that speak between two commits of the engine. Some 200 bytes a wearer.
+    Numbers may come in any order; a missing one is accepted once when it comes. Up to 16 ranges of one wearer may be
+    missing at a time; of more the lowest is given up and counts as received. `limit` is the number of wearers whose
+    numbers are remembered; of more, the one that was silent longest is forgotten, so that its repeated events are
+    accepted again. There should be room for all that send between two commits of the engine. Takes about 200 bytes for
+    each wearer.
 
-    It is a plain record: save `snapshot()` together with what was done with the events and with where the reader
-    stands, in one transaction or one file that is renamed. One for each partition goes with that partition to whoever
-    reads it next. A sink that refuses a second (wearer, number) by itself, as a table with that key, needs none.
+    It is a plain record: save `snapshot()` together with the result of the events and with the reader's position, in
+    one transaction or one file that is renamed. Use one for each partition, which goes with that partition to its next
+    reader. A sink that itself rejects a second (wearer, number), as a table with that key does, needs none.
     """
 
     limit: int = 100_000
-    _heard: dict[str, _Heard] = field(factory=dict, init=False)
+    _received: dict[str, _ReceivedNumbers] = field(factory=dict, init=False)
 
     def __attrs_post_init__(self) -> None:
         if type(self.limit) is not int or self.limit < 1:
             raise ValueError(f"limit is a number of wearers, at least 1, not {self.limit!r}")
 
     def first(self, wearer: str, number: int) -> bool:
-        """Is this the first time? TypeError and ValueError for what is no identity; that changes nothing."""
+        """Return whether this is the first delivery of the identity.
+
+        Raises TypeError or ValueError, and changes nothing, for an invalid identity.
+        """
         if not isinstance(wearer, str) or type(number) is not int:
             raise TypeError("an identity is a wearer, a str, and a number, an int")
         if number < 0:
             raise ValueError(f"numbers count from 0, and this one is {number}")
-        heard = self._heard.pop(wearer, None) or _Heard()
-        self._heard[wearer] = heard  # at the end: the one heard last
-        if len(self._heard) > self.limit:
-            del self._heard[next(iter(self._heard))]
-        return heard.first(number)
+        received = self._received.pop(wearer, None) or _ReceivedNumbers()
+        self._received[wearer] = received  # at the end: the most recent one
+        if len(self._received) > self.limit:
+            del self._received[next(iter(self._received))]
+        return received.first(number)
 
     @classmethod
     def after(cls, newest: Mapping[str, int], limit: int = 100_000) -> Once:
-        """One that has heard all up to `newest`, the highest number of each wearer, as a table of events can tell."""
+        """Return one that has received all up to `newest`, each wearer's highest number, as from a table of events."""
         once = cls(limit)
         for wearer, number in newest.items():
             once.first(wearer, number)
-            once._heard[wearer].missing = []
+            once._received[wearer].missing = []
         return once
 
     def snapshot(self) -> dict[str, Json]:
-        """All that it knows, as plain data for JSON."""
+        """Return its whole state as plain data for JSON."""
         return {"solepath.once": ONCE_VERSION, "state": save(self)}
 
     @classmethod
     def restore(cls, saved: Any) -> Once:
-        """One that goes on where `saved` was taken; SnapshotError when that is no snapshot of this version."""
+        """Return one that continues from `saved`; raise SnapshotError for no snapshot of this version."""
         if not isinstance(saved, dict) or saved.get("solepath.once") != ONCE_VERSION or "state" not in saved:
             raise SnapshotError("not a snapshot of what was heard, of this version")
         once = load(cls, saved["state"])
-        if once.limit < 1 or any(not heard.sound for heard in once._heard.values()):
+        if once.limit < 1 or any(not received.is_consistent for received in once._received.values()):
             raise SnapshotError("a snapshot of what cannot have been heard")
         return once

@@ -1,9 +1,9 @@
-"""What a phone sent, checked and in order: by run and number, whatever order it comes in.
+"""Rows that a phone sent, checked and put in order by run and number, whatever order they come in.
 
-What comes in its turn passes at once. What is ahead of its turn is held until what is missing has come, or until more
-is held than `window` or HELD bytes of it: then what is missing is given up. What was used before is dropped without a
-word. A run does not bind a reader for ever: when only rows of another, smaller one or one that was left, come, and more
-than `window` of them, the phone's clock was put right, or one number was wild, and the reader goes over.
+A row in its turn passes at once. A row ahead of its turn is held until the missing rows have come, or until more than
+`window` rows or HELD bytes are held: then the missing rows are given up. A row that was used before is dropped without
+a report. A reader can leave a run: when only rows of a smaller run, or of one that was left, come, and more than
+`window` of them, then the phone's clock was corrected or one number was wrong, and the reader switches to that run.
 """
 
 from __future__ import annotations
@@ -15,107 +15,107 @@ from attrs import define, field, frozen
 
 from ...events.fleet import SentRejection
 from ...types import Packet, Site
-from .left import Left, NumberSpan, Strays
 from .sent import LATEST, LONGEST_DATA, LONGEST_DETAIL, LONGEST_NAME, MOST, End, Tick
+from .unused import NumberSpan, Strays, UnusedNumbers
 
 HELD = 65_536
-"""Bytes of packets, of their channels' names and devices' addresses."""
+"""Largest total of held bytes: packets, names of their channels and addresses of their devices."""
 
 
 @frozen
 class RejectedItem:
-    """What stands in the place of what cannot be used."""
+    """Stands in the place of a row that cannot be used."""
 
     reason: SentRejection
     detail: str = ""
     count: int = 1
-    """So many of its run, this one among them; those between are not told."""
+    """Number of such rows of its run, this one included; not all of them are reported."""
 
 
 @frozen
 class Missing:
-    """So many numbers were given up, from this place on."""
+    """A count of numbers that were given up, from this place on."""
 
     count: int
 
 
-What = Packet | Tick | End | RejectedItem
-Passed = list[tuple[int, int, What | Missing]]
-"""(run, number, what), in order."""
+Payload = Packet | Tick | End | RejectedItem
+Passed = list[tuple[int, int, Payload | Missing]]
+"""(run, number, payload), in order."""
 
 
 @define
 class Order:
-    """What is next of one wearer."""
+    """Order of one wearer's rows and the next expected number."""
 
     window: int
     run: int = -1
-    """-1: nothing has passed yet."""
+    """Current run; -1 before anything has passed."""
     next: int = 0
     ended: bool = False
-    """The End of this run has passed."""
-    held: dict[tuple[int, int], What] = field(factory=dict)
-    left: Left = field(factory=Left)
+    """True if the End of this run has passed."""
+    held: dict[tuple[int, int], Payload] = field(factory=dict)
+    unused: UnusedNumbers = field(factory=UnusedNumbers)
     strays: Strays = field(factory=Strays)
     _waiting: list[tuple[int, int]] = field(init=False)
     """Keys of `held` in order."""
     _size: int = field(init=False)
-    """Bytes in `held`."""
+    """Size of `held`, bytes."""
 
     def __attrs_post_init__(self) -> None:
         self._waiting = sorted(self.held)
         self._size = sum(map(_size, self.held.values()))
 
-    def take(self, run: int, number: int, what: What) -> Passed:
-        """What passes now that this came. `run` and `number`: 0 to MOST."""
+    def take(self, run: int, number: int, what: Payload) -> Passed:
+        """Add one row and return the rows that pass now; `run` and `number` are from 0 to MOST."""
         if run == self.run:
             if number < self.next:
-                return self._stray(run, number, SentRejection.LATE) if self.left.was_given_up(run, number) else []
+                return self._reject(run, number, SentRejection.LATE) if self.unused.was_given_up(run, number) else []
             if self.ended:
-                return self._stray(run, number, SentRejection.AFTER_END)
-        elif run < self.run or self.left.was_left(run):
-            return self._take_of_another(run, number, what)
+                return self._reject(run, number, SentRejection.AFTER_END)
+        elif run < self.run or self.unused.was_left(run):
+            return self._take_other_run(run, number, what)
         if (run, number) not in self.held:
-            self.strays.straight = self.strays.number = 0
+            self.strays.consecutive = self.strays.number = 0
             self.held[run, number] = what
             insort(self._waiting, (run, number))
             self._size += _size(what)
         return self._release()
 
-    def _take_of_another(self, run: int, number: int, what: What) -> Passed:
-        """Of a run that was left, or of a smaller one that was never used."""
-        left, strays = self.left, self.strays
-        if left.was_used(run, number):
+    def _take_other_run(self, run: int, number: int, what: Payload) -> Passed:
+        """Add a row of a run that was left, or of a smaller one that was never used."""
+        unused, strays = self.unused, self.strays
+        if unused.was_used(run, number):
             return []
-        if not left.may_go_on(run, number):
-            return self._stray(run, number, SentRejection.LATE)
-        if strays.with_this(run, number) > self.window:
-            return self._go_over(run, number, what)
-        passed = self._stray(run, number, SentRejection.LATE)
-        strays.straight, strays.number = strays.with_this(run, number), max(number, strays.number)
+        if not unused.may_go_on(run, number):
+            return self._reject(run, number, SentRejection.LATE)
+        if strays.count_consecutive(run, number) > self.window:
+            return self._switch_run(run, number, what)
+        passed = self._reject(run, number, SentRejection.LATE)
+        strays.consecutive, strays.number = strays.count_consecutive(run, number), max(number, strays.number)
         return passed
 
-    def _go_over(self, run: int, number: int, what: What) -> Passed:
-        """What is held passes before: it is waited for no longer."""
-        first = self.left.take(run)
+    def _switch_run(self, run: int, number: int, what: Payload) -> Passed:
+        """Switch to the run of this row; the held rows pass first, since they are waited for no longer."""
+        first = self.unused.reenter(run)
         passed = self._release(waits=False)
         self._enter(run, first)
         self.strays = Strays()
         self._pass(number, what, passed)
         return passed
 
-    def _stray(self, run: int, number: int, reason: SentRejection) -> Passed:
-        """What cannot be used, and is told now and then."""
+    def _reject(self, run: int, number: int, reason: SentRejection) -> Passed:
+        """Count a row that cannot be used; return its rejection if it is one that is reported."""
         return [(run, number, RejectedItem(reason, count=self.strays.count))] if self.strays.add(run) else []
 
     def _release(self, waits: bool = True) -> Passed:
-        """What is held and in its turn, or waited for too long."""
+        """Return the held rows that are in their turn or were waited for too long."""
         passed: Passed = []
         while self._waiting:
             run, number = self._waiting[0]
             if run == self.run and self.ended:
                 self._pop()
-                passed += self._stray(run, number, SentRejection.AFTER_END)
+                passed += self._reject(run, number, SentRejection.AFTER_END)
                 continue
             in_turn = number == self.next if run == self.run else number == 0
             if waits and not in_turn and len(self._waiting) <= self.window and self._size <= HELD:
@@ -125,32 +125,32 @@ class Order:
             self._pass(number, self._pop(), passed)
         return passed
 
-    def _pop(self) -> What:
+    def _pop(self) -> Payload:
         what = self.held.pop(self._waiting.pop(0))
         self._size -= _size(what)
         return what
 
     def _enter(self, run: int, number: int) -> None:
-        """Another run, from this number on. How many were sent in the one before, nobody said."""
+        """Enter another run at this number; the number of rows in the run before is unknown."""
         if self.run >= 0:
-            self.left.add(NumberSpan(self.run, self.next, MOST + 1))
+            self.unused.add(NumberSpan(self.run, self.next, MOST + 1))
         self.run, self.next, self.ended = run, number, False
 
-    def _pass(self, number: int, what: What, passed: Passed) -> None:
-        """What is used of the run; what is missing before it is given up."""
+    def _pass(self, number: int, what: Payload, passed: Passed) -> None:
+        """Pass one row of the current run; give up the missing rows before it."""
         if number > self.next:
-            self.left.add(NumberSpan(self.run, self.next, number))
+            self.unused.add(NumberSpan(self.run, self.next, number))
             passed.append((self.run, self.next, Missing(number - self.next)))
         self.next, self.ended = number + 1, isinstance(what, End)
         passed.append((self.run, number, what))
 
 
-def _size(what: What) -> int:
+def _size(what: Payload) -> int:
     return len(what.data) + len(what.channel) + len(what.device) if isinstance(what, Packet) else 0
 
 
-def is_sound(packet: Packet) -> bool:
-    """Goes to a session, and into a state, as it is."""
+def is_valid(packet: Packet) -> bool:
+    """Return whether a packet can go to a session, and into a state, unchanged."""
     return (
         type(packet.t) is float
         and type(packet.site) is Site
@@ -163,10 +163,10 @@ def is_sound(packet: Packet) -> bool:
     )
 
 
-def sound(what: object) -> What:
-    """What a session takes and a state can hold, or why not."""
+def check_payload(what: object) -> Payload:
+    """Return a payload that a session takes and a state can hold, or its rejection."""
     if isinstance(what, Packet):
-        return what if type(what) is Packet and is_sound(what) else _mended(what)
+        return what if type(what) is Packet and is_valid(what) else _convert_packet(what)
     if isinstance(what, Tick):
         t = _number(what.t)
         if t is None:
@@ -179,8 +179,8 @@ def sound(what: object) -> What:
     )
 
 
-def _mended(packet: Packet) -> What:
-    """Numbers and bytes of other kinds, and packets of an app's own class, as they are used here."""
+def _convert_packet(packet: Packet) -> Payload:
+    """Return the packet with numbers and bytes of the standard types, also for an app's own class."""
     t, data = _number(packet.t), packet.data
     if isinstance(data, bytearray | memoryview):
         data = bytes(data)
@@ -199,7 +199,7 @@ def _mended(packet: Packet) -> What:
 
 
 def _number(value: object) -> float | None:
-    """An int may be too large for a float; then it is as good as infinite."""
+    """Return a float or None; an int that is too large for a float counts as infinite."""
     if isinstance(value, bool) or not isinstance(value, float | int):
         return None
     try:

@@ -1,4 +1,4 @@
-"""What goes into the keyed step of a fleet, and what comes out."""
+"""Input and output of the keyed step of a fleet."""
 
 from __future__ import annotations
 
@@ -11,35 +11,38 @@ from ...events.fleet import FleetEvent
 from ...types import Packet
 
 MOST = 2**53 - 1
-"""Largest run and number: every language's JSON reads it exactly."""
+"""Largest run and number: the JSON of every language reads it exactly."""
 LONGEST_DATA = 4096
-"""Bytes of a packet; Bluetooth carries 512 at the most."""
+"""Longest data of a packet, bytes; Bluetooth carries 512 at most."""
 LONGEST_NAME = 256
-"""Characters of a channel's name, of a device's address, and, in rows, of a wearer's name."""
+"""Longest name of a channel, address of a device and, in rows, name of a wearer, characters."""
 LONGEST_DETAIL = 200
-"""Characters of what is told of something wrong."""
+"""Longest text that describes an error, characters."""
 LATEST = 1e11
-"""s; a time beyond this (or before minus this) is no time."""
+"""Largest absolute value of a time, s; a value beyond it is no time."""
 
 
 @frozen
 class Tick:
-    """Nothing was heard, but it is `t` (s, the clock of the packets)."""
+    """A time at which nothing has arrived: `t`, s, on the clock of the packets."""
 
     t: float
 
 
 @frozen
 class End:
-    """The wearer takes the sensors off: what a session held back comes out. A new run begins a new session."""
+    """The wearer takes the sensors off.
+
+    The session emits what it held back. A new run starts a new session.
+    """
 
 
 @frozen
 class Sent:
-    """What the phone of `wearer` sends: a packet as it arrived there, that time has passed, or that it was the last.
+    """An item that the phone of `wearer` sends: a packet as it arrived there, a Tick that time has passed, or the End.
 
-    `number`: 0, 1, 2, ... without holes within a `run`. A phone that cannot go on counting where it stopped begins a
-    new run, at 0, under a larger number (the time in ms, or the last run + 1 where that is more); the session goes on.
+    `number` counts 0, 1, 2, ... without holes within a `run`. A phone that cannot continue its count starts a new run,
+    at 0, under a larger number (the time in ms, or the last run + 1 if that is more); the session goes on.
     """
 
     wearer: str
@@ -48,15 +51,18 @@ class Sent:
     run: int = 0
 
     def __reduce_ex__(self, protocol: SupportsIndex) -> str | tuple[Any, ...]:
-        if type(self) is Sent:  # as Packet's
+        if type(self) is Sent:  # as in Packet
             return Sent, (self.wearer, self.number, self.what, self.run)
         return super().__reduce_ex__(protocol)
 
 
 @frozen
 class Unreadable:
-    """A row that is no Sent, and why. `run` and `number` where they can be read: then nothing is waited for in its
-    place. `wearer`: "" where that cannot be read either."""
+    """A row that is no Sent, and the reason.
+
+    `run` and `number` are given if they can be read: then nothing is waited for in its place. `wearer` is "" if that
+    cannot be read either.
+    """
 
     wearer: str
     what: str
@@ -66,8 +72,10 @@ class Unreadable:
 
 @frozen
 class NumberedEvent:
-    """An event of a wearer. (wearer, number) is its identity: who gets it twice has it twice. Numbers begin at 0 and
-    have no holes, but behind a StateRejected (protocol/fleet.md)."""
+    """An event of a wearer; (wearer, number) is its identity, and a repeated identity is a repeated delivery.
+
+    Numbers start at 0 and have no holes, except after a StateRejected (protocol/fleet.md).
+    """
 
     wearer: str
     number: int

@@ -1,4 +1,4 @@
-"""How the sessions of a fleet are made: the same recipe for every wearer, and what is known of each."""
+"""Construction of the sessions of a fleet: the same recipe for every wearer, and each wearer's calibration."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from ...session import Session
 
 @frozen
 class Sessions:
-    """Fresh ones, and bytes of them. It holds nothing of any wearer."""
+    """Makes new sessions and reads saved ones; it holds no wearer's data."""
 
     recipe: Recipe = field(converter=own)
-    """Nobody changes it, so that no session has to look whether somebody did."""
+    """Own copy of the recipe: nothing changes it, so no session has to check for changes."""
     calibrations: Mapping[str, Calibration]
     floorplan: IndexedPlan | None
     profiles: tuple[Driver, ...]
@@ -30,10 +30,10 @@ class Sessions:
     window: int
 
     def __reduce__(self) -> tuple[type[Sessions], tuple[Any, ...]]:
-        return Sessions, astuple(self, recurse=False)  # to be converted where it comes to
+        return Sessions, astuple(self, recurse=False)  # converted again where it is unpickled
 
-    def fresh(self, wearer: str, calibrated: bool = True) -> Session:
-        """A session that heard nothing yet. `calibrated`: with what is known of the wearer."""
+    def make_session(self, wearer: str, calibrated: bool = True) -> Session:
+        """Return a session without any input; `calibrated` applies the wearer's calibration."""
         return Session(
             self.recipe,
             calibration=self.calibrations.get(wearer) if calibrated else None,
@@ -44,7 +44,7 @@ class Sessions:
         )
 
     def unpack(self, data: bytes) -> Session:
-        """SnapshotError when it cannot go on here."""
+        """Return the session of packed bytes; raise SnapshotError when it cannot continue here."""
         own: Any = {"profiles": self.profiles, "parts": self.parts, "floorplan": self.floorplan}
         session = Session.unpack(data, self.recipe, **own)
         try:
@@ -53,7 +53,7 @@ class Sessions:
             raise SnapshotError(str(error)) from None
         return session
 
-    def restored(self, snapshot: Any) -> Session:
-        """The same of a JSON snapshot."""
+    def restore_session(self, snapshot: Any) -> Session:
+        """Return the session of a JSON snapshot; raise SnapshotError when it cannot continue here."""
         own: Any = {"profiles": self.profiles, "parts": self.parts, "floorplan": self.floorplan}
         return self.unpack(Session.restore(snapshot, **own).pack())

@@ -1,7 +1,7 @@
-"""The state of one wearer between two calls, as bytes: protocol/fleet.md, "The state".
+"""The state of one wearer between two calls, as bytes (protocol/fleet.md, "The state").
 
-The first bytes, what the identities of events and the order of packets hang on, are the same in every version, and have
-a checksum of their own: what comes after them may be damaged or unknown, and no identity is used twice all the same.
+The first bytes, on which the identities of events and the order of packets depend, are the same in every version and
+have a checksum of their own: even if the bytes after them are damaged or unknown, no identity is used twice.
 """
 
 from __future__ import annotations
@@ -17,83 +17,86 @@ from attrs import define, field, frozen
 
 from ...events.fleet import SentRejection
 from ...types import Packet, Site
-from .left import Left, NumberSpan, Strays
-from .order import RejectedItem, What
+from .order import Payload, RejectedItem
 from .sent import MOST, End, Tick
+from .unused import NumberSpan, Strays, UnusedNumbers
 
 MAGIC, VERSION = b"spfl", 1
-MOST_TOLD = 2**62
-"""More events than any wearer has."""
+MOST_EVENTS = 2**62
+"""Limit above the number of events of any wearer."""
 
 _FIRST = Struct("<4sBqQQd")
 _CHECK = Struct("<I")
 _FLOAT = Struct("<d")
 _ENDED, _SESSION = 1, 2
-_PACKET, _TICK, _END, _REFUSED = range(4)
+_PACKET, _TICK, _END, _REJECTED = range(4)
 
 
 class StateError(ValueError):
-    """A state that cannot go on, and why."""
+    """Raised with the reason why a state cannot continue."""
 
 
 @frozen
 class Identity:
-    """What every version can read."""
+    """The first part of a state, which every version can read."""
 
     run: int
     next: int
-    told: int
-    """The number of the next event."""
+    next_event: int
+    """Number of the next event."""
     known: float
-    """s; the newest moment that anything is known of."""
+    """Newest time that is known, s."""
 
 
 @frozen
 class OtherState:
-    """What else there is. `failure`: what a part of the app's own raised when the session was to be saved; "" for
-    nothing. `session`: None before the first packet and after the end."""
+    """The rest of a state.
+
+    `failure` is the exception of a part of the app's own when the session was to be saved; "" for none. `session` is
+    None before the first packet and after the end.
+    """
 
     ended: bool = False
-    left: Left = field(factory=Left)
+    unused: UnusedNumbers = field(factory=UnusedNumbers)
     strays: Strays = field(factory=Strays)
-    held: dict[tuple[int, int], What] = field(factory=dict)
+    held: dict[tuple[int, int], Payload] = field(factory=dict)
     failure: str = ""
     session: bytes | None = None
 
 
 def write_state(identity: Identity, rest: OtherState) -> bytes:
-    """The bytes of a state."""
-    first = _FIRST.pack(MAGIC, VERSION, identity.run, identity.next, identity.told, identity.known)
-    left, strays = rest.left, rest.strays
+    """Return the bytes of a state."""
+    first = _FIRST.pack(MAGIC, VERSION, identity.run, identity.next, identity.next_event, identity.known)
+    unused, strays = rest.unused, rest.strays
     other = b"".join(
         [
             bytes([rest.ended * _ENDED + (rest.session is not None) * _SESSION]),
-            _counts(len(left.spans)),
-            *[_counts(span.run, span.first, span.end) for span in left.spans],
-            _counts(len(left.forgotten)),
-            *[_counts(*runs) for runs in left.forgotten],
-            _counts(strays.run, strays.count, strays.straight, strays.number),
-            _counts(len(rest.held)),
-            *[_counts(*place) + _held(rest.held[place]) for place in sorted(rest.held)],
-            _counted(_encoded(rest.failure)),
+            _write_counts(len(unused.spans)),
+            *[_write_counts(span.run, span.first, span.end) for span in unused.spans],
+            _write_counts(len(unused.forgotten)),
+            *[_write_counts(*runs) for runs in unused.forgotten],
+            _write_counts(strays.run, strays.count, strays.consecutive, strays.number),
+            _write_counts(len(rest.held)),
+            *[_write_counts(*place) + _write_payload(rest.held[place]) for place in sorted(rest.held)],
+            _write_pieces(_encoded(rest.failure)),
         ]
     )
     return b"".join([first, _CHECK.pack(crc32(first)), other, _CHECK.pack(crc32(other)), rest.session or b""])
 
 
 def read_identity(state: bytes) -> Identity | None:
-    """The first bytes of a state of any version; None when they are damaged or those of something else."""
+    """Return the first part of a state of any version; None when it is damaged or of something else."""
     end = _FIRST.size
     if len(state) < end + _CHECK.size or state[:4] != MAGIC or crc32(state[:end]) != _CHECK.unpack_from(state, end)[0]:
         return None
-    _, _, run, number, told, known = _FIRST.unpack_from(state)
-    if not (-1 <= run <= MOST and number <= MOST + 1 and told <= MOST_TOLD and isfinite(known)):
+    _, _, run, number, next_event, known = _FIRST.unpack_from(state)
+    if not (-1 <= run <= MOST and number <= MOST + 1 and next_event <= MOST_EVENTS and isfinite(known)):
         return None
-    return Identity(run, number, told, known)
+    return Identity(run, number, next_event, known)
 
 
 def read_rest(state: bytes) -> OtherState:
-    """What comes after the first bytes, which are sound. StateError when it cannot be read."""
+    """Return the rest of a state whose first bytes are sound; raise StateError when it cannot be read."""
     reader = READERS.get(state[4])
     if reader is None:
         raise StateError(f"a state of version {state[4]}; this release reads {', '.join(map(str, READERS))}")
@@ -104,14 +107,14 @@ def read_rest(state: bytes) -> OtherState:
 
 
 def _read_1(data: _StateReader) -> OtherState:
-    begin = data.at
+    start = data.at
     flags = data.take(1)[0]
     spans = [NumberSpan(data.count(), data.count(), data.count()) for _ in range(data.count())]
     forgotten = [(data.count(), data.count()) for _ in range(data.count())]
     strays = Strays(data.count(), data.count(), data.count(), data.count())
-    held = [((data.count(), data.count()), _read_what(data)) for _ in range(data.count())]
+    held = [((data.count(), data.count()), _read_payload(data)) for _ in range(data.count())]
     failure = data.text()
-    checked = data.state[begin : data.at]
+    checked = data.state[start : data.at]
     if data.take(4) != _CHECK.pack(crc32(checked)):
         raise StateError("the state was damaged: its checksum is another")
     _, _, run, number, _, _ = _FIRST.unpack_from(data.state)
@@ -119,24 +122,24 @@ def _read_1(data: _StateReader) -> OtherState:
     if not all(low < high for low, high in pairwise(places)) or any(max(place) > MOST for place in places[1:]):
         raise StateError("the state holds what cannot be held")
     session = data.state[data.at :] if flags & _SESSION else None
-    return OtherState(bool(flags & _ENDED), Left(spans, forgotten), strays, dict(held), failure, session)
+    return OtherState(bool(flags & _ENDED), UnusedNumbers(spans, forgotten), strays, dict(held), failure, session)
 
 
-def _held(what: What) -> bytes:
+def _write_payload(what: Payload) -> bytes:
     match what:
         case Packet(t, site, channel, data, device):
             texts = [_encoded(text) for text in (site.value, channel, device)]
-            return bytes([_PACKET]) + _FLOAT.pack(t) + _counted(*texts, data)
+            return bytes([_PACKET]) + _FLOAT.pack(t) + _write_pieces(*texts, data)
         case Tick(t):
             return bytes([_TICK]) + _FLOAT.pack(t)
         case End():
             return bytes([_END])
         case RejectedItem(reason, detail):
-            return bytes([_REFUSED]) + _counted(_encoded(reason.value), _encoded(detail))
+            return bytes([_REJECTED]) + _write_pieces(_encoded(reason.value), _encoded(detail))
 
 
-def _counts(*numbers: int) -> bytes:
-    """Seven bits a byte, the lowest first; the eighth says that more follow."""
+def _write_counts(*numbers: int) -> bytes:
+    """Return numbers with seven bits in each byte, the lowest first; the eighth bit says that more follow."""
     done = bytearray()
     for number in numbers:
         while number > 127:
@@ -146,16 +149,16 @@ def _counts(*numbers: int) -> bytes:
     return bytes(done)
 
 
-def _counted(*pieces: bytes) -> bytes:
-    """Each behind its length."""
-    return b"".join([_counts(len(piece)) + piece for piece in pieces])
+def _write_pieces(*pieces: bytes) -> bytes:
+    """Return each piece preceded by its length."""
+    return b"".join([_write_counts(len(piece)) + piece for piece in pieces])
 
 
 def _encoded(text: str) -> bytes:
     return text.encode("utf-8", "surrogatepass")
 
 
-def _read_what(data: _StateReader) -> What:
+def _read_payload(data: _StateReader) -> Payload:
     kind = data.take(1)[0]
     if kind == _PACKET:
         t, site, channel, device = data.float(), Site(data.text()), data.text(), data.text()
@@ -164,7 +167,7 @@ def _read_what(data: _StateReader) -> What:
         return Tick(data.float())
     if kind == _END:
         return End()
-    if kind == _REFUSED:
+    if kind == _REJECTED:
         return RejectedItem(SentRejection(data.text()), data.text())
     raise StateError("the state was damaged")
 
@@ -198,5 +201,7 @@ class _StateReader:
 
 
 READERS: Mapping[int, Callable[[_StateReader], OtherState]] = {1: _read_1}
-"""By version: each makes of its layout what the newest has. What a session remembers has a version of its own
-(session/state.py)."""
+"""Readers by version: each converts its layout to the newest.
+
+The state of a session has a version of its own (session/state.py).
+"""

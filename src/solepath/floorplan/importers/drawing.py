@@ -1,7 +1,8 @@
-"""What maps of buildings draw, spaces rather than walls, on its way to a plan: walls are the outlines of spaces, less
-what lies between two open ones and less the doors; stairs and lifts are joined over the levels where they overlap.
+"""Spaces, as building maps draw them, and their conversion to a plan with walls.
 
-The readers of IMDF and OpenStreetMap draw into this; the plan does not depend on the order in which they do.
+Walls are the outlines of spaces, less the parts between two open spaces and less the doors; stairs and lifts are joined
+over the levels where they overlap. The readers of IMDF and OpenStreetMap draw into this; the plan does not depend on
+the order in which they do.
 """
 
 from __future__ import annotations
@@ -19,14 +20,14 @@ from ..segments import distance
 from .earth import to_mm
 
 _TOGETHER = 2e-3
-"""m; walls on one line lie this near to it, and touch across such a gap."""
+"""Largest distance between walls on one line, and largest gap that joins them, m."""
 
 SHARED = 0.05
-"""m; borders of two spaces that lie this near to each other are one."""
+"""Largest distance between borders of two spaces that count as one border, m."""
 
 
 class Border(Enum):
-    """What the outline of a space is."""
+    """The kind of a space's outline."""
 
     WALL = "wall"  # a wall all round, but for its doors
     OPEN = "open"  # a wall, but not towards another open or free space
@@ -36,7 +37,7 @@ class Border(Enum):
 
 @define
 class Space:
-    """A space on one level. `rings`: its outline, then its holes."""
+    """A space on one level; `rings` are its outline, then its holes."""
 
     level: str
     rings: tuple[Ring, ...]
@@ -45,8 +46,11 @@ class Space:
 
 @define
 class ConnectorPart:
-    """Stairs or a lift on one level. Parts of one `group` are the same stairs or lift wherever they lie; others are
-    where they overlap on neighbouring levels. `place`: where one steps on, None for the middle."""
+    """The part of stairs or a lift on one level.
+
+    Parts of one `group` are always the same stairs or lift; others are if they overlap on neighbouring levels. `place`
+    is where a person steps on; None stands for the middle.
+    """
 
     kind: ConnectorKind
     name: str
@@ -58,7 +62,7 @@ class ConnectorPart:
 
     @property
     def ring(self) -> Ring:
-        """Its outline and the holes in one."""
+        """The outline and the holes as one ring."""
         return with_holes(self.rings)
 
 
@@ -69,12 +73,12 @@ class Storey:
     name: str
     ordinal: int
     order: float
-    """What levels are sorted by."""
+    """Sort key of the levels."""
 
 
 @define
 class Drawing:
-    """All that was drawn."""
+    """Everything that was drawn."""
 
     name: str = ""
     storeys: dict[str, Storey] = field(factory=dict)
@@ -85,8 +89,10 @@ class Drawing:
     remarks: list[str] = field(factory=list)
 
     def plan(self, anchor: Anchor, storey: float) -> FloorPlan:
-        """The plan. `storey`: m from one level to the next: none of these formats tells elevations. FloorPlanError
-        when there is more than a building has."""
+        """Return the plan; `storey` is the height from one level to the next, m: these formats have no elevations.
+
+        Raises FloorPlanError when there is more than a building has.
+        """
         if len(self.storeys) > MOST_LEVELS:
             raise FloorPlanError(f"has more than {MOST_LEVELS} levels")
         rings = [ring for space in self.spaces for ring in space.rings] + [r for part in self.parts for r in part.rings]
@@ -101,7 +107,7 @@ class Drawing:
                   self._walls(level), self._doors(level), self._rooms(level))
             for level in ids
         ]  # fmt: skip
-        connectors = tuple(_joined(self.parts, {level: i for i, level in enumerate(ids)}, self.storeys))
+        connectors = tuple(_join_parts(self.parts, {level: i for i, level in enumerate(ids)}, self.storeys))
         return FloorPlan(self.name, tuple(levels), connectors, anchor, heights_known=False, remarks=tuple(self.remarks))
 
     def _doors(self, level: str) -> tuple[Door, ...]:
@@ -125,7 +131,7 @@ class Drawing:
         borders = Openings([(start, end) for start, end, _ in owned], [owner for _, _, owner in owned])
         for i, (lines, border) in enumerate(loose):
             if border is Border.OPEN:
-                walls.update(cut(sorted(lines, key=_ends), borders, SHARED, but=i))
+                walls.update(cut(sorted(lines, key=_ends), borders, SHARED, excluded=i))
         kept = cut(merged(walls), Openings(doors), BESIDE)
         return tuple(sorted({_wall(wall.start, wall.end) for wall in kept}, key=_ends))
 
@@ -139,7 +145,7 @@ def _ends(wall: Wall) -> tuple[Point, Point]:
 
 
 def merged(walls: set[Wall]) -> list[Wall]:
-    """Walls that lie on one line and touch, made one: most walls are drawn twice, once from either room."""
+    """Return the walls with those joined that lie on one line and touch: most are drawn twice, from either room."""
     found: list[Wall] = []
     for wall in sorted(walls, key=_on_line):
         if found:
@@ -155,7 +161,7 @@ def merged(walls: set[Wall]) -> list[Wall]:
 
 
 def _on_line(wall: Wall) -> tuple[float, float, Point, Point]:
-    """Walls on one line come together: direction, distance of the line from the origin, and where they begin."""
+    """Return a sort key that groups walls on one line: direction, distance of the line from the origin, start."""
     (ax, ay), (bx, by) = wall.start, wall.end
     long = hypot(bx - ax, by - ay)
     ux, uy = (bx - ax) / long, (by - ay) / long
@@ -167,7 +173,7 @@ def _lines(rings: tuple[Ring, ...]) -> set[Wall]:
 
 
 def _border_of(part: ConnectorPart, doors: list[Line]) -> Border:
-    """Stairs and cabins with a door are walled; without one they would be out of reach, so they are open."""
+    """Return WALL for stairs and cabins with a door, else OPEN: closed walls would make them unreachable."""
     lines = [line for ring in part.rings for line in edges(ring)]
     for start, end in doors:
         x, y = 0.5 * (start[0] + end[0]), 0.5 * (start[1] + end[1])
@@ -176,9 +182,12 @@ def _border_of(part: ConnectorPart, doors: list[Line]) -> Border:
     return Border.OPEN
 
 
-def _joined(parts: list[ConnectorPart], numbers: dict[str, int], storeys: dict[str, Storey]) -> list[Connector]:
-    """Parts joined into connectors: those of one group, and those that lie over each other on levels whose order is one
-    apart or less, or next to each other in the list of levels."""
+def _join_parts(parts: list[ConnectorPart], numbers: dict[str, int], storeys: dict[str, Storey]) -> list[Connector]:
+    """Join parts into connectors.
+
+    Joined are those of one group, and those that overlap on levels whose order is one apart or less, or that are
+    adjacent in the list of levels.
+    """
     ordered = sorted(
         parts,
         key=lambda part: (
@@ -191,7 +200,7 @@ def _joined(parts: list[ConnectorPart], numbers: dict[str, int], storeys: dict[s
     middles = [middle(part.ring) if len(part.ring) >= 3 else part.place or (0.0, 0.0) for part in ordered]
     leader = list(range(len(ordered)))
 
-    def lead(i: int) -> int:
+    def find_leader(i: int) -> int:
         while leader[i] != i:
             leader[i] = leader[leader[i]]
             i = leader[i]
@@ -199,15 +208,15 @@ def _joined(parts: list[ConnectorPart], numbers: dict[str, int], storeys: dict[s
 
     for j, upper in enumerate(ordered):
         for i, lower in enumerate(ordered[:j]):
-            if lower.kind is not upper.kind or lead(i) == lead(j):
+            if lower.kind is not upper.kind or find_leader(i) == find_leader(j):
                 continue
             if lower.group == upper.group or (
                 _neighbours(lower.level, upper.level, numbers, storeys)
                 and (_within(middles[i], upper) or _within(middles[j], lower))
             ):
-                leader[max(lead(i), lead(j))] = min(lead(i), lead(j))
-    together = sorted(range(len(ordered)), key=lambda i: (lead(i), i))
-    found = [_connector([ordered[i] for i in some], numbers) for _, some in groupby(together, key=lead)]
+                leader[max(find_leader(i), find_leader(j))] = min(find_leader(i), find_leader(j))
+    together = sorted(range(len(ordered)), key=lambda i: (find_leader(i), i))
+    found = [_connector([ordered[i] for i in some], numbers) for _, some in groupby(together, key=find_leader)]
     return sorted(found, key=lambda one: (one.kind.value, one.name, one.stops[0].place))
 
 

@@ -1,4 +1,4 @@
-"""From degrees to the plan's metres and back: the plane that touches the WGS84 ellipsoid at the anchor.
+"""Conversion from degrees to the plan's metres and back, in the tangent plane of WGS84 at the anchor.
 
 East and north of the anchor are those of the local tangent plane (ENU) of points on the ellipsoid, turned by the
 anchor's bearing. Lengths in the plane are short by d^2 / 6 R^2 of themselves at a distance d from the anchor, less than
@@ -14,10 +14,10 @@ from ..plan import Anchor, FloorPlanError, Point
 _A = 6378137.0
 _F = 1.0 / 298.257223563
 _E2 = _F * (2.0 - _F)
-"""WGS84: semi-major axis in m, flattening, and the first eccentricity's square."""
+"""Constants of WGS84: semi-major axis, m, flattening, and square of the first eccentricity."""
 
 FARTHEST = 20_000.0
-"""m; what lies farther from the anchor belongs to no building."""
+"""Largest distance from the anchor that can belong to the building, m."""
 
 
 class Tangent:
@@ -33,7 +33,7 @@ class Tangent:
         self._prime, self._meridian = _A / w, _A * (1.0 - _E2) / w**3
 
     def plan(self, latitude: float, longitude: float) -> Point:
-        """The point of the plan at these degrees. FloorPlanError when it is no place near the anchor."""
+        """Return the point of the plan at these degrees; raise FloorPlanError for no place near the anchor."""
         if not (isfinite(longitude) and abs(latitude) <= 90.0 and abs(longitude) <= 360.0):
             raise FloorPlanError(f"there is no latitude {latitude:g}, longitude {longitude:g}")
         east, north, down = self._local(radians(latitude), radians(longitude))
@@ -43,15 +43,15 @@ class Tangent:
         return c * east - s * north, s * east + c * north
 
     def place(self, position: Point) -> Point:
-        """The same at (longitude, latitude), to the millimetre: degrees in a file are never better."""
+        """Return the point of the plan at (longitude, latitude), to the millimetre, as good as a file's degrees."""
         return to_mm(self.plan(position[1], position[0]))
 
     def degrees(self, point: Point) -> tuple[float, float]:
-        """(latitude, longitude) of a point of the plan."""
+        """Return (latitude, longitude) of a point of the plan."""
         s, c = self._turn
         east, north = c * point[0] + s * point[1], c * point[1] - s * point[0]
         latitude, longitude = self._latitude, self._longitude
-        for _ in range(6):  # each leaves some 1e-4 of the error at 500 m
+        for _ in range(6):  # each iteration leaves about 1e-4 of the error at 500 m
             found_east, found_north, _ = self._local(latitude, longitude)
             latitude += (north - found_north) / self._meridian
             longitude += (east - found_east) / (self._prime * self._up[1])
@@ -66,15 +66,18 @@ class Tangent:
 
 
 def _fixed(latitude: float, longitude: float) -> tuple[float, float, float]:
-    """Earth-centred, earth-fixed coordinates of a point on the ellipsoid, m."""
+    """Return Earth-centred, Earth-fixed coordinates of a point on the ellipsoid, m."""
     prime = _A / sqrt(1.0 - _E2 * sin(latitude) ** 2)
     out = prime * cos(latitude)
     return out * cos(longitude), out * sin(longitude), prime * (1.0 - _E2) * sin(latitude)
 
 
 def south_west(places: list[tuple[float, float]]) -> Anchor:
-    """An anchor for places (latitude, longitude) that come without one: their south-west corner, to 1e-7 degrees
-    (1 cm), with +y to the north. FloorPlanError when there are none, or when they cannot be degrees."""
+    """Return an anchor for places (latitude, longitude) without one, with +y to the north.
+
+    It is their south-west corner, to 1e-7 degrees (1 cm). Raises FloorPlanError when there are none, or when they
+    cannot be degrees.
+    """
     if not places:
         raise FloorPlanError("nothing is drawn in it")
     latitude, longitude = min(p[0] for p in places), min(p[1] for p in places)
@@ -84,5 +87,5 @@ def south_west(places: list[tuple[float, float]]) -> Anchor:
 
 
 def to_mm(point: Point) -> Point:
-    """So that the same place has the same numbers in every format."""
+    """Return the point rounded to mm, so that the same place has the same numbers in every format."""
     return round(point[0], 3) + 0.0, round(point[1], 3) + 0.0

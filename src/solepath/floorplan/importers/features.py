@@ -1,4 +1,4 @@
-"""GeoJSON features out of bytes, whatever profile they follow: checked, and named in every complaint."""
+"""GeoJSON features read from bytes, for any profile: checked, and named in every error message."""
 
 from __future__ import annotations
 
@@ -14,25 +14,28 @@ from ..records import shown
 from .earth import south_west
 
 MOST_CORNERS = 1_000_000
-"""Of a file: more points than any building has."""
+"""Largest number of points of a file: more than any building has."""
 
 LARGEST = 1e9
-"""Of a number: more than any coordinate in any unit."""
+"""Limit on the size of a number: more than any coordinate in any unit."""
 
 Position = tuple[float, float]
-"""(x, y) as the file has them: m, or (longitude, latitude) in degrees."""
+"""(x, y) as in the file: m, or (longitude, latitude) in degrees."""
 
 Place = Callable[[Position], Point]
-"""From the file's coordinates to the plan's."""
+"""Function from the file's coordinates to the plan's."""
 
 _DEPTHS = {"Point": 0, "MultiPoint": 1, "LineString": 1, "MultiLineString": 2, "Polygon": 2, "MultiPolygon": 3}
-"""How deep the positions of a geometry lie in lists."""
+"""Nesting depth of the positions in the lists of each geometry."""
 
 
 @frozen
 class Feature:
-    """One feature. `name`: what complaints call it. `lines`: what a LineString, MultiLineString, Polygon or
-    MultiPolygon is made of, for a polygon its outline and then its holes; `points` of a Point or MultiPoint."""
+    """One feature.
+
+    `name` is for error messages. `lines` holds the parts of a LineString, MultiLineString, Polygon or MultiPolygon, for
+    a polygon its outline and then its holes; `points` holds those of a Point or MultiPoint.
+    """
 
     id: str
     name: str
@@ -42,11 +45,14 @@ class Feature:
     points: tuple[Position, ...] = ()
     lines: tuple[tuple[tuple[Position, ...], ...], ...] = ()
 
-    def wrong(self, what: str) -> NoReturn:
+    def fail(self, what: str) -> NoReturn:
         raise FloorPlanError(f"{self.name}: {what}")
 
     def text(self, key: str, otherwise: str | None = None) -> str:
-        """A text or a number of the properties, as text; FloorPlanError when it is missing and there is no other."""
+        """Return a text or a number of the properties, as text; `otherwise` replaces a missing one.
+
+        Raises FloorPlanError when both are missing.
+        """
         value = self.properties.get(key)
         if value is None and otherwise is not None:
             return otherwise
@@ -54,110 +60,113 @@ class Feature:
             return value
         if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < LARGEST:
             return f"{value:g}" if isinstance(value, float) else str(value)
-        return self.wrong(f"its {key} is missing" if value is None else f"its {key} is {shown(value)}, not a text")
+        return self.fail(f"its {key} is missing" if value is None else f"its {key} is {shown(value)}, not a text")
 
     def figure(self, key: str) -> float | None:
-        """A number of the properties, or None where there is none."""
+        """Return a number of the properties, or None if there is none."""
         value = self.properties.get(key)
-        return None if value is None else number(value, f"{self.name}: its {key}")
+        return None if value is None else parse_number(value, f"{self.name}: its {key}")
 
     def whole(self, key: str) -> int | None:
-        """A whole number of the properties, or None where there is none."""
+        """Return a whole number of the properties, or None if there is none."""
         value = self.figure(key)
         if value is not None and value != int(value):
-            self.wrong(f"its {key} is {value:g}, not a whole number")
+            self.fail(f"its {key} is {value:g}, not a whole number")
         return None if value is None else int(value)
 
     def ordinal(self) -> int:
-        """Of a level, which has an id as well."""
+        """Return the ordinal of a level, which must have an id as well."""
         if not self.id:
-            self.wrong("a level needs an id")
+            self.fail("a level needs an id")
         ordinal = self.whole("ordinal")
-        return self.wrong("its ordinal is missing") if ordinal is None else ordinal
+        return self.fail("its ordinal is missing") if ordinal is None else ordinal
 
-    def placed(self, line: Iterable[Position], place: Place) -> list[Point]:
-        """A line of it on the plan."""
+    def place_line(self, line: Iterable[Position], place: Place) -> list[Point]:
+        """Return a line of the feature in the plan's coordinates."""
         try:
             return [place(position) for position in line]
         except FloorPlanError as error:
-            self.wrong(str(error))
+            self.fail(str(error))
 
     def polygons(self, place: Place, remark: Callable[[str], None]) -> list[tuple[Ring, ...]]:
-        """Of each of its polygons: the outline and the holes."""
+        """Return the outline and the holes of each of its polygons."""
         found = []
         for polygon in self.lines:
             rings = []
             for line in polygon:
-                corners, open_by = ring(self.placed(line, place))
+                corners, open_by = ring(self.place_line(line, place))
                 if len(corners) < 3:
-                    self.wrong("its outline has fewer than three corners")
+                    self.fail("its outline has fewer than three corners")
                 if open_by > CLOSED:
                     remark(not_closed(open_by))
                 rings.append(corners)
             if rings:
                 found.append(tuple(rings))
-        return found or self.wrong("has no outline")
+        return found or self.fail("has no outline")
 
 
-def parsed(data: bytes) -> dict[str, Any]:
-    """The JSON object in these bytes. FloorPlanError when there is none."""
+def parse_json(data: bytes) -> dict[str, Any]:
+    """Return the JSON object in these bytes; raise FloorPlanError when there is none."""
     try:
-        told = json.loads(data.decode("utf-8-sig"), parse_constant=_no_number)
+        value = json.loads(data.decode("utf-8-sig"), parse_constant=_reject_constant)
     except ValueError as error:
         raise FloorPlanError(f"is not JSON ({error})") from None
     except RecursionError:
         raise FloorPlanError("is nested too deeply") from None
-    if not isinstance(told, dict):
+    if not isinstance(value, dict):
         raise FloorPlanError("is no JSON object")
-    return told
+    return value
 
 
-def _no_number(name: str) -> NoReturn:
+def _reject_constant(name: str) -> NoReturn:
     raise ValueError(f"{name} is no number")
 
 
-def features(collection: dict[str, Any], kind_key: str, of_properties: bool) -> Iterator[Feature]:
-    """The features of a FeatureCollection. Their kind is the member `kind_key`, of the properties or of the feature."""
+def features(collection: dict[str, Any], kind_key: str, in_properties: bool) -> Iterator[Feature]:
+    """Yield the features of a FeatureCollection.
+
+    Their kind is the member `kind_key`, of the properties or of the feature.
+    """
     if collection.get("type") != "FeatureCollection" or not isinstance(collection.get("features"), list):
         raise FloorPlanError("is not a GeoJSON FeatureCollection")
     seen: set[str] = set()
     corners = 0
-    for i, told in enumerate(collection["features"]):
-        if not isinstance(told, dict) or told.get("type") != "Feature":
+    for i, value in enumerate(collection["features"]):
+        if not isinstance(value, dict) or value.get("type") != "Feature":
             raise FloorPlanError(f"feature {i} is not a GeoJSON Feature")
-        given = told.get("id")
+        given = value.get("id")
         if not (given is None or isinstance(given, str) or type(given) is int and abs(given) < LARGEST):
             raise FloorPlanError(f"feature {i}: its id is {shown(given)}, neither a text nor a whole number")
         own = "" if given is None else str(given)
         if own and own in seen:
             raise FloorPlanError(f"two features have the id {own!r}")
         seen.add(own)
-        properties = told.get("properties")
+        properties = value.get("properties")
         if properties is None:
             properties = {}
         if not isinstance(properties, dict):
             raise FloorPlanError(f"feature {i}: its properties are no object")
-        kind = (properties if of_properties else told).get(kind_key)
+        kind = (properties if in_properties else value).get(kind_key)
         if not isinstance(kind, str):
             raise FloorPlanError(f"feature {own[:60] or i!r}: its {kind_key} is missing")
         word = kind[:20] if kind.isascii() and kind.isalpha() else "feature"
         name = f"{word} {own[:60]!r}" if own else f"feature {i}"
-        one = _shaped(Feature(own, name, kind, properties), told.get("geometry"))
+        one = _with_geometry(Feature(own, name, kind, properties), value.get("geometry"))
         corners += len(one.points) + sum([len(line) for part in one.lines for line in part])
         if corners > MOST_CORNERS:
             raise FloorPlanError(f"has more than {MOST_CORNERS} points")
         yield one
 
 
-def _shaped(feature: Feature, geometry: object) -> Feature:
+def _with_geometry(feature: Feature, geometry: object) -> Feature:
     if geometry is None:
         return feature
     if not isinstance(geometry, dict) or not isinstance(geometry.get("type"), str):
-        feature.wrong("its geometry is no object with a type")
+        feature.fail("its geometry is no object with a type")
     kind = geometry["type"]
     if kind not in _DEPTHS:
-        feature.wrong(f"its geometry is a {kind[:30]!r}")
-    found = positions(geometry.get("coordinates"), feature, _DEPTHS[kind])
+        feature.fail(f"its geometry is a {kind[:30]!r}")
+    found = parse_positions(geometry.get("coordinates"), feature, _DEPTHS[kind])
     if kind in ("Point", "MultiPoint"):
         return evolve(feature, geometry=kind, points=found if _DEPTHS[kind] else (found,))
     for _ in range(3 - _DEPTHS[kind]):
@@ -165,25 +174,25 @@ def _shaped(feature: Feature, geometry: object) -> Feature:
     return evolve(feature, geometry=kind, lines=found)
 
 
-def positions(told: object, feature: Feature, depth: int = 0) -> Any:
-    """A position, or positions in tuples as deep as they are in lists."""
-    if not isinstance(told, list):
-        feature.wrong("its coordinates are no list")
+def parse_positions(value: object, feature: Feature, depth: int = 0) -> Any:
+    """Return a position, or positions in tuples nested like the lists."""
+    if not isinstance(value, list):
+        feature.fail("its coordinates are no list")
     if depth:
-        return tuple([positions(one, feature, depth - 1) for one in told])
-    if len(told) < 2:
-        feature.wrong("it has a position without two coordinates")
+        return tuple([parse_positions(one, feature, depth - 1) for one in value])
+    if len(value) < 2:
+        feature.fail("it has a position without two coordinates")
     what = f"{feature.name}: a coordinate"
-    return number(told[0], what), number(told[1], what)
+    return parse_number(value[0], what), parse_number(value[1], what)
 
 
-def anchor_of(some: Iterable[Feature]) -> Anchor:
-    """The south-west corner of all that is drawn, in degrees."""
+def find_anchor(some: Iterable[Feature]) -> Anchor:
+    """Return the south-west corner of everything that is drawn, in degrees."""
     drawn = [p for one in some for p in (*one.points, *(p for part in one.lines for line in part for p in line))]
     return south_west([(latitude, longitude) for longitude, latitude in drawn])
 
 
-def number(told: object, what: str) -> float:
-    if isinstance(told, bool) or not isinstance(told, int | float) or not abs(told) < LARGEST or not isfinite(told):
-        raise FloorPlanError(f"{what} is {shown(told)}, not a number that can be")
-    return float(told)
+def parse_number(value: object, what: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not abs(value) < LARGEST or not isfinite(value):
+        raise FloorPlanError(f"{what} is {shown(value)}, not a number that can be")
+    return float(value)

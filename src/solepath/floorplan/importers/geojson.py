@@ -1,4 +1,4 @@
-"""The GeoJSON profile of protocol/floorplan.md, read and written."""
+"""Reader and writer of the GeoJSON profile of protocol/floorplan.md."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..doors import with_doors_cut
 from ..outlines import Ring, middle, with_holes, without_repeats
 from ..plan import Anchor, Connector, ConnectorKind, ConnectorStop, Door, FloorPlan, FloorPlanError, Level, Wall
 from .earth import Tangent
-from .features import Feature, Place, anchor_of, features, number
+from .features import Feature, Place, features, find_anchor, parse_number
 
 FORMAT = "solepath-floorplan"
 VERSION = 1
@@ -20,39 +20,41 @@ VERSION = 1
 _KINDS = ("level", "wall", "door", "room", "stairs", "lift")
 
 
-def of_collection(told: dict[str, Any], storey: float) -> FloorPlan:
-    """The plan in a FeatureCollection of the profile. `storey`: m from level to level where it tells no elevations.
-    FloorPlanError when it does not fit."""
-    if told.get("version") != VERSION or isinstance(told.get("version"), bool):
-        raise FloorPlanError(f"is of version {told.get('version')!r}; this release reads {VERSION}")
-    known = list(features(told, "feature", of_properties=True))
+def read_collection(collection: dict[str, Any], storey: float) -> FloorPlan:
+    """Return the plan in a FeatureCollection of the profile; raise FloorPlanError when it does not fit.
+
+    `storey` is the height from level to level where it has no elevations, m.
+    """
+    if collection.get("version") != VERSION or isinstance(collection.get("version"), bool):
+        raise FloorPlanError(f"is of version {collection.get('version')!r}; this release reads {VERSION}")
+    known = list(features(collection, "feature", in_properties=True))
     for one in known:
         if one.kind not in _KINDS:
-            one.wrong(f"there is no feature {one.kind[:30]!r}, only {', '.join(_KINDS)}")
-    reader = _GeoJsonReader(known, *_frame(told, known))
-    name = told.get("name", "")
+            one.fail(f"there is no feature {one.kind[:30]!r}, only {', '.join(_KINDS)}")
+    reader = _GeoJsonReader(known, *_frame(collection, known))
+    name = collection.get("name", "")
     if not isinstance(name, str):
         raise FloorPlanError("its name is no text")
-    return reader.plan(name, storey, told.get("elevations", "known"))
+    return reader.plan(name, storey, collection.get("elevations", "known"))
 
 
-def _frame(told: dict[str, Any], known: list[Feature]) -> tuple[Anchor | None, Place]:
-    """The anchor, and from the file's coordinates to the plan's."""
-    frame, given = told.get("frame"), told.get("anchor")
+def _frame(collection: dict[str, Any], known: list[Feature]) -> tuple[Anchor | None, Place]:
+    """Return the anchor, and the function from the file's coordinates to the plan's."""
+    frame, given = collection.get("frame"), collection.get("anchor")
     anchor = None if given is None else _anchor(given)
     if frame == "local":
         return anchor, lambda position: position
     if frame != "wgs84":
         raise FloorPlanError(f"its frame is {frame!r}; it can be 'local' or 'wgs84'")
     if anchor is None:
-        anchor = anchor_of(known)
+        anchor = find_anchor(known)
     return anchor, Tangent(anchor).place
 
 
 def _anchor(given: object) -> Anchor:
     if not isinstance(given, dict):
         raise FloorPlanError("its anchor is no object")
-    values = [number(given.get(key, 0.0 if key == "bearing" else None), f"the anchor's {key}")
+    values = [parse_number(given.get(key, 0.0 if key == "bearing" else None), f"the anchor's {key}")
               for key in ("latitude", "longitude", "bearing")]  # fmt: skip
     anchor = Anchor(*values)
     if not (abs(anchor.latitude) <= 89.0 and abs(anchor.longitude) <= 180.0 and abs(anchor.bearing) <= 10.0):
@@ -62,7 +64,7 @@ def _anchor(given: object) -> Anchor:
 
 
 class _GeoJsonReader:
-    """The features of one file on their way into records."""
+    """Converts the features of one file into records."""
 
     def __init__(self, known: list[Feature], anchor: Anchor | None, place: Place) -> None:
         self._known, self._anchor, self._place = known, anchor, place
@@ -78,7 +80,7 @@ class _GeoJsonReader:
         levels = self._levels(storey)
         for one in self._known:
             if one.kind != "level":
-                self._take(one)
+                self._read_feature(one)
         drawn = [
             with_doors_cut(evolve(level, walls=tuple(self._walls[level.id]), doors=tuple(self._doors[level.id]),
                                   rooms=tuple(self._rooms[level.id])))
@@ -86,51 +88,51 @@ class _GeoJsonReader:
         ]  # fmt: skip
         heights = {level.id: level.elevation for level in levels}
         connectors = tuple(self._connector(stops, heights) for stops in self._stops.values())
-        told = elevations == "known" and any(one.kind == "level" and one.figure("elevation") is not None
+        heights_known = elevations == "known" and any(one.kind == "level" and one.figure("elevation") is not None
                                              for one in self._known)  # fmt: skip
-        return FloorPlan(name, tuple(drawn), connectors, self._anchor, told, tuple(self._remarks))
+        return FloorPlan(name, tuple(drawn), connectors, self._anchor, heights_known, tuple(self._remarks))
 
     def _levels(self, storey: float) -> list[Level]:
-        told = [one for one in self._known if one.kind == "level"]
-        high = [one.figure("elevation") for one in told]
+        levels = [one for one in self._known if one.kind == "level"]
+        high = [one.figure("elevation") for one in levels]
         found = []
-        for one, elevation in zip(told, high, strict=True):
+        for one, elevation in zip(levels, high, strict=True):
             ordinal = one.ordinal()
             if elevation is None:
                 if any(other is not None for other in high):
-                    one.wrong("its elevation is missing, while other levels have one")
+                    one.fail("its elevation is missing, while other levels have one")
                 elevation = ordinal * storey
             found.append(Level(one.id, one.text("name", one.id), ordinal, elevation, ()))
             self._walls[one.id], self._doors[one.id], self._rooms[one.id] = [], [], []
         return sorted(found, key=lambda level: level.elevation)
 
-    def _take(self, one: Feature) -> None:
+    def _read_feature(self, one: Feature) -> None:
         level = one.text("level")
         if level not in self._walls:
-            one.wrong(f"is on level {level!r}, which the plan does not have")
+            one.fail(f"is on level {level!r}, which the plan does not have")
         if one.kind == "wall":
             self._walls[level] += self._straight(one)
         elif one.kind == "door":
             if one.geometry != "LineString" or len(one.lines[0][0]) != 2 or one.lines[0][0][0] == one.lines[0][0][1]:
-                one.wrong("a door is a LineString of two points")
-            start, end = one.placed(one.lines[0][0], self._place)
+                one.fail("a door is a LineString of two points")
+            start, end = one.place_line(one.lines[0][0], self._place)
             self._doors[level].append(Door(start, end, one.text("name", "")))
         elif one.kind == "room":
             if one.geometry != "Polygon":
-                one.wrong("a room is a Polygon")
+                one.fail("a room is a Polygon")
             self._rooms[level].append(self._outline(one, level))
         else:
             self._stop(one, level)
 
     def _straight(self, one: Feature) -> list[Wall]:
         if one.geometry not in ("LineString", "MultiLineString", "Polygon"):
-            one.wrong("a wall is a LineString, a MultiLineString or a Polygon")
+            one.fail("a wall is a LineString, a MultiLineString or a Polygon")
         found = []
         for line in one.lines[0]:
-            points = without_repeats(one.placed(line, self._place))
+            points = without_repeats(one.place_line(line, self._place))
             found += [Wall(a, b) for a, b in zip(points, points[1:], strict=False)]
         if not found:
-            one.wrong("has no length")
+            one.fail("has no length")
         return found
 
     def _outline(self, one: Feature, level: str) -> Ring:
@@ -140,23 +142,23 @@ class _GeoJsonReader:
 
     def _stop(self, one: Feature, level: str) -> None:
         if one.geometry == "Point":
-            stop = ConnectorStop(level, one.placed(one.points, self._place)[0])
+            stop = ConnectorStop(level, one.place_line(one.points, self._place)[0])
         elif one.geometry == "Polygon":
             outline = self._outline(one, level)
             given = one.properties.get("place")
             if given is None:
                 stop = ConnectorStop(level, middle(outline), outline)
             elif isinstance(given, list) and len(given) == 2:
-                x, y = (number(value, f"{one.name}: its place") for value in given)
-                stop = ConnectorStop(level, one.placed([(x, y)], self._place)[0], outline)
+                x, y = (parse_number(value, f"{one.name}: its place") for value in given)
+                stop = ConnectorStop(level, one.place_line([(x, y)], self._place)[0], outline)
             else:
-                one.wrong("its place is no position")
+                one.fail("its place is no position")
         else:
-            one.wrong(f"{one.kind} are a Point or a Polygon on each level where they stop")
+            one.fail(f"{one.kind} are a Point or a Polygon on each level where they stop")
         key = (one.kind, one.text("connector", one.text("name", "")))
         others = self._stops.setdefault(key, [])
         if any(other.level == level for _, other in others):
-            one.wrong(f"is a second stop of {one.kind} {key[1]!r} at level {level!r}")
+            one.fail(f"is a second stop of {one.kind} {key[1]!r} at level {level!r}")
         others.append((one, stop))
 
     def _connector(self, stops: list[tuple[Feature, ConnectorStop]], heights: dict[str, float]) -> Connector:
@@ -165,28 +167,30 @@ class _GeoJsonReader:
         flights = [one.whole("flights") for one, _ in stops if one.figure("flights") is not None]
         rises = [one.figure("rise") for one, _ in stops if one.figure("rise") is not None]
         if len(set(flights)) > 1 or len(set(rises)) > 1:
-            first.wrong("its stops tell different flights or rises")
+            first.fail("its stops tell different flights or rises")
         kind = ConnectorKind.STAIRS if first.kind == "stairs" else ConnectorKind.LIFT
         name, flight, rise = first.text("name", ""), flights[0] if flights else None, rises[0] if rises else None
         return Connector(kind, name, tuple(ordered), flight, rise)
 
 
 def write_floorplan(path: Path | str, plan: FloorPlan) -> None:
-    """Write it to a file in the plan's own frame; read again it is equal, once its doors are cut out of its walls.
-    OSError where it cannot be written, ValueError for numbers that JSON has not."""
+    """Write the plan to a file in its own frame; read again it is equal, once its doors are cut out of its walls.
+
+    Raises OSError when it cannot be written, ValueError for numbers that JSON does not have.
+    """
     Path(path).write_text(text_of(plan), encoding="utf-8")
 
 
 def text_of(plan: FloorPlan) -> str:
-    """The file's text: one feature a line."""
+    """Return the file's text, with one feature a line."""
     head: dict[str, Any] = {"type": "FeatureCollection", "format": FORMAT, "version": VERSION, "name": plan.name,
                             "frame": "local", "elevations": "known" if plan.heights_known else "assumed"}  # fmt: skip
     if plan.anchor is not None:
         head["anchor"] = {"latitude": plan.anchor.latitude, "longitude": plan.anchor.longitude,
                           "bearing": plan.anchor.bearing}  # fmt: skip
-    told = json.dumps(head, allow_nan=False)
+    head_text = json.dumps(head, allow_nan=False)
     lines = ",\n".join(json.dumps(one, allow_nan=False) for one in _written(plan))
-    return f'{told[:-1]}, "features": [\n{lines}\n]}}\n'
+    return f'{head_text[:-1]}, "features": [\n{lines}\n]}}\n'
 
 
 def _written(plan: FloorPlan) -> Iterable[dict[str, Any]]:

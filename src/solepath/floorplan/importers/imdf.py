@@ -1,7 +1,8 @@
-"""The Indoor Mapping Data Format 1.0.0 (OGC 20-094): an archive, or a folder, of GeoJSON files, one for each kind of
-feature. protocol/floorplan.md says what becomes of them.
+"""Reader of the Indoor Mapping Data Format 1.0.0 (OGC 20-094).
 
-IMDF draws units, not walls, and no heights: walls are outlines (drawing.py), and levels lie one storey apart.
+It is an archive, or a folder, of GeoJSON files, one for each kind of feature; protocol/floorplan.md describes their
+conversion. IMDF draws units, not walls, and has no heights: walls are outlines (drawing.py), and levels lie one storey
+apart.
 """
 
 from __future__ import annotations
@@ -13,11 +14,11 @@ from ..outlines import Ring, edges, without_repeats
 from ..plan import ConnectorKind, FloorPlan, FloorPlanError, Point
 from .drawing import Border, ConnectorPart, Drawing, Space, Storey
 from .earth import Tangent
-from .features import Feature, anchor_of, features, parsed, positions
+from .features import Feature, features, find_anchor, parse_json, parse_positions
 
 FILES = ("manifest.json", "venue.geojson", "building.geojson", "level.geojson", "unit.geojson", "opening.geojson",
          "fixture.geojson")  # fmt: skip
-"""What of an archive is read."""
+"""Files of an archive that are read."""
 
 _CONNECTORS = {
     "elevator": ConnectorKind.LIFT,
@@ -34,16 +35,18 @@ _OPEN = {"fieldofplay", "footbridge", "lobby", "movingwalkway", "parking", "plat
 """Categories of units that have no wall towards each other."""
 
 _OBSTACLES = {"obstruction", "wall"}
-"""Categories of fixtures that one cannot walk through; desks and the like are moved."""
+"""Categories of fixtures that nobody can walk through; desks and the like may be moved."""
 
 
-def of_files(files: Mapping[str, bytes], storey: float) -> FloorPlan:
-    """The plan in the files of an archive, by name. `storey`: m from one ordinal to the next. FloorPlanError when it
-    does not fit."""
+def read_archive(files: Mapping[str, bytes], storey: float) -> FloorPlan:
+    """Return the plan in the files of an archive, by name; raise FloorPlanError when it does not fit.
+
+    `storey` is the height from one ordinal to the next, m.
+    """
     if "manifest.json" not in files:
         raise FloorPlanError("has no manifest.json, which every IMDF archive has")
-    with _named("manifest.json"):
-        manifest = parsed(files["manifest.json"])
+    with _name_file("manifest.json"):
+        manifest = parse_json(files["manifest.json"])
         version = manifest.get("version")
         if not isinstance(version, str) or not version.startswith("1."):
             raise FloorPlanError(f"is of version {version!r}; this release reads IMDF 1")
@@ -55,8 +58,8 @@ def of_files(files: Mapping[str, bytes], storey: float) -> FloorPlan:
 
 
 @contextmanager
-def _named(name: str) -> Iterator[None]:
-    """Complaints name the file."""
+def _name_file(name: str) -> Iterator[None]:
+    """Add the file's name to the error messages of the context."""
     try:
         yield
     except FloorPlanError as error:
@@ -64,38 +67,38 @@ def _named(name: str) -> Iterator[None]:
 
 
 class _ImdfReader:
-    """The features of one archive on their way into a drawing."""
+    """Draws the features of one archive."""
 
     def __init__(self, files: Mapping[str, bytes], language: str) -> None:
         self._language = language
-        self._levels = self._of(files, "level")
-        self._units = self._of(files, "unit")
-        self._openings = self._of(files, "opening")
-        self._fixtures = self._of(files, "fixture")
-        buildings = self._of(files, "building") + self._of(files, "venue")
+        self._levels = self._read_features(files, "level")
+        self._units = self._read_features(files, "unit")
+        self._openings = self._read_features(files, "opening")
+        self._fixtures = self._read_features(files, "fixture")
+        buildings = self._read_features(files, "building") + self._read_features(files, "venue")
         self._drawing = Drawing(next((name for one in buildings if (name := self._label(one, "name"))), ""))
-        self._anchor = anchor_of(self._levels + self._units)
+        self._anchor = find_anchor(self._levels + self._units)
         self._place = Tangent(self._anchor).place
         self._names: dict[str, str] = {}
 
-    def _of(self, files: Mapping[str, bytes], kind: str) -> list[Feature]:
+    def _read_features(self, files: Mapping[str, bytes], kind: str) -> list[Feature]:
         if f"{kind}.geojson" not in files:
             return []
-        with _named(f"{kind}.geojson"):
-            found = list(features(parsed(files[f"{kind}.geojson"]), "feature_type", of_properties=False))
+        with _name_file(f"{kind}.geojson"):
+            found = list(features(parse_json(files[f"{kind}.geojson"]), "feature_type", in_properties=False))
             for one in found:
                 if one.kind != kind:
-                    one.wrong(f"is a {one.kind[:30]!r} among the {kind}s")
+                    one.fail(f"is a {one.kind[:30]!r} among the {kind}s")
         return found
 
     def _label(self, one: Feature, key: str) -> str:
-        """A LABELS value in the archive's language, in English, or in any."""
+        """Return a LABELS value in the archive's language, in English, or in any other."""
         labels = one.properties.get(key)
         if not isinstance(labels, dict):
             return ""
         texts = {tag: text for tag, text in labels.items() if isinstance(text, str)}
-        wanted = (self._language, self._language.split("-")[0], "en", *sorted(texts))
-        return next((texts[tag] for tag in wanted if tag in texts), "")
+        preferred = (self._language, self._language.split("-")[0], "en", *sorted(texts))
+        return next((texts[tag] for tag in preferred if tag in texts), "")
 
     def plan(self, storey: float) -> FloorPlan:
         self._storeys()
@@ -109,13 +112,13 @@ class _ImdfReader:
         return self._drawing.plan(self._anchor, storey)
 
     def _storeys(self) -> None:
-        """A level goes by its short name where no other has it, and otherwise by its id."""
+        """Add the levels, each by its short name if no other level has it, else by its id."""
         shorts = [self._label(one, "short_name") for one in self._levels]
         for one, short in zip(self._levels, shorts, strict=True):
             ordinal = one.ordinal()
             name = short if short and shorts.count(short) == 1 else one.id
             if name in self._drawing.storeys:
-                one.wrong(f"its id is the short name of another level, {name!r}")
+                one.fail(f"its id is the short name of another level, {name!r}")
             self._names[one.id] = name
             self._drawing.storeys[name] = Storey(self._label(one, "name") or name, ordinal, float(ordinal))
             if one.properties.get("outdoor") is not True:
@@ -126,7 +129,7 @@ class _ImdfReader:
     def _level(self, one: Feature) -> str:
         level = one.properties.get("level_id")
         if not isinstance(level, str) or level not in self._names:
-            one.wrong(f"is on level {str(level)[:60]!r}, which the archive does not have")
+            one.fail(f"is on level {str(level)[:60]!r}, which the archive does not have")
         return self._names[level]
 
     def _unit(self, one: Feature) -> None:
@@ -142,10 +145,10 @@ class _ImdfReader:
             self._drawing.parts.append(ConnectorPart(kind, name, level, point, rings, group))
 
     def _display_point(self, one: Feature) -> Point | None:
-        told = one.properties.get("display_point")
-        if not isinstance(told, dict) or told.get("type") != "Point":
+        value = one.properties.get("display_point")
+        if not isinstance(value, dict) or value.get("type") != "Point":
             return None
-        return one.placed([positions(told.get("coordinates"), one)], self._place)[0]
+        return one.place_line([parse_positions(value.get("coordinates"), one)], self._place)[0]
 
     def _space(self, one: Feature, level: str, border: Border) -> None:
         self._drawing.spaces += [Space(level, rings, border) for rings in self._rings(one)]
@@ -153,13 +156,13 @@ class _ImdfReader:
     def _opening(self, one: Feature) -> None:
         level = self._level(one)
         if one.geometry != "LineString":
-            one.wrong("an opening is a LineString")
-        points = without_repeats(one.placed(one.lines[0][0], self._place))
+            one.fail("an opening is a LineString")
+        points = without_repeats(one.place_line(one.lines[0][0], self._place))
         name = self._label(one, "name")
         self._drawing.doors += [(level, a, b, name) for a, b in zip(points, points[1:], strict=False)]
 
     def _rings(self, one: Feature) -> list[tuple[Ring, ...]]:
-        """Of each polygon: its outline and its holes."""
+        """Return the outline and the holes of each polygon."""
         if one.geometry not in ("Polygon", "MultiPolygon"):
-            one.wrong(f"is no Polygon but a {one.geometry}")
+            one.fail(f"is no Polygon but a {one.geometry}")
         return one.polygons(self._place, lambda what: self._drawing.remarks.append(f"{one.name}: {what}"))

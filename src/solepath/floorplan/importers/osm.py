@@ -1,8 +1,8 @@
-"""OpenStreetMap's Simple Indoor Tagging (wiki.openstreetmap.org: Simple_Indoor_Tagging, Key:indoor, Key:repeat_on,
-Tag:highway=elevator). protocol/floorplan.md says what becomes of which tags.
+"""Reader of OpenStreetMap's Simple Indoor Tagging.
 
-The tags draw rooms, not walls, and tell no heights: walls are outlines (drawing.py), and levels lie one storey apart.
-Everything in the file is taken for one building.
+Sources: wiki.openstreetmap.org, Simple_Indoor_Tagging, Key:indoor, Key:repeat_on, Tag:highway=elevator.
+protocol/floorplan.md describes the conversion of each tag. The tags draw rooms, not walls, and have no heights: walls
+are outlines (drawing.py), and levels lie one storey apart. Everything in the file counts as one building.
 """
 
 from __future__ import annotations
@@ -16,27 +16,30 @@ from .drawing import Border, ConnectorPart, Drawing, Space, Storey
 from .earth import Tangent, south_west
 from .osm_doors import BESIDE, door_at, door_beside
 from .osm_file import Element, OsmFile, Refs, elements, shapes_of
-from .osm_tags import BORDERS, connects, is_door, is_indoor, label, length, level_id, levels
+from .osm_tags import BORDERS, connector_kind, is_door, is_indoor, label, level_id, levels, parse_length
 
 
-def of_bytes(data: bytes, storey: float) -> FloorPlan:
-    """The plan in an OSM XML file. `storey`: m from one level to the next. FloorPlanError when it does not fit."""
+def read_osm(data: bytes, storey: float) -> FloorPlan:
+    """Return the plan in an OSM XML file; raise FloorPlanError when it does not fit.
+
+    `storey` is the height from one level to the next, m.
+    """
     return _OsmReader(elements(data)).plan(storey)
 
 
 class _OsmReader:
-    """The elements of one file on their way into a drawing."""
+    """Draws the elements of one file."""
 
     def __init__(self, file: OsmFile) -> None:
         drawn = [one for one in (*file.ways.values(), *file.relations.values()) if is_indoor(one)]
         self._shapes = [(one, *shapes_of(one, file)) for one in drawn]
         refs = {ref for _, shapes, lines in self._shapes for refs in (*lines, *(r for shape in shapes for r in shape))
                 for ref in refs}  # fmt: skip
-        spots = [one for one in file.nodes.values() if connects(one) is not None or is_door(one)]
-        self._spots = [one for one in spots if one.id in refs or is_indoor(one)]
+        nodes_drawn = [one for one in file.nodes.values() if connector_kind(one) is not None or is_door(one)]
+        self._nodes = [one for one in nodes_drawn if one.id in refs or is_indoor(one)]
         if not refs:
             raise FloorPlanError("has no ways or relations with indoor=* and level=*")
-        nodes = [file.nodes[ref] for ref in sorted(refs)] + [one for one in self._spots if one.id not in refs]
+        nodes = [file.nodes[ref] for ref in sorted(refs)] + [one for one in self._nodes if one.id not in refs]
         self._anchor = south_west([(node.latitude, node.longitude) for node in nodes])
         tangent = Tangent(self._anchor)
         self._places: dict[str, Point] = {}
@@ -48,18 +51,18 @@ class _OsmReader:
         named = [one.tags["name"] for one in (*file.relations.values(), *file.ways.values())
                  if "building" in one.tags and one.tags.get("name")]  # fmt: skip
         self._drawing = Drawing(named[0] if named else "")
-        self._levels = {one.id: levels(one) for one in self._spots}
+        self._levels = {one.id: levels(one) for one in self._nodes}
         self._next: dict[str, dict[str, list[str]]] = {}
-        """By level and node, the nodes that a wall goes on to from there."""
+        """Nodes to which a wall goes from each node, by level and node."""
         self._lines_on: dict[str, Openings] = {}
 
     def plan(self, storey: float) -> FloorPlan:
         self._storeys()
         for one, shapes, lines in self._shapes:
             self._draw(one, shapes, lines)
-        for one in self._spots:
-            self._spot(one)
-        self._without_inner_flights()
+        for one in self._nodes:
+            self._draw_node(one)
+        self._remove_inner_flights()
         return self._drawing.plan(self._anchor, storey)
 
     def _storeys(self) -> None:
@@ -78,7 +81,7 @@ class _OsmReader:
 
     def _draw(self, one: Element, shapes: list[list[Refs]], lines: list[Refs]) -> None:
         on = [level_id(level) for level in levels(one)]
-        kind, indoor = connects(one), one.tags.get("indoor", "")
+        kind, indoor = connector_kind(one), one.tags.get("indoor", "")
         if kind is not None:
             self._connector(one, kind, on, shapes, lines)
         elif indoor == "level" or indoor in BORDERS:
@@ -90,7 +93,7 @@ class _OsmReader:
 
     def _space(self, one: Element, on: list[str], shapes: list[list[Refs]], lines: list[Refs],
                border: Border | None) -> None:  # fmt: skip
-        """`border`: None for the outline of a level, which is a wall and no room."""
+        """Draw a space; `border` is None for the outline of a level, which is a wall and no room."""
         if lines and one.tags["indoor"] != "wall":
             self._drawing.remarks.append(f"{one.name}: its outline does not close")
         outlines = self._outlines(shapes)
@@ -102,25 +105,25 @@ class _OsmReader:
                 self._drawing.spaces += [Space(level, rings, border) for rings in outlines if border]
             if border is not Border.FREE:
                 self._drawing.lines += [(level, *line) for refs in lines for line in self._lines(refs)]
-                self._walled(level, shapes, lines)
+                self._add_walls(level, shapes, lines)
 
     def _connector(self, one: Element, kind: ConnectorKind, on: list[str], shapes: list[list[Refs]],
                    lines: list[Refs]) -> None:  # fmt: skip
-        rise = length(one.tags.get("step:height"))
+        rise = parse_length(one.tags.get("step:height"))
         rise = rise if rise is not None and 0.02 <= rise <= 0.6 else None
         for rings in self._outlines(shapes):
             parts = self._drawing.parts
             parts += [ConnectorPart(kind, label(one), level, None, rings, one.name, rise) for level in on]
         for level in on:
-            self._walled(level, shapes, [])
+            self._add_walls(level, shapes, [])
         for refs in lines:
             up = refs[::-1] if one.tags.get("incline", "up").startswith(("down", "-")) else refs
-            for i, level in enumerate(on):  # the ends are known, and what is between them lies between them
+            for i, level in enumerate(on):  # the ends are known; levels in between are interpolated
                 at = self._places[up[round(i * (len(up) - 1) / max(len(on) - 1, 1))]]
                 self._drawing.parts.append(ConnectorPart(kind, label(one), level, at, (), one.name, rise))
 
     def _outlines(self, shapes: list[list[Refs]]) -> list[tuple[Ring, ...]]:
-        """Of each shape: its outline and its holes."""
+        """Return the outline and the holes of each shape."""
         found = []
         for shape in shapes:
             rings = [tuple(without_repeats([self._places[ref] for ref in refs])) for refs in shape]
@@ -131,37 +134,37 @@ class _OsmReader:
         points = without_repeats([self._places[ref] for ref in refs])
         return list(zip(points, points[1:], strict=False))
 
-    def _walled(self, level: str, shapes: list[list[Refs]], lines: list[Refs]) -> None:
-        """Remembers between which nodes there are walls."""
+    def _add_walls(self, level: str, shapes: list[list[Refs]], lines: list[Refs]) -> None:
+        """Remember the pairs of nodes that are joined by walls."""
         known = self._next.setdefault(level, {})
         for refs in (*lines, *([*refs, refs[0]] for shape in shapes for refs in shape)):
             for a, b in zip(refs, refs[1:], strict=False):
                 known.setdefault(a, []).append(b)
                 known.setdefault(b, []).append(a)
 
-    def _without_inner_flights(self) -> None:
-        """A flight drawn as a line within stairs that are drawn as an area is these stairs."""
+    def _remove_inner_flights(self) -> None:
+        """Remove a flight drawn as a line within stairs drawn as an area: it belongs to them."""
         stairs = [part for part in self._drawing.parts if part.kind is ConnectorKind.STAIRS]
         areas = [(part.level, edges(part.ring)) for part in stairs if part.ring]
         within: dict[str, bool] = {}
         for part in stairs:
             if part.place is not None:
                 x, y = part.place
-                held = any(level == part.level and holds(lines, x, y) for level, lines in areas)
-                within[part.group] = within.get(part.group, True) and held
+                inside = any(level == part.level and holds(lines, x, y) for level, lines in areas)
+                within[part.group] = within.get(part.group, True) and inside
         self._drawing.parts = [part for part in self._drawing.parts if not within.get(part.group, False)]
 
-    def _spot(self, one: Element) -> None:
-        kind, place = connects(one), self._places[one.id]
-        told = [level_id(level) for level in self._levels[one.id]]
+    def _draw_node(self, one: Element) -> None:
+        kind, place = connector_kind(one), self._places[one.id]
+        level_ids = [level_id(level) for level in self._levels[one.id]]
         if kind is not None:
-            self._drawing.parts += [ConnectorPart(kind, label(one), level, place, (), one.name) for level in told]
+            self._drawing.parts += [ConnectorPart(kind, label(one), level, place, (), one.name) for level in level_ids]
             return
-        width = length(one.tags.get("width", one.tags.get("door:width")))
-        for level in told or sorted(self._next):
-            there = [self._places[ref] for ref in self._next.get(level, {}).get(one.id, [])]
-            line = door_at(place, there, width)
-            if line is None and told:
+        width = parse_length(one.tags.get("width", one.tags.get("door:width")))
+        for level in level_ids or sorted(self._next):
+            neighbours = [self._places[ref] for ref in self._next.get(level, {}).get(one.id, [])]
+            line = door_at(place, neighbours, width)
+            if line is None and level_ids:
                 line = door_beside(place, self._near(place, level), width)
                 if line is None:
                     self._drawing.remarks.append(f"{one.name}: a door on level {level!r} that is in no wall")

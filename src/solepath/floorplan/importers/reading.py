@@ -1,4 +1,4 @@
-"""Floor plan files: what a file is, is told by what is in it.
+"""Floor plan files; their format is recognised by their content.
 
 The readers of the formats, and the libraries that they need, are loaded with the first file: most apps read none.
 """
@@ -12,18 +12,21 @@ from ..checks import unusable
 from ..plan import FloorPlan, FloorPlanError
 
 LARGEST = 32_000_000
-"""Bytes of a file, and of all that is read of an archive, unpacked; a large airport has a tenth of that."""
+"""Largest file, and largest unpacked total of an archive, bytes; a large airport has a tenth of that."""
 
 STOREY = 3.0
-"""m; from one level to the next where a file does not tell."""
+"""Assumed height from one level to the next, m, for a file without elevations."""
 
 
 def read_floorplan(path: Path | str, storey: float = STOREY) -> FloorPlan:
-    """The plan in a file: GeoJSON of protocol/floorplan.md, an IMDF archive (a zip file or a folder), or OpenStreetMap
-    XML with Simple Indoor Tagging. `storey`: m from one level to the next where the file tells no elevations; such a
-    plan's `heights_known` is False. FloorPlanError, one line, when it cannot be read or used."""
+    """Return the plan in a file.
+
+    The file is GeoJSON of protocol/floorplan.md, an IMDF archive (a zip file or a folder), or OpenStreetMap XML with
+    Simple Indoor Tagging. `storey` is the height from one level to the next, m, where the file has no elevations; such
+    a plan's `heights_known` is False. Raises FloorPlanError, one line, when it cannot be read or used.
+    """
     try:
-        return _checked(_read(Path(path), storey))
+        return _check(_read(Path(path), storey))
     except FloorPlanError as error:
         raise FloorPlanError(f"{path}: {error}") from None
     except OSError as error:
@@ -31,14 +34,14 @@ def read_floorplan(path: Path | str, storey: float = STOREY) -> FloorPlan:
 
 
 def plan_of_bytes(data: bytes, storey: float = STOREY) -> FloorPlan:
-    """The plan in a file's bytes. FloorPlanError when there is none that can be used."""
-    return _checked(_plan(data, storey))
+    """Return the plan in a file's bytes; raise FloorPlanError when there is none that can be used."""
+    return _check(_plan(data, storey))
 
 
-def _checked(plan: FloorPlan) -> FloorPlan:
-    why_not = unusable(plan)
-    if why_not is not None:
-        raise FloorPlanError(why_not)
+def _check(plan: FloorPlan) -> FloorPlan:
+    fault = unusable(plan)
+    if fault is not None:
+        raise FloorPlanError(fault)
     return plan
 
 
@@ -47,13 +50,13 @@ def _read(path: Path, storey: float) -> FloorPlan:
 
     if path.is_dir():
         names = [name for name in imdf.FILES if (path / name).is_file()]
-        return imdf.of_files({name: _bounded(path / name) for name in names}, storey)
+        return imdf.read_archive({name: _read_bounded(path / name) for name in names}, storey)
     if path.exists() and not path.is_file():
         raise FloorPlanError("is no regular file")
-    return _plan(_bounded(path), storey)
+    return _plan(_read_bounded(path), storey)
 
 
-def _bounded(path: Path) -> bytes:
+def _read_bounded(path: Path) -> bytes:
     with path.open("rb") as file:
         data = file.read(LARGEST + 1)
     if len(data) > LARGEST:
@@ -63,22 +66,22 @@ def _bounded(path: Path) -> bytes:
 
 def _plan(data: bytes, storey: float) -> FloorPlan:
     from . import geojson, imdf, osm
-    from .features import parsed
+    from .features import parse_json
 
     if not 1.0 <= storey <= 50.0:
         raise FloorPlanError(f"a storey of {storey:g} m cannot be")
     if data.startswith(b"PK"):
-        return imdf.of_files(_unpacked(data), storey)
-    begin = data.lstrip(b"\xef\xbb\xbf \t\r\n")[:1]
-    if begin == b"<" or data[:2] in (b"\xff\xfe", b"\xfe\xff"):
-        return osm.of_bytes(data, storey)
-    if begin != b"{":
+        return imdf.read_archive(_unpacked(data), storey)
+    first_byte = data.lstrip(b"\xef\xbb\xbf \t\r\n")[:1]
+    if first_byte == b"<" or data[:2] in (b"\xff\xfe", b"\xfe\xff"):
+        return osm.read_osm(data, storey)
+    if first_byte != b"{":
         raise FloorPlanError("is no floor plan: neither GeoJSON, nor an IMDF archive, nor OpenStreetMap XML")
-    told = parsed(data)
-    if told.get("format") == geojson.FORMAT:
-        return geojson.of_collection(told, storey)
-    if told.get("type") == "FeatureCollection" and isinstance(told.get("features"), list):
-        first = told["features"][0] if told["features"] else None
+    collection = parse_json(data)
+    if collection.get("format") == geojson.FORMAT:
+        return geojson.read_collection(collection, storey)
+    if collection.get("type") == "FeatureCollection" and isinstance(collection.get("features"), list):
+        first = collection["features"][0] if collection["features"] else None
         if isinstance(first, dict) and "feature_type" in first:
             raise FloorPlanError("is one file of an IMDF archive; the archive or its folder is needed")
         raise FloorPlanError(f"is GeoJSON, but not a floor plan: its format is not {geojson.FORMAT!r}")
@@ -86,7 +89,7 @@ def _plan(data: bytes, storey: float) -> FloorPlan:
 
 
 def _unpacked(data: bytes) -> dict[str, bytes]:
-    """The files that are read, wherever in the archive they lie, and no more of them than LARGEST."""
+    """Return the files that are read, from any folder of the archive, and no more of them than LARGEST."""
     import zipfile
     import zlib
 
@@ -98,7 +101,7 @@ def _unpacked(data: bytes) -> dict[str, bytes]:
             manifests = [name for name in sorted(names) if name.rsplit("/", 1)[-1] == "manifest.json"]
             folder = min(manifests, key=len, default="manifest.json").removesuffix("manifest.json")
             found: dict[str, bytes] = {}
-            room = LARGEST
+            bytes_left = LARGEST
             for name in imdf.FILES:
                 if folder + name not in names:
                     continue
@@ -106,9 +109,9 @@ def _unpacked(data: bytes) -> dict[str, bytes]:
                 if about.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
                     raise FloorPlanError(f"{name}: is packed in a way that IMDF does not know")
                 with archive.open(about) as file:
-                    found[name] = file.read(room + 1)
-                room -= len(found[name])
-                if room < 0:
+                    found[name] = file.read(bytes_left + 1)
+                bytes_left -= len(found[name])
+                if bytes_left < 0:
                     raise FloorPlanError(f"unpacked it is larger than {LARGEST // 1_000_000} MB, too large for a plan")
             return found
     except FloorPlanError:

@@ -14,6 +14,7 @@ from ...emulate.wearers.walker import Walker
 from ...events import Event
 from ...floorplan.plan import FloorPlan
 from ...recipes import Recipe
+from ...recording.decoded import decode_recording
 from ...session import Session
 from ...types import Packet, Sample
 from ..measures.alignment import Floats, align

@@ -1,4 +1,4 @@
-"""What an order remembers: numbers that were never used, runs that were left, and what came late. All of it bounded."""
+"""Bounded memory of an order: numbers that were never used, runs that were left, and rows that came late."""
 
 from __future__ import annotations
 
@@ -7,15 +7,17 @@ from attrs import define, field, frozen
 from .sent import MOST
 
 SPANS = 16
-"""Spans of numbers that were not used."""
+"""Largest number of spans of unused numbers."""
 FORGOTTEN = 4
-"""Ranges of runs of which no span is remembered any more."""
+"""Largest number of ranges of runs of which no span is remembered any more."""
 
 
 @frozen
 class NumberSpan:
-    """Numbers from `first` to before `end` that were never used. `end` beyond MOST: what was still to come of a run
-    when it was left."""
+    """Numbers from `first` to before `end` that were never used.
+
+    An `end` beyond MOST means everything that was still to come of a run when it was left.
+    """
 
     run: int
     first: int
@@ -27,14 +29,19 @@ class NumberSpan:
 
 
 @define
-class Left:
-    """What was left behind. Of a run that was left, the last span is open: from there on nothing of it was used."""
+class UnusedNumbers:
+    """Spans of numbers and runs that were not used.
+
+    The last span of a run that was left is open: from its first number on nothing of the run was used.
+    """
 
     spans: list[NumberSpan] = field(factory=list)
-    """The last that were given up, oldest first."""
+    """The spans that were given up last, oldest first."""
     forgotten: list[tuple[int, int]] = field(factory=list)
-    """From which run to which: those that were left and are not remembered. Where there are too many ranges the two
-    that lie closest are taken together, and with them what is in between."""
+    """Ranges (first run, last run) of runs that were left and are not remembered.
+
+    Of too many ranges the two that are closest are joined, together with the runs between them.
+    """
 
     def add(self, span: NumberSpan) -> None:
         if len(self.spans) >= SPANS:
@@ -43,8 +50,8 @@ class Left:
                 self._forget(oldest.run)
         self.spans.append(span)
 
-    def take(self, run: int) -> int:
-        """The run is entered, again or for the first time: the number from which on nothing of it was used."""
+    def reenter(self, run: int) -> int:
+        """Enter a run, for the first time or again; return the number from which on nothing of it was used."""
         for span in self.spans:
             if span.run == run and span.is_open:
                 self.spans.remove(span)
@@ -55,16 +62,16 @@ class Left:
         return self._is_forgotten(run) or any([span.run == run for span in self.spans])
 
     def was_used(self, run: int, number: int) -> bool:
-        """As far as is known."""
+        """Return whether the number was used, as far as is known."""
         spans = [span for span in self.spans if span.run == run]
         return bool(spans) and not any([span.first <= number < span.end for span in spans])
 
     def was_given_up(self, run: int, number: int) -> bool:
-        """As far as is known."""
+        """Return whether the number was given up, as far as is known."""
         return any([span.run == run and span.first <= number < span.end for span in self.spans])
 
     def may_go_on(self, run: int, number: int) -> bool:
-        """It is certain that neither this nor anything beyond it was used, of a run that the reader is not in."""
+        """Return whether certainly nothing from this number on was used of a run, not the current one."""
         spans = [span for span in self.spans if span.run == run]
         if spans:
             return any([span.is_open and span.first <= number for span in spans])
@@ -84,25 +91,25 @@ class Left:
 
 @define
 class Strays:
-    """Rows of one run that came and could not be used: the last run that had any."""
+    """Rows that came and could not be used, of the last run that had any."""
 
     run: int = 0
     count: int = 0
-    """How many; 0: none, of any run."""
-    straight: int = 0
-    """How many of them came one beyond the other since anything was used, where the run may go on."""
+    """Number of these rows; 0 means none, of any run."""
+    consecutive: int = 0
+    """Number of these rows that came in rising order since a row was last used, in a run that may go on."""
     number: int = 0
-    """The last of those."""
+    """Number of the last consecutive row."""
 
     def add(self, run: int) -> bool:
-        """One more. Whether it is told: the first, the second, the fourth, the eighth are, and so on."""
+        """Count one more; return whether it is reported: the first, second, fourth, eighth and so on are."""
         if run != self.run:
-            self.run, self.count, self.straight, self.number = run, 0, 0, 0
+            self.run, self.count, self.consecutive, self.number = run, 0, 0, 0
         self.count += 1
         return self.count & (self.count - 1) == 0
 
-    def with_this(self, run: int, number: int) -> int:
-        """How many came one beyond the other, this one among them."""
-        if run != self.run or not self.straight:
+    def count_consecutive(self, run: int, number: int) -> int:
+        """Return the number of rows that came in rising order, this one included."""
+        if run != self.run or not self.consecutive:
             return 1
-        return self.straight + (number > self.number)
+        return self.consecutive + (number > self.number)

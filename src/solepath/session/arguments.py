@@ -1,4 +1,4 @@
-"""What an app hands to a session, checked where it comes in."""
+"""Checks of the arguments that an app passes to a session."""
 
 from __future__ import annotations
 
@@ -13,20 +13,23 @@ if TYPE_CHECKING:
     from ..floorplan.plan import FloorPlan, Start
 
 
-def sound(calibration: Calibration) -> Calibration:
-    """A copy of the calibration. TypeError for what is none, CalibrationError for one of what cannot be."""
+def check_calibration(calibration: Calibration) -> Calibration:
+    """Return a copy of the calibration.
+
+    Raises TypeError for another type, CalibrationError for impossible values.
+    """
     from ..calibration.limits import unusable
 
     if not isinstance(calibration, Calibration):
         raise TypeError(f"calibration must be a Calibration, not {type(calibration).__name__}")
-    why_not = unusable(calibration)
-    if why_not is not None:
-        raise CalibrationError(f"calibration: {why_not}")
+    fault = unusable(calibration)
+    if fault is not None:
+        raise CalibrationError(f"calibration: {fault}")
     return deepcopy(calibration)
 
 
-def indexed(floorplan: FloorPlan | IndexedPlan | None) -> IndexedPlan | None:
-    """The floor plan made ready. TypeError for what is none."""
+def index_floorplan(floorplan: FloorPlan | IndexedPlan | None) -> IndexedPlan | None:
+    """Return the indexed floor plan; raise TypeError for another type."""
     if floorplan is None:
         return None
     from ..floorplan.index import IndexedPlan
@@ -39,21 +42,24 @@ def indexed(floorplan: FloorPlan | IndexedPlan | None) -> IndexedPlan | None:
     return IndexedPlan(floorplan)
 
 
-def beginning(start: Start, plan: IndexedPlan | None) -> Start:
-    """A copy of the start. TypeError for what is none or has no floor plan, FloorPlanError for what cannot be."""
+def check_start(start: Start, plan: IndexedPlan | None) -> Start:
+    """Return a copy of the start.
+
+    Raises TypeError for another type or without a floor plan, FloorPlanError for impossible values.
+    """
     from ..floorplan import plan as plans
     from ..floorplan.records import no_start
 
     if not isinstance(start, plans.Start) or plan is None:
         raise TypeError("start must be a Start, on a floor plan")
-    why_not = no_start(start)
-    if why_not is not None:
-        raise plans.FloorPlanError(f"start: {why_not}")
+    fault = no_start(start)
+    if fault is not None:
+        raise plans.FloorPlanError(f"start: {fault}")
     return deepcopy(start)
 
 
 def as_float(value: float) -> float:
-    """An int may be too large for a float; then it is as good as infinite."""
+    """Return a float; an int that is too large for a float counts as infinite."""
     try:
         return float(value)
     except OverflowError:

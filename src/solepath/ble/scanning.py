@@ -1,0 +1,152 @@
+"""Scanning for advertisements: one shared scan for all searches, which runs only while somebody listens."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
+
+from attrs import define, field, frozen
+from bleak import BleakScanner
+from bleak.backends.client import BaseBleakClient
+from bleak.backends.device import BLEDevice
+from bleak.backends.scanner import AdvertisementData, BaseBleakScanner
+
+from ..link.profile import Profile
+from .config import identify
+from .trouble import FAILURES, BluetoothError, describe_error
+
+
+@frozen
+class Backend:
+    """Classes that bleak receives as `backend=` for clients and scanners; None leaves the choice to bleak."""
+
+    client: type[BaseBleakClient] | None = None
+    scanner: type[BaseBleakScanner] | None = None
+
+
+NATIVE = Backend()
+"""The Bluetooth of this machine."""
+
+RETRY = 2.0
+"""Delay before a scan that failed is started again, s."""
+LONGEST_SILENCE = 60.0
+"""Time without any advertisement after which the scan is started again, s.
+
+A scan may not survive Bluetooth being switched off and on.
+"""
+WEAKEST, STRONGEST = -127, 20
+"""Range of the signal strength that a controller may report, dBm (Bluetooth Core, vol 4 part E, 7.7.65.2).
+
+A system that reports any other value has no signal strength to report.
+"""
+
+
+@frozen
+class Found:
+    """The last advertisement of a device.
+
+    `signal` is in dBm, -127 when the system does not know it. `t` is in s on the event loop's clock. `services` holds
+    the UUIDs that the device advertises.
+    """
+
+    device: BLEDevice
+    name: str
+    services: tuple[str, ...]
+    signal: int
+    t: float
+
+    @property
+    def address(self) -> str:
+        """Address as the system gives it; on macOS an identifier that is valid on this machine only."""
+        return self.device.address
+
+    @property
+    def profile(self) -> Profile | None:
+        """Kind of the device; None for an unknown one."""
+        return identify(self.name, self.services)
+
+
+OnAdvertisement = Callable[[Found], None]
+
+
+@define(eq=False)
+class Scanner:
+    """A scanner that scans while it has listeners, in the owner's task that runs `run`.
+
+    `report_trouble` receives a sentence when scanning fails.
+    """
+
+    backend: Backend
+    report_trouble: Callable[[str], None]
+    _listeners: list[OnAdvertisement] = field(factory=list, init=False)
+    _changed: asyncio.Event = field(factory=asyncio.Event, init=False)
+    _advertised_at: float = field(default=0.0, init=False)
+
+    @contextmanager
+    def listening(self, on_advertisement: OnAdvertisement) -> Iterator[None]:
+        """Pass every advertisement to `on_advertisement` while the context lasts."""
+        self._listeners.append(on_advertisement)
+        self._changed.set()
+        try:
+            yield
+        finally:
+            self._listeners.remove(on_advertisement)
+            self._changed.set()
+
+    async def run(self) -> None:
+        """Scan whenever there is a listener; never returns."""
+        while True:
+            while not self._listeners:
+                self._changed.clear()
+                await self._changed.wait()
+            try:
+                async with make_scanner(self.backend, self._on_advertisement):
+                    await self._wait_until_unused_or_silent()
+            except FAILURES as error:
+                self.report_trouble(f"cannot look for devices: {describe_error(error)}")
+                await asyncio.sleep(RETRY)
+
+    async def _wait_until_unused_or_silent(self) -> None:
+        now = asyncio.get_running_loop().time
+        self._advertised_at = now()
+        while self._listeners and now() - self._advertised_at < LONGEST_SILENCE:
+            self._changed.clear()
+            with suppress(TimeoutError):
+                async with asyncio.timeout(LONGEST_SILENCE):
+                    await self._changed.wait()
+
+    def _on_advertisement(self, found: Found) -> None:
+        self._advertised_at = found.t
+        for on_advertisement in tuple(self._listeners):
+            on_advertisement(found)
+
+
+def make_scanner(backend: Backend, on_advertisement: OnAdvertisement) -> BleakScanner:
+    """Return a scanner that calls `on_advertisement` for every advertisement while its context lasts."""
+    loop = asyncio.get_running_loop()
+
+    def on_detection(device: BLEDevice, advertisement: AdvertisementData) -> None:
+        name = (advertisement.local_name or device.name or "").encode("utf-8", "replace").decode("utf-8")
+        signal = advertisement.rssi if WEAKEST <= advertisement.rssi <= STRONGEST else WEAKEST
+        on_advertisement(Found(device, name, tuple(advertisement.service_uuids), signal, loop.time()))
+
+    return BleakScanner(on_detection, backend=backend.scanner)
+
+
+async def scan(seconds: float = 4.0, *, backend: Backend = NATIVE) -> list[Found]:
+    """Return the devices that advertise within `seconds`, unknown ones too, the strongest first.
+
+    The list is known when the time is over. Raises BluetoothError when there is no Bluetooth to scan with.
+    """
+    found: dict[str, Found] = {}
+
+    def on_advertisement(one: Found) -> None:
+        found[one.address] = one
+
+    try:
+        async with make_scanner(backend, on_advertisement):
+            await asyncio.sleep(seconds)
+    except FAILURES as error:
+        raise BluetoothError(describe_error(error)) from error
+    return sorted(found.values(), key=lambda one: (-one.signal, one.address))
