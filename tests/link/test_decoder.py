@@ -1,4 +1,4 @@
-"""Packets to samples: what a decoder accepts, what it refuses, and that refusing changes nothing."""
+"""Packets to samples: a decoder accepts or rejects a packet, and a rejected one changes nothing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a driver must be, and that a session goes on with the drivers that it had."""
+"""Checks of a driver, and restoring a session with the drivers that it had."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is measured between the feet takes two clocks that agree: a symmetric walker stays one, whatever links do."""
+"""Measurements between the feet need two clocks that agree: a symmetric gait stays symmetric with any link."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ TOGETHER = ("step_time", "initial_double_support", "terminal_double_support", "s
 @cache
 def walked(seed: int, jitter: float, late: float, restarts: bool) -> tuple[Packet, ...]:
     """Both feet's packets. The right link is lost for 8 s; what it delivers first comes `late` s late, all at once, and
-    with `restarts` the insole has begun anew meanwhile."""
+    with `restarts` the insole has restarted meanwhile."""
     insoles = {site: Insole(cells=24) for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}
     packets = []
     for packet in emulate(ROUTE, devices=insoles, radio=Radio(jitter=jitter), seed=seed).packets:
@@ -45,7 +45,7 @@ def walked(seed: int, jitter: float, late: float, restarts: bool) -> tuple[Packe
 
 @cache
 def walk_events(seed: int, jitter: float, late: float, restarts: bool) -> tuple[list[Event], GaitParameters]:
-    """What a session says of that, and its means."""
+    """Return the events of a session for that walk, and its running means."""
     session = Session()
     events = session.feed(walked(seed, jitter, late, restarts)) + session.finish()
     assert session.gait is not None

@@ -1,4 +1,4 @@
-"""Frames and fragments of an insole to samples in SI units, whatever is lost, repeated or begun anew."""
+"""Frames and fragments of an insole to samples in SI units, with packets lost or repeated and with restarts."""
 
 from __future__ import annotations
 

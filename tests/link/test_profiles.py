@@ -1,4 +1,4 @@
-"""Profiles say the same as the tables of protocol/*.md, and their setup writes are what the decoder expects."""
+"""Profiles agree with the tables of protocol/*.md, and their setup writes are what the decoder expects."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def short(uuid: str) -> str:
 
 
 def table(document: str, first_header: str) -> list[list[str]]:
-    """The rows of the table whose header begins with `first_header`."""
+    """The rows of the table whose header starts with `first_header`."""
     lines = (PROTOCOL / document).read_text().splitlines()
     start = next(i for i, line in enumerate(lines) if line.startswith(f"| {first_header} |"))
     rows = []

@@ -1,4 +1,4 @@
-"""What an app's constructs and readers may make of bytes: nothing of it comes out of `feed` as an exception."""
+"""Faulty constructs and readers of an app: `feed` raises no exception for their results."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the receiver says of itself, and which device a site listens to."""
+"""Packets about the receiver itself, and the device to which a site is bound."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def test_invalid_receiver_packets_are_rejected(channel: str) -> None:
 
 
 def reasons(session: Session, *packets: Packet) -> list[Rejection | None]:
-    """Why each was rejected, None where it was not."""
+    """Return the reason why each was rejected, None where it was not."""
     found = []
     for one in packets:
         rejected = [event for event in session.feed(one) if isinstance(event, PacketRejected)]

@@ -1,4 +1,4 @@
-"""What SensorTags say to samples in SI units: the CC2650 by its configuration, the CC2541 by its firmware."""
+"""SensorTag packets to samples in SI units: the CC2650 by its configuration, the CC2541 by its firmware."""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ def listen(decoder: Decoder, site: Site, line: dict[str, Any]) -> list[Any]:
 
 
 def as_expected(output: Any, expected: dict[str, Any]) -> dict[str, Any]:
-    """What came out, in the words of the stories, as far as `expected` says something of it."""
+    """Return the output in the words of the stories, with the keys that `expected` has."""
     words: dict[str, Any] = {"what": WHAT[type(output)]}
     for key in expected.keys() - {"what"}:
         if isinstance(output, LayoutKnown):

@@ -1,4 +1,4 @@
-"""Declared devices: what makes their times, what is lost, late, begun anew, and what else they say."""
+"""Declared devices: sample times, lost and late packets, restarts, and other values."""
 
 from __future__ import annotations
 

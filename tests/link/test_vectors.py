@@ -1,4 +1,4 @@
-"""A vector file with a mistake in it: a sentence says what is wrong, whatever it is."""
+"""A mistake in a vector file is reported in a sentence, whatever it is."""
 
 from __future__ import annotations
 

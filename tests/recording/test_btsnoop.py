@@ -68,7 +68,7 @@ def test_an_insole_reports_its_own_foot_unless_the_caller_names_it(tmp_path):
 
 ORPHE = {0x12: "f3f9c7ce-46ee-4205-89ac-abe64e626c0f", 0x15: "24354f22-1c46-430e-a4ab-a1eeabbcdfc0"}
 ORPHE_INFO = bytes([100, 1, *bytes(6), 2, 3, *bytes(10)])
-"""Of a right foot; 8 g, 2000 degrees/s."""
+"""INFO of a right foot; 8 g, 2000 degrees/s."""
 
 
 def orphe(characteristics: dict[int, str] = ORPHE, info: bytes = ORPHE_INFO) -> Log:
@@ -204,7 +204,7 @@ def test_unknown_attributes_may_be_named_by_the_caller(tmp_path):
 
 
 def test_no_word_makes_one_device_or_attribute_of_another(tmp_path):
-    """But what discovery says as well may be said, and an attribute that is of no known kind named."""
+    """The caller may repeat what discovery shows, and may name an attribute of no known type."""
     log = begin(Log(), characteristics=INSOLE | {0x30: full(0x1234)})
     log.notify(0x40, FRAME, frames()[0])
     log.notify(0x40, 0x30, b"\x63")

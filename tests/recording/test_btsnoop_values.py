@@ -107,7 +107,7 @@ needs_tshark = pytest.mark.skipif(shutil.which("tshark") is None, reason="tshark
 
 
 def tshark(path: Path, only: str, fields: Iterable[str]) -> list[list[str]]:
-    """These fields of every record that it lets through, as it says them."""
+    """Return these fields of every record that passes the filter, as tshark prints them."""
     fields_option = [word for name in fields for word in ("-e", name)]
     command = ["tshark", "-r", path, "-Y", only, "-T", "fields", *fields_option]
     output = subprocess.run(command, capture_output=True, text=True, check=True).stdout

@@ -58,7 +58,7 @@ KINDS = {"number": (int, float), "string": str, "integer": int, "boolean": bool,
 
 
 def fits(value: object, schema: dict) -> None:
-    """What of JSON Schema is used here: every key that the schema knows is of the type that it says."""
+    """Check the part of JSON Schema used here: every key of the schema has the type that it declares."""
     assert isinstance(value, KINDS[schema["type"]])
     if isinstance(value, dict):
         assert value.keys() & schema["properties"].keys()

@@ -1,4 +1,4 @@
-"""A recorder that dies or whose disk is full, and the header that says what o'clock it was."""
+"""A recorder that dies or whose disk is full, and the header with the time of day."""
 
 import asyncio
 import os
@@ -71,7 +71,7 @@ print(writer.count)
 
 @pytest.mark.parametrize("limit", [4096, 4097, 4150, 5000])
 def test_a_file_that_may_not_grow_ends_with_its_last_whole_packet_and_the_error_counts_them(tmp_path, limit):
-    """The kernel takes the part of the line that fits and then refuses, as a disk does that fills up."""
+    """The kernel takes the part of the line that fits and then fails, as on a full disk."""
     path = tmp_path / "walk.jsonl"
     done = subprocess.run([sys.executable, "-c", FULL, path, str(limit)], capture_output=True, text=True, check=True)
     sentence, count = done.stdout.splitlines()

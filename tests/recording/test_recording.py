@@ -196,7 +196,7 @@ def test_a_device_that_nobody_knows_is_not_written(tmp_path):
 
 @pytest.mark.parametrize("name", walks.DEVICES)
 def test_a_recording_gives_the_same_events_bit_for_bit(tmp_path, name):
-    """Of both feet, with losses, duplicates and damaged packets, and what the receiver says of itself."""
+    """Packets of both feet, with losses, duplicates, damaged packets and packets about the receiver."""
     packets = [Packet(p.t, p.site, p.channel, p.data, f"F0:{p.site.value}") for p in walks.packets()[name]]
     end = packets[-1].t
     packets[40:40] = [

@@ -1,4 +1,4 @@
-"""What holds on the wire for all bytes and for all records."""
+"""Properties of the wire formats for all bytes and for all records."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the wire refuses to write: ValueError, before a byte of it is sent."""
+"""Records that do not fit a format: ValueError before a byte is sent."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def frame_of(*samples: insole.InsoleSample) -> insole.InsoleFrame:
 
 
 def tag(channel: str, **fields: Any) -> tuple[Callable[[Any], bytes], Any]:
-    """What a SensorTag does not say."""
+    """Packets that no SensorTag sends."""
     return partial(build_whole, {**cc2541.FORMATS, **cc2650.FORMATS}[channel]), fields
 
 

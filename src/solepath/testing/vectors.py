@@ -23,7 +23,7 @@ def disagreements(driver: Driver, file: Mapping[str, Any]) -> list[str]:
 
     `fields` of a valid vector are what the channel's construct parses, and build the same bytes again. `physical` may
     name fields of the Reading, to `tolerance`, read with `known`. An invalid vector is refused for its `reason`, by the
-    construct, by the reader, or because no device can mean it (sound.py).
+    construct, by the reader, or because no device can mean it (reading_check.py).
     """
     if not isinstance(file, Mapping):
         return ["a vector file is an object"]

@@ -60,7 +60,7 @@ def streams(body: bytes) -> tuple[list[float], list[int], list[int], bytes]:
 
 
 class Tree:
-    """What a body holds, by its schema. `parts`: the schemas of open records, by what is told of them."""
+    """Reads the content of a body by its schema. `parts`: the schemas of open records, by their description."""
 
     def __init__(self, schema: dict[str, Any], parts: dict[str, Any], body: bytes) -> None:
         self.schema, self.parts = schema, parts
@@ -115,5 +115,5 @@ class Tree:
         raise ValueError(f"{kind} is no type")
 
     def left(self) -> Any:
-        """What was not read."""
+        """Return the bytes that were not read."""
         return self.data or [number for scalar in self.scalars.values() for number in scalar]

@@ -1,4 +1,4 @@
-"""A toy that is declared (link/driver.py): numbered, ticking or neither, and whatever else its readers say."""
+"""A toy that is declared (link/driver.py): numbered, ticking or neither, with further values."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ class Toy:
         return self.receive(t, "more", self.driver.write("toy/more", {"what": what, "value": [value]}))
 
     def packet(self, k: int, late: float = 0.0, true: float = 100.0, count: int = 1) -> list[Any]:
-        """Packet k of a device that begins at 10 s with counters near their wraps."""
+        """Packet k of a device that starts at 10 s with counters near their wraps."""
         t = 10.0 + k * count / true
         unit = 1000 if self.driver is COARSE else 1_000_000
         first = t - (count - 1) / true
