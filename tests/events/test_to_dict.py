@@ -36,10 +36,10 @@ def test_events_are_strict_json_with_feet_and_modes_by_their_names():
     down = TouchedDown(
         t=1.0, known_at=1.0, foot=Foot.LEFT, position=zero, mode=WalkingMode.LEFT_TIGHT, compensation=zero
     )
-    told = json.loads(json.dumps([fused.to_dict(), down.to_dict()], allow_nan=False))
-    assert (told[0]["event"], told[0]["foot"], told[0]["chosen"]) == ("StrideFused", "left", "right")
-    assert told[0]["similarity"] is None and told[0]["position"] == [5.0, 0.25, 0.0]
-    assert (told[1]["event"], told[1]["mode"]) == ("TouchedDown", "LEFT_TIGHT")
+    records = json.loads(json.dumps([fused.to_dict(), down.to_dict()], allow_nan=False))
+    assert (records[0]["event"], records[0]["foot"], records[0]["chosen"]) == ("StrideFused", "left", "right")
+    assert records[0]["similarity"] is None and records[0]["position"] == [5.0, 0.25, 0.0]
+    assert (records[1]["event"], records[1]["mode"]) == ("TouchedDown", "LEFT_TIGHT")
     failed = CellsFailed(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, fault=CellFault.STUCK, cells=(3,))
     assert failed.to_dict() == {
         "event": "CellsFailed", "t": 1.0, "known_at": 1.0, "final": True, "foot": "left", "site": "left_foot",
@@ -84,7 +84,7 @@ def test_a_frame_has_a_row_an_event_and_a_column_a_number(library, monkeypatch):
     assert len(to_frame([])) == 0
 
 
-def test_without_a_library_for_it_a_frame_is_refused_in_one_sentence(monkeypatch):
+def test_without_a_library_for_it_a_frame_is_rejected_in_one_sentence(monkeypatch):
     for library in ("pandas", "polars"):
         monkeypatch.setitem(sys.modules, library, None)
     with pytest.raises(ImportError, match=r"^to_frame needs pandas or polars: pip install pandas$"):

@@ -167,7 +167,7 @@ def test_times_strictly_increase_whatever_arrives_when(moves: list[tuple[int, fl
 
 @pytest.mark.parametrize("jitter", [0.005, 0.02, 0.05])
 @pytest.mark.parametrize("seed", range(1, 6))
-def test_two_clocks_without_doubt_agree_within_5_ms(seed: int, jitter: float) -> None:
+def test_two_settled_clocks_agree_within_5_ms(seed: int, jitter: float) -> None:
     """Each arrival up to `jitter` late; the other device has a late first half second, as after a new connection."""
     random, apart = Random(seed), []
     feet = [(Clock(RATE), random.gauss(0.0, 30e-6), late) for late in (0.0, 0.1)]
@@ -187,7 +187,7 @@ def test_two_clocks_without_doubt_agree_within_5_ms(seed: int, jitter: float) ->
     assert max(apart) < 0.005
 
 
-def test_a_clock_is_in_doubt_for_5_s_and_while_a_late_beginning_is_slewed_away() -> None:
+def test_a_clock_is_unsettled_for_5_s_and_while_a_late_start_is_slewed_away() -> None:
     good, late = Clock(RATE), Clock(RATE)
     for k in range(4000):
         for clock, arrival in ((good, k * STEP), (late, max(k * STEP, 0.1))):

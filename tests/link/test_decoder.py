@@ -1,4 +1,4 @@
-"""Packets to samples: what a decoder accepts, what it refuses, and that refusing changes nothing."""
+"""Packets to samples: a decoder accepts or rejects a packet, and a rejected one changes nothing."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from solepath.wire.insole import InsoleFrame, InsoleSample, build_frame
 CHANNELS = sorted({channel.name for profile in PROFILES for channel in profile.channels})
 
 
-def refused() -> dict[str, tuple[Packet, Rejection]]:
+def rejected_packets() -> dict[str, tuple[Packet, Rejection]]:
     good = insole_frame(5)
     flipped = good[:-4] + bytes([good[-4] ^ 1]) + good[-3:]
     t = 10.1
@@ -65,9 +65,9 @@ def refused() -> dict[str, tuple[Packet, Rejection]]:
     }
 
 
-@pytest.mark.parametrize("name", refused())
-def test_a_refused_packet_gives_one_event_and_changes_nothing(name: str) -> None:
-    bad, reason = refused()[name]
+@pytest.mark.parametrize("name", rejected_packets())
+def test_a_rejected_packet_gives_one_event_and_changes_nothing(name: str) -> None:
+    bad, reason = rejected_packets()[name]
     decoder = walked()
     before = machine.save(decoder)
     outputs = decoder.feed(bad)
@@ -79,7 +79,7 @@ def test_a_refused_packet_gives_one_event_and_changes_nothing(name: str) -> None
 
 
 @pytest.mark.parametrize("channel", CHANNELS)
-def test_bytes_of_no_format_are_refused_on_every_channel_and_do_not_name_the_device(channel: str) -> None:
+def test_bytes_of_no_format_are_rejected_on_every_channel_and_do_not_bind_the_device(channel: str) -> None:
     decoder = Decoder(site=LEFT)
     [rejected] = decoder.feed(packet(9.0, channel, b"\xff" * 9))
     assert isinstance(rejected, PacketRejected)
@@ -144,7 +144,7 @@ def test_one_wild_arrival_time_is_survived() -> None:
     assert of(Sample, outputs)[-1].t == pytest.approx(10.0 + 59 * STEP, abs=1e-3)
 
 
-def test_silence_is_said_once_and_ended_by_the_next_frame() -> None:
+def test_silence_is_reported_once_and_ended_by_the_next_frame() -> None:
     decoder = walked()
     last = 10.0 + 4 * STEP
     assert decoder.advance(last + 0.9) == []
@@ -163,7 +163,7 @@ def test_silence_is_noticed_by_other_packets_of_the_site() -> None:
     assert [type(output) for output in outputs] == [StreamStale, BatteryLevel, BatteryLevel]
 
 
-def test_nothing_is_stale_before_it_began() -> None:
+def test_nothing_is_stale_before_it_started() -> None:
     decoder = Decoder(site=LEFT)
     feed(decoder, packet(1.0, "insole/info", info()))
     assert decoder.advance(1000.0) == []

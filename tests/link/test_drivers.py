@@ -1,4 +1,4 @@
-"""What a driver must be, and that a session goes on with the drivers that it had."""
+"""Checks of a driver, and restoring a session with the drivers that it had."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from solepath.link.kinds import BUILT_IN_KINDS, make_kinds
 from solepath.link.profile import Write
 
 
-def test_a_driver_that_does_not_fit_together_is_refused() -> None:
+def test_a_driver_that_does_not_fit_together_is_rejected() -> None:
     other = (evolve(PROFILE.channels[0], name="other/data"), *PROFILE.channels[1:])
     elsewhere = evolve(PROFILE, channels=other, streams=("other/data",))
     for wrong in (
@@ -66,7 +66,7 @@ def test_a_driver_that_does_not_fit_together_is_refused() -> None:
     ],
     ids=str,
 )
-def test_a_profile_that_does_not_fit_together_is_refused(wrong: dict[str, Any]) -> None:
+def test_a_profile_that_does_not_fit_together_is_rejected(wrong: dict[str, Any]) -> None:
     with pytest.raises(ValueError, match="^a profile|^toy: "):
         evolve(PROFILE, **wrong)
 
@@ -77,7 +77,7 @@ def test_a_reader_that_is_wrong_itself_is_not_hidden() -> None:
 
     device = toy(evolve(BASE, readers={"toy/data": wrong}))
     with pytest.raises(AttributeError):
-        device.say(1.0)
+        device.send_data(1.0)
 
 
 def test_an_app_adds_devices_and_may_replace_declared_ones_but_not_ours() -> None:

@@ -1,4 +1,4 @@
-"""What is measured between the feet takes two clocks that agree: a symmetric walker stays one, whatever links do."""
+"""Measurements between the feet need two clocks that agree: a symmetric gait stays symmetric with any link."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ TOGETHER = ("step_time", "initial_double_support", "terminal_double_support", "s
 @cache
 def walked(seed: int, jitter: float, late: float, restarts: bool) -> tuple[Packet, ...]:
     """Both feet's packets. The right link is lost for 8 s; what it delivers first comes `late` s late, all at once, and
-    with `restarts` the insole has begun anew meanwhile."""
+    with `restarts` the insole has restarted meanwhile."""
     insoles = {site: Insole(cells=24) for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}
     packets = []
     for packet in emulate(ROUTE, devices=insoles, radio=Radio(jitter=jitter), seed=seed).packets:
@@ -44,8 +44,8 @@ def walked(seed: int, jitter: float, late: float, restarts: bool) -> tuple[Packe
 
 
 @cache
-def heard(seed: int, jitter: float, late: float, restarts: bool) -> tuple[list[Event], GaitParameters]:
-    """What a session says of that, and its means."""
+def walk_events(seed: int, jitter: float, late: float, restarts: bool) -> tuple[list[Event], GaitParameters]:
+    """Return the events of a session for that walk, and its running means."""
     session = Session()
     events = session.feed(walked(seed, jitter, late, restarts)) + session.finish()
     assert session.gait is not None
@@ -53,7 +53,7 @@ def heard(seed: int, jitter: float, late: float, restarts: bool) -> tuple[list[E
 
 
 def strides(jitter: float, late: float, restarts: bool) -> list[GaitCycleMeasured]:
-    return of(GaitCycleMeasured, heard(1, jitter, late, restarts)[0])
+    return of(GaitCycleMeasured, walk_events(1, jitter, late, restarts)[0])
 
 
 def compares(stride: GaitCycleMeasured) -> bool:
@@ -63,19 +63,19 @@ def compares(stride: GaitCycleMeasured) -> bool:
 @pytest.mark.parametrize("restarts", [False, True], ids=["goes on", "begins anew"])
 @pytest.mark.parametrize("seed", [1, *(pytest.param(seed, marks=pytest.mark.soak) for seed in (2, 3, 4, 5))])
 def test_a_symmetric_walker_stays_one_after_a_link_was_lost(seed: int, restarts: bool) -> None:
-    events, gait = heard(seed, 0.05, 0.06, restarts)
+    events, gait = walk_events(seed, 0.05, 0.06, restarts)
     assert len(of(ClockReset, events)) == restarts
     assert abs(gait.asymmetry("step_time") or 1.0) < 0.03
     assert abs(gait.asymmetry("initial_double_support") or 1.0) < 0.06
     assert abs(gait.asymmetry("terminal_double_support") or 1.0) < 0.06
-    told = of(GaitCycleMeasured, events)
-    assert sum(compares(stride) for stride in told) > 0.1 * len(told)
-    assert any(compares(stride) for stride in told if stride.t > BACK)
+    cycles = of(GaitCycleMeasured, events)
+    assert sum(compares(stride) for stride in cycles) > 0.1 * len(cycles)
+    assert any(compares(stride) for stride in cycles if stride.t > BACK)
 
 
-def test_a_foot_that_began_anew_is_measured_alone_until_its_clock_is_settled() -> None:
-    told = strides(0.05, 0.06, True)
-    after = [stride for stride in told if BACK < stride.t_start < BACK + 5.0]
+def test_a_foot_that_restarted_is_measured_alone_until_its_clock_is_settled() -> None:
+    cycles = strides(0.05, 0.06, True)
+    after = [stride for stride in cycles if BACK < stride.t_start < BACK + 5.0]
     assert {stride.foot for stride in after} == set(Foot)
     assert any(stride.steady for stride in after)
     for stride in after:
@@ -84,22 +84,22 @@ def test_a_foot_that_began_anew_is_measured_alone_until_its_clock_is_settled() -
 
 
 def test_a_toe_off_that_was_only_found_after_a_gap_is_no_toe_off_of_that_time() -> None:
-    told = strides(0.004, 0.0, False)
-    supports = [stride.initial_double_support for stride in told if stride.initial_double_support is not None]
+    cycles = strides(0.004, 0.0, False)
+    supports = [stride.initial_double_support for stride in cycles if stride.initial_double_support is not None]
     assert len(supports) > 35
     assert min(supports) > 0.08 and max(supports) < 0.15
 
 
 def test_over_a_good_link_both_feet_are_compared_from_their_first_strides_on() -> None:
-    told = strides(0.004, 0.0, False)
-    assert all(compares(stride) for stride in told if stride.t_start > 7.0 and stride.t < LOST - 1.5)
+    cycles = strides(0.004, 0.0, False)
+    assert all(compares(stride) for stride in cycles if stride.t_start > 7.0 and stride.t < LOST - 1.5)
 
 
 def test_how_the_feet_are_compared_does_not_depend_on_cuts_and_goes_on_after_a_restore() -> None:
     packets = [packet for packet in walked(1, 0.05, 0.06, True) if packet.t < 29.0]
     whole = Session().feed(packets)
     session, pieces = Session(), list[Event]()
-    for begin in range(0, len(packets), 1700):
-        pieces += session.feed(packets[begin : begin + 1700])
+    for start in range(0, len(packets), 1700):
+        pieces += session.feed(packets[start : start + 1700])
         session = Session.restore(json.loads(json.dumps(session.snapshot())))
     assert pieces == whole

@@ -1,4 +1,4 @@
-"""Frames and fragments of an insole to samples in SI units, whatever is lost, repeated or begun anew."""
+"""Frames and fragments of an insole to samples in SI units, with packets lost or repeated and with restarts."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def test_samples_are_in_si_units_by_the_scales_of_info() -> None:
     assert sample.t == sample.known_at == 10.0
 
 
-def test_before_info_16_g_and_2000_degrees_per_second_are_assumed_and_said_once() -> None:
+def test_before_info_16_g_and_2000_degrees_per_second_are_assumed_and_reported_once() -> None:
     decoder = Decoder(site=LEFT)
     raw = InsoleSample((7, 8), (2048, 0, 0, 16384, 0, 0), (0, 0, 0, 0))
     limitation, sample = feed(decoder, frame_packet(0, samples=(raw,)))

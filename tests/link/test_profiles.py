@@ -1,4 +1,4 @@
-"""Profiles say the same as the tables of protocol/*.md, and their setup writes are what the decoder expects."""
+"""Profiles agree with the tables of protocol/*.md, and their setup writes are what the decoder expects."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def short(uuid: str) -> str:
 
 
 def table(document: str, first_header: str) -> list[list[str]]:
-    """The rows of the table whose header begins with `first_header`."""
+    """The rows of the table whose header starts with `first_header`."""
     lines = (PROTOCOL / document).read_text().splitlines()
     start = next(i for i, line in enumerate(lines) if line.startswith(f"| {first_header} |"))
     rows = []
@@ -77,7 +77,7 @@ def test_the_insole_has_the_documented_uuids() -> None:
 
 
 @pytest.mark.parametrize(("profile", "document"), [(CC2650, "cc2650.md"), (CC2541, "cc2541.md")])
-def test_sensortag_sensors_sit_where_the_tables_say(profile: Profile, document: str) -> None:
+def test_sensortag_sensors_are_at_the_uuids_of_the_tables(profile: Profile, document: str) -> None:
     suffixes = ["", "-config", "-period"]
     seen = set()
     for sensor, *cells in table(document, "sensor"):
@@ -101,7 +101,7 @@ def test_advertised_names_are_in_the_documents() -> None:
         assert all(f"begins with `{prefix}`" in text for prefix in profile.prefixes)
 
 
-def test_a_device_is_known_by_its_whole_name_or_by_how_it_begins() -> None:
+def test_a_device_is_known_by_its_whole_name_or_its_prefix() -> None:
     known = {name: [p.name for p in PROFILES if p.matches_name(name)] for name in ("INS0123", "Thingy", "Thingy 2", "")}
     assert known == {"INS0123": ["orphe"], "Thingy": ["thingy"], "Thingy 2": [], "": []}
 
@@ -115,12 +115,12 @@ def test_a_declared_device_has_the_uuids_of_its_document(profile: Profile) -> No
     rows = {row[0].strip("`"): row[1:] for row in table(f"{profile.name}.md", "channel")}
     assert set(rows) == {channel.name for channel in profile.channels}
     for channel in profile.channels:
-        for uuid, said in zip((channel.service, channel.characteristic), rows[channel.name], strict=False):
-            if len(said) == 36:
-                assert uuid == said
+        for uuid, printed in zip((channel.service, channel.characteristic), rows[channel.name], strict=False):
+            if len(printed) == 36:
+                assert uuid == printed
             else:
-                assert short(uuid) == said
-                assert channel.name.startswith("device/") or uuid == f"{base[1]}{said}{base[2]}".lower()
+                assert short(uuid) == printed
+                assert channel.name.startswith("device/") or uuid == f"{base[1]}{printed}{base[2]}".lower()
         assert channel.access.value in rows[channel.name][2]
 
 
@@ -161,7 +161,7 @@ def test_the_decoder_takes_every_setup_write_as_a_packet(profile: Profile) -> No
         assert decoder.feed(Packet(1.0, Site.LEFT_FOOT, write.channel, write.value)) == []
 
 
-def test_setup_says_what_the_wire_room_makes_of_it() -> None:
+def test_setup_writes_are_what_wire_parses() -> None:
     def value(profile: Profile, channel: str) -> bytes:
         return next(write.value for write in profile.setup if write.channel == channel)
 

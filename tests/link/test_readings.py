@@ -1,4 +1,4 @@
-"""What an app's constructs and readers may make of bytes: nothing of it comes out of `feed` as an exception."""
+"""Faulty constructs and readers of an app: `feed` raises no exception for their results."""
 
 from __future__ import annotations
 
@@ -72,14 +72,14 @@ READ: dict[str, tuple[Any, Rejection]] = {
 }
 
 
-def refused(device: Toy, value: bytes, reason: Rejection, which: str = "data") -> None:
+def assert_rejected(device: Toy, value: bytes, reason: Rejection, which: str = "data") -> None:
     before = machine.save(device.decoder)
-    (told,) = device.hear(10.06, which, value)
-    assert isinstance(told, PacketRejected) and told.reason is reason, told
+    (reported,) = device.receive(10.06, which, value)
+    assert isinstance(reported, PacketRejected) and reported.reason is reason, reported
     assert machine.save(device.decoder) == before
 
 
-REFUSED = {
+REJECTED = {
     "too short": ("data", b"\x00" * 10, Rejection.TRUNCATED),
     "too long": ("data", b"\x00" * 12, Rejection.OVERSIZED),
     "no channel of its": ("crumbs", b"", Rejection.UNKNOWN_CHANNEL),
@@ -96,13 +96,13 @@ REFUSED = {
 }
 
 
-@pytest.mark.parametrize("name", REFUSED)
-def test_what_cannot_be_used_is_refused_and_changes_nothing(name: str) -> None:
-    which, value, reason = REFUSED[name]
+@pytest.mark.parametrize("name", REJECTED)
+def test_an_unusable_value_is_rejected_and_changes_nothing(name: str) -> None:
+    which, value, reason = REJECTED[name]
     device = toy(BOTH)
     for k in range(5):
         device.packet(k)
-    refused(device, value, reason, which)
+    assert_rejected(device, value, reason, which)
 
 
 @pytest.mark.parametrize("name", READ)
@@ -115,10 +115,10 @@ def test_a_reading_that_is_none_is_rejected_and_changes_nothing(name: str) -> No
     device = toy(evolve(BOTH, readers={"toy/data": reader, "toy/more": more}))
     for k in range(5):
         device.packet(k)
-    refused(device, bytes(11), reason)
+    assert_rejected(device, bytes(11), reason)
     first = toy(device.driver)
-    (told,) = first.hear(10.0, "data", bytes(11))
-    assert isinstance(told, PacketRejected) and first.decoder.link is None
+    (reported,) = first.receive(10.0, "data", bytes(11))
+    assert isinstance(reported, PacketRejected) and first.decoder.link is None
 
 
 def ratio(value: Any, context: Any) -> bool:
@@ -143,20 +143,20 @@ def test_a_construct_that_cannot_make_anything_of_bytes_rejects_them(part: Any, 
     device = toy(evolve(TICKING, formats={**FORMATS, "toy/more": Struct("what" / part, Terminated)}, readers={}))
     if not first:
         device.packet(1)
-    refused(device, b"\x00" if part.__class__ is ExprValidator else b"\x09", MALFORMED, "more")
+    assert_rejected(device, b"\x00" if part.__class__ is ExprValidator else b"\x09", MALFORMED, "more")
 
 
-def test_a_construct_that_asks_for_what_is_not_there_rejects_all() -> None:
+def test_a_construct_that_needs_a_missing_field_rejects_all() -> None:
     device = toy(evolve(TICKING, formats={**FORMATS, "toy/data": Struct("a" / Bytes(this.nothing), Terminated)}))
-    refused(device, b"123", MALFORMED)
+    assert_rejected(device, b"123", MALFORMED)
 
 
-def test_bytes_left_over_are_refused_though_the_construct_does_not_end_in_terminated() -> None:
+def test_bytes_left_over_are_rejected_though_the_construct_does_not_end_in_terminated() -> None:
     loose = {**FORMATS, "toy/more": Struct("what" / Int8ub), "toy/start": GreedyBytes}
     device = toy(evolve(TICKING, formats=loose, readers={}))
-    (told,) = device.hear(10.0, "more", b"\x01\x02")
-    assert isinstance(told, PacketRejected) and told.reason is Rejection.OVERSIZED
-    assert device.hear(10.0, "more", b"\x01") == device.hear(10.0, "start", b"all of it") == []
+    (reported,) = device.receive(10.0, "more", b"\x01\x02")
+    assert isinstance(reported, PacketRejected) and reported.reason is Rejection.OVERSIZED
+    assert device.receive(10.0, "more", b"\x01") == device.receive(10.0, "start", b"all of it") == []
 
 
 def test_a_reader_cannot_change_what_is_known() -> None:
@@ -177,8 +177,8 @@ def test_what_a_construct_calls_an_integer_can_be_saved() -> None:
         return evolve(data(sent, known), sequence=Number(sent.number), ticks=Number(sent.ticks))
 
     device = toy(evolve(BOTH, readers={"toy/data": reader}))
-    told = [device.packet(k) for k in range(3)]
-    assert all(told) and not any([isinstance(one, PacketRejected) for some in told for one in some])
+    reported = [device.packet(k) for k in range(3)]
+    assert all(reported) and not any([isinstance(one, PacketRejected) for some in reported for one in some])
     json.dumps(machine.save(device.decoder))
 
 

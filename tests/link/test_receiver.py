@@ -1,4 +1,4 @@
-"""What the receiver says of itself, and which device a site listens to."""
+"""Packets about the receiver itself, and the device to which a site is bound."""
 
 from __future__ import annotations
 
@@ -31,16 +31,16 @@ def packet(t: float, channel: str, data: bytes = b"", device: str = "") -> Packe
     return Packet(t, LEFT, channel, data, device)
 
 
-def test_what_the_receiver_says_becomes_events() -> None:
+def test_receiver_packets_become_events() -> None:
     session = Session()
-    said = [
+    fields_reads = [
         ("receiver/connected", build_connected(ConnectionFrame("solepath L", -61))),
         ("receiver/trouble", build_text("the battery is low")),
         ("receiver/dropped", build_dropped(7)),
         ("receiver/restarted", build_text("insole/frame")),
         ("receiver/disconnected", b""),
     ]
-    events = session.feed([packet(float(t), *one, device="F0:01") for t, one in enumerate(said)])
+    events = session.feed([packet(float(t), *one, device="F0:01") for t, one in enumerate(fields_reads)])
     assert events == [
         Connected(t=0.0, known_at=0.0, site=LEFT, device="F0:01", name="solepath L", signal=-61),
         LinkTrouble(t=1.0, known_at=1.0, site=LEFT, what="the battery is low"),
@@ -51,20 +51,20 @@ def test_what_the_receiver_says_becomes_events() -> None:
 
 
 def test_a_tick_lets_a_silence_become_known_as_advance_does() -> None:
-    told, ticked = Session(), Session()
-    for session in (told, ticked):
+    reported, ticked = Session(), Session()
+    for session in (reported, ticked):
         session.feed(packet(0.0, "insole/frame", insole_frame(1, ticks=0)))
-    assert told.advance(5.0) == ticked.feed(packet(5.0, "receiver/tick")) != []
+    assert reported.advance(5.0) == ticked.feed(packet(5.0, "receiver/tick")) != []
 
 
 @pytest.mark.parametrize("channel", ["receiver/tock", "receiver/", "receiver"])
-def test_what_no_receiver_says_is_rejected(channel: str) -> None:
+def test_invalid_receiver_packets_are_rejected(channel: str) -> None:
     [event] = Session().feed(packet(0.0, channel))
     assert isinstance(event, PacketRejected) and event.reason is Rejection.UNKNOWN_CHANNEL
 
 
 def reasons(session: Session, *packets: Packet) -> list[Rejection | None]:
-    """Why each was rejected, None where it was not."""
+    """Return the reason why each was rejected, None where it was not."""
     found = []
     for one in packets:
         rejected = [event for event in session.feed(one) if isinstance(event, PacketRejected)]
@@ -72,8 +72,8 @@ def reasons(session: Session, *packets: Packet) -> list[Rejection | None]:
     return found
 
 
-def test_a_site_is_bound_to_the_first_device_that_it_hears() -> None:
-    heard = [
+def test_a_site_is_bound_to_the_first_device_it_receives() -> None:
+    sent_packets = [
         packet(0.0, "device/battery", CHARGED),
         packet(1.0, "device/battery", CHARGED, "F0:01"),
         packet(2.0, "device/battery", CHARGED, "F0:02"),
@@ -81,14 +81,14 @@ def test_a_site_is_bound_to_the_first_device_that_it_hears() -> None:
         packet(4.0, "device/battery", CHARGED, "F0:01"),
     ]
     wrong = Rejection.WRONG_DEVICE
-    assert reasons(Session(), *heard) == [None, None, wrong, wrong, None]
+    assert reasons(Session(), *sent_packets) == [None, None, wrong, wrong, None]
 
 
-def test_a_site_that_was_bound_beforehand_hears_no_other_device() -> None:
+def test_a_site_that_was_bound_beforehand_accepts_no_other_device() -> None:
     session = Session(devices={LEFT: "F0:02"})
-    heard = [packet(float(t), "device/battery", CHARGED, f"F0:0{t}") for t in (1, 2, 3)]
+    sent_packets = [packet(float(t), "device/battery", CHARGED, f"F0:0{t}") for t in (1, 2, 3)]
     wrong = Rejection.WRONG_DEVICE
-    assert reasons(session, *heard) == [wrong, None, wrong]
+    assert reasons(session, *sent_packets) == [wrong, None, wrong]
     assert reasons(Session(), Packet(0.0, Site.RIGHT_FOOT, "device/battery", CHARGED, "F0:01")) == [None]
 
 
@@ -98,10 +98,10 @@ def test_a_packet_that_is_rejected_binds_nothing() -> None:
     assert reasons(session, bad, good) == [Rejection.MALFORMED, None]
 
 
-def test_the_receiver_is_heard_whatever_device_the_site_is_bound_to() -> None:
+def test_receiver_packets_are_accepted_whatever_device_the_site_is_bound_to() -> None:
     session = Session(devices={LEFT: "F0:01"})
-    heard = [packet(0.0, "receiver/tick"), packet(1.0, "receiver/disconnected", device="F0:02")]
-    assert reasons(session, *heard) == [None, Rejection.WRONG_DEVICE]
+    sent_packets = [packet(0.0, "receiver/tick"), packet(1.0, "receiver/disconnected", device="F0:02")]
+    assert reasons(session, *sent_packets) == [None, Rejection.WRONG_DEVICE]
 
 
 def test_a_site_can_be_bound_to_a_new_device_in_mid_walk() -> None:
@@ -116,7 +116,7 @@ def test_a_site_can_be_bound_to_a_new_device_in_mid_walk() -> None:
     assert isinstance(event, BatteryLevel)
 
 
-def test_an_insole_that_begins_anew_soon_after_its_start_is_not_taken_for_late() -> None:
+def test_an_insole_that_restarts_soon_after_its_start_is_not_taken_for_late() -> None:
     decoder = Decoder(site=LEFT)
     for k in range(60):
         decoder.feed(packet(0.01 * k, "insole/frame", insole_frame(k)))
@@ -129,7 +129,7 @@ def test_an_insole_that_begins_anew_soon_after_its_start_is_not_taken_for_late()
     assert isinstance(sample, Sample)
 
 
-def test_counters_that_go_on_across_a_connection_tell_what_was_lost() -> None:
+def test_counters_that_go_on_across_a_connection_show_losses() -> None:
     decoder = Decoder(site=LEFT)
     for k in range(60):
         decoder.feed(packet(0.01 * k, "insole/frame", insole_frame(k)))

@@ -1,4 +1,4 @@
-"""What SensorTags say to samples in SI units: the CC2650 by its configuration, the CC2541 by its firmware."""
+"""SensorTag packets to samples in SI units: the CC2650 by its configuration, the CC2541 by its firmware."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ def test_a_cc2650_is_scaled_by_its_configuration() -> None:
     assert at_8g.acc == pytest.approx((0.0, 0.0, GRAVITY))
     assert at_8g.gyro == pytest.approx((radians(131 * 500 / 65536), 0.0, -radians(131 * 500 / 65536)))
     assert at_8g.mag == pytest.approx((4912e-6, 0.0, 0.0))
-    told = config(16, mag=False, gyro_axes=(True, False, True))
-    [at_16g] = feed(decoder, told, packet(1.1, "cc2650/movement", raw))
+    reported = config(16, mag=False, gyro_axes=(True, False, True))
+    [at_16g] = feed(decoder, reported, packet(1.1, "cc2650/movement", raw))
     assert at_16g.acc == pytest.approx((0.0, 0.0, 2 * GRAVITY))
     assert at_16g.gyro is None
     assert at_16g.mag is None
@@ -64,7 +64,7 @@ def test_the_scale_goes_by_firmware_and_range(firmware: str, code: int, expected
     assert outputs[0].acc == pytest.approx((0.0, 0.0, GRAVITY))
 
 
-def test_firmware_may_be_read_after_the_tag_began() -> None:
+def test_firmware_may_be_read_after_the_tag_started() -> None:
     decoder = Decoder(site=LEFT)
     feed(decoder, acc_packet(1.0), gyro_packet(1.05), packet(1.06, "device/firmware", build_firmware("1.4 (Jul 2013)")))
     [sample] = feed(decoder, acc_packet(1.1, (0, 0, 64)), gyro_packet(1.15))
@@ -110,7 +110,7 @@ def test_what_waits_for_the_gyroscope_comes_out_at_the_end() -> None:
     assert decoder.finish() == []
 
 
-def test_a_barometer_without_calibration_is_said_once() -> None:
+def test_a_barometer_without_calibration_is_reported_once() -> None:
     decoder = Decoder(site=LEFT)
     raw = bytes.fromhex("b2eec584")
     [limitation] = feed(decoder, packet(1.0, "cc2541/barometer", raw), packet(2.0, "cc2541/barometer", raw))

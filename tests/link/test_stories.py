@@ -45,8 +45,8 @@ def listen(decoder: Decoder, site: Site, line: dict[str, Any]) -> list[Any]:
     return decoder.feed(Packet(line["t"], site, line["channel"], bytes.fromhex(line["data"])))
 
 
-def as_told(output: Any, expected: dict[str, Any]) -> dict[str, Any]:
-    """What came out, in the words of the stories, as far as `expected` says something of it."""
+def as_expected(output: Any, expected: dict[str, Any]) -> dict[str, Any]:
+    """Return the output in the words of the stories, with the keys that `expected` has."""
     words: dict[str, Any] = {"what": WHAT[type(output)]}
     for key in expected.keys() - {"what"}:
         if isinstance(output, LayoutKnown):
@@ -63,7 +63,7 @@ def as_told(output: Any, expected: dict[str, Any]) -> dict[str, Any]:
 def check(outputs: list[Any], expected: list[dict[str, Any]], tolerance: float, where: str) -> None:
     assert [WHAT.get(type(o)) for o in outputs] == [e["what"] for e in expected], f"{where}: {outputs}"
     for output, words in zip(outputs, expected, strict=True):
-        found = as_told(output, words)
+        found = as_expected(output, words)
         for key, value in words.items():
             if key == "t":
                 assert found[key] == pytest.approx(value, rel=0, abs=tolerance), where
@@ -74,7 +74,7 @@ def check(outputs: list[Any], expected: list[dict[str, Any]], tolerance: float, 
 
 
 @pytest.mark.parametrize("path", STORIES, ids=lambda path: path.stem)
-def test_a_receiver_makes_of_the_packets_what_the_story_says(path: Path) -> None:
+def test_a_decoder_gives_the_output_of_the_story(path: Path) -> None:
     story = json.loads(path.read_text())
     decoder = Decoder(site=Site(story["site"]))
     for number, line in enumerate(story["packets"]):
@@ -113,5 +113,5 @@ RULES = """
 """
 
 
-def test_the_stories_tell_every_rule_of_the_clock() -> None:
+def test_the_stories_cover_every_rule_of_the_clock() -> None:
     assert {path.stem for path in STORIES} >= set(RULES.split())

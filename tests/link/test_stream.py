@@ -1,4 +1,4 @@
-"""Declared devices: what makes their times, what is lost, late, begun anew, and what else they say."""
+"""Declared devices: sample times, lost and late packets, restarts, and other values."""
 
 from __future__ import annotations
 
@@ -56,13 +56,13 @@ def test_the_axis_is_the_best_that_a_device_has() -> None:
 @pytest.mark.parametrize("name", KIND)
 def test_samples_are_as_far_apart_as_they_were_taken_whatever_the_radio_does(name: str, count: int) -> None:
     device, random = toy(KIND[name]), Random(3)
-    told, arrival = [], 0.0
+    output, arrival = [], 0.0
     for k in range(2000 // count):
         t = 10.0 + k * count / 100
         arrival = max(arrival, t + 0.03 * random.random() ** 2)
-        told += device.packet(k, arrival - t + 1e-9, count=count)
-    assert not of(PacketRejected, told) and not of(PacketsLost, told) and not of(ClockReset, told)
-    found = times(told)
+        output += device.packet(k, arrival - t + 1e-9, count=count)
+    assert not of(PacketRejected, output) and not of(PacketsLost, output) and not of(ClockReset, output)
+    found = times(output)
     assert len(found) == 2000 // count * count
     apart = [b - a for a, b in zip(found[500:], found[501:], strict=False)]
     assert min(apart) > 0.0099 and max(apart) < 0.0101
@@ -71,7 +71,7 @@ def test_samples_are_as_far_apart_as_they_were_taken_whatever_the_radio_does(nam
 
 @pytest.mark.parametrize("name", ["number", "coarse"])
 @pytest.mark.parametrize("true", [96.0, 104.0])
-def test_a_device_that_counts_at_another_rate_than_it_says_is_believed(name: str, true: float) -> None:
+def test_a_device_that_counts_at_another_rate_than_nominal_is_followed(name: str, true: float) -> None:
     device = toy(KIND[name])
     found = times([one for k in range(1500) for one in device.packet(k, true=true)])
     assert (found[1400] - found[900]) / 500 == pytest.approx(1.0 / true, rel=1e-3)
@@ -79,12 +79,12 @@ def test_a_device_that_counts_at_another_rate_than_it_says_is_believed(name: str
 
 
 @pytest.mark.parametrize("name", ["number", "ticks", "both", "coarse"])
-def test_what_is_lost_late_or_repeated_is_said_and_the_others_keep_their_times(name: str) -> None:
+def test_lost_late_or_repeated_packets_are_reported_and_the_others_keep_their_times(name: str) -> None:
     device = toy(KIND[name])
-    told = [one for k in (*range(8), 10, 11) for one in device.packet(k)]
-    (lost,) = of(PacketsLost, told)
+    output = [one for k in (*range(8), 10, 11) for one in device.packet(k)]
+    (lost,) = of(PacketsLost, output)
     assert lost.count == 2 and lost.t == pytest.approx(10.08, abs=1e-3) and lost.channel == "toy/data"
-    assert times(told) == pytest.approx([10.0 + 0.01 * k for k in (*range(8), 10, 11)], abs=1e-3)
+    assert times(output) == pytest.approx([10.0 + 0.01 * k for k in (*range(8), 10, 11)], abs=1e-3)
     before = machine.save(device.decoder)
     (again,), (late,) = device.packet(11, 0.001), device.packet(9, 0.021)
     assert (again.reason, late.reason) == (Rejection.DUPLICATE, Rejection.LATE)
@@ -94,15 +94,15 @@ def test_what_is_lost_late_or_repeated_is_said_and_the_others_keep_their_times(n
 
 
 @pytest.mark.parametrize("name", ["number", "ticks", "both", "coarse"])
-def test_a_device_that_begins_anew_gets_a_new_fit_and_times_go_on(name: str) -> None:
+def test_a_device_that_restarts_gets_a_new_fit_and_times_go_on(name: str) -> None:
     device = toy(KIND[name])
-    told = [one for k in range(400) for one in device.packet(k)]
+    output = [one for k in range(400) for one in device.packet(k)]
     for k in range(300):
-        told += device.say(17.0 + 0.01 * k, 5 + k, 77 + round((10_000 if name != "coarse" else 10) * k))
-    (reset,) = of(ClockReset, told)
+        output += device.send_data(17.0 + 0.01 * k, 5 + k, 77 + round((10_000 if name != "coarse" else 10) * k))
+    (reset,) = of(ClockReset, output)
     assert reset.restarted and reset.t == pytest.approx(17.0, abs=0.02)
-    assert not of(PacketsLost, told) and not of(PacketRejected, told)
-    found = times(told)
+    assert not of(PacketsLost, output) and not of(PacketRejected, output)
+    found = times(output)
     assert found == sorted(found) and len(set(found)) == 700
     assert found[-1] == pytest.approx(17.0 + 2.99, abs=0.02)
 
@@ -113,18 +113,20 @@ def test_right_after_a_new_connection_nothing_is_overtaken() -> None:
         for k in range(50):
             device.packet(k)
         device.decoder.feed(Packet(10.6, LEFT, "receiver/connected", b"\x7fToy"), make_kinds([device.driver]))
-        told = device.say(10.7, 65_535, 2**32 - 2_400_000 if name != "coarse" else 76_000_500)
-        assert times(told) == pytest.approx([10.7], abs=0.02), name
+        output = device.send_data(10.7, 65_535, 2**32 - 2_400_000 if name != "coarse" else 76_000_500)
+        assert times(output) == pytest.approx([10.7], abs=0.02), name
 
 
 def test_a_pause_shows_in_a_coarse_clock_and_after_a_long_silence_without_one() -> None:
     for name, pause, resets in (("coarse", 0.8, 0), ("coarse", 40.0, 0), ("number", 6.0, 1)):
         device = toy(KIND[name])
-        told = [one for k in range(300) for one in device.packet(k)]
+        output = [one for k in range(300) for one in device.packet(k)]
         for k in range(300, 600):
-            told += device.say(10.0 + 0.01 * k + pause, 65_530 + k, 86_400_000 - 2000 + 10 * k + round(1000 * pause))
-        assert len(of(ClockReset, told)) == resets and not of(PacketsLost, told)
-        found = times(told)
+            output += device.send_data(
+                10.0 + 0.01 * k + pause, 65_530 + k, 86_400_000 - 2000 + 10 * k + round(1000 * pause)
+            )
+        assert len(of(ClockReset, output)) == resets and not of(PacketsLost, output)
+        found = times(output)
         assert found[300] - found[299] == pytest.approx(0.01 + pause, abs=0.02)
         assert found[-1] == pytest.approx(15.99 + pause, abs=0.02)
 
@@ -132,21 +134,21 @@ def test_a_pause_shows_in_a_coarse_clock_and_after_a_long_silence_without_one() 
 def test_a_coarse_clock_that_is_set_changes_nothing() -> None:
     for by in (600, 1500, 3_600_000, -1500):
         device = toy(COARSE)
-        told = [one for k in range(300) for one in device.packet(k)]
+        output = [one for k in range(300) for one in device.packet(k)]
         for k in range(300, 600):
-            told += device.say(10.0 + 0.01 * k, 65_530 + k, 86_398_000 + 10 * k + by)
-        assert [one for one in told if not isinstance(one, Sample)] == []
-        assert times(told) == pytest.approx([10.0 + 0.01 * k for k in range(600)], abs=2e-3), by
+            output += device.send_data(10.0 + 0.01 * k, 65_530 + k, 86_398_000 + 10 * k + by)
+        assert [one for one in output if not isinstance(one, Sample)] == []
+        assert times(output) == pytest.approx([10.0 + 0.01 * k for k in range(600)], abs=2e-3), by
 
 
 @pytest.mark.parametrize("true", [50.0, 200.0])
-def test_ticks_tell_that_the_rate_is_another(true: float) -> None:
+def test_ticks_show_that_the_rate_is_another(true: float) -> None:
     device = toy(TICKING)
-    told = [device.packet(k, true=true) for k in range(60)]
-    assert len([one for some in told for one in of(PacketsLost, some)]) <= 6
-    assert not [one for some in told[8:] for one in of(PacketsLost, some)]
+    output = [device.packet(k, true=true) for k in range(60)]
+    assert len([one for some in output for one in of(PacketsLost, some)]) <= 6
+    assert not [one for some in output[8:] for one in of(PacketsLost, some)]
     assert device.decoder.link is not None and device.decoder.link.rate == pytest.approx(true)
-    assert times([one for some in told for one in some]) == pytest.approx(
+    assert times([one for some in output for one in some]) == pytest.approx(
         [10.0 + k / true for k in range(60)], abs=1e-3
     )
     (lost,) = of(PacketsLost, device.packet(63, true=true))
@@ -158,20 +160,20 @@ MILLISECONDS = evolve(BASE, tick_rate=1000.0, tick_modulus=1 << 32)
 
 @pytest.mark.parametrize("true", [300.0, 380.0, 400.0, 420.0, 450.0, 500.0])
 @pytest.mark.parametrize("count", [1, 4])
-def test_a_clock_of_few_ticks_a_sample_tells_no_losses_that_there_were_not(true: float, count: int) -> None:
+def test_a_clock_of_few_ticks_a_sample_reports_no_false_losses(true: float, count: int) -> None:
     driver = evolve(MILLISECONDS, profile=evolve(PROFILE, nominal_rate=min(500.0, max(333.0, round(true, -2)))))
     assert driver.axis is TimeAxis.TICKS
-    device, told = toy(driver), []
+    device, output = toy(driver), []
     for k in range(1500):
         if 1400 <= k < 1403:
             continue
         t = 10.0 + k * count / true
-        told += device.say(t + 0.01, ticks=int(1000 * t), count=count)
+        output += device.send_data(t + 0.01, ticks=int(1000 * t), count=count)
         if k == 1300:
-            assert {type(one) for one in told} == {Sample}
-    (lost,) = [one for one in told if not isinstance(one, Sample)]
+            assert {type(one) for one in output} == {Sample}
+    (lost,) = [one for one in output if not isinstance(one, Sample)]
     assert isinstance(lost, PacketsLost) and lost.count == 3
-    found = times(told)
+    found = times(output)
     assert found == sorted(set(found)) and found[-1] == pytest.approx(10.01 + 1499 * count / true, abs=0.012)
 
 
@@ -184,19 +186,23 @@ def test_a_clock_too_coarse_for_the_samples_is_not_what_times_are_made_of() -> N
         driver = evolve(MILLISECONDS, tick_rate=tick_rate, profile=evolve(PROFILE, nominal_rate=rate))
         assert driver.axis is axis
         device = toy(driver)
-        told = [one for k in range(300) for one in device.say(5.01 + k / rate, ticks=int(tick_rate * (5.0 + k / rate)))]
-        assert {type(one) for one in told} == {Sample}, (tick_rate, rate)
+        output = [
+            one
+            for k in range(300)
+            for one in device.send_data(5.01 + k / rate, ticks=int(tick_rate * (5.0 + k / rate)))
+        ]
+        assert {type(one) for one in output} == {Sample}, (tick_rate, rate)
     device = toy(MILLISECONDS)
-    (told,) = device.tell(1.0, 1, 600.0)
-    assert isinstance(told, PacketRejected) and "600" in told.detail
+    (output,) = device.send_more(1.0, 1, 600.0)
+    assert isinstance(output, PacketRejected) and "600" in output.detail
 
 
-def test_a_rate_that_is_told_is_the_one_that_losses_are_told_by() -> None:
+def test_losses_are_counted_at_the_rate_that_the_device_reported() -> None:
     for name in ("arrival", "ticks"):
         device = toy(KIND[name])
-        told = device.tell(9.9, 1, 20.0)
-        told += [one for k in (*range(50), 52) for one in device.packet(k, true=20.0)]
-        (lost,) = of(PacketsLost, told)
+        output = device.send_more(9.9, 1, 20.0)
+        output += [one for k in (*range(50), 52) for one in device.packet(k, true=20.0)]
+        (lost,) = of(PacketsLost, output)
         assert lost.count == 2, name
 
 
@@ -207,13 +213,13 @@ def test_an_insole_that_is_set_to_another_mode_goes_on_at_another_rate() -> None
         ms = 500 + round(1000 * serial * 4 / 208)
         return bytes([header]) + serial.to_bytes(2, "big") + bytes([7, 0, ms // 1000]) + (ms % 1000).to_bytes(2, "big")
 
-    told = []
+    output = []
     for k in range(200):
         data = value(56 if k < 100 else 55, k).ljust(104, b"\0")
-        told += decoder.feed(Packet(5.0 + 4 * k / 208, LEFT, "orphe/values", data))
-    (reset,) = of(ClockReset, told)
-    assert not reset.restarted and not of(PacketsLost, told)
-    found = times(told)
+        output += decoder.feed(Packet(5.0 + 4 * k / 208, LEFT, "orphe/values", data))
+    (reset,) = of(ClockReset, output)
+    assert not reset.restarted and not of(PacketsLost, output)
+    found = times(output)
     assert len(found) == 100 * 2 + 100 * 4 and found == sorted(set(found))
     assert found[199] - found[198] == pytest.approx(1 / 104, abs=1e-4)
     assert found[-1] - found[-2] == pytest.approx(1 / 208, abs=1e-4)
@@ -222,38 +228,38 @@ def test_an_insole_that_is_set_to_another_mode_goes_on_at_another_rate() -> None
 
 def test_what_is_no_sample_becomes_an_event_or_is_remembered() -> None:
     device = toy(NUMBERED)
-    (battery,) = device.tell(1.0, 0, 0.5)
+    (battery,) = device.send_more(1.0, 0, 0.5)
     assert battery == BatteryLevel(t=1.0, known_at=1.0, site=LEFT, level=0.5)
-    assert device.tell(1.0, 6, 1.0) == [KeysChanged(t=1.0, known_at=1.0, site=LEFT, down=("left",))]
-    assert device.tell(1.0, 7, 0.0) == [LayoutKnown(t=1.0, known_at=1.0, site=LEFT, layout=LAYOUT)]
-    assert device.tell(1.0, 5, 1.0) == device.tell(1.0, 8, 4.0) == []
-    (sample,) = device.say(1.1, 1)
+    assert device.send_more(1.0, 6, 1.0) == [KeysChanged(t=1.0, known_at=1.0, site=LEFT, down=("left",))]
+    assert device.send_more(1.0, 7, 0.0) == [LayoutKnown(t=1.0, known_at=1.0, site=LEFT, layout=LAYOUT)]
+    assert device.send_more(1.0, 5, 1.0) == device.send_more(1.0, 8, 4.0) == []
+    (sample,) = device.send_data(1.1, 1)
     assert sample.acc == pytest.approx((0.0, 0.0, 2 * 9.80665)) and sample.quat == (1.0, 0.0, 0.0, 0.0)
 
 
 def test_air_pressure_rides_on_the_next_sample_or_stands_alone() -> None:
     device = toy(NUMBERED)
-    assert times(device.tell(1.0, 3, 101_000.0)) == [1.0]
-    device.say(1.5, 1)
-    assert device.tell(1.505, 3, 101_001.0) == device.tell(1.506, 4, 2e-5) == []
-    (sample,), (next_one,) = device.say(1.51, 2), device.say(1.52, 3)
+    assert times(device.send_more(1.0, 3, 101_000.0)) == [1.0]
+    device.send_data(1.5, 1)
+    assert device.send_more(1.505, 3, 101_001.0) == device.send_more(1.506, 4, 2e-5) == []
+    (sample,), (next_one,) = device.send_data(1.51, 2), device.send_data(1.52, 3)
     assert (sample.air_pressure, sample.mag) == (101_001.0, (2e-5, 0.0, 0.0))
     assert (next_one.air_pressure, next_one.mag) == (None, None)
 
 
-def test_silence_is_an_event_unless_the_device_said_that_it_may_be_silent() -> None:
+def test_silence_is_an_event_unless_the_device_reported_that_it_may_be_silent() -> None:
     for silent, stale in ((0.0, 1), (1.0, 0)):
         device = toy(NUMBERED)
-        device.tell(1.0, 2, silent)
-        device.say(1.1, 1)
+        device.send_more(1.0, 2, silent)
+        device.send_data(1.1, 1)
         assert len(of(StreamStale, device.decoder.advance(5.0, make_kinds([NUMBERED])))) == stale
 
 
-def test_a_limitation_is_said_once_and_a_wrong_range_is_suspected() -> None:
+def test_a_limitation_is_reported_once_and_a_wrong_range_is_suspected() -> None:
     device = toy(evolve(NUMBERED, limitation="it is a toy"))
-    told = [one for k in range(300) for one in device.say(1.0 + 0.01 * k, k, up=4.9)]
-    (limitation,), (suspect,) = of(Limitation, told), of(ScaleSuspect, told)
-    assert limitation.what == "it is a toy" and told.index(limitation) == 0
+    output = [one for k in range(300) for one in device.send_data(1.0 + 0.01 * k, k, up=4.9)]
+    (limitation,), (suspect,) = of(Limitation, output), of(ScaleSuspect, output)
+    assert limitation.what == "it is a toy" and output.index(limitation) == 0
     assert "8 g would fit" not in suspect.suggestion and "0.50 g at rest with 16 g" in suspect.suggestion
 
 
@@ -270,7 +276,7 @@ def test_any_bytes_at_any_time_give_events_and_a_state_that_can_be_saved(name: s
         now += wait
         for k in range(2):
             value = value if k else value.ljust(11 if which == "data" else 9, b"\1")
-            for one in device.hear(now, which, value):
+            for one in device.receive(now, which, value):
                 assert one.known_at >= one.t
                 if isinstance(one, ClockReset) and not one.restarted:
                     newest = -inf

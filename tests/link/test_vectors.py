@@ -1,4 +1,4 @@
-"""A vector file with a mistake in it: a sentence says what is wrong, whatever it is."""
+"""A mistake in a vector file is reported in a sentence, whatever it is."""
 
 from __future__ import annotations
 
@@ -69,8 +69,8 @@ MISTAKES: dict[str, tuple[tuple[Any, ...], Any, str]] = {
 
 
 @pytest.mark.parametrize("name", MISTAKES)
-def test_a_mistake_is_told_in_a_sentence(name: str) -> None:
-    (*path, last), value, told = MISTAKES[name]
+def test_a_mistake_is_reported_in_a_sentence(name: str) -> None:
+    (*path, last), value, reported = MISTAKES[name]
     file = deepcopy(FILE)
     place: Any = file
     for step in path:
@@ -80,7 +80,7 @@ def test_a_mistake_is_told_in_a_sentence(name: str) -> None:
     else:
         place[last] = value
     found = disagreements(NUMBERED, file)
-    assert found and any([re.search(told, one) for one in found]), found
+    assert found and any([re.search(reported, one) for one in found]), found
     assert disagreements(NUMBERED, FILE) == []
 
 
@@ -95,5 +95,5 @@ def test_what_no_device_can_mean_is_an_invalid_vector() -> None:
     assert disagreements(driver, {**FILE, "channel": "toy/more", "count": 1, "vectors": [absurd]}) == []
 
 
-def test_what_is_no_file_of_vectors_is_told() -> None:
+def test_a_file_without_vectors_is_reported() -> None:
     assert disagreements(NUMBERED, []) and disagreements(NUMBERED, {})  # type: ignore[arg-type]

@@ -58,7 +58,7 @@ def test_a_walk_in_two_insoles_gives_the_same_steps_as_the_walk_itself(tmp_path)
     assert steps(open_btsnoop(path, report=pytest.fail)) == steps(walk.packets) != []
 
 
-def test_an_insole_says_itself_of_which_foot_it_is_unless_the_caller_knows_better(tmp_path):
+def test_an_insole_reports_its_own_foot_unless_the_caller_names_it(tmp_path):
     log = start_connection(Log(), address=LEFT)
     log.notify(0x40, FRAME, frames(Site.RIGHT_FOOT)[0])
     assert {site for _, site, _, _ in read(log, tmp_path)[0]} == {"right_foot"}
@@ -68,7 +68,7 @@ def test_an_insole_says_itself_of_which_foot_it_is_unless_the_caller_knows_bette
 
 ORPHE = {0x12: "f3f9c7ce-46ee-4205-89ac-abe64e626c0f", 0x15: "24354f22-1c46-430e-a4ab-a1eeabbcdfc0"}
 ORPHE_INFO = bytes([100, 1, *bytes(6), 2, 3, *bytes(10)])
-"""Of a right foot; 8 g, 2000 degrees/s."""
+"""INFO of a right foot; 8 g, 2000 degrees/s."""
 
 
 def orphe(characteristics: dict[int, str] = ORPHE, info: bytes = ORPHE_INFO) -> Log:
@@ -82,15 +82,15 @@ def orphe(characteristics: dict[int, str] = ORPHE, info: bytes = ORPHE_INFO) -> 
 
 
 def test_one_characteristic_is_one_channel_where_it_is_read_and_another_where_it_is_written(tmp_path):
-    told = {("", 0x12): "orphe/values", ("", 0x15): "orphe/mode"}
-    for discovered, handles in ((ORPHE, {}), ({}, told), ({}, told | {("", 0x15): "orphe/info"})):
+    handles_given = {("", 0x12): "orphe/values", ("", 0x15): "orphe/mode"}
+    for discovered, handles in ((ORPHE, {}), ({}, handles_given), ({}, handles_given | {("", 0x15): "orphe/info"})):
         found, reports = read(orphe(discovered), tmp_path, sites={TAG: Site.RIGHT_FOOT}, handles=handles)
         assert data_of(found, "orphe/info", TAG) == [ORPHE_INFO]
         assert data_of(found, "orphe/mode", TAG) == [b"\x0d\x04"]
         assert len(data_of(found, "orphe/values", TAG)) == 30 and reports == []
 
 
-def test_the_foot_and_the_ranges_of_another_makers_insole_are_those_that_it_says(tmp_path):
+def test_the_foot_and_the_ranges_of_another_makers_insole_are_those_that_it_reports(tmp_path):
     path = orphe().save(tmp_path / "phone.log")
     packets = list(open_btsnoop(path, report=pytest.fail))
     assert {p.site for p in packets} == {Site.RIGHT_FOOT}
@@ -101,7 +101,7 @@ def test_the_foot_and_the_ranges_of_another_makers_insole_are_those_that_it_says
     assert samples[-1].acc == pytest.approx((GRAVITY, 0.0, 0.0)), "4096 counts at 8 g, not at 16"
 
 
-def test_sensortags_share_characteristics_and_are_told_apart_by_the_others(tmp_path):
+def test_sensortags_share_characteristics_and_differ_in_the_others(tmp_path):
     old = {0x31: full(0xAA11), 0x34: full(0xAA41), 0x38: full(0xAA51), 0x3B: full(0xAA52)}
     new = {0x31: full(0xAA81), 0x34: full(0xAA82), 0x37: full(0xAA41)}
     log = start_connection(start_connection(Log(), 0x40, LEFT, old), 0x41, RIGHT, new)
@@ -171,7 +171,7 @@ def test_a_handle_is_given_to_another_device_and_what_was_discovered_stays_with_
 
 
 @pytest.mark.parametrize("payload", [244, 20])
-def test_an_insole_is_known_by_its_frames_when_nothing_else_tells(tmp_path, payload):
+def test_an_insole_is_known_by_its_frames_without_discovery(tmp_path, payload):
     """As whole frames, and in fragments of an MTU of 23."""
     log = Log()
     for k, frame in enumerate(frames()[:40]):
@@ -185,7 +185,7 @@ def test_an_insole_is_known_by_its_frames_when_nothing_else_tells(tmp_path, payl
     assert reports == []
 
 
-def test_what_cannot_be_known_may_be_told(tmp_path):
+def test_unknown_attributes_may_be_named_by_the_caller(tmp_path):
     log = Log()
     for _ in range(3):
         log.notify(0x40, 0x2B, MOVEMENT)
@@ -204,7 +204,7 @@ def test_what_cannot_be_known_may_be_told(tmp_path):
 
 
 def test_no_word_makes_one_device_or_attribute_of_another(tmp_path):
-    """But what discovery says as well may be said, and an attribute that is of no known kind named."""
+    """The caller may repeat what discovery shows, and may name an attribute of no known type."""
     log = start_connection(Log(), characteristics=INSOLE | {0x30: full(0x1234)})
     log.notify(0x40, FRAME, frames()[0])
     log.notify(0x40, 0x30, b"\x63")

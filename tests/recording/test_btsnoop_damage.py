@@ -101,7 +101,7 @@ def test_a_damaged_record_is_named_after_everything_before_it(tmp_path):
         (b"btsnoop\0" + struct.pack(">II", 1, 1002), "holds no packets of a device whose place is known"),
     ],
 )
-def test_what_is_no_log_of_ours_is_refused(tmp_path, content, complaint):
+def test_an_unsupported_log_is_rejected(tmp_path, content, complaint):
     path = tmp_path / "phone.log"
     path.write_bytes(content)
     assert is_btsnoop(path) == (content[:8] == b"btsnoop\0")

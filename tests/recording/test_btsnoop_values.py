@@ -109,26 +109,26 @@ needs_tshark = pytest.mark.skipif(shutil.which("tshark") is None, reason="tshark
 
 
 def tshark(path: Path, only: str, fields: Iterable[str]) -> list[list[str]]:
-    """These fields of every record that it lets through, as it says them."""
-    wanted = [word for name in fields for word in ("-e", name)]
-    command = ["tshark", "-r", path, "-Y", only, "-T", "fields", *wanted]
-    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout
-    return [line.split("\t") for line in said.splitlines()]
+    """Return these fields of every record that passes the filter, as tshark prints them."""
+    fields_option = [word for name in fields for word in ("-e", name)]
+    command = ["tshark", "-r", path, "-Y", only, "-T", "fields", *fields_option]
+    output = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    return [line.split("\t") for line in output.splitlines()]
 
 
-def heard_by_tshark(path: Path) -> list[tuple[int, int, int, bytes]]:
+def notified_by_tshark(path: Path) -> list[tuple[int, int, int, bytes]]:
     """(us since 1970, connection handle, attribute handle, value) of every notification."""
     fields = ("frame.time_epoch", "bthci_acl.chandle", "btatt.handle", "btatt.value", "btatt.battery_level")
-    heard = []
+    notified = []
     for t, connection, attribute, value, battery in tshark(path, "btatt.opcode == 0x1b", fields):
         seconds, _, parts = t.partition(".")
         us = int(seconds) * 1_000_000 + int(parts[:6])
         data = bytes([int(battery)]) if battery else bytes.fromhex(value)
-        heard.append((us, int(connection, 16), int(attribute, 16), data))
-    return heard
+        notified.append((us, int(connection, 16), int(attribute, 16), data))
+    return notified
 
 
-def heard_by_us(path: Path) -> list[tuple[int, int, int, bytes]]:
+def notified_by_us(path: Path) -> list[tuple[int, int, int, bytes]]:
     listener = ValueListener(path, pytest.fail)
     values = [
         item
@@ -141,7 +141,7 @@ def heard_by_us(path: Path) -> list[tuple[int, int, int, bytes]]:
 
 @needs_tshark
 @pytest.mark.parametrize(("datalink", "piece"), [(H4, 251), (H4, 27), (H1, 251), (MONITOR, 100)])
-def test_every_notification_is_what_tshark_says_it_is(tmp_path, datalink, piece):
+def test_every_notification_agrees_with_tshark(tmp_path, datalink, piece):
     """Two insoles with an end and a new beginning under the same handle, and ACL packets in pieces of two links."""
     log = Log(datalink, piece=piece)
     start_connection(log, 0x40, LEFT)
@@ -158,19 +158,19 @@ def test_every_notification_is_what_tshark_says_it_is(tmp_path, datalink, piece)
         if k % 50 == 0:
             log.notify(0x40, BATTERY, bytes([k % 101]))
     path = log.save(tmp_path / "phone.log")
-    ours, theirs = heard_by_us(path), heard_by_tshark(path)
+    ours, theirs = notified_by_us(path), notified_by_tshark(path)
     assert len(ours) > 1200
     assert ours == theirs
 
 
-def told_by_tshark(path: Path) -> list[tuple[AttOperation, int, bytes]]:
+def values_by_tshark(path: Path) -> list[tuple[AttOperation, int, bytes]]:
     """(how, attribute handle, value) of every value that was read, joined by the offsets, and every one that was
     written and taken. Of each PDU by itself tshark says handle, offset and value; values that it knows have a field of
     their own."""
     fields = ("opcode", "handle", "value", "offset", "battery_level", "firmware_revision_string")
     fields += ("characteristic_configuration_client",)
     only = "btatt.opcode in {0x0a, 0x0b, 0x0c, 0x0d, 0x12, 0x13, 0x52}"
-    told: list[tuple[AttOperation, int, bytes]] = []
+    transfers: list[tuple[AttOperation, int, bytes]] = []
     offset, pending = 0, b""
     for row in tshark(path, only, [f"btatt.{name}" for name in fields]):
         opcode, attribute, plain, at, battery, firmware, client = row
@@ -179,23 +179,23 @@ def told_by_tshark(path: Path) -> list[tuple[AttOperation, int, bytes]]:
         handle = int(attribute, 16)
         match int(opcode, 16):
             case 0x0B:
-                told.append((AttOperation.READ, handle, data))
+                transfers.append((AttOperation.READ, handle, data))
             case 0x0C:
                 offset = int(at)
             case 0x0D:
-                operation, of, begun = told.pop()
-                assert (operation, of, len(begun)) == (AttOperation.READ, handle, offset)
-                told.append((operation, of, begun + data))
+                operation, of, partial = transfers.pop()
+                assert (operation, of, len(partial)) == (AttOperation.READ, handle, offset)
+                transfers.append((operation, of, partial + data))
             case 0x12:
                 pending = data
             case 0x13:
-                told.append((AttOperation.WRITTEN, handle, pending))
+                transfers.append((AttOperation.WRITTEN, handle, pending))
             case 0x52:
-                told.append((AttOperation.WRITTEN, handle, data))
-    return told
+                transfers.append((AttOperation.WRITTEN, handle, data))
+    return transfers
 
 
-def told_to_us(path: Path) -> list[tuple[AttOperation, int, bytes]]:
+def values_by_us(path: Path) -> list[tuple[AttOperation, int, bytes]]:
     values = [item for item in ValueListener(path, pytest.fail).listen() if isinstance(item, Value)]
     return [
         (value.att_value.operation, value.att_value.handle, value.att_value.value)
@@ -271,22 +271,24 @@ def bumble_logs(tmp_path_factory) -> tuple[Path, Path, list[bytes]]:
 
 
 @needs_tshark
-def test_of_real_traffic_of_a_host_every_value_is_what_tshark_says_it_is(bumble_logs):
+def test_every_value_of_a_hosts_real_traffic_agrees_with_tshark(bumble_logs):
     for path in bumble_logs[:2]:
-        ours = heard_by_us(path)
-        assert len(ours) == 300 and ours == heard_by_tshark(path)
-        told = told_to_us(path)
-        assert (AttOperation.READ, info()) in [(operation, data) for operation, _, data in told]
-        assert told == told_by_tshark(path)
+        ours = notified_by_us(path)
+        assert len(ours) == 300 and ours == notified_by_tshark(path)
+        transfers = values_by_us(path)
+        assert (AttOperation.READ, info()) in [(operation, data) for operation, _, data in transfers]
+        assert transfers == values_by_tshark(path)
 
 
 def test_the_log_of_the_host_that_listens_and_of_the_one_that_sends_give_the_same_packets(bumble_logs):
     central, device, got = bumble_logs
-    told = []
+    transfers = []
     for path in (central, device):
         packets = list(open_btsnoop(path, report=pytest.fail))
         assert {(p.device, p.site) for p in packets} == {(LEFT, Site.LEFT_FOOT)}
-        told.append([(p.channel, p.data) for p in packets if not p.channel.startswith("receiver/")])
-    assert told[0] == told[1]
-    assert [data for channel, data in told[0] if channel == "insole/frame"] == got
-    assert told[0][:2] == [("insole/info", info()), ("insole/control", b"\x01")], "read over several answers, written"
+        transfers.append([(p.channel, p.data) for p in packets if not p.channel.startswith("receiver/")])
+    assert transfers[0] == transfers[1]
+    assert [data for channel, data in transfers[0] if channel == "insole/frame"] == got
+    assert transfers[0][:2] == [("insole/info", info()), ("insole/control", b"\x01")], (
+        "read over several answers, written"
+    )

@@ -28,7 +28,7 @@ from mcap.stream_reader import StreamReader  # noqa: E402
 
 from solepath.recording.mcap import McapWriter  # noqa: E402
 
-BEGAN = {"began": "2026-11-21T09:30:00.25Z", "began_t": 2.0}
+START = {"began": "2026-11-21T09:30:00.25Z", "began_t": 2.0}
 AT_ZERO = int(datetime(2026, 11, 21, 9, 29, 58, 250_000, UTC).timestamp() * 1000) * 1_000_000
 """ns since 1970 at t = 0."""
 LEFT = Site.LEFT_FOOT
@@ -58,7 +58,7 @@ KINDS = {"number": (int, float), "string": str, "integer": int, "boolean": bool,
 
 
 def fits(value: object, schema: dict) -> None:
-    """What of JSON Schema is used here: every key that the schema knows is of the type that it says."""
+    """Check the part of JSON Schema used here: every key of the schema has the type that it declares."""
     assert isinstance(value, KINDS[schema["type"]])
     if isinstance(value, dict):
         assert value.keys() & schema["properties"].keys()
@@ -69,7 +69,7 @@ def fits(value: object, schema: dict) -> None:
 
 @pytest.fixture(scope="module")
 def exported(tmp_path_factory) -> dict[str, list[tuple[int, int, dict]]]:
-    return messages(written(tmp_path_factory.mktemp("mcap") / "walk.mcap", walks.insoles().packets, **BEGAN))
+    return messages(written(tmp_path_factory.mktemp("mcap") / "walk.mcap", walks.insoles().packets, **START))
 
 
 @pytest.mark.parametrize("name", walks.DEVICES)
@@ -80,10 +80,10 @@ def test_the_packets_in_it_are_those_that_were_recorded_in_their_order(tmp_path,
     with path.open("rb") as file:
         for _, channel, message in make_reader(file).iter_messages(log_time_order=False):
             if "channel" in channel.metadata:
-                said = json.loads(message.data)
+                fields = json.loads(message.data)
                 site, name = Site(channel.metadata["site"]), channel.metadata["channel"]
                 assert channel.topic == f"/{site.value}/packets/{name}"
-                read.append(Packet(said["t"], site, name, b64decode(said["data"]), said["device"]))
+                read.append(Packet(fields["t"], site, name, b64decode(fields["data"]), fields["device"]))
     assert read == packets
 
 
@@ -104,11 +104,11 @@ def test_the_samples_in_it_are_what_the_link_made_of_the_packets(exported):
     samples += [s for s in decoder.finish() if isinstance(s, Sample)]
     rows = exported["/left_foot/samples"]
     assert len(rows) == len(samples) > 700
-    for (log_time, publish_time, said), sample in zip(rows, samples, strict=True):
-        assert said["t"] == sample.t and log_time == AT_ZERO + round(sample.t * 1e9)
+    for (log_time, publish_time, fields), sample in zip(rows, samples, strict=True):
+        assert fields["t"] == sample.t and log_time == AT_ZERO + round(sample.t * 1e9)
         assert publish_time == AT_ZERO + round(sample.known_at * 1e9)
-        assert tuple(said["acc"].values()) == sample.acc and tuple(said["gyro"].values()) == sample.gyro
-        assert said["pressure"] == sum(sample.pressure)
+        assert tuple(fields["acc"].values()) == sample.acc and tuple(fields["gyro"].values()) == sample.gyro
+        assert fields["pressure"] == sum(sample.pressure)
 
 
 def test_the_samples_in_it_are_those_that_a_session_uses_when_a_site_falls_silent(tmp_path):
@@ -125,28 +125,28 @@ def test_the_samples_in_it_are_those_that_a_session_uses_when_a_site_falls_silen
         items = [i for site, d in decoders.items() if site is not packet.site for i in d.advance(packet.t)] + items
         used += items
     used += [item for decoder in decoders.values() for item in decoder.finish()]
-    found = messages(written(tmp_path / "walk.mcap", packets, **BEGAN))
+    found = messages(written(tmp_path / "walk.mcap", packets, **START))
     for site in decoders:
-        rows = [(said["t"], publish) for _, publish, said in found[f"/{site.value}/samples"]]
+        rows = [(fields["t"], publish) for _, publish, fields in found[f"/{site.value}/samples"]]
         samples = [item for item in used if isinstance(item, Sample) and item.site is site]
         assert rows == [(s.t, AT_ZERO + round(s.known_at * 1e9)) for s in samples]
 
 
 def test_the_events_in_it_are_a_sessions(exported):
     events = walks.run_session(walks.insoles().packets, poses=True)
-    told = [json.loads(json.dumps(e.to_dict())) for e in events if not isinstance(e, LiveEvent)]
-    assert [said for _, _, said in exported["/events"]] == told
+    as_json = [json.loads(json.dumps(e.to_dict())) for e in events if not isinstance(e, LiveEvent)]
+    assert [fields for _, _, fields in exported["/events"]] == as_json
     poses = [e for e in events if isinstance(e, FootMoved) and e.foot.value == "left"]
-    assert [said["position"]["x"] for _, _, said in exported["/left_foot/pose"]] == [e.position[0] for e in poses]
-    assert {(said["phase"], said["phase_number"]) for _, _, said in exported["/left_foot/pose"]} == {
+    assert [fields["position"]["x"] for _, _, fields in exported["/left_foot/pose"]] == [e.position[0] for e in poses]
+    assert {(fields["phase"], fields["phase_number"]) for _, _, fields in exported["/left_foot/pose"]} == {
         ("LOADING", 0), ("STATIONARY", 1), ("PUSH_OFF", 2), ("SWING", 3),
     }  # fmt: skip
     steps = [e for e in events if isinstance(e, StrideTaken) and e.final and e.foot.value == "left"]
     rows = exported["/left_foot/steps"]
-    assert [(said["number"], said["stride_length"]) for _, _, said in rows] == [
+    assert [(fields["number"], fields["stride_length"]) for _, _, fields in rows] == [
         (step.number, step.length) for step in steps
     ] != []  # fmt: skip
-    gait = Counter(said["event"] for _, _, said in exported["/left_foot/gait"])
+    gait = Counter(fields["event"] for _, _, fields in exported["/left_foot/gait"])
     assert gait == Counter(
         name for e in events
         if (name := type(e).__name__) in ("HeelStrike", "FootFlat", "HeelOff", "ToeOff") and e.foot.value == "left"

@@ -1,4 +1,4 @@
-"""A recorder that dies or whose disk is full, and the header that says what o'clock it was."""
+"""A recorder that dies or whose disk is full, and the header with the time of day."""
 
 import asyncio
 import os
@@ -71,7 +71,7 @@ print(writer.count)
 
 @pytest.mark.parametrize("limit", [4096, 4097, 4150, 5000])
 def test_a_file_that_may_not_grow_ends_with_its_last_whole_packet_and_the_error_counts_them(tmp_path, limit):
-    """The kernel takes the part of the line that fits and then refuses, as a disk does that fills up."""
+    """The kernel takes the part of the line that fits and then fails, as on a full disk."""
     path = tmp_path / "walk.jsonl"
     done = subprocess.run([sys.executable, "-c", FULL, path, str(limit)], capture_output=True, text=True, check=True)
     sentence, count = done.stdout.splitlines()
@@ -116,7 +116,7 @@ def test_a_pipe_whose_reader_left_is_a_clear_error():
         ({"began": "0001-01-01T00:00:00+14:00"}, None),  # before the year 1 in UTC
     ],
 )
-def test_a_header_may_say_what_oclock_it_was(tmp_path, keys, moment):
+def test_a_header_may_hold_the_time_of_day(tmp_path, keys, moment):
     assert read_start_time(read_header(recorded(tmp_path / "walk.jsonl", [], keys))) == moment
 
 
@@ -142,10 +142,10 @@ def test_what_is_recorded_live_may_have_anothers_header_but_its_own_beginning(tm
 
     old = {"format": "solepath-packets", "version": 1, "began": "2001-01-01T00:00:00Z", "began_t": -1.0, "path": "x"}
     now, passed_on = asyncio.run(recorded(old))
-    said = read_header(tmp_path / "walk.jsonl")
-    known = read_start_time(said)
+    header_read = read_header(tmp_path / "walk.jsonl")
+    known = read_start_time(header_read)
     assert passed_on == PACKETS == list(read_packets(tmp_path / "walk.jsonl"))
-    assert said["path"] == "x" and known is not None
+    assert header_read["path"] == "x" and known is not None
     assert known[0].year > 2001 and now <= known[1] < now + 10
 
 

@@ -139,7 +139,7 @@ def test_bytes_that_are_not_text_are_named(tmp_path):
 
 
 @pytest.mark.parametrize("version", [2, 0, "1", 1.0, True, None])
-def test_an_unknown_version_is_refused(tmp_path, version):
+def test_an_unknown_version_is_rejected(tmp_path, version):
     header = json.dumps({"format": "solepath-packets", "version": version})
     packets, sentence = read_what_there_is(file(tmp_path, f"{header}\n{line_of()}"))
     assert packets == []
@@ -147,7 +147,7 @@ def test_an_unknown_version_is_refused(tmp_path, version):
 
 
 @pytest.mark.parametrize("first", ['{"format": "solepath-pack', line_of(), "hello", '"x"\n'])
-def test_a_file_without_a_whole_header_is_refused(tmp_path, first):
+def test_a_file_without_a_whole_header_is_rejected(tmp_path, first):
     assert "line 1: " in read_what_there_is(file(tmp_path, first))[1]
 
 
@@ -173,7 +173,7 @@ def test_progress_ends_at_the_size_of_the_file(tmp_path):
     assert read == sorted(read) and read[-1] == path.stat().st_size
 
 
-def test_packets_that_no_recording_can_hold_are_refused_and_leave_it_whole(tmp_path):
+def test_packets_that_no_recording_can_hold_are_rejected_and_leave_it_whole(tmp_path):
     path = tmp_path / "walk.jsonl"
     with PacketWriter(path) as writer:
         writer.write(PACKETS[0])
@@ -196,7 +196,7 @@ def test_a_device_that_nobody_knows_is_not_written(tmp_path):
 
 @pytest.mark.parametrize("name", walks.DEVICES)
 def test_a_recording_gives_the_same_events_bit_for_bit(tmp_path, name):
-    """Of both feet, with losses, duplicates and damaged packets, and what the receiver says of itself."""
+    """Packets of both feet, with losses, duplicates, damaged packets and packets about the receiver."""
     packets = [Packet(p.t, p.site, p.channel, p.data, f"F0:{p.site.value}") for p in walks.packets()[name]]
     end = packets[-1].t
     packets[40:40] = [
@@ -210,6 +210,6 @@ def test_a_recording_gives_the_same_events_bit_for_bit(tmp_path, name):
             repr(event) for event in walks.run_session(stream, poses=True)
         ]  # repr tells every bit of a float, and -0.0 from 0.0
 
-    told = events(read_packets(recorded(tmp_path / "walk.jsonl", packets)))
-    assert told == events(packets)
-    assert sum(line.startswith(("Connected", "StreamStale")) for line in told) >= 2
+    replayed = events(read_packets(recorded(tmp_path / "walk.jsonl", packets)))
+    assert replayed == events(packets)
+    assert sum(line.startswith(("Connected", "StreamStale")) for line in replayed) >= 2

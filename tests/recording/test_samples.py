@@ -51,7 +51,7 @@ def sheet(path: Path, columns: dict[str, np.ndarray]) -> Path:
     return path
 
 
-def refusal(path: Path, foot: Foot | None = None) -> tuple[list[Sample], str]:
+def read_until_error(path: Path, foot: Foot | None = None) -> tuple[list[Sample], str]:
     """The samples that came before the fault, and the one sentence about it."""
     samples: list[Sample] = []
     with pytest.raises(RecordingError) as caught:
@@ -63,7 +63,7 @@ def refusal(path: Path, foot: Foot | None = None) -> tuple[list[Sample], str]:
 
 
 @pytest.mark.parametrize("kind", ["npz", "csv"])
-def test_one_foot_is_the_right_one_unless_told_otherwise(tmp_path, kind):
+def test_one_foot_is_the_right_one_unless_named_otherwise(tmp_path, kind):
     columns = still() | {"gt_pos": np.zeros((20, 3)), "activity": np.zeros(20)}
     path = npz(tmp_path / "one.npz", **columns) if kind == "npz" else sheet(tmp_path / "one.csv", columns)
     expected = Sample(0.01, Site.RIGHT_FOOT, (0.25, -0.5, 9.75), (0.125, 0.0, -0.0625), (100.0, 200.0))
@@ -152,26 +152,28 @@ FAULTY = {
 
 
 @pytest.mark.parametrize("fault", FAULTY)
-def test_an_archive_with_a_fault_of_the_whole_is_refused_in_one_sentence(tmp_path, fault):
+def test_an_archive_with_a_fault_of_the_whole_is_rejected_in_one_sentence(tmp_path, fault):
     columns, complaint = FAULTY[fault]
-    samples, sentence = refusal(npz(tmp_path / "bad.npz", **columns))
+    samples, sentence = read_until_error(npz(tmp_path / "bad.npz", **columns))
     assert samples == [] and complaint in sentence
 
 
 def test_pickled_arrays_are_not_loaded(tmp_path):
     acc = np.array([[{"a": 1}] * 3] * 20, dtype=object)
-    assert "acc: cannot be read (Object arrays" in refusal(npz(tmp_path / "bad.npz", **still() | {"acc": acc}))[1]
+    assert (
+        "acc: cannot be read (Object arrays" in read_until_error(npz(tmp_path / "bad.npz", **still() | {"acc": acc}))[1]
+    )
     path = tmp_path / "pickle.npz"
     path.write_bytes(pickle.dumps({"t": [0.0]}))
-    assert refusal(path)[1].endswith("is not an .npz archive")
+    assert read_until_error(path)[1].endswith("is not an .npz archive")
 
 
 @pytest.mark.parametrize("share", [0.02, 0.3, 0.9, 0.999])
-def test_an_archive_cut_off_is_refused(tmp_path, share):
+def test_an_archive_cut_off_is_rejected(tmp_path, share):
     path = npz(tmp_path / "bad.npz", **still())
     data = path.read_bytes()
     path.write_bytes(data[: int(len(data) * share)])
-    assert "is not a whole .npz archive" in refusal(path)[1]
+    assert "is not a whole .npz archive" in read_until_error(path)[1]
 
 
 @given(damage=st.lists(st.tuples(st.integers(0, 5000), st.integers(0, 255)), min_size=1, max_size=5))
@@ -192,17 +194,17 @@ def test_whatever_bytes_of_an_archive_are_damaged_only_recording_error_is_raised
 @pytest.mark.parametrize("name", ["walk.npz", "walk.csv"])
 def test_a_missing_or_empty_file_and_a_directory_are_named(tmp_path, name):
     path = tmp_path / name
-    assert refusal(path)[1].endswith("no such file or directory")
+    assert read_until_error(path)[1].endswith("no such file or directory")
     path.write_bytes(b"")
-    assert refusal(path)[1].endswith("is empty")
+    assert read_until_error(path)[1].endswith("is empty")
     path.unlink()
     path.mkdir()
-    assert refusal(path)[1].endswith("is a directory, not a recording")
+    assert read_until_error(path)[1].endswith("is a directory, not a recording")
 
 
-def test_the_foot_that_a_file_does_not_hold_is_missed(tmp_path):
+def test_a_foot_that_is_not_in_the_file_is_reported(tmp_path):
     path = npz(tmp_path / "left.npz", **named(still(), "left"))
-    assert refusal(path, Foot.RIGHT)[1].endswith("holds nothing of the right foot")
+    assert read_until_error(path, Foot.RIGHT)[1].endswith("holds nothing of the right foot")
 
 
 @pytest.mark.parametrize(
@@ -222,10 +224,10 @@ def test_the_foot_that_a_file_does_not_hold_is_missed(tmp_path):
         ("\x1b[31m\x00\xff,\n1,2\n", "line 1: names no column acc_x"),
     ],
 )
-def test_a_sheet_with_a_fault_of_the_whole_is_refused_in_one_sentence(tmp_path, text, complaint):
+def test_a_sheet_with_a_fault_of_the_whole_is_rejected_in_one_sentence(tmp_path, text, complaint):
     path = tmp_path / "bad.csv"
     path.write_bytes(text.encode("latin-1"))
-    samples, sentence = refusal(path)
+    samples, sentence = read_until_error(path)
     assert samples == [] and complaint in sentence
 
 
@@ -248,7 +250,7 @@ def test_a_value_that_is_not_finite_is_named_after_the_rows_before_it(tmp_path, 
     columns = still()
     columns[quantity][7, 1] = value
     path = npz(tmp_path / "bad.npz", **columns) if kind == "npz" else sheet(tmp_path / "bad.csv", columns)
-    samples, sentence = refusal(path)
+    samples, sentence = read_until_error(path)
     assert len(samples) == 7
     place = f"{quantity}, row 7" if kind == "npz" else f"line 9, {quantity}"
     assert f"{place}: is {value}, not a finite number (t = 0.07 s)" in sentence
@@ -257,7 +259,7 @@ def test_a_value_that_is_not_finite_is_named_after_the_rows_before_it(tmp_path, 
 def test_time_that_runs_backwards_is_named_after_the_rows_before_it(tmp_path):
     columns = still()
     columns["t"][7:] -= 0.05
-    samples, sentence = refusal(npz(tmp_path / "bad.npz", **columns))
+    samples, sentence = read_until_error(npz(tmp_path / "bad.npz", **columns))
     assert len(samples) == 7
     assert "t, row 7: time runs backwards, from 0.06 s to 0.02" in sentence
 
@@ -277,7 +279,7 @@ def test_a_row_that_is_no_row_is_named_after_the_rows_before_it(tmp_path, row, c
     good = [f"{0.01 * n:.2f},0,0,9.8" for n in range(6)]
     good[3] = row
     path.write_text("\n".join(["t,acc_x,acc_y,acc_z", *good]) + "\n")
-    samples, sentence = refusal(path)
+    samples, sentence = read_until_error(path)
     assert [s.t for s in samples] == [0.0, 0.01, 0.02] and complaint in sentence
 
 

@@ -46,7 +46,7 @@ def test_a_record_prints_compares_and_hashes_as_attrs_has_it(one: list[Any], two
     assert OURS[0](*one) != OURS[1](*one), "a class is part of what is compared"
 
 
-def test_what_can_change_has_no_hash_and_what_asks_for_identity_keeps_it() -> None:
+def test_mutable_classes_have_no_hash_unless_compared_by_identity() -> None:
     @ours.define
     class State:
         value: float = 0.0
@@ -61,7 +61,7 @@ def test_what_can_change_has_no_hash_and_what_asks_for_identity_keeps_it() -> No
     assert Itself() != Itself() and len({Itself(), Itself()}) == 2
 
 
-def test_what_a_class_says_itself_is_left_to_it() -> None:
+def test_methods_defined_by_a_class_stay() -> None:
     @ours.frozen
     class Named:
         name: str

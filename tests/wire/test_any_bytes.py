@@ -1,4 +1,4 @@
-"""What holds on the wire for all bytes and for all records."""
+"""Properties of the wire formats for all bytes and for all records."""
 
 from __future__ import annotations
 
@@ -215,13 +215,13 @@ def test_twelve_bit_values_are_unpacked_as_they_were_packed(values: list[int]) -
 
 
 @given(st.lists(st.integers(0, 4095), min_size=1, max_size=130), st.data())
-def test_each_cell_lies_where_its_number_says(values: list[int], data: st.DataObject) -> None:
+def test_each_cell_is_at_the_bits_of_its_number(values: list[int], data: st.DataObject) -> None:
     number = data.draw(st.integers(0, len(values) - 1))
     bits = int.from_bytes(cells.pack12(values), "little")
     assert bits >> 12 * number & 0xFFF == values[number]
 
 
-def test_a_fragment_never_begins_as_a_frame_does() -> None:
+def test_a_fragment_never_starts_as_a_frame_does() -> None:
     heads = {
         fragment.build_fragment(fragment.Fragment(frame_id, last, index, b"x"))[0]
         for frame_id in range(fragment.FRAME_IDS)

@@ -1,4 +1,4 @@
-"""What the wire refuses to write: ValueError, before a byte of it is sent."""
+"""Records that do not fit a format: ValueError before a byte is sent."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def frame_of(*samples: insole.InsoleSample) -> insole.InsoleFrame:
 
 
 def tag(channel: str, **fields: Any) -> tuple[Callable[[Any], bytes], Any]:
-    """What a SensorTag does not say."""
+    """Packets that no SensorTag sends."""
     return partial(build_whole, {**cc2541.FORMATS, **cc2650.FORMATS}[channel]), fields
 
 
@@ -94,14 +94,14 @@ MISFITS: dict[str, tuple[Callable[[Any], bytes], Any]] = {
 
 
 @pytest.mark.parametrize("case", MISFITS)
-def test_what_does_not_fit_is_refused_when_written(case: str) -> None:
+def test_a_value_that_does_not_fit_is_rejected_when_written(case: str) -> None:
     build, record = MISFITS[case]
     with pytest.raises(ValueError) as caught:
         build(record)
     assert not isinstance(caught.value, WireError)
 
 
-def test_seventeen_fragments_are_refused() -> None:
+def test_seventeen_fragments_are_rejected() -> None:
     data = insole.build_frame(frame_of(insole.InsoleSample((0,) * 96)))
     with pytest.raises(ValueError, match="16 fragments"):
         fragment.split(data, len(data) // 17, 0)

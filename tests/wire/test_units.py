@@ -37,7 +37,7 @@ AXES = {"gyroscope": ("gyro", degrees(old_tag.GYRO), "gyro_dps"), "magnetometer"
 
 
 @pytest.mark.parametrize("sensor", AXES)
-def test_counts_of_an_old_tag_are_worth_what_the_vectors_say(sensor: str) -> None:
+def test_scales_of_an_old_tag_agree_with_the_vectors(sensor: str) -> None:
     field, unit, quantity = AXES[sensor]
     for vector in physical(f"cc2541-{sensor}"):
         counts, values = getattr(counts_of(sensor, vector), field), vector["physical"]

@@ -31,12 +31,12 @@ def vectors(result: str) -> list[Any]:
 
 
 @pytest.mark.parametrize(("wire", "vector"), vectors("valid"))
-def test_the_packet_says_what_the_vector_says(wire: Format, vector: Any) -> None:
+def test_the_packet_parses_to_the_vector(wire: Format, vector: Any) -> None:
     assert wire.to_fields(wire.parse(bytes.fromhex(vector["hex"]))) == vector["fields"]
 
 
 @pytest.mark.parametrize(("wire", "vector"), vectors("valid"))
-def test_what_the_vector_says_is_written_as_its_packet(wire: Format, vector: Any) -> None:
+def test_the_vector_builds_its_packet(wire: Format, vector: Any) -> None:
     assert wire.build(wire.from_fields(vector["fields"])).hex() == vector["hex"]
 
 
@@ -62,7 +62,7 @@ def test_a_frame_is_cut_into_the_notifications_of_the_vector(case: Any) -> None:
 @pytest.mark.parametrize(
     "vector", [v for v in FILES["cc2541-barometer"]["vectors"] if "physical" in v], ids=lambda vector: vector["id"]
 )
-def test_the_t5400_is_compensated_as_its_formulas_say(vector: Any) -> None:
+def test_the_t5400_is_compensated_by_its_formulas(vector: Any) -> None:
     physical = vector["physical"]
     raw = parse_whole(cc2541.FORMATS["cc2541/barometer"], bytes.fromhex(vector["hex"]))
     fields = parse_whole(cc2541.FORMATS["cc2541/barometer-calibration"], bytes.fromhex(physical["calibration"]))
@@ -73,14 +73,14 @@ def test_the_t5400_is_compensated_as_its_formulas_say(vector: Any) -> None:
 
 
 @pytest.mark.parametrize("name", DECLARED_FORMATS)
-def test_a_declared_device_means_what_its_vectors_say(name: str) -> None:
+def test_a_declared_device_agrees_with_its_vectors(name: str) -> None:
     driver: Driver = DECLARED_FORMATS[name][0]
     assert disagreements(driver, FILES[name]) == []
     changed = json.loads(json.dumps(FILES[name]))
     for vector in changed["vectors"]:
         vector["hex"] += "00"
-    told = disagreements(driver, changed)
-    assert len({what.partition(":")[0] for what in told}) >= 3, "it agrees with everything"
+    reported = disagreements(driver, changed)
+    assert len({what.partition(":")[0] for what in reported}) >= 3, "it agrees with everything"
 
 
 @pytest.mark.parametrize("name", FORMATS)

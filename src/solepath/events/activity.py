@@ -15,7 +15,7 @@ class ActivityChanged(Happening):
     wearer's activity at some time is that of the last event with `t` up to then, without those that were replaced.
 
     Latency of the default: reported 1 to 1.5 s after `t`, final mostly seconds later; standing that may be a ride in a
-    lift stays open for up to a minute. Other recipes: the docstrings of their parts say it.
+    lift stays open for up to a minute. Other recipes: see the docstrings of their parts.
     """
 
     activity: Activity

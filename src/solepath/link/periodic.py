@@ -2,7 +2,7 @@
 
 SensorTags send neither sequence nor ticks. Their notifications are the slots of a period that the host wrote or that
 the profile names. The slot number takes the place of ticks on the lower envelope (clock.py). A gap in the arrivals
-means lost packets or late ones; nothing in the packets tells which. The rules are:
+means lost packets or late ones; the packets do not show which. The rules are:
 
 - A gap of 1.5 periods or more means lost packets at once when the packet after it is later than its slot by 0.9
   periods or more (and five times the usual jitter).
@@ -89,7 +89,7 @@ class PeriodicClock:
     def add_packet(self, arrival: float, counts_losses: bool = True) -> SampleTimes:
         """Assign a time to the notification that arrived at `arrival` (s, not before the previous one).
 
-        With `counts_losses` False silence is legal (wake on motion) and says nothing about losses.
+        With `counts_losses` False silence is legal (wake on motion) and is no evidence of losses.
         """
         if self.arrived is None:
             return self._restart(arrival, 0, arrival)

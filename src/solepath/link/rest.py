@@ -1,4 +1,4 @@
-"""Check that the accelerometer reads 1 g at rest, which tells a wrong range or scale from a right one."""
+"""Check that the accelerometer reads 1 g at rest, which shows a wrong range or scale."""
 
 from __future__ import annotations
 

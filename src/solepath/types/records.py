@@ -155,7 +155,7 @@ class Sample:
     specific force in m/s^2, sensor frame (+9.81 upwards at rest). `gyro`: rad/s, sensor frame. `pressure`: one value
     per cell in the layout's order and unit (N when the device declares a scale, otherwise counts; more is more load).
     `quat`: the device's own attitude, where it sends one. `mag`: T, sensor frame. `air_pressure`: Pa. `saturated`: the
-    device says that a sensor was at the end of its range.
+    device reports that a sensor was at the end of its range.
     """
 
     t: float

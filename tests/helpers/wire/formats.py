@@ -1,4 +1,4 @@
-"""How each vector file of protocol/ is read and written by the wire."""
+"""Parser and builder in wire for each vector file of protocol/."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ VECTORS = PROTOCOL / "vectors"
 
 @frozen
 class Format:
-    """How one vector file is read and written: bytes to record and back, record to the file's fields and back."""
+    """Parser and builder of one vector file: bytes to record and back, record to the file's fields and back."""
 
     parse: Callable[[bytes], Any]
     build: Callable[[Any], bytes]

@@ -25,7 +25,7 @@ def streams(body: bytes) -> tuple[list[float], list[int], list[int], bytes]:
         at += length
         return body[at - length : at]
 
-    floats, ints, flags, told, left, right = struct.unpack("<4I2d", take(32))
+    floats, ints, flags, large_words, left, right = struct.unpack("<4I2d", take(32))
     classes = bits(take(-(-(floats + ints) // 8) * 3), 3, floats + ints)
 
     def numbers(code: str, members: tuple[int, ...]) -> Any:
@@ -52,7 +52,7 @@ def streams(body: bytes) -> tuple[list[float], list[int], list[int], bytes]:
         raise ValueError("not finite, or not whole")
     whole = [int(number) for number in found[floats:]]
     true = bits(take(-(-flags // 8)), 1, flags)
-    large = [int(word) for word in take(told).split()]
+    large = [int(word) for word in take(large_words).split()]
     if whole.count(-(2**63)) != len(large):
         raise ValueError("too many large ints, or too few")
     large.reverse()
@@ -60,7 +60,7 @@ def streams(body: bytes) -> tuple[list[float], list[int], list[int], bytes]:
 
 
 class Tree:
-    """What a body holds, by its schema. `parts`: the schemas of open records, by what is told of them."""
+    """Reads the content of a body by its schema. `parts`: the schemas of open records, by their description."""
 
     def __init__(self, schema: dict[str, Any], parts: dict[str, Any], body: bytes) -> None:
         self.schema, self.parts = schema, parts
@@ -80,17 +80,17 @@ class Tree:
         k = self.value("int")
         if k < len(names):
             return {"kind": names[k].removeprefix("state of ").split(" ")[0], "is": self.record(names[k])}
-        told = self.value("str")
-        around, self.schema = self.schema, self.parts[told]
+        large_words = self.value("str")
+        around, self.schema = self.schema, self.parts[large_words]
         (fields,) = self.roots()
         self.schema = around
-        return {"kind": told.split(" ")[0], "is": fields}
+        return {"kind": large_words.split(" ")[0], "is": fields}
 
     def value(self, kind: Any) -> Any:
         if kind in ("str", "bytes"):
             length = self.value("int")
-            told, self.data = self.data[:length], self.data[length:]
-            return told.decode() if kind == "str" else base64.b64encode(told).decode()
+            large_words, self.data = self.data[:length], self.data[length:]
+            return large_words.decode() if kind == "str" else base64.b64encode(large_words).decode()
         if isinstance(kind, str):
             return next(self.scalars[kind])
         match kind:
@@ -115,5 +115,5 @@ class Tree:
         raise ValueError(f"{kind} is no type")
 
     def left(self) -> Any:
-        """What was not read."""
+        """Return the bytes that were not read."""
         return self.data or [number for scalar in self.scalars.values() for number in scalar]

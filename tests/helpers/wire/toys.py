@@ -1,4 +1,4 @@
-"""A toy that is declared (link/driver.py): numbered, ticking or neither, and whatever else its readers say."""
+"""A toy that is declared (link/driver.py): numbered, ticking or neither, with further values."""
 
 from __future__ import annotations
 
@@ -91,22 +91,22 @@ class Toy:
     driver: Driver
     decoder: Decoder
 
-    def hear(self, t: float, name: str, value: bytes, site: Site = LEFT) -> list[Any]:
+    def receive(self, t: float, name: str, value: bytes, site: Site = LEFT) -> list[Any]:
         return self.decoder.feed(Packet(t, site, f"toy/{name}", value), make_kinds([self.driver]))
 
-    def say(self, t: float, number: int = 0, ticks: int = 0, count: int = 1, up: float = 9.80665) -> list[Any]:
+    def send_data(self, t: float, number: int = 0, ticks: int = 0, count: int = 1, up: float = 9.80665) -> list[Any]:
         fields = {"number": number % 65536, "ticks": ticks % 2**32, "count": count, "up": [up]}
-        return self.hear(t, "data", self.driver.write("toy/data", fields))
+        return self.receive(t, "data", self.driver.write("toy/data", fields))
 
-    def tell(self, t: float, what: int, value: float) -> list[Any]:
-        return self.hear(t, "more", self.driver.write("toy/more", {"what": what, "value": [value]}))
+    def send_more(self, t: float, what: int, value: float) -> list[Any]:
+        return self.receive(t, "more", self.driver.write("toy/more", {"what": what, "value": [value]}))
 
     def packet(self, k: int, late: float = 0.0, true: float = 100.0, count: int = 1) -> list[Any]:
-        """Packet k of a device that begins at 10 s with counters near their wraps."""
+        """Packet k of a device that starts at 10 s with counters near their wraps."""
         t = 10.0 + k * count / true
         unit = 1000 if self.driver is COARSE else 1_000_000
         first = t - (count - 1) / true
-        return self.say(
+        return self.send_data(
             t + late, 65_530 + k, round(unit * first) - 12 * unit + (86_400_000 if unit == 1000 else 0), count
         )
 
@@ -115,5 +115,5 @@ def toy(driver: Driver) -> Toy:
     return Toy(driver, Decoder(LEFT))
 
 
-def times(told: list[Any]) -> list[float]:
-    return [sample.t for sample in of(Sample, told)]
+def times(output: list[Any]) -> list[float]:
+    return [sample.t for sample in of(Sample, output)]

@@ -34,7 +34,7 @@ from ..profile import FIRMWARE, Access, Channel, Profile, Write
 RATES = {50: 208.0, 54: 208.0, 55: 208.0, 56: 104.0}
 """Samples a second by header.
 
-The maker says 200 and 100; the part (LSM6DSOX) has 208, which was measured too."""
+The maker documents 200 and 100; the part (LSM6DSOX) has 208, which was measured too."""
 ACC_RANGES, GYRO_RANGES = (2.0, 4.0, 8.0, 16.0), (250.0, 500.0, 1000.0, 2000.0)
 """Full scales by the numbers in INFO, g and degrees/s."""
 GYRO = radians(35e-6)

@@ -99,7 +99,7 @@ def _is_compatible(channel: str, hint: tuple[str, int], device: LoggedDevice, ty
 def explain_unused(
     hint: tuple[str, int], channel: str, devices: Mapping[str, LoggedDevice], types: Mapping[str, Mapping[int, str]]
 ) -> str:
-    """Return a sentence on why an entry of `handles` is of no use."""
+    """Return the reason why an entry of `handles` cannot be used, in one sentence."""
     address, handle = hint
     there = [device for device in devices.values() if address in ("", device.address.upper())]
     if not there:

@@ -61,7 +61,7 @@ class BtsnoopLog:
                     )
                 case LinkChange():
                     device = self.devices.get(item.link.peer)
-                    # the log does not tell how the host found the device, so there is neither name nor signal
+                    # the log does not show how the host found the device, so there is neither name nor signal
                     channel = "receiver/connected" if item.connected else "receiver/disconnected"
                     data = build_connected(ConnectionFrame("", None)) if item.connected else b""
             if device is not None and device.site is not None and channel is not None:
