@@ -17,11 +17,11 @@ from programs import TAKES, started
 from recordings import into, written
 from watchers import ANYWHERE, address
 
-from solepath.cli.common.files import Replacing
+from solepath.cli.common.files import FileReplacements
 
 
 def test_a_file_interrupted_as_it_is_made_is_thrown_away(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    files = Replacing()
+    files = FileReplacements()
     made = Path.open
 
     def interrupted(*arguments: object) -> None:
@@ -33,7 +33,7 @@ def test_a_file_interrupted_as_it_is_made_is_thrown_away(tmp_path: Path, monkeyp
         files.beside(tmp_path / "track.csv")
     monkeypatch.undo()
     assert len(list(tmp_path.iterdir())) == 1
-    files.drop()
+    files.discard()
     assert not list(tmp_path.iterdir())
 
 
@@ -41,25 +41,25 @@ def test_a_file_interrupted_as_it_is_made_is_thrown_away(tmp_path: Path, monkeyp
 def test_a_file_is_there_as_it_was_until_it_is_kept(kept: bool, tmp_path: Path) -> None:
     earlier = tmp_path / "track.csv"
     earlier.write_text("earlier")
-    files = Replacing()
+    files = FileReplacements()
     files.beside(earlier).write_text("later")
     assert earlier.read_text() == "earlier"
     if kept:
         files.keep()
-    files.drop()
+    files.discard()
     assert earlier.read_text() == ("later" if kept else "earlier")
     assert list(tmp_path.iterdir()) == [earlier]
 
 
 def test_another_programs_file_is_not_thrown_away(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Two machines that share a directory may give two programs the same number."""
-    files = Replacing()
+    files = FileReplacements()
     monkeypatch.setattr("solepath.cli.common.files._numbers", count(7))
     another = tmp_path / f".solepath-{os.getpid()}-7.part"
     another.write_text("half of a track")
     with pytest.raises(OSError, match=r"track\.csv"):
         files.beside(tmp_path / "track.csv")
-    files.drop()
+    files.discard()
     assert another.read_text() == "half of a track"
 
 

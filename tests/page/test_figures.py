@@ -34,7 +34,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
 from solepath.show.page.scene.scales import LEAST, rounded
 from solepath.show.page.scene.scene import Scene
-from solepath.show.tables.gait import ENOUGH, gait_lines, gait_rows
+from solepath.show.tables.gait import MIN_STRIDES, gait_lines, gait_rows
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
 WALK = Route().stand(1.5).walk(14.0, 1.3).stop(6.0)
@@ -178,7 +178,7 @@ def strides(feet: tuple[Foot, ...], count: int, angles: tuple[float, float] = (0
 def test_the_table_says_of_how_many_strides_it_is() -> None:
     told = frame(shown(strides((LEFT, RIGHT), 7)))["gait"]
     assert told["strides"] == {"left": 7, "right": 7}
-    assert told["enough"] == ENOUGH == 30
+    assert told["enough"] == MIN_STRIDES == 30
 
 
 def test_one_foot_alone_has_nothing_of_both() -> None:
@@ -198,8 +198,8 @@ def test_angles_that_lean_to_either_side_differ_by_degrees_and_not_by_hundreds_o
     rows = {row.name: row for row in gait_rows(parameters)}
     row = rows["toe_off_angle"]
     assert (round(row.difference or 0.0, 6), row.asymmetry, row.cv) == (-4.0, None, None)
-    assert row.uneven == "-4.0 deg"
-    assert rows["stride_time"].difference is None and rows["stride_time"].uneven == "+0.0 %"
+    assert row.asymmetry_text == "-4.0 deg"
+    assert rows["stride_time"].difference is None and rows["stride_time"].asymmetry_text == "+0.0 %"
     (line,) = [line for line in gait_lines(means) if line.startswith("toe-off angle")]
     assert line.endswith("-4.0 deg")
 
@@ -213,7 +213,9 @@ def test_feet_that_fly_have_no_share_of_less_than_nothing() -> None:
     assert parameters is not None
     (row,) = [row for row in gait_rows(parameters) if row.name == "initial_double_support"]
     assert row.both is not None and row.both < 0.0
-    assert row.asymmetry is None and row.uneven == "-", "the right foot's is larger, and it would be told as the left's"
+    assert row.asymmetry is None and row.asymmetry_text == "-", (
+        "the right foot's is larger, and it would be told as the left's"
+    )
 
 
 def test_a_place_is_decided_once_one_candidate_is_left() -> None:

@@ -13,9 +13,9 @@ from shown import CONNECTED, after, meanwhile, opened, placed, walked
 
 from solepath import Session
 from solepath.emulate.routes.route import Route
-from solepath.show.page.player.kept import KeptItems
+from solepath.show.page.player.packed_items import PackedItems
 from solepath.show.page.player.player import Player
-from solepath.show.page.player.playing import Playing
+from solepath.show.page.player.player_loop import PlayerLoop
 from solepath.show.page.scene.scene import Playback, Scene
 
 NARROW = 360
@@ -65,9 +65,9 @@ WALK = Route().stand(1.0).walk(16.0, 1.3).stop(2.0)
 @asynccontextmanager
 async def played(chromium: Browser, **given: Any) -> AsyncIterator[tuple[Window, Playback]]:
     """A recording of WALK on the page, and where its player stands. `given`: to `opened`."""
-    packets = KeptItems(walked(WALK, cells=16))
+    packets = PackedItems(walked(WALK, cells=16))
     player = Player(packets, Session(poses=True, pressures=True), Scene("a recording", "default", "recording"))
-    playing = Playing(player)
+    playing = PlayerLoop(player)
     async with (
         opened(chromium, player.scene, playing.command, **given) as (view, page),
         meanwhile(playing.run(page, asyncio.Event())),
@@ -99,13 +99,13 @@ async def test_the_space_bar_pauses_and_goes_on_and_the_arrows_seek(chromium: Br
 
 async def test_on_the_way_to_another_time_the_page_says_where_it_is_and_whither(chromium: Browser) -> None:
     scene = after(22.0)
-    scene.playback = Playback(begin=0.0, end=150.0, t=22.0, state="playing", seeking=115.0)
+    scene.playback = Playback(start=0.0, end=150.0, t=22.0, state="playing", seeking=115.0)
     async with opened(chromium, scene, width=NARROW, height=740) as (view, _):
         await view.until("document.getElementById('seeking').innerText === 'Going to 1:55, now at 0:22'")
         await view.until("document.querySelector('main').ariaBusy === 'true'")
         await view.until("document.getElementById('announcer').textContent.includes('Going to 1:55')")
         assert await view.text("time-now") == "0:22"
-        scene.playback = Playback(begin=0.0, end=150.0, t=115.0, state="playing")
+        scene.playback = Playback(start=0.0, end=150.0, t=115.0, state="playing")
         await view.tab.locator("#seeking").wait_for(state="hidden")
         await view.until("document.querySelector('main').ariaBusy === 'false'")
         assert await view.tab.locator("#seek").get_attribute("aria-valuetext") == "1:55 of 2:30"

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from served import LOGGER, frame_of, handshake, raw, refused, reply, sees, served
 
 from solepath.show.page.messages import CommandError, parse_command
-from solepath.show.page.server import offences
+from solepath.show.page.server import client_errors
 
 
 @settings(max_examples=100)
@@ -114,7 +114,7 @@ async def test_somebody_who_repeats_an_offence_does_not_fill_the_log(caplog: pyt
     async with served() as (_, client, url):
         for _ in range(100):
             assert await refused(client.ws_connect(f"{url}ws?token=wrong")) == 403
-    assert len(caplog.records) <= offences.AT_ONCE + 1
+    assert len(caplog.records) <= client_errors.AT_ONCE + 1
 
 
 async def test_no_part_of_the_library_logs_what_a_client_sends(caplog: pytest.LogCaptureFixture) -> None:
@@ -130,10 +130,10 @@ async def test_no_part_of_the_library_logs_what_a_client_sends(caplog: pytest.Lo
 
 
 def test_what_was_not_told_is_counted(caplog: pytest.LogCaptureFixture) -> None:
-    told = offences.Offences(logging.getLogger(LOGGER))
-    for _ in range(offences.AT_ONCE + 5):
-        told.tell("somebody did it")
-    assert len(caplog.records) == offences.AT_ONCE
-    told._at -= offences.EVERY
-    told.tell("somebody did it")
+    told = client_errors.ClientErrors(logging.getLogger(LOGGER))
+    for _ in range(client_errors.AT_ONCE + 5):
+        told.report("somebody did it")
+    assert len(caplog.records) == client_errors.AT_ONCE
+    told._at -= client_errors.EVERY
+    told.report("somebody did it")
     assert caplog.records[-1].getMessage() == "somebody did it (5 more were not told)"

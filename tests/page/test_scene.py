@@ -240,7 +240,7 @@ def test_what_happened_at_no_time_is_not_shown() -> None:
 
 
 def test_a_page_says_how_a_recording_is_played() -> None:
-    scene = Scene("a walk", "default", "recording", playback=Playback(begin=0.0, end=9.0, t=0.0))
+    scene = Scene("a walk", "default", "recording", playback=Playback(start=0.0, end=9.0, t=0.0))
     _, cursor = scene.whole()
     assert scene.playback is not None
     scene.playback.state, scene.playback.t = "playing", 1.0

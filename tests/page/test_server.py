@@ -19,7 +19,7 @@ from solepath import Foot, LinkTrouble, Session, Site
 from solepath.show.page.messages import Command
 from solepath.show.page.scene.scene import Scene
 from solepath.show.page.server import server
-from solepath.show.page.server.access import AccessDenied, PageAccess, host_of, on_loopback, reached_at
+from solepath.show.page.server.access import AccessDenied, PageAccess, host_of, on_loopback, url_host
 from solepath.show.page.server.connection import HEADERS
 from solepath.show.page.server.server import Page
 
@@ -226,7 +226,7 @@ async def test_beyond_this_machine_nobody_watches_without_the_token() -> None:
         assert await refused(client.ws_connect(f"{url}ws")) == 403
         async with client.ws_connect(f"{url}ws?token={TOKEN}") as watching:
             await scene_of(watching)
-        assert not on_loopback(urlsplit(page.url).hostname or "") or reached_at("0.0.0.0") == "127.0.0.1"
+        assert not on_loopback(urlsplit(page.url).hostname or "") or url_host("0.0.0.0") == "127.0.0.1"
 
 
 async def test_ipv6_of_this_machine_serves_as_well() -> None:

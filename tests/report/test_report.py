@@ -78,7 +78,7 @@ def test_the_gait_table_has_the_numbers_of_the_session() -> None:
         spread = "" if row.sd is None else f" \N{PLUS-MINUS SIGN} {number(row.sd, row.digits)}"
         both = f"{number(row.both, row.digits)}{spread}"
         feet = [number(one, row.digits) for one in (row.left, row.right)]
-        assert rows[f"{row.label}, {row.unit}"] == [*feet, both, percent(row.cv), row.uneven]
+        assert rows[f"{row.label}, {row.unit}"] == [*feet, both, percent(row.cv), row.asymmetry_text]
     assert rows["cadence, steps/min"][2] == number(parameters.cadence, 1)
     assert len(rows) > 10
 
@@ -284,5 +284,5 @@ def test_memory_does_not_grow_with_the_time_walked() -> None:
         report.take(None, [evolve(event, t=event.t + 20.0 * k) for event in events])
         if k in (250, 500):
             sizes.append(len(repr(report)))
-    assert report.strides[Foot.LEFT].count > 1500 and report.way.count > 2000
+    assert report.strides[Foot.LEFT].count > 1500 and report.wearer_track.count > 2000
     assert sizes[1] < 1.3 * sizes[0]

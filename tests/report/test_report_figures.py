@@ -12,7 +12,7 @@ from solepath.body.gait.means import Figure, GaitParameters, StrideFigures
 from solepath.emulate.routes.building import BUILDING
 from solepath.show.report.bounded import Thinned
 from solepath.show.report.clock import ReportClock, lasted
-from solepath.show.report.figures.axes import AxisScale, line, ticks, told
+from solepath.show.report.figures.axes import AxisScale, line, tick_labels, ticks
 from solepath.show.report.figures.cycle import contacts, neither, overlaps
 from solepath.show.report.figures.pressure import SHADES
 from solepath.show.report.soles import KEPT, STATIONS, ReportSole
@@ -28,7 +28,7 @@ def test_ticks_are_round_few_and_told_apart(low: float, span: float, most: int) 
     assert 1 <= len(values) <= most
     margin = 1e-6 * (span + abs(low))
     assert all(low - margin <= value <= low + span + margin for value in values)
-    assert len(set(told(values))) == len(values)
+    assert len(set(tick_labels(values))) == len(values)
     steps = [b - a for a, b in zip(values, values[1:], strict=False)]
     assert max(steps, default=0.0) - min(steps, default=0.0) <= 1e-3 * span + 1e-12 * abs(low)
 

@@ -78,8 +78,8 @@ def test_received_and_lost_frames_are_all_that_were_sent_whatever_came_damaged_o
 
 def test_what_the_receiver_dropped_is_lost_once() -> None:
     link = LinkLedger()
-    link.take(PacketsDropped(t=1.0, known_at=1.0, site=LEFT, count=5))
-    link.take(PacketsLost(t=1.0, known_at=1.1, site=LEFT, channel="insole/frame", count=5))
+    link.add_event(PacketsDropped(t=1.0, known_at=1.0, site=LEFT, count=5))
+    link.add_event(PacketsLost(t=1.0, known_at=1.1, site=LEFT, channel="insole/frame", count=5))
     assert (link.lost, link.dropped) == (5, 5)
 
 
@@ -104,8 +104,8 @@ def test_a_sample_that_moved_and_pressed_is_one_sample() -> None:
         t = 0.01 * k
         observer.take(Sample(t, LEFT), [moved(t, t), pressed(t, t)])
     link = observer.links[LEFT]
-    assert (link.samples, link.moves, link.presses) == (300, True, True)
-    assert link.rate == pytest.approx(100.0) and link.rate_of_late(observer.now) == pytest.approx(100.0, abs=1.0)
+    assert (link.samples, link.has_motion, link.has_pressure) == (300, True, True)
+    assert link.rate == pytest.approx(100.0) and link.recent_rate(observer.now) == pytest.approx(100.0, abs=1.0)
 
 
 def test_samples_that_are_rejected_are_not_used() -> None:
@@ -120,13 +120,13 @@ def test_samples_that_are_rejected_are_not_used() -> None:
 def test_the_rate_leaves_gaps_and_silences_out() -> None:
     link = LinkLedger()
     for k in range(100):
-        link.sampled(0.01 * k, 0.01 * k)
-    link.take(SampleGap(t=0.99, known_at=1.49, site=LEFT, duration=0.5))
+        link.add_sample(0.01 * k, 0.01 * k)
+    link.add_event(SampleGap(t=0.99, known_at=1.49, site=LEFT, duration=0.5))
     for k in range(100):
-        link.sampled(1.49 + 0.01 * k, 1.49 + 0.01 * k)
-    link.take(StreamStale(t=3.5, known_at=3.5, site=LEFT, silent_for=1.0))
+        link.add_sample(1.49 + 0.01 * k, 1.49 + 0.01 * k)
+    link.add_event(StreamStale(t=3.5, known_at=3.5, site=LEFT, silent_for=1.0))
     for k in range(100):
-        link.sampled(60.0 + 0.01 * k, 60.0 + 0.01 * k)
+        link.add_sample(60.0 + 0.01 * k, 60.0 + 0.01 * k)
     assert link.rate == pytest.approx(100.0)
     assert (link.gaps, link.gap_time, link.silences) == (1, 0.5, 1)
 
@@ -163,14 +163,14 @@ def test_a_clock_that_was_set_back_goes_on_from_there() -> None:
 
 def test_a_link_is_lost_until_samples_come_that_are_no_stragglers() -> None:
     link = LinkLedger()
-    link.take(Connected(t=0.0, known_at=0.0, site=LEFT, device="", name="sole", signal=-50))
+    link.add_event(Connected(t=0.0, known_at=0.0, site=LEFT, device="", name="sole", signal=-50))
     assert link.state(0.0) == "waiting"
-    link.sampled(0.1, 0.1)
+    link.add_sample(0.1, 0.1)
     assert (link.state(0.2), link.state(2.0)) == ("ok", "silent")
-    link.take(Disconnected(t=1.0, known_at=1.0, site=LEFT))
-    link.sampled(1.1, 1.2)
+    link.add_event(Disconnected(t=1.0, known_at=1.0, site=LEFT))
+    link.add_sample(1.1, 1.2)
     assert link.state(1.2) == "lost"
-    link.sampled(3.0, 3.0)
+    link.add_sample(3.0, 3.0)
     assert (link.state(3.0), link.name, link.connections) == ("ok", "sole", 1)
 
 
@@ -179,7 +179,7 @@ def test_the_means_of_late_are_the_sessions() -> None:
     for packet in insoles(SHORT.walk(30.0, 1.3)).packets:
         observer.take(packet, session.feed(packet))
     observer.take(None, session.finish())
-    assert session.gait is not None and observer.gait_of_late.parameters == session.gait
+    assert session.gait is not None and observer.recent_gait.parameters == session.gait
 
 
 def test_events_with_a_number_that_is_none_are_left_out() -> None:

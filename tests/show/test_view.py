@@ -25,7 +25,7 @@ from solepath.events import (
 from solepath.session import Session
 from solepath.show.observer import Observer
 from solepath.show.tables.plot import plot
-from solepath.show.tables.summary import link_health, status, summary, worn
+from solepath.show.tables.summary import link_health, status, summary, wear_lines
 from solepath.show.tables.table import milliseconds, number, percent, table
 from solepath.types import Foot, Packet, Sample, Site, WalkingMode
 
@@ -128,14 +128,14 @@ def test_what_both_feet_did_together_is_summed_up():
 
 def test_what_is_wrong_with_how_it_is_worn_is_told_once():
     observer = Observer()
-    assert worn(observer) == []
+    assert wear_lines(observer) == []
     for cells in ((3, 11), (3, 11), tuple(range(40))):
         observer.add(CellsFailed(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, fault=CellFault.DEAD, cells=cells))
     observer.add(InsoleNeverUnloads(t=1.0, known_at=1.0, site=Site.RIGHT_FOOT, seconds=5.0))
     observer.add(FeetSwapped(t=1.0, known_at=1.0))
     observer.add(FootSilent(t=1.0, known_at=1.0, foot=Foot.RIGHT, silent_for=2.0))
     observer.add(FootResumed(t=3.0, known_at=3.0, foot=Foot.RIGHT, silent_for=4.0))
-    assert worn(observer) == [
+    assert wear_lines(observer) == [
         "left foot: cells 3, 11 dead, left out",
         "left foot: 40 cells dead, left out",
         "right foot: the insole never unloads; phases come from the inertial sensor",

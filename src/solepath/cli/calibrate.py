@@ -42,9 +42,9 @@ def run(options: argparse.Namespace) -> int:
     known = read_calibration(options.out) if options.out.exists() else Calibration()
     learnt, lines = options.learn(options, known)
     whole = merged(known, learnt)
-    why_not = unusable(whole)
-    if why_not is not None:
-        raise Failure(f"nothing is written, for this cannot be: {why_not}")
+    problem = unusable(whole)
+    if problem is not None:
+        raise Failure(f"nothing is written, for this cannot be: {problem}")
     write_calibration(options.out, whole)
     print("\n".join([*lines, f"written to {printable(str(options.out))}"]))
     return 0

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from ..recording import PacketWriter, RecordingError, printable, read_header, read_packets, why
 from ..types import Packet, Site
 from .common.failure import Failure, note
-from .common.files import Replacing
+from .common.files import FileReplacements
 
 if TYPE_CHECKING:
     from ..recording.btsnoop import BtsnoopLog
@@ -56,9 +56,9 @@ def add_to(commands: Any) -> None:
 
 
 def _site(text: str) -> tuple[str, Site]:
-    address, told, name = text.rpartition("=")
+    address, equals, name = text.rpartition("=")
     try:
-        if not told:
+        if not equals:
             raise ValueError
         return address.upper(), Site(name)
     except ValueError:
@@ -78,7 +78,7 @@ def _handle(text: str) -> tuple[tuple[str, int], str]:
 
 
 _Key = TypeVar("_Key", str, tuple[str, int])
-_Said = TypeVar("_Said")
+_Value = TypeVar("_Value")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -90,7 +90,7 @@ def run(options: argparse.Namespace) -> int:
     log: BtsnoopLog | None = None
     packets: Iterable[Packet]
     total = source.stat().st_size if source.is_file() else 0
-    with progress_bar(printable(source.name), total, wanted=total > LONG) as show:
+    with progress_bar(printable(source.name), total, enabled=total > LONG) as show:
         if is_btsnoop(source):
             log = _opened(options)
             packets, header = _shown(log, show), log.header
@@ -116,7 +116,7 @@ def _opened(options: argparse.Namespace) -> BtsnoopLog:
     from ..link.catalogue import PROFILES
     from ..recording.btsnoop import open_btsnoop
 
-    sites, handles = _once("--site", options.sites), _once("--handle", options.handles)
+    sites, handles = _by_key("--site", options.sites), _by_key("--handle", options.handles)
     known = {channel.name for profile in PROFILES for channel in profile.channels}
     for name in handles.values():
         if name not in known:
@@ -124,14 +124,14 @@ def _opened(options: argparse.Namespace) -> BtsnoopLog:
     return open_btsnoop(options.source, sites=sites, handles=handles, report=note)
 
 
-def _once(option: str, wishes: Iterable[tuple[_Key, _Said]]) -> dict[_Key, _Said]:
+def _by_key(option: str, given: Iterable[tuple[_Key, _Value]]) -> dict[_Key, _Value]:
     """By what each is about. Failure when two are about the same."""
-    found: dict[_Key, _Said] = {}
-    for key, said in wishes:
+    found: dict[_Key, _Value] = {}
+    for key, value in given:
         if key in found:
             name = key if isinstance(key, str) else f"{key[0]}/{key[1]:#06x}".removeprefix("/")
             raise Failure(f"{option} is given twice for {name}")
-        found[key] = said
+        found[key] = value
     return found
 
 
@@ -200,11 +200,11 @@ def _until_damage(packets: Iterable[Packet]) -> Iterator[Packet | RecordingError
 @contextmanager
 def _replacing(out: Path) -> Iterator[Path]:
     """A file to write that takes the place of `out` when it is done, and is gone when it is not."""
-    files = Replacing()
+    files = FileReplacements()
     try:
         yield files.beside(out, read_only=True)
         files.keep()
     except OSError as error:
         raise Failure(f"{printable(str(out))}: {why(error)}") from None
     finally:
-        files.drop()
+        files.discard()

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..recording import PacketWriter, printable
 from ..types import Foot
-from .common.failure import Failure, is_there, note, positive, seconds, seed, share
+from .common.failure import Failure, is_installed, note, positive, seconds, seed, share
 from .common.view import View, add_speed, add_view, pace_of, play, run_rest, view_of
 
 if TYPE_CHECKING:
@@ -76,17 +76,17 @@ def run(options: argparse.Namespace) -> int:
         _record(demo, options.record)
     if view is not None:
         _show(demo, view, pace)
-    elif sys.stdout.isatty() and is_there("rich"):
+    elif sys.stdout.isatty() and is_installed("rich"):
         _draw(demo, PACE if options.speed is None else options.speed)
     else:
         if sys.stdout.isatty():
             note("the live view needs rich (pip install rich); plain text without it")
-        _tell(demo)
+        _print_progress(demo)
     print()
-    told = [*gait_lines(demo.observer.gait), comparison_table(demo.comparison()), ""]
+    lines = [*gait_lines(demo.observer.gait), comparison_table(demo.comparison()), ""]
     if (place := demo.place()) is not None:
-        told += [place_table(place), ""]
-    print("\n".join([*told, *latency(demo.observer)]))
+        lines += [place_table(place), ""]
+    print("\n".join([*lines, *latency(demo.observer)]))
     return 0
 
 
@@ -97,7 +97,7 @@ def _view(options: argparse.Namespace) -> View | None:
     view = view_of(options)
     if view is not None or options.terminal or not sys.stdout.isatty():
         return view
-    if is_there("aiohttp"):
+    if is_installed("aiohttp"):
         return View(browser=not options.no_browser)
     note("the page in the browser needs aiohttp (pip install 'solepath[view]')")
     return None
@@ -105,12 +105,12 @@ def _view(options: argparse.Namespace) -> View | None:
 
 def _show(demo: Demo, view: View, pace: float) -> None:
     """On a page. Whatever was looked at there, the walk is heard to its end."""
-    from ..show.page.player.kept import KeptItems
+    from ..show.page.player.packed_items import PackedItems
     from ..show.page.player.player import Player
     from ..show.page.scene.scene import Scene
 
     scene = Scene("An emulated walk", "default", "demo", plan=None if demo.plan is None else demo.plan.plan)
-    player = Player(KeptItems(demo.walk.packets), demo.session, scene, demo.plan, told=demo.told)
+    player = Player(PackedItems(demo.walk.packets), demo.session, scene, demo.plan, on_events=demo.told)
     play(player, view, pace)
     run_rest(player, "walk")
 
@@ -133,10 +133,10 @@ def _draw(demo: Demo, speed: float) -> None:
     def title() -> str:
         return f"{demo.observer.now:5.1f} of {demo.duration:.1f} s, {speed:g} times real time"
 
-    console, began = Console(), monotonic()
+    console, started = Console(), monotonic()
     with screen(console) as drawn:
         for packet in demo.play():
-            if (ahead := packet.t / speed - (monotonic() - began)) > 0.5 / FRAMES:
+            if (ahead := packet.t / speed - (monotonic() - started)) > 0.5 / FRAMES:
                 drawn.draw(demo.observer, title())
                 sleep(ahead)
             else:
@@ -144,7 +144,7 @@ def _draw(demo: Demo, speed: float) -> None:
     console.print(picture(demo.observer, title()))
 
 
-def _tell(demo: Demo) -> None:
+def _print_progress(demo: Demo) -> None:
     """Lines of plain text instead of a picture, as fast as it goes."""
     from ..show.tables.plot import plot
     from ..show.tables.summary import link_health

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..recording import printable
-from .common.failure import Failure, count, is_there, positive, recipe_named, seed
+from .common.failure import Failure, count, is_installed, positive, recipe_named, seed
 from .common.files import check_writable, write_json
 
 if TYPE_CHECKING:
@@ -69,12 +69,12 @@ def run(options: argparse.Namespace) -> int:
     from ..fleet.demo.run import RunFailed
     from ..fleet.demo.stage import DemoStage
     from ..fleet.demo.wearers import DemoPlan
-    from .common.loop import stopped_alike
+    from .common.loop import stop_signals_raise
     from .fleet_table import figures, table_of
 
     seconds = options.seconds or min(max(WALKED / options.wearers, LEAST), MOST)
     plan = DemoPlan(options.wearers, seconds, options.seed, options.recipe, options.processes)
-    with stopped_alike(), _directory(options) as directory:
+    with stop_signals_raise(), _directory(options) as directory:
         stage = DemoStage(directory, plan)
         try:
             differences = play(stage, options.kills, keep=options.keep)
@@ -137,7 +137,7 @@ def _check(options: argparse.Namespace) -> None:
         raise Failure(f"--seconds {options.seconds:g}: a walk takes at least 1")
     if options.processes > options.wearers:
         raise Failure(f"--processes {options.processes}: more than there are wearers, {options.wearers}")
-    if not (is_there("bytewax") and is_there("pyarrow")):
+    if not (is_installed("bytewax") and is_installed("pyarrow")):
         where = "" if sys.version_info < (3, 13) else " on Python 3.11 or 3.12, the last that bytewax has a release for"
         raise Failure(f"the fleet needs bytewax and pyarrow: pip install 'solepath[bytewax]'{where}")
     if options.out is not None and options.out.exists() and (not options.out.is_dir() or any(options.out.iterdir())):
@@ -172,9 +172,9 @@ def _leave(stage: DemoStage, out: Path) -> None:
     """The events of the uninterrupted run, and how to look at them."""
     from shlex import quote
 
-    told = out / "told"
-    shutil.copytree(stage.told, told)
-    files = f"{told}/*.parquet".replace("'", "''")
+    events_directory = out / "told"
+    shutil.copytree(stage.told, events_directory)
+    files = f"{events_directory}/*.parquet".replace("'", "''")
     query = f"FROM '{files}' SELECT event, count(*) AS told GROUP BY event ORDER BY told DESC"
-    print(f"\nThe events are in {printable(str(told))}. To look at them (pip install duckdb):")
+    print(f"\nThe events are in {printable(str(events_directory))}. To look at them (pip install duckdb):")
     print(printable(f"python -c {quote(f'import duckdb; print(duckdb.sql({query!r}))')}", 5000))

@@ -61,7 +61,7 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from .common.loop import stopped_alike
+    from .common.loop import stop_signals_raise
     from .common.results import Results
 
     recipe = recipe_named(options.recipe)
@@ -90,7 +90,7 @@ def run(options: argparse.Namespace) -> int:
         when=_when(source),
     )
     seconds, shown = 0.0, False
-    with stopped_alike(), results:
+    with stop_signals_raise(), results:
         if view is None:
             seconds = _straight(reading, session, results)
         else:
@@ -127,7 +127,7 @@ class _Reading:
 
         source = self.source
         long = source.total > (LONG if source.samples is None else LONG_SAMPLES)
-        with progress_bar(printable(source.path.name), source.total, wanted=long) as show:
+        with progress_bar(printable(source.path.name), source.total, enabled=long) as show:
             try:
                 for item in source:
                     yield item
@@ -142,12 +142,12 @@ def _straight(reading: _Reading, session: Session, results: Results) -> float:
 
     start = perf_counter()
     for item in reading:
-        results.begin()
-        results.told(item, session.feed(item))
+        results.open_files()
+        results.add(item, session.feed(item))
     if reading.failure is None:
-        results.begin()  # of a recording of nothing
+        results.open_files()  # of a recording of nothing
     # what came before a fault in the file is a walk of its own: it is finished and written like any other
-    results.told(None, session.finish())
+    results.add(None, session.finish())
     return perf_counter() - start
 
 
@@ -164,14 +164,14 @@ def _played(
 
     The player tells of every item once and in order, whatever is done on the page, and what nobody has watched is run
     through at the end: what comes of the recording is the same."""
-    from ..show.page.player.kept import KeptItems
+    from ..show.page.player.packed_items import PackedItems
     from ..show.page.player.player import Player
     from ..show.page.scene.scene import Scene
 
-    items = KeptItems(reading)
+    items = PackedItems(reading)
     shown, fault = len(items) > 0, "" if reading.failure is None else str(reading.failure)
     if shown or not fault:
-        results.begin()
+        results.open_files()
     scene = Scene(
         printable(reading.source.path.name),
         session.recipe.name,
@@ -179,7 +179,7 @@ def _played(
         plan=None if plan is None else plan.plan,
         newtons=newtons_of(calibration),
     )
-    player = Player(items, session, scene, plan, fault=fault, told=results.told)
+    player = Player(items, session, scene, plan, fault=fault, on_events=results.add)
     if shown:
         if fault:
             note(fault)

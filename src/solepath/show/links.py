@@ -31,7 +31,7 @@ from ..link.known import KINDS
 from ..types import Packet
 from ..wire.fragment import is_fragment
 
-BACK = 1.0
+SET_BACK = 1.0
 """s by which nothing is late: what is earlier than that is of a clock that was set back."""
 WINDOW = 2.0
 """s over which the rate of late is counted."""
@@ -39,25 +39,25 @@ MOST_SAMPLES = 1000
 """Samples that are counted in it: 500 a second."""
 LOSS_WINDOW = 10
 """s over which the loss of late is counted, in whole ones: an outage is over when it is over."""
-SILENT = 1.5
+SILENT_AFTER = 1.5
 """s without a sample after which a link is silent, whether or not the session has said so."""
-STRAY = 1.0
+STRAGGLER_TIME = 1.0
 """s after a connection broke in which what still comes is no sign of a new one."""
 
 
-def streamed(channel: str) -> bool:
+def is_sample_channel(channel: str) -> bool:
     """Whether samples come on this channel of a device that solepath knows."""
     kind = KINDS.get(channel.partition("/")[0])
     return kind is not None and channel in kind.profile.streams
 
 
-def in_pieces(packet: Packet) -> bool:
+def is_frame_fragment(packet: Packet) -> bool:
     """Whether this is a piece of a frame that was too long for one packet."""
     return packet.channel == "insole/frame" and is_fragment(packet.data)
 
 
 @define
-class Stretches:
+class CoveredTime:
     """Time that is covered, s: of stretches that no clock was set back in."""
 
     count: int = 0
@@ -69,7 +69,7 @@ class Stretches:
 
     def add(self, t: float) -> None:
         """Something came at `t` s."""
-        if self.first is not None and t < self.last - BACK:
+        if self.first is not None and t < self.last - SET_BACK:
             self.close()
         if self.first is None:
             self.count += 1
@@ -87,7 +87,7 @@ class Stretches:
 
 
 @define
-class LossOfLate:
+class RecentLoss:
     """Packets of samples of the last seconds."""
 
     seconds: deque[list[int]] = field(factory=lambda: deque(maxlen=LOSS_WINDOW + 1))
@@ -130,9 +130,9 @@ class LinkLedger:
     samples: int = 0
     """Samples that were used, each with its own time: of a foot what the session said where it was or what it pressed
     (FootMoved, FootPressed) or what was fed as a sample; of another site what its packets hold."""
-    moves: bool = False
+    has_motion: bool = False
     """There were samples of an inertial sensor ..."""
-    presses: bool = False
+    has_pressure: bool = False
     """... and of pressure cells."""
     gaps: int = 0
     """Interruptions between samples that are longer than the sensor's rate allows (SampleGap)."""
@@ -153,7 +153,7 @@ class LinkLedger:
     """With which it was last heard before the connection, dBm."""
     trouble: str = ""
     """The last one, until the device is connected again (LinkTrouble)."""
-    heard: float | None = None
+    last_sample_at: float | None = None
     """When the newest sample came."""
     broken_at: float | None = None
     """When the connection broke; None while there is one."""
@@ -163,39 +163,39 @@ class LinkLedger:
     """The session has said that nothing comes any more."""
     _t: float | None = None
     """The newest sample's own time, s."""
-    _covered: Stretches = field(factory=Stretches)
+    _covered: CoveredTime = field(factory=CoveredTime)
     """By the samples' own times: silences, and clocks that begin anew, part them."""
     _gaps_covered: int = 0
     """Gaps that lie within a stretch ..."""
     _gap_time_covered: float = 0.0
     """... and their time, s."""
-    _of_late: deque[float] = field(factory=lambda: deque(maxlen=MOST_SAMPLES))
+    _recent: deque[float] = field(factory=lambda: deque(maxlen=MOST_SAMPLES))
     """When the newest samples came."""
-    _since: float = 0.0
+    _recent_start: float = 0.0
     """When the first of an unbroken row of them came: a stream that has just begun is not slow."""
-    _losses: LossOfLate = field(factory=LossOfLate)
+    _losses: RecentLoss = field(factory=RecentLoss)
 
-    def arrived(self, t: float) -> None:
+    def add_packet(self, t: float) -> None:
         """A packet of samples came at `t` s, and was used."""
         self.received += 1
         self._losses.add(t, 1, 0)
 
-    def sampled(self, t: float, known_at: float) -> None:
+    def add_sample(self, t: float, known_at: float) -> None:
         """A sample of `t` s was used, which came at `known_at`. What is said of the same one again does not count."""
         if t == self._t:
             return
-        self._t, self.heard, self.counted = t, known_at, True
+        self._t, self.last_sample_at, self.counted = t, known_at, True
         self.samples += 1
         self._covered.add(t)
-        if self._of_late and known_at < self._of_late[-1] - BACK:
-            self._of_late.clear()
-        if not self._of_late:
-            self._since = known_at
-        self._of_late.append(known_at)
-        if self.broken_at is None or known_at > self.broken_at + STRAY:
+        if self._recent and known_at < self._recent[-1] - SET_BACK:
+            self._recent.clear()
+        if not self._recent:
+            self._recent_start = known_at
+        self._recent.append(known_at)
+        if self.broken_at is None or known_at > self.broken_at + STRAGGLER_TIME:
             self.broken_at, self._fresh, self._stale = None, True, False
 
-    def take(self, event: Event) -> None:
+    def add_event(self, event: Event) -> None:
         """An event of this link."""
         match event:
             case PacketsLost(count=count):
@@ -245,20 +245,20 @@ class LinkLedger:
         intervals = self.samples - self._covered.count - self._gaps_covered
         return intervals / span if span > 0.0 and intervals > 0 else None
 
-    def rate_of_late(self, now: float) -> float | None:
+    def recent_rate(self, now: float) -> float | None:
         """Samples a second that came in the 2 s before `now`; None where they are not counted."""
-        while self._of_late and self._of_late[0] <= now - WINDOW:
-            self._of_late.popleft()
+        while self._recent and self._recent[0] <= now - WINDOW:
+            self._recent.popleft()
         if not self.counted:
             return None
-        return len(self._of_late) / min(WINDOW, max(now - self._since, 0.5 * WINDOW))
+        return len(self._recent) / min(WINDOW, max(now - self._recent_start, 0.5 * WINDOW))
 
     @property
     def loss(self) -> float | None:
         """Share of the packets sent since the start that were lost; None where none came."""
         return self.lost / (self.received + self.lost) if self.received else None
 
-    def loss_of_late(self, now: float) -> float | None:
+    def recent_loss(self, now: float) -> float | None:
         """Share of the packets sent in the 10 s before `now` that were lost; None where none came."""
         return self._losses.share(now)
 
@@ -278,4 +278,4 @@ class LinkLedger:
     @property
     def silent_from(self) -> float:
         """From when on it is silent if nothing comes any more."""
-        return inf if self.heard is None else self.heard + SILENT
+        return inf if self.last_sample_at is None else self.last_sample_at + SILENT_AFTER

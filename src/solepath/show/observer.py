@@ -46,11 +46,11 @@ from ..events import (
 )
 from ..link.decoder import Decoder
 from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Turn, Vec3, WalkingMode
-from .links import BACK, LinkLedger, Stretches, in_pieces, streamed
+from .links import SET_BACK, CoveredTime, LinkLedger, is_frame_fragment, is_sample_channel
 from .places import PlaceCounts
-from .sound import sound
 from .timeline import Timeline
 from .track import LiveTrack
+from .valid import has_valid_numbers
 
 GAIT_EVENTS: dict[type[Event], str] = {
     HeelStrike: "heel-strike",
@@ -59,11 +59,11 @@ GAIT_EVENTS: dict[type[Event], str] = {
     ToeOff: "toe-off",
 }
 """The events of a foot's phases, and what they are called."""
-REJECTED = (PacketRejected, SampleRejected)
+REJECTIONS = (PacketRejected, SampleRejected)
 """What changes nothing, and so is no sign of time passing either."""
-EVER = 10**9
+ALL_STRIDES = 10**9
 """More strides than anybody takes."""
-NAMED = 8
+MOST_NAMED_CELLS = 8
 """Cells that are named one by one."""
 MOST_SENTENCES = 100
 """Of one kind, each another: later ones are not kept."""
@@ -97,7 +97,7 @@ class Observer:
     """Packets and samples that were fed, used or not."""
     now: float = -inf
     """The latest moment that anything is known of, s; after a clock was set back, by that clock."""
-    time: Stretches = field(factory=Stretches)
+    time: CoveredTime = field(factory=CoveredTime)
     """From the first to the last packet or sample that was used, s: by the arrival of packets, by the own time of
     samples that never were packets."""
     links: dict[Site, LinkLedger] = field(factory=dict)
@@ -108,7 +108,7 @@ class Observer:
     """What the wearer did when."""
     gait: GaitMeans = field(factory=GaitMeans)
     """Of all steady strides, none fading."""
-    gait_of_late: GaitMeans = field(factory=GaitMeans)
+    recent_gait: GaitMeans = field(factory=GaitMeans)
     """The same as `Session.gait` has it: old strides fade."""
     places: PlaceCounts = field(factory=PlaceCounts)
     fused: StrideFused | None = None
@@ -124,24 +124,24 @@ class Observer:
     """By gait event: how often one was known so many tenths of a millisecond after it happened."""
     limitations: list[str] = field(factory=list)
     """What the session does without; each sentence once, here and in the three lists that follow."""
-    suspects: list[str] = field(factory=list)
+    suspect_scales: list[str] = field(factory=list)
     """Accelerometers whose scale cannot be right."""
-    worn: list[str] = field(factory=list)
+    wear_problems: list[str] = field(factory=list)
     """What is wrong with how sensors are worn, or with their cells."""
     troubles: list[str] = field(factory=list)
     """What the receiver could not do."""
     silences: Counter[Foot] = field(factory=Counter)
     """How often nothing came of a foot while the other one walked on."""
-    _elsewhere: dict[Site, Decoder] = field(factory=dict)
+    _other_decoders: dict[Site, Decoder] = field(factory=dict)
     """What counts the samples in packets of sites that are no feet: a session says nothing of them."""
 
     def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
         """What the session was fed, and what it said of that. None: nothing came, time passed or the session ended."""
-        self.fed(item, events)
+        self.count_item(item, events)
         for event in events:
             self.add(event)
 
-    def fed(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
+    def count_item(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
         """The first half of `take`: the item alone. `events` say whether it was used; `add` takes them."""
         if item is None:
             return
@@ -152,16 +152,16 @@ class Observer:
         self.time.add(item.t)
         self.advance(item.t)
         if isinstance(item, Sample):
-            self.link(item.site).sampled(item.t, item.t if item.known_at is None else item.known_at)
+            self.link(item.site).add_sample(item.t, item.t if item.known_at is None else item.known_at)
             return
-        sampled = any([isinstance(event, FootMoved | FootPressed) for event in events])
-        if streamed(item.channel) and (sampled or not in_pieces(item)):
-            self.link(item.site).arrived(item.t)
+        has_samples = any([isinstance(event, FootMoved | FootPressed) for event in events])
+        if is_sample_channel(item.channel) and (has_samples or not is_frame_fragment(item)):
+            self.link(item.site).add_packet(item.t)
         if item.site.foot is None:
-            decoder = self._elsewhere.setdefault(item.site, Decoder(item.site))
+            decoder = self._other_decoders.setdefault(item.site, Decoder(item.site))
             for one in decoder.feed(item):
                 if isinstance(one, Sample):
-                    self.link(item.site).sampled(one.t, item.t)
+                    self.link(item.site).add_sample(one.t, item.t)
 
     def advance(self, now: float) -> None:
         """It is `now` s, on the clock of the packets, whether or not anything came."""
@@ -170,27 +170,27 @@ class Observer:
 
     def add(self, event: Event) -> bool:
         """The next event of the session, in the order in which they are said; False when it is left out."""
-        if not sound(event):
+        if not has_valid_numbers(event):
             return False
-        if not isinstance(event, REJECTED):
+        if not isinstance(event, REJECTIONS):
             self.advance(event.known_at)
         match event:
             case FootMoved(t=t, known_at=known_at, foot=foot, position=position):
                 one, link = self.foot(foot), self.link(SITE_OF_FOOT[foot])
                 one.phase, one.position = event.phase, position
-                link.sampled(t, known_at)
-                link.moves = True
+                link.add_sample(t, known_at)
+                link.has_motion = True
                 self.track.add(foot, position[0], position[1])
             case FootPressed(t=t, known_at=known_at, foot=foot):
                 link = self.link(SITE_OF_FOOT[foot])
-                link.sampled(t, known_at)
-                link.presses = True
+                link.add_sample(t, known_at)
+                link.has_pressure = True
             case HeelStrike() | FootFlat() | HeelOff() | ToeOff():
                 self._phase(event)
             case _:
                 site = getattr(event, "site", None)
                 if site is not None:
-                    self.link(site).take(event)
+                    self.link(site).add_event(event)
                 self._count(event)
                 self._note(event)
                 self.places.add(event)
@@ -220,9 +220,9 @@ class Observer:
                 one.degraded += event.degraded
                 one.distance += event.length
             case GaitCycleMeasured():
-                self.gait.hear(event, EVER)
-                self.gait_of_late.hear(event)
-            case ClockReset(known_at=known_at) if known_at < self.now - BACK:
+                self.gait.hear(event, ALL_STRIDES)
+                self.recent_gait.hear(event)
+            case ClockReset(known_at=known_at) if known_at < self.now - SET_BACK:
                 self.now = known_at
             case ActivityChanged():
                 self.timeline.add(event, MOST_CHANGES)
@@ -245,23 +245,25 @@ class Observer:
         """A sentence of what goes wrong, once."""
         match event:
             case LinkTrouble(site=site, what=what):
-                _once(self.troubles, f"{site.words}: {what}")
+                _add_once(self.troubles, f"{site.words}: {what}")
             case Limitation(site=site, what=what):
-                _once(self.limitations, what if site is None else f"{site.words}: {what}")
+                _add_once(self.limitations, what if site is None else f"{site.words}: {what}")
             case ScaleSuspect(site=site, magnitude=magnitude, suggestion=suggestion):
                 more = f": {suggestion}" if suggestion else ""
-                _once(self.suspects, f"{site.words}: |acc| is {magnitude:.2f} m/s^2 at rest{more}")
+                _add_once(self.suspect_scales, f"{site.words}: |acc| is {magnitude:.2f} m/s^2 at rest{more}")
             case CellsFailed(site=site, fault=fault, cells=cells):
-                _once(self.worn, f"{site.words}: {_cells(cells)} {fault.value}, left out")
+                _add_once(self.wear_problems, f"{site.words}: {_cell_words(cells)} {fault.value}, left out")
             case InsoleNeverUnloads(site=site):
-                _once(self.worn, f"{site.words}: the insole never unloads; phases come from the inertial sensor")
+                _add_once(
+                    self.wear_problems, f"{site.words}: the insole never unloads; phases come from the inertial sensor"
+                )
             case FeetSwapped():
-                _once(self.worn, "the feet look swapped: what comes as the left one is like a right one")
+                _add_once(self.wear_problems, "the feet look swapped: what comes as the left one is like a right one")
             case _:
                 pass
 
     @property
-    def heard(self) -> list[Foot]:
+    def known_feet(self) -> list[Foot]:
         """The feet that anything is known of."""
         return [foot for foot in Foot if foot in self.feet or self.samples(foot)]
 
@@ -271,13 +273,13 @@ class Observer:
         return 0 if link is None else link.samples
 
 
-def _once(sentences: list[str], one: str) -> None:
+def _add_once(sentences: list[str], one: str) -> None:
     if one not in sentences and len(sentences) < MOST_SENTENCES:
         sentences.append(one)
 
 
-def _cells(numbers: tuple[int, ...]) -> str:
+def _cell_words(numbers: tuple[int, ...]) -> str:
     """Cells in words: their numbers, or how many they are where nobody would read them all."""
-    if len(numbers) > NAMED:
+    if len(numbers) > MOST_NAMED_CELLS:
         return f"{len(numbers)} cells"
     return f"cell{'s' * (len(numbers) > 1)} {', '.join(map(str, numbers))}"

@@ -6,7 +6,7 @@ from attrs import define, field
 
 from ..events import Event, Placed, PlaceLost, StrideTaken
 
-MOST = 20
+MOST_LISTED = 20
 """No more level changes, and no more losses, are kept one by one."""
 
 
@@ -45,7 +45,7 @@ class PlaceCounts:
                     self._decided(event)
             case PlaceLost():
                 self.losses += 1
-                if len(self.lost) < MOST:
+                if len(self.lost) < MOST_LISTED:
                     self.lost.append((event.t, event.what))
                 self.last = None
             case _:
@@ -58,5 +58,5 @@ class PlaceCounts:
         if event.level != self.level:
             self.changes += self.level is not None
             self.level = event.level
-            if len(self.levels) <= MOST:
+            if len(self.levels) <= MOST_LISTED:
                 self.levels.append((event.t, event.level))

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from ..common.failure import need, positive, seed
-from .choosing import UNATTENDED, add_duration
+from .devices import SERVE_TIME, add_duration
 
 HERE = "127.0.0.1:9735"
 KINDS = ("insole", "cc2650", "cc2541", "cc2541-20hz")
@@ -36,7 +36,7 @@ def add_to(commands: Any) -> None:
     command.add_argument("--seed", metavar="N", type=seed, default=1, help="another walk of this route (default: 1)")
     command.add_argument("--mtu", metavar="N", type=int, default=247, help="that insoles agree to (default: 247)")
     command.add_argument("--faults", metavar="FILE", type=Path, help="a script of what goes wrong")
-    add_duration(command, UNATTENDED)
+    add_duration(command, SERVE_TIME)
     command.set_defaults(run=run)
 
 

@@ -18,17 +18,17 @@ from ...link.devices import cc2541, cc2650, insole
 from ...recording import printable
 from ...types import Site
 from ..common.failure import Failure, attended, host_and_port, in_words
-from .choosing import UNATTENDED
+from .devices import SERVE_TIME
 
 LONGEST = 5000.0
 """m; a longer walk would take minutes and gigabytes to be worked out."""
-RESTED = 10.0
+RESTART_AFTER = 10.0
 """s without a connection after which the next one finds the wearer at the beginning of his walk."""
-TOLD_EVERY, REDRAWN = 10.0, 1.0
+REPORT_EVERY, REDRAW_EVERY = 10.0, 1.0
 """s between two lines on how it goes, without a terminal and in one."""
 LONG = 500.0
 """m from which on it takes some seconds to work out the walk."""
-HESITATES = 1.0
+WALK_DELAY = 1.0
 """s from the first connection to the walk's beginning; it begins with standing."""
 
 
@@ -78,8 +78,8 @@ async def serve_devices(options: argparse.Namespace, bench: Bench, stop: asyncio
             print(f"  {peripheral.address}  {peripheral.site.words}  {printable(peripheral.name)}", flush=True)
         seconds = options.duration
         if seconds is None and not attended():
-            seconds = UNATTENDED
-        tasks = [asyncio.create_task(work) for work in (_walk_when_connected(bench), _tell(bench))]
+            seconds = SERVE_TIME
+        tasks = [asyncio.create_task(work) for work in (_walk_when_connected(bench), _print_status(bench))]
         try:
             async with asyncio.timeout(seconds):
                 await stop.wait()
@@ -92,14 +92,14 @@ async def serve_devices(options: argparse.Namespace, bench: Bench, stop: asyncio
     return 0
 
 
-async def _tell(bench: Bench) -> None:
+async def _print_status(bench: Bench) -> None:
     """How it goes: one line that changes in a terminal, elsewhere a line now and then."""
     loop = asyncio.get_running_loop()
-    began, live = loop.time(), sys.stdout.isatty()
+    started, live = loop.time(), sys.stdout.isatty()
     try:
         while True:
-            await asyncio.sleep(REDRAWN if live else TOLD_EVERY)
-            line = f"{loop.time() - began:6.0f} s  {'; '.join(map(_state, bench.peripherals))}"
+            await asyncio.sleep(REDRAW_EVERY if live else REPORT_EVERY)
+            line = f"{loop.time() - started:6.0f} s  {'; '.join(map(_state, bench.peripherals))}"
             print(f"\r{line}\x1b[K" if live else line, end="" if live else "\n", flush=True)
     finally:
         if live:
@@ -121,7 +121,7 @@ async def _walk_when_connected(bench: Bench) -> None:
         if not any(peripheral.is_connected for peripheral in bench.peripherals):
             alone_since = now if alone_since is None else alone_since
         elif alone_since is not None:
-            if now - alone_since > RESTED:
-                bench.walk_from(now + HESITATES)
+            if now - alone_since > RESTART_AFTER:
+                bench.walk_from(now + WALK_DELAY)
             alone_since = None
         await asyncio.sleep(0.01)

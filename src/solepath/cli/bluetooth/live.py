@@ -10,7 +10,7 @@ from typing import Any
 from ..common.failure import recipe_named
 from ..common.inputs import add_calibration, add_floorplan, calibration_of, floorplan_of
 from ..common.view import add_view, need_page, view_of
-from .choosing import add_devices, need_bleak
+from .devices import add_devices, need_bleak
 
 
 def add_to(commands: Any) -> None:

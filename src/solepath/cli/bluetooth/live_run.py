@@ -25,12 +25,12 @@ from ...show.output import EVENTS, GAIT_CYCLES, PLACES, STRIDES, TRACK, TrackFil
 from ...show.page.scene.scene import Scene
 from ...show.tables.summary import place_lines, status, summary
 from ...types import Packet
-from ..common.failure import Failure, is_there, note
+from ..common.failure import Failure, is_installed, note
 from ..common.files import check_writable
-from ..common.loop import unless_told
+from ..common.loop import unless_stopped
 from ..common.view import View, newtons_of, page_of
-from .air import air, until
-from .choosing import LISTENED, chosen, how_long, wanted
+from .backend import backend_of, until
+from .devices import SCAN_TIME, choose_devices, how_long, named_devices
 
 
 async def listen(
@@ -43,7 +43,7 @@ async def listen(
     stop: asyncio.Event,
 ) -> int:
     """Until it is told to stop; the exit status."""
-    devices = wanted(options)
+    devices = named_devices(options)
     check_all_writable(options.record, options.out, plan is not None)
     seconds = how_long(options)
     session = Session(
@@ -52,30 +52,30 @@ async def listen(
     observer = Observer()
     scene: Scene | None = None
     async with AsyncExitStack() as stack:
-        async with unless_told(stop):
-            backend = await stack.enter_async_context(air(options.via))
+        async with unless_stopped(stop):
+            backend = await stack.enter_async_context(backend_of(options.via))
             if not devices:
-                print(f"looking for sensors for {LISTENED:g} s ...", flush=True)
-                devices = chosen(await scan(LISTENED, backend=backend), options.profile)
-            heard = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
+                print(f"looking for sensors for {SCAN_TIME:g} s ...", flush=True)
+                devices = choose_devices(await scan(SCAN_TIME, backend=backend), options.profile)
+            packets = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
         if view is not None:
             drawn = None if plan is None else plan.plan
             scene = Scene("Live", recipe.name, "live", plan=drawn, newtons=newtons_of(calibration), observer=observer)
             await stack.enter_async_context(page_of(scene, view))
         # not before: a search in vain replaces nothing of an earlier run
         files = LiveFiles(options.record, options.out, plan is not None)
-        going_on = LiveSession(session, observer if scene is None else scene, files)
+        live = LiveSession(session, observer if scene is None else scene, files)
         try:
             with shown(observer, "Ctrl-C ends" if seconds is None else f"{seconds:g} s") as report:
-                async for packet in until(heard, stop, seconds):
-                    going_on.take(packet)
+                async for packet in until(packets, stop, seconds):
+                    live.take(packet)
                     report()
                     if files.failure is not None:
                         break
         except asyncio.CancelledError:
             note("interrupted")
         finally:
-            going_on.finish()
+            live.finish()
     print(summary(observer, title=f"recipe {recipe.name}", seconds=0.0))
     if plan is not None:
         print("\n".join(place_lines(observer.places)))
@@ -99,14 +99,14 @@ class LiveSession:
     def take(self, packet: Packet) -> None:
         """The next packet."""
         self.files.packet(packet)
-        self._tell(packet, self.session.feed(packet))
+        self._show(packet, self.session.feed(packet))
 
     def finish(self) -> None:
         """No more will come: what was held back is shown and written, too."""
-        self._tell(None, self.session.finish())
+        self._show(None, self.session.finish())
         self.files.close()
 
-    def _tell(self, packet: Packet | None, events: list[Event]) -> None:
+    def _show(self, packet: Packet | None, events: list[Event]) -> None:
         self.watcher.take(packet, events)
         for event in events:
             self.files.event(event)
@@ -180,7 +180,7 @@ REPORT_EVERY = 5.0
 @contextmanager
 def shown(observer: Observer, title: str) -> Iterator[Callable[[], None]]:
     """How the session goes: a picture in a terminal that can draw one, else lines now and then."""
-    if sys.stdout.isatty() and is_there("rich"):
+    if sys.stdout.isatty() and is_installed("rich"):
         from rich.console import Console
 
         from ...show.tables.terminal import screen
@@ -188,14 +188,14 @@ def shown(observer: Observer, title: str) -> Iterator[Callable[[], None]]:
         with screen(Console()) as drawn:
             yield lambda: drawn.show(observer, title)
         return
-    began: float | None = None
+    started: float | None = None
     due = REPORT_EVERY
 
     def report() -> None:
-        nonlocal began, due
-        began = observer.now if began is None else began
-        if observer.now - began >= due:
+        nonlocal started, due
+        started = observer.now if started is None else started
+        if observer.now - started >= due:
             due += REPORT_EVERY
-            print("\n".join(f"{observer.now - began:6.1f} s  {line}" for line in status(observer)), flush=True)
+            print("\n".join(f"{observer.now - started:6.1f} s  {line}" for line in status(observer)), flush=True)
 
     yield report

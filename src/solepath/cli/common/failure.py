@@ -32,7 +32,7 @@ def attended() -> bool:
     return sys.stdin.isatty() or sys.stdout.isatty()
 
 
-def is_there(package: str) -> bool:
+def is_installed(package: str) -> bool:
     """Whether a package of an extra is installed; it is not loaded."""
     return find_spec(package) is not None
 
@@ -40,7 +40,7 @@ def is_there(package: str) -> bool:
 def need(what: str, extra: str, *packages: str) -> None:
     """Failure that says how to get them where one of these packages is not installed."""
     for package in packages:
-        if not is_there(package):
+        if not is_installed(package):
             raise Failure(f"{what} {package}: pip install 'solepath[{extra}]'")
 
 

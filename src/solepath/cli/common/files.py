@@ -34,8 +34,8 @@ def write_json(path: Path, value: Any) -> None:
 
 
 @define
-class Replacing:
-    """`beside` says where to write instead; `keep` puts what was written there into its place, `drop` throws it away.
+class FileReplacements:
+    """`beside` says where to write instead; `keep` puts what was written there into its place, `discard` throws it away.
 
     Written in the same directory, so that a file is there as it was or as it is to be at any moment, whatever ends the
     program. What is no file, as a pipe, is written in place: it holds nothing that could be kept."""
@@ -77,7 +77,7 @@ class Replacing:
                 raise OSError(error.errno, error.strerror, str(place)) from None
             del self._places[written]
 
-    def drop(self) -> None:
+    def discard(self) -> None:
         for written in self._places:
             with suppress(OSError):
                 written.unlink()

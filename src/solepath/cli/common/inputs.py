@@ -49,7 +49,7 @@ def _pressed(source: Source) -> bool:
         return any("pressure" in table.columns for table in source.samples.tables)
     decoders: dict[Site, Decoder] = {}
     try:
-        for item in open_source(source.path, source.foot, report=_said_later):
+        for item in open_source(source.path, source.foot, report=_ignore):
             if isinstance(item, Packet):
                 found = decoders.setdefault(item.site, Decoder(item.site)).feed(item)
                 if any(isinstance(one, Sample) and one.pressure for one in found):
@@ -59,7 +59,7 @@ def _pressed(source: Source) -> bool:
     return False
 
 
-def _said_later(sentence: str) -> None:
+def _ignore(sentence: str) -> None:
     """The run itself reports it."""
 
 
@@ -115,8 +115,8 @@ def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start
         raise Failure(str(error)) from None
     for sentence in warnings(plan):
         note(f"{options.floorplan}: {sentence}")
-    if start is not None and (why_not := nowhere(indexed, start)) is not None:
-        raise Failure(f"{options.floorplan}: {why_not}")
+    if start is not None and (problem := nowhere(indexed, start)) is not None:
+        raise Failure(f"{options.floorplan}: {problem}")
     return indexed, start
 
 
@@ -133,9 +133,9 @@ def start_of(text: str) -> Start:
             if heading and not abs(heading[0]) <= 360.0:
                 raise Failure(f"--start {printable(text, 80)}: a heading can be -360 to 360 degrees")
             start = Start(level.strip(), (x, y), radians(heading[0]) if heading else None)
-            why_not = no_start(start)
-            if why_not is not None:
-                raise Failure(f"--start {printable(text, 80)}: {why_not}")
+            problem = no_start(start)
+            if problem is not None:
+                raise Failure(f"--start {printable(text, 80)}: {problem}")
             return start
     raise Failure(f"--start {printable(text, 80)} is not LEVEL,X,Y or LEVEL,X,Y,HEADING, as in 0,12.5,3 or 0,12.5,3,90")
 

@@ -13,11 +13,11 @@ from typing import Any
 
 STOP = [signal.SIGINT, signal.SIGTERM, *([signal.SIGHUP] if hasattr(signal, "SIGHUP") else [])]
 """What tells a command to stop: Ctrl-C, being ended, and a terminal that was closed."""
-INTERRUPTED = 130
+STOPPED_STATUS = 130
 """The exit status of what was told to stop before it had begun."""
 
 
-class Interrupted(Exception):
+class StoppedEarly(Exception):
     """It was told to stop before it had begun."""
 
 
@@ -29,35 +29,35 @@ def run_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> int
     with asyncio.Runner() as runner:
         loop, stop = runner.get_loop(), asyncio.Event()
 
-        def told(number: int, frame: object) -> None:
+        def stop_main(number: int, frame: object) -> None:
             loop.call_soon_threadsafe(stop.set)
 
-        before = _heard_by(told)
+        before = _handle_signals(stop_main)
         try:
             return runner.run(main(stop))
-        except Interrupted:
-            return INTERRUPTED
+        except StoppedEarly:
+            return STOPPED_STATUS
         finally:
             for number, handler in before.items():
                 # who was told already is on the way out
-                signal.signal(number, _deaf if stop.is_set() else handler)
-            atexit.register(_deaf_to_the_end)
+                signal.signal(number, _ignore_signal if stop.is_set() else handler)
+            atexit.register(_ignore_at_exit)
 
 
 @contextmanager
-def stopped_alike() -> Iterator[None]:
+def stop_signals_raise() -> Iterator[None]:
     """Whatever tells the command to stop within is a KeyboardInterrupt, as Ctrl-C is, so that nothing half done stays;
     it is told once, and what is cleared away then is cleared away in peace."""
 
     def stopped(number: int, frame: object) -> None:
         for one in before:
-            signal.signal(one, _deaf)
+            signal.signal(one, _ignore_signal)
         raise KeyboardInterrupt
 
     if threading.current_thread() is not threading.main_thread():
         yield  # others hear no signals
         return
-    before = _heard_by(stopped)
+    before = _handle_signals(stopped)
     try:
         yield
     finally:
@@ -65,32 +65,32 @@ def stopped_alike() -> Iterator[None]:
             signal.signal(number, handler)
 
 
-def _heard_by(handler: Callable[[int, object], None]) -> dict[signal.Signals, Any]:
+def _handle_signals(handler: Callable[[int, object], None]) -> dict[signal.Signals, Any]:
     """From now on `handler` hears what tells the command to stop; who heard it before. What is ignored (nohup) stays
     ignored, and a terminal that was closed is not written to any more."""
     terminals = [number for number in (1, 2) if os.isatty(number)]
 
-    def hear(number: int, frame: object) -> None:
+    def handle(number: int, frame: object) -> None:
         if number != signal.SIGINT and number != signal.SIGTERM:
-            _leave(terminals)
+            _discard_output(terminals)
         handler(number, frame)
 
-    heard = [number for number in STOP if signal.getsignal(number) is not signal.SIG_IGN]
-    return {number: signal.signal(number, hear) for number in heard}
+    handled = [number for number in STOP if signal.getsignal(number) is not signal.SIG_IGN]
+    return {number: signal.signal(number, handle) for number in handled}
 
 
-def _deaf(number: int, frame: object) -> None:
+def _ignore_signal(number: int, frame: object) -> None:
     """Whoever stops already need not be told again. Not SIG_IGN, which is of whoever started the command."""
 
 
-def _deaf_to_the_end() -> None:
+def _ignore_at_exit() -> None:
     """Python takes its handlers away before it ends, and a signal would end it then; what is ignored stays so."""
     for number in STOP:
-        if signal.getsignal(number) is _deaf:
+        if signal.getsignal(number) is _ignore_signal:
             signal.signal(number, signal.SIG_IGN)
 
 
-def _leave(terminals: list[int]) -> None:
+def _discard_output(terminals: list[int]) -> None:
     """What is written there from now on is written to nobody: that it cannot be must not end what is being done."""
     nobody = os.open(os.devnull, os.O_WRONLY)
     for number in terminals:
@@ -99,25 +99,25 @@ def _leave(terminals: list[int]) -> None:
 
 
 @contextmanager
-def listening() -> Iterator[Callable[[], bool]]:
+def stop_flag() -> Iterator[Callable[[], bool]]:
     """Whether something told the command to stop within, for work that ends at a good moment of its own."""
-    told = False
+    stopped = False
 
-    def hear(number: int, frame: object) -> None:
-        nonlocal told
-        told = True
+    def handle(number: int, frame: object) -> None:
+        nonlocal stopped
+        stopped = True
 
-    before = _heard_by(hear)
+    before = _handle_signals(handle)
     try:
-        yield lambda: told
+        yield lambda: stopped
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
 
 
 @asynccontextmanager
-async def unless_told(stop: asyncio.Event) -> AsyncIterator[None]:
-    """What is waited for within is given up when `stop` is set: Interrupted."""
+async def unless_stopped(stop: asyncio.Event) -> AsyncIterator[None]:
+    """What is waited for within is given up when `stop` is set: StoppedEarly."""
 
     async def watch() -> None:
         await stop.wait()
@@ -133,7 +133,7 @@ async def unless_told(stop: asyncio.Event) -> AsyncIterator[None]:
                 watching.cancel()
     except TimeoutError:
         if limit.expired():
-            raise Interrupted from None
+            raise StoppedEarly from None
         raise
     if stop.is_set():
-        raise Interrupted
+        raise StoppedEarly

@@ -16,7 +16,7 @@ from ...show.report import Report
 from ...show.tables.plan import PlanPicture
 from ...show.tables.summary import place_lines, summary
 from ...types import Packet, Sample
-from .files import Replacing, check_writable
+from .files import FileReplacements, check_writable
 
 
 @define
@@ -39,8 +39,8 @@ class Results:
     _report: Report | None = field(init=False)
     _files: TrackFiles | None = field(default=None, init=False)
     _open: ExitStack = field(factory=ExitStack, init=False)
-    _replacing: Replacing = field(factory=Replacing, init=False)
-    _replacing_report: Replacing = field(factory=Replacing, init=False)
+    _files_out: FileReplacements = field(factory=FileReplacements, init=False)
+    _report_out: FileReplacements = field(factory=FileReplacements, init=False)
     _picture_at: Path | None = field(default=None, init=False)
     _report_at: Path | None = field(default=None, init=False)
 
@@ -51,17 +51,17 @@ class Results:
             check_writable(self.report)
             self._report = Report(self.title, self.plan, self.recipe, self.when, observer=self.observer)
 
-    def begin(self) -> None:
+    def open_files(self) -> None:
         """There is something to write, or there will be nothing."""
         if self._files is None and self.out is not None:
-            self._files = TrackFiles(self.out, places=self.plan is not None, beside=self._replacing.beside)
+            self._files = TrackFiles(self.out, places=self.plan is not None, beside=self._files_out.beside)
             self._open.callback(self._files.close)
             if self.plan is not None:
-                self._picture_at = self._replacing.beside(self.out / PLAN)
+                self._picture_at = self._files_out.beside(self.out / PLAN)
         if self._report_at is None and self.report is not None:
-            self._report_at = self._replacing_report.beside(self.report)
+            self._report_at = self._report_out.beside(self.report)
 
-    def told(self, item: Packet | Sample | None, events: list[Event]) -> None:
+    def add(self, item: Packet | Sample | None, events: list[Event]) -> None:
         """What the session said of an item; of none, at the end."""
         watcher = self.observer if self._report is None else self._report
         watcher.take(item, events)
@@ -77,7 +77,7 @@ class Results:
         if self._picture is not None and self._picture_at is not None and self.out is not None:
             with naming(self.out):
                 self._picture.write(self._picture_at, self.title)
-        self._replacing.keep()
+        self._files_out.keep()
         print(summary(self.observer, title=self.title, seconds=seconds))
         if self._picture is not None:
             print("\n".join(place_lines(self.observer.places)))
@@ -86,7 +86,7 @@ class Results:
         if self._report is not None and self._report_at is not None and self.report is not None:
             with naming(self.report):
                 self._report.write(self._report_at)
-            self._replacing_report.keep()
+            self._report_out.keep()
             print(f"report in {printable(str(self.report))}")
 
     def __enter__(self) -> Results:
@@ -97,5 +97,5 @@ class Results:
         try:
             self._open.close()
         finally:
-            self._replacing.drop()
-            self._replacing_report.drop()
+            self._files_out.discard()
+            self._report_out.discard()

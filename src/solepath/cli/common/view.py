@@ -120,11 +120,11 @@ def play(player: Player, view: View, pace: float) -> None:
     it was played to its end."""
     import asyncio
 
-    from ...show.page.player.playing import Playing
+    from ...show.page.player.player_loop import PlayerLoop
     from .loop import run_to_end
 
     async def played(stop: asyncio.Event) -> int:
-        playing, once = Playing(player), not attended()
+        playing, once = PlayerLoop(player), not attended()
         async with page_of(player.scene, view, playing.command) as page:
             if not once:
                 print("Ctrl-C ends it", flush=True)
@@ -139,20 +139,20 @@ def run_rest(player: Player, what: str) -> None:
     """What nobody has watched of `what`, a word, so that `told` has heard all of it. KeyboardInterrupt at another
     Ctrl-C, after an item that `told` has heard of."""
     from ...show.tables.progress import progress_bar
-    from .loop import listening
+    from .loop import stop_flag
 
     items = player.items
     left = len(items) - player.done
-    with progress_bar("computing", len(items), wanted=left > LONG) as show, listening() as told_to_stop:
+    with progress_bar("computing", len(items), enabled=left > LONG) as show, stop_flag() as stop_requested:
         if left > 0:
             print(f"the rest of the {what}, as fast as it can be computed; Ctrl-C again gives it up ...", flush=True)
         fed = count(1)
-        while player.run_through(lambda: next(fed) % ITEMS == 0 or told_to_stop()):
+        while player.run_through(lambda: next(fed) % ITEMS == 0 or stop_requested()):
             show(player.done)
-            if told_to_stop():
-                at = items.t(player.done - 1) if player.done else items.begin
+            if stop_requested():
+                at = items.t(player.done - 1) if player.done else items.start
                 note(
-                    f"given up after {at - items.begin:.1f} of {items.end - items.begin:.1f} s: nothing is summed up "
+                    f"given up after {at - items.start:.1f} of {items.end - items.start:.1f} s: nothing is summed up "
                     "or written, and what was written before stays as it is"
                 )
                 raise KeyboardInterrupt

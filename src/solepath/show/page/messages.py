@@ -38,21 +38,21 @@ class Command:
 def parse_command(text: str) -> Command:
     """The command that a text is; CommandError when it is none, whatever it is."""
     try:
-        told = json.loads(text, parse_constant=_no_number, object_pairs_hook=_once)
+        message = json.loads(text, parse_constant=_no_number, object_pairs_hook=_unique_members)
     except CommandError:
         raise
     except (ValueError, RecursionError):
         raise CommandError("a message is not JSON", is_json=False) from None
-    if not isinstance(told, dict):
+    if not isinstance(message, dict):
         raise CommandError("a message is no JSON object")
-    do = told.get("do")
+    do = message.get("do")
     if not isinstance(do, str) or do not in VALUED:
         raise CommandError("a message asks for nothing that there is")
-    if told.keys() != ({"do", "value"} if VALUED[do] else {"do"}):
+    if message.keys() != ({"do", "value"} if VALUED[do] else {"do"}):
         raise CommandError(f"a message to {do} has other members than it should")
     if not VALUED[do]:
         return Command(do)
-    value = told["value"]
+    value = message["value"]
     if isinstance(value, bool) or not isinstance(value, int | float) or not _is_finite(value):
         raise CommandError(f"a message to {do} has a value that is no number")
     if do == "speed" and not SLOWEST <= value <= FASTEST:
@@ -62,22 +62,22 @@ def parse_command(text: str) -> Command:
 
 def encode(message: dict[str, Any]) -> str:
     """A message of the server as text. ValueError for one with a number that is none. A member that knows its own text
-    (Written) is not written anew: a floor plan may be of megabytes, and is sent to each watcher and after each seek."""
-    written = {key: value for key, value in message.items() if isinstance(value, Written)}
-    text = _json({key: value for key, value in message.items() if key not in written} if written else message)
-    for key, value in written.items():
+    (EncodedOnce) is not written anew: a floor plan may be of megabytes, and is sent to each watcher and after each seek."""
+    encoded = {key: value for key, value in message.items() if isinstance(value, EncodedOnce)}
+    text = _json({key: value for key, value in message.items() if key not in encoded} if encoded else message)
+    for key, value in encoded.items():
         text = f"{text[:-1]}{',' if len(text) > 2 else ''}{_json(key)}:{value.text}}}"
     return text
 
 
-class Written(dict[str, Any]):
+class EncodedOnce(dict[str, Any]):
     """A part of messages that never changes, and is sent often: its text is made once, when it is first wanted."""
 
     @cached_property
     def text(self) -> str:
         return _json(self)
 
-    def __deepcopy__(self, memo: dict[int, Any]) -> Written:
+    def __deepcopy__(self, memo: dict[int, Any]) -> EncodedOnce:
         return self
 
 
@@ -89,11 +89,11 @@ def _no_number(text: str) -> None:
     raise CommandError(f"a message holds {text}, which is not JSON", is_json=False)
 
 
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    told = dict(pairs)
-    if len(told) != len(pairs):
+def _unique_members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    message = dict(pairs)
+    if len(message) != len(pairs):
         raise CommandError("a message has a member twice")
-    return told
+    return message
 
 
 def _is_finite(value: float) -> bool:
@@ -103,11 +103,11 @@ def _is_finite(value: float) -> bool:
         return False
 
 
-def shown(value: float | None, digits: int = 3) -> float | None:
+def rounded(value: float | None, digits: int = 3) -> float | None:
     """`value` with so many digits after the point; None of what is no number: JSON has none for it."""
     return None if value is None or not isfinite(value) else round(value, digits)
 
 
-def placed(values: Iterable[float], digits: int = 3) -> list[float | None]:
+def rounded_all(values: Iterable[float], digits: int = 3) -> list[float | None]:
     """The same of a place, m: to the millimetre."""
-    return [shown(value, digits) for value in values]
+    return [rounded(value, digits) for value in values]

@@ -12,20 +12,20 @@ FAR = 1e5
 
 @frozen
 class ReportClock:
-    """Of one recording, from `begin` to `end`, s."""
+    """Of one recording, from `start` to `end`, s."""
 
-    begin: float
+    start: float
     end: float
 
     @property
     def origin(self) -> float:
         """What the report's times count from, s."""
-        return self.begin if abs(self.begin) >= FAR else 0.0
+        return self.start if abs(self.start) >= FAR else 0.0
 
     @property
     def per_unit(self) -> float:
         """Seconds of the unit on axes."""
-        return 60.0 if self.end - self.begin > LONG else 1.0
+        return 60.0 if self.end - self.start > LONG else 1.0
 
     @property
     def label(self) -> str:
@@ -36,19 +36,19 @@ class ReportClock:
     @property
     def span(self) -> tuple[float, float]:
         """Of a time axis, in its unit."""
-        low, high = self.of(self.begin), self.of(self.end)
+        low, high = self.of(self.start), self.of(self.end)
         return (low, high) if high > low else (low - 0.5, low + 0.5)
 
     def of(self, t: float) -> float:
         """On a time axis."""
         return (t - self.origin) / self.per_unit
 
-    def said(self, t: float) -> str:
+    def text(self, t: float) -> str:
         """In a sentence."""
         return f"{t - self.origin:.1f} s"
 
 
-def lasted(seconds: float) -> str:
+def duration_text(seconds: float) -> str:
     """A duration in words."""
     if seconds < 9.95:
         return f"{seconds:.1f} s"

@@ -6,7 +6,7 @@ from xml.etree.ElementTree import Element
 
 from ...body.gait.means import GaitMeans, GaitParameters, StrideFigures
 from ...types import Foot
-from ..tables.gait import ENOUGH, gait_rows, strides_of
+from ..tables.gait import MIN_STRIDES, gait_rows, strides_of
 from ..tables.table import number, percent
 from .markup import add, table, terms
 
@@ -61,9 +61,9 @@ def _table(parent: Element, parameters: GaitParameters) -> None:
     if parameters.coordination is not None:
         add(parent, "p", f"Phase coordination index: {percent(parameters.coordination)} % (Plotnik et al. 2007).")
     count = sum([one for one in strides if one is not None])
-    if count < ENOUGH:
-        said = f"Of {count} strides: figures settle with {ENOUGH} and more (Galna et al. 2013)."
-        add(parent, "p", said, class_="note")
+    if count < MIN_STRIDES:
+        text = f"Of {count} strides: figures settle with {MIN_STRIDES} and more (Galna et al. 2013)."
+        add(parent, "p", text, class_="note")
 
 
 def _cadence(figures: StrideFigures | None) -> str:

@@ -42,20 +42,20 @@ def section(parent: Element, name: str, title: str) -> Element:
     return made
 
 
-def sentences(parent: Element, told: Sequence[str]) -> None:
+def sentences(parent: Element, texts: Sequence[str]) -> None:
     """A list of sentences, and how many more there are."""
-    if told:
+    if texts:
         listed = add(parent, "ul")
-        for one in told[:MOST]:
+        for one in texts[:MOST]:
             add(listed, "li", one)
-        if len(told) > MOST:
-            add(listed, "li", f"and {len(told) - MOST} more")
+        if len(texts) > MOST:
+            add(listed, "li", f"and {len(texts) - MOST} more")
 
 
-def terms(parent: Element, told: Iterable[tuple[str, str]], **attributes: str) -> None:
+def terms(parent: Element, entries: Iterable[tuple[str, str]], **attributes: str) -> None:
     """Words, and what they mean."""
     listed = add(parent, "dl", **attributes)
-    for word, meaning in told:
+    for word, meaning in entries:
         add(listed, "dt", word)
         add(listed, "dd", meaning)
 
@@ -64,10 +64,10 @@ def figure(parent: Element, svg: Element, caption: str, *notes: str) -> Element:
     """A drawing with what is to be seen on it: a caption, and notes in smaller words below."""
     made = add(parent, "figure")
     made.append(svg)
-    told = add(made, "figcaption")
-    add(told, "strong", caption)
+    figcaption = add(made, "figcaption")
+    add(figcaption, "strong", caption)
     for note in notes:
-        add(told, "span", note, **{"class": "note"})
+        add(figcaption, "span", note, **{"class": "note"})
     return made
 
 
@@ -86,7 +86,7 @@ def table(
         row = add(body, "tr", role="row")
         add(row, "th", first, scope="row", role="rowheader")
         for cell in others:
-            told = add(row, "td", role="cell")
+            cell_element = add(row, "td", role="cell")
             for part in cell.split("\n"):
-                add(told, "span", part)
+                add(cell_element, "span", part)
     return made

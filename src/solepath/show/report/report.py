@@ -30,11 +30,11 @@ from .figures.activity import activity_figure
 from .figures.cycle import cycle_figure
 from .figures.pressure import pressure_figures
 from .figures.stride import stride_figures
-from .figures.track import Stood, height_figure, plan_figure, track_figure
+from .figures.track import TimedPosition, height_figure, plan_figure, track_figure
 from .gait_table import gait_tables
 from .markup import add, section, sentences, skeleton, table, terms
 from .soles import ReportSole
-from .words import CAUTION, link_rows, overview, sensors, without, wrong
+from .words import CAUTION, limitations, link_rows, overview, problems, sensors
 
 STRIDES, PLACES, POINTS = 1200, 1000, 1500
 """Kept of a foot's strides, of places on the plan, and of points of a track: more are thinned evenly."""
@@ -81,7 +81,7 @@ class Report:
     strides: dict[Foot, Thinned[GaitCycleMeasured]] = field(factory=_of_both, init=False)
     prints: dict[Foot, Thinned[StrideTaken]] = field(factory=_of_both, init=False)
     heights: dict[Foot, Thinned[FootMoved]] = field(factory=_of_both, init=False)
-    way: Thinned[WearerMoved] = field(factory=Thinned, init=False)
+    wearer_track: Thinned[WearerMoved] = field(factory=Thinned, init=False)
     places: Thinned[Placed | PlaceLost] = field(factory=Thinned, init=False)
     sampled: tuple[float, float] | None = field(default=None, init=False)
     """First and last sample, s ..."""
@@ -90,7 +90,7 @@ class Report:
 
     def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
         """What the session was fed, and what it said of that. None: nothing came, time passed or the session ended."""
-        self.observer.fed(item, events)
+        self.observer.count_item(item, events)
         for event in events:
             if self.observer.add(event):
                 self._draw(event)
@@ -110,7 +110,7 @@ class Report:
             case StrideTaken(final=True):
                 self.prints[event.foot].add(event, POINTS)
             case WearerMoved():
-                self.way.add(event, POINTS)
+                self.wearer_track.add(event, POINTS)
             case LayoutKnown(site=site, layout=layout) if site.foot is not None:
                 self._sole(site.foot).layout = layout
             case Placed(candidates=candidates):
@@ -131,8 +131,8 @@ class Report:
     @property
     def clock(self) -> ReportClock:
         """How times are told."""
-        begin, end = self.sampled or self.spanned or (0.0, 0.0)
-        return ReportClock(begin, end)
+        start, end = self.sampled or self.spanned or (0.0, 0.0)
+        return ReportClock(start, end)
 
     def write(self, path: Path) -> None:
         """The page into a file, UTF-8. OSError, naming the file, when it cannot be written (the disk is full)."""
@@ -168,10 +168,10 @@ class Report:
         return "<!DOCTYPE html>\n" + tostring(html, encoding="unicode", method="html") + "\n"
 
     def _facts(self, main: Element, clock: ReportClock) -> None:
-        when = f"{clock.begin:.1f} to {clock.end:.1f} s of its own clock" if self.spanned else ""
-        told = [("When", self.when), ("Recording", when), ("Sensors", sensors(self.observer))]
-        told += [("Recipe", self.recipe), ("Made by", f"solepath {self.version}".rstrip())]
-        terms(main, [(name, words) for name, words in told if words], class_="facts")
+        when = f"{clock.start:.1f} to {clock.end:.1f} s of its own clock" if self.spanned else ""
+        facts = [("When", self.when), ("Recording", when), ("Sensors", sensors(self.observer))]
+        facts += [("Recipe", self.recipe), ("Made by", f"solepath {self.version}".rstrip())]
+        terms(main, [(name, words) for name, words in facts if words], class_="facts")
         add(main, "p", CAUTION, class_="caution")
 
     def _track(self, part: Element, clock: ReportClock) -> None:
@@ -179,8 +179,8 @@ class Report:
         if self.plan is not None and not plan_figure(shown, self.plan, list(self.places)):
             add(shown, "p", "Where on the floor plan the wearer was is not known.")
         prints = {foot: list(some) for foot, some in self.prints.items() if len(some)}
-        way: Sequence[Stood] = list(self.way) or max(prints.values(), key=len, default=[])
-        if not track_figure(shown, way, prints, clock):
+        wearer_track: Sequence[TimedPosition] = list(self.wearer_track) or max(prints.values(), key=len, default=[])
+        if not track_figure(shown, wearer_track, prints, clock):
             add(shown, "p", "There is no track: no foot with a motion sensor took two steps.")
         height_figure(shown, {foot: list(some) for foot, some in self.heights.items()}, clock)
 
@@ -188,13 +188,13 @@ class Report:
         header, *rows = link_rows(self.observer)
         if rows:
             table(part, "What came from each sensor", header, rows, "numbers links")
-        told = wrong(self.observer)
-        if told:
+        found = problems(self.observer)
+        if found:
             add(part, "h3", "What was wrong")
-            sentences(part, told)
+            sentences(part, found)
         else:
             add(part, "p", "Nothing was wrong with the sensors and their links.")
-        limits = without(self.observer)
+        limits = limitations(self.observer)
         if limits:
             add(part, "h3", "What had to be done without")
             sentences(part, limits)

@@ -49,14 +49,14 @@ class ReportSole:
     def press(self, event: FootPressed) -> None:
         """One sample. One of another number of cells than before begins anew."""
         if len(self.standing) != len(event.values):
-            self._begin(len(event.values))
+            self._reset(len(event.values))
         self.samples += 1
         self.standing = [a + b for a, b in zip(self.standing, event.values, strict=True)]
         if self.newest and event.t <= self.newest[-1].t:
             self.newest.clear()
         self.newest.append(event)
 
-    def _begin(self, cells: int) -> None:
+    def _reset(self, cells: int) -> None:
         self.standing, self.means, self.peaks = [0.0] * cells, [0.0] * cells, [0.0] * cells
         self.forces, self.path = [0.0] * STATIONS, [(0.0, 0.0, 0)] * STATIONS
         self.samples = self.contacts = 0

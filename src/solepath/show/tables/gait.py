@@ -12,7 +12,7 @@ from ...types import Foot
 from .table import number, percent, table
 
 DEGREES = "deg"
-ENOUGH = 30
+MIN_STRIDES = 30
 """Strides of both feet together: of fewer, standard deviation and CV mean little (Galna et al. 2013, as in
 body/gait/means.py)."""
 ROWS: tuple[tuple[str, str, str, int, float], ...] = (
@@ -58,14 +58,16 @@ class GaitRow:
     asymmetry: float | None
     difference: float | None
 
-    def cells(self, apart: str) -> list[str]:
-        """As it is written in a table: left, right, both +- SD (`apart` stands between the two), CV in %, asymmetry."""
-        both = number(self.both, self.digits) + ("" if self.sd is None else f"{apart} {number(self.sd, self.digits)}")
+    def cells(self, separator: str) -> list[str]:
+        """As it is written in a table: left, right, both +- SD (`separator` stands between the two), CV in %, asymmetry."""
+        both = number(self.both, self.digits) + (
+            "" if self.sd is None else f"{separator} {number(self.sd, self.digits)}"
+        )
         feet = [number(one, self.digits) for one in (self.left, self.right)]
-        return [*feet, both, percent(self.cv), self.uneven]
+        return [*feet, both, percent(self.cv), self.asymmetry_text]
 
     @property
-    def uneven(self) -> str:
+    def asymmetry_text(self) -> str:
         """Asymmetry as it is written in a table, with its unit."""
         if self.difference is not None:
             return f"{self.difference:+.{self.digits}f} {self.unit}"

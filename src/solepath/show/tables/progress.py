@@ -12,10 +12,10 @@ EVERY = 0.1
 
 
 @contextmanager
-def progress_bar(what: str, total: int, *, wanted: bool = True) -> Iterator[Callable[[int], None]]:
+def progress_bar(what: str, total: int, *, enabled: bool = True) -> Iterator[Callable[[int], None]]:
     """A function that takes how much of `total` is done. It shows nothing when stderr is no terminal, when rich (the
-    `live` extra) is not installed, or when it is not `wanted`."""
-    if not wanted or not sys.stderr.isatty():
+    `live` extra) is not installed, or when it is not `enabled`."""
+    if not enabled or not sys.stderr.isatty():
         yield _ignore
         return
     try:

@@ -10,7 +10,7 @@ from ...recording import printable
 from ...types import SITE_OF_FOOT, Foot, Site, Turn, WalkingMode
 from ..links import LinkLedger
 from ..observer import GAIT_EVENTS, FootCounts, Observer
-from ..places import MOST, PlaceCounts
+from ..places import MOST_LISTED, PlaceCounts
 from .gait import gait_lines
 from .table import milliseconds, number, table
 
@@ -21,14 +21,14 @@ def summary(observer: Observer, *, title: str, seconds: float) -> str:
     lines = [f"{title}: {duration:.1f} s"]
     lines += _feet(observer)
     lines += _together(observer)
-    lines += did(observer)
+    lines += activity_lines(observer)
     if gait := gait_lines(observer.gait):
         lines += ["", *gait]
-    lines += worn(observer)
+    lines += wear_lines(observer)
     lines += link_health(observer)
     lines += latency(observer)
     lines += [f"limitation, {printable(what)}" for what in observer.limitations]
-    lines += [f"suspect scale, {printable(what)}" for what in observer.suspects]
+    lines += [f"suspect scale, {printable(what)}" for what in observer.suspect_scales]
     samples = sum([observer.samples(foot) for foot in Foot])
     if seconds > 0.0 and samples:
         pace = f", {1e6 * seconds / samples:.0f} us a sample"
@@ -38,11 +38,11 @@ def summary(observer: Observer, *, title: str, seconds: float) -> str:
 
 def _feet(observer: Observer) -> list[str]:
     """A table of the feet, and what is missing of them."""
-    if not observer.heard:
+    if not observer.known_feet:
         return ["nothing was heard of either foot"]
     header = ["foot", "samples", "Hz", "steps", "distance m", *[f"{name}s" for name in GAIT_EVENTS.values()]]
     rows, missing = [], []
-    for foot in observer.heard:
+    for foot in observer.known_feet:
         one = observer.feet.get(foot, FootCounts())
         link = observer.links.get(SITE_OF_FOOT[foot], LinkLedger())
         row = [f"{foot}", str(link.samples), number(link.rate, 1), str(one.strides), number(one.distance)]
@@ -65,7 +65,7 @@ def _together(observer: Observer) -> list[str]:
     return lines
 
 
-def did(observer: Observer) -> list[str]:
+def activity_lines(observer: Observer) -> list[str]:
     """What the wearer did, a line for each kind; nothing where nothing was told."""
     lines = []
     if lasted := observer.timeline.lasted(observer.now):
@@ -80,10 +80,13 @@ def did(observer: Observer) -> list[str]:
     return lines
 
 
-def worn(observer: Observer) -> list[str]:
+def wear_lines(observer: Observer) -> list[str]:
     """What is wrong with how it is worn, a line each; nothing when all is well."""
     silent = {foot: observer.silences[foot] for foot in Foot if observer.silences[foot]}
-    return [*observer.worn, *(f"{foot}: silent {n} times while the other walked on" for foot, n in silent.items())]
+    return [
+        *observer.wear_problems,
+        *(f"{foot}: silent {n} times while the other walked on" for foot, n in silent.items()),
+    ]
 
 
 def link_health(observer: Observer) -> list[str]:
@@ -124,22 +127,22 @@ def status(observer: Observer) -> list[str]:
     """A line for each site that was heard of, in the order of Site, and one for the place once it is known."""
     lines = [_link(site, observer.links[site], observer.now) for site in Site if site in observer.links]
     place = observer.places.last
-    return lines if place is None else [*lines, here(place)]
+    return lines if place is None else [*lines, place_line(place)]
 
 
 def _link(site: Site, link: LinkLedger, now: float) -> str:
-    told = [f"{site.words}: {link.rate_of_late(now) or 0.0:.0f} Hz"]
+    parts = [f"{site.words}: {link.recent_rate(now) or 0.0:.0f} Hz"]
     if link.loss is not None:
-        told.append(f"{100.0 * link.loss:.1f} % lost")
+        parts.append(f"{100.0 * link.loss:.1f} % lost")
     if link.battery is not None:
-        told.append(f"battery {100.0 * link.battery:.0f} %")
+        parts.append(f"battery {100.0 * link.battery:.0f} %")
     if link.signal is not None:
-        told.append(f"{link.signal} dBm")
+        parts.append(f"{link.signal} dBm")
     if link.state(now) == "lost":
-        told.append("disconnected")
+        parts.append("disconnected")
     if link.trouble:
-        told.append(printable(link.trouble))
-    return ", ".join(told)
+        parts.append(printable(link.trouble))
+    return ", ".join(parts)
 
 
 def place_lines(counts: PlaceCounts) -> list[str]:
@@ -155,19 +158,19 @@ def place_lines(counts: PlaceCounts) -> list[str]:
         x, y, _ = counts.last.position
         at = f"({number(x, 1)}, {number(y, 1)}) m"
         several = len(counts.last.candidates)
-        doubt = f", one of {several} candidates" if several > 1 else f", within {number(counts.last.spread, 1)} m"
-        lines.append(f"at the end: level {printable(counts.last.level)}, {at}{doubt}")
+        uncertainty = f", one of {several} candidates" if several > 1 else f", within {number(counts.last.spread, 1)} m"
+        lines.append(f"at the end: level {printable(counts.last.level)}, {at}{uncertainty}")
     if counts.levels:
         levels = ", ".join([f"{printable(name)} from {number(t, 1)} s" for t, name in counts.levels])
-        more = counts.changes - MOST
+        more = counts.changes - MOST_LISTED
         lines.append(f"levels: {levels}{f' and {more} more' if more > 0 else ''}")
     lines += [f"from {number(t, 1)} s without a place: {printable(what)}" for t, what in counts.lost]
-    if counts.losses > MOST:
-        lines.append(f"and {counts.losses - MOST} times more")
+    if counts.losses > MOST_LISTED:
+        lines.append(f"and {counts.losses - MOST_LISTED} times more")
     return lines
 
 
-def here(place: Placed) -> str:
+def place_line(place: Placed) -> str:
     """Where the wearer is now, in a line."""
     x, y, _ = place.position
     several = len(place.candidates)

@@ -15,7 +15,7 @@ from rich.text import Text
 from ...types import Foot, Phase
 from ..observer import FootCounts, Observer
 from .plot import plot
-from .summary import link_health, status, worn
+from .summary import link_health, status, wear_lines
 from .table import number
 
 FRAMES = 12.0
@@ -53,7 +53,7 @@ def picture(observer: Observer, title: str) -> Group:
     for foot in Foot:
         feet.add_row(*_foot(observer, foot))
     lines = plot(observer.track.points, *PLOT)
-    health = status(observer) + worn(observer) + link_health(observer)
+    health = status(observer) + wear_lines(observer) + link_health(observer)
     return Group(
         Panel(feet, title=title, width=PLOT[0] + 4),
         Panel(Text("\n".join(lines)), title="track", width=PLOT[0] + 4),

@@ -6,7 +6,7 @@ from typing import Any
 
 from attrs import define
 
-from ..messages import shown
+from ..messages import rounded
 
 
 @define
@@ -14,7 +14,7 @@ class Playback:
     """Where a player stands, in the recording's own time, s; the player writes it. `state`: "playing", "paused" or
     "ended". `speed`: times real time. `seeking`: where it is on its way to; None when it is not."""
 
-    begin: float
+    start: float
     end: float
     t: float
     state: str = "paused"
@@ -24,10 +24,10 @@ class Playback:
     def frame(self) -> dict[str, Any]:
         """As "playback" of a frame."""
         return {
-            "begin": shown(self.begin),
-            "end": shown(self.end),
-            "t": shown(self.t),
+            "begin": rounded(self.start),
+            "end": rounded(self.end),
+            "t": rounded(self.t),
             "state": self.state,
-            "speed": shown(self.speed),
-            "seeking": shown(self.seeking),
+            "speed": rounded(self.speed),
+            "seeking": rounded(self.seeking),
         }

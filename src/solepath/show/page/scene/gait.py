@@ -9,8 +9,8 @@ from attrs import asdict, define, field
 from ....body.gait.means import GaitMeans, GaitParameters
 from ....events import GaitCycleMeasured
 from ....types import Activity, Foot
-from ...tables.gait import ENOUGH, GaitRow, gait_rows, strides_of
-from ..messages import shown
+from ...tables.gait import MIN_STRIDES, GaitRow, gait_rows, strides_of
+from ..messages import rounded
 
 STRIDES = 2
 """Of a foot, which follow on one another: one alone errs by some per cent."""
@@ -51,20 +51,20 @@ class ScenePace:
         cadence = _mean([_mean([stride.cadence for stride in strides]) for strides in walked])
         speeds = [[stride.speed for stride in strides if stride.speed is not None] for strides in walked]
         known = [_mean(some) for some in speeds if some]
-        return {"cadence": shown(cadence, 1), "speed": shown(_mean(known), 2) if known else None}
+        return {"cadence": rounded(cadence, 1), "speed": rounded(_mean(known), 2) if known else None}
 
 
 def _mean(values: list[float]) -> float:
     return sum(values) / len(values)
 
 
-def activity_frame(since: float, activity: Activity, unheard_since: float | None) -> dict[str, Any]:
-    """As "activity" of a frame: what the wearer does, and since when, s. `unheard_since`: when a foot was heard last,
+def activity_frame(since: float, activity: Activity, silent_since: float | None) -> dict[str, Any]:
+    """As "activity" of a frame: what the wearer does, and since when, s. `silent_since`: when a foot was heard last,
     s, while none is; then what the wearer does is not known."""
-    if unheard_since is None:
-        return {"now": activity.value, "since": shown(since), "last": None}
+    if silent_since is None:
+        return {"now": activity.value, "since": rounded(since), "last": None}
     last = None if activity is Activity.UNKNOWN else activity.value
-    return {"now": Activity.UNKNOWN.value, "since": shown(unheard_since), "last": last}
+    return {"now": Activity.UNKNOWN.value, "since": rounded(silent_since), "last": last}
 
 
 @define
@@ -73,7 +73,7 @@ class SceneMeasures:
     stride came."""
 
     _newest: tuple[GaitCycleMeasured | None, GaitCycleMeasured | None] = (None, None)
-    _told: dict[str, Any] | None = None
+    _frame: dict[str, Any] | None = None
 
     def frame(self, means: GaitMeans) -> dict[str, Any] | None:
         """As "gait" of a frame; None before any steady stride."""
@@ -81,25 +81,25 @@ class SceneMeasures:
         if newest[0] is not self._newest[0] or newest[1] is not self._newest[1]:
             self._newest = newest
             parameters = means.parameters
-            self._told = None if parameters is None else _told(parameters)
-        return self._told
+            self._frame = None if parameters is None else _gait_frame(parameters)
+        return self._frame
 
 
-def _told(parameters: GaitParameters) -> dict[str, Any]:
+def _gait_frame(parameters: GaitParameters) -> dict[str, Any]:
     return {
         "running": parameters.running,
-        "cadence": shown(parameters.cadence, 1),
-        "coordination": shown(parameters.coordination, 4),
+        "cadence": rounded(parameters.cadence, 1),
+        "coordination": rounded(parameters.coordination, 4),
         "strides": {foot.value: strides_of(parameters, foot) for foot in Foot},
-        "enough": ENOUGH,
+        "enough": MIN_STRIDES,
         "rows": [_row(row) for row in gait_rows(parameters)],
     }
 
 
 def _row(row: GaitRow) -> dict[str, Any]:
-    told = asdict(row)
+    frame = asdict(row)
     for name in ("left", "right", "both", "sd", "difference"):
-        told[name] = shown(told[name], row.digits)
+        frame[name] = rounded(frame[name], row.digits)
     for name in ("cv", "asymmetry"):
-        told[name] = shown(told[name], 4)
-    return told
+        frame[name] = rounded(frame[name], 4)
+    return frame

@@ -12,7 +12,7 @@ from typing import Generic, TypeVar
 from attrs import define, field
 
 from ....types import Vec3
-from ..messages import placed, shown
+from ..messages import rounded, rounded_all
 
 T = TypeVar("T")
 
@@ -62,11 +62,11 @@ class WalkedTrack(ThinnedTrack[TrackPoint]):
     _last: Vec3 | None = None
     """The newest point, m."""
 
-    def reach(self, t: float, position: Vec3) -> None:
+    def add_position(self, t: float, position: Vec3) -> None:
         """At `t` s at this place."""
         if self._last is None or dist(position, self._last) >= SPACING:
             self._last = position
-            self.add((shown(t), *placed(position)))
+            self.add((rounded(t), *rounded_all(position)))
 
 
 @define

@@ -13,7 +13,7 @@ from typing import Any
 from attrs import define, field
 
 from ....types import Foot, Layout
-from ..messages import shown
+from ..messages import rounded
 
 STEPS = (1.0, 2.0, 4.0, 6.0, 8.0, 10.0)
 """Times a power of ten: where a scale may end."""
@@ -35,7 +35,7 @@ class UnitScale:
 
     def frame(self) -> dict[str, Any]:
         """As one of "scales" of a frame."""
-        return {"top": shown(self.top), "beyond": self.highest > self.top}
+        return {"top": rounded(self.top), "beyond": self.highest > self.top}
 
 
 @define
@@ -45,7 +45,7 @@ class InsoleScale:
     unit: str
     per_unit: tuple[float, ...] | None
     """What one of the layout's unit is in `unit`, of each cell; None where it is the same."""
-    of_late: tuple[float, ...] = ()
+    recent: tuple[float, ...] = ()
     """What a twentieth of its cells reached, in the newest samples."""
 
 
@@ -79,20 +79,20 @@ class Scales:
         if scale.highest < largest < inf:
             scale.highest = largest
         if not largest > scale.top:
-            worn.of_late = ()
+            worn.recent = ()
             return
         at = min(max(1, len(values) // SHARE), len(values) - 1)
-        worn.of_late = (*worn.of_late[1 - LASTS :], sorted(values, reverse=True)[at])
-        reached = min(worn.of_late)
-        if len(worn.of_late) == LASTS and scale.top < reached < inf:
-            scale.top = rounded(reached)
+        worn.recent = (*worn.recent[1 - LASTS :], sorted(values, reverse=True)[at])
+        reached = min(worn.recent)
+        if len(worn.recent) == LASTS and scale.top < reached < inf:
+            scale.top = scale_end(reached)
 
     def frame(self) -> dict[str, Any]:
         """As "scales" of a frame."""
         return {unit: scale.frame() for unit, scale in self.units.items()}
 
 
-def rounded(value: float) -> float:
+def scale_end(value: float) -> float:
     """The end of a scale that holds `value`, above zero."""
     power: float = 10.0 ** floor(log10(value))
     return next((step * power for step in STEPS if step * power >= value), 10.0 * power)

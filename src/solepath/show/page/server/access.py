@@ -31,7 +31,7 @@ class PageAccess:
     token: str
 
     @property
-    def beyond(self) -> bool:
+    def is_public(self) -> bool:
         """Others than this machine reach the page."""
         return not on_loopback(self.host)
 
@@ -57,7 +57,7 @@ class PageAccess:
     def may_steer(self, tokens: list[str]) -> bool:
         """`tokens`: those that a watcher shows. Without one it may watch on this machine; a wrong one is refused."""
         if not tokens:
-            if self.beyond:
+            if self.is_public:
                 raise AccessDenied("somebody without a token wants to watch from another machine")
             return False
         if len(tokens) > 1 or not compare_digest(tokens[0].encode("utf-8", "replace"), self.token.encode()):
@@ -105,14 +105,14 @@ def listen(host: str, port: int | None) -> socket.socket:
     return socket.create_server((str(address[0]), port), family=family, dualstack_ipv6=both, backlog=32)
 
 
-def reached_at(host: str) -> str:
+def url_host(host: str) -> str:
     """The host as in a URL; of all addresses the one by which others reach this machine."""
     if host in EVERYWHERE:
-        host = _outward()
+        host = _outward_address()
     return f"[{host}]" if ":" in host else host
 
 
-def _outward() -> str:
+def _outward_address() -> str:
     """This machine's address towards others; nothing is sent to find it."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
         try:

@@ -27,9 +27,9 @@ HEADERS = {
 
 
 class BrowserConnection(web.RequestHandler):
-    """`asked`: it has asked for something once; before, and after watching, it may last for `idle` s only."""
+    """`has_requested`: it has asked for something once; before, and after watching, it may last for `idle` s only."""
 
-    __slots__ = ("asked", "_ends", "_idle", "_to", "_watches")
+    __slots__ = ("has_requested", "_timers", "_idle", "_output", "_watches")
 
     def __init__(self, server: web.Server, idle: float) -> None:
         silent = logging.getLogger("solepath.show.page.http")
@@ -42,25 +42,25 @@ class BrowserConnection(web.RequestHandler):
             access_log=None,  # type: ignore[arg-type] # there is none
             logger=silent,
         )
-        self.asked = self._watches = False
+        self.has_requested = self._watches = False
         self._idle = idle
-        self._ends: list[asyncio.TimerHandle] = []
-        self._to: asyncio.WriteTransport | None = None
+        self._timers: list[asyncio.TimerHandle] = []
+        self._output: asyncio.WriteTransport | None = None
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         super().connection_made(transport)
         accepted = transport.get_extra_info("socket")
         if accepted is not None:
             accepted.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, BACKLOG)
-        self._to = cast(asyncio.WriteTransport, transport)
+        self._output = cast(asyncio.WriteTransport, transport)
         # the library sees to those only that have asked for something, and not to what is in the middle of an answer
-        self._end_in(self._idle, unless_asked=True)
+        self._end_in(self._idle, unless_requested=True)
         self._end_in(LONGEST)
 
     def connection_lost(self, exc: BaseException | None) -> None:
-        for end in self._ends:
+        for end in self._timers:
             end.cancel()
-        self._to = None
+        self._output = None
         super().connection_lost(exc)
 
     @contextmanager
@@ -73,13 +73,13 @@ class BrowserConnection(web.RequestHandler):
             self._watches = False
             self._end_in(self._idle)
 
-    def _end_in(self, seconds: float, unless_asked: bool = False) -> None:
-        if self._to is not None:
-            self._ends.append(asyncio.get_running_loop().call_later(seconds, self._end, unless_asked))
+    def _end_in(self, seconds: float, unless_requested: bool = False) -> None:
+        if self._output is not None:
+            self._timers.append(asyncio.get_running_loop().call_later(seconds, self._end, unless_requested))
 
-    def _end(self, unless_asked: bool) -> None:
-        if self._to is not None and not self._watches and not (unless_asked and self.asked):
-            self._to.abort()  # to close it would wait until all was read
+    def _end(self, unless_requested: bool) -> None:
+        if self._output is not None and not self._watches and not (unless_requested and self.has_requested):
+            self._output.abort()  # to close it would wait until all was read
 
     def handle_error(
         self, request: web.BaseRequest, status: int = 500, exc: BaseException | None = None, message: str | None = None
@@ -92,7 +92,7 @@ class BrowserConnection(web.RequestHandler):
         return answer
 
 
-class NoRoom(asyncio.Protocol):
+class ImmediateClose(asyncio.Protocol):
     """Hangs up at once."""
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:

@@ -21,9 +21,9 @@ from aiohttp import web
 
 from ..messages import Command
 from ..scene.scene import Scene
-from .access import AccessDenied, PageAccess, listen, reached_at
-from .connection import HEADERS, BrowserConnection, NoRoom
-from .offences import Offences
+from .access import AccessDenied, PageAccess, listen, url_host
+from .client_errors import ClientErrors
+from .connection import HEADERS, BrowserConnection, ImmediateClose
 from .watcher import Watcher
 
 MOST_WATCHERS = 8
@@ -59,7 +59,7 @@ class Page:
     ) -> None:
         self.scene = scene
         self.commands = commands
-        self.offences = Offences(logging.getLogger("solepath.show.page"))
+        self.client_errors = ClientErrors(logging.getLogger("solepath.show.page"))
         self._host = host.removeprefix("[").removesuffix("]")
         self._port = port
         self._access = PageAccess(self._host, secrets.token_urlsafe(16) if token is None else token)
@@ -78,7 +78,7 @@ class Page:
     @property
     def url(self) -> str:
         """For a browser; it holds the token, in the part that a browser keeps to itself."""
-        return f"http://{reached_at(self._host)}:{self.port}/#token={self._access.token}"
+        return f"http://{url_host(self._host)}:{self.port}/#token={self._access.token}"
 
     async def __aenter__(self) -> Page:
         socket = listen(self._host, self._port)
@@ -98,13 +98,13 @@ class Page:
     def _connect(self) -> asyncio.BaseProtocol:
         """What talks to somebody who has just connected."""
         if self._server is None or len(self._server.connections) >= MOST_CONNECTIONS:
-            self.offences.tell(f"more than {MOST_CONNECTIONS} connections at once: one is refused")
-            return NoRoom()
+            self.client_errors.report(f"more than {MOST_CONNECTIONS} connections at once: one is refused")
+            return ImmediateClose()
         return BrowserConnection(self._server, IDLE)
 
     async def _answer(self, request: web.BaseRequest) -> web.StreamResponse:
         connection = cast(BrowserConnection, request.protocol)
-        connection.asked = True
+        connection.has_requested = True
         try:
             host = request.headers.get("Host")
             self._access.check_host(host)
@@ -114,9 +114,9 @@ class Page:
                 with connection.watching():
                     return await self._watched(request, host or "")
             return self._file(request)
-        except AccessDenied as refused:
-            self.offences.tell(f"{refused}: refused")
-            return web.Response(status=refused.status, text=f"{refused}\n", headers=HEADERS)
+        except AccessDenied as denied:
+            self.client_errors.report(f"{denied}: refused")
+            return web.Response(status=denied.status, text=f"{denied}\n", headers=HEADERS)
         except ConnectionError:
             return web.Response(headers=HEADERS)  # to nobody: who asked is gone
         except Exception:

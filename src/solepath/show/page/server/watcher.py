@@ -12,8 +12,8 @@ from aiohttp import WSCloseCode, WSMsgType, web
 from ..messages import LONGEST, Command, CommandError, encode, parse_command
 from ..scene.scene import Cursor, Scene
 from .access import AccessDenied
+from .client_errors import ClientErrors
 from .connection import HEADERS
-from .offences import Offences
 
 INTERVAL = 1.0 / 30.0
 """s from one frame to the next, in the mean."""
@@ -25,18 +25,18 @@ ALIVE = 20.0
 """s after which a browser that sends nothing is asked for a sign of life (ping)."""
 
 
-class Showing(Protocol):
+class WatchedPage(Protocol):
     """What a watcher needs of a page."""
 
     scene: Scene
-    offences: Offences
+    client_errors: ClientErrors
     commands: Callable[[Command], None] | None
 
 
 class Watcher:
     """`steers`: it has shown the token."""
 
-    def __init__(self, page: Showing, steers: bool) -> None:
+    def __init__(self, page: WatchedPage, steers: bool) -> None:
         self._page = page
         self._steers = steers
         self._socket = web.WebSocketResponse(
@@ -84,7 +84,7 @@ class Watcher:
         try:
             await self._show_all(transport)
         except TimeoutError:
-            self._page.offences.tell(f"a browser that had read nothing for {PATIENCE:.0f} s was let go")
+            self._page.client_errors.report(f"a browser that had read nothing for {PATIENCE:.0f} s was let go")
             self._abort()
         except ConnectionError:
             self._abort()
@@ -134,7 +134,7 @@ class Watcher:
             self._transport.abort()
 
     async def _listen(self) -> None:
-        offences = self._page.offences
+        client_errors = self._page.client_errors
         async for message in self._socket:
             if message.type is WSMsgType.TEXT:
                 wrong = self._take(message.data)
@@ -142,12 +142,12 @@ class Watcher:
                 wrong = WSCloseCode.UNSUPPORTED_DATA, "a browser sent bytes instead of text"
             else:
                 code = getattr(message.data, "code", None)  # the library has closed the connection with it
-                if code in REFUSED_BY_LIBRARY:
-                    offences.tell(REFUSED_BY_LIBRARY[code])
+                if code in CLOSED_BY_LIBRARY:
+                    client_errors.report(CLOSED_BY_LIBRARY[code])
                 return
             if wrong is not None:
                 code, why = wrong
-                offences.tell(why)
+                client_errors.report(why)
                 await self._socket.close(code=code, message=why.encode()[:120])
                 return
 
@@ -166,7 +166,7 @@ class Watcher:
         return None
 
 
-REFUSED_BY_LIBRARY: dict[int | None, str] = {
+CLOSED_BY_LIBRARY: dict[int | None, str] = {
     WSCloseCode.PROTOCOL_ERROR: "a browser broke the rules of WebSockets",
     WSCloseCode.INVALID_TEXT: "a browser sent text that is not UTF-8",
     WSCloseCode.MESSAGE_TOO_BIG: "a browser sent more than a message may hold",

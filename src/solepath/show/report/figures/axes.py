@@ -35,7 +35,7 @@ def ticks(low: float, high: float, most: int = 6) -> list[float]:
     return [low]
 
 
-def told(values: Sequence[float]) -> list[str]:
+def tick_labels(values: Sequence[float]) -> list[str]:
     """Ticks in words: as many digits as it takes to tell them apart, the same for all."""
     if len(values) < 2:
         return [f"{value:.3g}" for value in values]
@@ -86,14 +86,14 @@ def write(parent: Element, x: float, y: float, words: str, kind: str = "", ancho
 
 def line(points: Iterable[Point]) -> str:
     """A path through the points; what would not be seen is left out."""
-    told: list[str] = []
+    commands: list[str] = []
     last: tuple[str, str] | None = None
     for x, y in points:
         here = (px(x), px(y))
         if here != last:
-            told.append(f"{'L' if told else 'M'}{here[0]} {here[1]}")
+            commands.append(f"{'L' if commands else 'M'}{here[0]} {here[1]}")
             last = here
-    return "".join(told) if len(told) != 1 else f"{told[0]}h0"
+    return "".join(commands) if len(commands) != 1 else f"{commands[0]}h0"
 
 
 def marks(points: Iterable[Point], shape: str) -> str:
@@ -105,10 +105,10 @@ def grid(svg: Element, x: AxisScale, y: AxisScale, across: Sequence[float], up: 
     """Lines at these values of x and y, a path, and the values beside the axes."""
     path = add(svg, "path", class_="grid")
     lines = []
-    for value, words in zip(across, told(across), strict=True):
+    for value, words in zip(across, tick_labels(across), strict=True):
         lines.append(f"M{px(x.at(value))} {px(y.end)}V{px(y.start)}")
         write(svg, x.at(value), y.start + 14.0, words, "tick", "middle")
-    for value, words in zip(up, told(up), strict=True):
+    for value, words in zip(up, tick_labels(up), strict=True):
         lines.append(f"M{px(x.start)} {px(y.at(value))}H{px(x.end)}")
         write(svg, x.start - 5.0, y.at(value) + 4.0, words, "tick", "end")
     path.set("d", "".join(lines))

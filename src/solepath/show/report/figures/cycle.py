@@ -17,27 +17,27 @@ LEAST = 0.005
 """Of the cycle: what is shorter is not told."""
 
 
-def spans(begin: float, share: float) -> list[tuple[float, float]]:
-    """Where within [0, 1] a contact is that begins at `begin` and lasts for `share` of the cycle, wrapped round."""
-    begin %= 1.0
-    end = begin + min(max(share, 0.0), 1.0)
-    return [(begin, end)] if end <= 1.0 else [(0.0, end - 1.0), (begin, 1.0)]
+def spans(start: float, share: float) -> list[tuple[float, float]]:
+    """Where within [0, 1] a contact is that begins at `start` and lasts for `share` of the cycle, wrapped round."""
+    start %= 1.0
+    end = start + min(max(share, 0.0), 1.0)
+    return [(start, end)] if end <= 1.0 else [(0.0, end - 1.0), (start, 1.0)]
 
 
 def contacts(parameters: GaitParameters) -> dict[Foot, list[tuple[float, float]]]:
     """Of each foot whose stance is known, shares of the cycle that begins with the left foot's contact, or with the
     right one's where that is the only one."""
     stance = {foot: one.share("stance_time") for foot, one in parameters.feet.items()}
-    begins = {foot: 0.0 for foot in stance}
+    starts = {foot: 0.0 for foot in stance}
     left, right = parameters.feet.get(Foot.LEFT), parameters.feet.get(Foot.RIGHT)
     if left is not None and right is not None:
         if left.phase is not None:
-            begins[Foot.RIGHT] = left.phase.mean
+            starts[Foot.RIGHT] = left.phase.mean
         elif right.phase is not None:
-            begins[Foot.RIGHT] = 1.0 - right.phase.mean
+            starts[Foot.RIGHT] = 1.0 - right.phase.mean
         else:
             del stance[Foot.RIGHT]  # nobody knows when it comes down
-    return {foot: spans(begins[foot], share) for foot, share in stance.items() if share is not None}
+    return {foot: spans(starts[foot], share) for foot, share in stance.items() if share is not None}
 
 
 def overlaps(one: list[tuple[float, float]], other: list[tuple[float, float]]) -> list[tuple[float, float]]:

@@ -78,13 +78,13 @@ def _map(
         return
     highest = max([max(values) for values in loads.values()])
     unit = _unit({foot: soles[foot] for foot in maps})
-    said = []
+    texts = []
     for foot, values in loads.items():
         k = max(range(len(values)), key=values.__getitem__)
         x = maps[foot].cells[k].x / max(maps[foot].length, 1e-6)
         load = f"{values[k]:.3g} {soles[foot].unit} a cell"
-        said.append(f"{foot}: highest {load}, at {100.0 * x:.0f} % of the length from the heel")
-    svg = drawing(f"pressure-{name}", title, f"{'; '.join(said)}.", TALL + 66.0)
+        texts.append(f"{foot}: highest {load}, at {100.0 * x:.0f} % of the length from the heel")
+    svg = drawing(f"pressure-{name}", title, f"{'; '.join(texts)}.", TALL + 66.0)
     for foot, layout in maps.items():
         shares = [load / highest if highest > 0.0 else 0.0 for load in loads[foot]]
         _sole(svg, foot, layout, shares, soles[foot] if paths else None)
@@ -93,7 +93,7 @@ def _map(
         add(svg, "rect", x=px(110.0 + 6.0 * k), y=px(y), width="6.4", height="9", fill=blend(SHADES, k / 29.0))
     write(svg, 104.0, y + 9.0, "0", "tick", "end")
     write(svg, 296.0, y + 9.0, f"{highest:.3g} {unit} a cell", "tick")
-    notes = [f"{one[0].upper()}{one[1:]}." for one in said]
+    notes = [f"{one[0].upper()}{one[1:]}." for one in texts]
     if paths:
         notes.append("Line: mean path of the centre of pressure, from heel-strike (ring) on; thin: single steps.")
     figure(parent, svg, title, *notes)
@@ -129,8 +129,8 @@ def _sole(svg: Element, foot: Foot, layout: Layout, shares: list[float], walked:
 def _forces(parent: Element, soles: dict[Foot, ReportSole]) -> None:
     curves = {foot: [force / sole.contacts for force in sole.forces] for foot, sole in soles.items()}
     unit = _unit(soles)
-    said = [f"{foot}: at most {max(curve):.0f} {soles[foot].unit}" for foot, curve in curves.items()]
-    svg = drawing("force", "Mean force over a contact", f"{'; '.join(said)}.", 190.0)
+    texts = [f"{foot}: at most {max(curve):.0f} {soles[foot].unit}" for foot, curve in curves.items()]
+    svg = drawing("force", "Mean force over a contact", f"{'; '.join(texts)}.", 190.0)
     values = [value for curve in curves.values() for value in curve]
     labels = ("% of the contact, from heel-strike to toe-off", f"sum of the cells, {unit}")
     chart = Chart.of(svg, (0.0, 100.0), around(values, least=1.0, zero=True), labels, 190.0)

@@ -14,7 +14,7 @@ from ....types import Foot
 from ...tables.plan import PlanPicture, px
 from ..clock import ReportClock
 from ..markup import add, figure
-from .axes import WIDTH, AxisScale, Chart, Point, around, drawing, grid, line, marks, ticks, told, write
+from .axes import WIDTH, AxisScale, Chart, Point, around, drawing, grid, line, marks, tick_labels, ticks, write
 from .stride import SHAPES, legend
 
 PRINTS = 160
@@ -27,19 +27,19 @@ SMALLEST = 4.0
 """m that the longer side shows at least, so that standing still is not magnified."""
 
 
-Stood = FootMoved | StrideTaken | WearerMoved
+TimedPosition = FootMoved | StrideTaken | WearerMoved
 """What says where a foot or the wearer was, and when."""
-OfFeet = Mapping[Foot, Sequence[Stood]]
+FootPositions = Mapping[Foot, Sequence[TimedPosition]]
 
 
-def track_figure(parent: Element, way: Sequence[Stood], prints: OfFeet, clock: ReportClock) -> bool:
-    """The way from above, x to the right and y up; False where there is none. `way`: the wearer's, or a foot's where
+def track_figure(parent: Element, track: Sequence[TimedPosition], prints: FootPositions, clock: ReportClock) -> bool:
+    """The way from above, x to the right and y up; False where there is none. `track`: the wearer's, or a foot's where
     only feet are known; `prints`: where the feet stood."""
     few = sum([len(some) for some in prints.values()]) <= PRINTS
-    off = _astray(way, prints)
+    off = _largest_offset(track, prints)
     beside = few and off <= BESIDE
-    every = [*way, *(one for some in prints.values() for one in some if beside)]
-    if len(way) < 2:
+    every = [*track, *(one for some in prints.values() for one in some if beside)]
+    if len(track) < 2:
         return False
     xs, ys = [one.position[0] for one in every], [one.position[1] for one in every]
     across, up = max(xs) - min(xs), max(ys) - min(ys)
@@ -53,21 +53,21 @@ def track_figure(parent: Element, way: Sequence[Stood], prints: OfFeet, clock: R
     wide, height = inner / scale, high * scale + top + bottom
     x = AxisScale(middle[0] - 0.5 * wide, middle[0] + 0.5 * wide, left, WIDTH - right)
     y = AxisScale(middle[1] - 0.5 * high, middle[1] + 0.5 * high, height - bottom, top)
-    length = sum([_apart(a, b) for a, b in zip(way, way[1:], strict=False)])
+    length = sum([_apart(a, b) for a, b in zip(track, track[1:], strict=False)])
     what = f"The track from above, {across:.1f} m by {up:.1f} m, {length:.0f} m long as drawn."
     svg = drawing("track", "Track from above", what, height)
     _grid(svg, x, y)
 
-    def at(one: Stood) -> Point:
+    def at(one: TimedPosition) -> Point:
         return x.at(one.position[0]), y.at(one.position[1])
 
-    add(svg, "path", d=line([at(one) for one in way]), class_="way")
+    add(svg, "path", d=line([at(one) for one in track]), class_="way")
     if beside:
         for foot, some in prints.items():
             if d := marks([at(one) for one in some], SHAPES[foot]):
                 add(svg, "path", d=d, class_=f"mark {foot}")
-    _times(svg, way, at, clock)
-    for one, word, below in ((way[0], "start", -6.0), (way[-1], "end", 13.0)):
+    _times(svg, track, at, clock)
+    for one, word, below in ((track[0], "start", -6.0), (track[-1], "end", 13.0)):
         a, b = at(one)
         add(svg, "circle", cx=px(a), cy=px(b), r="4.5", class_=word)
         aside, anchor = (-8.0, "end") if a > 0.85 * WIDTH else (8.0, "start")
@@ -81,16 +81,16 @@ def track_figure(parent: Element, way: Sequence[Stood], prints: OfFeet, clock: R
     return True
 
 
-def _astray(way: Sequence[Stood], prints: OfFeet) -> float:
+def _largest_offset(track: Sequence[TimedPosition], prints: FootPositions) -> float:
     """How far a print lies from where the wearer was then, at the most, m."""
-    times, farthest = [one.t for one in way], 0.0
-    for one in [one for some in prints.values() for one in some] if way else []:
+    times, farthest = [one.t for one in track], 0.0
+    for one in [one for some in prints.values() for one in some] if track else []:
         k = bisect_left(times, one.t)
-        farthest = max(farthest, min([_apart(one, other) for other in way[max(k - 1, 0) : k + 1]], default=0.0))
+        farthest = max(farthest, min([_apart(one, other) for other in track[max(k - 1, 0) : k + 1]], default=0.0))
     return farthest
 
 
-def _apart(a: Stood, b: Stood) -> float:
+def _apart(a: TimedPosition, b: TimedPosition) -> float:
     (x, y, _), (x1, y1, _) = a.position, b.position
     dx, dy = x1 - x, y1 - y
     return float((dx * dx + dy * dy) ** 0.5)
@@ -105,15 +105,17 @@ def _grid(svg: Element, x: AxisScale, y: AxisScale) -> None:
     write(svg, 0.5 * (x.start + x.end), y.start + 29.0, "x and y, m", "label", "middle")
 
 
-def _times(svg: Element, way: Sequence[Stood], at: Callable[[Stood], Point], clock: ReportClock) -> None:
+def _times(
+    svg: Element, track: Sequence[TimedPosition], at: Callable[[TimedPosition], Point], clock: ReportClock
+) -> None:
     """A few times along the way."""
-    if len(way) < 3:
+    if len(track) < 3:
         return
-    wanted = ticks(clock.of(way[0].t), clock.of(way[-1].t), 7)
+    tick_times = ticks(clock.of(track[0].t), clock.of(track[-1].t), 7)
     unit = "min" if clock.per_unit > 1.0 else "s"
     taken: list[Point] = []
-    for value, words in zip(wanted, told(wanted), strict=True):
-        near = min(way, key=lambda one: abs(clock.of(one.t) - value))
+    for value, words in zip(tick_times, tick_labels(tick_times), strict=True):
+        near = min(track, key=lambda one: abs(clock.of(one.t) - value))
         a, b = at(near)
         if all(abs(a - c) > 36.0 or abs(b - d) > 14.0 for c, d in taken):
             taken.append((a, b))
@@ -121,7 +123,7 @@ def _times(svg: Element, way: Sequence[Stood], at: Callable[[Stood], Point], clo
             write(svg, a, b - 6.0, f"{words} {unit}", "halo tick", "middle")
 
 
-def height_figure(parent: Element, heights: OfFeet, clock: ReportClock) -> bool:
+def height_figure(parent: Element, heights: FootPositions, clock: ReportClock) -> bool:
     """The height of the standing foot over time; False where there is none."""
     known = {foot: some for foot, some in heights.items() if len(some) > 1}
     if not known:
@@ -137,17 +139,17 @@ def height_figure(parent: Element, heights: OfFeet, clock: ReportClock) -> bool:
     return True
 
 
-def plan_figure(parent: Element, plan: FloorPlan, told_of: Sequence[Placed | PlaceLost]) -> bool:
+def plan_figure(parent: Element, plan: FloorPlan, events: Sequence[Placed | PlaceLost]) -> bool:
     """The track on the floor plan, as `solepath track` draws it: levels where the wearer was; False where no place was
     told."""
-    places = [one for one in told_of if isinstance(one, Placed)]
+    places = [one for one in events if isinstance(one, Placed)]
     if not places:
         return False
     visited = {one.level for one in places}
     levels = tuple([level for level in plan.levels if level.id in visited])
     shown = evolve(plan, levels=levels) if levels else plan
     picture = PlanPicture(shown, width=380.0, height=420.0, columns=1)
-    for one in told_of:
+    for one in events:
         picture.add(one)
     svg = picture.drawn(plan.name or "Floor plan")
     svg.set("role", "img")

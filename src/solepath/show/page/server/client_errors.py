@@ -14,23 +14,23 @@ EVERY = 60.0
 
 
 @define
-class Offences:
-    """`tell` writes a line, or counts it where there were too many of late; the next line says how many."""
+class ClientErrors:
+    """`report` writes a line, or counts it where there were too many of late; the next line says how many."""
 
     logger: Logger
     _left: float = field(default=float(AT_ONCE), init=False)
     _at: float = field(factory=monotonic, init=False)
-    _unsaid: int = field(default=0, init=False)
+    _unreported: int = field(default=0, init=False)
 
-    def tell(self, what: str) -> None:
+    def report(self, what: str) -> None:
         """Somebody did this, in a sentence that holds nothing of what a client sent."""
         now = monotonic()
         self._left = min(self._left + (now - self._at) / EVERY, float(AT_ONCE))
         self._at = now
         if self._left < 1.0:
-            self._unsaid += 1
+            self._unreported += 1
             return
         self._left -= 1.0
-        more = f" ({self._unsaid} more were not told)" if self._unsaid else ""
-        self._unsaid = 0
+        more = f" ({self._unreported} more were not told)" if self._unreported else ""
+        self._unreported = 0
         self.logger.warning("%s%s", what, more)

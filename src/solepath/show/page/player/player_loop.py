@@ -16,16 +16,16 @@ IDLE = 0.5
 """s, while nothing does."""
 
 
-class Playing:
+class PlayerLoop:
     """Plays `player` by the event loop's clock: `command` is what a Page is given, `run` the loop."""
 
     def __init__(self, player: Player) -> None:
         self.player = player
-        self._asked = asyncio.Event()
+        self._command_received = asyncio.Event()
 
     def command(self, command: Command) -> None:
         self.player.command(command)
-        self._asked.set()
+        self._command_received.set()
 
     async def run(self, page: Page, stop: asyncio.Event, *, once: bool = False) -> None:
         """Until `stop` is set; `once`: or until the recording was played to its end."""
@@ -33,9 +33,9 @@ class Playing:
         before = loop.time()
         while not stop.is_set():
             now = loop.time()
-            player.passed(now - before)
+            player.advance(now - before)
             before, end = now, now + SLICE
-            more = player.work(lambda end=end: loop.time() >= end)  # type: ignore[misc]
+            more = player.feed_due(lambda end=end: loop.time() >= end)  # type: ignore[misc]
             if page.scene is not player.scene:
                 page.scene = player.scene
             if more:
@@ -50,8 +50,8 @@ class Playing:
         if self.player.playback.state == "playing":
             await asyncio.sleep(STEP)
             return
-        self._asked.clear()
-        tasks = [asyncio.ensure_future(event.wait()) for event in (self._asked, stop)]
+        self._command_received.clear()
+        tasks = [asyncio.ensure_future(event.wait()) for event in (self._command_received, stop)]
         try:
             await asyncio.wait(tasks, timeout=IDLE, return_when=asyncio.FIRST_COMPLETED)
         finally:

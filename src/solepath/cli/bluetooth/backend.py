@@ -22,7 +22,7 @@ def listen_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> 
 
 
 @asynccontextmanager
-async def air(via: str | None) -> AsyncIterator[Backend]:
+async def backend_of(via: str | None) -> AsyncIterator[Backend]:
     """The Bluetooth of `--via`. Failure when it cannot be reached."""
     if via is None:
         yield NATIVE

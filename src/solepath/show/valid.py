@@ -15,25 +15,25 @@ SHORTEST_STRIDE = 1e-3
 """s: no stride takes as little."""
 
 
-def sound(event: Event) -> bool:
+def has_valid_numbers(event: Event) -> bool:
     """Whether every number in an event is one; quickly for those of every sample."""
     match event:
         case FootMoved(t=t, known_at=known_at, position=(x, y, z)):
             return abs(t) + abs(known_at) + abs(x) + abs(y) + abs(z) < LARGEST
         case FootPressed(values=values):
-            return finite((event.t, event.known_at, event.force, event.centre)) and isfinite(sum(values))
+            return is_valid((event.t, event.known_at, event.force, event.centre)) and isfinite(sum(values))
         case GaitCycleMeasured(stride_time=stride_time):
-            return finite(event) and stride_time >= SHORTEST_STRIDE
+            return is_valid(event) and stride_time >= SHORTEST_STRIDE
         case _:
-            return finite(event)
+            return is_valid(event)
 
 
-def finite(value: Any) -> bool:
+def is_valid(value: Any) -> bool:
     """Whether every number in a record is one."""
     if isinstance(value, float):
         return isfinite(value) and abs(value) < LARGEST
     if isinstance(value, tuple):
-        return all(map(finite, value))
+        return all(map(is_valid, value))
     if attrs.has(type(value)):
-        return all([finite(getattr(value, one.name)) for one in attrs.fields(type(value))])
+        return all([is_valid(getattr(value, one.name)) for one in attrs.fields(type(value))])
     return True

@@ -13,7 +13,7 @@ CHUNK = 256
 """Items that are packed together."""
 
 
-class KeptItems:
+class PackedItems:
     """A sequence to which items are added at the end, in the order in which a session takes them.
 
     A packet of an insole of 96 cells takes about 135 bytes in here, so two feet at 100 Hz take about 100 MB an hour; a
@@ -56,7 +56,7 @@ class KeptItems:
         return self._times[index]
 
     @property
-    def begin(self) -> float:
+    def start(self) -> float:
         """s; 0 where there is nothing."""
         return self._times[0] if self._times else 0.0
 
