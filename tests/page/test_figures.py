@@ -132,8 +132,8 @@ def test_a_scale_is_for_both_feet_and_only_grows() -> None:
 
 @given(st.floats(1e-6, 1e9))
 def test_a_scale_ends_at_a_round_number_that_is_not_far_above(value: float) -> None:
-    assert value <= rounded(value) <= 2.0 * value * (1.0 + 1e-9)
-    assert float(f"{rounded(value):.0e}") == float(f"{rounded(value):.6e}")
+    assert value <= scale_end(value) <= 2.0 * value * (1.0 + 1e-9)
+    assert float(f"{scale_end(value):.0e}") == float(f"{scale_end(value):.6e}")
 
 
 def test_cells_that_nobody_turns_into_newtons_end_in_counts() -> None:

@@ -11,7 +11,7 @@ from solepath import FootPressed, GaitCycleMeasured
 from solepath.body.gait.means import Figure, GaitParameters, StrideFigures
 from solepath.emulate.routes.building import BUILDING
 from solepath.show.report.bounded import Thinned
-from solepath.show.report.clock import ReportClock, lasted
+from solepath.show.report.clock import ReportClock, duration_text
 from solepath.show.report.figures.axes import AxisScale, line, tick_labels, ticks
 from solepath.show.report.figures.cycle import contacts, neither, overlaps
 from solepath.show.report.figures.pressure import SHADES
@@ -60,7 +60,7 @@ def test_times_are_told_in_the_unit_that_suits_them() -> None:
     assert ReportClock(1.7e9, 1.7e9 + 900.0).of(1.7e9 + 120.0) == 2.0
     low, high = ReportClock(5.0, 5.0).span
     assert low < high
-    assert [lasted(t) for t in (0.0, 59.6, 90.0, 3725.0)] == ["0.0 s", "1 min 0 s", "1 min 30 s", "1 h 2 min"]
+    assert [duration_text(t) for t in (0.0, 59.6, 90.0, 3725.0)] == ["0.0 s", "1 min 0 s", "1 min 30 s", "1 h 2 min"]
 
 
 def figures(stance: float, phase: float | None) -> StrideFigures:
