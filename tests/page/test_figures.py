@@ -32,7 +32,7 @@ from solepath import (
 from solepath.body.gait.means import GaitMeans
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
-from solepath.show.page.scene.scales import LEAST, rounded
+from solepath.show.page.scene.scales import LEAST, scale_end
 from solepath.show.page.scene.scene import Scene
 from solepath.show.tables.gait import MIN_STRIDES, gait_lines, gait_rows
 

@@ -1,4 +1,4 @@
-"""Whether every number in an event is one: what is counted and drawn is of such events only."""
+"""Checks that every number of an event is finite: only such events are counted and drawn."""
 
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ import attrs
 from ..events import Event, FootMoved, FootPressed, GaitCycleMeasured
 
 LARGEST = 1e12
-"""No number of an event is as large, in whatever unit: it is none."""
+"""Limit of every number of an event, in whatever unit; a larger one counts as no number."""
 SHORTEST_STRIDE = 1e-3
-"""s: no stride takes as little."""
+"""Shortest stride time that is accepted, s."""
 
 
 def has_valid_numbers(event: Event) -> bool:
-    """Whether every number in an event is one; quickly for those of every sample."""
+    """Return whether every number in an event is finite; quickly for the events of every sample."""
     match event:
         case FootMoved(t=t, known_at=known_at, position=(x, y, z)):
             return abs(t) + abs(known_at) + abs(x) + abs(y) + abs(z) < LARGEST
@@ -29,7 +29,7 @@ def has_valid_numbers(event: Event) -> bool:
 
 
 def is_valid(value: Any) -> bool:
-    """Whether every number in a record is one."""
+    """Return whether every number in a record is finite and smaller than LARGEST."""
     if isinstance(value, float):
         return isfinite(value) and abs(value) < LARGEST
     if isinstance(value, tuple):

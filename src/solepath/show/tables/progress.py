@@ -1,4 +1,4 @@
-"""A progress bar on stderr, where there is somebody to see it."""
+"""Shows a progress bar on stderr when that is a terminal."""
 
 from __future__ import annotations
 
@@ -8,13 +8,15 @@ from contextlib import contextmanager
 from time import monotonic
 
 EVERY = 0.1
-"""s between two looks at the clock's hand."""
+"""Time between two updates of the bar, s."""
 
 
 @contextmanager
 def progress_bar(what: str, total: int, *, enabled: bool = True) -> Iterator[Callable[[int], None]]:
-    """A function that takes how much of `total` is done. It shows nothing when stderr is no terminal, when rich (the
-    `live` extra) is not installed, or when it is not `enabled`."""
+    """Yield a function that takes how much of `total` is done.
+
+    It shows nothing when stderr is no terminal, when rich (the `live` extra) is not installed, or when it is not
+    `enabled`."""
     if not enabled or not sys.stderr.isatty():
         yield _ignore
         return
@@ -40,4 +42,4 @@ def progress_bar(what: str, total: int, *, enabled: bool = True) -> Iterator[Cal
 
 
 def _ignore(done: int) -> None:
-    """Nobody is looking."""
+    """Do nothing, where no bar is shown."""

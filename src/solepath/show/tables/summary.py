@@ -1,4 +1,4 @@
-"""What an observer has counted, in words: all of it at the end, and how links and place are at this moment."""
+"""Puts the counts of an observer into words: the summary at the end, and links and place at this moment."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .table import milliseconds, number, table
 
 
 def summary(observer: Observer, *, title: str, seconds: float) -> str:
-    """The summary of one recording; `seconds` is the wall time that it took."""
+    """Return the summary of one recording; `seconds` is the wall time that it took."""
     duration = observer.time.total
     lines = [f"{title}: {duration:.1f} s"]
     lines += _feet(observer)
@@ -37,7 +37,7 @@ def summary(observer: Observer, *, title: str, seconds: float) -> str:
 
 
 def _feet(observer: Observer) -> list[str]:
-    """A table of the feet, and what is missing of them."""
+    """Return a table of the feet, and a line for what is missing of each."""
     if not observer.known_feet:
         return ["nothing was heard of either foot"]
     header = ["foot", "samples", "Hz", "steps", "distance m", *[f"{name}s" for name in GAIT_EVENTS.values()]]
@@ -55,7 +55,7 @@ def _feet(observer: Observer) -> list[str]:
 
 
 def _together(observer: Observer) -> list[str]:
-    """What came of both feet together; nothing when the recipe looks at each by itself."""
+    """Return the lines about both feet together; none when the recipe treats each foot by itself."""
     lines = []
     if (fused := observer.fused) is not None:
         lines.append(f"both feet fused: {number(fused.distance)} m, at the end by the {fused.chosen} foot's path")
@@ -66,7 +66,7 @@ def _together(observer: Observer) -> list[str]:
 
 
 def activity_lines(observer: Observer) -> list[str]:
-    """What the wearer did, a line for each kind; nothing where nothing was told."""
+    """Return a line for each kind of activity, flight, ride and turn; none when nothing was reported."""
     lines = []
     if lasted := observer.timeline.lasted(observer.now):
         lines.append("activities: " + ", ".join(f"{what} {number(t, 0)} s" for what, t in lasted.items()))
@@ -81,7 +81,7 @@ def activity_lines(observer: Observer) -> list[str]:
 
 
 def wear_lines(observer: Observer) -> list[str]:
-    """What is wrong with how it is worn, a line each; nothing when all is well."""
+    """Return a line for each fault in how sensors are worn; none when all is well."""
     silent = {foot: observer.silences[foot] for foot in Foot if observer.silences[foot]}
     return [
         *observer.wear_problems,
@@ -90,7 +90,7 @@ def wear_lines(observer: Observer) -> list[str]:
 
 
 def link_health(observer: Observer) -> list[str]:
-    """What the links did wrong, a line each; nothing when all went well."""
+    """Return a line for each kind of fault of the links; none when all went well."""
     lines, links = [], list(observer.links.values())
     if lost := sum([link.lost for link in links]):
         received = sum([link.received for link in links])
@@ -117,14 +117,14 @@ def link_health(observer: Observer) -> list[str]:
 
 
 def latency(observer: Observer) -> list[str]:
-    """How long after they happened the gait events were known, the radio's time included; nothing without any."""
+    """Return a line with the median latency of each gait event, radio included; nothing when there were no events."""
     medians = {GAIT_EVENTS[kind]: median(known.elements()) for kind, known in observer.delays.items() if known}
     known = [f"{name} {milliseconds(1e-4 * tenths)} ms" for name, tenths in medians.items()]
     return [f"known after it happened, median: {', '.join(known)}"] if known else []
 
 
 def status(observer: Observer) -> list[str]:
-    """A line for each site that was heard of, in the order of Site, and one for the place once it is known."""
+    """Return a line for each known site, in the order of Site, and one for the place once it is known."""
     lines = [_link(site, observer.links[site], observer.now) for site in Site if site in observer.links]
     place = observer.places.last
     return lines if place is None else [*lines, place_line(place)]
@@ -146,7 +146,7 @@ def _link(site: Site, link: LinkLedger, now: float) -> str:
 
 
 def place_lines(counts: PlaceCounts) -> list[str]:
-    """A line for each thing that is to be said of a whole recording."""
+    """Return the lines about the place over a whole recording."""
     lines = []
     if counts.found is not None:
         strides, t = counts.found
@@ -171,7 +171,7 @@ def place_lines(counts: PlaceCounts) -> list[str]:
 
 
 def place_line(place: Placed) -> str:
-    """Where the wearer is now, in a line."""
+    """Return a line that says where the wearer is now."""
     x, y, _ = place.position
     several = len(place.candidates)
     at = f"place: level {printable(place.level)}, ({number(x, 1)}, {number(y, 1)}) m"

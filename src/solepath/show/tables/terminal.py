@@ -1,4 +1,4 @@
-"""Live pictures in a terminal, drawn with rich (the `live` extra)."""
+"""Draws live pictures in a terminal with rich (the `live` extra)."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ from .table import number
 FRAMES = 12.0
 """Pictures a second."""
 PLOT = (72, 18)
+"""Width and height of the plot of the track, characters."""
 COLOURS = {Phase.LOADING: "yellow", Phase.STATIONARY: "green", Phase.PUSH_OFF: "magenta", Phase.SWING: "cyan"}
 
 
@@ -32,23 +33,25 @@ class Screen:
         self._drawn = -1.0
 
     def show(self, observer: Observer, title: str) -> None:
+        """Draw the picture when 1 / FRAMES s have passed since the last one."""
         if monotonic() - self._drawn > 1.0 / FRAMES:
             self.draw(observer, title)
 
     def draw(self, observer: Observer, title: str) -> None:
+        """Draw the picture now."""
         self._live.update(picture(observer, title), refresh=True)
         self._drawn = monotonic()
 
 
 @contextmanager
 def screen(console: Console) -> Iterator[Screen]:
-    """A screen that is wiped when this ends."""
+    """Yield a screen that is wiped at the end of the context."""
     with Live(console=console, auto_refresh=False, transient=True) as live:
         yield Screen(live)
 
 
 def picture(observer: Observer, title: str) -> Group:
-    """Both feet, the track and the links at this moment."""
+    """Return a picture of both feet, the track and the links at this moment."""
     feet = Table.grid(expand=False, padding=(0, 3))
     for foot in Foot:
         feet.add_row(*_foot(observer, foot))

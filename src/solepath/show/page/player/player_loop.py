@@ -1,4 +1,4 @@
-"""A player on an event loop, with a page in front of it."""
+"""Runs a player on an event loop behind a page."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from ..server.server import Page
 from .player import Player
 
 SLICE = 0.02
-"""s for which the player may compute before the page gets its turn."""
+"""Time for which the player may compute before the page gets its turn, s."""
 STEP = 0.02
-"""s between two looks at the clock while something moves."""
+"""Time between two reads of the clock while it plays, s."""
 IDLE = 0.5
-"""s, while nothing does."""
+"""Time between two reads of the clock while nothing plays, s."""
 
 
 class PlayerLoop:
@@ -24,11 +24,12 @@ class PlayerLoop:
         self._command_received = asyncio.Event()
 
     def command(self, command: Command) -> None:
+        """Execute a command and wake the loop."""
         self.player.command(command)
         self._command_received.set()
 
     async def run(self, page: Page, stop: asyncio.Event, *, once: bool = False) -> None:
-        """Until `stop` is set; `once`: or until the recording was played to its end."""
+        """Run until `stop` is set; with `once` also until the recording was played to its end."""
         player, loop = self.player, asyncio.get_running_loop()
         before = loop.time()
         while not stop.is_set():
@@ -46,7 +47,7 @@ class PlayerLoop:
                 await self._wait(stop)
 
     async def _wait(self, stop: asyncio.Event) -> None:
-        """Until there may be something to do."""
+        """Wait until there may be something to do."""
         if self.player.playback.state == "playing":
             await asyncio.sleep(STEP)
             return
