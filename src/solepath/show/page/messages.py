@@ -111,7 +111,7 @@ def _is_finite(value: float) -> bool:
 
 
 def rounded(value: float | None, digits: int = 3) -> float | None:
-    """Return `value` with so many digits after the point; None for a number that is not finite, which JSON does not have."""
+    """Return `value` with so many digits after the point; None for one that is not finite, which JSON lacks."""
     return None if value is None or not isfinite(value) else round(value, digits)
 
 

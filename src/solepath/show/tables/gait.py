@@ -63,7 +63,7 @@ class GaitRow:
     difference: float | None
 
     def cells(self, separator: str) -> list[str]:
-        """Return the cells of a table: left, right, both +- SD (with `separator` between the two), CV in %, asymmetry."""
+        """Return the cells of a table: left, right, both +- SD (`separator` between the two), CV in %, asymmetry."""
         both = number(self.both, self.digits) + (
             "" if self.sd is None else f"{separator} {number(self.sd, self.digits)}"
         )

@@ -60,7 +60,7 @@ class PlanPicture:
             self.breaks.add(len(self.places))
 
     def write(self, path: Path, title: str) -> None:
-        """Write the picture into a file, UTF-8. OSError, naming the file, when it cannot be written (the disk is full)."""
+        """Write the picture to a file, UTF-8. OSError, naming the file, when it cannot be written (full disk)."""
         tree = ElementTree(self.drawn(title))
         indent(tree, space=" ")
         with naming(path):
@@ -187,7 +187,7 @@ class _Frame:
 
     @classmethod
     def around(cls, plan: FloorPlan, places: list[Placed], width: float, height: float) -> _Frame:
-        """Return the frame that holds all levels and the whole track, with a margin, in at most `width` by `height` px."""
+        """Return the frame of all levels and the whole track, with a margin, in at most `width` by `height` px."""
         corners = [end for level in plan.levels for wall in level.walls for end in (wall.start, wall.end)]
         corners += [point for level in plan.levels for room in level.rooms for point in room]
         corners += [stop.place for connector in plan.connectors for stop in connector.stops]

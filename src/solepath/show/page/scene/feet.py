@@ -1,4 +1,4 @@
-"""One foot as a page shows it: phase, place, pressed cells, and what it did of late."""
+"""One foot as a page shows it: phase, position, pressed cells, and its recent phases."""
 
 from __future__ import annotations
 
@@ -15,37 +15,39 @@ from ..messages import rounded, rounded_all
 from .lists import Recent, WalkedTrack
 
 PHASES_KEPT = 20.0
-"""s of phases that are kept."""
+"""Time for which phases are kept, s."""
 MOST_PHASES = 500
-"""More than anybody's foot goes through in that time."""
+"""Largest number of phases that are kept; no foot goes through more in PHASES_KEPT."""
 MIN_PEAK_SHARE = 0.002
-"""Share of a cell's full scale that the brightest colour stands for at least: what an unloaded sole shows is noise."""
+"""Share of a cell's full scale that the brightest colour means at least: an unloaded sole shows only noise."""
 
 
 @define
 class FootScene:
-    """Everything from events. The track has a point for where the foot was first seen and one for each step's end: live
-    positions between two steps may still drift."""
+    """One foot, from events alone.
+
+    The track has one point where the foot was first seen and one for the end of each stride: live positions within a
+    stride may still drift."""
 
     foot: Foot
     has_data: bool = field(default=False, init=False)
     phase: Phase | None = field(default=None, init=False)
     phases: Recent[tuple[float, str | None]] = field(factory=lambda: Recent(MOST_PHASES), init=False)
-    """Beginning of each phase of late, s, and its name; None for a time in which the foot is not heard."""
+    """Start of each recent phase, s, and its name; None for a time in which nothing comes of the foot."""
     position: Vec3 | None = field(default=None, init=False)
     track: WalkedTrack = field(factory=WalkedTrack, init=False)
     layout: Layout | None = field(default=None, init=False)
     cells: tuple[float, ...] | None = field(default=None, init=False)
-    """The newest values; None while there are none."""
+    """Newest values of the cells; None while there are none."""
     force: float = field(default=0.0, init=False)
     centre: tuple[float, float] | None = field(default=None, init=False)
     peak: float = field(default=0.0, init=False)
-    """What the brightest colour stands for: the highest value so far."""
+    """Value that the brightest colour means: the highest value so far."""
     _shades: tuple[tuple[float, ...] | None, float, str | None] = field(default=(None, 0.0, None), init=False)
-    """Cells and peak, and what they were last shown as."""
+    """Cells and peak, and the text that they were last encoded as."""
 
     def add_position(self, event: FootMoved) -> None:
-        """A live position."""
+        """Add a live position."""
         self.position = event.position
         if event.phase is not self.phase:
             self.start_phase(event.t, event.phase)
@@ -53,7 +55,7 @@ class FootScene:
             self.track.add_position(event.t, event.position)
 
     def add_pressure(self, event: FootPressed) -> None:
-        """Cells of one sample."""
+        """Add the cells of one sample."""
         values = event.values
         self.cells, self.force, self.centre = values, event.force, event.centre
         self.has_data = True
@@ -62,7 +64,7 @@ class FootScene:
             self.peak = largest
 
     def start_phase(self, t: float, phase: Phase | None) -> None:
-        """From `t` s on the foot does this; None: it is not heard."""
+        """Start a phase at `t` s; None means that nothing comes of the foot."""
         self.has_data = self.has_data or phase is not None
         if phase is self.phase:
             return
@@ -75,12 +77,12 @@ class FootScene:
             phases.items.popleft()
 
     def add_stride(self, event: StrideTaken) -> None:
-        """A step ended."""
+        """Add a stride that ended."""
         if event.final:
             self.track.add_position(event.t, event.position)
 
     def set_layout(self, layout: Layout) -> bool:
-        """Where the cells are; whether that is new."""
+        """Set where the cells are; return whether that is new."""
         if layout == self.layout:
             return False
         self.layout = layout
@@ -88,17 +90,17 @@ class FootScene:
         return True
 
     def phase_started_after(self, t: float) -> bool:
-        """Whether what it does now, or that it is not heard, began after `t` s."""
+        """Return whether the present phase, or the silence of the foot, started after `t` s."""
         phases = self.phases.items
         return bool(phases) and phases[-1][0] > t
 
     def mark_silent(self, t: float) -> None:
-        """What it does now is not known."""
+        """Mark the phase as unknown from `t` s on."""
         self.start_phase(t, None)
         self.cells = self.centre = None
 
     def frame(self, rate: float, counts: FootCounts) -> dict[str, Any] | None:
-        """As "feet" of a frame; None before it was heard of. `rate`: samples a second."""
+        """Return the foot's member of "feet" of a frame; None before it has data. `rate` is in samples a second."""
         if not self.has_data:
             return None
         cells = self.cells
@@ -115,7 +117,7 @@ class FootScene:
         }
 
     def _colours(self) -> str | None:
-        """One byte a cell, 255 for the highest value so far, as base64."""
+        """Return one byte a cell, 255 for the highest value so far, as base64."""
         cells, peak = self.cells, self.peak
         if cells is None:
             return None
@@ -126,7 +128,7 @@ class FootScene:
         return self._shades[2]
 
     def layout_message(self, newtons: bool) -> dict[str, Any] | None:
-        """As "layouts" of a scene. `newtons`: a calibration turns counts into N."""
+        """Return the foot's member of "layouts" of a scene; `newtons` says that a calibration turns counts into N."""
         layout = self.layout
         if layout is None:
             return None

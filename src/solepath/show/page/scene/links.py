@@ -10,7 +10,7 @@ from ..messages import rounded
 
 
 def link_frame(link: LinkLedger, now: float) -> dict[str, Any]:
-    """As one of "links" of a frame."""
+    """Return one member of "links" of a frame."""
     state = link.state(now)
     silent = state in ("silent", "lost") and link.last_sample_at is not None
     rate = link.recent_rate(now)
@@ -32,7 +32,7 @@ def link_frame(link: LinkLedger, now: float) -> dict[str, Any]:
 
 
 def feet_silent_since(links: dict[Site, LinkLedger], now: float) -> float | None:
-    """When any foot was heard last, s, while at `now` none is; None while one is, and before."""
+    """Return when the last sample of any foot came, s, while at `now` none sends; None while one does, and before."""
     feet = [link for site, link in links.items() if site.foot is not None]
     last = max([link.last_sample_at for link in feet if link.last_sample_at is not None], default=None)
     return None if any([link.state(now) == "ok" for link in feet]) else last

@@ -1,4 +1,4 @@
-"""The log that a page shows: events as sentences, for a wearer or a clinician who reads what happened."""
+"""The log that a page shows: events as sentences, for a wearer or a clinician."""
 
 from __future__ import annotations
 
@@ -38,28 +38,30 @@ from .lists import Recent
 
 MOST_LINES = 50
 LOW_BATTERY = 0.15
-"""A battery that is this empty is said."""
+"""Charge at or below which the battery is reported, 0 to 1."""
 FAULTS = {
     CellFault.DEAD: ("cell shows no load", "cells show no load"),
     CellFault.STUCK: ("cell shows one value all the time", "cells show one value all the time"),
     CellFault.SATURATED: ("cell stays at the end of its range", "cells stay at the end of their range"),
     CellFault.MISSING: ("cell sends no number", "cells send no number"),
 }
-"""Of one cell and of several."""
+"""Words for a fault of one cell and of several."""
 TURNS = {Turn.LEFT: "turned left", Turn.RIGHT: "turned right", Turn.ABOUT: "turned about"}
 
 LogLine = tuple[float | None, str, str]
-"""(t, kind, sentence)."""
+"""(t, kind, sentence), t in s."""
 
 
 @define
 class SceneLog:
-    """The newest sentences of what happened."""
+    """The newest sentences on what happened."""
 
     lines: Recent[LogLine] = field(factory=lambda: Recent(MOST_LINES))
 
     def add_event(self, event: Event, before: Observer) -> None:
-        """A line of an event that is worth one and was not said just now. `before`: what was observed before it."""
+        """Add a line for an event that deserves one and was not just reported.
+
+        `before` is what was observed before the event."""
         line = sentence(event)
         if line is None:
             return
@@ -72,12 +74,14 @@ class SceneLog:
         self.add(event.t, *line)
 
     def add(self, t: float, kind: str, text: str) -> None:
-        """One more line, of what happened at `t` s."""
+        """Add a line on what happened at `t` s."""
         self.lines.add((rounded(t), kind, text))
 
 
 def sentence(event: Event) -> tuple[str, str] | None:
-    """(kind, sentence) of what is worth a line; kind is "link", "wear", "gait" or "place". None of all else."""
+    """Return (kind, sentence) of an event that deserves a line, None of any other.
+
+    `kind` is "link", "wear", "gait" or "place"."""
     line = _link(event) or _wear(event) or _gait(event)
     return None if line is None else (line[0], printable(line[1], 300))
 

@@ -9,8 +9,9 @@ from ..messages import EncodedOnce, rounded, rounded_all
 
 
 def drawn(plan: FloorPlan) -> EncodedOnce:
-    """As "plan" of a scene: lines and outlines of each level, and where stairs and lifts stop; plan frame, m. It takes
-    some 10 us a wall."""
+    """Return the member "plan" of a scene, in the plan frame, m.
+
+    It holds lines and outlines of each level, and the stops of stairs and lifts. It takes some 10 us a wall."""
     return EncodedOnce(
         name=plan.name,
         levels=[_level(level) for level in plan.levels],

@@ -1,4 +1,4 @@
-"""Events in, what a page shows out: a scene for who begins to watch, and then what has changed since.
+"""Turns events into messages for a page: a whole scene for a new watcher, then what has changed since.
 
 protocol/page.md says what the messages hold. Nothing here knows a clock, a thread or a network.
 """
@@ -47,8 +47,10 @@ VERSION = 1
 
 @frozen
 class Cursor:
-    """What a watcher has been shown. `drawn`: layouts and the like when the scene was sent whole. `numbers`: of each
-    list, how many items it ever had. `values`: of each other key, what was sent last."""
+    """State of what a watcher has been sent.
+
+    `drawn` is the number of layouts when the scene was sent whole. `numbers` is, for each list, how many items it ever
+    had. `values` is, for each other key, the value that was sent last."""
 
     drawn: int
     numbers: dict[str, int]
@@ -57,14 +59,14 @@ class Cursor:
 
 @define
 class Scene:
-    """One session, which is to be made with `poses=True` and `pressures=True`. Times in s on the session's clock;
-    lengths in m, world frame, or the plan's for what is on `plan`. `source`: "live", "demo" or "recording".
-    `newtons`: the feet whose calibration turns counts into N. `playback`: the player writes it. `observer`: what it is
-    a picture of; the scene feeds it.
+    """Picture of one session, which is made with `poses=True` and `pressures=True`.
 
-    `take` is cheap: it is called for every packet. `since` costs some 0.1 ms, and is for 30 times a second at the most.
-    Memory is bounded, whatever is walked. Not to be used by two threads at once.
-    """
+    Times are in s on the session's clock; lengths in m, in the world frame, or in the plan's for what is on `plan`.
+    `source` is "live", "demo" or "recording". `newtons` are the feet whose calibration turns counts into N. The player
+    writes `playback`. The scene shows `observer`, and feeds it.
+
+    `take` is cheap: it is called for every packet. `since` costs some 0.1 ms, and is for at most 30 times a second.
+    Memory is bounded, whatever is walked. Two threads must not use a scene at once."""
 
     title: str
     recipe: str
@@ -80,15 +82,17 @@ class Scene:
     scales: Scales = field(factory=Scales, init=False)
     log: SceneLog = field(factory=SceneLog, init=False)
     layouts: int = field(default=0, init=False)
-    """How often one became known: a page that drew others needs the scene anew."""
+    """Number of times a layout became known: a page that drew others needs the scene again."""
     drawing: EncodedOnce | None = field(init=False)
-    """Of the plan: made once, however many watch and wherever the player goes."""
+    """Drawing of the plan, made once for all watchers and all seeks."""
 
     def __attrs_post_init__(self) -> None:
         self.drawing = None if self.plan is None else drawn(self.plan)
 
     def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
-        """What the session was fed, and what it said of that. None: nothing came, time passed or the session ended."""
+        """Add what the session was fed and the events that it returned for it.
+
+        An item of None means that nothing came: time passed or the session ended."""
         for event in events:
             if not isinstance(event, REJECTIONS):
                 self.tick(event.known_at)  # who was silent until now is drawn so before what ends the silence
@@ -100,14 +104,14 @@ class Scene:
             self._mark_silent_feet()
 
     def tick(self, t: float) -> None:
-        """It is `t` s, on the clock of the packets, whether or not anything was heard."""
+        """Advance the time to `t` s on the clock of the packets, whether or not anything came."""
         if t > self.now:
             self.observer.advance(t)
             self._mark_silent_feet()
 
     @property
     def now(self) -> float:
-        """The latest moment that anything is known of, s."""
+        """Latest known moment, s."""
         return self.observer.now
 
     def _show(self, event: Event) -> None:
@@ -120,8 +124,10 @@ class Scene:
             self._mark_silent_feet()
 
     def _mark_silent_feet(self) -> None:
-        """What a foot does that is not heard is not known. What it has begun since then shows that it is heard again,
-        though the sample that does comes after it."""
+        """Mark the phase of each foot as unknown whose link is silent.
+
+        A phase that started after the silence shows that the foot sends again, though the sample that proves it comes
+        after it."""
         for foot, one in self.feet.items():
             link = self.observer.links.get(SITE_OF_FOOT[foot])
             if one.phase is None or link is None or link.state(self.now) == "ok":
@@ -130,7 +136,7 @@ class Scene:
                 one.mark_silent(min(self.now, link.silent_from))
 
     def _connected(self, foot: Foot) -> bool:
-        """Whether what comes of a foot is no straggler of a connection that is gone."""
+        """Return whether what comes of a foot is no straggler of a broken connection."""
         return self.observer.link(SITE_OF_FOOT[foot]).broken_at is None
 
     def _moved(self, event: FootMoved) -> None:
@@ -169,7 +175,7 @@ class Scene:
         return names[0] if names and names[0] else f"level {level}"
 
     def whole(self) -> tuple[dict[str, Any], Cursor]:
-        """Everything: the message "scene", and what `since` goes on from."""
+        """Return the message "scene" with everything, and the cursor from which `since` continues."""
         values = self._values()
         message = {
             "type": "scene",
@@ -197,8 +203,10 @@ class Scene:
         return message, Cursor(self.layouts, self._numbers(), values)
 
     def since(self, cursor: Cursor) -> tuple[dict[str, Any] | None, Cursor]:
-        """What has changed since `cursor`, the message "frame", or None when nothing has; the message "scene" where a
-        watcher is too far behind or has to draw anew."""
+        """Return the message "frame" with what has changed since `cursor`, and the next cursor.
+
+        The message is None when nothing has changed. It is "scene" for a watcher that is too far behind or has to draw
+        again."""
         if cursor.drawn != self.layouts:
             return self.whole()
         values, numbers, known = self._values(), self._numbers(), cursor.numbers
@@ -218,7 +226,7 @@ class Scene:
         return {"type": "frame", "t": self._t(), **message}, Cursor(self.layouts, numbers, values)
 
     def heartbeat(self) -> dict[str, Any]:
-        """A frame in which nothing has changed but the time."""
+        """Return a frame in which nothing has changed but the time."""
         return {"type": "frame", "t": self._t()}
 
     def _t(self) -> float:
@@ -259,7 +267,7 @@ class Scene:
 
 
 NOTHING = FootCounts()
-"""Of a foot that nothing is known of."""
+"""Counts of a foot of which nothing is known."""
 PHASES: dict[type, Phase] = {event: phase for phase, event in BEGINS.items()}
 
 HANDLERS: dict[type, Callable[[Scene, Any], None]] = {
@@ -277,7 +285,7 @@ HANDLERS: dict[type, Callable[[Scene, Any], None]] = {
     LayoutKnown: Scene._layout_known,
     ClockReset: Scene._reset,
 }
-"""What changes the scene, besides the observer and the log."""
+"""What each event changes in the scene, besides the observer and the log."""
 
 
 def _filled(key: str, value: Any) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Where the wearer is: in the track's own frame, and on the floor plan."""
+"""The position of the wearer: in the track's own frame, and on the floor plan."""
 
 from __future__ import annotations
 
@@ -18,22 +18,24 @@ PlacePoint = tuple[float | None, str, float | None, float | None, float | None]
 
 @define
 class WearerScene:
-    """The wearer's track has a point for each step, the places one for each step whose level is decided."""
+    """Tracks of the wearer.
+
+    `track` has a point for each stride, `places` one for each place on a level that all its candidates share."""
 
     moved: WearerMoved | None = None
     track: WalkedTrack = field(factory=WalkedTrack)
     places: ThinnedTrack[PlacePoint] = field(factory=ThinnedTrack)
     level: str | None = None
-    """The last one that there was no doubt of."""
+    """The last level that all candidates shared."""
     _place_frame: tuple[Placed | None, dict[str, Any] | None] = (None, None)
 
     def stepped(self, event: WearerMoved) -> None:
-        """Where the wearer is after a step."""
+        """Add the position of the wearer after a stride."""
         self.moved = event
         self.track.add_position(event.t, event.position)
 
     def found(self, event: Placed) -> str | None:
-        """A place on the plan; the level where it is another one than before, and beyond doubt."""
+        """Add a place on the plan; return its level when that is new and all candidates share it."""
         if any([one.level != event.level for one in event.candidates]):
             return None
         x, y, z = rounded_all(event.position)
@@ -44,11 +46,11 @@ class WearerScene:
         return event.level
 
     def lose(self) -> None:
-        """There is no place any more."""
+        """Forget the level: there is no place any more."""
         self.level = None
 
     def wearer_frame(self) -> dict[str, Any] | None:
-        """As "wearer" of a frame."""
+        """Return the member "wearer" of a frame."""
         moved = self.moved
         if moved is None:
             return None
@@ -59,7 +61,7 @@ class WearerScene:
         }
 
     def place_frame(self, place: Placed | None) -> dict[str, Any] | None:
-        """As "place" of a frame; None while it is not known."""
+        """Return the member "place" of a frame; None while it is not known."""
         if place is not self._place_frame[0]:
             self._place_frame = (place, None if place is None else _place(place))
         return self._place_frame[1]

@@ -1,4 +1,4 @@
-"""What clients do wrong, as lines of the log: one for each, but not as many as somebody likes to cause."""
+"""Logs what clients do wrong: a line for each error, with a limit on their rate."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from attrs import define, field
 AT_ONCE = 10
 """Lines that may come together."""
 EVERY = 60.0
-"""s after which there may be one more."""
+"""Time after which there may be one more line, s."""
 
 
 @define
 class ClientErrors:
-    """`report` writes a line, or counts it where there were too many of late; the next line says how many."""
+    """Writes the errors of clients to `logger`, at most AT_ONCE together; the next line gives the number of those left out."""
 
     logger: Logger
     _left: float = field(default=float(AT_ONCE), init=False)
@@ -23,7 +23,7 @@ class ClientErrors:
     _unreported: int = field(default=0, init=False)
 
     def report(self, what: str) -> None:
-        """Somebody did this, in a sentence that holds nothing of what a client sent."""
+        """Write a line, or count it where there were too many; `what` holds nothing that a client sent."""
         now = monotonic()
         self._left = min(self._left + (now - self._at) / EVERY, float(AT_ONCE))
         self._at = now

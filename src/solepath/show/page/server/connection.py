@@ -1,4 +1,4 @@
-"""Whoever has connected to the page: for how long, and what it is told where it does not speak HTTP."""
+"""Connections to the page: how long they may last, and the answer to one that does not speak HTTP."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from typing import cast
 from aiohttp import web
 
 LONGEST = 30.0
-"""s that a connection may last on which nobody watches, whatever it asks for and however slowly it reads."""
+"""Time that a connection may last on which nobody watches, whatever it requests and however slowly it reads, s."""
 BACKLOG = 65_536
-"""Bytes that the system holds back for whoever reads slowly: some seconds of frames."""
+"""Bytes that the system buffers for a slow reader: some seconds of frames."""
 HEADERS = {
     "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
     "connect-src 'self'; base-uri 'none'; frame-ancestors 'none'",
@@ -27,7 +27,9 @@ HEADERS = {
 
 
 class BrowserConnection(web.RequestHandler):
-    """`has_requested`: it has asked for something once; before, and after watching, it may last for `idle` s only."""
+    """A connection of a browser, with limits on its time.
+
+    `has_requested` says that it has sent a request. Before that, and after watching, it may last for `idle` s only."""
 
     __slots__ = ("has_requested", "_timers", "_idle", "_output", "_watches")
 
@@ -48,6 +50,7 @@ class BrowserConnection(web.RequestHandler):
         self._output: asyncio.WriteTransport | None = None
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Limit the send buffer, and start the timers of the connection."""
         super().connection_made(transport)
         accepted = transport.get_extra_info("socket")
         if accepted is not None:
@@ -58,6 +61,7 @@ class BrowserConnection(web.RequestHandler):
         self._end_in(LONGEST)
 
     def connection_lost(self, exc: BaseException | None) -> None:
+        """Cancel the timers."""
         for end in self._timers:
             end.cancel()
         self._output = None
@@ -65,7 +69,7 @@ class BrowserConnection(web.RequestHandler):
 
     @contextmanager
     def watching(self) -> Iterator[None]:
-        """A browser watches on it within, for as long as it likes."""
+        """Let the connection last for as long as it likes within the context, in which a browser watches on it."""
         self._watches = True
         try:
             yield
@@ -84,7 +88,7 @@ class BrowserConnection(web.RequestHandler):
     def handle_error(
         self, request: web.BaseRequest, status: int = 500, exc: BaseException | None = None, message: str | None = None
     ) -> web.StreamResponse:
-        """The library's own answers tell what was wrong with words of whoever has sent it; this does not."""
+        """Answer an error with a fixed text; the library's own answer repeats words of the sender."""
         if request.writer.output_size > 0:
             raise ConnectionError("a part of an answer was sent already")
         answer = web.Response(status=status, text="that cannot be answered\n", headers=HEADERS)
@@ -93,7 +97,8 @@ class BrowserConnection(web.RequestHandler):
 
 
 class ImmediateClose(asyncio.Protocol):
-    """Hangs up at once."""
+    """Protocol that closes each connection at once."""
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Close the connection."""
         transport.close()
