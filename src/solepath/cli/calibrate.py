@@ -1,4 +1,4 @@
-"""`solepath calibrate KIND INPUT --out FILE`: from a recording, or from what was measured by hand, to a calibration."""
+"""`solepath calibrate KIND INPUT --out FILE`: makes a calibration from a recording or from measurements by hand."""
 
 from __future__ import annotations
 
@@ -16,9 +16,11 @@ from .common.files import check_writable
 from .common.inputs import add_foot, check_pressure, foot_of, source_of
 
 MERGED = "What FILE holds already of other kinds, or of the other foot, stays."
+"""Sentence of the help text on what stays in FILE."""
 
 
 def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
     command: argparse.ArgumentParser = commands.add_parser(
         "calibrate",
         help="learn about a wearer, shoes and insoles",
@@ -33,6 +35,7 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Make the calibration and write it; return the exit status."""
     from ..calibration.file import read_calibration, write_calibration
     from ..calibration.limits import unusable
 
@@ -51,7 +54,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 Learnt = tuple[Calibration, list[str]]
-"""What was learnt, and the lines that say so."""
+"""What was learnt, and the lines that report it."""
 
 
 def _recording(command: argparse.ArgumentParser) -> None:

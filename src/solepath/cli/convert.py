@@ -1,4 +1,4 @@
-"""`solepath convert IN OUT`: a phone's btsnoop log to a recording, a recording to MCAP."""
+"""`solepath convert IN OUT`: converts a phone's btsnoop log to a recording, or either to MCAP."""
 
 from __future__ import annotations
 
@@ -18,11 +18,12 @@ if TYPE_CHECKING:
     from ..recording.mcap import McapWriter
 
 LONG = 4_000_000
-"""Bytes from which on there is a progress bar."""
+"""Size from which on there is a progress bar, bytes."""
 RECORDING, MCAP = ".jsonl", ".mcap"
 
 
 def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
     command: argparse.ArgumentParser = commands.add_parser(
         "convert",
         help="import a phone's btsnoop log, export to MCAP",
@@ -82,6 +83,7 @@ _Value = TypeVar("_Value")
 
 
 def run(options: argparse.Namespace) -> int:
+    """Convert the file; return the exit status."""
     from ..recording.btsnoop import is_btsnoop
     from ..show.tables.progress import progress_bar
 
@@ -125,7 +127,7 @@ def _opened(options: argparse.Namespace) -> BtsnoopLog:
 
 
 def _by_key(option: str, given: Iterable[tuple[_Key, _Value]]) -> dict[_Key, _Value]:
-    """By what each is about. Failure when two are about the same."""
+    """Return the values by their keys; Failure when a key is given twice."""
     found: dict[_Key, _Value] = {}
     for key, value in given:
         if key in found:
@@ -145,7 +147,7 @@ Make = Callable[[Path, Mapping[str, Any]], "PacketWriter | McapWriter"]
 
 
 def _maker(out: Path) -> Make:
-    """What writes a file of this name."""
+    """Return the class that writes a file of this name; Failure when there is none."""
     suffix = out.suffix.lower()
     if suffix == RECORDING:
         return PacketWriter
@@ -163,8 +165,9 @@ def _maker(out: Path) -> Make:
 def _write(
     packets: Iterable[Packet], header: Mapping[str, Any], make: Make, source: Path, out: Path
 ) -> tuple[int, RecordingError | None]:
-    """(how many packets `out` holds, what was wrong with the source after them). Where nothing could be read, or not
-    everything be written, `out` is as it was before."""
+    """Write the packets to `out`; return how many, and what was wrong with the source after them.
+
+    When nothing could be read, or not everything be written, `out` is as it was before."""
     if out.exists() and out.samefile(source):
         raise Failure(f"{printable(str(out))}: is what is to be converted")
     damage: RecordingError | None = None
@@ -190,7 +193,9 @@ def _write(
 
 
 def _until_damage(packets: Iterable[Packet]) -> Iterator[Packet | RecordingError]:
-    """The packets, and in the end what made the reading stop, if anything did: told from what the writing says."""
+    """Yield the packets, and at the end the error that stopped the reading, if any.
+
+    This keeps errors of reading apart from those of writing."""
     try:
         yield from packets
     except RecordingError as error:
@@ -199,7 +204,7 @@ def _until_damage(packets: Iterable[Packet]) -> Iterator[Packet | RecordingError
 
 @contextmanager
 def _replacing(out: Path) -> Iterator[Path]:
-    """A file to write that takes the place of `out` when it is done, and is gone when it is not."""
+    """Yield a file to write that replaces `out` when it is complete, and is removed when it is not."""
     files = FileReplacements()
     try:
         yield files.beside(out, read_only=True)

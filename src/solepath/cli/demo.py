@@ -1,4 +1,4 @@
-"""`solepath demo`: an emulated wearer through the whole path, live, and a table against the truth at the end."""
+"""`solepath demo`: runs an emulated wearer through the whole library, live, and compares the result with the truth."""
 
 from __future__ import annotations
 
@@ -16,12 +16,13 @@ if TYPE_CHECKING:
     from ..lab.emulated.demo import Demo
 
 REPORT_EVERY = 10.0
-"""s of the walk between two lines where there is no terminal."""
+"""Time of the walk between two lines where there is no terminal, s."""
 PACE = 2.0
-"""Times real time in a terminal: there is less to see than on a page."""
+"""Speed in a terminal, in multiples of real time: there is less to see than on a page."""
 
 
 def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
     command: argparse.ArgumentParser = commands.add_parser(
         "demo",
         help="walk an emulated route and compare with the truth",
@@ -52,6 +53,7 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Run the demo; return the exit status."""
     from ..emulate.demo import ROUTE, radio, straight
     from ..lab.emulated.demo import make_demo, make_indoors
     from ..lab.tables.comparison import comparison_table, place_table
@@ -91,7 +93,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _view(options: argparse.Namespace) -> View | None:
-    """Where the page is to be served; None where it is to be shown otherwise."""
+    """Return where the page is to be served; None when it is shown otherwise."""
     if options.terminal and options.no_browser:
         raise Failure("--no-browser is for the page, and --terminal shows none")
     view = view_of(options)
@@ -104,7 +106,7 @@ def _view(options: argparse.Namespace) -> View | None:
 
 
 def _show(demo: Demo, view: View, pace: float) -> None:
-    """On a page. Whatever was looked at there, the walk is heard to its end."""
+    """Show the demo on a page; the walk is computed to its end, whatever was watched."""
     from ..show.page.player.packed_items import PackedItems
     from ..show.page.player.player import Player
     from ..show.page.scene.scene import Scene
@@ -116,6 +118,7 @@ def _show(demo: Demo, view: View, pace: float) -> None:
 
 
 def _record(demo: Demo, path: Path) -> None:
+    """Write the packets of the walk as a recording."""
     with PacketWriter(path) as writer:
         for packet in demo.walk.packets:
             writer.write(packet)
@@ -123,7 +126,7 @@ def _record(demo: Demo, path: Path) -> None:
 
 
 def _draw(demo: Demo, speed: float) -> None:
-    """Played in the terminal at `speed` times real time, redrawn as it goes."""
+    """Play the demo in the terminal at `speed` times real time."""
     from time import monotonic, sleep
 
     from rich.console import Console
@@ -145,7 +148,7 @@ def _draw(demo: Demo, speed: float) -> None:
 
 
 def _print_progress(demo: Demo) -> None:
-    """Lines of plain text instead of a picture, as fast as it goes."""
+    """Print lines of plain text instead of a picture, as fast as they are computed."""
     from ..show.tables.plot import plot
     from ..show.tables.summary import link_health
 

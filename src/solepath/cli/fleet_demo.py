@@ -1,4 +1,4 @@
-"""`solepath fleet-demo`: emulated wearers through a stream engine that is killed, and what that costs."""
+"""`solepath fleet-demo`: runs emulated wearers through a stream engine that is killed, and measures the cost."""
 
 from __future__ import annotations
 
@@ -22,12 +22,13 @@ if TYPE_CHECKING:
 DIFFERS = 1
 """Exit status when the events of two runs differ."""
 LONGEST = 3600.0
-"""s of walking."""
+"""Longest walk that can be asked for, s."""
 WALKED, LEAST, MOST = 1200.0, 4.0, 20.0
-"""s of walking of all wearers, and the least and the most of each, where nobody says how long."""
+"""Total walking time of all wearers, and least and most of each, when no time is given, s."""
 
 
 def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
     command: argparse.ArgumentParser = commands.add_parser(
         "fleet-demo",
         help="many emulated wearers through a stream engine that is killed",
@@ -64,6 +65,7 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Run the demo; return the exit status."""
     _check(options)
     from ..fleet.demo.compare import Torn
     from ..fleet.demo.run import RunFailed
@@ -89,7 +91,9 @@ def run(options: argparse.Namespace) -> int:
 
 
 def play(stage: DemoStage, kills: int, *, keep: bool) -> list[str]:
-    """All runs, told as they end; what differed between an uninterrupted one and the sessions alone."""
+    """Do all runs and print each as it ends.
+
+    Return what differed between the uninterrupted run and the sessions alone."""
     from .fleet_table import of_kills, of_worth
 
     plan = stage.plan
@@ -120,7 +124,9 @@ def _counted(count: int, one: str, many: str) -> str:
 
 
 def verdict(alone: list[str], killed: list[list[str]]) -> int:
-    """The exit status, and why it is not 0: what differed from the sessions alone, and in each killed run."""
+    """Return the exit status, and print why it is not 0.
+
+    The reasons are what differed from the sessions alone, and in each killed run."""
     wrong = [f"sessions alone: {line}" for line in alone]
     wrong += [f"killed run {number}: {line}" for number, lines in enumerate(killed, 1) for line in lines]
     if wrong:
@@ -129,7 +135,7 @@ def verdict(alone: list[str], killed: list[list[str]]) -> int:
 
 
 def _check(options: argparse.Namespace) -> None:
-    """Failure for what could only go wrong after a while."""
+    """Raise Failure for options that would only fail after a while."""
     recipe_named(options.recipe)
     if options.seconds is not None and options.seconds > LONGEST:
         raise Failure(f"--seconds {options.seconds:g}: {LONGEST:g} is the most")
@@ -148,7 +154,7 @@ def _check(options: argparse.Namespace) -> None:
 
 @contextmanager
 def _directory(options: argparse.Namespace) -> Iterator[Path]:
-    """Where the runs are; thrown away at the end unless it is to be kept."""
+    """Yield the directory of the runs; it is removed at the end unless it is to be kept."""
     made = options.out is not None and not options.out.exists()
     if options.out is not None:
         options.out.mkdir(parents=True, exist_ok=True)
@@ -169,7 +175,7 @@ def _directory(options: argparse.Namespace) -> Iterator[Path]:
 
 
 def _leave(stage: DemoStage, out: Path) -> None:
-    """The events of the uninterrupted run, and how to look at them."""
+    """Copy the events of the uninterrupted run, and print how to look at them."""
     from shlex import quote
 
     events_directory = out / "told"

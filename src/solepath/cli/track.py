@@ -1,4 +1,4 @@
-"""`solepath track FILE`: a recording through a session, summed up and written out."""
+"""`solepath track FILE`: runs a recording through a session, prints a summary and writes files."""
 
 from __future__ import annotations
 
@@ -29,12 +29,13 @@ if TYPE_CHECKING:
     from .common.results import Results
 
 LONG = 4_000_000
-"""Bytes of packets from which on there is a progress bar ..."""
+"""Size of a recording of packets from which on there is a progress bar, bytes."""
 LONG_SAMPLES = 40_000
-"""... or samples: a second or so of computing."""
+"""Number of samples from which on there is a progress bar: about a second of computing."""
 
 
 def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
     command: argparse.ArgumentParser = commands.add_parser(
         "track",
         help="run a recording and print a summary",
@@ -61,6 +62,7 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Run the recording; return the exit status."""
     from .common.loop import stop_signals_raise
     from .common.results import Results
 
@@ -105,7 +107,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _when(source: Source) -> str:
-    """When the recording began, to be read; "" where it does not say."""
+    """Return when the recording started, as text; "" when it does not say."""
     if source.samples is not None:
         return ""
     try:
@@ -116,7 +118,9 @@ def _when(source: Source) -> str:
 
 
 class _Reading:
-    """The items of a recording up to a fault in it, with a progress bar where it is long. `failure`: the fault."""
+    """The items of a recording up to a fault in it, with a progress bar for a long one.
+
+    `failure` is the fault."""
 
     def __init__(self, source: Source) -> None:
         self.source = source
@@ -137,7 +141,7 @@ class _Reading:
 
 
 def _straight(reading: _Reading, session: Session, results: Results) -> float:
-    """The recording through the session, item by item; how long that took, s."""
+    """Run the recording through the session item by item; return how long that took, s."""
     from time import perf_counter
 
     start = perf_counter()
@@ -160,10 +164,10 @@ def _played(
     view: View,
     pace: float,
 ) -> bool:
-    """The same, by a player on a page; whether there was anything to play.
+    """Run the recording by a player on a page; return whether there was anything to play.
 
-    The player tells of every item once and in order, whatever is done on the page, and what nobody has watched is run
-    through at the end: what comes of the recording is the same."""
+    The player passes on every item once and in order, whatever is done on the page, and what nobody has watched is
+    computed at the end. The result is that of `_straight`."""
     from ..show.page.player.packed_items import PackedItems
     from ..show.page.player.player import Player
     from ..show.page.scene.scene import Scene

@@ -27,7 +27,7 @@ DEFINITIONS = {
     "initial_double_support": "from this foot's contact to the other's toe-off; below zero a flight (Novacheck 1998)",
     "terminal_double_support": "from the other foot's contact to this one's toe-off; below zero a flight",
 }
-"""One line each; in full where GaitCycleMeasured is."""
+"""One line for each parameter; GaitCycleMeasured has the full definitions."""
 COLUMNS = [
     ("steady strides", "neither first nor last of a walk, nor in a turn, on stairs or with samples missing"),
     ("both", "mean of the feet's means; SD from the mean of their variances (Galna et al. 2013)"),
@@ -38,7 +38,7 @@ COLUMNS = [
 
 
 def gait_tables(parent: Element, means: GaitMeans) -> bool:
-    """A table for walking and one for running; False where there are no steady strides."""
+    """Add a table for walking and one for running; return False when there are no steady strides."""
     known = [one for one in (means.of(False), means.of(True)) if one is not None]
     for one in known:
         _table(parent, one)
@@ -71,7 +71,7 @@ def _cadence(figures: StrideFigures | None) -> str:
 
 
 def _notes(parent: Element, known: list[GaitParameters]) -> None:
-    """What the words of the table mean, folded away on a screen."""
+    """Add what the words of the table mean, in a part that can be folded on a screen."""
     folded = add(parent, "details", open="open")
     add(folded, "summary", "What the parameters mean")
     named = {row.name: row.label for one in known for row in gait_rows(one)}

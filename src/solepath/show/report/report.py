@@ -1,4 +1,4 @@
-"""A walk as one file: every event of its session in, a page to read, mail and print out."""
+"""Writes a walk as one HTML file, to read, mail and print, from all events of its session."""
 
 from __future__ import annotations
 
@@ -37,11 +37,11 @@ from .soles import ReportSole
 from .words import CAUTION, limitations, link_rows, overview, problems, sensors
 
 STRIDES, PLACES, POINTS = 1200, 1000, 1500
-"""Kept of a foot's strides, of places on the plan, and of points of a track: more are thinned evenly."""
+"""Strides of a foot, places on the plan, and points of a track that are kept: more are thinned evenly."""
 CANDIDATES = 40
-"""Kept of a place's, the heaviest."""
+"""Candidates of a place that are kept, the heaviest."""
 OFTEN = 0.5
-"""s: the height of a foot that stands is not looked at more often."""
+"""Shortest time between two heights of a standing foot that are kept, s."""
 
 
 NO_STRIDE = "No stride was measured, so that there are no gait parameters."
@@ -64,12 +64,12 @@ def _of_both() -> dict[Foot, Thinned[T]]:
 
 @define
 class Report:
-    """Gathers what a session with `poses` and `pressures` says, in bounded memory; then writes it down.
+    """Gathers what a session with `poses` and `pressures` reports, in bounded memory, then writes it.
 
-    `title`: what the page is called, such as the recording's name. `plan`: that the session had. `recipe`: its name.
-    `when`: of the walk, as it shall be read: nothing in here looks at a clock. `version`: of solepath. `observer`: of
-    that session; the report feeds it. An event with a number that is none is left out.
-    """
+    `title` is the title of the page, such as the recording's name. `plan` is the plan that the session had. `recipe` is
+    the name of the recipe. `when` is the time of the walk as text: the report reads no clock. `version` is that of
+    solepath. `observer` belongs to that session; the report feeds it. An event with a number that is not finite is left
+    out."""
 
     title: str
     plan: FloorPlan | None = None
@@ -84,12 +84,14 @@ class Report:
     wearer_track: Thinned[WearerMoved] = field(factory=Thinned, init=False)
     places: Thinned[Placed | PlaceLost] = field(factory=Thinned, init=False)
     sampled: tuple[float, float] | None = field(default=None, init=False)
-    """First and last sample, s ..."""
+    """Times of the first and the last sample, s."""
     spanned: tuple[float, float] | None = field(default=None, init=False)
-    """... and of all events."""
+    """Times of the earliest and the latest event, s."""
 
     def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
-        """What the session was fed, and what it said of that. None: nothing came, time passed or the session ended."""
+        """Add what the session was fed and the events that it returned for it.
+
+        An item of None means that nothing came: time passed or the session ended."""
         self.observer.count_item(item, events)
         for event in events:
             if self.observer.add(event):
@@ -130,17 +132,17 @@ class Report:
 
     @property
     def clock(self) -> ReportClock:
-        """How times are told."""
+        """Clock of the report's times."""
         start, end = self.sampled or self.spanned or (0.0, 0.0)
         return ReportClock(start, end)
 
     def write(self, path: Path) -> None:
-        """The page into a file, UTF-8. OSError, naming the file, when it cannot be written (the disk is full)."""
+        """Write the page to a file, UTF-8. OSError, naming the file, when it cannot be written (the disk is full)."""
         with naming(path):
             path.write_bytes(self.text().encode("utf-8"))
 
     def text(self) -> str:
-        """The page as HTML."""
+        """Return the page as HTML."""
         html, main = skeleton(self.title)
         clock = self.clock
         add(main, "h1", self.title)

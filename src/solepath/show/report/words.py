@@ -1,4 +1,4 @@
-"""What a walk comes to, in words."""
+"""Puts a walk into words."""
 
 from __future__ import annotations
 
@@ -17,13 +17,15 @@ CAUTION = (
 )
 
 LONGEST_NAME = 60
-"""Characters of a device's name that are shown, so that it crowds out nothing."""
+"""Characters of a device's name that are shown, so that it leaves room for the rest."""
 TURNS = {Turn.LEFT: "to the left", Turn.RIGHT: "to the right", Turn.ABOUT: "about"}
 
 
 def overview(observer: Observer, clock: ReportClock, has_data: bool, measured: dict[Foot, int]) -> list[str]:
-    """The walk in sentences. `has_data`: something was heard at all; `measured`: gait cycles of each foot, for a foot
-    without a track."""
+    """Return the walk in sentences.
+
+    `has_data` says that anything came at all. `measured` is the number of gait cycles of each foot, for a foot without
+    a track."""
     if not has_data:
         return ["Nothing was heard of either foot."]
     time = observer.time
@@ -55,7 +57,7 @@ def overview(observer: Observer, clock: ReportClock, has_data: bool, measured: d
 
 
 def problems(observer: Observer) -> list[str]:
-    """What was wrong with sensors, their wearing and their links; nothing when all is well."""
+    """Return what was wrong with sensors, their wearing and their links; nothing when all is well."""
     found = [*wear_lines(observer), *link_health(observer)]
     found += [
         f"{foot} foot: in {one.degraded} of {one.strides} strides samples are missing or saturated"
@@ -72,12 +74,12 @@ def problems(observer: Observer) -> list[str]:
 
 
 def limitations(observer: Observer) -> list[str]:
-    """What the recipe had to do without."""
+    """Return what the recipe had to do without."""
     return [f"{one[0].upper()}{one[1:]}." for one in observer.limitations if one]
 
 
 def sensors(observer: Observer) -> str:
-    """Which there were, in a line."""
+    """Return the sensors in one line."""
     lines = []
     for site, link in _links(observer):
         named_so = f" ({printable(link.name, LONGEST_NAME)})" if link.name else ""
@@ -87,7 +89,7 @@ def sensors(observer: Observer) -> str:
 
 
 def link_rows(observer: Observer) -> list[list[str]]:
-    """Rows of the table of links, and its header first."""
+    """Return the rows of the table of links, with its header first."""
     rows = [["sensor", "samples", "Hz", "gaps", "s in gaps", "lost", "rejected", "silent", "battery"]]
     for site, link in _links(observer):
         battery = "-" if link.battery is None else f"{100.0 * link.battery:.0f} %"

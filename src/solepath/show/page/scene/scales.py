@@ -19,7 +19,7 @@ from ..messages import rounded
 STEPS = (1.0, 2.0, 4.0, 6.0, 8.0, 10.0)
 """Multiples of a power of ten at which a scale may end."""
 LEAST = {"kPa": 100.0, "N": 1.0, "counts": 1.0}
-"""First end of a scale in each unit, as for somebody who stands on both feet; little for unknown units."""
+"""First end of a scale in each unit: the pressure of standing on both feet in kPa, no load in N and counts."""
 SHARE = 20
 """Number of cells of which one may be higher than the scale; a smaller insole may have one such cell too."""
 LASTS = 3

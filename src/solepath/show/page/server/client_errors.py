@@ -15,7 +15,9 @@ EVERY = 60.0
 
 @define
 class ClientErrors:
-    """Writes the errors of clients to `logger`, at most AT_ONCE together; the next line gives the number of those left out."""
+    """Writes errors of clients to `logger`, with a limit on their rate.
+
+    A line that was left out is counted; the next line gives the number."""
 
     logger: Logger
     _left: float = field(default=float(AT_ONCE), init=False)

@@ -1,4 +1,4 @@
-"""What the wearer did when."""
+"""Draws the activities of the wearer over time."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ LEFT = 96.0
 
 
 def named(activity: Activity) -> str:
-    """In words: "stairs up"."""
+    """Return an activity in words, such as "stairs up"."""
     return activity.value.replace("_", " ").lower()
 
 
 def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]], clock: ReportClock) -> bool:
-    """A row for every activity, a bar for every time that it was done; False where none was told."""
+    """Draw a row for every activity and a bar for every time that it was done; return False when there was none."""
     rows = [one for one in Activity if any(what is one for _, _, what in spans)]
     if not rows:
         return False

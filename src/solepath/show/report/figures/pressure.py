@@ -1,4 +1,4 @@
-"""What the soles bore: maps of both, with the path of the centre of pressure, and the force over a contact."""
+"""Draws the load of the soles: maps with the path of the centre of pressure, and the force over a contact."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from .axes import Chart, around, drawing, line, write
 from .stride import legend
 
 SHADES = ("#fff7e0", "#fee0a0", "#fdbb6b", "#f98b4a", "#e8562f", "#c0241f", "#7d0b1e")
-"""From no load to the highest: darker is more, on a grey printer too."""
+"""Colours from no load to the highest: darker is more, on a grey printer too."""
 TALL = 250.0
-"""Of a sole, px."""
+"""Height of a sole, px."""
 THIRDS = ("heel", "midfoot", "forefoot")
 
 
 def pressure_figures(parent: Element, soles: dict[Foot, ReportSole]) -> bool:
-    """Maps and curves of what is known; False where there is no pressure."""
+    """Draw maps and curves of what is known; return False when there is no pressure."""
     pressed = {foot: soles[foot] for foot in Foot if foot in soles and soles[foot].samples}
     if not pressed:
         return False
@@ -54,7 +54,7 @@ def _unit(soles: dict[Foot, ReportSole]) -> str:
 
 
 def radius(layout: Layout) -> float:
-    """As large as a cell may be drawn without hiding its neighbours, m."""
+    """Return the largest radius of a drawn cell that does not hide its neighbours, m."""
     places = [(cell.x, cell.y) for cell in layout.cells]
     if len(places) < 2:
         return 0.01
@@ -100,7 +100,9 @@ def _map(
 
 
 def _sole(svg: Element, foot: Foot, layout: Layout, shares: list[float], walked: ReportSole | None) -> None:
-    """A sole seen from above, the toe up. `shares`: of the highest load; `walked`: whose paths are drawn on it."""
+    """Draw a sole seen from above, the toe up.
+
+    `shares` are the loads over the highest one. `walked` is the sole whose paths are drawn on it."""
     middle = 110.0 if foot is Foot.LEFT else 290.0
     xs, ys = [cell.x for cell in layout.cells], [cell.y for cell in layout.cells]
     r = radius(layout)
@@ -142,7 +144,7 @@ def _forces(parent: Element, soles: dict[Foot, ReportSole]) -> None:
 
 
 def _thirds(parent: Element, maps: dict[Foot, Layout], loads: dict[Foot, list[float]]) -> None:
-    """How the load is shared out over the thirds of the insole's length."""
+    """Add a table of the load's shares on the thirds of the insole's length."""
     rows = []
     for k, name in enumerate(THIRDS):
         row = [f"{name} third, %"]

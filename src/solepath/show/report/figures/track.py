@@ -1,4 +1,4 @@
-"""Where the wearer went: in the plane, on the floor plan where there is one, and in height."""
+"""Draws the wearer's track from above, on the floor plan when there is one, and its height."""
 
 from __future__ import annotations
 
@@ -18,23 +18,24 @@ from .axes import WIDTH, AxisScale, Chart, Point, around, drawing, grid, line, m
 from .stride import SHAPES, legend
 
 PRINTS = 160
-"""Footprints: more of them would hide the way."""
+"""Footprints that are drawn at the most: more would hide the track."""
 TALLEST = 420.0
-"""Of the drawing of a track, px."""
+"""Largest height of the drawing of a track, px."""
 BESIDE = 1.2
-"""m: farther from the wearer's way no foot of a stride is; who has two tracks that are has tracks that drift apart."""
+"""Largest distance of a stride's foot from the wearer's track, m; more means that the feet's tracks drift apart."""
 SMALLEST = 4.0
-"""m that the longer side shows at least, so that standing still is not magnified."""
+"""Length that the longer side shows at least, m, so that standing still is not magnified."""
 
 
 TimedPosition = FootMoved | StrideTaken | WearerMoved
-"""What says where a foot or the wearer was, and when."""
+"""Event with a position of a foot or the wearer, and its time."""
 FootPositions = Mapping[Foot, Sequence[TimedPosition]]
 
 
 def track_figure(parent: Element, track: Sequence[TimedPosition], prints: FootPositions, clock: ReportClock) -> bool:
-    """The way from above, x to the right and y up; False where there is none. `track`: the wearer's, or a foot's where
-    only feet are known; `prints`: where the feet stood."""
+    """Draw the track from above, x to the right and y up; return False when there is none.
+
+    `track` is the wearer's, or a foot's where only feet are known. `prints` is where the feet stood."""
     few = sum([len(some) for some in prints.values()]) <= PRINTS
     off = _largest_offset(track, prints)
     beside = few and off <= BESIDE
@@ -82,7 +83,7 @@ def track_figure(parent: Element, track: Sequence[TimedPosition], prints: FootPo
 
 
 def _largest_offset(track: Sequence[TimedPosition], prints: FootPositions) -> float:
-    """How far a print lies from where the wearer was then, at the most, m."""
+    """Return the largest distance of a print from the wearer's position at that time, m."""
     times, farthest = [one.t for one in track], 0.0
     for one in [one for some in prints.values() for one in some] if track else []:
         k = bisect_left(times, one.t)
@@ -97,7 +98,7 @@ def _apart(a: TimedPosition, b: TimedPosition) -> float:
 
 
 def _grid(svg: Element, x: AxisScale, y: AxisScale) -> None:
-    """One step for both axes."""
+    """Draw the grid with one step for both axes."""
     marked = ticks(x.low, x.high, 8)
     step = marked[1] - marked[0] if len(marked) > 1 else 1.0
     up = [k * step for k in range(int(y.low // step) + 1, int(y.high // step) + 1)]
@@ -108,7 +109,7 @@ def _grid(svg: Element, x: AxisScale, y: AxisScale) -> None:
 def _times(
     svg: Element, track: Sequence[TimedPosition], at: Callable[[TimedPosition], Point], clock: ReportClock
 ) -> None:
-    """A few times along the way."""
+    """Write a few times along the track."""
     if len(track) < 3:
         return
     tick_times = ticks(clock.of(track[0].t), clock.of(track[-1].t), 7)
@@ -124,7 +125,7 @@ def _times(
 
 
 def height_figure(parent: Element, heights: FootPositions, clock: ReportClock) -> bool:
-    """The height of the standing foot over time; False where there is none."""
+    """Draw the height of the standing foot over time; return False when there is none."""
     known = {foot: some for foot, some in heights.items() if len(some) > 1}
     if not known:
         return False
@@ -140,8 +141,9 @@ def height_figure(parent: Element, heights: FootPositions, clock: ReportClock) -
 
 
 def plan_figure(parent: Element, plan: FloorPlan, events: Sequence[Placed | PlaceLost]) -> bool:
-    """The track on the floor plan, as `solepath track` draws it: levels where the wearer was; False where no place was
-    told."""
+    """Draw the track on the floor plan, as `solepath track` does; return False when there is no place.
+
+    Only the levels where the wearer was are shown."""
     places = [one for one in events if isinstance(one, Placed)]
     if not places:
         return False
