@@ -1,4 +1,4 @@
-"""Which devices a command listens to, by which Bluetooth, and for how long."""
+"""Options of the devices that a command listens to, by which Bluetooth, and for how long."""
 
 from __future__ import annotations
 
@@ -12,15 +12,15 @@ if TYPE_CHECKING:
     from ...ble import DeviceConfig, Found
 
 SCAN_TIME = 4.0
-"""s for which devices are looked for when none was named."""
+"""Time for which devices are searched when none was named, s."""
 LISTEN_TIME = 30.0
-"""s that a command listens where there is no terminal to end it from, unless it is told how long."""
+"""Time for which a command listens without a terminal to end it from and without --duration, s."""
 SERVE_TIME = 600.0
-"""s that emulated devices are served there."""
+"""Time for which emulated devices are served without a terminal and without --duration, s."""
 
 
 def add_via(command: argparse.ArgumentParser) -> None:
-    """Which Bluetooth."""
+    """Add --via, which Bluetooth to use, to a command."""
     command.add_argument(
         "--via",
         metavar="tcp:HOST:PORT",
@@ -29,7 +29,7 @@ def add_via(command: argparse.ArgumentParser) -> None:
 
 
 def add_devices(command: argparse.ArgumentParser) -> None:
-    """Which devices, and for how long."""
+    """Add the options of the devices and of the time to a command."""
     add_via(command)
     command.add_argument("--left", metavar="DEVICE", help="address or name of the device on the left foot")
     command.add_argument("--right", metavar="DEVICE", help="address or name of the device on the right foot")
@@ -44,7 +44,7 @@ def add_devices(command: argparse.ArgumentParser) -> None:
 
 
 def add_duration(command: argparse.ArgumentParser, unattended: float) -> None:
-    """For how long; `unattended`: s, without a terminal."""
+    """Add --duration to a command; `unattended` is the time without a terminal, s."""
     command.add_argument(
         "--duration",
         metavar="S",
@@ -54,7 +54,7 @@ def add_duration(command: argparse.ArgumentParser, unattended: float) -> None:
 
 
 def named_devices(options: argparse.Namespace) -> list[DeviceConfig]:
-    """The devices that were named; none when none was. Failure for a site or profile that there is not."""
+    """Return the devices that were named, none when none was. Failure for a site or profile that does not exist."""
     from ...ble import DeviceConfig
     from ...ble.wanted import check
     from ...link.catalogue import BY_NAME
@@ -79,9 +79,10 @@ def named_devices(options: argparse.Namespace) -> list[DeviceConfig]:
 
 
 def choose_devices(found: list[Found], kind: str | None) -> list[DeviceConfig]:
-    """What to listen to when no device was named: two insoles, who say their feet, as soon as one is heard; or the one
-    other device, on the right foot as in `track`. `kind`: the profile that was named. Failure where that is not
-    clear."""
+    """Return the devices to listen to when none was named.
+
+    They are two insoles, which report their feet, as soon as one is found; else the one other device, on the right foot
+    as in `track`. `kind` is the profile that was named. Failure where that is not clear."""
     from ...ble import DeviceConfig
     from ...link.catalogue import BY_NAME
     from ...link.devices.insole import PROFILE as INSOLE
@@ -105,12 +106,12 @@ def choose_devices(found: list[Found], kind: str | None) -> list[DeviceConfig]:
 
 
 def need_bleak() -> None:
-    """Failure in words where the `ble` extra is not installed."""
+    """Raise Failure where the `ble` extra is not installed."""
     need("Bluetooth needs", "ble", "bleak", "bleak_retry_connector")
 
 
 def how_long(options: argparse.Namespace) -> float | None:
-    """--duration, or what goes without it."""
+    """Return --duration, or the default without it, s; None until Ctrl-C."""
     if options.duration is not None:
         return float(options.duration)
     if attended():

@@ -1,4 +1,4 @@
-"""`solepath emulate`: devices that are not there, over true Bluetooth protocols."""
+"""`solepath emulate`: serves emulated devices over true Bluetooth protocols."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ from .devices import SERVE_TIME, add_duration
 HERE = "127.0.0.1:9735"
 KINDS = ("insole", "cc2650", "cc2541", "cc2541-20hz")
 WALKED = 300.0
-"""m that the wearer walks when nothing else is said: four minutes."""
+"""Distance that the wearer walks by default, m: four minutes."""
 
 
 def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
     command: argparse.ArgumentParser = commands.add_parser(
         "emulate",
         help="serve emulated sensors over a true Bluetooth link",
@@ -41,6 +42,7 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Serve the devices; return the exit status."""
     need("emulated Bluetooth needs", "loopback", "bleak", "bumble")
     from ..common.loop import run_to_end
     from .emulate_run import prepared, serve_devices

@@ -1,4 +1,4 @@
-"""What `solepath emulate` does once its options are read."""
+"""The work of `solepath emulate` after its options are read."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ from ..common.failure import Failure, attended, host_and_port, in_words
 from .devices import SERVE_TIME
 
 LONGEST = 5000.0
-"""m; a longer walk would take minutes and gigabytes to be worked out."""
+"""Longest walk, m; a longer one would take minutes and gigabytes to compute."""
 RESTART_AFTER = 10.0
-"""s without a connection after which the next one finds the wearer at the beginning of his walk."""
+"""Time without a connection after which the walk restarts at the next one, s."""
 REPORT_EVERY, REDRAW_EVERY = 10.0, 1.0
-"""s between two lines on how it goes, without a terminal and in one."""
+"""Time between two lines on the state, without a terminal and in one, s."""
 LONG = 500.0
-"""m from which on it takes some seconds to work out the walk."""
+"""Distance from which on computing the walk takes some seconds, m."""
 WALK_DELAY = 1.0
-"""s from the first connection to the walk's beginning; it begins with standing."""
+"""Time from the first connection to the start of the walk, s; the walk starts with standing."""
 
 
 def prepared(options: argparse.Namespace) -> Bench:
-    """The devices and their wearer, who stands. Failure for what cannot be emulated."""
+    """Return the devices and their wearer, who stands. Failure for what cannot be emulated."""
     if options.distance > LONGEST:
         raise Failure(f"--distance {options.distance:g}: {LONGEST:g} m is as far as emulated wearers walk")
     if not 23 <= options.mtu <= 517:
@@ -65,7 +65,7 @@ def prepared(options: argparse.Namespace) -> Bench:
 
 
 async def serve_devices(options: argparse.Namespace, bench: Bench, stop: asyncio.Event) -> int:
-    """Until it is told to stop; the exit status."""
+    """Serve until `stop` is set or the time is over; return the exit status."""
     bench.walk_from(asyncio.get_running_loop().time() + 1e6)  # until somebody is connected the wearer stands
     async with AsyncExitStack() as stack:
         try:
@@ -93,7 +93,7 @@ async def serve_devices(options: argparse.Namespace, bench: Bench, stop: asyncio
 
 
 async def _print_status(bench: Bench) -> None:
-    """How it goes: one line that changes in a terminal, elsewhere a line now and then."""
+    """Print the state: one line that changes in a terminal, else a line now and then."""
     loop = asyncio.get_running_loop()
     started, live = loop.time(), sys.stdout.isatty()
     try:
@@ -113,7 +113,7 @@ def _state(peripheral: Peripheral) -> str:
 
 
 async def _walk_when_connected(bench: Bench) -> None:
-    """The walk begins when the first device is connected; anew when none was for RESTED s."""
+    """Start the walk when the first device is connected, and restart it when none was for RESTART_AFTER s."""
     loop = asyncio.get_running_loop()
     alone_since: float | None = float("-inf")
     while True:

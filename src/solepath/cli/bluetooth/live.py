@@ -1,4 +1,4 @@
-"""`solepath live` and `solepath record`: devices heard as they are worn."""
+"""`solepath live` and `solepath record`: receive devices while they are worn."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from .devices import add_devices, need_bleak
 
 
 def add_to(commands: Any) -> None:
+    """Add both commands to the parser."""
     live: argparse.ArgumentParser = commands.add_parser(
         "live",
         help="listen to sensors and show what they say",
@@ -49,6 +50,7 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Receive the devices; return the exit status."""
     recipe = recipe_named(options.recipe)
     calibration = calibration_of(options)
     need_page(options, options.view is not None)

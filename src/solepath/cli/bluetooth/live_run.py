@@ -1,4 +1,4 @@
-"""What `solepath live` and `solepath record` do once their options are read."""
+"""The work of `solepath live` and `solepath record` after their options are read."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ async def listen(
     view: View | None,
     stop: asyncio.Event,
 ) -> int:
-    """Until it is told to stop; the exit status."""
+    """Receive until `stop` is set or the time is over; return the exit status."""
     devices = named_devices(options)
     check_all_writable(options.record, options.out, plan is not None)
     seconds = how_long(options)
@@ -90,19 +90,19 @@ async def listen(
 
 @define
 class LiveSession:
-    """A session that is shown and written while it goes on."""
+    """A session that is shown and written while it runs."""
 
     session: Session
     watcher: Observer | Scene
     files: LiveFiles
 
     def take(self, packet: Packet) -> None:
-        """The next packet."""
+        """Add the next packet."""
         self.files.packet(packet)
         self._show(packet, self.session.feed(packet))
 
     def finish(self) -> None:
-        """No more will come: what was held back is shown and written, too."""
+        """Show and write what was held back, and close the files."""
         self._show(None, self.session.finish())
         self.files.close()
 
@@ -114,14 +114,14 @@ class LiveSession:
 
 @define(init=False)
 class LiveFiles:
-    """What is written meanwhile. `failure`: why nothing is any more."""
+    """The files that are written while a session runs; `failure` says why nothing is written any more."""
 
     failure: str | None
     _packets: PacketWriter | None
     _events: TrackFiles | None
 
     def __init__(self, record: Path | None, out: Path | None, places: bool = False) -> None:
-        """`places`: there is a floor plan. Failure when one cannot be opened."""
+        """Open the files; `places` says that there is a floor plan. Failure when one cannot be opened."""
         self.failure = self._packets = self._events = None
         try:
             if record is not None:
@@ -133,6 +133,7 @@ class LiveFiles:
             raise Failure(_words(error)) from None
 
     def packet(self, packet: Packet) -> None:
+        """Write a packet of the recording."""
         if self._packets is not None and self.failure is None:
             try:
                 self._packets.write(packet)
@@ -140,6 +141,7 @@ class LiveFiles:
                 self.failure = _words(error)
 
     def event(self, event: Event) -> None:
+        """Write an event."""
         if self._events is not None:
             try:
                 self._events.write(event)
@@ -147,6 +149,7 @@ class LiveFiles:
                 self._events, self.failure = None, self.failure or _words(error)
 
     def close(self) -> None:
+        """Close all files."""
         for file in (self._packets, self._events):
             try:
                 if file is not None:
@@ -156,7 +159,7 @@ class LiveFiles:
 
 
 def check_all_writable(record: Path | None, out: Path | None, places: bool = False) -> None:
-    """Failure now when these will not be opened later. What is in them stays."""
+    """Raise Failure now when these files cannot be opened later; their contents stay."""
     try:
         if out is not None:
             out.mkdir(parents=True, exist_ok=True)
@@ -174,12 +177,14 @@ def _words(error: RecordingError | OSError) -> str:
 
 
 REPORT_EVERY = 5.0
-"""s between two lines where there is no terminal."""
+"""Time between two lines where there is no terminal, s."""
 
 
 @contextmanager
 def shown(observer: Observer, title: str) -> Iterator[Callable[[], None]]:
-    """How the session goes: a picture in a terminal that can draw one, else lines now and then."""
+    """Show the state of the session: a picture in a terminal that can draw one, else lines now and then.
+
+    It yields the function that updates it."""
     if sys.stdout.isatty() and is_installed("rich"):
         from rich.console import Console
 

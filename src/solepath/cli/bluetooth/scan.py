@@ -1,4 +1,4 @@
-"""`solepath scan`: which devices are there."""
+"""`solepath scan`: lists the devices that are there."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 
 def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
     command: argparse.ArgumentParser = commands.add_parser(
         "scan",
         help="list the sensors that can be heard",
@@ -30,6 +31,7 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Scan and print the devices; return the exit status."""
     need_bleak()
     import asyncio
 

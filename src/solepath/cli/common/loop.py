@@ -1,4 +1,4 @@
-"""What commands do on an event loop: they stop when they are told to, and in good order."""
+"""Event loops and signals of commands: they stop when they are told to, and in good order."""
 
 from __future__ import annotations
 
@@ -12,20 +12,19 @@ from contextlib import asynccontextmanager, contextmanager
 from typing import Any
 
 STOP = [signal.SIGINT, signal.SIGTERM, *([signal.SIGHUP] if hasattr(signal, "SIGHUP") else [])]
-"""What tells a command to stop: Ctrl-C, being ended, and a terminal that was closed."""
+"""Signals that stop a command: Ctrl-C, being ended, and a terminal that was closed."""
 STOPPED_STATUS = 130
-"""The exit status of what was told to stop before it had begun."""
+"""Exit status of a command that was stopped before it had started."""
 
 
 class StoppedEarly(Exception):
-    """It was told to stop before it had begun."""
+    """The command was stopped before it had started."""
 
 
 def run_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> int:
-    """asyncio.run of `main`, whose event is set by what tells a command to stop (STOP); the exit status.
+    """Run `main` with asyncio, with an event that a signal of STOP sets; return the exit status.
 
-    None of it ends the program on the spot, however often it comes: what was begun is ended in good order.
-    """
+    No signal ends the program at once, however often it comes: what was started is ended in good order."""
     with asyncio.Runner() as runner:
         loop, stop = runner.get_loop(), asyncio.Event()
 
@@ -46,8 +45,9 @@ def run_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> int
 
 @contextmanager
 def stop_signals_raise() -> Iterator[None]:
-    """Whatever tells the command to stop within is a KeyboardInterrupt, as Ctrl-C is, so that nothing half done stays;
-    it is told once, and what is cleared away then is cleared away in peace."""
+    """Turn every signal of STOP within the context into a KeyboardInterrupt, so that nothing half done stays.
+
+    It is raised once; further signals do not disturb the cleaning up."""
 
     def stopped(number: int, frame: object) -> None:
         for one in before:
@@ -66,8 +66,9 @@ def stop_signals_raise() -> Iterator[None]:
 
 
 def _handle_signals(handler: Callable[[int, object], None]) -> dict[signal.Signals, Any]:
-    """From now on `handler` hears what tells the command to stop; who heard it before. What is ignored (nohup) stays
-    ignored, and a terminal that was closed is not written to any more."""
+    """Let `handler` handle the signals of STOP from now on; return the handlers before it.
+
+    What is ignored (nohup) stays ignored. After a terminal was closed nothing more is written to it."""
     terminals = [number for number in (1, 2) if os.isatty(number)]
 
     def handle(number: int, frame: object) -> None:
@@ -80,18 +81,20 @@ def _handle_signals(handler: Callable[[int, object], None]) -> dict[signal.Signa
 
 
 def _ignore_signal(number: int, frame: object) -> None:
-    """Whoever stops already need not be told again. Not SIG_IGN, which is of whoever started the command."""
+    """Ignore a signal, since the command stops already.
+
+    It is not SIG_IGN, which belongs to whoever started the command."""
 
 
 def _ignore_at_exit() -> None:
-    """Python takes its handlers away before it ends, and a signal would end it then; what is ignored stays so."""
+    """Ignore the signals at exit, where Python removes its handlers and a signal would end it."""
     for number in STOP:
         if signal.getsignal(number) is _ignore_signal:
             signal.signal(number, signal.SIG_IGN)
 
 
 def _discard_output(terminals: list[int]) -> None:
-    """What is written there from now on is written to nobody: that it cannot be must not end what is being done."""
+    """Discard what is written to these terminals from now on: a failed write must not end the work."""
     nobody = os.open(os.devnull, os.O_WRONLY)
     for number in terminals:
         os.dup2(nobody, number)
@@ -100,7 +103,7 @@ def _discard_output(terminals: list[int]) -> None:
 
 @contextmanager
 def stop_flag() -> Iterator[Callable[[], bool]]:
-    """Whether something told the command to stop within, for work that ends at a good moment of its own."""
+    """Yield a function that returns whether a signal of STOP came, for work that chooses when to end."""
     stopped = False
 
     def handle(number: int, frame: object) -> None:
@@ -117,7 +120,7 @@ def stop_flag() -> Iterator[Callable[[], bool]]:
 
 @asynccontextmanager
 async def unless_stopped(stop: asyncio.Event) -> AsyncIterator[None]:
-    """What is waited for within is given up when `stop` is set: StoppedEarly."""
+    """Give up what is awaited within when `stop` is set: StoppedEarly."""
 
     async def watch() -> None:
         await stop.wait()

@@ -1,4 +1,4 @@
-"""What `solepath track` makes of a recording's events: a summary, files, a picture of the plan, a report."""
+"""Results of `solepath track`: a summary, files, a picture of the plan, a report."""
 
 from __future__ import annotations
 
@@ -21,11 +21,13 @@ from .files import FileReplacements, check_writable
 
 @define
 class Results:
-    """`out`: the directory of the files. `report`: the file of the report. None: not wanted. OSError from all of it
-    when something cannot be written.
+    """Gathers the results of one recording, and writes them at the end.
 
-    What an earlier run wrote is replaced by what is whole, when the recording was heard to its end and is summed up:
-    whatever ends it before leaves all as it was."""
+    `out` is the directory of the files, `report` the file of the report; None means that it is not written. Every
+    method raises OSError when something cannot be written.
+
+    Files of an earlier run are replaced by complete ones, after the recording was read to its end. Whatever ends the
+    run before that leaves all files as they were."""
 
     title: str
     out: Path | None = None
@@ -33,7 +35,7 @@ class Results:
     plan: FloorPlan | None = None
     recipe: str = ""
     when: str = ""
-    """The recording began, to be read."""
+    """Start of the recording, as text."""
     observer: Observer = field(factory=Observer, init=False)
     _picture: PlanPicture | None = field(init=False)
     _report: Report | None = field(init=False)
@@ -52,7 +54,7 @@ class Results:
             self._report = Report(self.title, self.plan, self.recipe, self.when, observer=self.observer)
 
     def open_files(self) -> None:
-        """There is something to write, or there will be nothing."""
+        """Open the files, also for a recording of nothing."""
         if self._files is None and self.out is not None:
             self._files = TrackFiles(self.out, places=self.plan is not None, beside=self._files_out.beside)
             self._open.callback(self._files.close)
@@ -62,7 +64,7 @@ class Results:
             self._report_at = self._report_out.beside(self.report)
 
     def add(self, item: Packet | Sample | None, events: list[Event]) -> None:
-        """What the session said of an item; of none, at the end."""
+        """Add an item and the events of the session for it; None and the last events at the end."""
         watcher = self.observer if self._report is None else self._report
         watcher.take(item, events)
         for event in events:
@@ -72,7 +74,7 @@ class Results:
                 self._picture.add(event)
 
     def print(self, seconds: float) -> None:
-        """The files and the report, whole, in their places; the summary. `seconds` on the wall that it took."""
+        """Put files and report in their places and print the summary; `seconds` is the wall time that it took."""
         self._open.close()
         if self._picture is not None and self._picture_at is not None and self.out is not None:
             with naming(self.out):
@@ -93,7 +95,7 @@ class Results:
         return self
 
     def __exit__(self, *error: object) -> None:
-        """The files are closed, and those that are not in their places are thrown away."""
+        """Close the files and remove those that are not in their places."""
         try:
             self._open.close()
         finally:
