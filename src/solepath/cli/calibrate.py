@@ -39,7 +39,7 @@ def run(options: argparse.Namespace) -> int:
     from ..calibration.file import read_calibration, write_calibration
     from ..calibration.limits import unusable
 
-    if options.out.exists() and not options.out.is_file() and not options.out.is_dir():  # of a folder the system speaks
+    if options.out.exists() and not options.out.is_file() and not options.out.is_dir():  # a folder gets an OSError
         raise Failure(f"{options.out}: is no regular file")
     check_writable(options.out)
     known = read_calibration(options.out) if options.out.exists() else Calibration()
@@ -54,7 +54,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 Learnt = tuple[Calibration, list[str]]
-"""What was learnt, and the lines that report it."""
+"""Calibration that was learnt, and the lines that report it."""
 
 
 def _recording(command: argparse.ArgumentParser) -> None:

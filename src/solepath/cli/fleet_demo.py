@@ -170,7 +170,7 @@ def _directory(options: argparse.Namespace) -> Iterator[Path]:
         else:
             shutil.rmtree(directory, ignore_errors=True)
             if made:
-                with suppress(OSError):  # there is something in it
+                with suppress(OSError):  # the directory is not empty
                     directory.parent.rmdir()
 
 

@@ -102,7 +102,7 @@ def run(options: argparse.Namespace) -> int:
     if reading.failure is None:
         return 0
     if shown:
-        return 2  # why was said before
+        return 2  # the reason was already printed
     raise reading.failure
 
 
@@ -113,7 +113,7 @@ def _when(source: Source) -> str:
     try:
         moment = began(read_header(source.path))
     except RecordingError:
-        return ""  # whatever is wrong with it is said when it is run
+        return ""  # the run itself reports what is wrong with it
     return "" if moment is None else f"{moment[0]:%Y-%m-%d %H:%M} UTC"
 
 
@@ -149,8 +149,8 @@ def _straight(reading: _Reading, session: Session, results: Results) -> float:
         results.open_files()
         results.add(item, session.feed(item))
     if reading.failure is None:
-        results.open_files()  # of a recording of nothing
-    # what came before a fault in the file is a walk of its own: it is finished and written like any other
+        results.open_files()  # for a recording without items
+    # items before a fault in the file are a walk of their own: it is finished and written like any other
     results.add(None, session.finish())
     return perf_counter() - start
 

@@ -142,7 +142,7 @@ class TrackFiles:
         """Write one event. OSError names the directory."""
         try:
             self._write(event)
-        except OSError as error:  # as `naming`, which would take its time for each event
+        except OSError as error:  # the same as `naming`, which would be slow for each event
             raise OSError(error.errno, error.strerror, str(self.directory)) from None
 
     def _write(self, event: Event) -> None:

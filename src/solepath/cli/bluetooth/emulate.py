@@ -47,5 +47,5 @@ def run(options: argparse.Namespace) -> int:
     from ..common.loop import run_to_end
     from .emulate_run import prepared, serve_devices
 
-    # not on the loop: a walk takes its time to be worked out, and Ctrl-C ends that on the spot
+    # not on the loop: computing a walk takes a while, and Ctrl-C ends that at once
     return run_to_end(partial(serve_devices, options, prepared(options)))

@@ -66,7 +66,7 @@ def prepared(options: argparse.Namespace) -> Bench:
 
 async def serve_devices(options: argparse.Namespace, bench: Bench, stop: asyncio.Event) -> int:
     """Serve until `stop` is set or the time is over; return the exit status."""
-    bench.walk_from(asyncio.get_running_loop().time() + 1e6)  # until somebody is connected the wearer stands
+    bench.walk_from(asyncio.get_running_loop().time() + 1e6)  # the wearer stands until a device is connected
     async with AsyncExitStack() as stack:
         try:
             where = host_and_port("--listen", options.listen)

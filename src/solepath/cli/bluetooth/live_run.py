@@ -62,7 +62,7 @@ async def listen(
             drawn = None if plan is None else plan.plan
             scene = Scene("Live", recipe.name, "live", plan=drawn, newtons=newtons_of(calibration), observer=observer)
             await stack.enter_async_context(page_of(scene, view))
-        # not before: a search in vain replaces nothing of an earlier run
+        # only now: a search that finds nothing must not replace files of an earlier run
         files = LiveFiles(options.record, options.out, plan is not None)
         live = LiveSession(session, observer if scene is None else scene, files)
         try:

@@ -20,7 +20,7 @@ _numbers = count()
 def check_writable(path: Path) -> None:
     """Check that a file can be written, before a long recording is read; its contents stay. OSError when it cannot."""
     there = path.exists()
-    if not there or path.is_file() or path.is_dir():  # a pipe would take it for the end
+    if not there or path.is_file() or path.is_dir():  # closing would end a pipe
         path.open("ab").close()
     if not there:
         path.unlink()
@@ -49,7 +49,7 @@ class FileReplacements:
         """Return an empty file in the directory of `path`; OSError, naming `path`, when it cannot be written.
 
         With `read_only`, a file without write permission is replaced all the same, and stays without it."""
-        place = Path(os.path.realpath(path))  # of a link, what it leads to
+        place = Path(os.path.realpath(path))  # the target of a link
         there = place.exists()
         if place.is_dir():
             raise IsADirectoryError(EISDIR, os.strerror(EISDIR), str(path))
@@ -62,11 +62,11 @@ class FileReplacements:
         try:
             written.open("xb").close()
             if there:
-                shutil.copymode(place, written)  # whoever may not read the one may not read the other
+                shutil.copymode(place, written)  # the new file has the same permissions
                 written.chmod(written.stat().st_mode | S_IWUSR)
         except OSError as error:
             if isinstance(error, FileExistsError):
-                del self._places[written]  # another program's, which is not ours to throw away
+                del self._places[written]  # the file belongs to another program and stays
             raise OSError(error.errno, error.strerror, str(path)) from None
         return written
 

@@ -58,7 +58,7 @@ def _pressed(source: Source) -> bool:
                 if any(isinstance(one, Sample) and one.pressure for one in found):
                     return True
     except RecordingError:
-        return True  # whatever is wrong with it is said when it is run
+        return True  # the run itself reports what is wrong with it
     return False
 
 
@@ -127,7 +127,7 @@ def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start
 
 
 def start_of(text: str) -> Start:
-    """Return the start of LEVEL,X,Y or LEVEL,X,Y,HEADING; the level's name may have commas. Failure for anything else."""
+    """Return the start of LEVEL,X,Y or LEVEL,X,Y,HEADING; the level's name may have commas. Failure for other text."""
     from ...floorplan.plan import Start
     from ...floorplan.records import no_start
 
@@ -148,7 +148,7 @@ def start_of(text: str) -> Start:
 
 def _finite(text: str) -> float | None:
     try:
-        value = nan if "_" in text else float(text)  # Python takes 1_0 for ten
+        value = nan if "_" in text else float(text)  # Python reads 1_0 as ten
     except ValueError:
         return None
     return value if isfinite(value) else None

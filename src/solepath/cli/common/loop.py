@@ -38,7 +38,7 @@ def run_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> int
             return STOPPED_STATUS
         finally:
             for number, handler in before.items():
-                # who was told already is on the way out
+                # after a stop, further signals are ignored
                 signal.signal(number, _ignore_signal if stop.is_set() else handler)
             atexit.register(_ignore_at_exit)
 
@@ -55,7 +55,7 @@ def stop_signals_raise() -> Iterator[None]:
         raise KeyboardInterrupt
 
     if threading.current_thread() is not threading.main_thread():
-        yield  # others hear no signals
+        yield  # only the main thread gets signals
         return
     before = _handle_signals(stopped)
     try:

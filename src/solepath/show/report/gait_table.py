@@ -54,7 +54,7 @@ def _table(parent: Element, parameters: GaitParameters) -> None:
     rows = [["steady strides", *[number(one, 0) for one in strides], "-", "-", "-"]]
     together = parameters.both if None not in columns else None
     rows.append(["cadence, steps/min", *[_cadence(one) for one in (*columns, together)], "-", "-"])
-    # the standard deviation on a line of its own
+    # the standard deviation stands on its own line
     rows += [[f"{row.label}, {row.unit}", *row.cells("\n\N{PLUS-MINUS SIGN}")] for row in gait_rows(parameters)]
     caption = f"{what}: means of steady strides, of both feet \N{PLUS-MINUS SIGN} standard deviation"
     table(parent, caption, HEADER, rows, "numbers gait")

@@ -54,7 +54,7 @@ NO_STEADY = (
 def _installed() -> str:
     try:
         return version("solepath")
-    except PackageNotFoundError:  # run from a folder of its own
+    except PackageNotFoundError:  # solepath runs from a folder without being installed
         return ""
 
 

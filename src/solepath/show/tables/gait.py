@@ -101,7 +101,7 @@ def gait_rows(parameters: GaitParameters) -> list[GaitRow]:
             shares = [None if one is None else one.share(name) for one in feet]
             left, right = [None if one is None else 100.0 * one for one in shares]
             both = None if left is None or right is None else 100.0 * share
-            # double support that is a flight has none: relative to a mean below zero it would lean to the other foot
+            # a flight has no asymmetry: relative to a mean below zero its sign would be wrong
             flies = left is None or right is None or min(left, right) <= 0.0
             asymmetry = None if flies else parameters.asymmetry(name)
             rows.append(GaitRow(name, label, "%", 1, left, right, both, None, None, asymmetry, None))

@@ -20,7 +20,7 @@ def plot(track: Sequence[tuple[Foot, float, float]], width: int, height: int) ->
     cells = [[" "] * width for _ in range(height)]
     if track:
         xs, ys = [x for _, x, _ in track], [y for _, _, y in track]
-        # metres a column: what is needed for the wider side
+        # metres per column, as the wider side needs
         scale = max((max(xs) - min(xs)) / (width - 1), (max(ys) - min(ys)) / (TALL * (height - 1)), SMALLEST / width)
         left = 0.5 * (min(xs) + max(xs)) - 0.5 * scale * (width - 1)
         top = 0.5 * (min(ys) + max(ys)) + 0.5 * TALL * scale * (height - 1)

@@ -26,7 +26,7 @@ def progress_bar(what: str, total: int, *, enabled: bool = True) -> Iterator[Cal
     except ImportError:
         yield _ignore
         return
-    # what is printed meanwhile is lifted above the bar, unless it goes into a file
+    # text that is printed meanwhile goes above the bar, unless stdout is a file
     lifted = sys.stdout.isatty()
     with Progress(console=Console(stderr=True), transient=True, redirect_stdout=lifted) as bar:
         task = bar.add_task(what, total=total)

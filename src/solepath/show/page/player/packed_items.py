@@ -34,7 +34,7 @@ class PackedItems:
         self._times.append(max(item.t, self._times[-1]) if self._times else item.t)
         self._open.append(item)
         if len(self._open) == CHUNK:
-            # pickled by this process for itself alone
+            # only this process reads the pickle
             self._chunks.append(zlib.compress(pickle.dumps(self._open, pickle.HIGHEST_PROTOCOL), 1))
             self._open = []
 

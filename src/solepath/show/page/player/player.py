@@ -200,10 +200,10 @@ class Player:
 
     def _save(self, t: float) -> None:
         scene = copy(self.scene)
-        # neither belongs to the moment, and plans are large
+        # none of them belongs to the saved state, and plans are large
         scene.plan = scene.drawing = scene.playback = None
         session = json.dumps(self.session.snapshot()).encode()
-        packed = pickle.dumps(scene, pickle.HIGHEST_PROTOCOL)  # only ever read again by this process
+        packed = pickle.dumps(scene, pickle.HIGHEST_PROTOCOL)  # only this process reads it
         self._saved.append(_SavedState(t, self._next, zlib.compress(session, 1), zlib.compress(packed, 1)))
         if len(self._saved) > MOST_SAVED:
             del self._saved[1::2]

@@ -71,7 +71,7 @@ class FootScene:
         self.phase = phase
         phases, t = self.phases, round(t, 3)
         if phases.items and t < phases.items[-1][0]:
-            t = phases.items[-1][0]  # one that was dated back behind what was said before
+            t = phases.items[-1][0]  # the event is dated before the last reported phase
         phases.add((t, None if phase is None else phase.value))
         while len(phases.items) > 1 and phases.items[1][0] <= t - PHASES_KEPT:
             phases.items.popleft()

@@ -95,7 +95,7 @@ class Scene:
         An item of None means that nothing came: time passed or the session ended."""
         for event in events:
             if not isinstance(event, REJECTIONS):
-                self.tick(event.known_at)  # who was silent until now is drawn so before what ends the silence
+                self.tick(event.known_at)  # a silent foot is shown as silent before the event that ends it
         self.observer.count_item(item, events)
         for event in events:
             if isfinite(event.known_at) and isfinite(event.t):
@@ -285,7 +285,7 @@ HANDLERS: dict[type, Callable[[Scene, Any], None]] = {
     LayoutKnown: Scene._layout_known,
     ClockReset: Scene._reset,
 }
-"""What each event changes in the scene, besides the observer and the log."""
+"""Change that each event makes in the scene, besides the observer and the log."""
 
 
 def _filled(key: str, value: Any) -> dict[str, Any]:

@@ -22,7 +22,7 @@ HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
     "Cache-Control": "no-store",
-    "Server": "solepath",  # or the library tells its version and that of Python
+    "Server": "solepath",  # else the library sends its version and that of Python
 }
 
 
@@ -35,7 +35,7 @@ class BrowserConnection(web.RequestHandler):
 
     def __init__(self, server: web.Server, idle: float) -> None:
         silent = logging.getLogger("solepath.show.page.http")
-        silent.disabled = True  # the library has a traceback for every request that is none
+        silent.disabled = True  # the library logs a traceback for every malformed request
         super().__init__(
             server,
             loop=asyncio.get_running_loop(),
@@ -56,7 +56,7 @@ class BrowserConnection(web.RequestHandler):
         if accepted is not None:
             accepted.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, BACKLOG)
         self._output = cast(asyncio.WriteTransport, transport)
-        # the library sees to those only that have asked for something, and not to what is in the middle of an answer
+        # the library ends only connections that have sent a request, and none in the middle of an answer
         self._end_in(self._idle, unless_requested=True)
         self._end_in(LONGEST)
 
@@ -83,7 +83,7 @@ class BrowserConnection(web.RequestHandler):
 
     def _end(self, unless_requested: bool) -> None:
         if self._output is not None and not self._watches and not (unless_requested and self.has_requested):
-            self._output.abort()  # to close it would wait until all was read
+            self._output.abort()  # close() would wait until all was read
 
     def handle_error(
         self, request: web.BaseRequest, status: int = 500, exc: BaseException | None = None, message: str | None = None

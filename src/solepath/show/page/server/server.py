@@ -119,7 +119,7 @@ class Page:
             self.client_errors.report(f"{denied}: refused")
             return web.Response(status=denied.status, text=f"{denied}\n", headers=HEADERS)
         except ConnectionError:
-            return web.Response(headers=HEADERS)  # to nobody: who asked is gone
+            return web.Response(headers=HEADERS)  # the client has gone, so nobody gets it
         except Exception:
             logging.getLogger("solepath.show.page").exception("the page could not answer")
             return web.Response(status=500, headers=HEADERS)

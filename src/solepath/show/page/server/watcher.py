@@ -109,7 +109,7 @@ class Watcher:
                     async with asyncio.timeout(PATIENCE):
                         await self._socket.send_str(encode(message))
                     sent = loop.time()
-            due = max(due + INTERVAL, loop.time())  # what a sleep oversleeps does not add up
+            due = max(due + INTERVAL, loop.time())  # a sleep that lasts too long does not delay later frames
             await asyncio.sleep(due - loop.time())
 
     def _next(self) -> dict[str, Any] | None:
@@ -141,7 +141,7 @@ class Watcher:
             elif message.type is WSMsgType.BINARY:
                 wrong = WSCloseCode.UNSUPPORTED_DATA, "a browser sent bytes instead of text"
             else:
-                code = getattr(message.data, "code", None)  # the library has closed the connection with it
+                code = getattr(message.data, "code", None)  # the code with which the library has closed the connection
                 if code in CLOSED_BY_LIBRARY:
                     client_errors.report(CLOSED_BY_LIBRARY[code])
                 return

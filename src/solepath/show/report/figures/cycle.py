@@ -39,7 +39,7 @@ def contacts(parameters: GaitParameters) -> dict[Foot, list[tuple[float, float]]
         elif right.phase is not None:
             starts[Foot.RIGHT] = 1.0 - right.phase.mean
         else:
-            del stance[Foot.RIGHT]  # nobody knows when it comes down
+            del stance[Foot.RIGHT]  # its contact time relative to the left foot is not known
     return {foot: spans(starts[foot], share) for foot, share in stance.items() if share is not None}
 
 
