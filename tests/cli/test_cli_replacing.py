@@ -20,15 +20,15 @@ from watchers import ANYWHERE, address
 from solepath.cli.common.files import FileReplacements
 
 
-def test_a_file_interrupted_as_it_is_made_is_thrown_away(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_file_is_removed_when_ctrl_c_comes_while_it_is_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     files = FileReplacements()
     made = Path.open
 
-    def interrupted(*arguments: object) -> None:
+    def opened_then_stopped(*arguments: object) -> None:
         made(*arguments).close()  # type: ignore[call-overload]
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(Path, "open", interrupted)
+    monkeypatch.setattr(Path, "open", opened_then_stopped)
     with pytest.raises(KeyboardInterrupt):
         files.beside(tmp_path / "track.csv")
     monkeypatch.undo()
@@ -94,8 +94,8 @@ def test_another_ctrl_c_gives_the_rest_up_and_what_an_earlier_run_wrote_stays(
         while "Ctrl-C again gives it up" not in process.stdout.readline():
             pass
         process.send_signal(signal.SIGINT)
-        said, err = process.communicate(timeout=TAKES)
-    assert process.returncode == 130 and said == ""
+        output, err = process.communicate(timeout=TAKES)
+    assert process.returncode == 130 and output == ""
     assert re.fullmatch(r"solepath: given up after \d+\.\d of .* s: .* what was written before stays as it is\n", err)
     assert written(tmp_path) == earlier
 

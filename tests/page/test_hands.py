@@ -97,7 +97,7 @@ async def test_the_space_bar_pauses_and_goes_on_and_the_arrows_seek(chromium: Br
         await view.until("!(Number(document.getElementById('steps').textContent) > 0)")
 
 
-async def test_on_the_way_to_another_time_the_page_says_where_it_is_and_whither(chromium: Browser) -> None:
+async def test_during_a_seek_the_page_shows_its_position_and_its_target(chromium: Browser) -> None:
     scene = after(22.0)
     scene.playback = Playback(start=0.0, end=150.0, t=22.0, state="playing", seeking=115.0)
     async with opened(chromium, scene, width=NARROW, height=740) as (view, _):
@@ -119,7 +119,7 @@ async def test_the_speed_is_chosen_from_a_list(chromium: Browser) -> None:
         assert playback.speed == 4.0
 
 
-async def test_plus_minus_and_nought_look_nearer_and_farther_on_the_track(chromium: Browser) -> None:
+async def test_plus_minus_and_zero_zoom_the_track(chromium: Browser) -> None:
     async with opened(chromium, after(20.0)) as (view, _):
         await view.until("Number(document.getElementById('track').dataset.points) > 0")
         for key in "+-":

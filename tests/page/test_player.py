@@ -107,7 +107,7 @@ def straight(t: float) -> tuple[dict, dict]:
 
 
 TIMES = st.sampled_from([START, *(round(START + share * (END - START), 3) for share in (0.1, 0.3, 0.5, 0.7, 0.9)), END])
-DOINGS = st.one_of(
+ACTIONS = st.one_of(
     st.just(Command("play")),
     st.just(Command("pause")),
     st.builds(Command, st.just("speed"), st.sampled_from([0.5, 1.0, 4.0, 32.0])),
@@ -119,17 +119,17 @@ DOINGS = st.one_of(
 
 
 @settings(max_examples=10)
-@given(doings=st.lists(DOINGS, max_size=8), end=TIMES)
-def test_what_is_shown_at_a_time_is_the_same_whatever_was_played_before(doings, end):
+@given(actions=st.lists(ACTIONS, max_size=8), end=TIMES)
+def test_what_is_shown_at_a_time_is_the_same_whatever_was_played_before(actions, end):
     one = player(spacing=0.7)  # a walk of four seconds has one moment otherwise
-    for doing in doings:
-        if isinstance(doing, Command):
-            one.command(doing)
-        elif isinstance(doing, float):
-            one.advance(doing)
+    for action in actions:
+        if isinstance(action, Command):
+            one.command(action)
+        elif isinstance(action, float):
+            one.advance(action)
             settle(one)
         else:
-            one.feed_due(slices(doing))
+            one.feed_due(slices(action))
         one.scene.whole()  # somebody watches
     stop_at(one, end)
     assert one.playback.t == end and one.playback.seeking is None
@@ -137,25 +137,25 @@ def test_what_is_shown_at_a_time_is_the_same_whatever_was_played_before(doings, 
 
 
 @settings(max_examples=5)
-@given(doings=st.lists(DOINGS, max_size=6))
-def test_what_comes_of_a_recording_is_told_once_and_in_order_whatever_is_done_on_the_page(doings):
-    told: list[tuple[Packet | Sample | None, list[Event]]] = []
-    one = player(spacing=0.7, on_events=lambda item, events: told.append((item, events)))
-    for doing in doings:
-        if isinstance(doing, Command):
-            one.command(doing)
+@given(actions=st.lists(ACTIONS, max_size=6))
+def test_items_are_passed_on_once_and_in_order_whatever_is_done_on_the_page(actions):
+    passed_on: list[tuple[Packet | Sample | None, list[Event]]] = []
+    one = player(spacing=0.7, on_events=lambda item, events: passed_on.append((item, events)))
+    for action in actions:
+        if isinstance(action, Command):
+            one.command(action)
         else:
-            one.advance(5.0 * doing)
+            one.advance(5.0 * action)
             one.feed_due(slices(80))
     while one.run_through(slices(500)):
         assert one.done < len(PACKETS) or one.playback.state != "ended"
     assert one.done == len(PACKETS)
-    assert [item for item, _ in told] == [*PACKETS, None]
+    assert [item for item, _ in passed_on] == [*PACKETS, None]
     session = Session(poses=True, pressures=True)
-    assert [events for _, events in told] == [*(session.feed(packet) for packet in PACKETS), session.finish()]
+    assert [events for _, events in passed_on] == [*(session.feed(packet) for packet in PACKETS), session.finish()]
 
 
-def test_a_recording_plays_at_the_speed_that_was_asked_for_and_stops_at_its_end():
+def test_a_recording_plays_at_the_requested_speed_and_stops_at_its_end():
     one = player()
     assert (one.playback.state, one.playback.speed, one.playback.t) == ("playing", 1.0, START)
     one.feed_due(never)
@@ -193,7 +193,7 @@ def test_going_back_from_the_end_plays_on_and_the_pace_has_bounds():
     assert one.playback.state == "paused" and one.playback.t == START
 
 
-def test_a_seek_tells_how_far_it_is_and_goes_on_in_slices():
+def test_a_seek_reports_its_progress_and_continues_in_slices():
     one = player()
     one.pause()
     one.seek(END - 0.5)
@@ -207,7 +207,7 @@ def test_a_seek_tells_how_far_it_is_and_goes_on_in_slices():
     assert not one.feed_due(never) and one.playback.t == END - 0.5
 
 
-def test_the_page_is_told_the_time_up_to_which_the_session_was_fed_also_when_it_cannot_keep_up():
+def test_the_page_shows_the_time_up_to_which_the_session_was_fed_also_when_it_cannot_keep_up():
     one = player()
     one.speed(FASTEST)
     slow = 0
@@ -223,7 +223,7 @@ def test_the_page_is_told_the_time_up_to_which_the_session_was_fed_also_when_it_
     assert slow > 10
 
 
-def test_a_foot_is_shown_as_not_heard_from_when_it_fell_silent_whoever_looked_meanwhile():
+def test_a_foot_is_shown_as_silent_from_the_same_time_however_often_the_scene_is_read():
     def left(sample: Sample) -> bool:
         return sample.site is Site.LEFT_FOOT and 0.6 < sample.t < 2.9
 
@@ -256,7 +256,7 @@ def test_saved_moments_are_few_however_long_the_recording_is(monkeypatch):
     assert max(between) < 3.0 * one.spacing  # wherever one seeks to, little is to be computed
 
 
-def test_a_damaged_recording_plays_up_to_the_damage_and_says_so():
+def test_a_damaged_recording_plays_up_to_the_damage_and_reports_it():
     half = PACKETS[: len(PACKETS) // 2]
     one = player(PackedItems(half), fault="walk.jsonl: line 500: is not JSON")
     assert all("line 500" not in line[2] for line in shown(one)["log"])
@@ -289,7 +289,7 @@ def test_samples_play_like_packets():
 
 
 @given(st.lists(st.floats(-1e6, 1e6), max_size=3 * CHUNK), st.integers(0, 2**32))
-def test_what_is_kept_comes_out_as_it_was_and_is_due_in_order(times, seed):
+def test_packed_items_come_out_unchanged_and_are_due_in_order(times, seed):
     packets = [Packet(t, Site.LEFT_FOOT, "insole/frame", bytes([k % 256]), str(seed)) for k, t in enumerate(times)]
     kept = PackedItems(packets)
     assert [kept[k] for k in range(len(kept))] == packets

@@ -59,7 +59,7 @@ def test_loss_is_a_share_of_packets_not_of_samples(batch: int) -> None:
     assert link.samples == batch * link.received
 
 
-def test_a_frame_in_pieces_is_one_packet() -> None:
+def test_a_frame_in_fragments_is_one_packet() -> None:
     observer = observed(frames(CLEAN, mtu=60))
     link = observer.links[LEFT]
     assert link.received == link.samples < 0.5 * observer.items
@@ -174,7 +174,7 @@ def test_a_link_is_lost_until_samples_come_that_are_no_stragglers() -> None:
     assert (link.state(3.0), link.name, link.connections) == ("ok", "sole", 1)
 
 
-def test_the_means_of_late_are_the_sessions() -> None:
+def test_the_recent_means_equal_those_of_the_session() -> None:
     session, observer = Session(poses=True), Observer()
     for packet in insoles(SHORT.walk(30.0, 1.3)).packets:
         observer.take(packet, session.feed(packet))
@@ -182,14 +182,14 @@ def test_the_means_of_late_are_the_sessions() -> None:
     assert session.gait is not None and observer.recent_gait.parameters == session.gait
 
 
-def test_events_with_a_number_that_is_none_are_left_out() -> None:
+def test_events_with_a_number_that_is_not_finite_are_left_out() -> None:
     observer = Observer()
     assert not observer.add(evolve(moved(1.0, 1.0), position=(nan, 0.0, 0.0)))
     assert not observer.add(PacketsLost(t=nan, known_at=1.0, site=LEFT, channel="insole/frame", count=2))
     assert observer == Observer()
 
 
-def test_a_live_track_is_bounded_and_keeps_its_beginning_and_both_feet() -> None:
+def test_a_live_track_is_bounded_and_keeps_its_start_and_both_feet() -> None:
     track = LiveTrack()
     for k in range(5 * MOST_POINTS):
         for foot in Foot:

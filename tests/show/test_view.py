@@ -66,7 +66,7 @@ def test_any_track_fits_its_frame(track, width, height):
     assert len(lines) == height and all(len(line) == width for line in lines)
 
 
-def test_a_summary_counts_what_was_said_of_each_foot():
+def test_a_summary_counts_the_events_of_each_foot():
     observer = Observer()
     for n in range(11):
         observer.take(Sample(n * 0.25 + (1.5 if n > 5 else 0.0), Site.LEFT_FOOT), [])
@@ -96,7 +96,7 @@ def test_a_healthy_link_is_not_mentioned_and_a_bad_one_line_by_line():
     assert link_health(observer) == ["3 of 100 packets lost", "3 packets rejected (checksum 2, duplicate 1)"]
 
 
-def test_what_a_session_does_without_and_suspects_is_told():
+def test_limitations_and_suspect_scales_are_reported():
     observer = Observer()
     observer.add(Limitation(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, what="no gyroscope"))
     observer.add(ScaleSuspect(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, magnitude=4.9, suggestion="16 g, not 8 g"))
@@ -126,7 +126,7 @@ def test_what_both_feet_did_together_is_summed_up():
     assert "3 touchdowns: STRAIGHT 2, LEFT_WIDE 1" in text
 
 
-def test_what_is_wrong_with_how_it_is_worn_is_told_once():
+def test_a_fault_in_wearing_is_reported_once():
     observer = Observer()
     assert wear_lines(observer) == []
     for cells in ((3, 11), (3, 11), tuple(range(40))):

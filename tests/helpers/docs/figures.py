@@ -62,13 +62,13 @@ def in_short(*tables: list[str]) -> list[Row]:
     for line in (line for table in tables for line in table[2:]):
         title, what, came_to = (cell.strip() for cell in line.split("|")[1:4])
         if title:
-            told: dict[str, str] = {}
-            found.setdefault(title.split("`")[1], (title, told))
-        told[re.sub(r"^\d+ | \(\d+\)$", "", what)] = came_to
+            figures: dict[str, str] = {}
+            found.setdefault(title.split("`")[1], (title, figures))
+        figures[re.sub(r"^\d+ | \(\d+\)$", "", what)] = came_to
     rows = []
-    for name, wanted in IN_SHORT.items():
-        title, told = found[name]
-        rows.append((title, "; ".join(f"{SHORTER.get(what, what)}: {told[what]}" for what in wanted)))
+    for name, measures in IN_SHORT.items():
+        title, figures = found[name]
+        rows.append((title, "; ".join(f"{SHORTER.get(what, what)}: {figures[what]}" for what in measures)))
     return rows
 
 

@@ -90,13 +90,13 @@ async def _within(work: Awaitable[T]) -> T:
 
 @define
 class Window:
-    """A page that is open. `complaints`: what it wrote to its console, and errors that it did not catch; `asked`: every
+    """A page that is open. `complaints`: what it wrote to its console, and errors that it did not catch; `requests`: every
     address that it asked for, those of its sockets too."""
 
     tab: Tab
     devtools: CDPSession
     complaints: list[str] = field(factory=list)
-    asked: list[str] = field(factory=list)
+    requests: list[str] = field(factory=list)
 
     async def memory(self) -> tuple[int, int]:
         """Bytes of the heap of its scripts after everything that nobody holds was thrown away, and elements of its
@@ -151,10 +151,10 @@ async def window(
         context.set_default_timeout(PATIENCE * 1000.0)
         tab = await context.new_page()
         found = Window(tab, await context.new_cdp_session(tab))
-        tab.on("console", lambda said: found.complaints.append(f"{said.type}: {said.text}"))
+        tab.on("console", lambda message: found.complaints.append(f"{message.type}: {message.text}"))
         tab.on("pageerror", lambda error: found.complaints.append(str(error)))
-        context.on("request", lambda request: found.asked.append(request.url))
-        tab.on("websocket", lambda socket: found.asked.append(socket.url))
+        context.on("request", lambda request: found.requests.append(request.url))
+        tab.on("websocket", lambda socket: found.requests.append(socket.url))
         await tab.goto(url)
         yield found
     finally:

@@ -31,9 +31,9 @@ async def served(**given: Any) -> AsyncIterator[tuple[Page, ClientSession, str]]
 
 
 async def scene_of(watching: ClientWebSocketResponse) -> dict[str, Any]:
-    told = json.loads(await watching.receive_str())
-    assert isinstance(told, dict) and told["type"] == "scene"
-    return told
+    message = json.loads(await watching.receive_str())
+    assert isinstance(message, dict) and message["type"] == "scene"
+    return message
 
 
 async def sees(client: ClientSession, url: str, **given: Any) -> None:
@@ -50,7 +50,7 @@ async def closed(watching: ClientWebSocketResponse) -> int | None:
             return watching.close_code
 
 
-async def refused(watching: Awaitable[ClientWebSocketResponse]) -> int:
+async def rejection_status(watching: Awaitable[ClientWebSocketResponse]) -> int:
     """The status with which a socket is refused."""
     with pytest.raises(WSServerHandshakeError) as caught:
         await watching
@@ -68,9 +68,9 @@ async def reply(page: Page, sent: bytes, ends: bool = False) -> bytes:
     writer.write(sent)
     if ends:
         writer.write_eof()
-    told = await reader.read()
+    answer = await reader.read()
     writer.close()
-    return told
+    return answer
 
 
 def handshake(host: str = "localhost", more: str = "") -> bytes:

@@ -34,7 +34,7 @@ TIMES = frozenset({"t", "known_at", "t_start", "t_end", "t_toe_off", "t_heel_str
 """Fields of events that are moments, s."""
 CONNECTED = "document.getElementById('connection').dataset.state === 'open'"
 
-Told = tuple[Packet, tuple[Event, ...]]
+PacketEvents = tuple[Packet, tuple[Event, ...]]
 """What a session was fed, and what it said of that."""
 
 
@@ -51,7 +51,7 @@ def walked(route: Route, cells: int = 96) -> tuple[Packet, ...]:
     return emulate(route, devices={SITE_OF_FOOT[foot]: Insole(cells=cells) for foot in Foot}).packets
 
 
-def told(packets: Iterable[Packet], session: Session | None = None) -> tuple[Told, ...]:
+def packet_events(packets: Iterable[Packet], session: Session | None = None) -> tuple[PacketEvents, ...]:
     """What a session tells a page of these packets."""
     made = Session(poses=True, pressures=True) if session is None else session
     return tuple((packet, tuple(made.feed(packet))) for packet in packets)
@@ -73,22 +73,22 @@ def frame(scene: Scene) -> dict[str, Any]:
 
 
 @cache
-def square() -> tuple[Told, ...]:
+def square() -> tuple[PacketEvents, ...]:
     """Once round, of which tests see parts."""
-    return told(walked(squares(1)))
+    return packet_events(walked(squares(1)))
 
 
 @cache
-def corridor_walk() -> tuple[Told, ...]:
+def corridor_walk() -> tuple[PacketEvents, ...]:
     """The first half a minute of a walk along a corridor, on the building's plan."""
     way = corridor()
     session = Session(poses=True, pressures=True, floorplan=BUILDING, start=way.start)
-    return told((packet for packet in walked(way.route) if packet.t < 30.0), session)
+    return packet_events((packet for packet in walked(way.route) if packet.t < 30.0), session)
 
 
-def between(begin: float, end: float) -> list[Told]:
+def between(start: float, end: float) -> list[PacketEvents]:
     """What is told between these moments of the walk round the square."""
-    return [one for one in square() if begin < one[0].t <= end]
+    return [one for one in square() if start < one[0].t <= end]
 
 
 def fresh(title: str = "round a square") -> Scene:
@@ -106,7 +106,7 @@ def placed(seconds: float) -> Scene:
     return _taken(Scene("along a corridor", "default", "live", plan=BUILDING), corridor_walk(), seconds)
 
 
-def _taken(scene: Scene, walk: Iterable[Told], seconds: float) -> Scene:
+def _taken(scene: Scene, walk: Iterable[PacketEvents], seconds: float) -> Scene:
     for packet, events in walk:
         if packet.t > seconds:
             break
@@ -114,13 +114,13 @@ def _taken(scene: Scene, walk: Iterable[Told], seconds: float) -> Scene:
     return scene
 
 
-def again(walk: tuple[Told, ...], seconds: float) -> Iterator[Told]:
+def again(walk: tuple[PacketEvents, ...], seconds: float) -> Iterator[PacketEvents]:
     """The walk, and again from where it ended, for so many s at the least."""
     length = walk[-1][0].t - walk[0][0].t + 0.01
     return chain.from_iterable(_later(walk, k * length) for k in range(int(seconds / length) + 1))
 
 
-def _later(walk: tuple[Told, ...], by: float) -> Iterator[Told]:
+def _later(walk: tuple[PacketEvents, ...], by: float) -> Iterator[PacketEvents]:
     for packet, events in walk:
         yield evolve(packet, t=packet.t + by), tuple(later(event, by) for event in events)
 
@@ -135,7 +135,7 @@ def later(event: Event, by: float) -> Event:
     return evolve(event, **moved)
 
 
-async def show(scene: Scene, walk: Iterable[Told], speed: float = 1.0, until: float | None = None) -> None:
+async def show(scene: Scene, walk: Iterable[PacketEvents], speed: float = 1.0, until: float | None = None) -> None:
     """The scene takes what is told when it is due, at so many times real time; until so many s of the walk. Slower
     where that is too fast for the machine: the page has its turn after every part."""
     clock = asyncio.get_running_loop().time
@@ -170,7 +170,7 @@ async def opened(
             await view.until(CONNECTED)
             yield view, page
         assert not view.complaints, view.complaints
-        assert {urlsplit(one).netloc for one in view.asked} == {urlsplit(url).netloc}
+        assert {urlsplit(one).netloc for one in view.requests} == {urlsplit(url).netloc}
 
 
 @asynccontextmanager

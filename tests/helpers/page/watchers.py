@@ -46,7 +46,7 @@ class Watcher:
                 else:
                     self.frame |= message
 
-    async def ask(self, do: str, *value: float) -> None:
+    async def send_command(self, do: str, *value: float) -> None:
         await self.socket.send_str(json.dumps({"do": do} | ({"value": value[0]} if value else {})))
 
 

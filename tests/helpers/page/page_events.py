@@ -52,13 +52,13 @@ def moved(t: float, foot: Foot = Foot.LEFT, known_at: float | None = None) -> Fo
 def eventful() -> list[Event]:
     """The rough walk, and everything else that a page can be told."""
     events = list(rough()[1])
-    begin, end = events[0].known_at, events[-1].known_at
+    start, end = events[0].known_at, events[-1].known_at
     middle, third = events[len(events) // 2].known_at, events[len(events) // 3].known_at
     candidate = Candidate("0", (1.0, 2.0, 0.0), 0.5, 0.75, "stairs A")
     other = Candidate("1", (1.0, 2.0, 3.0), None, 0.25, "stairs A")
     others = [
-        Connected(t=begin, known_at=begin, site=Site.LEFT_FOOT, device="", name="Insole", signal=-60),
-        Connected(t=begin, known_at=begin, site=Site.PELVIS, device="", name="", signal=None),
+        Connected(t=start, known_at=start, site=Site.LEFT_FOOT, device="", name="Insole", signal=-60),
+        Connected(t=start, known_at=start, site=Site.PELVIS, device="", name="", signal=None),
         Placed(t=third, known_at=third, level="0", position=(1.0, 2.0, 0.0), spread=2.0, candidates=(candidate, other)),
         Placed(t=middle, known_at=middle, level="0", position=(1.0, 2.0, 0.0), spread=0.5, candidates=(candidate,)),
         PlaceLost(t=end, known_at=end, what="the track goes where the plan has no way"),
