@@ -1,4 +1,4 @@
-"""The commands, run as a person or a script runs them: as processes of their own, with their output piped."""
+"""Tests the commands as a person or a script runs them: in processes of their own, with their output piped."""
 
 import os
 import re

@@ -1,4 +1,4 @@
-"""scan, live, record and emulate, as programs of their own that speak Bluetooth over TCP; in real time."""
+"""Tests scan, live, record and emulate in processes of their own that speak Bluetooth over TCP, in real time."""
 
 from __future__ import annotations
 

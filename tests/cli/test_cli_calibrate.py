@@ -1,4 +1,4 @@
-"""`solepath calibrate`, and the commands that take what it writes."""
+"""Tests `solepath calibrate`, and the commands that use what it writes."""
 
 import json
 import subprocess
@@ -34,7 +34,7 @@ def packets(folder) -> Path:
 
 @pytest.fixture(scope="module")
 def bare(folder) -> Path:
-    """A foot that stands, without pressure."""
+    """Write a recording of a foot that stands, without pressure."""
     t = np.arange(200) / 100.0
     np.savez(folder / "imu_only.npz", t=t, acc=np.tile([0.0, 0.0, 9.81], (200, 1)), gyro=np.zeros((200, 3)))
     return folder / "imu_only.npz"

@@ -1,4 +1,4 @@
-"""scan, live, record and emulate: what is wrong is said in one line, and Ctrl-C ends them."""
+"""Tests errors of scan, live, record and emulate: each is reported in one line, and Ctrl-C ends the command."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from solepath.types import Site
 
 
 def is_socket(file: Path) -> bool:
-    """Of an entry of /proc/PID/fd, which may be closed at any time."""
+    """Return whether an entry of /proc/PID/fd, which may be closed at any time, is a socket."""
     try:
         return os.readlink(file).startswith("socket:")
     except FileNotFoundError:
@@ -30,7 +30,7 @@ def is_socket(file: Path) -> bool:
 
 
 def wait_for_sockets(process: subprocess.Popen[str]) -> None:
-    """Until a program that says nothing is connected: it has one socket more than the two of its event loop."""
+    """Wait until a program that prints nothing is connected: it has one socket more than the two of its event loop."""
     files = Path(f"/proc/{process.pid}/fd")
     if not files.exists():  # not Linux
         time.sleep(3.0)
@@ -96,7 +96,7 @@ def test_a_script_with_a_name_that_no_advertisement_holds_is_named(tmp_path: Pat
 
 
 def test_a_server_that_is_no_controller_is_reported() -> None:
-    """It answers whatever it is told with a bare HCI Command Complete."""
+    """The server answers everything with a bare HCI Command Complete."""
     with socket.create_server(("127.0.0.1", 0)) as server:
 
         def answer() -> None:
@@ -180,7 +180,7 @@ def test_ctrl_c_ends_an_emulator_that_is_still_working_out_its_walk() -> None:
 
 @pytest.mark.soak
 def test_a_kind_that_is_named_is_that_of_the_device_that_is_not(tmp_path: Path) -> None:
-    """Of one CC2541 its advertisement does not say how fast it is."""
+    """The advertisement of a CC2541 does not say how fast it is."""
     script, file = tmp_path / "faults.txt", tmp_path / "walk.jsonl"
     script.write_text("0 left_foot vanish\n")
     with emulator("--distance", 5, "--device", "cc2541-20hz", "--faults", script) as (_, where):

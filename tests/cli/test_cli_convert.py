@@ -1,4 +1,4 @@
-"""`solepath convert`: a phone's log to a recording, either to MCAP; what is wrong is one line."""
+"""Tests `solepath convert`: a phone's log to a recording, either to MCAP; each error is one line."""
 
 import struct
 import subprocess
@@ -20,7 +20,7 @@ def convert(*arguments: object) -> subprocess.CompletedProcess[str]:
 
 
 def complaint(*arguments: object) -> str:
-    """The one line on stderr of a conversion that failed."""
+    """Return the one line on stderr of a conversion that failed."""
     return one_line(convert(*arguments)).removeprefix("solepath: ")
 
 
@@ -154,7 +154,7 @@ def test_impossible_file_names_are_rejected(log, tmp_path):
 
 
 def test_no_file_is_touched_but_the_one_that_is_named(log, tmp_path):
-    """Not even one whose name is OUT's with something behind it, be it what is converted or a stranger."""
+    """A file whose name is OUT's with a suffix stays too, whether it is the source or not."""
     for k, (source, name) in enumerate(((log, "walk.jsonl"), (recording(tmp_path / "a.jsonl"), "walk.mcap"))):
         folder = tmp_path / str(k)
         folder.mkdir()

@@ -1,4 +1,4 @@
-"""`solepath evaluate`: tables, JSON and Markdown of a made data set, and what it needs."""
+"""Tests `solepath evaluate`: tables, JSON and Markdown of a made data set, and what it needs."""
 
 import json
 from math import radians
@@ -16,7 +16,7 @@ from solepath.types import Foot
 
 @pytest.fixture(scope="module")
 def data(tmp_path_factory) -> Path:
-    """A made data set: a closed loop around a square."""
+    """Return a made data set: a closed loop around a square."""
     route = Route().stand(2.0)
     for _ in range(4):
         route = route.walk(3.0, speed=1.2).turn(radians(90), radius=1.0)

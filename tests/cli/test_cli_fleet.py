@@ -1,4 +1,4 @@
-"""fleet-demo: wearers through an engine that is killed, what it prints, and how it ends."""
+"""Tests fleet-demo: wearers through an engine that is killed, what it prints, and how it ends."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_the_memory_of_a_process_is_not_that_of_who_started_it() -> None:
 
 @pytest.fixture(scope="module")
 def kept(tmp_path_factory: pytest.TempPathFactory) -> Kept:
-    """What a whole demonstration printed, and where it left what it wrote."""
+    """Return what a whole demonstration printed, and where it left its files."""
     out = tmp_path_factory.mktemp("fleet") / "out"
     return run("fleet-demo", *SMALL, "--kills", "2", "--out", out, "--json", out.with_suffix(".json"), "--keep"), out
 

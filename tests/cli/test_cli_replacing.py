@@ -1,4 +1,4 @@
-"""Files that take an earlier run's place, and where they may lie: nothing is left of a run that is ended."""
+"""Tests the replacement of files: where they may be, and that a run that is ended leaves nothing behind."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def test_another_programs_file_is_not_thrown_away(tmp_path: Path, monkeypatch: p
 
 @pytest.fixture(scope="module")
 def long_recording(recording: Path) -> Path:
-    """The same over and over: some seconds of computing."""
+    """Return a recording that repeats itself: some seconds of computing."""
     header, *packets = map(json.loads, recording.read_text().splitlines())
     length = packets[-1]["t"]
     file = recording.parent / "long.jsonl"
@@ -76,7 +76,7 @@ def long_recording(recording: Path) -> Path:
 
 @pytest.fixture
 def earlier(tmp_path: Path) -> dict[str, bytes]:
-    """What an earlier run wrote."""
+    """Return the files of an earlier run."""
     (tmp_path / "out").mkdir()
     for name in ("r.html", "out/events.jsonl", "out/track.csv"):
         (tmp_path / name).write_text(f"an earlier {name}")

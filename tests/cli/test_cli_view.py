@@ -1,4 +1,4 @@
-"""demo, track and live on the page: what a browser hears, what it may ask for, and how the commands end."""
+"""Tests demo, track and live on the page: its messages and commands, and how the commands end."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ from solepath.show.page.scene.scene import Scene
 pytest.importorskip("aiohttp")
 
 ALONE = "import sys; sys.modules.update(dict.fromkeys(['bleak', 'bumble', 'rich', 'mcap', 'matplotlib'])); "
-"""Nothing but the extra `view`."""
+"""Packages of the extra `view` only."""
 
 
 @pytest.fixture(scope="module")
 def plain(recording: Path) -> tuple[Path, str]:
-    """Where `track` wrote without a page, and what it printed."""
+    """Return where `track` wrote without a page, and what it printed."""
     folder = recording.with_name("plain")
     folder.mkdir()
     return folder, run("track", recording, *into(folder)).stdout

@@ -1,4 +1,4 @@
-"""`solepath track`: what it prints, what it writes, and what it does with files that are none."""
+"""Tests `solepath track`: what it prints and writes, and what it does with unusable files."""
 
 import json
 import subprocess
@@ -26,7 +26,7 @@ ROUTE = Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5)
 
 @pytest.fixture(scope="module")
 def packets(folder: Path) -> Path:
-    """8 m in two insoles over a radio that loses some."""
+    """Return 8 m in two insoles over a radio that loses some packets."""
     return recorded(folder / "walk.jsonl", emulate(ROUTE, radio=Radio(loss=0.02, corrupt=0.01), seed=3).packets)
 
 
@@ -94,7 +94,7 @@ def test_steps_and_track_are_tables_of_the_same_walk(tracked):
 
 @pytest.fixture(scope="module")
 def events_of(packets) -> list[Event]:
-    """What a session says of the same recording."""
+    """Return the events of a session for the same recording."""
     return said(read_packets(packets), poses=True)
 
 

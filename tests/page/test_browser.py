@@ -1,4 +1,4 @@
-"""What the wearer sees: the page in a real browser, fed with the events of emulated walks."""
+"""Tests the page in a real browser, fed with the events of emulated walks."""
 
 from __future__ import annotations
 
@@ -40,21 +40,21 @@ from solepath.show.page.server.server import Page
 from solepath.types import Foot
 
 PHONE = 360
-"""px: the width of a phone's screen."""
+"""Width of a phone's screen, px."""
 MINUTE = 60.0
 MARGIN = 0.7e6
-"""Bytes; eight minutes more of tracks are 1800 points."""
+"""Growth that is allowed, bytes; eight more minutes of tracks are 1800 points."""
 FEET = ("left", "right")
 
 
 async def picture(view: Window, name: str) -> str:
-    """What is on a canvas, pixel by pixel."""
+    """Return the pixels of a canvas."""
     found: str = await view.tab.evaluate("name => document.getElementById(name).toDataURL()", name)
     return found
 
 
 async def words(view: Window, name: str) -> str | None:
-    """What is read out in place of a canvas."""
+    """Return what a screen reader says in place of a canvas."""
     return await view.tab.locator(f"#{name}").get_attribute("aria-label")
 
 
@@ -64,7 +64,7 @@ def offline(words: str) -> str:
 
 @define
 class Line:
-    """Between a browser and whoever listens at `port`; it can be cut."""
+    """A connection between a browser and the server at `port` that can be cut."""
 
     port: int = 0
     whole: bool = True
@@ -72,7 +72,7 @@ class Line:
 
     @asynccontextmanager
     async def to(self, port: int) -> AsyncIterator[int]:
-        """The port that stands for this one."""
+        """Yield the port that stands for this one."""
         self.port = port
         async with await asyncio.start_server(self._join, "127.0.0.1", 0) as server:
             yield server.sockets[0].getsockname()[1]
@@ -171,7 +171,7 @@ async def test_a_plan_shows_the_wearer_once_the_place_is_decided_and_drops_wrong
     ground, upper = (level.id for level in BUILDING.levels[:2])
 
     def place(t: float, x: float, level: str, *others: float) -> Placed:
-        """The likeliest at `x`, and others with less weight."""
+        """Return a place whose likeliest candidate is at `x`, with others of less weight."""
         share = 0.4 / max(1, len(others))
         weights = [0.6, *(share for _ in others)] if others else [1.0]
         candidates = [
@@ -272,7 +272,7 @@ async def test_device_names_are_shown_as_text(chromium: Browser) -> None:
 async def stays_as_large(
     chromium: Browser, walk: Iterable[PacketEvents], speeds: tuple[float, float] = (1.0, 1.0)
 ) -> None:
-    """After two minutes of a walk, and after the rest of it; what the page draws and what all this costs is printed."""
+    """Compare the page after two minutes of a walk with that after the rest of it, and print the cost."""
     scene, clock = fresh(), asyncio.get_running_loop().time
     async with opened(chromium, scene) as (view, _):
         started, used = clock(), process_time()
@@ -294,7 +294,7 @@ async def test_ten_minutes_of_two_feet_leave_the_page_as_large_as_it_was(chromiu
 
 @pytest.mark.soak
 def test_ten_minutes_in_real_time_leave_the_page_as_large_as_it_was(browser: Browsing) -> None:
-    """With 96 cells; eighteen thousand messages."""
+    """The insoles have 96 cells; there are eighteen thousand messages."""
     session = Session(poses=True, pressures=True)
     walk = ((packet, tuple(session.feed(packet))) for packet in walked(squares(15)))
     browser.run(lambda chromium: stays_as_large(chromium, walk), longest=15.0 * MINUTE)

@@ -1,4 +1,4 @@
-"""Whoever watches the page, however many they are and however slowly they read, the session goes on as alone."""
+"""Tests many and slow watchers of the page: the session runs as if there were none."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ async def test_a_browser_that_reads_may_watch_longer_than_other_connections_last
 
 
 async def deaf(page: Page, room: int = 4096) -> Connection:
-    """Somebody who watches and never reads."""
+    """Connect a watcher that never reads."""
     reader, writer = await raw(page)
     writer.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, room)
     writer.transport.pause_reading()

@@ -1,4 +1,4 @@
-"""What the page's figures mean: colours, pace, losses and gait, from events alone and the same to all who watch."""
+"""Tests the page's figures: colours, pace, losses and gait, from events alone and the same for all watchers."""
 
 from __future__ import annotations
 
@@ -165,7 +165,7 @@ def test_a_loss_is_that_of_the_last_ten_seconds() -> None:
 
 
 def strides(feet: tuple[Foot, ...], count: int, angles: tuple[float, float] = (0.1, -0.05)) -> list[GaitCycleMeasured]:
-    """Steady ones, one more of each foot than will count."""
+    """Return steady strides, one more of each foot than will count."""
     first = next(event for event in walk() if isinstance(event, GaitCycleMeasured) and event.steady)
     angle = dict(zip(Foot, angles, strict=True))
     return [

@@ -1,4 +1,4 @@
-"""Whoever has watched from the start sees what whoever comes late is shown, and neither grows with the walk."""
+"""Tests that an early watcher and a late one see the same, and that neither's state grows with the walk."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ LISTS = ("phases", "tracks", "places", "log")
 
 
 def step(t: float, x: float, foot: Foot = Foot.LEFT) -> StrideTaken:
-    """A step to x m."""
+    """Return a stride that ends at x m."""
     first = next(event for event in rough()[1] if isinstance(event, StrideTaken))
     return evolve(first, foot=foot, t=t, known_at=t, t_start=t - 1.0, t_end=t, position=(x, 0.0, 0.0))
 
@@ -85,7 +85,7 @@ def long_way() -> list[Event]:
 
 
 def agree(events: list[Event], looks: list[int], scene: Scene | None = None) -> Reader:
-    """Somebody looks after so many events each; what they have is what somebody gets who comes at the end."""
+    """Check that a watcher who reads after so many events each ends with the scene of one who comes at the end."""
     scene = Scene("a walk", "default", plan=BUILDING) if scene is None else scene
     reader = Reader()
     message, cursor = scene.whole()

@@ -1,4 +1,4 @@
-"""The page without a mouse, without eyes, and on a phone: keys, what a screen reader is told, and narrow windows."""
+"""Tests the page without a mouse, without eyes, and on a phone: keys, screen reader, and narrow windows."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from solepath.show.page.player.player_loop import PlayerLoop
 from solepath.show.page.scene.scene import Playback, Scene
 
 NARROW = 360
-"""px."""
+"""Width of a narrow window, px."""
 FAINT = """() => {
     const pen = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
     const luminance = (colours) => {
@@ -45,7 +45,7 @@ FAINT = """() => {
     }
     return faint;
 }"""
-"""Texts with less contrast than WCAG 2.2 asks for at level AA (1.4.3)."""
+"""Script that finds texts with less contrast than WCAG 2.2 requires at level AA (1.4.3)."""
 
 
 COVERED = """() => {
@@ -56,15 +56,15 @@ COVERED = """() => {
     }
     return null;
 }"""
-"""What hides a part of the control that has the focus, or null."""
+"""Script that finds what hides a part of the control that has the focus, or null."""
 
 WALK = Route().stand(1.0).walk(16.0, 1.3).stop(2.0)
-"""About 16 s."""
+"""Walk of about 16 s."""
 
 
 @asynccontextmanager
 async def played(chromium: Browser, **given: Any) -> AsyncIterator[tuple[Window, Playback]]:
-    """A recording of WALK on the page, and where its player stands. `given`: to `opened`."""
+    """Yield a page that plays a recording of WALK, and its player's state; `given` goes to `opened`."""
     packets = PackedItems(walked(WALK, cells=16))
     player = Player(packets, Session(poses=True, pressures=True), Scene("a recording", "default", "recording"))
     playing = PlayerLoop(player)

@@ -1,4 +1,4 @@
-"""The log of the page: sentences about feet, sensors and places, each said once."""
+"""Tests the log of the page: sentences about feet, sensors and places, each reported once."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whoever sends the page what is no request and no command harms nobody else, and does not fill the log."""
+"""Tests clients that send no request or no command: they harm nobody else, and do not fill the log."""
 
 from __future__ import annotations
 

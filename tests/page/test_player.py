@@ -1,4 +1,4 @@
-"""Playing a recording for somebody who pauses, seeks and hurries: it shows what a straight run shows."""
+"""Tests playing a recording with pauses, seeks and other speeds: it shows what a straight run shows."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ ROUTE = Route().stand(0.5).walk(2.0, speed=1.3).stop(0.5)
 BAD_RADIO = Radio(loss=0.05, duplicate=0.01, corrupt=0.01, jitter=0.03)
 INSOLES = dict.fromkeys((Site.LEFT_FOOT, Site.RIGHT_FOOT), Insole(cells=24, rate=40.0))
 SILENT = (1.0, 2.9)
-"""s in which nothing comes of the left foot."""
+"""Time in which nothing comes of the left foot, s."""
 PACKETS = tuple(
     packet
     for packet in emulate(ROUTE, devices=INSOLES, radio=BAD_RADIO, seed=5).packets
     if packet.site is Site.RIGHT_FOOT or not SILENT[0] < packet.t < SILENT[1]
 )
 WALL = 0.05
-"""s between two looks at the clock."""
+"""Time between two reads of the clock, s."""
 
 
 def slices(items: int) -> Callable[[], bool]:
-    """Enough after so many items."""
+    """Return a function that stops after so many items."""
     looks = count(1)
     return lambda: next(looks) >= items
 
@@ -53,7 +53,7 @@ def player(items: PackedItems | None = None, **given: object) -> Player:
 
 
 def play_until(one: Player, t: float) -> None:
-    """In real time, and on to the moment `t` itself."""
+    """Play in real time, and on to the moment `t` itself."""
     one.play()
     while one.playback.t + WALL * one.playback.speed < t:
         pass_by(one, WALL)
@@ -66,7 +66,7 @@ def settle(one: Player, items: int = 100) -> None:
 
 
 def pass_by(one: Player, seconds: float) -> None:
-    """So many s on the wall, in which it keeps up."""
+    """Let so much wall time pass, s, in which the player keeps up."""
     one.advance(seconds)
     one.feed_due(never)
 
@@ -83,7 +83,7 @@ def run_out(one: Player) -> None:
 
 
 def shown(one: Player) -> dict:
-    """What somebody sees who begins to watch; how it came there is not a part of it."""
+    """Return what a new watcher sees, without how the player came there."""
     message, _ = one.scene.whole()
     message["frame"]["playback"] = (one.playback.t, one.playback.seeking)
     return message
@@ -95,7 +95,7 @@ START = PackedItems(PACKETS).start
 
 @cache
 def straight(t: float) -> tuple[dict, dict]:
-    """Scene and snapshot at `t` of a run that nobody touched."""
+    """Return scene and snapshot at `t` of a run without commands."""
     one = player()
     if t > START:
         one.speed(8.0)
@@ -115,7 +115,7 @@ ACTIONS = st.one_of(
     st.floats(0.01, 0.2),
     st.integers(1, 150),
 )
-"""A command, so many s on the wall, or a slice of so many items."""
+"""A command, an amount of wall time in s, or a number of items to feed."""
 
 
 @settings(max_examples=10)

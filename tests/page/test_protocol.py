@@ -1,4 +1,4 @@
-"""What is sent to a page and what it may ask for are what protocol/page.md says."""
+"""Tests that the messages to and from a page are those of protocol/page.md."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ PAGE = (PROTOCOL / "page.md").read_text()
 
 
 def keys(title: str) -> set[str]:
-    """The first column of the table below this heading."""
+    """Return the first column of the table below this heading."""
     table = PAGE.split(f"### {title}\n", 1)[1].split("|---|---|\n", 1)[1].split("\n\n", 1)[0]
     return {name for row in table.splitlines() for name in re.findall(r"`([^`]+)`", row.split("|")[1])}
 

@@ -1,4 +1,4 @@
-"""What the page shows: out of events alone, whatever sensors there are."""
+"""Tests what the page shows, from events alone, with different sensors."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The server of the page: what it sends, who may watch, and who may steer."""
+"""Tests the server of the page: what it sends, who may watch, and who may control."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ async def test_a_watcher_gets_a_message_every_second_even_when_nothing_happens()
 
 
 async def test_what_came_last_is_shown_before_the_end() -> None:
-    """As what a session says when it is finished, after which the page goes."""
+    """Such as the events of a session that is finished, after which the page closes."""
     async with served() as (page, client, url):
         watching = await client.ws_connect(f"{url}ws")
         await scene_of(watching)

@@ -1,4 +1,4 @@
-"""A walk as one file: what it says is what the session said, it needs nothing else, and it comes of anything."""
+"""Tests the report: it holds what the session reported, needs no other file, and can be made from any events."""
 
 from __future__ import annotations
 
@@ -38,12 +38,12 @@ NO_NUMBER = re.compile(r"\b(nan|inf)\b", re.IGNORECASE)
 
 @cache
 def walked() -> tuple[Event, ...]:
-    """All that a session with insoles says of a walk round a corner."""
+    """Return all events of a session with insoles on a walk round a corner."""
     return tuple(said(insoles(CORNER, cells=24).packets, poses=True, pressures=True))
 
 
 def of_the_left_foot() -> list[Event]:
-    """The same, without what is said of the right one."""
+    """Return these events without those of the right foot."""
     return [event for event in walked() if getattr(event, "foot", Foot.LEFT) is Foot.LEFT]
 
 
@@ -62,7 +62,7 @@ def captions(page: Node) -> list[str]:
 
 
 def rows_of(page: Node) -> dict[str, list[str]]:
-    """The gait table: a row's name -> its cells."""
+    """Return the gait table: a row's name -> its cells."""
     table = page.named("gait")
     return {row.first("th").text: [cell.text for cell in row.all("td")] for row in table.all("tr")}
 
@@ -127,7 +127,7 @@ def test_faults_are_shown_in_words_and_in_the_table_of_links() -> None:
 
 
 def report_after_silence(silence: float, back: float) -> Report:
-    """Of a walk in whose middle nothing is heard for so long, s, and then at times so much earlier."""
+    """Return the report of a walk that is silent for `silence` s in its middle, then continues `back` s earlier."""
     session, report = Session(poses=True, pressures=True), Report("a walk")
     now = 0.0
     for packet in insoles(Route().stand(1.5).walk(12.0, 1.3).stop(1.0), cells=24).packets:

@@ -1,4 +1,4 @@
-"""The report's drawings: what they show is where it belongs."""
+"""Tests the report's drawings: positions, counts and labels."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def stride(start: float, off: float, end: float, **other: object) -> GaitCycleMe
 
 
 def pressed(sole: ReportSole, start: float, heel: float) -> None:
-    """A second of samples at 100 Hz, the load going from heel to toe until 0.6 s."""
+    """Add a second of samples at 100 Hz; the load goes from heel to toe until 0.6 s."""
     for k in range(100):
         share = min(k / 60.0, 1.0)
         load = heel if k <= 60 else 0.0

@@ -1,4 +1,4 @@
-"""The ledger of a link and the observer of a session: each figure by its own definition."""
+"""Tests the ledger of a link and the observer of a session: each figure by its own definition."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ LEFT = Site.LEFT_FOOT
 
 
 def observed(items: Iterable[Packet | Sample]) -> Observer:
-    """The observer of a session that took them."""
+    """Return an observer of a session that was fed with the items."""
     session, observer = Session(poses=True, pressures=True), Observer()
     for item in items:
         observer.take(item, session.feed(item))
@@ -66,7 +66,7 @@ def test_a_frame_in_fragments_is_one_packet() -> None:
 
 
 def test_received_and_lost_frames_are_all_that_were_sent_whatever_came_damaged_or_twice() -> None:
-    """Each frame in pieces, of which any may be lost, damaged or doubled."""
+    """Each frame comes in fragments, of which any may be lost, damaged or doubled."""
     sent = len(emulate(SHORT, devices={LEFT: Insole(cells=8)}, radio=CLEAN, seed=1).packets)
     rough = Radio(loss=0.03, duplicate=0.05, corrupt=0.05)
     for device in ({"cells": 8}, {"mtu": 60}):

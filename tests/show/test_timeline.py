@@ -1,4 +1,4 @@
-"""What the wearer did when, of the events that told it."""
+"""Tests the activities over time, from the events that report them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Tables, plots and summaries: what people are shown."""
+"""Tests tables, plots and summaries for people."""
 
 from attrs import evolve
 from hypothesis import given

@@ -1,4 +1,4 @@
-"""What the page says in a browser is true of this moment, to eyes and to a screen reader alike."""
+"""Tests that texts and descriptions of the page fit the same moment, to eyes and to a screen reader alike."""
 
 from __future__ import annotations
 
