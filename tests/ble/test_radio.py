@@ -17,7 +17,7 @@ from airs import collect
 from solepath import Disconnected, FootMoved, PacketRejected, Session
 from solepath.ble import DeviceConfig, Devices, scan
 from solepath.link.catalogue import BY_NAME
-from solepath.show.links import streamed
+from solepath.show.links import is_sample_channel
 from solepath.types import Packet, Site
 
 ADDRESS, PROFILE = os.environ.get("SOLEPATH_RADIO", ""), os.environ.get("SOLEPATH_RADIO_PROFILE", "")
@@ -47,14 +47,14 @@ async def receive() -> list[Packet]:
         async with asyncio.timeout(PATIENCE):
             async for packet in devices:
                 packets.append(packet)
-                if streamed(packet.channel):
+                if is_sample_channel(packet.channel):
                     break
         return packets + await collect(devices, LISTENED)
 
 
 def test_a_real_device_is_found_connected_set_up_and_read_in_order() -> None:
     packets = asyncio.run(receive())
-    frames = [packet for packet in packets if streamed(packet.channel)]
+    frames = [packet for packet in packets if is_sample_channel(packet.channel)]
     assert all(a.t <= b.t for a, b in zip(packets, packets[1:], strict=False))
     rate = len(frames) / LISTENED
     assert rate > 5.0, f"{rate:.1f} packets of samples a second"

@@ -1,4 +1,4 @@
-"""What tests of the commands share: recordings, and insoles that can be reached."""
+"""Shared parts of the tests of commands: recordings, and insoles that can be reached."""
 
 from __future__ import annotations
 
@@ -29,13 +29,13 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def insoles() -> Iterator[str]:
-    """Where two emulated ones are: tcp:HOST:PORT."""
+    """Yield the address of two emulated insoles: tcp:HOST:PORT."""
     with emulator("--distance", 20) as (_, where):
         yield where
 
 
 @pytest.fixture(scope="module")
 def recording(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Some steps in two insoles."""
+    """Return a recording of some steps with two insoles."""
     walk = emulate(Route().stand(0.5).walk(2.5, speed=1.3).stop(0.5), seed=4)
     return recorded(tmp_path_factory.mktemp("short") / "walk.jsonl", walk.packets)

@@ -1,4 +1,4 @@
-"""The commands, run as a person or a script runs them: as processes of their own, with their output piped."""
+"""Tests the commands as a person or a script runs them: in processes of their own, with their output piped."""
 
 import os
 import re
@@ -23,7 +23,7 @@ def test_help_names_every_command_and_loads_nothing_heavy():
     assert all(any(line.split()[:1] == [command] for line in text) for command in ("demo", "track", "evaluate"))
 
 
-def test_no_command_prints_the_help_and_the_version_is_told():
+def test_no_command_prints_the_help_and_version_prints_the_version():
     assert "COMMAND" in solepath().stdout
     assert solepath("--version").stdout.startswith("solepath 0.")
 
@@ -50,7 +50,7 @@ def test_the_recording_of_the_demo_gives_track_the_same_steps(demo, folder):
     assert [str(feet.count("left")), str(feet.count("right"))] == found
 
 
-def test_a_straight_demo_is_as_long_and_as_lossy_as_one_asks():
+def test_a_straight_demo_is_as_long_and_as_lossy_as_requested():
     done = solepath("demo", "--distance", "8", "--loss", "0.2", "--jitter", "0")
     assert done.returncode == 0 and done.stderr == ""
     first = done.stdout.splitlines()[0]
@@ -73,7 +73,7 @@ def test_a_straight_demo_is_as_long_and_as_lossy_as_one_asks():
         ("--jitter", "inf", "'inf' is not a number of seconds"),
     ],
 )
-def test_a_demo_of_nonsense_is_refused(option, value, complaint):
+def test_a_demo_with_impossible_options_is_rejected(option, value, complaint):
     done = run("demo", option, value)
     assert done.returncode == 2 and complaint in done.stderr
 

@@ -1,4 +1,4 @@
-"""scan, live, record and emulate, as programs of their own that speak Bluetooth over TCP; in real time."""
+"""Tests scan, live, record and emulate in processes of their own that speak Bluetooth over TCP, in real time."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ def test_scan_lists_the_insoles_that_are_there(insoles: str) -> None:
     assert done.stderr == ""
 
 
-def test_live_takes_the_insoles_that_it_hears_and_tells_how_the_links_do(insoles: str) -> None:
+def test_live_connects_to_the_insoles_it_finds_and_reports_their_links(insoles: str) -> None:
     done = run("live", "--via", insoles, "--duration", 7)
     assert "left foot: 100 Hz, 0.0 % lost, battery 87 %, -50 dBm" in done.stdout
     assert "right foot: 100 Hz, 0.0 % lost, battery 87 %, -50 dBm" in done.stdout
     assert done.stderr == ""
 
 
-def test_what_record_writes_is_replayed_as_it_was_heard_live(insoles: str, tmp_path: Path) -> None:
+def test_what_record_writes_gives_the_same_events_as_live(insoles: str, tmp_path: Path) -> None:
     file, out = tmp_path / "walk.jsonl", tmp_path / "out"
     options = ["--left", "solepath L", "--right", "F0:5E:00:00:00:02", "--via", insoles, "--duration", 7]
     run("live", *options, "--record", file, "--out", out)
@@ -44,7 +44,7 @@ def test_what_record_writes_is_replayed_as_it_was_heard_live(insoles: str, tmp_p
     assert devices == {(Site.LEFT_FOOT, "F0:5E:00:00:00:01"), (Site.RIGHT_FOOT, "F0:5E:00:00:00:02")}
 
 
-def test_record_ends_cleanly_when_it_is_told_to(insoles: str, tmp_path: Path) -> None:
+def test_record_ends_cleanly_on_a_signal(insoles: str, tmp_path: Path) -> None:
     file = tmp_path / "walk.jsonl"
     with started("record", "--via", insoles, "--left", "solepath L", "--out", file, "--duration", 60) as process:
         wait_for(file, "insole/frame")
@@ -55,7 +55,7 @@ def test_record_ends_cleanly_when_it_is_told_to(insoles: str, tmp_path: Path) ->
     assert list(read_packets(file))[-1].site is Site.LEFT_FOOT
 
 
-def test_emulate_ends_cleanly_when_it_is_told_to() -> None:
+def test_emulate_ends_cleanly_on_a_signal() -> None:
     with emulator("--distance", 5) as (process, _):
         process.send_signal(signal.SIGINT)
         _, err = process.communicate(timeout=TAKES)
@@ -81,7 +81,7 @@ def test_an_emulator_that_is_killed_is_a_lost_link_and_is_found_again_when_it_is
     assert links[:3] == [Connected, Disconnected, Connected]
 
 
-def test_sensortags_are_told_apart_by_their_addresses(tmp_path: Path) -> None:
+def test_sensortags_are_distinguished_by_their_addresses(tmp_path: Path) -> None:
     file = tmp_path / "walk.jsonl"
     with emulator("--distance", 5, "--device", "cc2541-20hz") as (_, where):
         unclear = run("record", "--via", where, "--out", file, "--duration", 5, expect=2)

@@ -1,4 +1,4 @@
-"""`solepath calibrate`, and the commands that take what it writes."""
+"""Tests `solepath calibrate`, and the commands that use what it writes."""
 
 import json
 import subprocess
@@ -34,13 +34,13 @@ def packets(folder) -> Path:
 
 @pytest.fixture(scope="module")
 def bare(folder) -> Path:
-    """A foot that stands, without pressure."""
+    """Write a recording of a foot that stands, without pressure."""
     t = np.arange(200) / 100.0
     np.savez(folder / "imu_only.npz", t=t, acc=np.tile([0.0, 0.0, 9.81], (200, 1)), gyro=np.zeros((200, 3)))
     return folder / "imu_only.npz"
 
 
-def test_a_recipe_of_pressure_refuses_samples_without_any(bare):
+def test_a_recipe_of_pressure_rejects_samples_without_any(bare):
     assert PRESSED
     for name in PRESSED:
         expected = f"solepath: recipe {name} needs pressure cells; {bare} has none\n"
@@ -53,7 +53,7 @@ def test_track_runs_with_a_calibration(packets, folder):
     assert done.returncode == 0 and done.stderr == ""
 
 
-def test_evaluate_runs_with_a_calibration_and_refuses_what_is_none(folder, tmp_path):
+def test_evaluate_runs_with_a_calibration_and_rejects_a_file_that_is_none(folder, tmp_path):
     loops = tmp_path / "xio_closed_walks"
     loops.mkdir()
     np.savez(loops / "loop.npz", **columns_of(Walker(ROUTE, seed=3), Foot.RIGHT))
@@ -63,17 +63,17 @@ def test_evaluate_runs_with_a_calibration_and_refuses_what_is_none(folder, tmp_p
     write_calibration(folder / "known.json", Calibration(drift={Foot.RIGHT: (0.05, 0.0)}))
     ends = []
     for calibration in ([], ["--calibration", folder / "known.json"]):
-        told = tmp_path / "scores.json"
-        arguments = ("--recipe", "gyroscope", "--processes", 1, "--json", told, *calibration)
+        scores_file = tmp_path / "scores.json"
+        arguments = ("--recipe", "gyroscope", "--processes", 1, "--json", scores_file, *calibration)
         assert run("evaluate", tmp_path, *arguments).returncode == 0
-        scores = json.loads(told.read_text())["gyroscope"]["xio_closed_walks"]["recordings"]["loop"]
+        scores = json.loads(scores_file.read_text())["gyroscope"]["xio_closed_walks"]["recordings"]["loop"]
         ends.append(scores["end_error_2d"])
     # 5 cm/s taken off for the 7 s that the foot does not stand: another end, by decimetres
     assert abs(ends[1] - ends[0]) > 0.1
     assert "none.json: No such file" in run_failing("evaluate", tmp_path, "--calibration", tmp_path / "none.json")
 
 
-def test_a_file_that_is_no_calibration_is_refused_in_one_line(packets, tmp_path):
+def test_a_file_that_is_no_calibration_is_rejected_in_one_line(packets, tmp_path):
     (tmp_path / "wrong.json").write_text("{")
     assert "wrong.json: is not JSON" in run_failing("track", packets, "--calibration", tmp_path / "wrong.json")
 
@@ -121,7 +121,7 @@ def test_what_is_learnt_goes_beside_what_the_file_holds_already(tmp_path):
     assert found.shoe.forefoot_radius[0] == pytest.approx(0.07)
 
 
-def test_laps_of_a_square_tell_the_drift(tmp_path):
+def test_the_drift_is_learnt_from_laps_of_a_square(tmp_path):
     walk, out = emulate(square(3), devices={Site.RIGHT_FOOT: boot(Foot.RIGHT, 50.0)}, seed=2), tmp_path / "me.json"
     laps = recorded(tmp_path / "laps.jsonl", walk.packets)
     done = run("calibrate", "square", laps, "--out", out)
@@ -130,7 +130,7 @@ def test_laps_of_a_square_tell_the_drift(tmp_path):
     assert set(calibrated(out).drift) == {Foot.RIGHT}
 
 
-def test_a_walk_over_marks_tells_what_touchdowns_are_off_by(tmp_path):
+def test_the_offset_of_touchdowns_is_learnt_from_a_walk_over_marks(tmp_path):
     walk = emulate(marked(WalkingMode.STRAIGHT, 14), devices=dict.fromkeys(FEET, Insole(rate=50.0)), seed=2)
     recorded(tmp_path / "walk.jsonl", walk.packets)
     write_marks(tmp_path / "marks.csv", marks(walk.walker))
@@ -143,7 +143,7 @@ def test_a_walk_over_marks_tells_what_touchdowns_are_off_by(tmp_path):
     assert set(calibrated(out).modes) == set(Foot)
 
 
-def test_what_cannot_be_learnt_from_is_refused_in_one_line_and_nothing_is_written(packets, bare, tmp_path):
+def test_unusable_input_is_rejected_in_one_line_and_nothing_is_written(packets, bare, tmp_path):
     out, odd = tmp_path / "me.json", tmp_path / "odd.csv"
     odd.write_text("pitch_deg,L_r_m\n0,0.07\n")
     for arguments, complaint in [
@@ -190,7 +190,7 @@ def test_what_is_no_regular_file_is_neither_read_nor_written(bare, tmp_path, dev
     )
 
 
-def test_what_cannot_be_is_not_written_over_what_is_known(tmp_path):
+def test_an_impossible_calibration_does_not_replace_a_known_one(tmp_path):
     out, below = tmp_path / "me.json", tmp_path / "below.npz"
     write_calibration(out, Calibration(weight=700.0))
     np.savez(below, t=np.arange(400) / 50.0, pressure=np.full((400, 4), -100.0))
@@ -206,13 +206,13 @@ def test_streams_that_are_closed_stop_nothing(bare, closed):
     assert done.returncode == 0 and "Traceback" not in done.stderr
 
 
-def test_a_full_device_is_told_in_one_line(bare):
+def test_a_full_device_is_reported_in_one_line(bare):
     command = f'"{sys.executable}" -m solepath track "{bare}" >/dev/full'
     done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, timeout=60)
     assert done.returncode == 2 and done.stderr.count("\n") == 1 and "No space left" in done.stderr
 
 
-def test_a_seed_below_zero_is_refused():
+def test_a_seed_below_zero_is_rejected():
     for command in (["reproduce", "kupt-dfpc"], ["demo"], ["emulate"]):
         done = run(*command, "--seed", "-1")
         assert done.returncode == 2 and "'-1' is not a whole number" in done.stderr

@@ -1,4 +1,4 @@
-"""scan, live, record and emulate: what is wrong is said in one line, and Ctrl-C ends them."""
+"""Tests errors of scan, live, record and emulate: each is reported in one line, and Ctrl-C ends the command."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from solepath.types import Site
 
 
 def is_socket(file: Path) -> bool:
-    """Of an entry of /proc/PID/fd, which may be closed at any time."""
+    """Return whether an entry of /proc/PID/fd, which may be closed at any time, is a socket."""
     try:
         return os.readlink(file).startswith("socket:")
     except FileNotFoundError:
@@ -30,7 +30,7 @@ def is_socket(file: Path) -> bool:
 
 
 def wait_for_sockets(process: subprocess.Popen[str]) -> None:
-    """Until a program that says nothing is connected: it has one socket more than the two of its event loop."""
+    """Wait until a program that prints nothing is connected: it has one socket more than the two of its event loop."""
     files = Path(f"/proc/{process.pid}/fd")
     if not files.exists():  # not Linux
         time.sleep(3.0)
@@ -57,7 +57,7 @@ def test_a_machine_without_bluetooth_is_named_as_such(command: str, tmp_path: Pa
 
 
 @pytest.mark.parametrize(
-    ("options", "told"),
+    ("options", "message"),
     [
         (["--via", "there"], "'there' is not tcp:HOST:PORT"),
         (["--at", "knee=X"], "--at knee=X: that is not SITE=DEVICE"),
@@ -67,20 +67,20 @@ def test_a_machine_without_bluetooth_is_named_as_such(command: str, tmp_path: Pa
         (["--left", "X", "--at", "left_foot=Y"], "two devices cannot be at one site"),
     ],
 )
-def test_options_that_make_no_sense_are_named(options: list[str], told: str) -> None:
-    assert told in complaint("live", *options)
+def test_options_that_make_no_sense_are_named(options: list[str], message: str) -> None:
+    assert message in complaint("live", *options)
 
 
 @pytest.mark.parametrize(
-    ("options", "told"),
+    ("options", "message"),
     [
         (["--listen", "here"], "that is not HOST:PORT"),
         (["--mtu", "12"], "an MTU is from 23 to 517"),
         (["--distance", "20000"], "--distance 20000: 5000 m is as far as"),
     ],
 )
-def test_what_cannot_be_emulated_is_said(options: list[str], told: str) -> None:
-    assert told in complaint("emulate", *options)
+def test_impossible_options_of_emulate_are_reported(options: list[str], message: str) -> None:
+    assert message in complaint("emulate", *options)
 
 
 def test_a_script_that_makes_no_sense_is_named_with_its_line(tmp_path: Path) -> None:
@@ -95,8 +95,8 @@ def test_a_script_with_a_name_that_no_advertisement_holds_is_named(tmp_path: Pat
     assert complaint("emulate", "--faults", script).startswith(f"{script}: the name 'xxxx")
 
 
-def test_a_server_that_is_no_controller_is_said() -> None:
-    """It answers whatever it is told with a bare HCI Command Complete."""
+def test_a_server_that_is_no_controller_is_reported() -> None:
+    """The server answers everything with a bare HCI Command Complete."""
     with socket.create_server(("127.0.0.1", 0)) as server:
 
         def answer() -> None:
@@ -128,25 +128,27 @@ def test_a_full_disk_ends_live_with_a_summary_and_a_line_that_names_the_director
 
 
 @pytest.mark.parametrize("command", ["live", "record"])
-def test_a_place_that_cannot_be_written_is_refused_before_the_search(command: str, tmp_path: Path) -> None:
+def test_a_path_that_cannot_be_written_is_rejected_before_the_search(command: str, tmp_path: Path) -> None:
     option = {"live": "--record", "record": "--out"}[command]
     nowhere = tmp_path / "nowhere" / "walk.jsonl"
     done = run(command, "--via", "tcp:127.0.0.1:1", option, nowhere, expect=2)
     assert (done.stdout, done.stderr) == ("", f"solepath: {nowhere}: no such file or directory\n")
 
 
-@pytest.mark.parametrize(("command", "begun"), [("scan", None), ("live", "looking for"), ("record", "looking for")])
+@pytest.mark.parametrize(
+    ("command", "first_line"), [("scan", None), ("live", "looking for"), ("record", "looking for")]
+)
 def test_ctrl_c_during_the_search_ends_at_once_and_without_a_summary(
-    insoles: str, command: str, begun: str | None, tmp_path: Path
+    insoles: str, command: str, first_line: str | None, tmp_path: Path
 ) -> None:
     more = ["--out", tmp_path / "walk.jsonl"] if command == "record" else []
     more += ["--seconds", 60] if command == "scan" else ["--duration", 60]
     with started(command, "--via", insoles, *more) as process:
-        if begun is None:
+        if first_line is None:
             wait_for_sockets(process)
         else:
             assert process.stdout is not None
-            while begun not in process.stdout.readline():
+            while first_line not in process.stdout.readline():
                 pass
         process.send_signal(signal.SIGINT)
         out, err = process.communicate(timeout=TAKES)
@@ -178,7 +180,7 @@ def test_ctrl_c_ends_an_emulator_that_is_still_working_out_its_walk() -> None:
 
 @pytest.mark.soak
 def test_a_kind_that_is_named_is_that_of_the_device_that_is_not(tmp_path: Path) -> None:
-    """Of one CC2541 its advertisement does not say how fast it is."""
+    """The advertisement of a CC2541 does not say how fast it is."""
     script, file = tmp_path / "faults.txt", tmp_path / "walk.jsonl"
     script.write_text("0 left_foot vanish\n")
     with emulator("--distance", 5, "--device", "cc2541-20hz", "--faults", script) as (_, where):
@@ -194,7 +196,7 @@ def test_a_kind_that_is_named_is_that_of_the_device_that_is_not(tmp_path: Path) 
 
 
 @pytest.mark.soak
-def test_an_insole_that_is_not_heard_at_first_is_taken_when_it_comes(tmp_path: Path) -> None:
+def test_an_insole_that_is_off_at_first_is_used_when_it_comes(tmp_path: Path) -> None:
     script, file = tmp_path / "faults.txt", tmp_path / "walk.jsonl"
     script.write_text("0 right_foot vanish 12\n")
     with emulator("--distance", 5, "--faults", script) as (_, where):
@@ -206,7 +208,7 @@ def test_an_insole_that_is_not_heard_at_first_is_taken_when_it_comes(tmp_path: P
     assert {event.site for event in of(Connected, run_session(read_packets(file)))} == {Site.LEFT_FOOT, Site.RIGHT_FOOT}
 
 
-def test_the_emulator_tells_who_is_connected_and_what_goes_wrong(tmp_path: Path) -> None:
+def test_the_emulator_reports_connections_and_faults(tmp_path: Path) -> None:
     script = tmp_path / "faults.txt"
     script.write_text("1 left_foot drop 3; 0 right_foot vanish\n")
     with (

@@ -1,4 +1,4 @@
-"""`solepath convert`: a phone's log to a recording, either to MCAP; what is wrong is one line."""
+"""Tests `solepath convert`: a phone's log to a recording, either to MCAP; each error is one line."""
 
 import struct
 import subprocess
@@ -20,7 +20,7 @@ def convert(*arguments: object) -> subprocess.CompletedProcess[str]:
 
 
 def complaint(*arguments: object) -> str:
-    """The one line on stderr of a conversion that failed."""
+    """Return the one line on stderr of a conversion that failed."""
     return one_line(convert(*arguments)).removeprefix("solepath: ")
 
 
@@ -65,7 +65,7 @@ def test_either_becomes_mcap(log, tmp_path):
         assert summary.statistics.message_start_time > 1_700_000_000 * 10**9
 
 
-def test_the_site_and_the_channel_can_be_told(tmp_path):
+def test_the_site_and_the_channel_can_be_given(tmp_path):
     log = Log()
     log.connect(0x40, TAG)
     for _ in range(3):
@@ -80,14 +80,14 @@ def test_the_site_and_the_channel_can_be_told(tmp_path):
     assert "there is no channel 'cc2650/moment'; there are: " in complaint(path, out, "--handle", "0x2b=cc2650/moment")
 
 
-def test_a_wish_that_cannot_be_understood_is_named(log, tmp_path):
+def test_an_option_that_cannot_be_parsed_is_named(log, tmp_path):
     for option, wishes in (("--site", ("left_foot", f"{TAG}=hand")), ("--handle", ("0x2b", "x=y", "0=a/b"))):
         for wish in wishes:
             done = convert(log, tmp_path / "walk.jsonl", option, wish)
             assert done.returncode == 2 and f"argument {option}: {wish!r} is not " in done.stderr
 
 
-def test_wishes_that_are_of_no_use_are_errors_and_nothing_is_written(log, tmp_path):
+def test_options_without_use_are_errors_and_nothing_is_written(log, tmp_path):
     out, low = tmp_path / "walk.jsonl", LEFT.lower()
     for wishes, flaw in (
         (("--site", f"{LEFT}=pelvis", "--site", f"{low}=left_foot"), f"--site is given twice for {LEFT}"),
@@ -102,7 +102,7 @@ def test_wishes_that_are_of_no_use_are_errors_and_nothing_is_written(log, tmp_pa
 
 
 @pytest.mark.parametrize("kind", ["btsnoop", "recording"])
-def test_what_came_before_a_damage_is_converted_and_the_damage_told(log, tmp_path, kind):
+def test_packets_before_a_damage_are_converted_and_the_damage_is_reported(log, tmp_path, kind):
     out = tmp_path / "out.mcap" if kind == "recording" else tmp_path / "out.jsonl"
     if kind == "btsnoop":
         source = tmp_path / "damaged.log"
@@ -135,7 +135,7 @@ def test_what_cannot_be_converted_replaces_nothing(log, tmp_path):
         assert out.read_text() == "precious"
 
 
-def test_names_that_cannot_be_meant_are_refused(log, tmp_path):
+def test_impossible_file_names_are_rejected(log, tmp_path):
     walk = recording(tmp_path / "walk.jsonl")
     assert complaint(log, tmp_path / "walk.csv").endswith(
         "walk.csv: ends neither in .jsonl nor in .mcap, which says what to write"
@@ -154,7 +154,7 @@ def test_names_that_cannot_be_meant_are_refused(log, tmp_path):
 
 
 def test_no_file_is_touched_but_the_one_that_is_named(log, tmp_path):
-    """Not even one whose name is OUT's with something behind it, be it what is converted or a stranger."""
+    """A file whose name is OUT's with a suffix stays too, whether it is the source or not."""
     for k, (source, name) in enumerate(((log, "walk.jsonl"), (recording(tmp_path / "a.jsonl"), "walk.mcap"))):
         folder = tmp_path / str(k)
         folder.mkdir()
@@ -201,7 +201,7 @@ def test_a_disk_that_fills_up_is_one_line_and_leaves_no_half_file(log, tmp_path,
     assert list(tmp_path.iterdir()) == []
 
 
-def test_without_mcap_it_says_what_to_install(log, tmp_path):
+def test_without_mcap_the_message_names_the_package(log, tmp_path):
     code = "import sys; sys.modules['mcap'] = None; from solepath.cli import main; sys.exit(main(sys.argv[1:]))"
     out = tmp_path / "walk.mcap"
     done = subprocess.run([sys.executable, "-c", code, "convert", log, out], capture_output=True, text=True)

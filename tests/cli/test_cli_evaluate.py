@@ -1,4 +1,4 @@
-"""`solepath evaluate`: tables, JSON and Markdown of a made data set, and what it needs."""
+"""Tests `solepath evaluate`: tables, JSON and Markdown of a made data set, and what it needs."""
 
 import json
 from math import radians
@@ -16,7 +16,7 @@ from solepath.types import Foot
 
 @pytest.fixture(scope="module")
 def data(tmp_path_factory) -> Path:
-    """A made data set: a closed loop around a square."""
+    """Return a made data set: a closed loop around a square."""
     route = Route().stand(2.0)
     for _ in range(4):
         route = route.walk(3.0, speed=1.2).turn(radians(90), radius=1.0)
@@ -35,13 +35,13 @@ def test_evaluate_scores_what_there_is_in_tables_and_json(data, tmp_path):
     assert done.returncode == 0 and done.stderr == ""
     assert no_control_codes(done.stdout)
     assert "failed: " in done.stdout and "broken.npz: is empty" in done.stdout
-    told = json.loads((tmp_path / "scores.json").read_text())["default"]["xio_closed_walks"]
-    assert list(told["recordings"]) == ["loop"] and len(told["failures"]) == 1
-    figures = told["recordings"]["loop"]
+    scores = json.loads((tmp_path / "scores.json").read_text())["default"]["xio_closed_walks"]
+    assert list(scores["recordings"]) == ["loop"] and len(scores["failures"]) == 1
+    figures = scores["recordings"]["loop"]
     assert figures["path"] == pytest.approx(12.0 + 2 * 3.14159, abs=0.01)
     # exact samples: the loop closes within the foot's own placement
     assert figures["end_error_2d"] < 0.5
-    assert told["summary"]["all"]["mean"]["end_error"] == figures["end_error"]
+    assert scores["summary"]["all"]["mean"]["end_error"] == figures["end_error"]
     assert f"{figures['end_error']:.3f}" in done.stdout
 
 
@@ -55,23 +55,23 @@ def test_evaluate_in_short_is_a_markdown_table(data):
     assert third.startswith("|  | from end to start, in height | 0.") and third.endswith(" m |")
 
 
-def test_evaluate_says_what_figures_were(data, tmp_path):
+def test_evaluate_compares_with_earlier_figures(data, tmp_path):
     old = tmp_path / "old.json"
     command = ("evaluate", data, "--recipe", "default", "--processes", "1")
     assert run(*command, "--json", old).returncode == 0
     scores = json.loads(old.read_text())
     scores["default"]["xio_closed_walks"]["summary"]["all"]["mean"]["end_error_2d"] *= 2.0
     old.write_text(json.dumps(scores))
-    told = run(*command, "--compare", old)
-    assert told.returncode == 0 and "xio_closed_walks, default, compared: 1 better, 0 worse" in told.stdout
-    (line,) = (line for line in told.stdout.splitlines() if line.startswith("end_error_2d (mean)"))
+    compared = run(*command, "--compare", old)
+    assert compared.returncode == 0 and "xio_closed_walks, default, compared: 1 better, 0 worse" in compared.stdout
+    (line,) = (line for line in compared.stdout.splitlines() if line.startswith("end_error_2d (mean)"))
     was, now, word = line.split()[-3:]
     assert float(was) == pytest.approx(2.0 * float(now), rel=0.02) and word == "better"
     old.write_text("{")
     assert "old.json: is not JSON" in run_failing(*command, "--compare", old)
 
 
-def test_evaluate_says_what_it_needs(data, tmp_path, monkeypatch):
+def test_evaluate_without_data_names_what_it_needs(data, tmp_path, monkeypatch):
     monkeypatch.delenv("SOLEPATH_DATA", raising=False)
     needs = "evaluate needs DIR, or the environment variable SOLEPATH_DATA, or --emulated"
     assert needs in run_failing("evaluate")

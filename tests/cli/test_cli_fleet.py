@@ -1,4 +1,4 @@
-"""fleet-demo: wearers through an engine that is killed, what it prints, and how it ends."""
+"""Tests fleet-demo: wearers through an engine that is killed, what it prints, and how it ends."""
 
 from __future__ import annotations
 
@@ -50,19 +50,19 @@ SMALL = ("--wearers", "12", "--seconds", "4", "--processes", "1")
 def test_the_memory_of_a_process_is_not_that_of_who_started_it() -> None:
     held = b"x" * 400_000_000
     code = "from solepath.fleet.demo.child import memory, most_memory; print(memory(), most_memory())"
-    said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
-    now, most = map(int, said.split())
+    output = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
+    now, most = map(int, output.split())
     assert 5e6 < now <= most < len(held)
 
 
 @pytest.fixture(scope="module")
 def kept(tmp_path_factory: pytest.TempPathFactory) -> Kept:
-    """What a whole demonstration printed, and where it left what it wrote."""
+    """Return what a whole demonstration printed, and where it left its files."""
     out = tmp_path_factory.mktemp("fleet") / "out"
     return run("fleet-demo", *SMALL, "--kills", "2", "--out", out, "--json", out.with_suffix(".json"), "--keep"), out
 
 
-def test_a_fleet_that_is_killed_tells_what_one_tells_that_is_not(kept: Kept) -> None:
+def test_a_killed_fleet_emits_the_same_events_as_one_that_is_not(kept: Kept) -> None:
     done, out = kept
     assert (done.returncode, done.stderr) == (0, "")
     assert "sessions alone: the same events" in done.stdout
@@ -84,19 +84,19 @@ def test_kills_hit_reading_and_wearers_go_on_from_states_that_were_read_back(kep
     assert re.search(r"^of 2 kills [12] had something read again, and [12] had wearers go on", kept[0].stdout, re.M)
 
 
-def test_a_fleet_that_does_not_say_what_it_refused_or_what_is_missing_is_found_out(kept: Kept) -> None:
+def test_missing_rejection_or_loss_events_are_found_out(kept: Kept) -> None:
     expected = {wearer.name: wearer.remarks() for wearer in Wearers.read(kept[1] / "runs").all}
     assert {name for name, remarks in expected.items() if remarks} == {"w00003", "w00005"}
     missing, late = expected["w00005"]
     assert (missing.event, late.event, late.why) == ("NumbersMissing", "SentRejected", "late")
     assert {remark.run is None for remark in expected["w00003"]} == {True, False}
-    told = read_events(kept[1] / "told")
-    assert compare_remarks(expected, told) == []
+    events = read_events(kept[1] / "told")
+    assert compare_remarks(expected, events) == []
     for event in ("SentRejected", "NumbersMissing"):
-        silent = told.filter(pyarrow.compute.not_equal(told["event"], event))
-        assert differences(session_events(told), session_events(silent)) == []
+        silent = events.filter(pyarrow.compute.not_equal(events["event"], event))
+        assert differences(session_events(events), session_events(silent)) == []
         assert compare_remarks(expected, silent)[0].endswith(" is missing")
-    (line,) = compare_remarks({**expected, "w00005": [missing]}, told)
+    (line,) = compare_remarks({**expected, "w00005": [missing]}, events)
     assert line.startswith("w00005, SentRejected (late) of run ") and line.endswith(" was not expected")
 
 
@@ -112,13 +112,13 @@ def test_one_event_less_in_one_part_is_named_and_the_status_is_1(
 ) -> None:
     parquet = pytest.importorskip("pyarrow.parquet")
     runs = kept[1] / "runs"
-    told = shutil.copytree(runs / "killed-1" / "told", tmp_path / "told")
+    copied = shutil.copytree(runs / "killed-1" / "told", tmp_path / "told")
     expected = read_events(runs / "uninterrupted" / "told")
-    assert compared(expected, told) == []
-    part = parquet.read_table(files(told)[0])
+    assert compared(expected, copied) == []
+    part = parquet.read_table(files(copied)[0])
     lost = part.slice(0, 1).to_pylist()[0]
-    parquet.write_table(part.slice(1), files(told)[0])
-    (found,) = compared(expected, told)
+    parquet.write_table(part.slice(1), files(copied)[0])
+    (found,) = compared(expected, copied)
     assert found.startswith(f"{lost['wearer']}, event {lost['number']} ({lost['event']} at ")
     assert found.endswith(" is missing")
     assert verdict([], [[found]]) == 1
@@ -126,27 +126,27 @@ def test_one_event_less_in_one_part_is_named_and_the_status_is_1(
 
 
 def test_a_part_that_is_damaged_is_named(kept: Kept, tmp_path: Path) -> None:
-    told = shutil.copytree(kept[1] / "told", tmp_path / "told")
-    expected, part = read_events(told), files(told)[0]
+    copied = shutil.copytree(kept[1] / "told", tmp_path / "told")
+    expected, part = read_events(copied), files(copied)[0]
     part.write_bytes(part.read_bytes()[:-40])
-    (found,) = compared(expected, told)
+    (found,) = compared(expected, copied)
     assert str(part) in found and "cannot be read" in found
     with pytest.raises(UnreadableEvents):
-        read_events(told)
+        read_events(copied)
 
 
 def heel_strike(wearer: str, number: int, t: float = 1.0) -> NumberedEvent:
     return NumberedEvent(wearer, number, HeelStrike(t=t, known_at=t, foot=Foot.LEFT))
 
 
-def write(directory: Path, *told: NumberedEvent) -> Path:
+def write(directory: Path, *numbered_events: NumberedEvent) -> Path:
     parts = PartFiles(directory)
-    parts.write(told)
+    parts.write(numbered_events)
     parts.close()
     return directory
 
 
-def test_events_that_are_told_twice_or_otherwise_or_are_not_numbered_on_are_differences(tmp_path: Path) -> None:
+def test_repeated_changed_or_misnumbered_events_are_differences(tmp_path: Path) -> None:
     one, other = heel_strike("anna", 0), heel_strike("anna", 1)
     expected = read_events(write(tmp_path / "expected", one, other))
     assert differences(expected, read_events(write(tmp_path / "order", other, one))) == []
@@ -174,7 +174,7 @@ def test_most_kills_hit_reading_and_one_in_five_the_start(
     assert all(kill.after <= starting + 0.1 * reading for kill in kills)
 
 
-def test_kills_that_cost_nothing_are_not_told_as_if_they_showed_something() -> None:
+def test_kills_that_cost_nothing_are_not_counted_as_tests() -> None:
     started = Cost(Kill(None, 0.1), False, 0.0, 0.0, 1.0, 0)
     hit = Cost(Kill(0.5, 0.1), True, 0.5, 0.1, 1.0, 12)
     engine = Engine(2.0, 1.0, 0.1, 8, 1.0, None, None, 100, 8)
@@ -188,7 +188,7 @@ def test_kills_that_cost_nothing_are_not_told_as_if_they_showed_something() -> N
     )
 
 
-def test_whoever_interrupts_it_finds_nothing_left(tmp_path: Path) -> None:
+def test_ctrl_c_leaves_no_files(tmp_path: Path) -> None:
     out = tmp_path / "out"
     command = [sys.executable, "-m", "solepath", "fleet-demo", *SMALL, "--out", str(out)]
     running = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -196,14 +196,14 @@ def test_whoever_interrupts_it_finds_nothing_left(tmp_path: Path) -> None:
         assert running.poll() is None
         sleep(0.02)
     running.send_signal(signal.SIGINT)
-    _, said = running.communicate(timeout=30.0)
-    assert (running.returncode, said) == (130, "")
+    _, output = running.communicate(timeout=30.0)
+    assert (running.returncode, output) == (130, "")
     assert not out.exists()
     everything = subprocess.run(["ps", "-eo", "args"], capture_output=True, text=True, check=True).stdout
     assert str(out) not in everything
 
 
-def test_what_cannot_be_is_said_in_one_line(tmp_path: Path) -> None:
+def test_impossible_options_are_reported_in_one_line(tmp_path: Path) -> None:
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "file").touch()
     assert "no recipe 'best'" in run_failing("fleet-demo", "--recipe", "best")

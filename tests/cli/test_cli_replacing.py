@@ -1,4 +1,4 @@
-"""Files that take an earlier run's place, and where they may lie: nothing is left of a run that is ended."""
+"""Tests the replacement of files: where they may be, and that a run that is ended leaves nothing behind."""
 
 from __future__ import annotations
 
@@ -17,23 +17,23 @@ from programs import TAKES, started
 from recordings import into, written
 from watchers import ANYWHERE, address
 
-from solepath.cli.common.files import Replacing
+from solepath.cli.common.files import FileReplacements
 
 
-def test_a_file_interrupted_as_it_is_made_is_thrown_away(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    files = Replacing()
+def test_a_file_is_removed_when_ctrl_c_comes_while_it_is_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    files = FileReplacements()
     made = Path.open
 
-    def interrupted(*arguments: object) -> None:
+    def opened_then_stopped(*arguments: object) -> None:
         made(*arguments).close()  # type: ignore[call-overload]
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(Path, "open", interrupted)
+    monkeypatch.setattr(Path, "open", opened_then_stopped)
     with pytest.raises(KeyboardInterrupt):
         files.beside(tmp_path / "track.csv")
     monkeypatch.undo()
     assert len(list(tmp_path.iterdir())) == 1
-    files.drop()
+    files.discard()
     assert not list(tmp_path.iterdir())
 
 
@@ -41,31 +41,31 @@ def test_a_file_interrupted_as_it_is_made_is_thrown_away(tmp_path: Path, monkeyp
 def test_a_file_is_there_as_it_was_until_it_is_kept(kept: bool, tmp_path: Path) -> None:
     earlier = tmp_path / "track.csv"
     earlier.write_text("earlier")
-    files = Replacing()
+    files = FileReplacements()
     files.beside(earlier).write_text("later")
     assert earlier.read_text() == "earlier"
     if kept:
         files.keep()
-    files.drop()
+    files.discard()
     assert earlier.read_text() == ("later" if kept else "earlier")
     assert list(tmp_path.iterdir()) == [earlier]
 
 
 def test_another_programs_file_is_not_thrown_away(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Two machines that share a directory may give two programs the same number."""
-    files = Replacing()
+    files = FileReplacements()
     monkeypatch.setattr("solepath.cli.common.files._numbers", count(7))
     another = tmp_path / f".solepath-{os.getpid()}-7.part"
     another.write_text("half of a track")
     with pytest.raises(OSError, match=r"track\.csv"):
         files.beside(tmp_path / "track.csv")
-    files.drop()
+    files.discard()
     assert another.read_text() == "half of a track"
 
 
 @pytest.fixture(scope="module")
 def long_recording(recording: Path) -> Path:
-    """The same over and over: some seconds of computing."""
+    """Return a recording that repeats itself: some seconds of computing."""
     header, *packets = map(json.loads, recording.read_text().splitlines())
     length = packets[-1]["t"]
     file = recording.parent / "long.jsonl"
@@ -76,7 +76,7 @@ def long_recording(recording: Path) -> Path:
 
 @pytest.fixture
 def earlier(tmp_path: Path) -> dict[str, bytes]:
-    """What an earlier run wrote."""
+    """Return the files of an earlier run."""
     (tmp_path / "out").mkdir()
     for name in ("r.html", "out/events.jsonl", "out/track.csv"):
         (tmp_path / name).write_text(f"an earlier {name}")
@@ -94,8 +94,8 @@ def test_another_ctrl_c_gives_the_rest_up_and_what_an_earlier_run_wrote_stays(
         while "Ctrl-C again gives it up" not in process.stdout.readline():
             pass
         process.send_signal(signal.SIGINT)
-        said, err = process.communicate(timeout=TAKES)
-    assert process.returncode == 130 and said == ""
+        output, err = process.communicate(timeout=TAKES)
+    assert process.returncode == 130 and output == ""
     assert re.fullmatch(r"solepath: given up after \d+\.\d of .* s: .* what was written before stays as it is\n", err)
     assert written(tmp_path) == earlier
 

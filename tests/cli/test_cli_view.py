@@ -1,4 +1,4 @@
-"""demo, track and live on the page: what a browser hears, what it may ask for, and how the commands end."""
+"""Tests demo, track and live on the page: its messages and commands, and how the commands end."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ from solepath.show.page.scene.scene import Scene
 pytest.importorskip("aiohttp")
 
 ALONE = "import sys; sys.modules.update(dict.fromkeys(['bleak', 'bumble', 'rich', 'mcap', 'matplotlib'])); "
-"""Nothing but the extra `view`."""
+"""Packages of the extra `view` only."""
 
 
 @pytest.fixture(scope="module")
 def plain(recording: Path) -> tuple[Path, str]:
-    """Where `track` wrote without a page, and what it printed."""
+    """Return where `track` wrote without a page, and what it printed."""
     folder = recording.with_name("plain")
     folder.mkdir()
     return folder, run("track", recording, *into(folder)).stdout
@@ -50,18 +50,18 @@ def test_in_a_terminal_the_demo_opens_a_browser_is_steered_there_and_ends_with_t
         assert len(page.scene["layouts"]["left"]["cells"]) == 96
         assert page.frame["feet"]["left"]["cells"] is not None
         end = page.frame["playback"]["end"]
-        await page.ask("pause")
+        await page.send_command("pause")
         await page.until(lambda frame: frame["playback"]["state"] == "paused")
-        await page.ask("seek", end - 1.0)
+        await page.send_command("seek", end - 1.0)
         await page.until(lambda frame: frame["playback"]["t"] == round(end - 1.0, 3))
         scenes = page.scenes
         assert page.frame["feet"]["left"]["steps"] >= 2
-        await page.ask("seek", 1.0)
+        await page.send_command("seek", 1.0)
         await page.until(lambda frame: frame["playback"]["t"] == 1.0)
         assert page.frame["feet"]["left"]["steps"] == 0 and page.scenes > scenes
         assert page.frame["playback"]["seeking"] is None
-        await page.ask("speed", 32)
-        await page.ask("play")
+        await page.send_command("speed", 32)
+        await page.send_command("play")
         await page.until(lambda frame: frame["playback"]["state"] == "ended")
         assert page.frame["playback"]["t"] == end
 
@@ -102,9 +102,9 @@ def test_what_track_writes_does_not_depend_on_the_page_which_is_there_before_any
         await page.until(lambda frame: True)
         assert (page.scene["title"], page.scene["source"]) == ("walk.jsonl", "recording")
         assert page.frame["playback"]["t"] < 2.0
-        await page.ask("seek", 3.0)
+        await page.send_command("seek", 3.0)
         await page.until(lambda frame: frame["playback"]["t"] >= 3.0)
-        await page.ask("seek", 1.0)
+        await page.send_command("seek", 1.0)
         await page.until(lambda frame: 1.0 <= frame["playback"]["t"] < 3.0)
 
     with started("track", recording, *ANYWHERE, *into(tmp_path)) as process:
@@ -135,9 +135,7 @@ def test_closing_the_terminal_ends_the_page_as_ctrl_c_does_and_all_is_written(
     assert written(tmp_path) == written(plain[0])
 
 
-def test_a_damaged_recording_is_played_up_to_the_damage_and_a_page_for_other_machines_is_said_to_be_one(
-    recording: Path, tmp_path: Path
-):
+def test_a_damaged_recording_is_played_up_to_the_damage_and_a_public_page_is_reported(recording: Path, tmp_path: Path):
     lines = recording.read_text().splitlines()
     torn = tmp_path / "torn.jsonl"
     torn.write_text("\n".join([*lines[: len(lines) // 2], "what?", *lines[len(lines) // 2 :]]))
@@ -149,17 +147,17 @@ def test_a_damaged_recording_is_played_up_to_the_damage_and_a_page_for_other_mac
 
 
 @pytest.mark.parametrize("where", ["8765", "here", ":80", "127.0.0.1:", "127.0.0.1:70000", "127.0.0.1:-1"])
-def test_what_is_no_address_is_refused(where: str, recording: Path):
+def test_an_invalid_address_is_rejected(where: str, recording: Path):
     for command in (("demo",), ("track", recording), ("live",)):
         assert "that is not HOST:PORT, as in 127.0.0.1:8765" in run_failing(*command, f"--view={where}")
 
 
-def test_a_pace_that_no_page_has_is_refused(recording: Path):
+def test_a_speed_out_of_range_is_rejected(recording: Path):
     assert "on the page it is from 0.1 to 32" in run_failing("track", recording, *ANYWHERE, "--speed", "33")
     assert "on the page it is from 0.1 to 32" in run_failing("demo", *ANYWHERE, "--speed", "0.01")
 
 
-def test_what_is_said_of_a_page_that_nobody_asks_for_is_refused(recording: Path):
+def test_options_of_the_page_without_view_are_rejected(recording: Path):
     for given in (("--speed", "4"), ("--no-browser",)):
         line = run_failing("track", recording, *given)
         assert line == f"solepath: {given[0]} is for the page: it goes with --view\n"
@@ -169,16 +167,15 @@ def test_what_is_said_of_a_page_that_nobody_asks_for_is_refused(recording: Path)
     )
 
 
-def test_without_aiohttp_the_page_is_refused_with_how_to_install_it(recording: Path, monkeypatch: pytest.MonkeyPatch):
+def test_without_aiohttp_the_message_names_the_package(recording: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setitem(sys.modules, "aiohttp", None)
     for command in (("demo",), ("track", recording), ("live",)):
         assert run_failing(*command, "--view") == "solepath: --view needs aiohttp: pip install 'solepath[view]'\n"
 
 
-def test_a_report_that_cannot_be_written_is_refused_before_anything_is_computed(recording: Path, tmp_path: Path):
-    assert (
-        "no such file or directory" in run_failing("track", recording, "--report", tmp_path / "none" / "r.html").lower()
-    )
+def test_a_report_that_cannot_be_written_is_rejected_before_anything_is_computed(recording: Path, tmp_path: Path):
+    line = run_failing("track", recording, "--report", tmp_path / "none" / "r.html")
+    assert "no such file or directory" in line.lower()
 
 
 def test_live_sensors_and_their_silence_are_seen_on_the_page(tmp_path: Path):
@@ -209,7 +206,7 @@ def test_live_sensors_and_their_silence_are_seen_on_the_page(tmp_path: Path):
     assert "FootPressed" not in (tmp_path / "events.jsonl").read_text()
 
 
-def test_what_a_live_session_says_at_its_end_reaches_the_page_too() -> None:
+def test_the_last_events_of_a_live_session_reach_the_page() -> None:
     session, other = Session(poses=True, pressures=True), Session(poses=True, pressures=True)
     live = LiveSession(session, scene := Scene("Live", "default"), LiveFiles(None, None))
     for packet in insoles().packets:

@@ -1,4 +1,4 @@
-"""`solepath track`: what it prints, what it writes, and what it does with files that are none."""
+"""Tests `solepath track`: what it prints and writes, and what it does with unusable files."""
 
 import json
 import subprocess
@@ -26,7 +26,7 @@ ROUTE = Route().stand(2.0).walk(8.0, speed=1.3).stop(1.5)
 
 @pytest.fixture(scope="module")
 def packets(folder: Path) -> Path:
-    """8 m in two insoles over a radio that loses some."""
+    """Return 8 m in two insoles over a radio that loses some packets."""
     return recorded(folder / "walk.jsonl", emulate(ROUTE, radio=Radio(loss=0.02, corrupt=0.01), seed=3).packets)
 
 
@@ -37,11 +37,11 @@ def one_foot(folder) -> Path:
 
 
 def events_in(directory: Path) -> list[dict]:
-    def refuse(constant: str) -> None:
+    def reject_constant(constant: str) -> None:
         raise AssertionError(f"{constant} is not JSON")
 
     lines = (directory / "events.jsonl").read_text().splitlines()
-    return [json.loads(line, parse_constant=refuse) for line in lines]
+    return [json.loads(line, parse_constant=reject_constant) for line in lines]
 
 
 @pytest.fixture(scope="module")
@@ -93,13 +93,13 @@ def test_steps_and_track_are_tables_of_the_same_walk(tracked):
 
 
 @pytest.fixture(scope="module")
-def told(packets) -> list[Event]:
-    """What a session says of the same recording."""
+def events_of(packets) -> list[Event]:
+    """Return the events of a session for the same recording."""
     return run_session(read_packets(packets), poses=True)
 
 
-def test_every_column_of_steps_is_what_the_session_said(tracked, told):
-    taken = of(StrideTaken, told)
+def test_every_column_of_strides_equals_the_events(tracked, events_of):
+    taken = of(StrideTaken, events_of)
     assert len(taken) > 8 and max(abs(step.heading_change) for step in taken) > 0.01
     for row, step in zip(rows_in(tracked[1] / "strides.csv"), taken, strict=True):
         assert row["foot"] == step.foot.value and row["degraded"] == str(int(step.degraded))
@@ -111,9 +111,9 @@ def test_every_column_of_steps_is_what_the_session_said(tracked, told):
     assert any(step.degraded for step in taken)
 
 
-def test_events_of_the_link_name_the_foot_too(tracked, told):
+def test_events_of_the_link_name_the_foot_too(tracked, events_of):
     events = events_in(tracked[1])
-    assert [e["event"] for e in events] == [type(e).__name__ for e in told if not isinstance(e, LiveEvent)]
+    assert [e["event"] for e in events] == [type(e).__name__ for e in events_of if not isinstance(e, LiveEvent)]
     of_sites = [event for event in events if event.get("site") is not None]
     assert {"PacketsLost", "PacketRejected"} <= {event["event"] for event in of_sites}
     for event in of_sites:
@@ -140,7 +140,7 @@ def test_the_times_written_are_the_recordings_own(one_foot, tmp_path):
     assert set(times) <= set(later["t"].tolist())
 
 
-def test_a_recording_cut_in_the_middle_of_a_line_says_so_and_loses_nothing_before(packets, tracked, tmp_path):
+def test_a_recording_cut_in_the_middle_of_a_line_is_reported_and_loses_nothing_before(packets, tracked, tmp_path):
     cut = tmp_path / "cut.jsonl"
     cut.write_bytes(packets.read_bytes()[:-40])
     done = solepath("track", cut, "--out", tmp_path)

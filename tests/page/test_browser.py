@@ -1,4 +1,4 @@
-"""What the wearer sees: the page in a real browser, fed with the events of emulated walks."""
+"""Tests the page in a real browser, fed with the events of emulated walks."""
 
 from __future__ import annotations
 
@@ -12,7 +12,20 @@ from airs import memory
 from attrs import define, field
 from benches import LEFT, RIGHT
 from browsers import PATIENCE, UNREACHABLE, Browser, Browsing, Window, window
-from shown import CONNECTED, Told, after, again, between, fresh, meanwhile, opened, show, square, squares, walked
+from shown import (
+    CONNECTED,
+    PacketEvents,
+    after,
+    again,
+    between,
+    fresh,
+    meanwhile,
+    opened,
+    show,
+    square,
+    squares,
+    walked,
+)
 
 from solepath import Connected, LinkTrouble, Placed, Session, WearerMoved
 from solepath.ble import DeviceConfig, Devices
@@ -27,21 +40,21 @@ from solepath.show.page.server.server import Page
 from solepath.types import Foot
 
 PHONE = 360
-"""px: the width of a phone's screen."""
+"""Width of a phone's screen, px."""
 MINUTE = 60.0
 MARGIN = 0.7e6
-"""Bytes; eight minutes more of tracks are 1800 points."""
+"""Growth that is allowed, bytes; eight more minutes of tracks are 1800 points."""
 FEET = ("left", "right")
 
 
 async def picture(view: Window, name: str) -> str:
-    """What is on a canvas, pixel by pixel."""
+    """Return the pixels of a canvas."""
     found: str = await view.tab.evaluate("name => document.getElementById(name).toDataURL()", name)
     return found
 
 
 async def words(view: Window, name: str) -> str | None:
-    """What is read out in place of a canvas."""
+    """Return what a screen reader says in place of a canvas."""
     return await view.tab.locator(f"#{name}").get_attribute("aria-label")
 
 
@@ -51,7 +64,7 @@ def offline(words: str) -> str:
 
 @define
 class Line:
-    """Between a browser and whoever listens at `port`; it can be cut."""
+    """A connection between a browser and the server at `port` that can be cut."""
 
     port: int = 0
     whole: bool = True
@@ -59,7 +72,7 @@ class Line:
 
     @asynccontextmanager
     async def to(self, port: int) -> AsyncIterator[int]:
-        """The port that stands for this one."""
+        """Yield the port that stands for this one."""
         self.port = port
         async with await asyncio.start_server(self._join, "127.0.0.1", 0) as server:
             yield server.sockets[0].getsockname()[1]
@@ -71,7 +84,7 @@ class Line:
             end.transport.abort()
         self.ends.clear()
 
-    def mend(self) -> None:
+    def restore(self) -> None:
         self.whole = True
 
     async def _join(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
@@ -80,10 +93,10 @@ class Line:
             return
         far_reader, far_writer = await asyncio.open_connection("127.0.0.1", self.port)
         self.ends += [writer, far_writer]
-        await asyncio.gather(_carry(reader, far_writer), _carry(far_reader, writer))
+        await asyncio.gather(_forward(reader, far_writer), _forward(far_reader, writer))
 
 
-async def _carry(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+async def _forward(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
     with suppress(ConnectionError):
         while some := await reader.read(65_536):
             writer.write(some)
@@ -102,20 +115,20 @@ async def test_the_page_connects_and_names_what_it_shows(chromium: Browser) -> N
         assert "Ward 3, corridor" in await view.tab.title()
 
 
-async def test_both_soles_move_and_say_so(chromium: Browser) -> None:
+async def test_both_soles_change_in_picture_and_description(chromium: Browser) -> None:
     scene = after(6.0)
     async with opened(chromium, scene) as (view, _):
         await view.until(f"{link('left', 'ok')} && {link('right', 'ok')}")
         seen: dict[str, set[str]] = {foot: set() for foot in FEET}
-        heard: dict[str, set[str | None]] = {foot: set() for foot in FEET}
+        descriptions: dict[str, set[str | None]] = {foot: set() for foot in FEET}
         async with meanwhile(show(scene, between(6.0, 40.0))), asyncio.timeout(PATIENCE):
-            while min(map(len, seen.values())) < 10 or min(map(len, heard.values())) < 3:
+            while min(map(len, seen.values())) < 10 or min(map(len, descriptions.values())) < 3:
                 for foot in FEET:
                     seen[foot].add(await picture(view, f"sole-{foot}"))
-                    heard[foot].add(await words(view, f"sole-{foot}"))
+                    descriptions[foot].add(await words(view, f"sole-{foot}"))
                 await asyncio.sleep(0.05)
-        for foot, sayings in heard.items():
-            assert all(said and said.startswith(f"{foot.capitalize()} sole: ") for said in sayings)
+        for foot, sayings in descriptions.items():
+            assert all(description and description.startswith(f"{foot.capitalize()} sole: ") for description in sayings)
 
 
 async def test_the_track_and_the_ribbon_grow_with_every_step(chromium: Browser) -> None:
@@ -124,16 +137,16 @@ async def test_the_track_and_the_ribbon_grow_with_every_step(chromium: Browser) 
         await view.until("Number(document.getElementById('track').dataset.points) > 0")
         before = {name: await picture(view, name) for name in ("track", "ribbon")}
         points = int(await view.tab.locator("#track").get_attribute("data-points"))
-        steps, said = int(await view.text("steps")), await words(view, "track")
+        steps, description = int(await view.text("steps")), await words(view, "track")
         await show(scene, between(6.0, 12.0), speed=4.0)
         await view.until(f"Number(document.getElementById('steps').textContent) >= {steps + 8}")
         assert int(await view.tab.locator("#track").get_attribute("data-points")) > points
-        assert await words(view, "track") != said
+        assert await words(view, "track") != description
         for name, old in before.items():
             assert await picture(view, name) != old
 
 
-async def test_whoever_comes_late_sees_the_way_that_was_walked_before(chromium: Browser) -> None:
+async def test_a_late_watcher_sees_the_track_from_its_start(chromium: Browser) -> None:
     async with opened(chromium, after(40.0)) as (view, _):
         await view.until("Number(document.getElementById('track').dataset.points) > 100")
         await view.until("document.querySelectorAll('#gait-rows tr').length >= 8")
@@ -154,13 +167,11 @@ async def test_when_the_walk_stops_the_last_figures_stay(chromium: Browser) -> N
             )
 
 
-async def test_a_plan_shows_the_wearer_once_that_is_decided_and_gives_up_the_way_to_where_nobody_is(
-    chromium: Browser,
-) -> None:
+async def test_a_plan_shows_the_wearer_once_the_place_is_decided_and_drops_wrong_candidates(chromium: Browser) -> None:
     ground, upper = (level.id for level in BUILDING.levels[:2])
 
     def place(t: float, x: float, level: str, *others: float) -> Placed:
-        """The likeliest at `x`, and others with less weight."""
+        """Return a place whose likeliest candidate is at `x`, with others of less weight."""
         share = 0.4 / max(1, len(others))
         weights = [0.6, *(share for _ in others)] if others else [1.0]
         candidates = [
@@ -199,11 +210,11 @@ async def test_a_lost_link_shows_and_recovers(chromium: Browser) -> None:
     devices = dict.fromkeys((LEFT, RIGHT), Insole(cells=16))
     bench = Bench(Route().stand(30.0), devices=devices, faults=faults)
     bench.prepare()
-    wanted = [DeviceConfig(one.site, one.address) for one in bench.peripherals]
+    configs = [DeviceConfig(one.site, one.address) for one in bench.peripherals]
     async with (
         opened(chromium, scene) as (view, _),
         memory(bench) as backend,
-        Devices(wanted, backend=backend) as found,
+        Devices(configs, backend=backend) as found,
     ):
 
         async def listen() -> None:
@@ -218,7 +229,7 @@ async def test_a_lost_link_shows_and_recovers(chromium: Browser) -> None:
                 await view.until(link("right", "ok"))
 
 
-async def test_the_page_finds_its_server_again_by_itself_or_when_asked_where_that_had_ended(chromium: Browser) -> None:
+async def test_the_page_reconnects_by_itself_or_on_request_after_the_server_had_ended(chromium: Browser) -> None:
     """First the network between them fails; then the program ends, and another one takes its place."""
 
     scene, token, line = after(10.0, "before"), "the same as before", Line()
@@ -228,7 +239,7 @@ async def test_the_page_finds_its_server_again_by_itself_or_when_asked_where_tha
             await view.until(CONNECTED)
             line.cut()
             await view.until(offline("cannot be reached"))
-            line.mend()
+            line.restore()
             await view.until(CONNECTED)
             await view.tab.locator("#offline").wait_for(state="hidden")
             await first.__aexit__(None, None, None)
@@ -238,10 +249,10 @@ async def test_the_page_finds_its_server_again_by_itself_or_when_asked_where_tha
                 await view.tab.locator("#retry").click()
                 await view.until(f"{CONNECTED} && document.getElementById('title').textContent === 'after'")
                 await view.tab.locator("#offline").wait_for(state="hidden")
-        assert all(UNREACHABLE.search(said) for said in view.complaints), view.complaints
+        assert all(UNREACHABLE.search(description) for description in view.complaints), view.complaints
 
 
-async def test_names_from_the_air_are_shown_as_text(chromium: Browser) -> None:
+async def test_device_names_are_shown_as_text(chromium: Browser) -> None:
     hostile = "<img src=x onerror=\"document.title='broken'\"><script>document.title='broken'</script>"
     scene = after(6.0, hostile)
     name = hostile.ljust(248, "W")  # as long as a device can have one
@@ -258,16 +269,18 @@ async def test_names_from_the_air_are_shown_as_text(chromium: Browser) -> None:
         assert await view.tab.title() != "broken"
 
 
-async def stays_as_large(chromium: Browser, walk: Iterable[Told], speeds: tuple[float, float] = (1.0, 1.0)) -> None:
-    """After two minutes of a walk, and after the rest of it; what the page draws and what all this costs is printed."""
+async def stays_as_large(
+    chromium: Browser, walk: Iterable[PacketEvents], speeds: tuple[float, float] = (1.0, 1.0)
+) -> None:
+    """Compare the page after two minutes of a walk with that after the rest of it, and print the cost."""
     scene, clock = fresh(), asyncio.get_running_loop().time
     async with opened(chromium, scene) as (view, _):
-        begun, used = clock(), process_time()
+        started, used = clock(), process_time()
         await show(scene, walk, speeds[0], until=2.0 * MINUTE)
         heap, elements = await view.memory()
         await show(scene, walk, speeds[1], until=10.0 * MINUTE)
         after = await view.memory()
-        seconds, frames = clock() - begun, await view.tab.evaluate("solepath.frames")
+        seconds, frames = clock() - started, await view.tab.evaluate("solepath.frames")
         print(f"{frames / seconds:.1f} frames a second, {process_time() - used:.1f} s of {seconds:.0f} used")
         print(f"bytes and elements: {heap} and {elements} after 2 min, {after[0]} and {after[1]} after 10")
         assert after[0] < heap + MARGIN
@@ -281,7 +294,7 @@ async def test_ten_minutes_of_two_feet_leave_the_page_as_large_as_it_was(chromiu
 
 @pytest.mark.soak
 def test_ten_minutes_in_real_time_leave_the_page_as_large_as_it_was(browser: Browsing) -> None:
-    """With 96 cells; eighteen thousand messages."""
+    """The insoles have 96 cells; there are eighteen thousand messages."""
     session = Session(poses=True, pressures=True)
     walk = ((packet, tuple(session.feed(packet))) for packet in walked(squares(15)))
     browser.run(lambda chromium: stays_as_large(chromium, walk), longest=15.0 * MINUTE)

@@ -1,4 +1,4 @@
-"""Whoever watches the page, however many they are and however slowly they read, the session goes on as alone."""
+"""Tests many and slow watchers of the page: the session runs as if there were none."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from contextlib import suppress
 
 import pytest
 from aiohttp import ClientError, ClientSession
-from served import Connection, closed, frame_of, handshake, raw, refused, scene_of, sees, served
+from served import Connection, closed, frame_of, handshake, raw, rejection_status, scene_of, sees, served
 from walks import insoles
 
 from solepath import Session
@@ -17,16 +17,16 @@ from solepath.show.page.server import connection, server, watcher
 from solepath.show.page.server.server import MOST_CONNECTIONS, MOST_WATCHERS, Page
 
 
-async def test_so_many_may_watch_and_no_more() -> None:
+async def test_the_number_of_watchers_is_limited() -> None:
     async with served() as (_, client, url):
         watching = [await client.ws_connect(f"{url}ws") for _ in range(MOST_WATCHERS)]
-        assert await refused(client.ws_connect(f"{url}ws")) == 503
+        assert await rejection_status(client.ws_connect(f"{url}ws")) == 503
         await watching[0].close()
         await asyncio.sleep(0.1)
         await sees(client, url)
 
 
-async def test_connections_that_say_nothing_are_bounded_and_closed(monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_idle_connections_are_limited_and_closed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(server, "IDLE", 0.5)
     async with served() as (page, client, url):
         idle = [await raw(page) for _ in range(MOST_CONNECTIONS)]
@@ -44,9 +44,9 @@ async def test_connections_that_say_nothing_are_bounded_and_closed(monkeypatch: 
 GET = b"GET /style.css HTTP/1.1\r\nHost: localhost\r\n\r\n"
 
 
-@pytest.mark.parametrize("asked", [(GET * 2000,), (handshake(), frame_of(1, b"{"))], ids=["files", "socket"])
-async def test_whoever_asks_and_does_not_read_takes_the_place_of_nobody_for_long(
-    asked: tuple[bytes, ...], monkeypatch: pytest.MonkeyPatch
+@pytest.mark.parametrize("requests", [(GET * 2000,), (handshake(), frame_of(1, b"{"))], ids=["files", "socket"])
+async def test_a_client_that_requests_and_does_not_read_is_closed_soon(
+    requests: tuple[bytes, ...], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(server, "IDLE", 0.5)
     monkeypatch.setattr(connection, "LONGEST", 0.7)
@@ -59,7 +59,7 @@ async def test_whoever_asks_and_does_not_read_takes_the_place_of_nobody_for_long
             one.setblocking(False)
             await asyncio.get_running_loop().sock_connect(one, ("127.0.0.1", page.port))
             silent.append(one)
-        for part in asked:
+        for part in requests:
             for one in silent:
                 with suppress(TimeoutError):
                     async with asyncio.timeout(0.05):
@@ -76,7 +76,9 @@ async def test_whoever_asks_and_does_not_read_takes_the_place_of_nobody_for_long
             one.close()
 
 
-async def test_a_browser_that_reads_watches_for_longer_than_others_may_ask(monkeypatch: pytest.MonkeyPatch) -> None:
+async def test_a_browser_that_reads_may_watch_longer_than_other_connections_last(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     monkeypatch.setattr(server, "IDLE", 0.1)
     monkeypatch.setattr(connection, "LONGEST", 0.2)
     monkeypatch.setattr(watcher, "HEARTBEAT", 0.05)
@@ -86,7 +88,7 @@ async def test_a_browser_that_reads_watches_for_longer_than_others_may_ask(monke
 
 
 async def deaf(page: Page, room: int = 4096) -> Connection:
-    """Somebody who watches and never reads."""
+    """Connect a watcher that never reads."""
     reader, writer = await raw(page)
     writer.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, room)
     writer.transport.pause_reading()
@@ -95,14 +97,14 @@ async def deaf(page: Page, room: int = 4096) -> Connection:
     return reader, writer
 
 
-async def test_a_session_says_the_same_whoever_watches() -> None:
+async def test_watchers_do_not_change_the_events_of_a_session() -> None:
     session, alone = Session(poses=True, pressures=True), Session(poses=True, pressures=True)
     async with served() as (page, _, _):
         _, writer = await deaf(page)
         for index, packet in enumerate(insoles().packets):
-            said = session.feed(packet)
-            page.scene.take(packet, said)
-            assert said == alone.feed(packet)
+            events = session.feed(packet)
+            page.scene.take(packet, events)
+            assert events == alone.feed(packet)
             if index % 20 == 0:
                 await asyncio.sleep(0)
         writer.close()
@@ -124,10 +126,10 @@ async def test_a_browser_that_reads_slowly_is_shown_less_and_the_newest(monkeypa
             await asyncio.sleep(0.002)
         page.scene = Scene("the newest", "default")
         writer.transport.resume_reading()
-        told = b""
-        while b"the newest" not in told:
-            told += await reader.read(65536)
-        assert told.count(b'"type":"scene"') < shown
+        received = b""
+        while b"the newest" not in received:
+            received += await reader.read(65536)
+        assert received.count(b'"type":"scene"') < shown
         writer.close()
 
 
@@ -153,7 +155,7 @@ async def test_a_browser_that_reads_nothing_gets_nothing_more_and_is_let_go(
     assert [one.getMessage() for one in caplog.records] == ["a browser that had read nothing for 0 s was let go"]
 
 
-async def test_a_page_that_ends_says_so_and_does_not_wait_for_who_reads_nothing() -> None:
+async def test_a_page_closes_its_sockets_and_does_not_wait_for_a_browser_that_reads_nothing() -> None:
     async with ClientSession() as client:
         async with Page(Scene("", ""), port=0) as page:
             _, unread = await deaf(page)

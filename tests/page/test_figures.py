@@ -1,4 +1,4 @@
-"""What the page's figures mean: colours, pace, losses and gait, from events alone and the same to all who watch."""
+"""Tests the page's figures: colours, pace, losses and gait, from events alone and the same for all watchers."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from math import radians
 from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
-from said import moved
+from page_events import moved
 from shown import frame, shown
 from walks import insoles
 
@@ -32,9 +32,9 @@ from solepath import (
 from solepath.body.gait.means import GaitMeans
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
-from solepath.show.page.scene.scales import LEAST, rounded
+from solepath.show.page.scene.scales import LEAST, scale_end
 from solepath.show.page.scene.scene import Scene
-from solepath.show.tables.gait import ENOUGH, gait_lines, gait_rows
+from solepath.show.tables.gait import MIN_STRIDES, gait_lines, gait_rows
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
 WALK = Route().stand(1.5).walk(14.0, 1.3).stop(6.0)
@@ -53,7 +53,7 @@ def changed(t: float, activity: Activity) -> ActivityChanged:
     return ActivityChanged(t=t, known_at=t, activity=activity, probability=None, revises=None, final=False)
 
 
-def test_what_the_wearer_does_is_not_known_while_no_foot_is_heard() -> None:
+def test_the_activity_is_unknown_while_no_foot_sends() -> None:
     scene = shown([moved(1.0), moved(1.0, RIGHT), changed(1.0, Activity.WALKING)])
     assert frame(scene)["activity"] == {"now": "WALKING", "since": 1.0, "last": None}
     shown([moved(1.0 + 0.1 * k) for k in range(60)], scene)
@@ -81,7 +81,7 @@ def test_the_pace_is_that_of_the_newest_strides() -> None:
     assert abs(frame(scene)["pace"]["speed"] - 1.3) < 0.1
 
 
-def test_who_stands_or_is_not_heard_has_no_pace() -> None:
+def test_a_wearer_who_stands_or_whose_sensors_are_silent_has_no_pace() -> None:
     assert frame(until(1.2))["pace"] is None
     assert frame(shown(walk()))["pace"] is None
     scene = until(8.0)
@@ -132,8 +132,8 @@ def test_a_scale_is_for_both_feet_and_only_grows() -> None:
 
 @given(st.floats(1e-6, 1e9))
 def test_a_scale_ends_at_a_round_number_that_is_not_far_above(value: float) -> None:
-    assert value <= rounded(value) <= 2.0 * value * (1.0 + 1e-9)
-    assert float(f"{rounded(value):.0e}") == float(f"{rounded(value):.6e}")
+    assert value <= scale_end(value) <= 2.0 * value * (1.0 + 1e-9)
+    assert float(f"{scale_end(value):.0e}") == float(f"{scale_end(value):.6e}")
 
 
 def test_cells_that_nobody_turns_into_newtons_end_in_counts() -> None:
@@ -146,17 +146,17 @@ def test_cells_that_nobody_turns_into_newtons_end_in_counts() -> None:
 def test_a_loss_is_that_of_the_last_ten_seconds() -> None:
     scene = Scene("a walk", "default")
 
-    def heard(begin: float, end: float) -> None:
-        for k in range(round(100 * (end - begin))):
-            t = begin + 0.01 * k
+    def feed_samples(start: float, end: float) -> None:
+        for k in range(round(100 * (end - start))):
+            t = start + 0.01 * k
             scene.take(Packet(t + 0.02, Site.LEFT_FOOT, "insole/frame", b""), [moved(t, known_at=t + 0.02)])
 
-    heard(0.0, 2.0)
+    feed_samples(0.0, 2.0)
     shown([PacketsLost(t=12.0, known_at=12.0, site=Site.LEFT_FOOT, channel="insole/frame", count=1000)], scene)
-    heard(12.0, 14.0)
+    feed_samples(12.0, 14.0)
     link = frame(scene)["links"]["left foot"]
     assert (link["lost"], 0.7 < link["loss"] < 0.9) == (1000, True)
-    heard(14.0, 24.0)
+    feed_samples(14.0, 24.0)
     link = frame(scene)["links"]["left foot"]
     assert (link["lost"], link["loss"]) == (1000, 0.0)
     scene.tick(27.0)
@@ -165,7 +165,7 @@ def test_a_loss_is_that_of_the_last_ten_seconds() -> None:
 
 
 def strides(feet: tuple[Foot, ...], count: int, angles: tuple[float, float] = (0.1, -0.05)) -> list[GaitCycleMeasured]:
-    """Steady ones, one more of each foot than will count."""
+    """Return steady strides, one more of each foot than will count."""
     first = next(event for event in walk() if isinstance(event, GaitCycleMeasured) and event.steady)
     angle = dict(zip(Foot, angles, strict=True))
     return [
@@ -175,16 +175,16 @@ def strides(feet: tuple[Foot, ...], count: int, angles: tuple[float, float] = (0
     ]
 
 
-def test_the_table_says_of_how_many_strides_it_is() -> None:
-    told = frame(shown(strides((LEFT, RIGHT), 7)))["gait"]
-    assert told["strides"] == {"left": 7, "right": 7}
-    assert told["enough"] == ENOUGH == 30
+def test_the_table_holds_the_number_of_its_strides() -> None:
+    gait_frame = frame(shown(strides((LEFT, RIGHT), 7)))["gait"]
+    assert gait_frame["strides"] == {"left": 7, "right": 7}
+    assert gait_frame["enough"] == MIN_STRIDES == 30
 
 
 def test_one_foot_alone_has_nothing_of_both() -> None:
-    told = frame(shown(strides((RIGHT,), 7)))["gait"]
-    assert told["strides"] == {"left": None, "right": 7}
-    for row in told["rows"]:
+    gait_frame = frame(shown(strides((RIGHT,), 7)))["gait"]
+    assert gait_frame["strides"] == {"left": None, "right": 7}
+    for row in gait_frame["rows"]:
         assert row["left"] is None and row["both"] is None and row["sd"] is None and row["asymmetry"] is None
         assert row["difference"] is None
 
@@ -198,8 +198,8 @@ def test_angles_that_lean_to_either_side_differ_by_degrees_and_not_by_hundreds_o
     rows = {row.name: row for row in gait_rows(parameters)}
     row = rows["toe_off_angle"]
     assert (round(row.difference or 0.0, 6), row.asymmetry, row.cv) == (-4.0, None, None)
-    assert row.uneven == "-4.0 deg"
-    assert rows["stride_time"].difference is None and rows["stride_time"].uneven == "+0.0 %"
+    assert row.asymmetry_text == "-4.0 deg"
+    assert rows["stride_time"].difference is None and rows["stride_time"].asymmetry_text == "+0.0 %"
     (line,) = [line for line in gait_lines(means) if line.startswith("toe-off angle")]
     assert line.endswith("-4.0 deg")
 
@@ -213,7 +213,9 @@ def test_feet_that_fly_have_no_share_of_less_than_nothing() -> None:
     assert parameters is not None
     (row,) = [row for row in gait_rows(parameters) if row.name == "initial_double_support"]
     assert row.both is not None and row.both < 0.0
-    assert row.asymmetry is None and row.uneven == "-", "the right foot's is larger, and it would be told as the left's"
+    assert row.asymmetry is None and row.asymmetry_text == "-", (
+        "the right foot's is larger, and it would be told as the left's"
+    )
 
 
 def test_a_place_is_decided_once_one_candidate_is_left() -> None:

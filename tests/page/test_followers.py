@@ -1,4 +1,4 @@
-"""Whoever has watched from the start sees what whoever comes late is shown, and neither grows with the walk."""
+"""Tests that an early watcher and a late one see the same, and that neither's state grows with the walk."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any
 from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from said import eventful, rough
+from page_events import eventful, rough
 from shown import later, shown
 
 from solepath import (
@@ -38,7 +38,7 @@ LISTS = ("phases", "tracks", "places", "log")
 
 
 def step(t: float, x: float, foot: Foot = Foot.LEFT) -> StrideTaken:
-    """A step to x m."""
+    """Return a stride that ends at x m."""
     first = next(event for event in rough()[1] if isinstance(event, StrideTaken))
     return evolve(first, foot=foot, t=t, known_at=t, t_start=t - 1.0, t_end=t, position=(x, 0.0, 0.0))
 
@@ -65,9 +65,9 @@ class Reader:
                 self.scene["tracks"][name] = self._longer(self.scene["tracks"][name], point)
         for point in message.get("places", []):
             self.scene["places"] = self._longer(self.scene["places"], point)
-        for foot, begun in message.get("phases", {}).items():
+        for foot, started in message.get("phases", {}).items():
             kept = self.scene["phases"][foot]
-            for one in begun:
+            for one in started:
                 kept.append(one)
                 while len(kept) > 1 and (kept[1][0] <= one[0] - 20.0 or len(kept) > 500):
                     kept.pop(0)
@@ -85,7 +85,7 @@ def long_way() -> list[Event]:
 
 
 def agree(events: list[Event], looks: list[int], scene: Scene | None = None) -> Reader:
-    """Somebody looks after so many events each; what they have is what somebody gets who comes at the end."""
+    """Check that a watcher who reads after so many events each ends with the scene of one who comes at the end."""
     scene = Scene("a walk", "default", plan=BUILDING) if scene is None else scene
     reader = Reader()
     message, cursor = scene.whole()
@@ -110,7 +110,7 @@ def agree(events: list[Event], looks: list[int], scene: Scene | None = None) -> 
 
 @settings(max_examples=8)
 @given(st.data())
-def test_who_hears_what_changed_ends_with_what_who_comes_late_is_shown(data: st.DataObject) -> None:
+def test_the_changes_add_up_to_the_scene_of_a_late_watcher(data: st.DataObject) -> None:
     events = eventful()
     looks = data.draw(st.lists(st.integers(0, len(events) - 1), max_size=40))
     agree(events, looks)
@@ -122,13 +122,13 @@ def test_a_long_track_is_thinned_alike_on_both_sides(looks: list[int]) -> None:
     agree(long_way(), looks)
 
 
-def test_a_page_that_is_far_behind_gets_everything_anew() -> None:
+def test_a_page_that_is_far_behind_gets_the_whole_scene_again() -> None:
     events: list[Event] = [step(1.0 + k, 0.7 * k) for k in range(RECENT + 10)]
     assert agree(events, []).wholes == 2
     assert agree(events, [RECENT // 2]).wholes == 1
 
 
-def test_a_page_that_drew_no_soles_draws_anew_when_the_cells_are_known() -> None:
+def test_a_page_that_drew_no_soles_draws_again_when_the_cells_are_known() -> None:
     known = [event for event in rough()[1] if isinstance(event, LayoutKnown) and event.site is Site.LEFT_FOOT]
     reader = agree(list(known), [0])
     assert reader.wholes == 2

@@ -1,4 +1,4 @@
-"""The page without a mouse, without eyes, and on a phone: keys, what a screen reader is told, and narrow windows."""
+"""Tests the page without a mouse, without eyes, and on a phone: keys, screen reader, and narrow windows."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from shown import CONNECTED, after, meanwhile, opened, placed, walked
 
 from solepath import Session
 from solepath.emulate.routes.route import Route
-from solepath.show.page.player.kept import KeptItems
+from solepath.show.page.player.packed_items import PackedItems
 from solepath.show.page.player.player import Player
-from solepath.show.page.player.playing import Playing
+from solepath.show.page.player.player_loop import PlayerLoop
 from solepath.show.page.scene.scene import Playback, Scene
 
 NARROW = 360
-"""px."""
+"""Width of a narrow window, px."""
 FAINT = """() => {
     const pen = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
     const luminance = (colours) => {
@@ -45,7 +45,7 @@ FAINT = """() => {
     }
     return faint;
 }"""
-"""Texts with less contrast than WCAG 2.2 asks for at level AA (1.4.3)."""
+"""Script that finds texts with less contrast than WCAG 2.2 requires at level AA (1.4.3)."""
 
 
 COVERED = """() => {
@@ -56,18 +56,18 @@ COVERED = """() => {
     }
     return null;
 }"""
-"""What hides a part of the control that has the focus, or null."""
+"""Script that finds what hides a part of the control that has the focus, or null."""
 
 WALK = Route().stand(1.0).walk(16.0, 1.3).stop(2.0)
-"""About 16 s."""
+"""Walk of about 16 s."""
 
 
 @asynccontextmanager
 async def played(chromium: Browser, **given: Any) -> AsyncIterator[tuple[Window, Playback]]:
-    """A recording of WALK on the page, and where its player stands. `given`: to `opened`."""
-    packets = KeptItems(walked(WALK, cells=16))
+    """Yield a page that plays a recording of WALK, and its player's state; `given` goes to `opened`."""
+    packets = PackedItems(walked(WALK, cells=16))
     player = Player(packets, Session(poses=True, pressures=True), Scene("a recording", "default", "recording"))
-    playing = Playing(player)
+    playing = PlayerLoop(player)
     async with (
         opened(chromium, player.scene, playing.command, **given) as (view, page),
         meanwhile(playing.run(page, asyncio.Event())),
@@ -97,15 +97,15 @@ async def test_the_space_bar_pauses_and_goes_on_and_the_arrows_seek(chromium: Br
         await view.until("!(Number(document.getElementById('steps').textContent) > 0)")
 
 
-async def test_on_the_way_to_another_time_the_page_says_where_it_is_and_whither(chromium: Browser) -> None:
+async def test_during_a_seek_the_page_shows_its_position_and_its_target(chromium: Browser) -> None:
     scene = after(22.0)
-    scene.playback = Playback(begin=0.0, end=150.0, t=22.0, state="playing", seeking=115.0)
+    scene.playback = Playback(start=0.0, end=150.0, t=22.0, state="playing", seeking=115.0)
     async with opened(chromium, scene, width=NARROW, height=740) as (view, _):
         await view.until("document.getElementById('seeking').innerText === 'Going to 1:55, now at 0:22'")
         await view.until("document.querySelector('main').ariaBusy === 'true'")
         await view.until("document.getElementById('announcer').textContent.includes('Going to 1:55')")
         assert await view.text("time-now") == "0:22"
-        scene.playback = Playback(begin=0.0, end=150.0, t=115.0, state="playing")
+        scene.playback = Playback(start=0.0, end=150.0, t=115.0, state="playing")
         await view.tab.locator("#seeking").wait_for(state="hidden")
         await view.until("document.querySelector('main').ariaBusy === 'false'")
         assert await view.tab.locator("#seek").get_attribute("aria-valuetext") == "1:55 of 2:30"
@@ -119,7 +119,7 @@ async def test_the_speed_is_chosen_from_a_list(chromium: Browser) -> None:
         assert playback.speed == 4.0
 
 
-async def test_plus_minus_and_nought_look_nearer_and_farther_on_the_track(chromium: Browser) -> None:
+async def test_plus_minus_and_zero_zoom_the_track(chromium: Browser) -> None:
     async with opened(chromium, after(20.0)) as (view, _):
         await view.until("Number(document.getElementById('track').dataset.points) > 0")
         for key in "+-":

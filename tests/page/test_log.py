@@ -1,11 +1,11 @@
-"""The log of the page: sentences about feet, sensors and places, each said once."""
+"""Tests the log of the page: sentences about feet, sensors and places, each reported once."""
 
 from __future__ import annotations
 
 from math import pi
 
 from attrs import evolve
-from said import eventful, moved
+from page_events import eventful, moved
 from shown import shown
 
 from solepath import (
@@ -25,9 +25,9 @@ from solepath.types import Turn
 
 
 def test_every_event_is_either_a_sentence_or_none() -> None:
-    said = [told for event in eventful() if (told := sentence(event)) is not None]
-    assert {kind for kind, _ in said} <= {"link", "wear", "gait", "place"}
-    assert all(text and "\n" not in text and "_" not in text for _, text in said)
+    lines = [line for event in eventful() if (line := sentence(event)) is not None]
+    assert {kind for kind, _ in lines} <= {"link", "wear", "gait", "place"}
+    assert all(text and "\n" not in text and "_" not in text for _, text in lines)
 
 
 def test_the_log_speaks_of_feet_and_not_of_events() -> None:
@@ -40,20 +40,20 @@ def test_the_log_speaks_of_feet_and_not_of_events() -> None:
     assert sentence(turned) == ("gait", "turned right by 90 degrees")
 
 
-def test_a_low_battery_is_said_once() -> None:
+def test_a_low_battery_is_reported_once() -> None:
     levels = [BatteryLevel(t=t, known_at=t, site=Site.LEFT_FOOT, level=0.2 - 0.01 * t) for t in (1.0, 6.0, 7.0, 8.0)]
     assert [line[2] for line in shown(levels).log.lines.items] == ["left foot: the battery is at 14 %"]
 
 
-def test_a_silence_that_the_link_told_is_not_told_again_of_the_foot() -> None:
+def test_a_silence_that_the_link_reported_is_not_reported_again_for_the_foot() -> None:
     stale = StreamStale(t=1.0, known_at=2.0, site=Site.LEFT_FOOT, silent_for=1.0)
     silent = FootSilent(t=1.0, known_at=2.5, foot=Foot.LEFT, silent_for=1.5)
-    heard = FootResumed(t=3.0, known_at=3.0, foot=Foot.LEFT, silent_for=2.0)
+    resumed = FootResumed(t=3.0, known_at=3.0, foot=Foot.LEFT, silent_for=2.0)
     assert len(shown([moved(0.5), stale, silent]).log.lines.items) == 1
-    assert len(shown([moved(1.9), moved(2.5), silent, heard]).log.lines.items) == 2
+    assert len(shown([moved(1.9), moved(2.5), silent, resumed]).log.lines.items) == 2
 
 
-def test_a_name_from_the_air_cannot_break_a_line() -> None:
+def test_a_device_name_cannot_break_a_line() -> None:
     named = Connected(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, device="", name="a\nb\x1b[2J" + 999 * "x", signal=None)
     _, text = sentence(named) or ("", "")
     assert "\n" not in text and "\x1b" not in text and len(text) <= 300

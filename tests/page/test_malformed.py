@@ -1,4 +1,4 @@
-"""Whoever sends the page what is no request and no command harms nobody else, and does not fill the log."""
+"""Tests clients that send no request or no command: they harm nobody else, and do not fill the log."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from served import LOGGER, frame_of, handshake, raw, refused, reply, sees, served
+from served import LOGGER, frame_of, handshake, raw, rejection_status, reply, sees, served
 
 from solepath.show.page.messages import CommandError, parse_command
-from solepath.show.page.server import offences
+from solepath.show.page.server import client_errors
 
 
 @settings(max_examples=100)
@@ -30,8 +30,8 @@ def test_any_text_is_a_command_or_none(text: str) -> None:
         assert str(error) and "\n" not in str(error)
     else:
         assert command.do in ("play", "pause", "speed", "seek")
-        told = {"do": command.do} if command.value is None else {"do": command.do, "value": command.value}
-        assert parse_command(json.dumps(told)) == command
+        message = {"do": command.do} if command.value is None else {"do": command.do, "value": command.value}
+        assert parse_command(json.dumps(message)) == command
 
 
 @pytest.mark.parametrize(
@@ -44,7 +44,7 @@ def test_any_text_is_a_command_or_none(text: str) -> None:
         '{"do":"seek","value":1' + "0" * 999 + "}", '{"do":"speed","value":-1}', "[" * 5000,
     ],
 )  # fmt: skip
-def test_what_is_no_command_is_refused(text: str) -> None:
+def test_text_that_is_no_command_is_rejected(text: str) -> None:
     with pytest.raises(CommandError):
         parse_command(text)
 
@@ -96,7 +96,7 @@ def test_any_bytes_end_one_connection_at_the_most(sent: list[bytes]) -> None:
     assert problems == []
 
 
-async def test_who_is_gone_before_the_handshake_ends_is_no_trouble(caplog: pytest.LogCaptureFixture) -> None:
+async def test_a_client_that_leaves_during_the_handshake_causes_no_error(caplog: pytest.LogCaptureFixture) -> None:
     async with served() as (page, client, url):
         host = f"127.0.0.1:{page.port}"
         for _ in range(20):
@@ -110,11 +110,11 @@ async def test_who_is_gone_before_the_handshake_ends_is_no_trouble(caplog: pytes
     assert not caplog.records
 
 
-async def test_somebody_who_repeats_an_offence_does_not_fill_the_log(caplog: pytest.LogCaptureFixture) -> None:
+async def test_repeated_errors_of_a_client_do_not_fill_the_log(caplog: pytest.LogCaptureFixture) -> None:
     async with served() as (_, client, url):
         for _ in range(100):
-            assert await refused(client.ws_connect(f"{url}ws?token=wrong")) == 403
-    assert len(caplog.records) <= offences.AT_ONCE + 1
+            assert await rejection_status(client.ws_connect(f"{url}ws?token=wrong")) == 403
+    assert len(caplog.records) <= client_errors.AT_ONCE + 1
 
 
 async def test_no_part_of_the_library_logs_what_a_client_sends(caplog: pytest.LogCaptureFixture) -> None:
@@ -122,18 +122,18 @@ async def test_no_part_of_the_library_logs_what_a_client_sends(caplog: pytest.Lo
     async with served() as (page, client, url):
         for sent in (*odd, handshake("localhost", "Sec-WebSocket-Protocol: EVIL\r\n")):
             await reply(page, sent, ends=True)
-        assert await refused(client.ws_connect(f"{url}ws", protocols=["EVIL"])) == 400
+        assert await rejection_status(client.ws_connect(f"{url}ws", protocols=["EVIL"])) == 400
         async with client.get(f"{url}ws") as answer:
             assert answer.status == 400
     assert {one.name for one in caplog.records} == {LOGGER}
     assert "EVIL" not in caplog.text
 
 
-def test_what_was_not_told_is_counted(caplog: pytest.LogCaptureFixture) -> None:
-    told = offences.Offences(logging.getLogger(LOGGER))
-    for _ in range(offences.AT_ONCE + 5):
-        told.tell("somebody did it")
-    assert len(caplog.records) == offences.AT_ONCE
-    told._at -= offences.EVERY
-    told.tell("somebody did it")
+def test_errors_that_were_not_logged_are_counted(caplog: pytest.LogCaptureFixture) -> None:
+    log = client_errors.ClientErrors(logging.getLogger(LOGGER))
+    for _ in range(client_errors.AT_ONCE + 5):
+        log.report("somebody did it")
+    assert len(caplog.records) == client_errors.AT_ONCE
+    log._at -= client_errors.EVERY
+    log.report("somebody did it")
     assert caplog.records[-1].getMessage() == "somebody did it (5 more were not told)"

@@ -1,4 +1,4 @@
-"""The clock of the page between two messages, in the browser's own engine but on a made-up clock."""
+"""Tests the clock of the page between two messages, in the browser's own engine but on a made-up clock."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ PLAYED = """async ([speed, real, paused]) => {
     }
     return { most: Math.max(...ahead), least: Math.min(...ahead), back: Math.max(...back) };
 }"""
-"""A recording that is asked to play so fast and plays so fast; how far what is shown is ahead of what was played, s."""
+"""Script that plays a recording at a requested and a real speed; returns how far the display is ahead, s."""
 
 
 @pytest.mark.parametrize("paused", [False, True])

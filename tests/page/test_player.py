@@ -1,4 +1,4 @@
-"""Playing a recording for somebody who pauses, seeks and hurries: it shows what a straight run shows."""
+"""Tests playing a recording with pauses, seeks and other speeds: it shows what a straight run shows."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.walk import emulate, sampled
 from solepath.show.page.messages import Command
 from solepath.show.page.player import player as playing
-from solepath.show.page.player.kept import CHUNK, KeptItems
+from solepath.show.page.player.packed_items import CHUNK, PackedItems
 from solepath.show.page.player.player import FASTEST, SLOWEST, Player
 from solepath.show.page.scene.scene import Scene
 
@@ -25,18 +25,18 @@ ROUTE = Route().stand(0.5).walk(2.0, speed=1.3).stop(0.5)
 BAD_RADIO = Radio(loss=0.05, duplicate=0.01, corrupt=0.01, jitter=0.03)
 INSOLES = dict.fromkeys((Site.LEFT_FOOT, Site.RIGHT_FOOT), Insole(cells=24, rate=40.0))
 SILENT = (1.0, 2.9)
-"""s in which nothing comes of the left foot."""
+"""Time in which nothing comes of the left foot, s."""
 PACKETS = tuple(
     packet
     for packet in emulate(ROUTE, devices=INSOLES, radio=BAD_RADIO, seed=5).packets
     if packet.site is Site.RIGHT_FOOT or not SILENT[0] < packet.t < SILENT[1]
 )
 WALL = 0.05
-"""s between two looks at the clock."""
+"""Time between two reads of the clock, s."""
 
 
 def slices(items: int) -> Callable[[], bool]:
-    """Enough after so many items."""
+    """Return a function that stops after so many items."""
     looks = count(1)
     return lambda: next(looks) >= items
 
@@ -45,15 +45,15 @@ def never() -> bool:
     return False
 
 
-def player(items: KeptItems | None = None, **given: object) -> Player:
+def player(items: PackedItems | None = None, **given: object) -> Player:
     session = Session(poses=True, pressures=True)
     return Player(
-        KeptItems(PACKETS) if items is None else items, session, Scene("a walk", "default", "recording"), **given
+        PackedItems(PACKETS) if items is None else items, session, Scene("a walk", "default", "recording"), **given
     )
 
 
 def play_until(one: Player, t: float) -> None:
-    """In real time, and on to the moment `t` itself."""
+    """Play in real time, and on to the moment `t` itself."""
     one.play()
     while one.playback.t + WALL * one.playback.speed < t:
         pass_by(one, WALL)
@@ -61,14 +61,14 @@ def play_until(one: Player, t: float) -> None:
 
 
 def settle(one: Player, items: int = 100) -> None:
-    while one.work(slices(items)):
+    while one.feed_due(slices(items)):
         pass
 
 
 def pass_by(one: Player, seconds: float) -> None:
-    """So many s on the wall, in which it keeps up."""
-    one.passed(seconds)
-    one.work(never)
+    """Let so much wall time pass, s, in which the player keeps up."""
+    one.advance(seconds)
+    one.feed_due(never)
 
 
 def stop_at(one: Player, t: float, items: int = 100) -> None:
@@ -83,31 +83,31 @@ def run_out(one: Player) -> None:
 
 
 def shown(one: Player) -> dict:
-    """What somebody sees who begins to watch; how it came there is not a part of it."""
+    """Return what a new watcher sees, without how the player came there."""
     message, _ = one.scene.whole()
     message["frame"]["playback"] = (one.playback.t, one.playback.seeking)
     return message
 
 
-END = KeptItems(PACKETS).end
-BEGIN = KeptItems(PACKETS).begin
+END = PackedItems(PACKETS).end
+START = PackedItems(PACKETS).start
 
 
 @cache
 def straight(t: float) -> tuple[dict, dict]:
-    """Scene and snapshot at `t` of a run that nobody touched."""
+    """Return scene and snapshot at `t` of a run without commands."""
     one = player()
-    if t > BEGIN:
+    if t > START:
         one.speed(8.0)
         play_until(one, t)
     else:
-        one.work(never)
+        one.feed_due(never)
     assert one.playback.t == pytest.approx(t, abs=1e-9)
     return shown(one), one.session.snapshot()
 
 
-TIMES = st.sampled_from([BEGIN, *(round(BEGIN + share * (END - BEGIN), 3) for share in (0.1, 0.3, 0.5, 0.7, 0.9)), END])
-DOINGS = st.one_of(
+TIMES = st.sampled_from([START, *(round(START + share * (END - START), 3) for share in (0.1, 0.3, 0.5, 0.7, 0.9)), END])
+ACTIONS = st.one_of(
     st.just(Command("play")),
     st.just(Command("pause")),
     st.builds(Command, st.just("speed"), st.sampled_from([0.5, 1.0, 4.0, 32.0])),
@@ -115,21 +115,21 @@ DOINGS = st.one_of(
     st.floats(0.01, 0.2),
     st.integers(1, 150),
 )
-"""A command, so many s on the wall, or a slice of so many items."""
+"""A command, an amount of wall time in s, or a number of items to feed."""
 
 
 @settings(max_examples=10)
-@given(doings=st.lists(DOINGS, max_size=8), end=TIMES)
-def test_what_is_shown_at_a_time_is_the_same_whatever_was_played_before(doings, end):
+@given(actions=st.lists(ACTIONS, max_size=8), end=TIMES)
+def test_what_is_shown_at_a_time_is_the_same_whatever_was_played_before(actions, end):
     one = player(spacing=0.7)  # a walk of four seconds has one moment otherwise
-    for doing in doings:
-        if isinstance(doing, Command):
-            one.command(doing)
-        elif isinstance(doing, float):
-            one.passed(doing)
+    for action in actions:
+        if isinstance(action, Command):
+            one.command(action)
+        elif isinstance(action, float):
+            one.advance(action)
             settle(one)
         else:
-            one.work(slices(doing))
+            one.feed_due(slices(action))
         one.scene.whole()  # somebody watches
     stop_at(one, end)
     assert one.playback.t == end and one.playback.seeking is None
@@ -137,45 +137,45 @@ def test_what_is_shown_at_a_time_is_the_same_whatever_was_played_before(doings, 
 
 
 @settings(max_examples=5)
-@given(doings=st.lists(DOINGS, max_size=6))
-def test_what_comes_of_a_recording_is_told_once_and_in_order_whatever_is_done_on_the_page(doings):
-    told: list[tuple[Packet | Sample | None, list[Event]]] = []
-    one = player(spacing=0.7, told=lambda item, events: told.append((item, events)))
-    for doing in doings:
-        if isinstance(doing, Command):
-            one.command(doing)
+@given(actions=st.lists(ACTIONS, max_size=6))
+def test_items_are_passed_on_once_and_in_order_whatever_is_done_on_the_page(actions):
+    passed_on: list[tuple[Packet | Sample | None, list[Event]]] = []
+    one = player(spacing=0.7, on_events=lambda item, events: passed_on.append((item, events)))
+    for action in actions:
+        if isinstance(action, Command):
+            one.command(action)
         else:
-            one.passed(5.0 * doing)
-            one.work(slices(80))
+            one.advance(5.0 * action)
+            one.feed_due(slices(80))
     while one.run_through(slices(500)):
         assert one.done < len(PACKETS) or one.playback.state != "ended"
     assert one.done == len(PACKETS)
-    assert [item for item, _ in told] == [*PACKETS, None]
+    assert [item for item, _ in passed_on] == [*PACKETS, None]
     session = Session(poses=True, pressures=True)
-    assert [events for _, events in told] == [*(session.feed(packet) for packet in PACKETS), session.finish()]
+    assert [events for _, events in passed_on] == [*(session.feed(packet) for packet in PACKETS), session.finish()]
 
 
-def test_a_recording_plays_at_the_speed_that_was_asked_for_and_stops_at_its_end():
+def test_a_recording_plays_at_the_requested_speed_and_stops_at_its_end():
     one = player()
-    assert (one.playback.state, one.playback.speed, one.playback.t) == ("playing", 1.0, BEGIN)
-    one.work(never)
+    assert (one.playback.state, one.playback.speed, one.playback.t) == ("playing", 1.0, START)
+    one.feed_due(never)
     pass_by(one, 0.1)
-    assert one.playback.t == pytest.approx(BEGIN + 0.1)
+    assert one.playback.t == pytest.approx(START + 0.1)
     one.speed(10.0)
     pass_by(one, 0.1)
-    assert one.playback.t == pytest.approx(BEGIN + 1.1)
+    assert one.playback.t == pytest.approx(START + 1.1)
     one.pause()
-    one.passed(0.1)
-    assert not one.work(never) and one.playback.t == pytest.approx(BEGIN + 1.1)
+    one.advance(0.1)
+    assert not one.feed_due(never) and one.playback.t == pytest.approx(START + 1.1)
     one.play()
     for _ in range(100):
         pass_by(one, 0.1)
     assert (one.playback.state, one.playback.t) == ("ended", END)
     one.play()
-    assert one.playback.state == "playing" and one.playback.t == BEGIN
-    one.passed(0.1)
+    assert one.playback.state == "playing" and one.playback.t == START
+    one.advance(0.1)
     settle(one)
-    assert one.playback.t == pytest.approx(BEGIN + 1.0)
+    assert one.playback.t == pytest.approx(START + 1.0)
 
 
 def test_going_back_from_the_end_plays_on_and_the_pace_has_bounds():
@@ -190,30 +190,30 @@ def test_going_back_from_the_end_plays_on_and_the_pace_has_bounds():
     one.speed(0.0)
     assert one.playback.speed == SLOWEST
     stop_at(one, -1e9)
-    assert one.playback.state == "paused" and one.playback.t == BEGIN
+    assert one.playback.state == "paused" and one.playback.t == START
 
 
-def test_a_seek_tells_how_far_it_is_and_goes_on_in_slices():
+def test_a_seek_reports_its_progress_and_continues_in_slices():
     one = player()
     one.pause()
     one.seek(END - 0.5)
     reached = [one.playback.t]
-    while one.work(slices(25)):
+    while one.feed_due(slices(25)):
         assert one.playback.seeking == END - 0.5
         reached.append(one.playback.t)
     assert len(reached) > 5 and reached == sorted(reached)
     assert one.playback.seeking is None and one.playback.t == END - 0.5
-    one.passed(10.0)  # it is still paused
-    assert not one.work(never) and one.playback.t == END - 0.5
+    one.advance(10.0)  # it is still paused
+    assert not one.feed_due(never) and one.playback.t == END - 0.5
 
 
-def test_the_page_is_told_the_time_up_to_which_the_session_was_fed_also_when_it_cannot_keep_up():
+def test_the_page_shows_the_time_up_to_which_the_session_was_fed_also_when_it_cannot_keep_up():
     one = player()
     one.speed(FASTEST)
     slow = 0
     while one.playback.state != "ended":
-        one.passed(WALL)
-        behind = one.work(slices(5))
+        one.advance(WALL)
+        behind = one.feed_due(slices(5))
         slow += behind
         fed = one.items.t(one._next - 1)
         assert one.playback.t == fed if behind else fed <= one.playback.t <= one.items.end
@@ -223,11 +223,11 @@ def test_the_page_is_told_the_time_up_to_which_the_session_was_fed_also_when_it_
     assert slow > 10
 
 
-def test_a_foot_is_shown_as_not_heard_from_when_it_fell_silent_whoever_looked_meanwhile():
+def test_a_foot_is_shown_as_silent_from_the_same_time_however_often_the_scene_is_read():
     def left(sample: Sample) -> bool:
         return sample.site is Site.LEFT_FOOT and 0.6 < sample.t < 2.9
 
-    samples = KeptItems(sample for sample in sampled(ROUTE, seed=5).samples if not left(sample))
+    samples = PackedItems(sample for sample in sampled(ROUTE, seed=5).samples if not left(sample))
     looks = []
     for items in (1, 9, 1000):
         one = player(samples)
@@ -242,34 +242,34 @@ def test_a_foot_is_shown_as_not_heard_from_when_it_fell_silent_whoever_looked_me
 def test_a_computer_that_slept_plays_on_where_it_was():
     one = player()
     pass_by(one, 3600.0)
-    assert one.playback.t < BEGIN + 1.0
+    assert one.playback.t < START + 1.0
 
 
 def test_saved_moments_are_few_however_long_the_recording_is(monkeypatch):
-    monkeypatch.setattr(playing, "MOMENTS", 8)
+    monkeypatch.setattr(playing, "MOST_SAVED", 8)
     one = player(spacing=0.04)
     run_out(one)
-    assert len(one._moments) <= playing.MOMENTS and one.spacing > 0.04
-    times = [moment.t for moment in one._moments]
-    assert times == sorted(times) and times[0] == BEGIN
+    assert len(one._saved) <= playing.MOST_SAVED and one.spacing > 0.04
+    times = [moment.t for moment in one._saved]
+    assert times == sorted(times) and times[0] == START
     between = [after - before for before, after in zip(times, times[1:], strict=False)]
     assert max(between) < 3.0 * one.spacing  # wherever one seeks to, little is to be computed
 
 
-def test_a_damaged_recording_plays_up_to_the_damage_and_says_so():
+def test_a_damaged_recording_plays_up_to_the_damage_and_reports_it():
     half = PACKETS[: len(PACKETS) // 2]
-    one = player(KeptItems(half), fault="walk.jsonl: line 500: is not JSON")
+    one = player(PackedItems(half), fault="walk.jsonl: line 500: is not JSON")
     assert all("line 500" not in line[2] for line in shown(one)["log"])
     run_out(one)
     assert one.playback.t == half[-1].t and one.playback.state == "ended"
     assert shown(one)["log"][-1][1:] == ("link", "walk.jsonl: line 500: is not JSON")
-    stop_at(one, BEGIN)
+    stop_at(one, START)
     assert all("line 500" not in line[2] for line in shown(one)["log"])
 
 
 def test_a_recording_of_nothing_is_at_its_end_at_once():
-    one = player(KeptItems())
-    assert not one.work(never)
+    one = player(PackedItems())
+    assert not one.feed_due(never)
     assert one.playback.state == "ended"
     one.play()
     one.seek(3.0)
@@ -279,7 +279,7 @@ def test_a_recording_of_nothing_is_at_its_end_at_once():
 
 def test_samples_play_like_packets():
     samples = sampled(ROUTE, seed=5).samples
-    one = player(KeptItems(samples))
+    one = player(PackedItems(samples))
     one.seek(samples[-1].t - 0.3)
     settle(one)
     session = Session(poses=True, pressures=True)
@@ -289,12 +289,12 @@ def test_samples_play_like_packets():
 
 
 @given(st.lists(st.floats(-1e6, 1e6), max_size=3 * CHUNK), st.integers(0, 2**32))
-def test_what_is_kept_comes_out_as_it_was_and_is_due_in_order(times, seed):
+def test_packed_items_come_out_unchanged_and_are_due_in_order(times, seed):
     packets = [Packet(t, Site.LEFT_FOOT, "insole/frame", bytes([k % 256]), str(seed)) for k, t in enumerate(times)]
-    kept = KeptItems(packets)
+    kept = PackedItems(packets)
     assert [kept[k] for k in range(len(kept))] == packets
     assert [kept[k] for k in reversed(range(len(kept)))] == packets[::-1]
     due = [kept.t(k) for k in range(len(kept))]
     assert due == sorted(due) and all(at >= packet.t for at, packet in zip(due, packets, strict=True))
     if times:
-        assert (kept.begin, kept.end) == (times[0], max(times))
+        assert (kept.start, kept.end) == (times[0], max(times))

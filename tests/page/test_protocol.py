@@ -1,4 +1,4 @@
-"""What is sent to a page and what it may ask for are what protocol/page.md says."""
+"""Tests that the messages to and from a page are those of protocol/page.md."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import json
 import re
 
 from here import PROTOCOL
-from said import eventful, fed
+from page_events import eventful, fed
 from shown import later, shown
 from walks import insoles
 
@@ -21,7 +21,7 @@ PAGE = (PROTOCOL / "page.md").read_text()
 
 
 def keys(title: str) -> set[str]:
-    """The first column of the table below this heading."""
+    """Return the first column of the table below this heading."""
     table = PAGE.split(f"### {title}\n", 1)[1].split("|---|---|\n", 1)[1].split("\n\n", 1)[0]
     return {name for row in table.splitlines() for name in re.findall(r"`([^`]+)`", row.split("|")[1])}
 
@@ -32,17 +32,17 @@ def test_messages_are_made_of_the_keys_that_the_protocol_names() -> None:
     for event in fed(insoles(Route().stand(1.5).walk(14.0, 1.3).stop(1.0)).packets)[1]:
         scene.take(None, [later(event, 100.0)])
     message = json.loads(encode(scene.whole()[0]))
-    told = message["frame"]
+    frame = message["frame"]
     assert message.keys() == keys("`scene`")
-    assert told.keys() == keys("`frame`")
-    assert told["feet"]["left"].keys() == told["feet"]["right"].keys() == keys("foot")
-    assert told["gait"].keys() == keys("gait")
-    assert all(row.keys() == keys("row") for row in told["gait"]["rows"])
-    assert all(link.keys() == keys("link") for link in told["links"].values())
-    assert all(scale.keys() == keys("scale") for scale in told["scales"].values()) and told["scales"]
+    assert frame.keys() == keys("`frame`")
+    assert frame["feet"]["left"].keys() == frame["feet"]["right"].keys() == keys("foot")
+    assert frame["gait"].keys() == keys("gait")
+    assert all(row.keys() == keys("row") for row in frame["gait"]["rows"])
+    assert all(link.keys() == keys("link") for link in frame["links"].values())
+    assert all(scale.keys() == keys("scale") for scale in frame["scales"].values()) and frame["scales"]
     for name in ("wearer", "place", "activity", "pace", "playback"):
         (row,) = re.findall(rf"^\| `{name}` \| (.*) \|$", PAGE, re.MULTILINE)
-        assert told[name].keys() <= set(re.findall(r"`([a-z]+)`", row)), name
+        assert frame[name].keys() <= set(re.findall(r"`([a-z]+)`", row)), name
     prose = PAGE.replace("\n", " ")
     level, stop = message["plan"]["levels"][0], message["plan"]["connectors"][0]["stops"][0]
     known = {*level, *stop, *message["plan"], *message["plan"]["connectors"][0], *message["layouts"]["left"]}
@@ -57,7 +57,7 @@ def test_the_examples_of_the_protocol_are_what_is_sent() -> None:
     assert news["links"]["left foot"].keys() == keys("link")
 
 
-def test_the_protocol_tells_the_bounds_of_the_speed() -> None:
+def test_the_protocol_states_the_bounds_of_the_speed() -> None:
     assert f"so many times real time, {SLOWEST:g} to {FASTEST:g} |" in PAGE
 
 

@@ -1,4 +1,4 @@
-"""What the page shows: out of events alone, whatever sensors there are."""
+"""Tests what the page shows, from events alone, with different sensors."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import json
 from math import inf, nan
 
 from attrs import evolve
-from said import eventful, fed, moved, rough
+from page_events import eventful, fed, moved, rough
 from shown import frame, later, shown
 from walks import SHORT, insoles, samples
 
@@ -43,29 +43,29 @@ LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
 
 def test_a_page_shows_where_the_feet_and_the_wearer_are() -> None:
     session, events = rough()
-    told = frame(shown(events))
+    content = frame(shown(events))
     for foot in Foot:
-        one = told["feet"][foot.value]
+        one = content["feet"][foot.value]
         assert one["position"] == [round(v, 3) for v in session.feet[foot].position]
         assert one["phase"] == session.phase(foot).value  # type: ignore[union-attr]
         taken = [event for event in events if isinstance(event, StrideTaken) and event.foot is foot]
         assert one["steps"] == len(taken)
         assert one["distance"] == round(sum(event.length for event in taken), 2)
     last = [event for event in events if isinstance(event, WearerMoved)][-1]
-    assert told["wearer"]["position"] == [round(v, 3) for v in last.position]
-    assert told["support"] == session.support.value  # type: ignore[union-attr]
-    assert told["activity"]["now"] == session.activity.value
+    assert content["wearer"]["position"] == [round(v, 3) for v in last.position]
+    assert content["support"] == session.support.value  # type: ignore[union-attr]
+    assert content["activity"]["now"] == session.activity.value
 
 
 def test_cells_are_one_byte_each_of_the_highest_so_far() -> None:
     _, events = rough()
     pressed = [event for event in events if isinstance(event, FootPressed) and event.foot is LEFT]
-    told = frame(shown(events))["feet"]["left"]
-    assert told["peak"] == round(max(max(event.values) for event in pressed), 3)
-    cells = base64.b64decode(told["cells"])
+    content = frame(shown(events))["feet"]["left"]
+    assert content["peak"] == round(max(max(event.values) for event in pressed), 3)
+    cells = base64.b64decode(content["cells"])
     values = pressed[-1].values
-    assert [round(255.0 * value / told["peak"]) for value in values] == [*cells]
-    assert told["force"] == round(sum(values), 1)
+    assert [round(255.0 * value / content["peak"]) for value in values] == [*cells]
+    assert content["force"] == round(sum(values), 1)
     highest = max(pressed, key=lambda event: max(event.values))
     assert max(base64.b64decode(frame(shown([highest]))["feet"]["left"]["cells"])) == 255
 
@@ -73,47 +73,47 @@ def test_cells_are_one_byte_each_of_the_highest_so_far() -> None:
 def test_the_gait_is_the_table_of_the_terminal() -> None:
     _, events = fed(insoles(Route().stand(1.5).walk(14.0, 1.3).stop(1.0)).packets)
     scene = shown(events)
-    told, means = frame(scene)["gait"], scene.observer.gait
+    content, means = frame(scene)["gait"], scene.observer.gait
     parameters = means.of(False)
     assert parameters is not None
-    assert told["cadence"] == round(parameters.cadence or 0.0, 1)
+    assert content["cadence"] == round(parameters.cadence or 0.0, 1)
     lines = gait_lines(means)
-    assert [row["name"] for row in told["rows"]] == [row.name for row in gait_rows(parameters)]
-    for row in told["rows"]:
+    assert [row["name"] for row in content["rows"]] == [row.name for row in gait_rows(parameters)]
+    for row in content["rows"]:
         line = next(line for line in lines if line.startswith(f"{row['label']} {row['unit']} "))
         for one in ("left", "right"):
             assert row[one] is not None and f"{row[one]:.{row['digits']}f}" in line
         assert f"{row['both']:.{row['digits']}f}" in line
 
 
-def test_both_feet_support_the_wearer_only_while_both_are_heard() -> None:
+def test_support_is_known_only_while_both_feet_send() -> None:
     scene = shown([moved(1.0), moved(1.0, foot=RIGHT)])
     assert frame(scene)["support"] == "FLIGHT"
     shown([moved(1.0 + 0.1 * k) for k in range(30)], scene)
     scene.tick(4.0)
-    told = frame(scene)
-    assert told["support"] is None
-    assert told["feet"]["right"]["phase"] is None
-    assert told["feet"]["left"]["phase"] == "SWING"
+    content = frame(scene)
+    assert content["support"] is None
+    assert content["feet"]["right"]["phase"] is None
+    assert content["feet"]["left"]["phase"] == "SWING"
 
 
 def test_one_foot_alone_is_shown_alone() -> None:
     _, events = fed([packet for packet in insoles().packets if packet.site is Site.RIGHT_FOOT])
-    told = frame(shown(events))
-    assert told["feet"]["left"] is None
-    assert told["feet"]["right"]["steps"] > 2
-    assert told["support"] is None
-    assert [*told["links"]] == ["right foot"]
+    content = frame(shown(events))
+    assert content["feet"]["left"] is None
+    assert content["feet"]["right"]["steps"] > 2
+    assert content["support"] is None
+    assert [*content["links"]] == ["right foot"]
 
 
 def test_an_insole_without_an_inertial_sensor_shows_its_cells_and_phases() -> None:
     bare = [evolve(one, acc=None, gyro=None) for one in samples()]
-    told = frame(shown(fed(bare)[1]))
+    content = frame(shown(fed(bare)[1]))
     for foot in Foot:
-        one = told["feet"][foot.value]
+        one = content["feet"][foot.value]
         assert one["cells"] is not None and one["rate"] == 100 and one["position"] is None
         assert one["phase"] in {phase.value for phase in Phase}
-    assert told["support"] is not None
+    assert content["support"] is not None
 
 
 def test_sensors_without_cells_show_steps_and_no_soles() -> None:
@@ -129,9 +129,9 @@ def test_sensors_without_cells_show_steps_and_no_soles() -> None:
 
 def test_other_recipes_are_shown_as_well() -> None:
     _, events = fed(insoles().packets, PRESSURE_CONTOUR)
-    told = frame(shown(events))
-    assert told["feet"]["left"]["steps"] == len([e for e in events if isinstance(e, StrideTaken) and e.foot is LEFT])
-    assert told["feet"]["right"]["phase"] is not None
+    content = frame(shown(events))
+    assert content["feet"]["left"]["steps"] == len([e for e in events if isinstance(e, StrideTaken) and e.foot is LEFT])
+    assert content["feet"]["right"]["phase"] is not None
 
 
 def test_feet_that_fall_silent_show_nothing_and_come_back() -> None:
@@ -145,12 +145,12 @@ def test_feet_that_fall_silent_show_nothing_and_come_back() -> None:
     assert frame(scene)["links"]["left foot"]["state"] == "silent"
     assert 4.9 < frame(scene)["links"]["left foot"]["silent_for"] < 5.2
     shown([later(event, 20.0) for event in events], scene)
-    told = frame(scene)
-    assert told["links"]["left foot"]["state"] == "ok"
-    assert told["feet"]["left"]["phase"] is not None and told["feet"]["left"]["cells"] is not None
+    content = frame(scene)
+    assert content["links"]["left foot"]["state"] == "ok"
+    assert content["feet"]["left"]["phase"] is not None and content["feet"]["left"]["cells"] is not None
 
 
-def test_a_link_is_waited_for_heard_lost_and_heard_again() -> None:
+def test_a_link_is_waiting_then_ok_then_lost_and_ok_again() -> None:
     site = Site.LEFT_FOOT
     scene = shown([Connected(t=0.0, known_at=0.0, site=site, device="", name="Insole", signal=-50)])
 
@@ -223,24 +223,24 @@ def test_a_place_is_shown_until_it_is_lost() -> None:
     assert frame(scene)["place"] is None
 
 
-def test_numbers_that_are_none_are_shown_as_none() -> None:
+def test_numbers_that_are_not_finite_are_shown_as_null() -> None:
     odd = evolve(moved(1.0), position=(nan, inf, -inf))
     pressed = FootPressed(t=1.0, known_at=1.0, foot=LEFT, values=(nan, inf, 1.0), force=nan, centre=(nan, 0.0))
-    told = frame(shown([odd, pressed, evolve(pressed, t=1.01, known_at=1.01)]))["feet"]["left"]
-    assert told["position"] == [None, None, None]
-    assert told["force"] is None
-    assert len(base64.b64decode(told["cells"])) == 3
+    content = frame(shown([odd, pressed, evolve(pressed, t=1.01, known_at=1.01)]))["feet"]["left"]
+    assert content["position"] == [None, None, None]
+    assert content["force"] is None
+    assert len(base64.b64decode(content["cells"])) == 3
 
 
-def test_what_happened_at_no_time_is_not_shown() -> None:
+def test_an_event_without_a_finite_time_is_not_shown() -> None:
     events = [moved(1.0)]
     for time in (nan, inf, -inf):
         for field in ("t", "known_at"):
             assert encode(frame(shown([*events, evolve(moved(1.0), **{field: time})]))) == encode(frame(shown(events)))
 
 
-def test_a_page_says_how_a_recording_is_played() -> None:
-    scene = Scene("a walk", "default", "recording", playback=Playback(begin=0.0, end=9.0, t=0.0))
+def test_a_frame_holds_the_state_of_playback() -> None:
+    scene = Scene("a walk", "default", "recording", playback=Playback(start=0.0, end=9.0, t=0.0))
     _, cursor = scene.whole()
     assert scene.playback is not None
     scene.playback.state, scene.playback.t = "playing", 1.0

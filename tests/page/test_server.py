@@ -1,4 +1,4 @@
-"""The server of the page: what it sends, who may watch, and who may steer."""
+"""Tests the server of the page: what it sends, who may watch, and who may control."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ import pytest
 from aiohttp import WSCloseCode, WSMsgType
 from hypothesis import given
 from hypothesis import strategies as st
-from served import LOGGER, TOKEN, closed, handshake, raw, refused, reply, scene_of, sees, served
+from served import LOGGER, TOKEN, closed, handshake, raw, rejection_status, reply, scene_of, sees, served
 from walks import insoles
 
 from solepath import Foot, LinkTrouble, Session, Site
 from solepath.show.page.messages import Command
 from solepath.show.page.scene.scene import Scene
 from solepath.show.page.server import server
-from solepath.show.page.server.access import AccessDenied, PageAccess, host_of, on_loopback, reached_at
+from solepath.show.page.server.access import AccessDenied, PageAccess, host_of, on_loopback, url_host
 from solepath.show.page.server.connection import HEADERS
 from solepath.show.page.server.server import Page
 
@@ -44,14 +44,14 @@ async def test_a_watcher_sees_the_walk() -> None:
         assert steps > 2 and points == steps + 1 and frames > 2
 
 
-async def test_a_watcher_hears_something_every_second_even_when_nothing_happens() -> None:
+async def test_a_watcher_gets_a_message_every_second_even_when_nothing_happens() -> None:
     async with served() as (_, client, url), client.ws_connect(f"{url}ws") as watching:
         await scene_of(watching)
         assert json.loads(await watching.receive_str()) == {"type": "frame", "t": 0.0}
 
 
 async def test_what_came_last_is_shown_before_the_end() -> None:
-    """As what a session says when it is finished, after which the page goes."""
+    """Such as the events of a session that is finished, after which the page closes."""
     async with served() as (page, client, url):
         watching = await client.ws_connect(f"{url}ws")
         await scene_of(watching)
@@ -100,8 +100,8 @@ async def test_the_page_is_made_of_the_files_that_are_installed() -> None:
 )
 async def test_there_are_no_other_files(path: str) -> None:
     async with served() as (page, _, _):
-        told = await reply(page, f"GET /{path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode())
-        assert told.split(b" ")[1] in (b"404", b"400")
+        answer = await reply(page, f"GET /{path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode())
+        assert answer.split(b" ")[1] in (b"404", b"400")
 
 
 @pytest.mark.parametrize("method", ["POST", "PUT", "DELETE", "OPTIONS"])
@@ -127,15 +127,15 @@ async def test_what_is_no_request_is_answered_with_the_headers_of_every_answer_a
     sent: bytes,
 ) -> None:
     async with served() as (page, _, _):
-        for begun in (b"", b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"):
-            _, refusal, told = (await reply(page, begun + sent)).partition(b" 400 Bad Request")
-            assert refusal and b"EVIL" not in told
-            assert b"aiohttp" not in told and b"Python" not in told
+        for prefix in (b"", b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"):
+            _, rejection, answer = (await reply(page, prefix + sent)).partition(b" 400 Bad Request")
+            assert rejection and b"EVIL" not in answer
+            assert b"aiohttp" not in answer and b"Python" not in answer
             for name, value in HEADERS.items():
-                assert f"\r\n{name}: {value}\r\n".encode() in told
+                assert f"\r\n{name}: {value}\r\n".encode() in answer
 
 
-async def test_it_is_for_this_machine_unless_told_otherwise() -> None:
+async def test_the_page_is_for_this_machine_by_default() -> None:
     async with Page(Scene("", ""), port=0) as page:
         assert urlsplit(page.url).hostname == "127.0.0.1"
         (listening,) = page._listening.sockets if page._listening is not None else ()
@@ -149,42 +149,42 @@ async def test_every_page_has_a_token_of_its_own() -> None:
 
 
 async def test_who_has_the_token_steers() -> None:
-    asked: list[Command] = []
-    async with served(commands=asked.append) as (_, client, url):
+    commands: list[Command] = []
+    async with served(commands=commands.append) as (_, client, url):
         async with client.ws_connect(f"{url}ws?token={TOKEN}") as watching:
             assert (await scene_of(watching))["control"] is True
-            for told in ('{"do":"pause"}', '{"do":"seek","value":3}', '{"do":"speed","value":4.0}'):
-                await watching.send_str(told)
-            while len(asked) < 3:
+            for text in ('{"do":"pause"}', '{"do":"seek","value":3}', '{"do":"speed","value":4.0}'):
+                await watching.send_str(text)
+            while len(commands) < 3:
                 await asyncio.sleep(0.01)
-        assert asked == [Command("pause"), Command("seek", 3.0), Command("speed", 4.0)]
+        assert commands == [Command("pause"), Command("seek", 3.0), Command("speed", 4.0)]
 
 
 @pytest.mark.parametrize(("plays", "query"), [(True, ""), (False, f"?token={TOKEN}")])
 async def test_who_has_no_token_or_nothing_to_play_watches_and_is_shown_out_on_trying_to_steer(
     plays: bool, query: str, caplog: pytest.LogCaptureFixture
 ) -> None:
-    asked: list[Command] = []
-    commands = asked.append if plays else None
+    commands: list[Command] = []
+    commands = commands.append if plays else None
     async with served(commands=commands) as (_, client, url), client.ws_connect(f"{url}ws{query}") as watching:
         assert (await scene_of(watching))["control"] is False
         await watching.send_str('{"do":"pause"}')
         assert await closed(watching) == 1008
-    assert asked == []
+    assert commands == []
     assert [one.name for one in caplog.records] == [LOGGER]
 
 
 @pytest.mark.parametrize("query", ["token=wrong", "token=", f"token={TOKEN}&token=wrong", "token=%ff", "token=%f0%9f"])
-async def test_a_wrong_token_is_refused(query: str, caplog: pytest.LogCaptureFixture) -> None:
+async def test_a_wrong_token_is_rejected(query: str, caplog: pytest.LogCaptureFixture) -> None:
     async with served() as (_, client, url):
-        assert await refused(client.ws_connect(f"{url}ws?{query}")) == 403
+        assert await rejection_status(client.ws_connect(f"{url}ws?{query}")) == 403
     assert len(caplog.records) == 1
 
 
 @pytest.mark.parametrize("origin", ["http://evil.example", "http://127.0.0.1:1", "null", "file://", "http://[", ""])
 async def test_pages_of_others_may_not_watch(origin: str, caplog: pytest.LogCaptureFixture) -> None:
     async with served() as (_, client, url):
-        assert await refused(client.ws_connect(f"{url}ws?token={TOKEN}", headers={"Origin": origin})) == 403
+        assert await rejection_status(client.ws_connect(f"{url}ws?token={TOKEN}", headers={"Origin": origin})) == 403
     assert len(caplog.records) == 1
 
 
@@ -205,12 +205,12 @@ async def test_its_own_page_may_watch() -> None:
 )  # fmt: skip
 async def test_a_name_that_somebody_else_could_point_here_is_no_host(host: str, status: bytes) -> None:
     async with served() as (page, _, _):
-        told = await reply(page, f"GET / HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n".encode())
-        assert told.split(b" ")[1] == status
+        answer = await reply(page, f"GET / HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n".encode())
+        assert answer.split(b" ")[1] == status
 
 
 @given(st.text())
-def test_any_host_is_told_or_refused(text: str) -> None:
+def test_any_host_header_is_parsed_or_rejected(text: str) -> None:
     host = host_of(text)
     assert host is None or host == host.lower()
     try:
@@ -223,10 +223,10 @@ def test_any_host_is_told_or_refused(text: str) -> None:
 async def test_beyond_this_machine_nobody_watches_without_the_token() -> None:
     async with served(host="0.0.0.0") as (page, client, _):
         url = f"http://127.0.0.1:{page.port}/"
-        assert await refused(client.ws_connect(f"{url}ws")) == 403
+        assert await rejection_status(client.ws_connect(f"{url}ws")) == 403
         async with client.ws_connect(f"{url}ws?token={TOKEN}") as watching:
             await scene_of(watching)
-        assert not on_loopback(urlsplit(page.url).hostname or "") or reached_at("0.0.0.0") == "127.0.0.1"
+        assert not on_loopback(urlsplit(page.url).hostname or "") or url_host("0.0.0.0") == "127.0.0.1"
 
 
 async def test_ipv6_of_this_machine_serves_as_well() -> None:
@@ -240,7 +240,7 @@ async def test_ipv6_of_this_machine_serves_as_well() -> None:
         await sees(client, url, headers={"Origin": url.rstrip("/")})
 
 
-async def test_a_port_that_is_taken_is_said_or_another_one_found() -> None:
+async def test_a_taken_port_is_an_error_or_another_one_is_found() -> None:
     async with served() as (page, _, _):
         with pytest.raises(OSError):
             async with Page(Scene("", ""), port=page.port):

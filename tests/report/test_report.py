@@ -1,4 +1,4 @@
-"""A walk as one file: what it says is what the session said, it needs nothing else, and it comes of anything."""
+"""Tests the report: it holds what the session reported, needs no other file, and can be made from any events."""
 
 from __future__ import annotations
 
@@ -38,16 +38,16 @@ NO_NUMBER = re.compile(r"\b(nan|inf)\b", re.IGNORECASE)
 
 @cache
 def walked() -> tuple[Event, ...]:
-    """All that a session with insoles says of a walk round a corner."""
+    """Return all events of a session with insoles on a walk round a corner."""
     return tuple(run_session(insoles(CORNER, cells=24).packets, poses=True, pressures=True))
 
 
 def of_the_left_foot() -> list[Event]:
-    """The same, without what is said of the right one."""
+    """Return these events without those of the right foot."""
     return [event for event in walked() if getattr(event, "foot", Foot.LEFT) is Foot.LEFT]
 
 
-def received(*events: Event, title: str = "a walk", **more: str) -> Report:
+def report_of(*events: Event, title: str = "a walk", **more: str) -> Report:
     report = Report(title, recipe="default", version="1.0", **more)
     report.take(None, events)
     return report
@@ -62,7 +62,7 @@ def captions(page: Node) -> list[str]:
 
 
 def rows_of(page: Node) -> dict[str, list[str]]:
-    """The gait table: a row's name -> its cells."""
+    """Return the gait table: a row's name -> its cells."""
     table = page.named("gait")
     return {row.first("th").text: [cell.text for cell in row.all("td")] for row in table.all("tr")}
 
@@ -73,18 +73,18 @@ def test_the_gait_table_has_the_numbers_of_the_session() -> None:
         means.add(event, 10**9)
     parameters = means.of(False)
     assert parameters is not None
-    rows = rows_of(shown(received(*walked())))
+    rows = rows_of(shown(report_of(*walked())))
     for row in gait_rows(parameters):
         spread = "" if row.sd is None else f" \N{PLUS-MINUS SIGN} {number(row.sd, row.digits)}"
         both = f"{number(row.both, row.digits)}{spread}"
         feet = [number(one, row.digits) for one in (row.left, row.right)]
-        assert rows[f"{row.label}, {row.unit}"] == [*feet, both, percent(row.cv), row.uneven]
+        assert rows[f"{row.label}, {row.unit}"] == [*feet, both, percent(row.cv), row.asymmetry_text]
     assert rows["cadence, steps/min"][2] == number(parameters.cadence, 1)
     assert len(rows) > 10
 
 
-def test_the_summary_says_how_long_how_far_and_what_was_done() -> None:
-    page = shown(received(*walked(), when="on Monday"))
+def test_the_summary_holds_duration_distance_and_activities() -> None:
+    page = shown(report_of(*walked(), when="on Monday"))
     sentences = [one.text for one in page.first("ul").all("li")]
     for foot in Foot:
         taken = [event for event in of(StrideTaken, walked()) if event.foot is foot]
@@ -103,22 +103,22 @@ def test_the_summary_says_how_long_how_far_and_what_was_done() -> None:
 def test_runs_and_walks_have_a_table_each() -> None:
     strides = of(GaitCycleMeasured, walked())
     runs = [evolve(later(one, 60.0), stance_time=0.3) for one in strides]
-    told_of = [one.first("caption").text for one in shown(received(*strides, *runs)).all("table")]
-    assert [one.partition(":")[0] for one in told_of if "steady" in one] == ["Walking", "Running"]
+    captions = [one.first("caption").text for one in shown(report_of(*strides, *runs)).all("table")]
+    assert [one.partition(":")[0] for one in captions if "steady" in one] == ["Walking", "Running"]
 
 
-def test_a_recording_whose_clock_began_long_ago_is_told_from_its_beginning() -> None:
+def test_a_recording_whose_clock_started_long_ago_is_shown_from_its_start() -> None:
     moved = [later(event, 1.7e9) for event in of(FootMoved, walked())]
-    assert "time from the beginning, s" in shown(received(*moved)).text
+    assert "time from the beginning, s" in shown(report_of(*moved)).text
 
 
-def test_what_was_wrong_is_said_in_words_and_in_the_table_of_links() -> None:
+def test_faults_are_shown_in_words_and_in_the_table_of_links() -> None:
     link = [
         Connected(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, device="a", name="sole 7", signal=-50),
         PacketsLost(t=3.0, known_at=3.0, site=Site.LEFT_FOOT, channel="insole/frame", count=11),
         LinkTrouble(t=4.0, known_at=4.0, site=Site.LEFT_FOOT, what="the battery is nearly empty"),
     ]
-    page = shown(received(*link, *walked()))
+    page = shown(report_of(*link, *walked()))
     health = next(one for one in page.all("section") if one.attributes["aria-labelledby"] == "health")
     assert "11" in health.text and "the battery is nearly empty" in health.text
     assert "left foot (sole 7)" in page.named("facts").text
@@ -126,8 +126,8 @@ def test_what_was_wrong_is_said_in_words_and_in_the_table_of_links() -> None:
     assert "Nothing was wrong" in shown(Report("quiet")).text
 
 
-def heard_after(silence: float, back: float) -> Report:
-    """Of a walk in whose middle nothing is heard for so long, s, and then at times so much earlier."""
+def report_after_silence(silence: float, back: float) -> Report:
+    """Return the report of a walk that is silent for `silence` s in its middle, then continues `back` s earlier."""
     session, report = Session(poses=True, pressures=True), Report("a walk")
     now = 0.0
     for packet in insoles(Route().stand(1.5).walk(12.0, 1.3).stop(1.0), cells=24).packets:
@@ -144,7 +144,7 @@ def heard_after(silence: float, back: float) -> Report:
 def test_a_silence_and_a_clock_that_is_set_back_make_no_other_rate_and_no_longer_walk(
     silence: float, back: float, lasts: float
 ) -> None:
-    report = heard_after(silence, back)
+    report = report_after_silence(silence, back)
     for one in report.observer.links.values():
         assert one.rate == pytest.approx(100.0, abs=0.5)
     found = re.search(r"The recording lasts (?:(\d+) min )?(\d+) s[.;]", shown(report).text)
@@ -157,13 +157,13 @@ def test_a_long_name_hides_nothing_else() -> None:
         Connected(t=0.0, known_at=0.0, site=site, device="a", name=f"{site.value} {'W' * 240}", signal=None)
         for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)
     ]
-    facts = shown(received(*names, *walked())).named("facts").text
+    facts = shown(report_of(*names, *walked())).named("facts").text
     assert "left_foot WWW" in facts and "right_foot WWW" in facts and facts.count("motion and pressure") == 2
 
 
 def test_the_file_leads_nowhere_and_runs_nothing(tmp_path: Path) -> None:
     path = tmp_path / "report.html"
-    received(*walked()).write(path)
+    report_of(*walked()).write(path)
     text = path.read_text(encoding="utf-8")
     assert text.startswith('<!DOCTYPE html>\n<html lang="en">')
     page = read(path)
@@ -183,7 +183,7 @@ def test_names_from_outside_stay_text() -> None:
         LinkTrouble(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, what=bad),
         Connected(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, device=bad, name=bad, signal=None),
     ]
-    report = received(*events, title=bad, when=bad)
+    report = report_of(*events, title=bad, when=bad)
     report.recipe = bad
     report.plan = evolve(BUILDING, name=bad)
     page = shown(report)
@@ -198,7 +198,7 @@ def test_a_file_that_cannot_be_written_is_named(tmp_path: Path) -> None:
 
 
 def test_a_screen_reader_finds_its_way() -> None:
-    page = shown(received(*walked()))
+    page = shown(report_of(*walked()))
     assert page.first("html").attributes["lang"] == "en"
     assert [one.text for one in page.all("h1")] == ["a walk"]
     headings = {one.text for one in page.all("h2")}
@@ -216,7 +216,7 @@ def test_a_screen_reader_finds_its_way() -> None:
 
 
 def test_there_is_a_figure_for_what_there_is() -> None:
-    assert captions(shown(received(*walked()))) == [
+    assert captions(shown(report_of(*walked()))) == [
         "Mean gait cycle, walking", "Stride length over time", "Stride time over time", "Speed over time",
         "Track from above", "Height of the feet over time", "Mean load of a contact", "Peak load of a contact",
         "Mean force over a contact", "Activities over time",
@@ -236,7 +236,7 @@ def test_there_is_a_sentence_for_what_there_is_not() -> None:
 
 
 def test_one_foot_alone_has_its_own_report() -> None:
-    page = shown(received(*[event for event in of_the_left_foot() if not isinstance(event, WearerMoved)]))
+    page = shown(report_of(*[event for event in of_the_left_foot() if not isinstance(event, WearerMoved)]))
     assert {"Mean gait cycle, walking", "Track from above", "Mean load of a contact"} <= set(captions(page))
     assert all(cells[1] == "-" for name, cells in rows_of(page).items() if name != "parameter")
 
@@ -245,7 +245,7 @@ def test_pressure_alone_has_times_and_no_track() -> None:
     only = of((GaitCycleMeasured, FootPressed, LayoutKnown), walked())
     lost = {"stride_length": None, "speed": None, "clearance": None, "turning_angle": None, "rise": None}
     events = [evolve(event, **lost) if isinstance(event, GaitCycleMeasured) else event for event in only]
-    page = shown(received(*events))
+    page = shown(report_of(*events))
     assert "Stride time over time" in captions(page) and "Stride length over time" not in captions(page)
     assert "There is no track" in page.text and "how far is not known" in page.text
     assert "stance, %" in rows_of(page)
@@ -255,8 +255,8 @@ def test_on_a_floor_plan_the_track_is_drawn_on_it() -> None:
     report, part, one = Report("indoors", office()), Particles(), Pedestrian(32, "0", (12.0, LOW))
     one.walk((24.0, LOW))
     part.set_out(Start("0", (12.0, LOW), -one.turned))
-    for told_of in one.received:
-        report.take(None, part.follow(OFFICE, told_of.events, told_of.here))
+    for step in one.report_of:
+        report.take(None, part.follow(OFFICE, step.events, step.here))
     page = shown(report)
     assert "Track on the floor plan" in captions(page)
     assert page.named("plan").all("polyline")
@@ -279,10 +279,10 @@ def test_any_events_in_any_order_make_a_page_without_a_number_that_is_none(
 def test_memory_does_not_grow_with_the_time_walked() -> None:
     kinds = (GaitCycleMeasured, StrideTaken, WearerMoved)
     events = [event for kind in kinds for event in of(kind, of_the_left_foot())[-4:]]
-    report, sizes = received(*walked()), []
+    report, sizes = report_of(*walked()), []
     for k in range(1, 501):
         report.take(None, [evolve(event, t=event.t + 20.0 * k) for event in events])
         if k in (250, 500):
             sizes.append(len(repr(report)))
-    assert report.strides[Foot.LEFT].count > 1500 and report.way.count > 2000
+    assert report.strides[Foot.LEFT].count > 1500 and report.wearer_track.count > 2000
     assert sizes[1] < 1.3 * sizes[0]

@@ -1,4 +1,4 @@
-"""The report's drawings: what they show is where it belongs."""
+"""Tests the report's drawings: positions, counts and labels."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from solepath import FootPressed, GaitCycleMeasured
 from solepath.body.gait.means import Figure, GaitParameters, StrideFigures
 from solepath.emulate.routes.building import BUILDING
 from solepath.show.report.bounded import Thinned
-from solepath.show.report.clock import ReportClock, lasted
-from solepath.show.report.figures.axes import AxisScale, line, ticks, told
+from solepath.show.report.clock import ReportClock, duration_text
+from solepath.show.report.figures.axes import AxisScale, line, tick_labels, ticks
 from solepath.show.report.figures.cycle import contacts, neither, overlaps
 from solepath.show.report.figures.pressure import SHADES
 from solepath.show.report.soles import KEPT, STATIONS, ReportSole
@@ -23,12 +23,12 @@ L, R = Foot.LEFT, Foot.RIGHT
 
 
 @given(st.floats(-1e9, 1e9), st.floats(1e-3, 1e9), st.integers(2, 10))
-def test_ticks_are_round_few_and_told_apart(low: float, span: float, most: int) -> None:
+def test_ticks_are_round_few_and_distinct(low: float, span: float, most: int) -> None:
     values = ticks(low, low + span, most)
     assert 1 <= len(values) <= most
     margin = 1e-6 * (span + abs(low))
     assert all(low - margin <= value <= low + span + margin for value in values)
-    assert len(set(told(values))) == len(values)
+    assert len(set(tick_labels(values))) == len(values)
     steps = [b - a for a, b in zip(values, values[1:], strict=False)]
     assert max(steps, default=0.0) - min(steps, default=0.0) <= 1e-3 * span + 1e-12 * abs(low)
 
@@ -54,13 +54,13 @@ def test_of_a_long_row_few_are_kept_evenly_with_the_first_and_the_last(count: in
         assert len(kept) >= min(count, most // 2)
 
 
-def test_times_are_told_in_the_unit_that_suits_them() -> None:
+def test_times_are_shown_in_a_suitable_unit() -> None:
     assert ReportClock(0.0, 100.0).label == "time, s"
     assert ReportClock(0.0, 900.0).of(120.0) == 2.0
     assert ReportClock(1.7e9, 1.7e9 + 900.0).of(1.7e9 + 120.0) == 2.0
     low, high = ReportClock(5.0, 5.0).span
     assert low < high
-    assert [lasted(t) for t in (0.0, 59.6, 90.0, 3725.0)] == ["0.0 s", "1 min 0 s", "1 min 30 s", "1 h 2 min"]
+    assert [duration_text(t) for t in (0.0, 59.6, 90.0, 3725.0)] == ["0.0 s", "1 min 0 s", "1 min 30 s", "1 h 2 min"]
 
 
 def figures(stance: float, phase: float | None) -> StrideFigures:
@@ -106,14 +106,14 @@ def stride(start: float, off: float, end: float, **other: object) -> GaitCycleMe
     return GaitCycleMeasured(**(nothing | known | times | {"degraded": False, "steady": True} | other))  # type: ignore[arg-type]
 
 
-def pressed(sole: ReportSole, begin: float, heel: float) -> None:
-    """A second of samples at 100 Hz, the load going from heel to toe until 0.6 s."""
+def pressed(sole: ReportSole, start: float, heel: float) -> None:
+    """Add a second of samples at 100 Hz; the load goes from heel to toe until 0.6 s."""
     for k in range(100):
         share = min(k / 60.0, 1.0)
         load = heel if k <= 60 else 0.0
         values = (load * (1.0 - share), load * share)
         centre = (0.05 + 0.15 * share, 0.0) if load else None
-        t = begin + 0.01 * k
+        t = start + 0.01 * k
         sole.press(FootPressed(t=t, known_at=t, foot=L, values=values, force=load, centre=centre))
 
 
@@ -176,11 +176,11 @@ def test_the_legend_of_a_narrow_plan_stays_within_the_picture() -> None:
     svg = PlanPicture(BUILDING, width=380.0, columns=1).drawn("narrow")
     width = float(svg.get("width", "0"))
     assert width < 440.0
-    told_of = [one for one in svg.iter("text") if one.text in {"candidate", "stairs", "lift"}]
-    assert len(told_of) == 3
-    assert all(float(one.get("x", "0")) + 7.0 * len(one.text or "") < width for one in told_of)
+    labels = [one for one in svg.iter("text") if one.text in {"candidate", "stairs", "lift"}]
+    assert len(labels) == 3
+    assert all(float(one.get("x", "0")) + 7.0 * len(one.text or "") < width for one in labels)
 
 
-def test_the_reader_of_pages_refuses_what_is_not_closed() -> None:
+def test_the_reader_of_pages_rejects_unclosed_tags() -> None:
     with pytest.raises(AssertionError):
         parsed("<p><b>no</p>")

@@ -1,4 +1,4 @@
-"""The ledger of a link and the observer of a session: each figure by its own definition."""
+"""Tests the ledger of a link and the observer of a session: each figure by its own definition."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ LEFT = Site.LEFT_FOOT
 
 
 def observed(items: Iterable[Packet | Sample]) -> Observer:
-    """The observer of a session that took them."""
+    """Return an observer of a session that was fed with the items."""
     session, observer = Session(poses=True, pressures=True), Observer()
     for item in items:
         observer.take(item, session.feed(item))
@@ -59,14 +59,14 @@ def test_loss_is_a_share_of_packets_not_of_samples(batch: int) -> None:
     assert link.samples == batch * link.received
 
 
-def test_a_frame_in_pieces_is_one_packet() -> None:
+def test_a_frame_in_fragments_is_one_packet() -> None:
     observer = observed(frames(CLEAN, mtu=60))
     link = observer.links[LEFT]
     assert link.received == link.samples < 0.5 * observer.items
 
 
 def test_received_and_lost_frames_are_all_that_were_sent_whatever_came_damaged_or_twice() -> None:
-    """Each frame in pieces, of which any may be lost, damaged or doubled."""
+    """Each frame comes in fragments, of which any may be lost, damaged or doubled."""
     sent = len(emulate(SHORT, devices={LEFT: Insole(cells=8)}, radio=CLEAN, seed=1).packets)
     rough = Radio(loss=0.03, duplicate=0.05, corrupt=0.05)
     for device in ({"cells": 8}, {"mtu": 60}):
@@ -78,8 +78,8 @@ def test_received_and_lost_frames_are_all_that_were_sent_whatever_came_damaged_o
 
 def test_what_the_receiver_dropped_is_lost_once() -> None:
     link = LinkLedger()
-    link.take(PacketsDropped(t=1.0, known_at=1.0, site=LEFT, count=5))
-    link.take(PacketsLost(t=1.0, known_at=1.1, site=LEFT, channel="insole/frame", count=5))
+    link.add_event(PacketsDropped(t=1.0, known_at=1.0, site=LEFT, count=5))
+    link.add_event(PacketsLost(t=1.0, known_at=1.1, site=LEFT, channel="insole/frame", count=5))
     assert (link.lost, link.dropped) == (5, 5)
 
 
@@ -104,8 +104,8 @@ def test_a_sample_that_moved_and_pressed_is_one_sample() -> None:
         t = 0.01 * k
         observer.take(Sample(t, LEFT), [moved(t, t), pressed(t, t)])
     link = observer.links[LEFT]
-    assert (link.samples, link.moves, link.presses) == (300, True, True)
-    assert link.rate == pytest.approx(100.0) and link.rate_of_late(observer.now) == pytest.approx(100.0, abs=1.0)
+    assert (link.samples, link.has_motion, link.has_pressure) == (300, True, True)
+    assert link.rate == pytest.approx(100.0) and link.recent_rate(observer.now) == pytest.approx(100.0, abs=1.0)
 
 
 def test_samples_that_are_rejected_are_not_used() -> None:
@@ -120,13 +120,13 @@ def test_samples_that_are_rejected_are_not_used() -> None:
 def test_the_rate_leaves_gaps_and_silences_out() -> None:
     link = LinkLedger()
     for k in range(100):
-        link.sampled(0.01 * k, 0.01 * k)
-    link.take(SampleGap(t=0.99, known_at=1.49, site=LEFT, duration=0.5))
+        link.add_sample(0.01 * k, 0.01 * k)
+    link.add_event(SampleGap(t=0.99, known_at=1.49, site=LEFT, duration=0.5))
     for k in range(100):
-        link.sampled(1.49 + 0.01 * k, 1.49 + 0.01 * k)
-    link.take(StreamStale(t=3.5, known_at=3.5, site=LEFT, silent_for=1.0))
+        link.add_sample(1.49 + 0.01 * k, 1.49 + 0.01 * k)
+    link.add_event(StreamStale(t=3.5, known_at=3.5, site=LEFT, silent_for=1.0))
     for k in range(100):
-        link.sampled(60.0 + 0.01 * k, 60.0 + 0.01 * k)
+        link.add_sample(60.0 + 0.01 * k, 60.0 + 0.01 * k)
     assert link.rate == pytest.approx(100.0)
     assert (link.gaps, link.gap_time, link.silences) == (1, 0.5, 1)
 
@@ -163,33 +163,33 @@ def test_a_clock_that_was_set_back_goes_on_from_there() -> None:
 
 def test_a_link_is_lost_until_samples_come_that_are_no_stragglers() -> None:
     link = LinkLedger()
-    link.take(Connected(t=0.0, known_at=0.0, site=LEFT, device="", name="sole", signal=-50))
+    link.add_event(Connected(t=0.0, known_at=0.0, site=LEFT, device="", name="sole", signal=-50))
     assert link.state(0.0) == "waiting"
-    link.sampled(0.1, 0.1)
+    link.add_sample(0.1, 0.1)
     assert (link.state(0.2), link.state(2.0)) == ("ok", "silent")
-    link.take(Disconnected(t=1.0, known_at=1.0, site=LEFT))
-    link.sampled(1.1, 1.2)
+    link.add_event(Disconnected(t=1.0, known_at=1.0, site=LEFT))
+    link.add_sample(1.1, 1.2)
     assert link.state(1.2) == "lost"
-    link.sampled(3.0, 3.0)
+    link.add_sample(3.0, 3.0)
     assert (link.state(3.0), link.name, link.connections) == ("ok", "sole", 1)
 
 
-def test_the_means_of_late_are_the_sessions() -> None:
+def test_the_recent_means_equal_those_of_the_session() -> None:
     session, observer = Session(poses=True), Observer()
     for packet in insoles(SHORT.walk(30.0, 1.3)).packets:
         observer.take(packet, session.feed(packet))
     observer.take(None, session.finish())
-    assert session.gait is not None and observer.gait_of_late.parameters == session.gait
+    assert session.gait is not None and observer.recent_gait.parameters == session.gait
 
 
-def test_events_with_a_number_that_is_none_are_left_out() -> None:
+def test_events_with_a_number_that_is_not_finite_are_left_out() -> None:
     observer = Observer()
     assert not observer.add(evolve(moved(1.0, 1.0), position=(nan, 0.0, 0.0)))
     assert not observer.add(PacketsLost(t=nan, known_at=1.0, site=LEFT, channel="insole/frame", count=2))
     assert observer == Observer()
 
 
-def test_a_live_track_is_bounded_and_keeps_its_beginning_and_both_feet() -> None:
+def test_a_live_track_is_bounded_and_keeps_its_start_and_both_feet() -> None:
     track = LiveTrack()
     for k in range(5 * MOST_POINTS):
         for foot in Foot:

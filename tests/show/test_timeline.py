@@ -1,4 +1,4 @@
-"""What the wearer did when, of the events that told it."""
+"""Tests the activities over time, from the events that report them."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from solepath.show.tables.summary import summary
 from solepath.show.timeline import Timeline
 
 
-def told(t: float, activity: Activity, revises: float | None = None, final: bool = True) -> ActivityChanged:
+def changed(t: float, activity: Activity, revises: float | None = None, final: bool = True) -> ActivityChanged:
     return ActivityChanged(t=t, known_at=t + 3.0, activity=activity, probability=None, revises=revises, final=final)
 
 
@@ -19,8 +19,8 @@ def timeline(*events: ActivityChanged) -> Timeline:
     return line
 
 
-def test_an_activity_lasts_until_the_next_one_begins():
-    line = timeline(told(1.0, Activity.STANDING), told(4.0, Activity.WALKING))
+def test_an_activity_lasts_until_the_next_one_starts():
+    line = timeline(changed(1.0, Activity.STANDING), changed(4.0, Activity.WALKING))
     assert [line.at(t) for t in (0.5, 1.0, 3.9, 4.0, 100.0)] == [
         Activity.UNKNOWN, Activity.STANDING, Activity.STANDING, Activity.WALKING, Activity.WALKING,
     ]  # fmt: skip
@@ -28,35 +28,35 @@ def test_an_activity_lasts_until_the_next_one_begins():
 
 
 def test_standing_that_turns_out_to_be_a_lift_ride_was_never_standing():
-    standing = told(4.0, Activity.STANDING, final=False)
-    line = timeline(told(1.0, Activity.WALKING), standing, told(5.0, Activity.ELEVATOR_UP, revises=4.0))
+    standing = changed(4.0, Activity.STANDING, final=False)
+    line = timeline(changed(1.0, Activity.WALKING), standing, changed(5.0, Activity.ELEVATOR_UP, revises=4.0))
     assert line.at(4.5) is Activity.WALKING and line.at(5.0) is Activity.ELEVATOR_UP
     assert line.lasted(9.0) == {Activity.WALKING: 4.0, Activity.ELEVATOR_UP: 4.0}
 
 
 def test_an_event_dated_before_an_earlier_one_takes_its_place():
-    line = timeline(told(1.0, Activity.STANDING), told(4.0, Activity.WALKING), told(3.0, Activity.STAIRS_UP))
+    line = timeline(changed(1.0, Activity.STANDING), changed(4.0, Activity.WALKING), changed(3.0, Activity.STAIRS_UP))
     assert line.spans(5.0) == [(1.0, 3.0, Activity.STANDING), (3.0, 5.0, Activity.STAIRS_UP)]
 
 
-def test_time_before_the_first_activity_and_after_the_end_is_nobodys():
-    line = timeline(told(2.0, Activity.WALKING))
+def test_time_before_the_first_activity_and_after_the_end_counts_for_none():
+    line = timeline(changed(2.0, Activity.WALKING))
     assert line.spans(1.0) == [] and line.lasted(2.0) == {}
 
 
 def test_a_timeline_of_too_many_changes_leaves_out_what_was_short_and_keeps_the_newest():
     line = Timeline()
     for k, t in enumerate((0.0, 10.0, 20.0, 20.5, 30.0)):
-        line.add(told(t, Activity.WALKING if k % 2 else Activity.STANDING), 4)
+        line.add(changed(t, Activity.WALKING if k % 2 else Activity.STANDING), 4)
     assert line.last == (30.0, Activity.STANDING)
     assert line.spans(40.0) == [(10.0, 30.0, Activity.WALKING), (30.0, 40.0, Activity.STANDING)]
 
 
-def test_the_summary_says_what_the_wearer_did():
+def test_the_summary_lists_the_activities():
     observer = Observer()
     for event in (
-        told(0.0, Activity.WALKING),
-        told(12.0, Activity.ELEVATOR_DOWN),
+        changed(0.0, Activity.WALKING),
+        changed(12.0, Activity.ELEVATOR_DOWN),
         LiftRidden(t=18.0, known_at=19.0, t_start=12.0, up=False, height=-4.2),
         FlightClimbed(t=9.0, known_at=9.0, t_start=3.0, up=True, steps=10, height=1.6),
         TurnMade(t=5.0, known_at=5.0, t_start=4.0, angle=1.5, turn=Turn.LEFT),

@@ -1,4 +1,4 @@
-"""Tables, plots and summaries: what people are shown."""
+"""Tests tables, plots and summaries for people."""
 
 from attrs import evolve
 from hypothesis import given
@@ -25,7 +25,7 @@ from solepath.events import (
 from solepath.session import Session
 from solepath.show.observer import Observer
 from solepath.show.tables.plot import plot
-from solepath.show.tables.summary import link_health, status, summary, worn
+from solepath.show.tables.summary import link_health, status, summary, wear_lines
 from solepath.show.tables.table import milliseconds, number, percent, table
 from solepath.types import Foot, Packet, Sample, Site, WalkingMode
 
@@ -66,7 +66,7 @@ def test_any_track_fits_its_frame(track, width, height):
     assert len(lines) == height and all(len(line) == width for line in lines)
 
 
-def test_a_summary_counts_what_was_said_of_each_foot():
+def test_a_summary_counts_the_events_of_each_foot():
     observer = Observer()
     for n in range(11):
         observer.take(Sample(n * 0.25 + (1.5 if n > 5 else 0.0), Site.LEFT_FOOT), [])
@@ -96,7 +96,7 @@ def test_a_healthy_link_is_not_mentioned_and_a_bad_one_line_by_line():
     assert link_health(observer) == ["3 of 100 packets lost", "3 packets rejected (checksum 2, duplicate 1)"]
 
 
-def test_what_a_session_does_without_and_suspects_is_told():
+def test_limitations_and_suspect_scales_are_reported():
     observer = Observer()
     observer.add(Limitation(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, what="no gyroscope"))
     observer.add(ScaleSuspect(t=0.0, known_at=0.0, site=Site.LEFT_FOOT, magnitude=4.9, suggestion="16 g, not 8 g"))
@@ -126,16 +126,16 @@ def test_what_both_feet_did_together_is_summed_up():
     assert "3 touchdowns: STRAIGHT 2, LEFT_WIDE 1" in text
 
 
-def test_what_is_wrong_with_how_it_is_worn_is_told_once():
+def test_a_fault_in_wearing_is_reported_once():
     observer = Observer()
-    assert worn(observer) == []
+    assert wear_lines(observer) == []
     for cells in ((3, 11), (3, 11), tuple(range(40))):
         observer.add(CellsFailed(t=1.0, known_at=1.0, site=Site.LEFT_FOOT, fault=CellFault.DEAD, cells=cells))
     observer.add(InsoleNeverUnloads(t=1.0, known_at=1.0, site=Site.RIGHT_FOOT, seconds=5.0))
     observer.add(FeetSwapped(t=1.0, known_at=1.0))
     observer.add(FootSilent(t=1.0, known_at=1.0, foot=Foot.RIGHT, silent_for=2.0))
     observer.add(FootResumed(t=3.0, known_at=3.0, foot=Foot.RIGHT, silent_for=4.0))
-    assert worn(observer) == [
+    assert wear_lines(observer) == [
         "left foot: cells 3, 11 dead, left out",
         "left foot: 40 cells dead, left out",
         "right foot: the insole never unloads; phases come from the inertial sensor",

@@ -1,7 +1,7 @@
-"""The command line: one file a command.
+"""The command line, with one file for each command.
 
-Importing it brings the live path, because `import solepath` does (attrs and construct, no numpy). What a command needs
-beyond that, numpy, rich, the emulator, the evaluation, is imported when it runs.
+Importing it imports the live path, as `import solepath` does (attrs and construct, no numpy). A command imports what it
+needs beyond that, such as numpy, rich, the emulator or the evaluation, when it runs.
 """
 
 from .main import main

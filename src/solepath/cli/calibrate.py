@@ -1,4 +1,4 @@
-"""`solepath calibrate KIND INPUT --out FILE`: from a recording, or from what was measured by hand, to a calibration."""
+"""`solepath calibrate KIND INPUT --out FILE`: makes a calibration from a recording or from measurements by hand."""
 
 from __future__ import annotations
 
@@ -16,9 +16,11 @@ from .common.files import check_writable
 from .common.inputs import add_foot, check_pressure, foot_of, source_of
 
 MERGED = "What FILE holds already of other kinds, or of the other foot, stays."
+"""Sentence of the help text on what stays in FILE."""
 
 
 def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
     command: argparse.ArgumentParser = commands.add_parser(
         "calibrate",
         help="learn about a wearer, shoes and insoles",
@@ -33,25 +35,26 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Make the calibration and write it; return the exit status."""
     from ..calibration.file import read_calibration, write_calibration
     from ..calibration.limits import unusable
 
-    if options.out.exists() and not options.out.is_file() and not options.out.is_dir():  # of a folder the system speaks
+    if options.out.exists() and not options.out.is_file() and not options.out.is_dir():  # a folder gets an OSError
         raise Failure(f"{options.out}: is no regular file")
     check_writable(options.out)
     known = read_calibration(options.out) if options.out.exists() else Calibration()
     learnt, lines = options.learn(options, known)
     whole = merged(known, learnt)
-    why_not = unusable(whole)
-    if why_not is not None:
-        raise Failure(f"nothing is written, for this cannot be: {why_not}")
+    problem = unusable(whole)
+    if problem is not None:
+        raise Failure(f"nothing is written, for this cannot be: {problem}")
     write_calibration(options.out, whole)
     print("\n".join([*lines, f"written to {printable(str(options.out))}"]))
     return 0
 
 
 Learnt = tuple[Calibration, list[str]]
-"""What was learnt, and the lines that say so."""
+"""Calibration that was learnt, and the lines that report it."""
 
 
 def _recording(command: argparse.ArgumentParser) -> None:

@@ -1,4 +1,4 @@
-"""`solepath convert IN OUT`: a phone's btsnoop log to a recording, a recording to MCAP."""
+"""`solepath convert IN OUT`: converts a phone's btsnoop log to a recording, or either to MCAP."""
 
 from __future__ import annotations
 
@@ -11,18 +11,19 @@ from typing import TYPE_CHECKING, Any, TypeVar
 from ..recording import PacketWriter, RecordingError, os_error_text, printable, read_header, read_packets
 from ..types import Packet, Site
 from .common.failure import Failure, note
-from .common.files import Replacing
+from .common.files import FileReplacements
 
 if TYPE_CHECKING:
     from ..recording.btsnoop import BtsnoopLog
     from ..recording.mcap import McapWriter
 
 LONG = 4_000_000
-"""Bytes from which on there is a progress bar."""
+"""Size from which on there is a progress bar, bytes."""
 RECORDING, MCAP = ".jsonl", ".mcap"
 
 
 def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
     command: argparse.ArgumentParser = commands.add_parser(
         "convert",
         help="import a phone's btsnoop log, export to MCAP",
@@ -56,9 +57,9 @@ def add_to(commands: Any) -> None:
 
 
 def _site(text: str) -> tuple[str, Site]:
-    address, told, name = text.rpartition("=")
+    address, equals, name = text.rpartition("=")
     try:
-        if not told:
+        if not equals:
             raise ValueError
         return address.upper(), Site(name)
     except ValueError:
@@ -78,10 +79,11 @@ def _handle(text: str) -> tuple[tuple[str, int], str]:
 
 
 _Key = TypeVar("_Key", str, tuple[str, int])
-_Said = TypeVar("_Said")
+_Value = TypeVar("_Value")
 
 
 def run(options: argparse.Namespace) -> int:
+    """Convert the file; return the exit status."""
     from ..recording.btsnoop import is_btsnoop
     from ..show.tables.progress import progress_bar
 
@@ -90,7 +92,7 @@ def run(options: argparse.Namespace) -> int:
     log: BtsnoopLog | None = None
     packets: Iterable[Packet]
     total = source.stat().st_size if source.is_file() else 0
-    with progress_bar(printable(source.name), total, wanted=total > LONG) as show:
+    with progress_bar(printable(source.name), total, enabled=total > LONG) as show:
         if is_btsnoop(source):
             log = _opened(options)
             packets, header = _shown(log, show), log.header
@@ -116,7 +118,7 @@ def _opened(options: argparse.Namespace) -> BtsnoopLog:
     from ..link.catalogue import PROFILES
     from ..recording.btsnoop import open_btsnoop
 
-    sites, handles = _once("--site", options.sites), _once("--handle", options.handles)
+    sites, handles = _by_key("--site", options.sites), _by_key("--handle", options.handles)
     known = {channel.name for profile in PROFILES for channel in profile.channels}
     for name in handles.values():
         if name not in known:
@@ -124,14 +126,14 @@ def _opened(options: argparse.Namespace) -> BtsnoopLog:
     return open_btsnoop(options.source, sites=sites, handles=handles, report=note)
 
 
-def _once(option: str, wishes: Iterable[tuple[_Key, _Said]]) -> dict[_Key, _Said]:
-    """By what each is about. Failure when two are about the same."""
-    found: dict[_Key, _Said] = {}
-    for key, said in wishes:
+def _by_key(option: str, given: Iterable[tuple[_Key, _Value]]) -> dict[_Key, _Value]:
+    """Return the values by their keys; Failure when a key is given twice."""
+    found: dict[_Key, _Value] = {}
+    for key, value in given:
         if key in found:
             name = key if isinstance(key, str) else f"{key[0]}/{key[1]:#06x}".removeprefix("/")
             raise Failure(f"{option} is given twice for {name}")
-        found[key] = said
+        found[key] = value
     return found
 
 
@@ -145,7 +147,7 @@ Make = Callable[[Path, Mapping[str, Any]], "PacketWriter | McapWriter"]
 
 
 def _maker(out: Path) -> Make:
-    """What writes a file of this name."""
+    """Return the class that writes a file of this name; Failure when there is none."""
     suffix = out.suffix.lower()
     if suffix == RECORDING:
         return PacketWriter
@@ -163,8 +165,9 @@ def _maker(out: Path) -> Make:
 def _write(
     packets: Iterable[Packet], header: Mapping[str, Any], make: Make, source: Path, out: Path
 ) -> tuple[int, RecordingError | None]:
-    """(how many packets `out` holds, what was wrong with the source after them). Where nothing could be read, or not
-    everything be written, `out` is as it was before."""
+    """Write the packets to `out`; return how many, and what was wrong with the source after them.
+
+    When nothing could be read, or not everything be written, `out` is as it was before."""
     if out.exists() and out.samefile(source):
         raise Failure(f"{printable(str(out))}: is what is to be converted")
     damage: RecordingError | None = None
@@ -190,7 +193,9 @@ def _write(
 
 
 def _until_damage(packets: Iterable[Packet]) -> Iterator[Packet | RecordingError]:
-    """The packets, and in the end what made the reading stop, if anything did: told from what the writing says."""
+    """Yield the packets, and at the end the error that stopped the reading, if any.
+
+    This keeps errors of reading apart from those of writing."""
     try:
         yield from packets
     except RecordingError as error:
@@ -199,12 +204,12 @@ def _until_damage(packets: Iterable[Packet]) -> Iterator[Packet | RecordingError
 
 @contextmanager
 def _replacing(out: Path) -> Iterator[Path]:
-    """A file to write that takes the place of `out` when it is done, and is gone when it is not."""
-    files = Replacing()
+    """Yield a file to write that replaces `out` when it is complete, and is removed when it is not."""
+    files = FileReplacements()
     try:
         yield files.beside(out, read_only=True)
         files.keep()
     except OSError as error:
         raise Failure(f"{printable(str(out))}: {os_error_text(error)}") from None
     finally:
-        files.drop()
+        files.discard()

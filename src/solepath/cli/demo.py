@@ -1,4 +1,4 @@
-"""`solepath demo`: an emulated wearer through the whole path, live, and a table against the truth at the end."""
+"""`solepath demo`: runs an emulated wearer through the whole library, live, and compares the result with the truth."""
 
 from __future__ import annotations
 
@@ -9,19 +9,20 @@ from typing import TYPE_CHECKING, Any
 
 from ..recording import PacketWriter, printable
 from ..types import Foot
-from .common.failure import Failure, is_there, note, positive, seconds, seed, share
+from .common.failure import Failure, is_installed, note, positive, seconds, seed, share
 from .common.view import View, add_speed, add_view, pace_of, play, run_rest, view_of
 
 if TYPE_CHECKING:
     from ..lab.emulated.demo import Demo
 
 REPORT_EVERY = 10.0
-"""s of the walk between two lines where there is no terminal."""
+"""Time of the walk between two lines where there is no terminal, s."""
 PACE = 2.0
-"""Times real time in a terminal: there is less to see than on a page."""
+"""Speed in a terminal, in multiples of real time: there is less to see than on a page."""
 
 
 def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
     command: argparse.ArgumentParser = commands.add_parser(
         "demo",
         help="walk an emulated route and compare with the truth",
@@ -52,6 +53,7 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Run the demo; return the exit status."""
     from ..emulate.demo import ROUTE, radio, straight
     from ..lab.emulated.demo import make_demo, make_indoors
     from ..lab.tables.comparison import comparison_table, place_table
@@ -76,46 +78,47 @@ def run(options: argparse.Namespace) -> int:
         _record(demo, options.record)
     if view is not None:
         _show(demo, view, pace)
-    elif sys.stdout.isatty() and is_there("rich"):
+    elif sys.stdout.isatty() and is_installed("rich"):
         _draw(demo, PACE if options.speed is None else options.speed)
     else:
         if sys.stdout.isatty():
             note("the live view needs rich (pip install rich); plain text without it")
-        _tell(demo)
+        _print_progress(demo)
     print()
-    told = [*gait_lines(demo.observer.gait), comparison_table(demo.comparison()), ""]
+    lines = [*gait_lines(demo.observer.gait), comparison_table(demo.comparison()), ""]
     if (place := demo.place()) is not None:
-        told += [place_table(place), ""]
-    print("\n".join([*told, *latency(demo.observer)]))
+        lines += [place_table(place), ""]
+    print("\n".join([*lines, *latency(demo.observer)]))
     return 0
 
 
 def _view(options: argparse.Namespace) -> View | None:
-    """Where the page is to be served; None where it is to be shown otherwise."""
+    """Return where the page is to be served; None when it is shown otherwise."""
     if options.terminal and options.no_browser:
         raise Failure("--no-browser is for the page, and --terminal shows none")
     view = view_of(options)
     if view is not None or options.terminal or not sys.stdout.isatty():
         return view
-    if is_there("aiohttp"):
+    if is_installed("aiohttp"):
         return View(browser=not options.no_browser)
     note("the page in the browser needs aiohttp (pip install 'solepath[view]')")
     return None
 
 
 def _show(demo: Demo, view: View, pace: float) -> None:
-    """On a page. Whatever was looked at there, the walk is heard to its end."""
-    from ..show.page.player.kept import KeptItems
+    """Show the demo on a page; the walk is computed to its end, whatever was watched."""
+    from ..show.page.player.packed_items import PackedItems
     from ..show.page.player.player import Player
     from ..show.page.scene.scene import Scene
 
     scene = Scene("An emulated walk", "default", "demo", plan=None if demo.plan is None else demo.plan.plan)
-    player = Player(KeptItems(demo.walk.packets), demo.session, scene, demo.plan, told=demo.add_events)
+    player = Player(PackedItems(demo.walk.packets), demo.session, scene, demo.plan, on_events=demo.add_events)
     play(player, view, pace)
     run_rest(player, "walk")
 
 
 def _record(demo: Demo, path: Path) -> None:
+    """Write the packets of the walk as a recording."""
     with PacketWriter(path) as writer:
         for packet in demo.walk.packets:
             writer.write(packet)
@@ -123,7 +126,7 @@ def _record(demo: Demo, path: Path) -> None:
 
 
 def _draw(demo: Demo, speed: float) -> None:
-    """Played in the terminal at `speed` times real time, redrawn as it goes."""
+    """Play the demo in the terminal at `speed` times real time."""
     from time import monotonic, sleep
 
     from rich.console import Console
@@ -133,10 +136,10 @@ def _draw(demo: Demo, speed: float) -> None:
     def title() -> str:
         return f"{demo.observer.now:5.1f} of {demo.duration:.1f} s, {speed:g} times real time"
 
-    console, began = Console(), monotonic()
+    console, started = Console(), monotonic()
     with screen(console) as drawn:
         for packet in demo.play():
-            if (ahead := packet.t / speed - (monotonic() - began)) > 0.5 / FRAMES:
+            if (ahead := packet.t / speed - (monotonic() - started)) > 0.5 / FRAMES:
                 drawn.draw(demo.observer, title())
                 sleep(ahead)
             else:
@@ -144,8 +147,8 @@ def _draw(demo: Demo, speed: float) -> None:
     console.print(picture(demo.observer, title()))
 
 
-def _tell(demo: Demo) -> None:
-    """Lines of plain text instead of a picture, as fast as it goes."""
+def _print_progress(demo: Demo) -> None:
+    """Print lines of plain text instead of a picture, as fast as they are computed."""
     from ..show.tables.plot import plot
     from ..show.tables.summary import link_health
 

@@ -1,4 +1,4 @@
-"""`solepath evaluate [DIR]`: every recipe on recorded data with a truth, and on emulated walks, as tables."""
+"""`solepath evaluate [DIR]`: scores every recipe on recorded data with a truth, and on emulated walks, in tables."""
 
 from __future__ import annotations
 
@@ -18,9 +18,11 @@ if TYPE_CHECKING:
     from ..lab.evaluate.report import Result
 
 ENVIRONMENT = "SOLEPATH_DATA"
+"""Environment variable that names the data directory."""
 
 
 def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
     command: argparse.ArgumentParser = commands.add_parser(
         "evaluate",
         help="score recipes on recorded data with a truth, and on emulated walks",
@@ -67,6 +69,7 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Evaluate and print the tables; return the exit status."""
     from ..lab.evaluate import ablation
     from ..lab.evaluate.changes import read_scores
     from ..lab.evaluate.datasets import EMULATED

@@ -1,4 +1,4 @@
-"""`solepath fleet-demo`: emulated wearers through a stream engine that is killed, and what that costs."""
+"""`solepath fleet-demo`: runs emulated wearers through a stream engine that is killed, and measures the cost."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..recording import printable
-from .common.failure import Failure, count, is_there, positive, recipe_named, seed
+from .common.failure import Failure, count, is_installed, positive, recipe_named, seed
 from .common.files import check_writable, write_json
 
 if TYPE_CHECKING:
@@ -22,12 +22,13 @@ if TYPE_CHECKING:
 DIFFERS = 1
 """Exit status when the events of two runs differ."""
 LONGEST = 3600.0
-"""s of walking."""
+"""Longest walk that can be asked for, s."""
 WALKED, LEAST, MOST = 1200.0, 4.0, 20.0
-"""s of walking of all wearers, and the least and the most of each, where nobody says how long."""
+"""Total walking time of all wearers, and least and most of each, when no time is given, s."""
 
 
 def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
     command: argparse.ArgumentParser = commands.add_parser(
         "fleet-demo",
         help="many emulated wearers through a stream engine that is killed",
@@ -64,17 +65,18 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Run the demo; return the exit status."""
     _check(options)
     from ..fleet.demo.compare import UnreadableEvents
     from ..fleet.demo.run import RunFailed
     from ..fleet.demo.stage import DemoStage
     from ..fleet.demo.wearers import DemoPlan
-    from .common.loop import stopped_alike
+    from .common.loop import stop_signals_raise
     from .fleet_table import figures, table_of
 
     seconds = options.seconds or min(max(WALKED / options.wearers, LEAST), MOST)
     plan = DemoPlan(options.wearers, seconds, options.seed, options.recipe, options.processes)
-    with stopped_alike(), _directory(options) as directory:
+    with stop_signals_raise(), _directory(options) as directory:
         stage = DemoStage(directory, plan)
         try:
             differences = play(stage, options.kills, keep=options.keep)
@@ -89,7 +91,9 @@ def run(options: argparse.Namespace) -> int:
 
 
 def play(stage: DemoStage, kills: int, *, keep: bool) -> list[str]:
-    """All runs, told as they end; what differed between an uninterrupted one and the sessions alone."""
+    """Do all runs and print each as it ends.
+
+    Return what differed between the uninterrupted run and the sessions alone."""
     from .fleet_table import of_kills, of_worth
 
     plan = stage.plan
@@ -120,7 +124,9 @@ def _counted(count: int, one: str, many: str) -> str:
 
 
 def verdict(alone: list[str], killed: list[list[str]]) -> int:
-    """The exit status, and why it is not 0: what differed from the sessions alone, and in each killed run."""
+    """Return the exit status, and print why it is not 0.
+
+    The reasons are what differed from the sessions alone, and in each killed run."""
     wrong = [f"sessions alone: {line}" for line in alone]
     wrong += [f"killed run {number}: {line}" for number, lines in enumerate(killed, 1) for line in lines]
     if wrong:
@@ -129,7 +135,7 @@ def verdict(alone: list[str], killed: list[list[str]]) -> int:
 
 
 def _check(options: argparse.Namespace) -> None:
-    """Failure for what could only go wrong after a while."""
+    """Raise Failure for options that would only fail after a while."""
     recipe_named(options.recipe)
     if options.seconds is not None and options.seconds > LONGEST:
         raise Failure(f"--seconds {options.seconds:g}: {LONGEST:g} is the most")
@@ -137,7 +143,7 @@ def _check(options: argparse.Namespace) -> None:
         raise Failure(f"--seconds {options.seconds:g}: a walk takes at least 1")
     if options.processes > options.wearers:
         raise Failure(f"--processes {options.processes}: more than there are wearers, {options.wearers}")
-    if not (is_there("bytewax") and is_there("pyarrow")):
+    if not (is_installed("bytewax") and is_installed("pyarrow")):
         where = "" if sys.version_info < (3, 13) else " on Python 3.11 or 3.12, the last that bytewax has a release for"
         raise Failure(f"the fleet needs bytewax and pyarrow: pip install 'solepath[bytewax]'{where}")
     if options.out is not None and options.out.exists() and (not options.out.is_dir() or any(options.out.iterdir())):
@@ -148,7 +154,7 @@ def _check(options: argparse.Namespace) -> None:
 
 @contextmanager
 def _directory(options: argparse.Namespace) -> Iterator[Path]:
-    """Where the runs are; thrown away at the end unless it is to be kept."""
+    """Yield the directory of the runs; it is removed at the end unless it is to be kept."""
     made = options.out is not None and not options.out.exists()
     if options.out is not None:
         options.out.mkdir(parents=True, exist_ok=True)
@@ -164,17 +170,17 @@ def _directory(options: argparse.Namespace) -> Iterator[Path]:
         else:
             shutil.rmtree(directory, ignore_errors=True)
             if made:
-                with suppress(OSError):  # there is something in it
+                with suppress(OSError):  # the directory is not empty
                     directory.parent.rmdir()
 
 
 def _leave(stage: DemoStage, out: Path) -> None:
-    """The events of the uninterrupted run, and how to look at them."""
+    """Copy the events of the uninterrupted run, and print how to look at them."""
     from shlex import quote
 
-    told = out / "told"
-    shutil.copytree(stage.events, told)
-    files = f"{told}/*.parquet".replace("'", "''")
+    events_directory = out / "told"
+    shutil.copytree(stage.events, events_directory)
+    files = f"{events_directory}/*.parquet".replace("'", "''")
     query = f"FROM '{files}' SELECT event, count(*) AS told GROUP BY event ORDER BY told DESC"
-    print(f"\nThe events are in {printable(str(told))}. To look at them (pip install duckdb):")
+    print(f"\nThe events are in {printable(str(events_directory))}. To look at them (pip install duckdb):")
     print(printable(f"python -c {quote(f'import duckdb; print(duckdb.sql({query!r}))')}", 5000))

@@ -1,4 +1,4 @@
-"""What `solepath fleet-demo` prints of its runs."""
+"""Texts and tables of the runs of `solepath fleet-demo`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 def of_kills(engine: Engine, run: int, outcome: Outcome) -> list[str]:
-    """A line for each kill of a run, the last with what became of the run."""
+    """Return a line for each kill of a run; the last one ends with the result of the run."""
     lines = [f"killed run {run}: {_met(engine, cost)}" for cost in outcome.costs]
     if outcome.differences:
         lines[-1] += "; other events"
@@ -27,7 +27,7 @@ def of_kills(engine: Engine, run: int, outcome: Outcome) -> list[str]:
 
 
 def of_worth(outcomes: list[Outcome]) -> str:
-    """What the kills were worth."""
+    """Return a sentence on how many kills tested anything."""
     costs = [cost for outcome in outcomes for cost in outcome.costs]
     if not costs:
         return "nothing was killed"
@@ -50,7 +50,7 @@ def _met(engine: Engine, cost: Cost) -> str:
 
 
 def table_of(stage: DemoStage) -> str:
-    """The figures of all runs. What was not done has a dash."""
+    """Return the table of the figures of all runs, with a dash for what was not done."""
     found = figures(stage)
     engine, bare, kills = found["engine"], found["sessions"], found["kills"]
     costs = [kill for kill in kills if kill["replayed"] is not None]
@@ -86,7 +86,7 @@ def table_of(stage: DemoStage) -> str:
 
 
 def figures(stage: DemoStage) -> dict[str, Any]:
-    """The same for programs: s, bytes, samples/s."""
+    """Return the figures for programs, in s, bytes and samples/s."""
     engine, bare, plan = stage.engine, stage.sessions, stage.plan
     if engine is None or bare is None:
         raise ValueError("nothing has run yet")

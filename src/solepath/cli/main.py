@@ -1,6 +1,6 @@
-"""`solepath`: the parser, and what every command does about errors.
+"""`solepath`: the parser, and the handling of errors of all commands.
 
-Exit status: 0 done; 2 the command line or a file is wrong, said in one line on stderr; 130 interrupted.
+Exit status: 0 done; 2 the command line or a file is wrong, with one line on stderr; 130 interrupted.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ COMMANDS = (demo, track, scan, live, emulate, convert, calibrate, evaluate, repr
 
 
 def parser() -> argparse.ArgumentParser:
+    """Return the parser with all commands."""
     top = argparse.ArgumentParser(
         prog="solepath", description="Gait events and indoor tracks from foot-worn sensors: bytes in, steps out."
     )
@@ -31,6 +32,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def run(arguments: Sequence[str] | None) -> int:
+    """Run one command; errors are raised."""
     top = parser()
     options = top.parse_args(arguments)
     if options.version:
@@ -46,7 +48,7 @@ def run(arguments: Sequence[str] | None) -> int:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command; the exit status."""
+    """Run one command and return the exit status."""
     _open_closed()
     try:
         status = run(arguments)
@@ -57,7 +59,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:
-        # whoever read our output has seen enough; Python would complain once more when it closes stdout
+        # the reader closed the pipe; without this Python would report it again when it closes stdout
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except OSError as error:
@@ -66,7 +68,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _open_closed() -> None:
-    """A stream that was closed before we began is None: then nobody reads what we say, and there is nothing to read."""
+    """Open /dev/null for each standard stream that was closed before the start, and is None."""
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
         if getattr(sys, name) is None:
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), mode, encoding="utf-8"))

@@ -1,4 +1,4 @@
-"""`solepath reproduce NAME`: a paper's experiment again, on the emulator, beside the paper's own table."""
+"""`solepath reproduce NAME`: repeats a paper's experiment on the emulator and prints it beside the paper's table."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ from .common.failure import Failure, count, need, seed
 from .common.files import check_writable, write_json
 
 NAMES = ("kupt-dfpc", "pressure-contour", "walking-modes", "footstep-tracker", "shoe-sensing")
-"""Each a module of lab.reproduce, of which only the one that is asked for is loaded."""
+"""Modules of lab.reproduce, of which only the one that is asked for is imported."""
 
 
 def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
     command: argparse.ArgumentParser = commands.add_parser(
         "reproduce",
         help="walk a paper's experiment again on the emulator",
@@ -45,6 +46,7 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Repeat the experiment and print its table; return the exit status."""
     if options.name not in NAMES:
         raise Failure(f"there is no experiment {options.name!r}; there are: {', '.join(NAMES)}")
     figure = _figure(options)
@@ -75,7 +77,7 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _figure(options: argparse.Namespace) -> Path | None:
-    """Where the figure goes. Failure when it could not be drawn there."""
+    """Return the path of the figure, None without one; Failure when it could not be drawn there."""
     path: Path | None = options.figure
     if path is None:
         return None

@@ -1,4 +1,4 @@
-"""`solepath track FILE`: a recording through a session, summed up and written out."""
+"""`solepath track FILE`: runs a recording through a session, prints a summary and writes files."""
 
 from __future__ import annotations
 
@@ -29,12 +29,13 @@ if TYPE_CHECKING:
     from .common.results import Results
 
 LONG = 4_000_000
-"""Bytes of packets from which on there is a progress bar ..."""
+"""Size of a recording of packets from which on there is a progress bar, bytes."""
 LONG_SAMPLES = 40_000
-"""... or samples: a second or so of computing."""
+"""Number of samples from which on there is a progress bar: about a second of computing."""
 
 
 def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
     command: argparse.ArgumentParser = commands.add_parser(
         "track",
         help="run a recording and print a summary",
@@ -61,7 +62,8 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from .common.loop import stopped_alike
+    """Run the recording; return the exit status."""
+    from .common.loop import stop_signals_raise
     from .common.results import Results
 
     recipe = recipe_named(options.recipe)
@@ -90,7 +92,7 @@ def run(options: argparse.Namespace) -> int:
         when=_when(source),
     )
     seconds, shown = 0.0, False
-    with stopped_alike(), results:
+    with stop_signals_raise(), results:
         if view is None:
             seconds = _straight(reading, session, results)
         else:
@@ -100,23 +102,25 @@ def run(options: argparse.Namespace) -> int:
     if reading.failure is None:
         return 0
     if shown:
-        return 2  # why was said before
+        return 2  # the reason was already printed
     raise reading.failure
 
 
 def _when(source: Source) -> str:
-    """When the recording began, to be read; "" where it does not say."""
+    """Return when the recording started, as text; "" when it does not say."""
     if source.samples is not None:
         return ""
     try:
         moment = read_start_time(read_header(source.path))
     except RecordingError:
-        return ""  # whatever is wrong with it is said when it is run
+        return ""  # the run itself reports what is wrong with it
     return "" if moment is None else f"{moment[0]:%Y-%m-%d %H:%M} UTC"
 
 
 class _Reading:
-    """The items of a recording up to a fault in it, with a progress bar where it is long. `failure`: the fault."""
+    """The items of a recording up to a fault in it, with a progress bar for a long one.
+
+    `failure` is the fault."""
 
     def __init__(self, source: Source) -> None:
         self.source = source
@@ -127,7 +131,7 @@ class _Reading:
 
         source = self.source
         long = source.total > (LONG if source.samples is None else LONG_SAMPLES)
-        with progress_bar(printable(source.path.name), source.total, wanted=long) as show:
+        with progress_bar(printable(source.path.name), source.total, enabled=long) as show:
             try:
                 for item in source:
                     yield item
@@ -137,17 +141,17 @@ class _Reading:
 
 
 def _straight(reading: _Reading, session: Session, results: Results) -> float:
-    """The recording through the session, item by item; how long that took, s."""
+    """Run the recording through the session item by item; return how long that took, s."""
     from time import perf_counter
 
     start = perf_counter()
     for item in reading:
-        results.begin()
-        results.told(item, session.feed(item))
+        results.open_files()
+        results.add(item, session.feed(item))
     if reading.failure is None:
-        results.begin()  # of a recording of nothing
-    # what came before a fault in the file is a walk of its own: it is finished and written like any other
-    results.told(None, session.finish())
+        results.open_files()  # for a recording without items
+    # items before a fault in the file are a walk of their own: it is finished and written like any other
+    results.add(None, session.finish())
     return perf_counter() - start
 
 
@@ -160,18 +164,18 @@ def _played(
     view: View,
     pace: float,
 ) -> bool:
-    """The same, by a player on a page; whether there was anything to play.
+    """Run the recording by a player on a page; return whether there was anything to play.
 
-    The player tells of every item once and in order, whatever is done on the page, and what nobody has watched is run
-    through at the end: what comes of the recording is the same."""
-    from ..show.page.player.kept import KeptItems
+    The player passes on every item once and in order, whatever is done on the page, and what nobody has watched is
+    computed at the end. The result is that of `_straight`."""
+    from ..show.page.player.packed_items import PackedItems
     from ..show.page.player.player import Player
     from ..show.page.scene.scene import Scene
 
-    items = KeptItems(reading)
+    items = PackedItems(reading)
     shown, fault = len(items) > 0, "" if reading.failure is None else str(reading.failure)
     if shown or not fault:
-        results.begin()
+        results.open_files()
     scene = Scene(
         printable(reading.source.path.name),
         session.recipe.name,
@@ -179,7 +183,7 @@ def _played(
         plan=None if plan is None else plan.plan,
         newtons=newtons_of(calibration),
     )
-    player = Player(items, session, scene, plan, fault=fault, told=results.told)
+    player = Player(items, session, scene, plan, fault=fault, on_events=results.add)
     if shown:
         if fault:
             note(fault)

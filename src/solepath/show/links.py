@@ -1,7 +1,7 @@
-"""The one ledger of a sensor's link: what came, what never came, how many samples a second, where it fell silent.
+"""Counts what came over each sensor's link: packets, losses, sample rate, gaps and silences.
 
-What terminal, page, report and summary say of links is read from here, and what each figure means is said here alone.
-It is counted from the packets that a session was fed and from the events that it said of them.
+Terminal, page, report and summary read their figures of links from here, and only here the figures are defined. They
+are counted from the packets that a session was fed and from the events that it reported of them.
 """
 
 from __future__ import annotations
@@ -31,45 +31,46 @@ from ..link.kinds import BUILT_IN_KINDS
 from ..types import Packet
 from ..wire.fragment import is_fragment
 
-BACK = 1.0
-"""s by which nothing is late: what is earlier than that is of a clock that was set back."""
+SET_BACK = 1.0
+"""Time that a moment may lie before the latest one, s; if it lies farther back, the clock was set back."""
 WINDOW = 2.0
-"""s over which the rate of late is counted."""
+"""Time over which the recent sample rate is counted, s."""
 MOST_SAMPLES = 1000
-"""Samples that are counted in it: 500 a second."""
+"""Samples that the recent rate counts at the most: 500 a second."""
 LOSS_WINDOW = 10
-"""s over which the loss of late is counted, in whole ones: an outage is over when it is over."""
-SILENT = 1.5
-"""s without a sample after which a link is silent, whether or not the session has said so."""
-STRAY = 1.0
-"""s after a connection broke in which what still comes is no sign of a new one."""
+"""Time over which the recent loss is counted, in whole seconds; an outage that ended earlier no longer counts."""
+SILENT_AFTER = 1.5
+"""Time without a sample after which a link is silent, whether or not the session has reported it, s."""
+STRAGGLER_TIME = 1.0
+"""Time after a broken connection in which a sample that still comes is no sign of a new connection, s."""
 
 
-def streamed(channel: str) -> bool:
-    """Whether samples come on this channel of a device that solepath knows."""
+def is_sample_channel(channel: str) -> bool:
+    """Return whether samples come on this channel of a device that solepath knows."""
     kind = BUILT_IN_KINDS.get(channel.partition("/")[0])
     return kind is not None and channel in kind.profile.streams
 
 
-def in_pieces(packet: Packet) -> bool:
-    """Whether this is a piece of a frame that was too long for one packet."""
+def is_frame_fragment(packet: Packet) -> bool:
+    """Return whether the packet is a fragment of a frame that was too long for one packet."""
     return packet.channel == "insole/frame" and is_fragment(packet.data)
 
 
 @define
-class Stretches:
-    """Time that is covered, s: of stretches that no clock was set back in."""
+class CoveredTime:
+    """Time that is covered by stretches within which no clock was set back, s."""
 
     count: int = 0
     first: float | None = None
-    """Where the one that is going on began; None between two of them."""
+    """Start of the stretch that is going on, s; None between two stretches."""
     last: float = 0.0
+    """Latest moment of the stretch that is going on, s."""
     _before: float = 0.0
-    """How long the others are together."""
+    """Total duration of the stretches that have ended, s."""
 
     def add(self, t: float) -> None:
-        """Something came at `t` s."""
-        if self.first is not None and t < self.last - BACK:
+        """Add the moment `t`, in s, at which something came."""
+        if self.first is not None and t < self.last - SET_BACK:
             self.close()
         if self.first is None:
             self.count += 1
@@ -77,24 +78,24 @@ class Stretches:
         self.first, self.last = min(self.first, t), max(self.last, t)
 
     def close(self) -> None:
-        """What comes next does not go on from what came."""
+        """End the stretch: what comes next does not continue it."""
         self._before, self.first = self.total, None
 
     @property
     def total(self) -> float:
-        """How long all of them are together."""
+        """Total duration of all stretches, s."""
         return self._before + (0.0 if self.first is None else self.last - self.first)
 
 
 @define
-class LossOfLate:
-    """Packets of samples of the last seconds."""
+class RecentLoss:
+    """Received and lost packets of samples in the last seconds."""
 
     seconds: deque[list[int]] = field(factory=lambda: deque(maxlen=LOSS_WINDOW + 1))
-    """[second, received, lost], of those in which there were any."""
+    """[second, received, lost] for each second in which there were any packets."""
 
     def add(self, t: float, received: int, lost: int) -> None:
-        """At `t` s there were so many more."""
+        """Add packets that were received or lost at `t` s."""
         second = floor(t)
         if not self.seconds or not self.seconds[-1][0] - 1 <= second <= self.seconds[-1][0]:
             self.seconds.append([second, 0, 0])
@@ -102,7 +103,7 @@ class LossOfLate:
         self.seconds[-1][2] += lost
 
     def share(self, now: float) -> float | None:
-        """Of those that were sent, the lost ones; None where none came."""
+        """Return the lost share of the packets sent in the window before `now`; None when none was received."""
         kept = [one for one in self.seconds if now - LOSS_WINDOW - 1.0 < one[0] <= now]
         received, lost = sum([one[1] for one in kept]), sum([one[2] for one in kept])
         return lost / (received + lost) if received else None
@@ -110,93 +111,101 @@ class LossOfLate:
 
 @define
 class LinkLedger:
-    """The link of one site since the start. Times are arrivals in s, unless a line says otherwise; memory is bounded.
+    """Counts of the link of one site since the start.
 
-    `counted`: its samples are seen here. Those of feet always are; of another site, once a packet of it was fed."""
+    Times are arrivals in s, unless a field says otherwise. Memory is bounded. `counted` says whether the samples of
+    this site are seen here: those of a foot always are, those of another site once a packet of it was fed."""
 
     counted: bool = True
     received: int = 0
-    """Packets of samples that came and were used. A frame that is sent in pieces is one packet, and is there with the
-    piece that makes a sample of it. 0 where samples are fed without packets, and of a device of an app's own."""
+    """Packets of samples that came and were used.
+
+    A frame that is sent in fragments is one packet; it is counted with the fragment that completes a sample. The count
+    is 0 where samples are fed without packets, and for a device of an app's own."""
     lost: int = 0
-    """Packets of samples that never came, as the device's counter has it, or the time between arrivals for a device
-    without one (PacketsLost). What was rejected is not lost for that: of a packet that came twice or late nothing is
-    missing. Of one that came damaged, or that the receiver dropped, the counter shows that it is."""
+    """Packets of samples that never came, by the device's counter or by the time between arrivals (PacketsLost).
+
+    The time between arrivals counts for a device without a counter. A rejected packet is not lost for that reason:
+    nothing is missing when a packet came twice or late. When a packet came damaged, or the receiver dropped it, the
+    counter shows that it is missing."""
     dropped: int = 0
-    """Packets that came and were thrown away, since nobody took them in time (PacketsDropped)."""
+    """Packets that came and were discarded because the program did not take them in time (PacketsDropped)."""
     rejected: Counter[tuple[str, str]] = field(factory=Counter)
-    """Packets and samples that came and could not be used (PacketRejected, SampleRejected): by "packets" or "samples",
-    and the reason."""
+    """Packets and samples that came and could not be used, by "packets" or "samples" and the reason.
+
+    They are counted from PacketRejected and SampleRejected."""
     samples: int = 0
-    """Samples that were used, each with its own time: of a foot what the session said where it was or what it pressed
-    (FootMoved, FootPressed) or what was fed as a sample; of another site what its packets hold."""
-    moves: bool = False
-    """There were samples of an inertial sensor ..."""
-    presses: bool = False
-    """... and of pressure cells."""
+    """Samples that were used, each with its own time.
+
+    A sample of a foot counts when the session reported a position or a pressure of it (FootMoved, FootPressed) or when
+    it was fed as a sample. Samples of another site are those that its packets hold."""
+    has_motion: bool = False
+    """True once there were samples of an inertial sensor."""
+    has_pressure: bool = False
+    """True once there were samples of pressure cells."""
     gaps: int = 0
-    """Interruptions between samples that are longer than the sensor's rate allows (SampleGap)."""
+    """Gaps between samples that are longer than the sensor's rate allows (SampleGap)."""
     gap_time: float = 0.0
-    """Their time together, each from the last sample before it to the first one after it, s."""
+    """Total duration of the gaps, each from the last sample before it to the first one after it, s."""
     silences: int = 0
-    """How often nothing came for longer than the link allows (StreamStale)."""
+    """Number of times at which nothing came for longer than the link allows (StreamStale)."""
     connections: int = 0
     clock_resets: int = 0
-    """How often the device's clock, or the receiver's, jumped or began anew (ClockReset)."""
+    """Number of times at which the device's or the receiver's clock jumped or restarted (ClockReset)."""
     restarts: int = 0
-    """How often the receiver set up the device again, since it sent nothing over a connection that stands."""
+    """Number of times at which the receiver set up the device again, as it sent nothing over a standing connection."""
     battery: float | None = None
-    """As the device said last, 0 to 1."""
+    """Charge of the battery as the device last reported it, 0 to 1."""
     name: str = ""
-    """Of the device, as far as it is known."""
+    """Name of the device; empty while it is not known."""
     signal: int | None = None
-    """With which it was last heard before the connection, dBm."""
+    """Signal strength of the last advertisement before the connection, dBm."""
     trouble: str = ""
-    """The last one, until the device is connected again (LinkTrouble)."""
-    heard: float | None = None
-    """When the newest sample came."""
+    """The last LinkTrouble; empty again when the device is connected."""
+    last_sample_at: float | None = None
+    """Arrival of the newest sample, s."""
     broken_at: float | None = None
-    """When the connection broke; None while there is one."""
+    """Moment at which the connection broke, s; None while there is one."""
     _fresh: bool = False
-    """Samples have come over this connection."""
+    """True once samples have come over this connection."""
     _stale: bool = False
-    """The session has said that nothing comes any more."""
+    """True after the session has reported that nothing comes any more."""
     _t: float | None = None
-    """The newest sample's own time, s."""
-    _covered: Stretches = field(factory=Stretches)
-    """By the samples' own times: silences, and clocks that begin anew, part them."""
+    """Time of the newest sample by its own clock, s."""
+    _covered: CoveredTime = field(factory=CoveredTime)
+    """Time covered by the samples' own times; silences and restarted clocks split it into stretches."""
     _gaps_covered: int = 0
-    """Gaps that lie within a stretch ..."""
+    """Gaps that lie within a stretch of covered time."""
     _gap_time_covered: float = 0.0
-    """... and their time, s."""
-    _of_late: deque[float] = field(factory=lambda: deque(maxlen=MOST_SAMPLES))
-    """When the newest samples came."""
-    _since: float = 0.0
-    """When the first of an unbroken row of them came: a stream that has just begun is not slow."""
-    _losses: LossOfLate = field(factory=LossOfLate)
+    """Total duration of the gaps that lie within a stretch of covered time, s."""
+    _recent: deque[float] = field(factory=lambda: deque(maxlen=MOST_SAMPLES))
+    """Arrivals of the newest samples, s."""
+    _recent_start: float = 0.0
+    """Arrival of the first of them in an unbroken row, s: a stream that has just started is not slow."""
+    _losses: RecentLoss = field(factory=RecentLoss)
 
-    def arrived(self, t: float) -> None:
-        """A packet of samples came at `t` s, and was used."""
+    def add_packet(self, t: float) -> None:
+        """Add a packet of samples that came at `t` s and was used."""
         self.received += 1
         self._losses.add(t, 1, 0)
 
-    def sampled(self, t: float, known_at: float) -> None:
-        """A sample of `t` s was used, which came at `known_at`. What is said of the same one again does not count."""
+    def add_sample(self, t: float, known_at: float) -> None:
+        """Add a used sample of time `t` that came at `known_at`, both in s; a repeated `t` does not count."""
         if t == self._t:
             return
-        self._t, self.heard, self.counted = t, known_at, True
+        self._t, self.last_sample_at, self.counted = t, known_at, True
         self.samples += 1
         self._covered.add(t)
-        if self._of_late and known_at < self._of_late[-1] - BACK:
-            self._of_late.clear()
-        if not self._of_late:
-            self._since = known_at
-        self._of_late.append(known_at)
-        if self.broken_at is None or known_at > self.broken_at + STRAY:
+        if self._recent and known_at < self._recent[-1] - SET_BACK:
+            self._recent.clear()
+        if not self._recent:
+            self._recent_start = known_at
+        self._recent.append(known_at)
+        if self.broken_at is None or known_at > self.broken_at + STRAGGLER_TIME:
             self.broken_at, self._fresh, self._stale = None, True, False
 
-    def take(self, event: Event) -> None:
-        """An event of this link."""
+    def add_event(self, event: Event) -> None:
+        """Add an event of this link."""
         match event:
             case PacketsLost(count=count):
                 self.lost += count
@@ -240,31 +249,33 @@ class LinkLedger:
 
     @property
     def rate(self) -> float | None:
-        """Samples a second since the start, outside gaps and silences; None of fewer than two in a row."""
+        """Samples a second since the start, without gaps and silences; None for fewer than two samples in a row."""
         span = self._covered.total - self._gap_time_covered
         intervals = self.samples - self._covered.count - self._gaps_covered
         return intervals / span if span > 0.0 and intervals > 0 else None
 
-    def rate_of_late(self, now: float) -> float | None:
-        """Samples a second that came in the 2 s before `now`; None where they are not counted."""
-        while self._of_late and self._of_late[0] <= now - WINDOW:
-            self._of_late.popleft()
+    def recent_rate(self, now: float) -> float | None:
+        """Return the samples a second that came in the 2 s before `now`; None where they are not counted."""
+        while self._recent and self._recent[0] <= now - WINDOW:
+            self._recent.popleft()
         if not self.counted:
             return None
-        return len(self._of_late) / min(WINDOW, max(now - self._since, 0.5 * WINDOW))
+        return len(self._recent) / min(WINDOW, max(now - self._recent_start, 0.5 * WINDOW))
 
     @property
     def loss(self) -> float | None:
-        """Share of the packets sent since the start that were lost; None where none came."""
+        """Share of the packets sent since the start that were lost; None when none came."""
         return self.lost / (self.received + self.lost) if self.received else None
 
-    def loss_of_late(self, now: float) -> float | None:
-        """Share of the packets sent in the 10 s before `now` that were lost; None where none came."""
+    def recent_loss(self, now: float) -> float | None:
+        """Return the share of the packets sent in the 10 s before `now` that were lost; None when none came."""
         return self._losses.share(now)
 
     def state(self, now: float) -> str:
-        """In a word: "waiting" for the first sample over this connection, "ok", "silent" when nothing comes any more,
-        "lost" when the connection is."""
+        """Return the state of the link at `now`: "waiting", "ok", "silent" or "lost".
+
+        "waiting" is before the first sample over this connection, "silent" when nothing comes any more, "lost" when the
+        connection is broken."""
         if self.broken_at is not None:
             return "lost"
         if self._stale:
@@ -277,5 +288,5 @@ class LinkLedger:
 
     @property
     def silent_from(self) -> float:
-        """From when on it is silent if nothing comes any more."""
-        return inf if self.heard is None else self.heard + SILENT
+        """Moment from which the link is silent if nothing more comes, s."""
+        return inf if self.last_sample_at is None else self.last_sample_at + SILENT_AFTER

@@ -1,11 +1,10 @@
-"""The one observer of a session: what it was fed and what it said, counted as it goes on, for whoever shows it.
+"""Counts what a session was fed and what it reported, for all who show it.
 
     observer = Observer()
     observer.take(packet, session.feed(packet))
     observer.take(None, session.finish())
 
-Terminal, summary, page and report read from it. What counts as lost or rejected, and what a rate is, is said in
-links.py.
+Terminal, summary, page and report read from it. links.py defines what counts as lost or rejected, and what a rate is.
 """
 
 from __future__ import annotations
@@ -46,11 +45,11 @@ from ..events import (
 )
 from ..link.decoder import Decoder
 from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Turn, Vec3, WalkingMode
-from .links import BACK, LinkLedger, Stretches, in_pieces, streamed
+from .links import SET_BACK, CoveredTime, LinkLedger, is_frame_fragment, is_sample_channel
 from .places import PlaceCounts
-from .sound import sound
 from .timeline import Timeline
 from .track import LiveTrack
+from .valid import has_valid_numbers
 
 GAIT_EVENTS: dict[type[Event], str] = {
     HeelStrike: "heel-strike",
@@ -58,91 +57,96 @@ GAIT_EVENTS: dict[type[Event], str] = {
     HeelOff: "heel-off",
     ToeOff: "toe-off",
 }
-"""The events of a foot's phases, and what they are called."""
-REJECTED = (PacketRejected, SampleRejected)
-"""What changes nothing, and so is no sign of time passing either."""
-EVER = 10**9
-"""More strides than anybody takes."""
-NAMED = 8
-"""Cells that are named one by one."""
+"""Events that start the phases of a foot, with their names."""
+REJECTIONS = (PacketRejected, SampleRejected)
+"""Events that change nothing, and are no sign that time passes either."""
+ALL_STRIDES = 10**9
+"""More strides than anybody takes, so that the means are over all of them."""
+MOST_NAMED_CELLS = 8
+"""Cells that a sentence names one by one at the most."""
 MOST_SENTENCES = 100
-"""Of one kind, each another: later ones are not kept."""
+"""Different sentences of one kind that are kept; later ones are not."""
 MOST_CHANGES = 2000
-"""Of the activity: of more, the shortest are left out."""
+"""Changes of activity that are kept; of more, the shortest activities are left out."""
 
 
 @define
 class FootCounts:
-    """What one foot did so far."""
+    """Counts of one foot from the start until now."""
 
     strides: int = 0
-    """Final ones."""
+    """Number of final strides."""
     degraded: int = 0
-    """Of them, those with samples missing or saturated."""
+    """Number of final strides with missing or saturated samples."""
     distance: float = 0.0
     """Sum of the stride lengths, m."""
     events: Counter[type[Event]] = field(factory=Counter)
-    """Final ones of GAIT_EVENTS."""
+    """Number of final events of each kind in GAIT_EVENTS."""
     phase: Phase | None = None
     position: Vec3 | None = None
-    """Live, world frame, m."""
+    """Live position, world frame, m."""
 
 
 @define
 class Observer:
-    """Counts over a whole session, or so far, from a session made with `poses=True`. Memory is bounded. An event with a
-    number that is none is left out."""
+    """Counts over a session from its start until now.
+
+    The session is made with `poses=True`. Memory is bounded. An event that holds a number that is not finite is left
+    out."""
 
     items: int = 0
     """Packets and samples that were fed, used or not."""
     now: float = -inf
-    """The latest moment that anything is known of, s; after a clock was set back, by that clock."""
-    time: Stretches = field(factory=Stretches)
-    """From the first to the last packet or sample that was used, s: by the arrival of packets, by the own time of
-    samples that never were packets."""
+    """Latest known moment, s; after a clock was set back, by that clock."""
+    time: CoveredTime = field(factory=CoveredTime)
+    """Time from the first to the last packet or sample that was used, s.
+
+    Packets count by their arrival, samples that never were packets by their own time."""
     links: dict[Site, LinkLedger] = field(factory=dict)
-    """Of every site that was heard of."""
+    """Ledger of every site of which anything came."""
     feet: dict[Foot, FootCounts] = field(factory=dict)
     track: LiveTrack = field(factory=LiveTrack)
     timeline: Timeline = field(factory=Timeline)
-    """What the wearer did when."""
+    """Activities of the wearer over time."""
     gait: GaitMeans = field(factory=GaitMeans)
-    """Of all steady strides, none fading."""
-    gait_of_late: GaitMeans = field(factory=GaitMeans)
-    """The same as `Session.gait` has it: old strides fade."""
+    """Means of all steady strides, with equal weights."""
+    recent_gait: GaitMeans = field(factory=GaitMeans)
+    """Means of the steady strides as `Session.gait` has them: old strides fade."""
     places: PlaceCounts = field(factory=PlaceCounts)
     fused: StrideFused | None = None
-    """The last one: how far the wearer came by both feet."""
+    """The last StrideFused: how far the wearer went by both feet."""
     modes: Counter[WalkingMode] = field(factory=Counter)
-    """Touchdowns by the walking mode that they were in."""
+    """Number of touchdowns in each walking mode."""
     flights: Counter[bool] = field(factory=Counter)
-    """Flights of stairs: upwards (True) and downwards."""
+    """Number of flights of stairs upwards (True) and downwards (False)."""
     rides: Counter[bool] = field(factory=Counter)
-    """Rides in a lift, as well."""
+    """Number of rides in a lift upwards (True) and downwards (False)."""
     turns: Counter[Turn] = field(factory=Counter)
     delays: dict[type[Event], Counter[int]] = field(factory=lambda: {kind: Counter() for kind in GAIT_EVENTS})
-    """By gait event: how often one was known so many tenths of a millisecond after it happened."""
+    """For each gait event, how often it was known so many tenths of a millisecond after it happened."""
     limitations: list[str] = field(factory=list)
-    """What the session does without; each sentence once, here and in the three lists that follow."""
-    suspects: list[str] = field(factory=list)
-    """Accelerometers whose scale cannot be right."""
-    worn: list[str] = field(factory=list)
-    """What is wrong with how sensors are worn, or with their cells."""
+    """Limitations of the session; each sentence stands once, here and in the three lists that follow."""
+    suspect_scales: list[str] = field(factory=list)
+    """Sentences on accelerometers whose scale cannot be right."""
+    wear_problems: list[str] = field(factory=list)
+    """Sentences on how sensors are worn wrongly, or on faulty cells."""
     troubles: list[str] = field(factory=list)
-    """What the receiver could not do."""
+    """Sentences on what the receiver could not do."""
     silences: Counter[Foot] = field(factory=Counter)
-    """How often nothing came of a foot while the other one walked on."""
-    _elsewhere: dict[Site, Decoder] = field(factory=dict)
-    """What counts the samples in packets of sites that are no feet: a session says nothing of them."""
+    """Number of times at which nothing came of a foot while the other one walked on."""
+    _other_decoders: dict[Site, Decoder] = field(factory=dict)
+    """Decoders that count the samples of sites that are not feet, since a session reports nothing of them."""
 
     def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
-        """What the session was fed, and what it said of that. None: nothing came, time passed or the session ended."""
-        self.fed(item, events)
+        """Add what the session was fed and the events that it returned for it.
+
+        An item of None means that nothing came: time passed or the session ended."""
+        self.count_item(item, events)
         for event in events:
             self.add(event)
 
-    def fed(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
-        """The first half of `take`: the item alone. `events` say whether it was used; `add` takes them."""
+    def count_item(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
+        """Count the item alone, the first half of `take`; `events` say whether it was used, and `add` takes them."""
         if item is None:
             return
         self.items += 1
@@ -152,59 +156,59 @@ class Observer:
         self.time.add(item.t)
         self.advance(item.t)
         if isinstance(item, Sample):
-            self.link(item.site).sampled(item.t, item.t if item.known_at is None else item.known_at)
+            self.link(item.site).add_sample(item.t, item.t if item.known_at is None else item.known_at)
             return
-        sampled = any([isinstance(event, FootMoved | FootPressed) for event in events])
-        if streamed(item.channel) and (sampled or not in_pieces(item)):
-            self.link(item.site).arrived(item.t)
+        has_samples = any([isinstance(event, FootMoved | FootPressed) for event in events])
+        if is_sample_channel(item.channel) and (has_samples or not is_frame_fragment(item)):
+            self.link(item.site).add_packet(item.t)
         if item.site.foot is None:
-            decoder = self._elsewhere.setdefault(item.site, Decoder(item.site))
+            decoder = self._other_decoders.setdefault(item.site, Decoder(item.site))
             for one in decoder.feed(item):
                 if isinstance(one, Sample):
-                    self.link(item.site).sampled(one.t, item.t)
+                    self.link(item.site).add_sample(one.t, item.t)
 
     def advance(self, now: float) -> None:
-        """It is `now` s, on the clock of the packets, whether or not anything came."""
+        """Advance the time to `now` s on the clock of the packets, whether or not anything came."""
         if self.now < now < inf:
             self.now = now
 
     def add(self, event: Event) -> bool:
-        """The next event of the session, in the order in which they are said; False when it is left out."""
-        if not sound(event):
+        """Add the next event of the session, in the order of reporting; return False when it is left out."""
+        if not has_valid_numbers(event):
             return False
-        if not isinstance(event, REJECTED):
+        if not isinstance(event, REJECTIONS):
             self.advance(event.known_at)
         match event:
             case FootMoved(t=t, known_at=known_at, foot=foot, position=position):
                 one, link = self.foot(foot), self.link(SITE_OF_FOOT[foot])
                 one.phase, one.position = event.phase, position
-                link.sampled(t, known_at)
-                link.moves = True
+                link.add_sample(t, known_at)
+                link.has_motion = True
                 self.track.add(foot, position[0], position[1])
             case FootPressed(t=t, known_at=known_at, foot=foot):
                 link = self.link(SITE_OF_FOOT[foot])
-                link.sampled(t, known_at)
-                link.presses = True
+                link.add_sample(t, known_at)
+                link.has_pressure = True
             case HeelStrike() | FootFlat() | HeelOff() | ToeOff():
                 self._phase(event)
             case _:
                 site = getattr(event, "site", None)
                 if site is not None:
-                    self.link(site).take(event)
+                    self.link(site).add_event(event)
                 self._count(event)
                 self._note(event)
                 self.places.add(event)
         return True
 
     def link(self, site: Site) -> LinkLedger:
-        """The ledger of a site, a new one where there is none."""
+        """Return the ledger of a site, a new one where there is none."""
         found = self.links.get(site)
         if found is None:
             found = self.links[site] = LinkLedger(counted=site.foot is not None)
         return found
 
     def foot(self, foot: Foot) -> FootCounts:
-        """The counts of a foot, new ones where there are none."""
+        """Return the counts of a foot, new ones where there are none."""
         return self.feet.setdefault(foot, FootCounts())
 
     def _phase(self, event: HeelStrike | FootFlat | HeelOff | ToeOff) -> None:
@@ -220,9 +224,9 @@ class Observer:
                 one.degraded += event.degraded
                 one.distance += event.length
             case GaitCycleMeasured():
-                self.gait.add(event, EVER)
-                self.gait_of_late.add(event)
-            case ClockReset(known_at=known_at) if known_at < self.now - BACK:
+                self.gait.add(event, ALL_STRIDES)
+                self.recent_gait.add(event)
+            case ClockReset(known_at=known_at) if known_at < self.now - SET_BACK:
                 self.now = known_at
             case ActivityChanged():
                 self.timeline.add(event, MOST_CHANGES)
@@ -242,42 +246,44 @@ class Observer:
                 pass
 
     def _note(self, event: Event) -> None:
-        """A sentence of what goes wrong, once."""
+        """Keep a sentence on a fault, once."""
         match event:
             case LinkTrouble(site=site, what=what):
-                _once(self.troubles, f"{site.words}: {what}")
+                _add_once(self.troubles, f"{site.words}: {what}")
             case Limitation(site=site, what=what):
-                _once(self.limitations, what if site is None else f"{site.words}: {what}")
+                _add_once(self.limitations, what if site is None else f"{site.words}: {what}")
             case ScaleSuspect(site=site, magnitude=magnitude, suggestion=suggestion):
                 more = f": {suggestion}" if suggestion else ""
-                _once(self.suspects, f"{site.words}: |acc| is {magnitude:.2f} m/s^2 at rest{more}")
+                _add_once(self.suspect_scales, f"{site.words}: |acc| is {magnitude:.2f} m/s^2 at rest{more}")
             case CellsFailed(site=site, fault=fault, cells=cells):
-                _once(self.worn, f"{site.words}: {_cells(cells)} {fault.value}, left out")
+                _add_once(self.wear_problems, f"{site.words}: {_cell_words(cells)} {fault.value}, left out")
             case InsoleNeverUnloads(site=site):
-                _once(self.worn, f"{site.words}: the insole never unloads; phases come from the inertial sensor")
+                _add_once(
+                    self.wear_problems, f"{site.words}: the insole never unloads; phases come from the inertial sensor"
+                )
             case FeetSwapped():
-                _once(self.worn, "the feet look swapped: what comes as the left one is like a right one")
+                _add_once(self.wear_problems, "the feet look swapped: what comes as the left one is like a right one")
             case _:
                 pass
 
     @property
-    def heard(self) -> list[Foot]:
-        """The feet that anything is known of."""
+    def known_feet(self) -> list[Foot]:
+        """Feet of which anything is known."""
         return [foot for foot in Foot if foot in self.feet or self.samples(foot)]
 
     def samples(self, foot: Foot) -> int:
-        """Samples of a foot that were used."""
+        """Return the number of samples of a foot that were used."""
         link = self.links.get(SITE_OF_FOOT[foot])
         return 0 if link is None else link.samples
 
 
-def _once(sentences: list[str], one: str) -> None:
+def _add_once(sentences: list[str], one: str) -> None:
     if one not in sentences and len(sentences) < MOST_SENTENCES:
         sentences.append(one)
 
 
-def _cells(numbers: tuple[int, ...]) -> str:
-    """Cells in words: their numbers, or how many they are where nobody would read them all."""
-    if len(numbers) > NAMED:
+def _cell_words(numbers: tuple[int, ...]) -> str:
+    """Return the cells in words: their numbers, or how many they are when there are too many to name."""
+    if len(numbers) > MOST_NAMED_CELLS:
         return f"{len(numbers)} cells"
     return f"cell{'s' * (len(numbers) > 1)} {', '.join(map(str, numbers))}"

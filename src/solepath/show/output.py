@@ -1,8 +1,8 @@
-"""What `track` writes: events.jsonl, track.csv, strides.csv and gait_cycles.csv, with a floor plan also places.csv.
+"""Writes the files of `track`: events.jsonl, track.csv, strides.csv and gait_cycles.csv, with a floor plan places.csv.
 
-events.jsonl is for programs, in SI units and radians; the tables are for people, with the unit of a column in its
+events.jsonl is for programs, in SI units and radians. The tables are for people, with the unit of a column in its
 header and angles in degrees. Times are the recording's own, written so that reading gives the same float again; places
-in m to the micrometre.
+are in m to the micrometre.
 """
 
 from __future__ import annotations
@@ -49,7 +49,7 @@ CYCLE_MEASURES = (
     ("rise", "m"),
     ("phase", ""),
 )
-"""Of a GaitCycleMeasured: its field, and the unit in which it is written; a share has none."""
+"""Fields of GaitCycleMeasured with the unit in which each is written; a share has no unit."""
 CYCLE_COLUMNS = (
     "foot",
     "number",
@@ -69,7 +69,7 @@ def _stride_row(event: StrideTaken) -> list[str]:
 
 
 def _cycle_row(event: GaitCycleMeasured) -> list[str]:
-    """What could not be told is left empty."""
+    """Return the row of a gait cycle; a value that is not known is left empty."""
     times = [repr(getattr(event, name)) for name in CYCLE_TIMES]
     measures = [_measure(getattr(event, name), unit) for name, unit in CYCLE_MEASURES]
     return [event.foot.value, str(event.number), *times, *measures, str(int(event.degraded)), str(int(event.steady))]
@@ -90,7 +90,7 @@ def _place_row(event: Placed) -> list[str]:
 
 @contextmanager
 def naming(path: Path) -> Iterator[None]:
-    """An OSError within names this path: of a disk that is full the system does not say what was written."""
+    """Name `path` in every OSError that is raised within: for a full disk the system does not say what was written."""
     try:
         yield
     except OSError as error:
@@ -99,14 +99,14 @@ def naming(path: Path) -> Iterator[None]:
 
 @define
 class TrackFiles:
-    """The files in `directory`, which is made when there is none. Files of an earlier run are replaced.
+    """The files that are written to `directory`, which is made when there is none.
 
-    A FootMoved is a row of track.csv, a final StrideTaken one of strides.csv, a GaitCycleMeasured one of
-    gait_cycles.csv, a Placed one of places.csv (its heaviest candidate's, and how many there are), and every event but
-    the live ones (LiveEvent) a line of events.jsonl. `places`: of a session with a floor plan; without one there is no
-    places.csv. `beside`: where to write what is to be a file's, in place of the file itself, as one that is renamed in
-    the end. OSError, naming the directory, when they cannot be made or written (the disk is full).
-    """
+    Files of an earlier run are replaced. A FootMoved is a row of track.csv, a final StrideTaken one of strides.csv, a
+    GaitCycleMeasured one of gait_cycles.csv, a Placed one of places.csv (its heaviest candidate's, and how many there
+    are), and every event but the live ones (LiveEvent) a line of events.jsonl. `places` says that the session has a
+    floor plan; without one there is no places.csv. `beside` returns the path to write instead of a file's own, such as
+    that of a temporary file which is renamed in the end. Every method raises OSError, naming the directory, when the
+    files cannot be made or written (the disk is full)."""
 
     directory: Path
     places: bool = False
@@ -139,9 +139,10 @@ class TrackFiles:
         return table
 
     def write(self, event: Event) -> None:
+        """Write one event. OSError names the directory."""
         try:
             self._write(event)
-        except OSError as error:  # as `naming`, which would take its time for each event
+        except OSError as error:  # the same as `naming`, which would be slow for each event
             raise OSError(error.errno, error.strerror, str(self.directory)) from None
 
     def _write(self, event: Event) -> None:
@@ -159,5 +160,6 @@ class TrackFiles:
             self._places.writerow(_place_row(event))
 
     def close(self) -> None:
+        """Close all files. OSError names the directory."""
         with naming(self.directory):
             self._stack.close()

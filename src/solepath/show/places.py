@@ -1,4 +1,4 @@
-"""What became known of the place on a floor plan, counted."""
+"""Counts what became known of the wearer's place on a floor plan."""
 
 from __future__ import annotations
 
@@ -6,35 +6,35 @@ from attrs import define, field
 
 from ..events import Event, Placed, PlaceLost, StrideTaken
 
-MOST = 20
-"""No more level changes, and no more losses, are kept one by one."""
+MOST_LISTED = 20
+"""Level changes, and losses, that are kept one by one at the most."""
 
 
 @define
 class PlaceCounts:
-    """Counts over a whole recording. Level changes and losses have their time, s."""
+    """Counts of places over a whole recording; level changes and losses have their time, s."""
 
     strides: int = 0
-    """Of both feet."""
+    """Number of final strides of both feet."""
     places: int = 0
     decided: int = 0
-    """Of them, those with one candidate only."""
+    """Number of places with one candidate only."""
     found: tuple[int, float] | None = None
-    """After how many strides there was one candidate only for the first time, and when."""
+    """Number of strides before the first place with one candidate only, and its time, s."""
     levels: list[tuple[float, str]] = field(factory=list)
-    """The level of the first such place, and the first MOST others later."""
+    """Time and level of the first place with one candidate only, and of the first MOST_LISTED changes of level."""
     level: str | None = None
-    """The level of the last such place."""
+    """Level of the last place with one candidate only."""
     changes: int = 0
-    """How often that was another one than before."""
+    """Number of changes of that level."""
     lost: list[tuple[float, str]] = field(factory=list)
-    """Of the first MOST losses, when and why."""
+    """Time and reason of the first MOST_LISTED losses."""
     losses: int = 0
     last: Placed | None = None
-    """The newest place; None where there is none."""
+    """The newest place; None while there is none."""
 
     def add(self, event: Event) -> None:
-        """Any event."""
+        """Add any event of the session."""
         match event:
             case StrideTaken(final=True):
                 self.strides += 1
@@ -45,7 +45,7 @@ class PlaceCounts:
                     self._decided(event)
             case PlaceLost():
                 self.losses += 1
-                if len(self.lost) < MOST:
+                if len(self.lost) < MOST_LISTED:
                     self.lost.append((event.t, event.what))
                 self.last = None
             case _:
@@ -58,5 +58,5 @@ class PlaceCounts:
         if event.level != self.level:
             self.changes += self.level is not None
             self.level = event.level
-            if len(self.levels) <= MOST:
+            if len(self.levels) <= MOST_LISTED:
                 self.levels.append((event.t, event.level))

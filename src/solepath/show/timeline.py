@@ -1,4 +1,4 @@
-"""What the wearer did when, of the events that told it: what was replaced is left out."""
+"""Activities of the wearer over time; what a later event replaced is left out."""
 
 from __future__ import annotations
 
@@ -14,17 +14,19 @@ from ..types import Activity
 
 @define
 class Timeline:
-    """Activities over the time so far."""
+    """The activities from the start until now."""
 
     _starts: list[float] = field(factory=list, init=False)
-    """s, rising."""
+    """Start of each activity, s, rising."""
     _activities: list[Activity] = field(factory=list, init=False)
     _shortest: float = field(default=1.0, init=False)
-    """s: what lasts for less is left out next."""
+    """Activities shorter than this are left out next, s."""
 
     def add(self, event: ActivityChanged, most: int | None = None) -> None:
-        """The next event, in the order in which they were told. With more changes than `most` the shortest activities
-        are left out, and go to the one before, until half as many are left; None keeps all."""
+        """Add the next event, in the order in which they were reported.
+
+        With more changes than `most`, the shortest activities are left out and their time goes to the one before, until
+        half as many are left. None keeps all."""
         if event.revises is not None:
             self._cut(event.revises)
         self._cut(event.t)
@@ -36,7 +38,7 @@ class Timeline:
 
     @property
     def last(self) -> tuple[float, Activity]:
-        """Since when the wearer does, s, what was told last; UNKNOWN since 0 before anything was."""
+        """Start, s, and kind of the activity that was reported last; UNKNOWN since 0 before any."""
         if not self._starts:
             return 0.0, Activity.UNKNOWN
         k = len(self._starts) - 1
@@ -45,30 +47,30 @@ class Timeline:
         return self._starts[k], self._activities[-1]
 
     def at(self, t: float) -> Activity:
-        """What the wearer did at `t` s; UNKNOWN before anything was told."""
+        """Return the activity at `t` s; UNKNOWN before any was reported."""
         i = bisect_right(self._starts, t)
         return self._activities[i - 1] if i else Activity.UNKNOWN
 
     def spans(self, until: float) -> list[tuple[float, float, Activity]]:
-        """(from, to, what) up to `until` s, one after the other."""
+        """Return (start, end, activity) of all activities until `until` s, one after the other."""
         edges = [*[t for t in self._starts if t < until], until]
         return [(a, b, what) for (a, b), what in zip(pairwise(edges), self._activities, strict=False)]
 
     def lasted(self, until: float) -> dict[Activity, float]:
-        """How long each activity took up to `until` s, those that never came left out."""
+        """Return the total duration of each activity until `until` s, without those that never came."""
         found: dict[Activity, float] = {}
         for a, b, what in self.spans(until):
             found[what] = found.get(what, 0.0) + b - a
         return {what: found[what] for what in Activity if what in found}
 
     def _cut(self, t: float) -> None:
-        """Forget what was told of `t` s and later."""
+        """Remove the activities that start at `t` s or later."""
         while self._starts and self._starts[-1] >= t:
             self._starts.pop()
             self._activities.pop()
 
     def _coarsen(self) -> None:
-        """Leave out what lasted for less than `_shortest`, which doubles."""
+        """Leave out the activities that are shorter than `_shortest`, then double that limit."""
         spans, self._starts, self._activities = self.spans(inf), [], []
         for start, end, what in spans:
             if end - start >= self._shortest and (not self._activities or self._activities[-1] is not what):

@@ -1,4 +1,4 @@
-"""Where the feet went by their live positions, for a small picture of it."""
+"""Thins the live positions of the feet for a small picture of the track."""
 
 from __future__ import annotations
 
@@ -9,21 +9,21 @@ from attrs import define, field
 from ..types import Foot
 
 SPACING = 0.15
-"""m between the points of a foot, at first: twice as far whenever there are MOST_POINTS."""
+"""Distance between two points of a foot at first, m; it doubles whenever there are MOST_POINTS."""
 MOST_POINTS = 2000
 
 
 @define
 class LiveTrack:
-    """Points of both feet, thinned alike from beginning to end."""
+    """Points of both feet, thinned evenly from the start to now."""
 
     points: list[tuple[Foot, float, float]] = field(factory=list)
-    """Foot, x, y in the world frame, m."""
+    """Foot, x and y of each point in the world frame, m."""
     _spacing: float = SPACING
     _last: dict[Foot, tuple[float, float]] = field(factory=dict)
 
     def add(self, foot: Foot, x: float, y: float) -> None:
-        """The foot is at (x, y) m."""
+        """Add the position (x, y) of a foot, m, when it is far enough from the last point."""
         last = self._last.get(foot)
         if last is None or hypot(x - last[0], y - last[1]) > self._spacing:
             if len(self.points) >= MOST_POINTS:

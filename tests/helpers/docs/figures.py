@@ -1,4 +1,4 @@
-"""The tables in short, README.md's and docs/accuracy.md's: made of the long tables and of what commands print.
+"""The short tables of README.md and docs/accuracy.md, made from the long tables and the output of commands.
 
 A row is (what, came to). Each table is made by itself, so that those can be refreshed that can be computed.
 """
@@ -25,7 +25,7 @@ INSOLES = [
     "--markdown",
 ]
 QUICK = [word for data_set in DATASETS if not data_set.folds for word in ("--only", data_set.name)]
-"""All data but those for which a recipe must first learn, in folds: that takes minutes."""
+"""All data but those for which a recipe must first learn, in folds, which takes minutes."""
 ACTIVITIES = [
     *(word for data in ("hugadb", "stairs") for word in ("--only", data)),
     *(word for name in ("default", "footstep-tracker") for word in ("--recipe", name)),
@@ -51,35 +51,36 @@ IN_SHORT = {
     "emulated_long_way": ("off at the end, horizontal", "stride length error"),
     "emulated_half_hour": ("off at the end, horizontal",),
 }
-"""What of each data set is told in short: what was measured, without its count."""
+"""Measures of each data set in the short table, without their counts."""
 SHORTER = {"the same / sqrt 2 (ARMSE2d)": "position error, ARMSE2d"}
 
 
 def in_short(*tables: list[str]) -> list[Row]:
-    """A row for each data set, of the lines of tables as `evaluate --markdown` prints them; the first figure is the
-    default recipe's."""
+    """Return a row for each data set, from the lines of tables as `evaluate --markdown` prints them.
+
+    The first figure is the default recipe's."""
     found: dict[str, tuple[str, dict[str, str]]] = {}
     for line in (line for table in tables for line in table[2:]):
         title, what, came_to = (cell.strip() for cell in line.split("|")[1:4])
         if title:
-            told: dict[str, str] = {}
-            found.setdefault(title.split("`")[1], (title, told))
-        told[re.sub(r"^\d+ | \(\d+\)$", "", what)] = came_to
+            figures: dict[str, str] = {}
+            found.setdefault(title.split("`")[1], (title, figures))
+        figures[re.sub(r"^\d+ | \(\d+\)$", "", what)] = came_to
     rows = []
-    for name, wanted in IN_SHORT.items():
-        title, told = found[name]
-        rows.append((title, "; ".join(f"{SHORTER.get(what, what)}: {told[what]}" for what in wanted)))
+    for name, measures in IN_SHORT.items():
+        title, figures = found[name]
+        rows.append((title, "; ".join(f"{SHORTER.get(what, what)}: {figures[what]}" for what in measures)))
     return rows
 
 
 def compared(printed: str) -> str:
-    """Of what `solepath demo` prints: how its table against the truth begins."""
+    """Return the start of the table against the truth, from the output of `solepath demo`."""
     _, title, rest = printed.partition("against the truth")
     return "\n".join((title + rest).splitlines()[:7])
 
 
 def walked(printed: str) -> list[Row]:
-    """`printed`: what `solepath` LONG_DEMO prints."""
+    """Return the rows of the output of `solepath` LONG_DEMO."""
     _, table = printed.split("against the truth", 1)
     left: dict[str, str] = {}
     right: dict[str, str] = {}
@@ -105,7 +106,7 @@ def walked(printed: str) -> list[Row]:
 
 
 def measured(printed: str) -> list[Row]:
-    """`printed`: what BENCH prints."""
+    """Return the rows of the output of BENCH."""
 
     def found(pattern: str) -> str:
         match = re.search(pattern, printed, re.MULTILINE)
@@ -129,5 +130,5 @@ def measured(printed: str) -> list[Row]:
 
 
 def lines(what: str, rows: list[Row]) -> list[str]:
-    """A table in Markdown; `what`: the head of its first column."""
+    """Return a table in Markdown; `what` is the head of its first column."""
     return [f"| {what} | came to |", "|---|---|", *(f"| {first} | {came_to} |" for first, came_to in rows)]

@@ -1,4 +1,4 @@
-"""What README.md and docs/ quote: blocks and tables below their marks, and how exactly they must hold."""
+"""Quotations in README.md and docs/: blocks and tables below their marks, and how exactly they must hold."""
 
 import re
 
@@ -9,24 +9,24 @@ PAGES = {
     path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8")
     for path in (ROOT / "README.md", *sorted((DOCS).glob("*.md")))
 }
-"""What a newcomer reads, by its path."""
+"""Pages for newcomers, by their paths."""
 README = PAGES["README.md"]
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 
 
 def blocks(text: str, language: str) -> list[str]:
-    """The blocks of code in that language."""
+    """Return the blocks of code in that language."""
     return re.findall(rf"^```{language}\n(.*?)^```", text, re.DOTALL | re.MULTILINE)
 
 
 def page_of(mark: str) -> str:
-    """The path of the one page that holds the comment <!-- mark -->."""
+    """Return the path of the one page that holds the comment <!-- mark -->."""
     (path,) = (path for path, text in PAGES.items() if f"<!-- {mark} -->\n" in text)
     return path
 
 
 def below(mark: str) -> list[str]:
-    """The lines of the first block or table below the comment <!-- mark -->, on whichever page."""
+    """Return the lines of the first block or table below the comment <!-- mark -->, on whichever page."""
     lines = PAGES[page_of(mark)].split(f"<!-- {mark} -->\n", 1)[1].splitlines()
     if lines[0].startswith("```"):
         return lines[1 : lines.index("```", 1)]
@@ -35,7 +35,7 @@ def below(mark: str) -> list[str]:
 
 
 def nearly_the_same(quoted: list[str], fresh: list[str]) -> None:
-    """The same lines but for the last digits of their figures."""
+    """Check that lines are the same but for the last digits of their figures."""
     assert [NUMBER.sub("#", line) for line in quoted] == [NUMBER.sub("#", line) for line in fresh]
     for old, new in zip(quoted, fresh, strict=True):
         for a, b in zip(NUMBER.findall(old), NUMBER.findall(new), strict=True):

@@ -1,4 +1,4 @@
-"""A real browser for the tests of the page: Chromium driven by Playwright, on a loop that the page's server shares.
+"""A real browser for the tests of the page: Chromium driven by Playwright, on the loop of the page's server.
 
 Nothing here waits without an end: a test that takes longer than LONGEST fails.
 """
@@ -35,15 +35,15 @@ FLAGS = (
     "--disable-sync",
 )
 LONGEST = 120.0
-"""s that a test may take."""
+"""Longest time of a test, s."""
 PATIENCE = 20.0
-"""s until what is waited for must be seen."""
+"""Longest wait for a condition, s."""
 UNREACHABLE = re.compile(r"net::ERR_CONNECTION_REFUSED|net::ERR_CONNECTION_RESET|ERR_SOCKET_NOT_CONNECTED")
 """What Chromium itself writes to the console while there is no server."""
 
 
 def why_not() -> str | None:
-    """Why there can be no browser here; None where there can."""
+    """Return why there can be no browser here; None where there can."""
     if async_playwright is None:
         return "playwright is not installed"
     if program() is None:
@@ -72,7 +72,7 @@ class Browsing:
 
 @contextmanager
 def browsing() -> Iterator[Browsing]:
-    """A browser that has just been started."""
+    """Yield a browser that has just been started."""
     with asyncio.Runner() as runner:
         driver = runner.run(_within(async_playwright().start()))
         try:
@@ -90,17 +90,20 @@ async def _within(work: Awaitable[T]) -> T:
 
 @define
 class Window:
-    """A page that is open. `complaints`: what it wrote to its console, and errors that it did not catch; `asked`: every
-    address that it asked for, those of its sockets too."""
+    """A page that is open.
+
+    `complaints` holds what it wrote to its console, and errors that it did not catch. `requests` holds every address
+    that it requested, those of its sockets too."""
 
     tab: Tab
     devtools: CDPSession
     complaints: list[str] = field(factory=list)
-    asked: list[str] = field(factory=list)
+    requests: list[str] = field(factory=list)
 
     async def memory(self) -> tuple[int, int]:
-        """Bytes of the heap of its scripts after everything that nobody holds was thrown away, and elements of its
-        document but for those of the log, which has as many sentences as there were, up to fifty."""
+        """Return bytes of its scripts' heap after garbage collection, and the number of elements of its document.
+
+        Elements of the log do not count: it has as many sentences as there were, up to fifty."""
         least = inf
         while (used := await self._collected()) < least:  # what has a finalizer goes later
             least = used
@@ -108,15 +111,16 @@ class Window:
         return round(least), elements
 
     async def _collected(self) -> float:
-        """Bytes that are used after another collection."""
+        """Return the bytes that are used after another collection."""
         await self.devtools.send("HeapProfiler.collectGarbage")
         await asyncio.sleep(0.1)
         used: float = (await self.devtools.send("Runtime.getHeapUsage"))["usedSize"]
         return used
 
     async def until(self, condition: str, argument: Any = None, patience: float = PATIENCE) -> None:
-        """Wait until this holds in the page, an expression or a function of `argument`; fails where it never does.
-        Playwright's own way of waiting is forbidden by the page, which allows no script of others."""
+        """Wait until a condition holds in the page, an expression or a function of `argument`; fail if it never does.
+
+        The page allows no script of others and thereby forbids Playwright's own way of waiting."""
         try:
             async with asyncio.timeout(patience):
                 while not await self.tab.evaluate(condition, argument):
@@ -125,12 +129,12 @@ class Window:
             raise AssertionError(f"not within {patience:g} s: {condition}") from None
 
     async def text(self, name: str) -> str:
-        """What is read in the element of this id."""
+        """Return the text of the element with this id."""
         found: str = await self.tab.locator(f"#{name}").inner_text()
         return found.strip()
 
     async def names(self) -> list[tuple[str, str]]:
-        """Role and name of everything that is read out, in order."""
+        """Return role and name of everything that is read out, in order."""
         tree = await self.devtools.send("Accessibility.getFullAXTree")
         return [
             (node["role"]["value"], node.get("name", {}).get("value", ""))
@@ -143,7 +147,7 @@ class Window:
 async def window(
     browser: Browser, url: str, *, width: int = 1280, height: int = 900, dark: bool = False
 ) -> AsyncIterator[Window]:
-    """The page at `url` in a window of its own, as large as this in px."""
+    """Yield the page at `url` in a window of its own of this size, px."""
     context = await browser.new_context(
         viewport={"width": width, "height": height}, color_scheme="dark" if dark else "light", locale="en-GB"
     )
@@ -151,10 +155,10 @@ async def window(
         context.set_default_timeout(PATIENCE * 1000.0)
         tab = await context.new_page()
         found = Window(tab, await context.new_cdp_session(tab))
-        tab.on("console", lambda said: found.complaints.append(f"{said.type}: {said.text}"))
+        tab.on("console", lambda message: found.complaints.append(f"{message.type}: {message.text}"))
         tab.on("pageerror", lambda error: found.complaints.append(str(error)))
-        context.on("request", lambda request: found.asked.append(request.url))
-        tab.on("websocket", lambda socket: found.asked.append(socket.url))
+        context.on("request", lambda request: found.requests.append(request.url))
+        tab.on("websocket", lambda socket: found.requests.append(socket.url))
         await tab.goto(url)
         yield found
     finally:

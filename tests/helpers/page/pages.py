@@ -1,4 +1,4 @@
-"""An HTML page as a tree, read by nothing that the report is written with."""
+"""An HTML page as a tree, parsed without any code that writes the report."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class Node:
     children: list[Node] = field(factory=list)
 
     def all(self, tag: str = "") -> list[Node]:
-        """Itself and what is below, of one tag or of any, in the order of the page."""
+        """Return this node and those below, of one tag or of any, in the order of the page."""
         found = [self] if tag in ("", self.tag) else []
         return found + [one for child in self.children for one in child.all(tag)]
 
@@ -26,17 +26,17 @@ class Node:
         return self.all(tag)[0]
 
     def named(self, name: str) -> Node:
-        """The element with this class."""
+        """Return the element with this class."""
         return next(one for one in self.all() if name in one.attributes.get("class", "").split())
 
     @property
     def text(self) -> str:
-        """Its words, then those of what is below."""
+        """Text of this node, then of those below."""
         return " ".join([one for one in [*self.words, *(child.text for child in self.children)] if one])
 
 
 class Reader(HTMLParser):
-    """The page as a tree; a tag that is not closed in its turn fails."""
+    """Parser of a page as a tree; a tag that is not closed in its turn fails."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -57,7 +57,7 @@ class Reader(HTMLParser):
 
 
 def read(path: Path) -> Node:
-    """The whole page."""
+    """Return the page of a file."""
     return parsed(path.read_text(encoding="utf-8"))
 
 

@@ -1,4 +1,4 @@
-"""A page that is served, and who asks it for something."""
+"""A page that is served, and clients that send it requests."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Connection = tuple[asyncio.StreamReader, asyncio.StreamWriter]
 
 @asynccontextmanager
 async def served(**given: Any) -> AsyncIterator[tuple[Page, ClientSession, str]]:
-    """A page, somebody who asks, and its address."""
+    """Yield a page, a client, and the page's address."""
     scene = given.pop("scene", None) or Scene("a walk", "default")
     given = {"port": 0, "token": TOKEN, **given}
     async with ClientSession() as client, Page(scene, **given) as page:
@@ -31,46 +31,46 @@ async def served(**given: Any) -> AsyncIterator[tuple[Page, ClientSession, str]]
 
 
 async def scene_of(watching: ClientWebSocketResponse) -> dict[str, Any]:
-    told = json.loads(await watching.receive_str())
-    assert isinstance(told, dict) and told["type"] == "scene"
-    return told
+    message = json.loads(await watching.receive_str())
+    assert isinstance(message, dict) and message["type"] == "scene"
+    return message
 
 
 async def sees(client: ClientSession, url: str, **given: Any) -> None:
-    """Somebody who watches is sent the scene. `given`: to the socket."""
+    """Check that a watcher is sent the scene; `given` goes to the socket."""
     async with client.ws_connect(f"{url}ws", **given) as watching:
         await scene_of(watching)
 
 
 async def closed(watching: ClientWebSocketResponse) -> int | None:
-    """The code with which the server closes."""
+    """Return the code with which the server closes."""
     while True:
         message = await watching.receive()
         if message.type is not WSMsgType.TEXT:
             return watching.close_code
 
 
-async def refused(watching: Awaitable[ClientWebSocketResponse]) -> int:
-    """The status with which a socket is refused."""
+async def rejection_status(watching: Awaitable[ClientWebSocketResponse]) -> int:
+    """Return the status with which a socket is rejected."""
     with pytest.raises(WSServerHandshakeError) as caught:
         await watching
     return caught.value.status
 
 
 async def raw(page: Page) -> Connection:
-    """A connection on which nothing was said yet."""
+    """Open a connection on which nothing was sent yet."""
     return await asyncio.open_connection("127.0.0.1", page.port)
 
 
 async def reply(page: Page, sent: bytes, ends: bool = False) -> bytes:
-    """All that comes of these bytes on a connection of their own. `ends`: nothing more can come after them."""
+    """Return all that comes for these bytes on a connection of their own; with `ends`, nothing more is sent."""
     reader, writer = await raw(page)
     writer.write(sent)
     if ends:
         writer.write_eof()
-    told = await reader.read()
+    answer = await reader.read()
     writer.close()
-    return told
+    return answer
 
 
 def handshake(host: str = "localhost", more: str = "") -> bytes:
@@ -82,7 +82,7 @@ def handshake(host: str = "localhost", more: str = "") -> bytes:
 
 
 def frame_of(opcode: int, payload: bytes, *, fin: int = 0x80) -> bytes:
-    """A frame of a WebSocket as a client sends it."""
+    """Return a frame of a WebSocket as a client sends it."""
     size = len(payload)
     long = bytes([0x80 | size]) if size < 126 else bytes([0x80 | 126]) + size.to_bytes(2, "big")
     return bytes([fin | opcode]) + long + bytes(4) + payload

@@ -1,4 +1,4 @@
-"""Commands that serve the page, and who watches it as a browser does."""
+"""Commands that serve the page, and a watcher that behaves as a browser."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ ANYWHERE = ("--view", "127.0.0.1:0")
 
 
 def address(process: subprocess.Popen[str]) -> str:
-    """Of the page, as the command says it."""
+    """Return the address of the page, as the command prints it."""
     assert process.stdout is not None
     for line in process.stdout:
         if found := re.search(r"the page: (http://\S+#token=\S+)$", line):
@@ -28,7 +28,7 @@ def address(process: subprocess.Popen[str]) -> str:
 
 
 class Watcher:
-    """What a browser knows of a page, and asks for."""
+    """State of a page in a browser, and its commands."""
 
     def __init__(self, socket: aiohttp.ClientWebSocketResponse) -> None:
         self.socket = socket
@@ -37,7 +37,7 @@ class Watcher:
         self.scenes = 0
 
     async def until(self, holds: Callable[[dict[str, Any]], bool]) -> None:
-        """Until that holds of the frame as it is now."""
+        """Wait until a condition holds of the frame as it is now."""
         async with asyncio.timeout(TAKES):
             while not self.scene or not holds(self.frame):
                 message = json.loads(await self.socket.receive_str())
@@ -46,7 +46,7 @@ class Watcher:
                 else:
                     self.frame |= message
 
-    async def ask(self, do: str, *value: float) -> None:
+    async def send_command(self, do: str, *value: float) -> None:
         await self.socket.send_str(json.dumps({"do": do} | ({"value": value[0]} if value else {})))
 
 

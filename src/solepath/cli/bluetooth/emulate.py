@@ -1,4 +1,4 @@
-"""`solepath emulate`: devices that are not there, over true Bluetooth protocols."""
+"""`solepath emulate`: serves emulated devices over true Bluetooth protocols."""
 
 from __future__ import annotations
 
@@ -8,15 +8,16 @@ from pathlib import Path
 from typing import Any
 
 from ..common.failure import need, positive, seed
-from .choosing import UNATTENDED, add_duration
+from .devices import SERVE_TIME, add_duration
 
 HERE = "127.0.0.1:9735"
 KINDS = ("insole", "cc2650", "cc2541", "cc2541-20hz")
 WALKED = 300.0
-"""m that the wearer walks when nothing else is said: four minutes."""
+"""Distance that the wearer walks by default, m: four minutes."""
 
 
 def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
     command: argparse.ArgumentParser = commands.add_parser(
         "emulate",
         help="serve emulated sensors over a true Bluetooth link",
@@ -36,14 +37,15 @@ def add_to(commands: Any) -> None:
     command.add_argument("--seed", metavar="N", type=seed, default=1, help="another walk of this route (default: 1)")
     command.add_argument("--mtu", metavar="N", type=int, default=247, help="that insoles agree to (default: 247)")
     command.add_argument("--faults", metavar="FILE", type=Path, help="a script of what goes wrong")
-    add_duration(command, UNATTENDED)
+    add_duration(command, SERVE_TIME)
     command.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
+    """Serve the devices; return the exit status."""
     need("emulated Bluetooth needs", "loopback", "bleak", "bumble")
     from ..common.loop import run_to_end
     from .emulate_run import prepared, serve_devices
 
-    # not on the loop: a walk takes its time to be worked out, and Ctrl-C ends that on the spot
+    # not on the loop: computing a walk takes a while, and Ctrl-C ends that at once
     return run_to_end(partial(serve_devices, options, prepared(options)))

@@ -1,4 +1,4 @@
-"""What `solepath emulate` does once its options are read."""
+"""The work of `solepath emulate` after its options are read."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ from ...link.devices import cc2541, cc2650, insole
 from ...recording import printable
 from ...types import Site
 from ..common.failure import Failure, attended, host_and_port, in_words
-from .choosing import UNATTENDED
+from .devices import SERVE_TIME
 
 LONGEST = 5000.0
-"""m; a longer walk would take minutes and gigabytes to be worked out."""
-RESTED = 10.0
-"""s without a connection after which the next one finds the wearer at the beginning of his walk."""
-TOLD_EVERY, REDRAWN = 10.0, 1.0
-"""s between two lines on how it goes, without a terminal and in one."""
+"""Longest walk, m; a longer one would take minutes and gigabytes to compute."""
+RESTART_AFTER = 10.0
+"""Time without a connection after which the walk restarts at the next one, s."""
+REPORT_EVERY, REDRAW_EVERY = 10.0, 1.0
+"""Time between two lines on the state, without a terminal and in one, s."""
 LONG = 500.0
-"""m from which on it takes some seconds to work out the walk."""
-HESITATES = 1.0
-"""s from the first connection to the walk's beginning; it begins with standing."""
+"""Distance from which on computing the walk takes some seconds, m."""
+WALK_DELAY = 1.0
+"""Time from the first connection to the start of the walk, s; the walk starts with standing."""
 
 
 def prepared(options: argparse.Namespace) -> Bench:
-    """The devices and their wearer, who stands. Failure for what cannot be emulated."""
+    """Return the devices and their wearer, who stands. Failure for what cannot be emulated."""
     if options.distance > LONGEST:
         raise Failure(f"--distance {options.distance:g}: {LONGEST:g} m is as far as emulated wearers walk")
     if not 23 <= options.mtu <= 517:
@@ -65,8 +65,8 @@ def prepared(options: argparse.Namespace) -> Bench:
 
 
 async def serve_devices(options: argparse.Namespace, bench: Bench, stop: asyncio.Event) -> int:
-    """Until it is told to stop; the exit status."""
-    bench.walk_from(asyncio.get_running_loop().time() + 1e6)  # until somebody is connected the wearer stands
+    """Serve until `stop` is set or the time is over; return the exit status."""
+    bench.walk_from(asyncio.get_running_loop().time() + 1e6)  # the wearer stands until a device is connected
     async with AsyncExitStack() as stack:
         try:
             where = host_and_port("--listen", options.listen)
@@ -78,8 +78,8 @@ async def serve_devices(options: argparse.Namespace, bench: Bench, stop: asyncio
             print(f"  {peripheral.address}  {peripheral.site.words}  {printable(peripheral.name)}", flush=True)
         seconds = options.duration
         if seconds is None and not attended():
-            seconds = UNATTENDED
-        tasks = [asyncio.create_task(work) for work in (_walk_when_connected(bench), _tell(bench))]
+            seconds = SERVE_TIME
+        tasks = [asyncio.create_task(work) for work in (_walk_when_connected(bench), _print_status(bench))]
         try:
             async with asyncio.timeout(seconds):
                 await stop.wait()
@@ -92,14 +92,14 @@ async def serve_devices(options: argparse.Namespace, bench: Bench, stop: asyncio
     return 0
 
 
-async def _tell(bench: Bench) -> None:
-    """How it goes: one line that changes in a terminal, elsewhere a line now and then."""
+async def _print_status(bench: Bench) -> None:
+    """Print the state: one line that changes in a terminal, else a line now and then."""
     loop = asyncio.get_running_loop()
-    began, live = loop.time(), sys.stdout.isatty()
+    started, live = loop.time(), sys.stdout.isatty()
     try:
         while True:
-            await asyncio.sleep(REDRAWN if live else TOLD_EVERY)
-            line = f"{loop.time() - began:6.0f} s  {'; '.join(map(_state, bench.peripherals))}"
+            await asyncio.sleep(REDRAW_EVERY if live else REPORT_EVERY)
+            line = f"{loop.time() - started:6.0f} s  {'; '.join(map(_state, bench.peripherals))}"
             print(f"\r{line}\x1b[K" if live else line, end="" if live else "\n", flush=True)
     finally:
         if live:
@@ -113,7 +113,7 @@ def _state(peripheral: Peripheral) -> str:
 
 
 async def _walk_when_connected(bench: Bench) -> None:
-    """The walk begins when the first device is connected; anew when none was for RESTED s."""
+    """Start the walk when the first device is connected, and restart it when none was for RESTART_AFTER s."""
     loop = asyncio.get_running_loop()
     alone_since: float | None = float("-inf")
     while True:
@@ -121,7 +121,7 @@ async def _walk_when_connected(bench: Bench) -> None:
         if not any(peripheral.is_connected for peripheral in bench.peripherals):
             alone_since = now if alone_since is None else alone_since
         elif alone_since is not None:
-            if now - alone_since > RESTED:
-                bench.walk_from(now + HESITATES)
+            if now - alone_since > RESTART_AFTER:
+                bench.walk_from(now + WALK_DELAY)
             alone_since = None
         await asyncio.sleep(0.01)

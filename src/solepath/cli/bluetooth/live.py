@@ -1,4 +1,4 @@
-"""`solepath live` and `solepath record`: devices heard as they are worn."""
+"""`solepath live` and `solepath record`: receive devices while they are worn."""
 
 from __future__ import annotations
 
@@ -10,10 +10,11 @@ from typing import Any
 from ..common.failure import recipe_named
 from ..common.inputs import add_calibration, add_floorplan, calibration_of, floorplan_of
 from ..common.view import add_view, need_page, view_of
-from .choosing import add_devices, need_bleak
+from .devices import add_devices, need_bleak
 
 
 def add_to(commands: Any) -> None:
+    """Add both commands to the parser."""
     live: argparse.ArgumentParser = commands.add_parser(
         "live",
         help="listen to sensors and show what they say",
@@ -49,13 +50,14 @@ def add_to(commands: Any) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    """Receive the devices; return the exit status."""
     recipe = recipe_named(options.recipe)
     calibration = calibration_of(options)
     need_page(options, options.view is not None)
     view = view_of(options)
     plan, start = floorplan_of(options)
     need_bleak()
-    from .air import listen_to_end
+    from .backend import listen_to_end
     from .live_run import listen
 
     return listen_to_end(partial(listen, options, recipe, calibration, plan, start, view))

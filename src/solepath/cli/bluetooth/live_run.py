@@ -1,4 +1,4 @@
-"""What `solepath live` and `solepath record` do once their options are read."""
+"""The work of `solepath live` and `solepath record` after their options are read."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ from ...show.output import EVENTS, GAIT_CYCLES, PLACES, STRIDES, TRACK, TrackFil
 from ...show.page.scene.scene import Scene
 from ...show.tables.summary import place_lines, status, summary
 from ...types import Packet
-from ..common.failure import Failure, is_there, note
+from ..common.failure import Failure, is_installed, note
 from ..common.files import check_writable
-from ..common.loop import unless_told
+from ..common.loop import unless_stopped
 from ..common.view import View, newtons_of, page_of
-from .air import air, until
-from .choosing import LISTENED, chosen, how_long, wanted
+from .backend import backend_of, until
+from .devices import SCAN_TIME, choose_devices, how_long, named_devices
 
 
 async def listen(
@@ -42,8 +42,8 @@ async def listen(
     view: View | None,
     stop: asyncio.Event,
 ) -> int:
-    """Until it is told to stop; the exit status."""
-    devices = wanted(options)
+    """Receive until `stop` is set or the time is over; return the exit status."""
+    devices = named_devices(options)
     check_all_writable(options.record, options.out, plan is not None)
     seconds = how_long(options)
     session = Session(
@@ -52,30 +52,30 @@ async def listen(
     observer = Observer()
     scene: Scene | None = None
     async with AsyncExitStack() as stack:
-        async with unless_told(stop):
-            backend = await stack.enter_async_context(air(options.via))
+        async with unless_stopped(stop):
+            backend = await stack.enter_async_context(backend_of(options.via))
             if not devices:
-                print(f"looking for sensors for {LISTENED:g} s ...", flush=True)
-                devices = chosen(await scan(LISTENED, backend=backend), options.profile)
-            heard = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
+                print(f"looking for sensors for {SCAN_TIME:g} s ...", flush=True)
+                devices = choose_devices(await scan(SCAN_TIME, backend=backend), options.profile)
+            packets = await stack.enter_async_context(Devices(devices, backend=backend, pair=options.pair))
         if view is not None:
             drawn = None if plan is None else plan.plan
             scene = Scene("Live", recipe.name, "live", plan=drawn, newtons=newtons_of(calibration), observer=observer)
             await stack.enter_async_context(page_of(scene, view))
-        # not before: a search in vain replaces nothing of an earlier run
+        # only now: a search that finds nothing must not replace files of an earlier run
         files = LiveFiles(options.record, options.out, plan is not None)
-        going_on = LiveSession(session, observer if scene is None else scene, files)
+        live = LiveSession(session, observer if scene is None else scene, files)
         try:
             with shown(observer, "Ctrl-C ends" if seconds is None else f"{seconds:g} s") as report:
-                async for packet in until(heard, stop, seconds):
-                    going_on.take(packet)
+                async for packet in until(packets, stop, seconds):
+                    live.take(packet)
                     report()
                     if files.failure is not None:
                         break
         except asyncio.CancelledError:
             note("interrupted")
         finally:
-            going_on.finish()
+            live.finish()
     print(summary(observer, title=f"recipe {recipe.name}", seconds=0.0))
     if plan is not None:
         print("\n".join(place_lines(observer.places)))
@@ -90,23 +90,23 @@ async def listen(
 
 @define
 class LiveSession:
-    """A session that is shown and written while it goes on."""
+    """A session that is shown and written while it runs."""
 
     session: Session
     watcher: Observer | Scene
     files: LiveFiles
 
     def take(self, packet: Packet) -> None:
-        """The next packet."""
+        """Add the next packet."""
         self.files.packet(packet)
-        self._tell(packet, self.session.feed(packet))
+        self._show(packet, self.session.feed(packet))
 
     def finish(self) -> None:
-        """No more will come: what was held back is shown and written, too."""
-        self._tell(None, self.session.finish())
+        """Show and write what was held back, and close the files."""
+        self._show(None, self.session.finish())
         self.files.close()
 
-    def _tell(self, packet: Packet | None, events: list[Event]) -> None:
+    def _show(self, packet: Packet | None, events: list[Event]) -> None:
         self.watcher.take(packet, events)
         for event in events:
             self.files.event(event)
@@ -114,14 +114,14 @@ class LiveSession:
 
 @define(init=False)
 class LiveFiles:
-    """What is written meanwhile. `failure`: why nothing is any more."""
+    """The files that are written while a session runs; `failure` says why nothing is written any more."""
 
     failure: str | None
     _packets: PacketWriter | None
     _events: TrackFiles | None
 
     def __init__(self, record: Path | None, out: Path | None, places: bool = False) -> None:
-        """`places`: there is a floor plan. Failure when one cannot be opened."""
+        """Open the files; `places` says that there is a floor plan. Failure when one cannot be opened."""
         self.failure = self._packets = self._events = None
         try:
             if record is not None:
@@ -133,6 +133,7 @@ class LiveFiles:
             raise Failure(_words(error)) from None
 
     def packet(self, packet: Packet) -> None:
+        """Write a packet of the recording."""
         if self._packets is not None and self.failure is None:
             try:
                 self._packets.write(packet)
@@ -140,6 +141,7 @@ class LiveFiles:
                 self.failure = _words(error)
 
     def event(self, event: Event) -> None:
+        """Write an event."""
         if self._events is not None:
             try:
                 self._events.write(event)
@@ -147,6 +149,7 @@ class LiveFiles:
                 self._events, self.failure = None, self.failure or _words(error)
 
     def close(self) -> None:
+        """Close all files."""
         for file in (self._packets, self._events):
             try:
                 if file is not None:
@@ -156,7 +159,7 @@ class LiveFiles:
 
 
 def check_all_writable(record: Path | None, out: Path | None, places: bool = False) -> None:
-    """Failure now when these will not be opened later. What is in them stays."""
+    """Raise Failure now when these files cannot be opened later; their contents stay."""
     try:
         if out is not None:
             out.mkdir(parents=True, exist_ok=True)
@@ -174,13 +177,15 @@ def _words(error: RecordingError | OSError) -> str:
 
 
 REPORT_EVERY = 5.0
-"""s between two lines where there is no terminal."""
+"""Time between two lines where there is no terminal, s."""
 
 
 @contextmanager
 def shown(observer: Observer, title: str) -> Iterator[Callable[[], None]]:
-    """How the session goes: a picture in a terminal that can draw one, else lines now and then."""
-    if sys.stdout.isatty() and is_there("rich"):
+    """Show the state of the session: a picture in a terminal that can draw one, else lines now and then.
+
+    It yields the function that updates it."""
+    if sys.stdout.isatty() and is_installed("rich"):
         from rich.console import Console
 
         from ...show.tables.terminal import screen
@@ -188,14 +193,14 @@ def shown(observer: Observer, title: str) -> Iterator[Callable[[], None]]:
         with screen(Console()) as drawn:
             yield lambda: drawn.show(observer, title)
         return
-    began: float | None = None
+    started: float | None = None
     due = REPORT_EVERY
 
     def report() -> None:
-        nonlocal began, due
-        began = observer.now if began is None else began
-        if observer.now - began >= due:
+        nonlocal started, due
+        started = observer.now if started is None else started
+        if observer.now - started >= due:
             due += REPORT_EVERY
-            print("\n".join(f"{observer.now - began:6.1f} s  {line}" for line in status(observer)), flush=True)
+            print("\n".join(f"{observer.now - started:6.1f} s  {line}" for line in status(observer)), flush=True)
 
     yield report

@@ -1,4 +1,4 @@
-"""`solepath scan`: which devices are there."""
+"""`solepath scan`: lists the devices that are there."""
 
 from __future__ import annotations
 
@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any
 from ...recording import printable
 from ...show.tables.table import table
 from ..common.failure import positive
-from .choosing import LISTENED, add_air, need_bleak
+from .devices import SCAN_TIME, add_via, need_bleak
 
 if TYPE_CHECKING:
     from ...ble import Found
 
 
 def add_to(commands: Any) -> None:
+    """Add the command to the parser."""
     command: argparse.ArgumentParser = commands.add_parser(
         "scan",
         help="list the sensors that can be heard",
@@ -22,33 +23,34 @@ def add_to(commands: Any) -> None:
         epilog="example: solepath scan --seconds 8",
     )
     command.add_argument(
-        "--seconds", metavar="S", type=positive, default=LISTENED, help=f"how long to listen (default: {LISTENED:g})"
+        "--seconds", metavar="S", type=positive, default=SCAN_TIME, help=f"how long to listen (default: {SCAN_TIME:g})"
     )
     command.add_argument("--all", action="store_true", help="devices of kinds that are not known here too")
-    add_air(command)
+    add_via(command)
     command.set_defaults(run=run)
 
 
 def run(options: argparse.Namespace) -> int:
+    """Scan and print the devices; return the exit status."""
     need_bleak()
     import asyncio
 
     from ...ble import scan
-    from ..common.loop import unless_told
-    from .air import air, listen_to_end
+    from ..common.loop import unless_stopped
+    from .backend import backend_of, listen_to_end
 
     async def listen(stop: asyncio.Event) -> int:
-        async with unless_told(stop), air(options.via) as backend:
+        async with unless_stopped(stop), backend_of(options.via) as backend:
             found = await scan(options.seconds, backend=backend)
-        _tell(found, options.all)
+        _print_devices(found, options.all)
         return 0
 
     return listen_to_end(listen)
 
 
-def _tell(found: list[Found], strangers: bool) -> None:
+def _print_devices(found: list[Found], show_all: bool) -> None:
     known = [one for one in found if one.profile is not None]
-    if shown := found if strangers else known:
+    if shown := found if show_all else known:
         rows = [
             [one.address, one.profile.name if one.profile else "-", str(one.signal), printable(one.name, 40) or "-"]
             for one in shown
@@ -56,5 +58,5 @@ def _tell(found: list[Found], strangers: bool) -> None:
         print(table(["address", "kind", "dBm", "name"], rows))
     else:
         print("no sensor is heard: switch it on, bring it near, and see that no other program or phone holds it")
-    if not strangers and len(known) < len(found):
+    if not show_all and len(known) < len(found):
         print(f"{len(found) - len(known)} of other kinds (--all shows them)")

@@ -1,4 +1,4 @@
-"""What stops a command, and how its options are checked."""
+"""Errors that stop a command, and checks of its options."""
 
 from __future__ import annotations
 
@@ -17,35 +17,36 @@ LONGEST = 2000
 
 
 class Failure(Exception):
-    """The command cannot go on: one sentence for stderr, exit status 2. So does a RecordingError or
-    CalibrationError that nobody catches."""
+    """An error after which the command cannot go on: one sentence for stderr, exit status 2.
+
+    A RecordingError or CalibrationError that nobody catches has the same effect."""
 
 
 def note(sentence: str) -> None:
-    """One line on stderr that does not stop anything."""
+    """Print one line on stderr that does not stop anything."""
     sys.stdout.flush()
     print(f"solepath: {printable(sentence, LONGEST)}", file=sys.stderr)
 
 
 def attended() -> bool:
-    """Whether there is a terminal to end a command from."""
+    """Return whether there is a terminal to end a command from."""
     return sys.stdin.isatty() or sys.stdout.isatty()
 
 
-def is_there(package: str) -> bool:
-    """Whether a package of an extra is installed; it is not loaded."""
+def is_installed(package: str) -> bool:
+    """Return whether a package of an extra is installed; it is not imported."""
     return find_spec(package) is not None
 
 
 def need(what: str, extra: str, *packages: str) -> None:
-    """Failure that says how to get them where one of these packages is not installed."""
+    """Raise Failure, with the command to install them, when one of these packages is not installed."""
     for package in packages:
-        if not is_there(package):
+        if not is_installed(package):
             raise Failure(f"{what} {package}: pip install 'solepath[{extra}]'")
 
 
 def host_and_port(option: str, text: str, hint: str = "") -> tuple[str, int]:
-    """Of HOST:PORT; an IPv6 host may stand in brackets. Failure for what is none."""
+    """Return host and port of HOST:PORT; an IPv6 host may stand in brackets. Failure for anything else."""
     host, colon, port = text.rpartition(":")
     if not colon or not host or not (port.isascii() and port.isdecimal()) or int(port) > 65535:
         raise Failure(f"{option} {printable(text, 80)}: that is not HOST:PORT{hint}")
@@ -53,14 +54,15 @@ def host_and_port(option: str, text: str, hint: str = "") -> tuple[str, int]:
 
 
 def in_words(error: OSError) -> str:
-    """What the system says of an address; where there is no number, as errors of name servers have none, in their own
-    words."""
+    """Return what the system says of an error of an address.
+
+    Errors of name servers have no number; they are given in their own words."""
     known = error.errno is not None and error.errno > 0
     return (os.strerror(error.errno or 0) if known else error.strerror or str(error)).lower()
 
 
 def _number(text: str, what: str, holds: Callable[[float], bool]) -> float:
-    """The finite number that `text` is, and for which it `holds`; else argparse says that it is not `what`."""
+    """Return the finite number of `text`; argparse says that it is not `what` when it is none or `holds` is false."""
     try:
         value = float(text)
     except ValueError:
@@ -71,12 +73,12 @@ def _number(text: str, what: str, holds: Callable[[float], bool]) -> float:
 
 
 def positive(text: str) -> float:
-    """An argparse type: a finite number above 0."""
+    """Parse an option of argparse: a finite number above 0."""
     return _number(text, "a positive number", lambda value: value > 0.0)
 
 
 def count(text: str) -> int:
-    """An argparse type: a whole number above 0."""
+    """Parse an option of argparse: a whole number above 0."""
     value = int(text) if text.isdecimal() and len(text) < 10 else 0
     if value <= 0:
         raise argparse.ArgumentTypeError(f"{text!r} is not a number of 1 or more")
@@ -84,29 +86,29 @@ def count(text: str) -> int:
 
 
 def seed(text: str) -> int:
-    """An argparse type: a whole number of 0 or more."""
+    """Parse an option of argparse: a whole number of 0 or more."""
     if not text.isdecimal() or len(text) > 18:
         raise argparse.ArgumentTypeError(f"{text[:40]!r} is not a whole number of 0 or more")
     return int(text)
 
 
 def share(text: str) -> float:
-    """An argparse type: a number from 0 to 1."""
+    """Parse an option of argparse: a number from 0 to 1."""
     return _number(text, "a number from 0 to 1", lambda value: 0.0 <= value <= 1.0)
 
 
 def seconds(text: str) -> float:
-    """An argparse type: a finite number of seconds, 0 or more."""
+    """Parse an option of argparse: a finite number of seconds, 0 or more."""
     return _number(text, "a number of seconds", lambda value: value >= 0.0)
 
 
 def degrees_of(text: str) -> float:
-    """An argparse type: a finite angle in degrees, as rad."""
+    """Parse an option of argparse: a finite angle in degrees, returned in rad."""
     return radians(_number(text, "a number of degrees", lambda _: True))
 
 
 def recipe_named(name: str) -> Recipe:
-    """Failure when there is none of this name."""
+    """Return the recipe of this name; Failure when there is none."""
     try:
         return by_name(name)
     except ValueError as error:

@@ -1,4 +1,4 @@
-"""Files that a command writes: tried before the work, and in the place of an earlier run's only once they are whole."""
+"""Files that a command writes: tried before the work, and put in place of an earlier run's only when complete."""
 
 from __future__ import annotations
 
@@ -18,35 +18,38 @@ _numbers = count()
 
 
 def check_writable(path: Path) -> None:
-    """OSError now, not after a long recording was read. What is in the file stays."""
+    """Check that a file can be written, before a long recording is read; its contents stay. OSError when it cannot."""
     there = path.exists()
-    if not there or path.is_file() or path.is_dir():  # a pipe would take it for the end
+    if not there or path.is_file() or path.is_dir():  # closing would end a pipe
         path.open("ab").close()
     if not there:
         path.unlink()
 
 
 def write_json(path: Path, value: Any) -> None:
-    """Write it as JSON, to be read by people too. OSError."""
+    """Write a value as JSON that people can read too. OSError when it cannot be written."""
     with path.open("w", encoding="utf-8") as file:
         json.dump(value, file, indent=1, allow_nan=False)
         file.write("\n")
 
 
 @define
-class Replacing:
-    """`beside` says where to write instead; `keep` puts what was written there into its place, `drop` throws it away.
+class FileReplacements:
+    """Replaces files when they are complete.
 
-    Written in the same directory, so that a file is there as it was or as it is to be at any moment, whatever ends the
-    program. What is no file, as a pipe, is written in place: it holds nothing that could be kept."""
+    `beside` returns where to write instead; `keep` moves what was written there to its place, `discard` removes it. The
+    temporary file is in the same directory, so that at any moment a file is either as it was or as it is to be,
+    whatever ends the program. A path that is no regular file, such as a pipe, is written in place: it holds nothing
+    that could be kept."""
 
     _places: dict[Path, Path] = field(factory=dict, init=False)
-    """What is written -> whose place it takes."""
+    """Temporary path -> path of the file that it replaces."""
 
     def beside(self, path: Path, *, read_only: bool = False) -> Path:
-        """An empty file in the directory of `path`. OSError, naming `path`, where that cannot be written. `read_only`:
-        one that may not be written is replaced all the same, and stays so."""
-        place = Path(os.path.realpath(path))  # of a link, what it leads to
+        """Return an empty file in the directory of `path`; OSError, naming `path`, when it cannot be written.
+
+        With `read_only`, a file without write permission is replaced all the same, and stays without it."""
+        place = Path(os.path.realpath(path))  # the target of a link
         there = place.exists()
         if place.is_dir():
             raise IsADirectoryError(EISDIR, os.strerror(EISDIR), str(path))
@@ -55,19 +58,20 @@ class Replacing:
         if there and not read_only:
             place.open("ab").close()
         written = place.with_name(f".solepath-{os.getpid()}-{next(_numbers)}.part")
-        self._places[written] = place  # before it is there: Ctrl-C may come between any two lines
+        self._places[written] = place  # before it exists: Ctrl-C may come between any two lines
         try:
             written.open("xb").close()
             if there:
-                shutil.copymode(place, written)  # whoever may not read the one may not read the other
+                shutil.copymode(place, written)  # the new file has the same permissions
                 written.chmod(written.stat().st_mode | S_IWUSR)
         except OSError as error:
             if isinstance(error, FileExistsError):
-                del self._places[written]  # another program's, which is not ours to throw away
+                del self._places[written]  # the file belongs to another program and stays
             raise OSError(error.errno, error.strerror, str(path)) from None
         return written
 
     def keep(self) -> None:
+        """Move all temporary files to their places. OSError, naming the file, when one cannot be moved."""
         for written, place in list(self._places.items()):
             try:
                 if place.exists():
@@ -77,7 +81,8 @@ class Replacing:
                 raise OSError(error.errno, error.strerror, str(place)) from None
             del self._places[written]
 
-    def drop(self) -> None:
+    def discard(self) -> None:
+        """Remove all temporary files."""
         for written in self._places:
             with suppress(OSError):
                 written.unlink()

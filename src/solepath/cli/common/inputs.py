@@ -1,5 +1,4 @@
-"""What a command reads: the recording, of which foot, whether it has what a recipe needs; the calibration; the floor
-plan, and where on it the wearer sets out."""
+"""Inputs of a command: the recording and its foot, the calibration, the floor plan and the start on it."""
 
 from __future__ import annotations
 
@@ -21,6 +20,7 @@ if TYPE_CHECKING:
 
 
 def add_foot(command: argparse.ArgumentParser) -> None:
+    """Add --foot to a command."""
     command.add_argument(
         "--foot",
         choices=["left", "right"],
@@ -29,41 +29,45 @@ def add_foot(command: argparse.ArgumentParser) -> None:
 
 
 def foot_of(options: argparse.Namespace) -> Foot | None:
+    """Return the foot of --foot; None without it."""
     return Foot(options.foot) if options.foot else None
 
 
 def source_of(path: Path, foot: Foot | None = None) -> Source:
-    """What a recording holds; its flaws are noted. RecordingError when it cannot be used."""
+    """Open a recording and note its flaws. RecordingError when it cannot be used."""
     return open_source(path, foot, report=note)
 
 
 def check_pressure(recipe: Recipe, source: Source) -> None:
-    """Failure when the recipe needs pressure cells and nothing in the recording comes from any. It reads packets only
-    until the first sample with pressure."""
+    """Raise Failure when the recipe needs pressure cells and the recording has none.
+
+    It reads packets only until the first sample with pressure."""
     if recipe.needs_pressure and not _pressed(source):
         raise Failure(f"recipe {recipe.name} needs pressure cells; {printable(str(source.path))} has none")
 
 
 def _pressed(source: Source) -> bool:
+    """Return whether the recording has pressure, or cannot be read."""
     if source.samples is not None:
         return any("pressure" in table.columns for table in source.samples.tables)
     decoders: dict[Site, Decoder] = {}
     try:
-        for item in open_source(source.path, source.foot, report=_said_later):
+        for item in open_source(source.path, source.foot, report=_ignore):
             if isinstance(item, Packet):
                 found = decoders.setdefault(item.site, Decoder(item.site)).feed(item)
                 if any(isinstance(one, Sample) and one.pressure for one in found):
                     return True
     except RecordingError:
-        return True  # whatever is wrong with it is said when it is run
+        return True  # the run itself reports what is wrong with it
     return False
 
 
-def _said_later(sentence: str) -> None:
-    """The run itself reports it."""
+def _ignore(sentence: str) -> None:
+    """Ignore a flaw, since the run itself reports it."""
 
 
 def add_calibration(command: argparse.ArgumentParser) -> None:
+    """Add --calibration to a command."""
     command.add_argument(
         "--calibration",
         metavar="FILE",
@@ -73,13 +77,14 @@ def add_calibration(command: argparse.ArgumentParser) -> None:
 
 
 def calibration_of(options: argparse.Namespace) -> Calibration | None:
-    """What --calibration names; None without it. CalibrationError when that is none."""
+    """Return the calibration of --calibration, None without it. CalibrationError when the file is none."""
     from ...calibration.file import read_calibration
 
     return None if options.calibration is None else read_calibration(options.calibration)
 
 
 def add_floorplan(command: argparse.ArgumentParser) -> None:
+    """Add --floorplan and --start to a command."""
     command.add_argument(
         "--floorplan",
         metavar="FILE",
@@ -95,8 +100,9 @@ def add_floorplan(command: argparse.ArgumentParser) -> None:
 
 
 def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start | None]:
-    """What --floorplan and --start name; what is worth saying of the plan goes to stderr. Failure when the plan cannot
-    be used, or nobody can set out there."""
+    """Return the plan of --floorplan and the start of --start; warnings about the plan go to stderr.
+
+    Failure when the plan cannot be used, or nobody can start there."""
     from ...body.place.arrivals import start_error
     from ...floorplan.checks import warnings
     from ...floorplan.importers.reading import read_floorplan
@@ -115,13 +121,13 @@ def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start
         raise Failure(str(error)) from None
     for sentence in warnings(plan):
         note(f"{options.floorplan}: {sentence}")
-    if start is not None and (why_not := start_error(indexed, start)) is not None:
-        raise Failure(f"{options.floorplan}: {why_not}")
+    if start is not None and (problem := start_error(indexed, start)) is not None:
+        raise Failure(f"{options.floorplan}: {problem}")
     return indexed, start
 
 
 def start_of(text: str) -> Start:
-    """LEVEL,X,Y or LEVEL,X,Y,HEADING; the level's name may have commas. Failure when it is something else."""
+    """Return the start of LEVEL,X,Y or LEVEL,X,Y,HEADING; the level's name may have commas. Failure for other text."""
     from ...floorplan.plan import Start
     from ...floorplan.records import no_start
 
@@ -133,16 +139,16 @@ def start_of(text: str) -> Start:
             if heading and not abs(heading[0]) <= 360.0:
                 raise Failure(f"--start {printable(text, 80)}: a heading can be -360 to 360 degrees")
             start = Start(level.strip(), (x, y), radians(heading[0]) if heading else None)
-            why_not = no_start(start)
-            if why_not is not None:
-                raise Failure(f"--start {printable(text, 80)}: {why_not}")
+            problem = no_start(start)
+            if problem is not None:
+                raise Failure(f"--start {printable(text, 80)}: {problem}")
             return start
     raise Failure(f"--start {printable(text, 80)} is not LEVEL,X,Y or LEVEL,X,Y,HEADING, as in 0,12.5,3 or 0,12.5,3,90")
 
 
 def _finite(text: str) -> float | None:
     try:
-        value = nan if "_" in text else float(text)  # Python takes 1_0 for ten
+        value = nan if "_" in text else float(text)  # Python reads 1_0 as ten
     except ValueError:
         return None
     return value if isfinite(value) else None

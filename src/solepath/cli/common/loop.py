@@ -1,4 +1,4 @@
-"""What commands do on an event loop: they stop when they are told to, and in good order."""
+"""Event loops and signals of commands: they stop when they are told to, and in good order."""
 
 from __future__ import annotations
 
@@ -12,52 +12,52 @@ from contextlib import asynccontextmanager, contextmanager
 from typing import Any
 
 STOP = [signal.SIGINT, signal.SIGTERM, *([signal.SIGHUP] if hasattr(signal, "SIGHUP") else [])]
-"""What tells a command to stop: Ctrl-C, being ended, and a terminal that was closed."""
-INTERRUPTED = 130
-"""The exit status of what was told to stop before it had begun."""
+"""Signals that stop a command: Ctrl-C, being ended, and a terminal that was closed."""
+STOPPED_STATUS = 130
+"""Exit status of a command that was stopped before it had started."""
 
 
-class Interrupted(Exception):
-    """It was told to stop before it had begun."""
+class StoppedEarly(Exception):
+    """The command was stopped before it had started."""
 
 
 def run_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> int:
-    """asyncio.run of `main`, whose event is set by what tells a command to stop (STOP); the exit status.
+    """Run `main` with asyncio, with an event that a signal of STOP sets; return the exit status.
 
-    None of it ends the program on the spot, however often it comes: what was begun is ended in good order.
-    """
+    No signal ends the program at once, however often it comes: what was started is ended in good order."""
     with asyncio.Runner() as runner:
         loop, stop = runner.get_loop(), asyncio.Event()
 
-        def told(number: int, frame: object) -> None:
+        def stop_main(number: int, frame: object) -> None:
             loop.call_soon_threadsafe(stop.set)
 
-        before = _heard_by(told)
+        before = _handle_signals(stop_main)
         try:
             return runner.run(main(stop))
-        except Interrupted:
-            return INTERRUPTED
+        except StoppedEarly:
+            return STOPPED_STATUS
         finally:
             for number, handler in before.items():
-                # who was told already is on the way out
-                signal.signal(number, _deaf if stop.is_set() else handler)
-            atexit.register(_deaf_to_the_end)
+                # after a stop, further signals are ignored
+                signal.signal(number, _ignore_signal if stop.is_set() else handler)
+            atexit.register(_ignore_at_exit)
 
 
 @contextmanager
-def stopped_alike() -> Iterator[None]:
-    """Whatever tells the command to stop within is a KeyboardInterrupt, as Ctrl-C is, so that nothing half done stays;
-    it is told once, and what is cleared away then is cleared away in peace."""
+def stop_signals_raise() -> Iterator[None]:
+    """Turn every signal of STOP within the context into a KeyboardInterrupt, so that nothing half done stays.
+
+    It is raised once; further signals do not disturb the cleaning up."""
 
     def stopped(number: int, frame: object) -> None:
         for one in before:
-            signal.signal(one, _deaf)
+            signal.signal(one, _ignore_signal)
         raise KeyboardInterrupt
 
     if threading.current_thread() is not threading.main_thread():
-        yield  # others hear no signals
+        yield  # only the main thread gets signals
         return
-    before = _heard_by(stopped)
+    before = _handle_signals(stopped)
     try:
         yield
     finally:
@@ -65,33 +65,36 @@ def stopped_alike() -> Iterator[None]:
             signal.signal(number, handler)
 
 
-def _heard_by(handler: Callable[[int, object], None]) -> dict[signal.Signals, Any]:
-    """From now on `handler` hears what tells the command to stop; who heard it before. What is ignored (nohup) stays
-    ignored, and a terminal that was closed is not written to any more."""
+def _handle_signals(handler: Callable[[int, object], None]) -> dict[signal.Signals, Any]:
+    """Let `handler` handle the signals of STOP from now on; return the handlers before it.
+
+    What is ignored (nohup) stays ignored. After a terminal was closed nothing more is written to it."""
     terminals = [number for number in (1, 2) if os.isatty(number)]
 
-    def hear(number: int, frame: object) -> None:
+    def handle(number: int, frame: object) -> None:
         if number != signal.SIGINT and number != signal.SIGTERM:
-            _leave(terminals)
+            _discard_output(terminals)
         handler(number, frame)
 
-    heard = [number for number in STOP if signal.getsignal(number) is not signal.SIG_IGN]
-    return {number: signal.signal(number, hear) for number in heard}
+    handled = [number for number in STOP if signal.getsignal(number) is not signal.SIG_IGN]
+    return {number: signal.signal(number, handle) for number in handled}
 
 
-def _deaf(number: int, frame: object) -> None:
-    """Whoever stops already need not be told again. Not SIG_IGN, which is of whoever started the command."""
+def _ignore_signal(number: int, frame: object) -> None:
+    """Ignore a signal, since the command stops already.
+
+    It is not SIG_IGN, which belongs to whoever started the command."""
 
 
-def _deaf_to_the_end() -> None:
-    """Python takes its handlers away before it ends, and a signal would end it then; what is ignored stays so."""
+def _ignore_at_exit() -> None:
+    """Ignore the signals at exit, where Python removes its handlers and a signal would end it."""
     for number in STOP:
-        if signal.getsignal(number) is _deaf:
+        if signal.getsignal(number) is _ignore_signal:
             signal.signal(number, signal.SIG_IGN)
 
 
-def _leave(terminals: list[int]) -> None:
-    """What is written there from now on is written to nobody: that it cannot be must not end what is being done."""
+def _discard_output(terminals: list[int]) -> None:
+    """Discard what is written to these terminals from now on: a failed write must not end the work."""
     nobody = os.open(os.devnull, os.O_WRONLY)
     for number in terminals:
         os.dup2(nobody, number)
@@ -99,25 +102,25 @@ def _leave(terminals: list[int]) -> None:
 
 
 @contextmanager
-def listening() -> Iterator[Callable[[], bool]]:
-    """Whether something told the command to stop within, for work that ends at a good moment of its own."""
-    told = False
+def stop_flag() -> Iterator[Callable[[], bool]]:
+    """Yield a function that returns whether a signal of STOP came, for work that chooses when to end."""
+    stopped = False
 
-    def hear(number: int, frame: object) -> None:
-        nonlocal told
-        told = True
+    def handle(number: int, frame: object) -> None:
+        nonlocal stopped
+        stopped = True
 
-    before = _heard_by(hear)
+    before = _handle_signals(handle)
     try:
-        yield lambda: told
+        yield lambda: stopped
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
 
 
 @asynccontextmanager
-async def unless_told(stop: asyncio.Event) -> AsyncIterator[None]:
-    """What is waited for within is given up when `stop` is set: Interrupted."""
+async def unless_stopped(stop: asyncio.Event) -> AsyncIterator[None]:
+    """Give up what is awaited within when `stop` is set: StoppedEarly."""
 
     async def watch() -> None:
         await stop.wait()
@@ -133,7 +136,7 @@ async def unless_told(stop: asyncio.Event) -> AsyncIterator[None]:
                 watching.cancel()
     except TimeoutError:
         if limit.expired():
-            raise Interrupted from None
+            raise StoppedEarly from None
         raise
     if stop.is_set():
-        raise Interrupted
+        raise StoppedEarly

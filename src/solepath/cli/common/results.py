@@ -1,4 +1,4 @@
-"""What `solepath track` makes of a recording's events: a summary, files, a picture of the plan, a report."""
+"""Results of `solepath track`: a summary, files, a picture of the plan, a report."""
 
 from __future__ import annotations
 
@@ -16,16 +16,18 @@ from ...show.report import Report
 from ...show.tables.plan import PlanPicture
 from ...show.tables.summary import place_lines, summary
 from ...types import Packet, Sample
-from .files import Replacing, check_writable
+from .files import FileReplacements, check_writable
 
 
 @define
 class Results:
-    """`out`: the directory of the files. `report`: the file of the report. None: not wanted. OSError from all of it
-    when something cannot be written.
+    """Gathers the results of one recording, and writes them at the end.
 
-    What an earlier run wrote is replaced by what is whole, when the recording was heard to its end and is summed up:
-    whatever ends it before leaves all as it was."""
+    `out` is the directory of the files, `report` the file of the report; None means that it is not written. Every
+    method raises OSError when something cannot be written.
+
+    Files of an earlier run are replaced by complete ones, after the recording was read to its end. Whatever ends the
+    run before that leaves all files as they were."""
 
     title: str
     out: Path | None = None
@@ -33,14 +35,14 @@ class Results:
     plan: FloorPlan | None = None
     recipe: str = ""
     when: str = ""
-    """The recording began, to be read."""
+    """Start of the recording, as text."""
     observer: Observer = field(factory=Observer, init=False)
     _picture: PlanPicture | None = field(init=False)
     _report: Report | None = field(init=False)
     _files: TrackFiles | None = field(default=None, init=False)
     _open: ExitStack = field(factory=ExitStack, init=False)
-    _replacing: Replacing = field(factory=Replacing, init=False)
-    _replacing_report: Replacing = field(factory=Replacing, init=False)
+    _files_out: FileReplacements = field(factory=FileReplacements, init=False)
+    _report_out: FileReplacements = field(factory=FileReplacements, init=False)
     _picture_at: Path | None = field(default=None, init=False)
     _report_at: Path | None = field(default=None, init=False)
 
@@ -51,18 +53,18 @@ class Results:
             check_writable(self.report)
             self._report = Report(self.title, self.plan, self.recipe, self.when, observer=self.observer)
 
-    def begin(self) -> None:
-        """There is something to write, or there will be nothing."""
+    def open_files(self) -> None:
+        """Open the files, also for a recording of nothing."""
         if self._files is None and self.out is not None:
-            self._files = TrackFiles(self.out, places=self.plan is not None, beside=self._replacing.beside)
+            self._files = TrackFiles(self.out, places=self.plan is not None, beside=self._files_out.beside)
             self._open.callback(self._files.close)
             if self.plan is not None:
-                self._picture_at = self._replacing.beside(self.out / PLAN)
+                self._picture_at = self._files_out.beside(self.out / PLAN)
         if self._report_at is None and self.report is not None:
-            self._report_at = self._replacing_report.beside(self.report)
+            self._report_at = self._report_out.beside(self.report)
 
-    def told(self, item: Packet | Sample | None, events: list[Event]) -> None:
-        """What the session said of an item; of none, at the end."""
+    def add(self, item: Packet | Sample | None, events: list[Event]) -> None:
+        """Add an item and the events of the session for it; None and the last events at the end."""
         watcher = self.observer if self._report is None else self._report
         watcher.take(item, events)
         for event in events:
@@ -72,12 +74,12 @@ class Results:
                 self._picture.add(event)
 
     def print(self, seconds: float) -> None:
-        """The files and the report, whole, in their places; the summary. `seconds` on the wall that it took."""
+        """Put files and report in their places and print the summary; `seconds` is the wall time that it took."""
         self._open.close()
         if self._picture is not None and self._picture_at is not None and self.out is not None:
             with naming(self.out):
                 self._picture.write(self._picture_at, self.title)
-        self._replacing.keep()
+        self._files_out.keep()
         print(summary(self.observer, title=self.title, seconds=seconds))
         if self._picture is not None:
             print("\n".join(place_lines(self.observer.places)))
@@ -86,16 +88,16 @@ class Results:
         if self._report is not None and self._report_at is not None and self.report is not None:
             with naming(self.report):
                 self._report.write(self._report_at)
-            self._replacing_report.keep()
+            self._report_out.keep()
             print(f"report in {printable(str(self.report))}")
 
     def __enter__(self) -> Results:
         return self
 
     def __exit__(self, *error: object) -> None:
-        """The files are closed, and those that are not in their places are thrown away."""
+        """Close the files and remove those that are not in their places."""
         try:
             self._open.close()
         finally:
-            self._replacing.drop()
-            self._replacing_report.drop()
+            self._files_out.discard()
+            self._report_out.discard()

@@ -1,4 +1,4 @@
-"""The page in a browser: its options, and a page that is served while a command runs."""
+"""The page in a browser: its options, and serving it while a command runs."""
 
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ if TYPE_CHECKING:
 
 HERE = "127.0.0.1:8765"
 LONG = 40_000
-"""Items from which on there is a progress bar: some seconds of computing ..."""
+"""Number of items from which on there is a progress bar: some seconds of computing."""
 ITEMS = 1000
-"""... and that are computed between two steps of it."""
+"""Items that are computed between two steps of the progress bar."""
 
 
 @frozen
 class View:
-    """Where the page is to be served, and whether a browser is opened. `port`: None when nobody named one."""
+    """Address at which the page is served, and whether a browser is opened; `port` is None when nobody named one."""
 
     host: str = "127.0.0.1"
     port: int | None = None
@@ -40,7 +40,7 @@ class View:
 
 
 def add_view(command: argparse.ArgumentParser, group: argparse._ActionsContainer, what: str) -> None:
-    """--view, in a group of the command's or in itself, and --no-browser. `what` it does, in a word or two."""
+    """Add --view, in `group`, and --no-browser to a command; `what` says in a word or two what --view does."""
     group.add_argument(
         "--view",
         metavar="HOST:PORT",
@@ -53,18 +53,19 @@ def add_view(command: argparse.ArgumentParser, group: argparse._ActionsContainer
 
 
 def add_speed(command: argparse.ArgumentParser, default: str) -> None:
+    """Add --speed to a command."""
     command.add_argument("--speed", metavar="X", type=positive, help=f"times real time (default: {default})")
 
 
 def need_page(options: argparse.Namespace, page: bool) -> None:
-    """Failure for an option of the page's where there is none."""
+    """Raise Failure for an option of the page when there is no page."""
     for name in ("speed", "no_browser"):
         if not page and getattr(options, name, None):
             raise Failure(f"--{name.replace('_', '-')} is for the page: it goes with --view")
 
 
 def view_of(options: argparse.Namespace) -> View | None:
-    """What --view names; None without it. Failure for what is no address or is taken, and where there is no aiohttp."""
+    """Return the address of --view, None without it. Failure when it is no address or taken, or aiohttp is missing."""
     if options.view is None:
         return None
     browser = sys.stdout.isatty() and not options.no_browser
@@ -78,7 +79,7 @@ def view_of(options: argparse.Namespace) -> View | None:
 
 
 def pace_of(options: argparse.Namespace, default: float) -> float:
-    """--speed, of the page. Failure where no player goes so fast or so slowly."""
+    """Return --speed for the page. Failure when no player plays at that speed."""
     from ...show.page.messages import FASTEST, SLOWEST
 
     if options.speed is None:
@@ -89,14 +90,15 @@ def pace_of(options: argparse.Namespace, default: float) -> float:
 
 
 def newtons_of(calibration: Calibration | None) -> tuple[Foot, ...]:
-    """The feet whose calibration turns counts into N."""
+    """Return the feet whose calibration turns counts into N."""
     return tuple(foot for foot in Foot if calibration is not None and calibration.insole(foot).newtons is not None)
 
 
 @asynccontextmanager
 async def page_of(scene: Scene, view: View, commands: Callable[[Command], None] | None = None) -> AsyncIterator[Page]:
-    """The page, served; its address is said, and a browser opened where one is wanted and there. Failure when it cannot
-    be served there."""
+    """Serve the page, print its address, and open a browser when one is requested and there.
+
+    Failure when the page cannot be served there."""
     import asyncio
 
     from ...show.page.server.access import on_loopback
@@ -116,15 +118,16 @@ async def page_of(scene: Scene, view: View, commands: Callable[[Command], None] 
 
 
 def play(player: Player, view: View, pace: float) -> None:
-    """`player` on a page of its own, `pace` times as fast as it was, until Ctrl-C; where there is no terminal, or until
-    it was played to its end."""
+    """Play `player` on a page of its own, at `pace` times real time, until Ctrl-C.
+
+    Where there is no terminal, it also ends when all was played."""
     import asyncio
 
-    from ...show.page.player.playing import Playing
+    from ...show.page.player.player_loop import PlayerLoop
     from .loop import run_to_end
 
     async def played(stop: asyncio.Event) -> int:
-        playing, once = Playing(player), not attended()
+        playing, once = PlayerLoop(player), not attended()
         async with page_of(player.scene, view, playing.command) as page:
             if not once:
                 print("Ctrl-C ends it", flush=True)
@@ -136,30 +139,31 @@ def play(player: Player, view: View, pace: float) -> None:
 
 
 def run_rest(player: Player, what: str) -> None:
-    """What nobody has watched of `what`, a word, so that `told` has heard all of it. KeyboardInterrupt at another
-    Ctrl-C, after an item that `told` has heard of."""
+    """Compute what nobody has watched of `what`, a word, so that `on_events` gets all of it.
+
+    Another Ctrl-C raises KeyboardInterrupt, after an item that `on_events` got."""
     from ...show.tables.progress import progress_bar
-    from .loop import listening
+    from .loop import stop_flag
 
     items = player.items
     left = len(items) - player.done
-    with progress_bar("computing", len(items), wanted=left > LONG) as show, listening() as told_to_stop:
+    with progress_bar("computing", len(items), enabled=left > LONG) as show, stop_flag() as stop_requested:
         if left > 0:
             print(f"the rest of the {what}, as fast as it can be computed; Ctrl-C again gives it up ...", flush=True)
         fed = count(1)
-        while player.run_through(lambda: next(fed) % ITEMS == 0 or told_to_stop()):
+        while player.run_through(lambda: next(fed) % ITEMS == 0 or stop_requested()):
             show(player.done)
-            if told_to_stop():
-                at = items.t(player.done - 1) if player.done else items.begin
+            if stop_requested():
+                at = items.t(player.done - 1) if player.done else items.start
                 note(
-                    f"given up after {at - items.begin:.1f} of {items.end - items.begin:.1f} s: nothing is summed up "
+                    f"given up after {at - items.start:.1f} of {items.end - items.start:.1f} s: nothing is summed up "
                     "or written, and what was written before stays as it is"
                 )
                 raise KeyboardInterrupt
 
 
 def _there_is_a_browser() -> bool:
-    """One with windows: a browser of the terminal would take the place of this command."""
+    """Return whether there is a browser with windows: one of the terminal would take the place of this command."""
     if sys.platform in ("darwin", "win32"):
         return True
     return any(os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY", "BROWSER"))
@@ -173,7 +177,7 @@ def _open(url: str) -> None:
 
 
 def _check_free(view: View) -> None:
-    """Failure now when nothing will be served there later, after a long recording was read."""
+    """Raise Failure now when nothing could be served there after a long recording was read."""
     from ...show.page.server.access import listen
 
     try:
@@ -183,6 +187,6 @@ def _check_free(view: View) -> None:
 
 
 def _taken(view: View, error: OSError | UnicodeError) -> Failure:
-    """Why nothing can be served there."""
+    """Return the Failure that says why nothing can be served there."""
     why = "there is no such host" if isinstance(error, UnicodeError) else in_words(error)
     return Failure(f"--view {printable(view.host, 80)}:{view.port or 0}: {why}")

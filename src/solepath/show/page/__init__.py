@@ -1,1 +1,1 @@
-"""The page that shows a session while it runs: events in, what a browser draws out."""
+"""The page that shows a session while it runs: it takes events and gives what a browser draws."""

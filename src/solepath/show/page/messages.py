@@ -1,4 +1,4 @@
-"""Messages between server and page as text: JSON, strict both ways (protocol/page.md)."""
+"""Encodes and parses the messages between server and page: JSON, strict both ways (protocol/page.md)."""
 
 from __future__ import annotations
 
@@ -11,15 +11,17 @@ from typing import Any
 from attrs import frozen
 
 VALUED = {"play": False, "pause": False, "speed": True, "seek": True}
-"""Command -> whether it has a value."""
+"""Commands, with whether each has a value."""
 SLOWEST, FASTEST = 0.1, 32.0
-"""Times real time, that a recording is played at."""
+"""Bounds of the speed at which a recording is played, in multiples of real time."""
 LONGEST = 4096
-"""Bytes of a message from a page."""
+"""Largest message from a page, bytes."""
 
 
 class CommandError(ValueError):
-    """A text is no command; a sentence says why. `is_json`: it is JSON at least."""
+    """A text that is no command; the message says why.
+
+    `is_json` says whether the text is JSON at least."""
 
     def __init__(self, why: str, *, is_json: bool = True) -> None:
         super().__init__(why)
@@ -28,31 +30,33 @@ class CommandError(ValueError):
 
 @frozen
 class Command:
-    """What a page asks for (protocol/page.md), checked: `parse_command` makes it. `do`: "play", "pause", "speed"
-    (`value` times real time) or "seek" (to `value` s of the recording's time); `value` is None of the first two."""
+    """A checked request of a page (protocol/page.md), made by `parse_command`.
+
+    `do` is "play", "pause", "speed" (`value` times real time) or "seek" (to `value` s of the recording's time). `value`
+    is None for "play" and "pause"."""
 
     do: str
     value: float | None = None
 
 
 def parse_command(text: str) -> Command:
-    """The command that a text is; CommandError when it is none, whatever it is."""
+    """Return the command that a text encodes; CommandError for any text that is none."""
     try:
-        told = json.loads(text, parse_constant=_no_number, object_pairs_hook=_once)
+        message = json.loads(text, parse_constant=_no_number, object_pairs_hook=_unique_members)
     except CommandError:
         raise
     except (ValueError, RecursionError):
         raise CommandError("a message is not JSON", is_json=False) from None
-    if not isinstance(told, dict):
+    if not isinstance(message, dict):
         raise CommandError("a message is no JSON object")
-    do = told.get("do")
+    do = message.get("do")
     if not isinstance(do, str) or do not in VALUED:
         raise CommandError("a message asks for nothing that there is")
-    if told.keys() != ({"do", "value"} if VALUED[do] else {"do"}):
+    if message.keys() != ({"do", "value"} if VALUED[do] else {"do"}):
         raise CommandError(f"a message to {do} has other members than it should")
     if not VALUED[do]:
         return Command(do)
-    value = told["value"]
+    value = message["value"]
     if isinstance(value, bool) or not isinstance(value, int | float) or not _is_finite(value):
         raise CommandError(f"a message to {do} has a value that is no number")
     if do == "speed" and not SLOWEST <= value <= FASTEST:
@@ -61,23 +65,26 @@ def parse_command(text: str) -> Command:
 
 
 def encode(message: dict[str, Any]) -> str:
-    """A message of the server as text. ValueError for one with a number that is none. A member that knows its own text
-    (Written) is not written anew: a floor plan may be of megabytes, and is sent to each watcher and after each seek."""
-    written = {key: value for key, value in message.items() if isinstance(value, Written)}
-    text = _json({key: value for key, value in message.items() if key not in written} if written else message)
-    for key, value in written.items():
+    """Return a message of the server as text; ValueError for a number that is not finite.
+
+    A member that keeps its own text (EncodedOnce) is not encoded again: a floor plan may have megabytes, and is sent to
+    each watcher and after each seek."""
+    encoded = {key: value for key, value in message.items() if isinstance(value, EncodedOnce)}
+    text = _json({key: value for key, value in message.items() if key not in encoded} if encoded else message)
+    for key, value in encoded.items():
         text = f"{text[:-1]}{',' if len(text) > 2 else ''}{_json(key)}:{value.text}}}"
     return text
 
 
-class Written(dict[str, Any]):
-    """A part of messages that never changes, and is sent often: its text is made once, when it is first wanted."""
+class EncodedOnce(dict[str, Any]):
+    """A part of messages that never changes and is sent often: its text is made once, on first use."""
 
     @cached_property
     def text(self) -> str:
+        """The part as JSON."""
         return _json(self)
 
-    def __deepcopy__(self, memo: dict[int, Any]) -> Written:
+    def __deepcopy__(self, memo: dict[int, Any]) -> EncodedOnce:
         return self
 
 
@@ -89,11 +96,11 @@ def _no_number(text: str) -> None:
     raise CommandError(f"a message holds {text}, which is not JSON", is_json=False)
 
 
-def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    told = dict(pairs)
-    if len(told) != len(pairs):
+def _unique_members(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    message = dict(pairs)
+    if len(message) != len(pairs):
         raise CommandError("a message has a member twice")
-    return told
+    return message
 
 
 def _is_finite(value: float) -> bool:
@@ -103,11 +110,11 @@ def _is_finite(value: float) -> bool:
         return False
 
 
-def shown(value: float | None, digits: int = 3) -> float | None:
-    """`value` with so many digits after the point; None of what is no number: JSON has none for it."""
+def rounded(value: float | None, digits: int = 3) -> float | None:
+    """Return `value` with so many digits after the point; None for one that is not finite, which JSON lacks."""
     return None if value is None or not isfinite(value) else round(value, digits)
 
 
-def placed(values: Iterable[float], digits: int = 3) -> list[float | None]:
-    """The same of a place, m: to the millimetre."""
-    return [shown(value, digits) for value in values]
+def rounded_all(values: Iterable[float], digits: int = 3) -> list[float | None]:
+    """Return each value rounded, by default to the millimetre for places in m; None for a number that is not finite."""
+    return [rounded(value, digits) for value in values]

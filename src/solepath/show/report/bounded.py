@@ -1,4 +1,4 @@
-"""What is kept of a long walk: few values, evenly spread, however long it is."""
+"""Keeps few values of a long walk, evenly spread, however long it is."""
 
 from __future__ import annotations
 
@@ -12,16 +12,18 @@ T = TypeVar("T")
 
 @define
 class Thinned(Generic[T]):
-    """The first and the last item and, evenly among the others, as many as `add` is told to keep."""
+    """The first and the last item, and evenly spaced ones between them.
+
+    `add` is given how many are kept."""
 
     kept: list[T] = field(factory=list, init=False)
     every: int = field(default=1, init=False)
-    """Each so-many-th item is kept."""
+    """Interval of the items that are kept."""
     count: int = field(default=0, init=False)
     last: T | None = field(default=None, init=False)
 
     def add(self, item: T, most: int) -> None:
-        """One more; fewer than `most` are kept."""
+        """Add one item; fewer than `most` are kept."""
         if self.count % self.every == 0:
             if len(self.kept) >= most:
                 self.kept = self.kept[::2]

@@ -1,55 +1,55 @@
-"""How the report tells times: those of the recording, or, where its clock counts from long ago, from its beginning."""
+"""Times in the report: the recording's own, or, where its clock counts from long ago, from its start."""
 
 from __future__ import annotations
 
 from attrs import frozen
 
 LONG = 300.0
-"""s: a longer recording is drawn in minutes."""
+"""Duration above which a recording is drawn in minutes, s."""
 FAR = 1e5
-"""s: no clock that starts with the recording shows as much."""
+"""Start time from which on the clock did not start with the recording, s."""
 
 
 @frozen
 class ReportClock:
-    """Of one recording, from `begin` to `end`, s."""
+    """Clock of one recording, from `start` to `end`, s."""
 
-    begin: float
+    start: float
     end: float
 
     @property
     def origin(self) -> float:
-        """What the report's times count from, s."""
-        return self.begin if abs(self.begin) >= FAR else 0.0
+        """Time from which the report's times count, s."""
+        return self.start if abs(self.start) >= FAR else 0.0
 
     @property
     def per_unit(self) -> float:
         """Seconds of the unit on axes."""
-        return 60.0 if self.end - self.begin > LONG else 1.0
+        return 60.0 if self.end - self.start > LONG else 1.0
 
     @property
     def label(self) -> str:
-        """Of a time axis."""
+        """Label of a time axis."""
         unit = "min" if self.per_unit > 1.0 else "s"
         return f"time from the beginning, {unit}" if self.origin else f"time, {unit}"
 
     @property
     def span(self) -> tuple[float, float]:
-        """Of a time axis, in its unit."""
-        low, high = self.of(self.begin), self.of(self.end)
+        """Ends of a time axis, in its unit."""
+        low, high = self.of(self.start), self.of(self.end)
         return (low, high) if high > low else (low - 0.5, low + 0.5)
 
     def of(self, t: float) -> float:
-        """On a time axis."""
+        """Return the value of `t`, in s, on a time axis."""
         return (t - self.origin) / self.per_unit
 
-    def said(self, t: float) -> str:
-        """In a sentence."""
+    def text(self, t: float) -> str:
+        """Return `t`, in s, as text for a sentence."""
         return f"{t - self.origin:.1f} s"
 
 
-def lasted(seconds: float) -> str:
-    """A duration in words."""
+def duration_text(seconds: float) -> str:
+    """Return a duration in words."""
     if seconds < 9.95:
         return f"{seconds:.1f} s"
     whole = round(seconds)

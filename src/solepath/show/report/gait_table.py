@@ -6,7 +6,7 @@ from xml.etree.ElementTree import Element
 
 from ...body.gait.means import GaitMeans, GaitParameters, StrideFigures
 from ...types import Foot
-from ..tables.gait import ENOUGH, gait_rows, strides_of
+from ..tables.gait import MIN_STRIDES, gait_rows, strides_of
 from ..tables.table import number, percent
 from .markup import add, table, terms
 
@@ -27,7 +27,7 @@ DEFINITIONS = {
     "initial_double_support": "from this foot's contact to the other's toe-off; below zero a flight (Novacheck 1998)",
     "terminal_double_support": "from the other foot's contact to this one's toe-off; below zero a flight",
 }
-"""One line each; in full where GaitCycleMeasured is."""
+"""One line for each parameter; GaitCycleMeasured has the full definitions."""
 COLUMNS = [
     ("steady strides", "neither first nor last of a walk, nor in a turn, on stairs or with samples missing"),
     ("both", "mean of the feet's means; SD from the mean of their variances (Galna et al. 2013)"),
@@ -38,7 +38,7 @@ COLUMNS = [
 
 
 def gait_tables(parent: Element, means: GaitMeans) -> bool:
-    """A table for walking and one for running; False where there are no steady strides."""
+    """Add a table for walking and one for running; return False when there are no steady strides."""
     known = [one for one in (means.of(False), means.of(True)) if one is not None]
     for one in known:
         _table(parent, one)
@@ -54,16 +54,16 @@ def _table(parent: Element, parameters: GaitParameters) -> None:
     rows = [["steady strides", *[number(one, 0) for one in strides], "-", "-", "-"]]
     together = parameters.both if None not in columns else None
     rows.append(["cadence, steps/min", *[_cadence(one) for one in (*columns, together)], "-", "-"])
-    # the standard deviation on a line of its own
+    # the standard deviation stands on its own line
     rows += [[f"{row.label}, {row.unit}", *row.cells("\n\N{PLUS-MINUS SIGN}")] for row in gait_rows(parameters)]
     caption = f"{what}: means of steady strides, of both feet \N{PLUS-MINUS SIGN} standard deviation"
     table(parent, caption, HEADER, rows, "numbers gait")
     if parameters.coordination is not None:
         add(parent, "p", f"Phase coordination index: {percent(parameters.coordination)} % (Plotnik et al. 2007).")
     count = sum([one for one in strides if one is not None])
-    if count < ENOUGH:
-        said = f"Of {count} strides: figures settle with {ENOUGH} and more (Galna et al. 2013)."
-        add(parent, "p", said, class_="note")
+    if count < MIN_STRIDES:
+        text = f"Of {count} strides: figures settle with {MIN_STRIDES} and more (Galna et al. 2013)."
+        add(parent, "p", text, class_="note")
 
 
 def _cadence(figures: StrideFigures | None) -> str:
@@ -71,7 +71,7 @@ def _cadence(figures: StrideFigures | None) -> str:
 
 
 def _notes(parent: Element, known: list[GaitParameters]) -> None:
-    """What the words of the table mean, folded away on a screen."""
+    """Add what the words of the table mean, in a part that can be folded on a screen."""
     folded = add(parent, "details", open="open")
     add(folded, "summary", "What the parameters mean")
     named = {row.name: row.label for one in known for row in gait_rows(one)}

@@ -1,4 +1,4 @@
-"""HTML elements. Whatever text goes in is text when it comes out: the tree is escaped where it is written."""
+"""Makes HTML elements; text stays text, since the tree is escaped when it is written."""
 
 from __future__ import annotations
 
@@ -9,13 +9,15 @@ from ...recording import printable
 from .style import STYLE
 
 LONGEST = 300
-"""Characters of a sentence that came from outside."""
+"""Characters of a sentence from outside that are shown."""
 MOST = 40
-"""Sentences of a list."""
+"""Sentences of a list that are shown."""
 
 
 def add(parent: Element, tag: str, text: str = "", **attributes: str) -> Element:
-    """A new last child of `parent`. Attribute names: a trailing underscore is dropped, others become hyphens."""
+    """Add a new last child to `parent` and return it.
+
+    In names of attributes a trailing underscore is dropped, and others become hyphens."""
     named = {name.removesuffix("_").replace("_", "-"): printable(value, 10**6) for name, value in attributes.items()}
     made = SubElement(parent, tag, named)
     if text:
@@ -24,7 +26,7 @@ def add(parent: Element, tag: str, text: str = "", **attributes: str) -> Element
 
 
 def skeleton(title: str) -> tuple[Element, Element]:
-    """(the document, where its contents go)."""
+    """Return the document and the element for its contents."""
     html = Element("html", {"lang": "en"})
     head = add(html, "head")
     add(head, "meta", charset="utf-8")
@@ -36,46 +38,48 @@ def skeleton(title: str) -> tuple[Element, Element]:
 
 
 def section(parent: Element, name: str, title: str) -> Element:
-    """A part with a heading."""
+    """Add a section with a heading and return it."""
     made = add(parent, "section", aria_labelledby=name)
     add(made, "h2", title, id=name)
     return made
 
 
-def sentences(parent: Element, told: Sequence[str]) -> None:
-    """A list of sentences, and how many more there are."""
-    if told:
+def sentences(parent: Element, texts: Sequence[str]) -> None:
+    """Add a list of sentences, and how many more there are."""
+    if texts:
         listed = add(parent, "ul")
-        for one in told[:MOST]:
+        for one in texts[:MOST]:
             add(listed, "li", one)
-        if len(told) > MOST:
-            add(listed, "li", f"and {len(told) - MOST} more")
+        if len(texts) > MOST:
+            add(listed, "li", f"and {len(texts) - MOST} more")
 
 
-def terms(parent: Element, told: Iterable[tuple[str, str]], **attributes: str) -> None:
-    """Words, and what they mean."""
+def terms(parent: Element, entries: Iterable[tuple[str, str]], **attributes: str) -> None:
+    """Add words with their meanings."""
     listed = add(parent, "dl", **attributes)
-    for word, meaning in told:
+    for word, meaning in entries:
         add(listed, "dt", word)
         add(listed, "dd", meaning)
 
 
 def figure(parent: Element, svg: Element, caption: str, *notes: str) -> Element:
-    """A drawing with what is to be seen on it: a caption, and notes in smaller words below."""
+    """Add a drawing with a caption, and notes in smaller words below."""
     made = add(parent, "figure")
     made.append(svg)
-    told = add(made, "figcaption")
-    add(told, "strong", caption)
+    figcaption = add(made, "figcaption")
+    add(figcaption, "strong", caption)
     for note in notes:
-        add(told, "span", note, **{"class": "note"})
+        add(figcaption, "span", note, **{"class": "note"})
     return made
 
 
 def table(
     parent: Element, caption: str, header: Sequence[str], rows: Sequence[Sequence[str]], kind: str = "numbers"
 ) -> Element:
-    """A table whose first column names its rows. Roles are told beside the tags: on a phone the rows are laid out as
-    grids, and a table that is no table for the style is none for a screen reader either."""
+    """Add a table whose first column names its rows.
+
+    Its roles stand beside the tags: on a phone the rows are laid out as grids, and a screen reader takes a table with
+    such a style for no table."""
     made = add(parent, "table", role="table", class_=kind)
     add(made, "caption", caption)
     top = add(add(made, "thead", role="rowgroup"), "tr", role="row")
@@ -86,7 +90,7 @@ def table(
         row = add(body, "tr", role="row")
         add(row, "th", first, scope="row", role="rowheader")
         for cell in others:
-            told = add(row, "td", role="cell")
+            cell_element = add(row, "td", role="cell")
             for part in cell.split("\n"):
-                add(told, "span", part)
+                add(cell_element, "span", part)
     return made

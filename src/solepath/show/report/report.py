@@ -1,4 +1,4 @@
-"""A walk as one file: every event of its session in, a page to read, mail and print out."""
+"""Writes a walk as one HTML file, to read, mail and print, from all events of its session."""
 
 from __future__ import annotations
 
@@ -30,18 +30,18 @@ from .figures.activity import activity_figure
 from .figures.cycle import cycle_figure
 from .figures.pressure import pressure_figures
 from .figures.stride import stride_figures
-from .figures.track import Stood, height_figure, plan_figure, track_figure
+from .figures.track import TimedPosition, height_figure, plan_figure, track_figure
 from .gait_table import gait_tables
 from .markup import add, section, sentences, skeleton, table, terms
 from .soles import ReportSole
-from .words import CAUTION, link_rows, overview, sensors, without, wrong
+from .words import CAUTION, limitations, link_rows, overview, problems, sensors
 
 STRIDES, PLACES, POINTS = 1200, 1000, 1500
-"""Kept of a foot's strides, of places on the plan, and of points of a track: more are thinned evenly."""
+"""Strides of a foot, places on the plan, and points of a track that are kept: more are thinned evenly."""
 CANDIDATES = 40
-"""Kept of a place's, the heaviest."""
+"""Candidates of a place that are kept, the heaviest."""
 OFTEN = 0.5
-"""s: the height of a foot that stands is not looked at more often."""
+"""Shortest time between two heights of a standing foot that are kept, s."""
 
 
 NO_STRIDE = "No stride was measured, so that there are no gait parameters."
@@ -54,7 +54,7 @@ NO_STEADY = (
 def _installed() -> str:
     try:
         return version("solepath")
-    except PackageNotFoundError:  # run from a folder of its own
+    except PackageNotFoundError:  # solepath runs from a folder without being installed
         return ""
 
 
@@ -64,12 +64,12 @@ def _of_both() -> dict[Foot, Thinned[T]]:
 
 @define
 class Report:
-    """Gathers what a session with `poses` and `pressures` says, in bounded memory; then writes it down.
+    """Gathers what a session with `poses` and `pressures` reports, in bounded memory, then writes it.
 
-    `title`: what the page is called, such as the recording's name. `plan`: that the session had. `recipe`: its name.
-    `when`: of the walk, as it shall be read: nothing in here looks at a clock. `version`: of solepath. `observer`: of
-    that session; the report feeds it. An event with a number that is none is left out.
-    """
+    `title` is the title of the page, such as the recording's name. `plan` is the plan that the session had. `recipe` is
+    the name of the recipe. `when` is the time of the walk as text: the report reads no clock. `version` is that of
+    solepath. `observer` belongs to that session; the report feeds it. An event with a number that is not finite is left
+    out."""
 
     title: str
     plan: FloorPlan | None = None
@@ -81,16 +81,18 @@ class Report:
     strides: dict[Foot, Thinned[GaitCycleMeasured]] = field(factory=_of_both, init=False)
     prints: dict[Foot, Thinned[StrideTaken]] = field(factory=_of_both, init=False)
     heights: dict[Foot, Thinned[FootMoved]] = field(factory=_of_both, init=False)
-    way: Thinned[WearerMoved] = field(factory=Thinned, init=False)
+    wearer_track: Thinned[WearerMoved] = field(factory=Thinned, init=False)
     places: Thinned[Placed | PlaceLost] = field(factory=Thinned, init=False)
     sampled: tuple[float, float] | None = field(default=None, init=False)
-    """First and last sample, s ..."""
+    """Times of the first and the last sample, s."""
     spanned: tuple[float, float] | None = field(default=None, init=False)
-    """... and of all events."""
+    """Times of the earliest and the latest event, s."""
 
     def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
-        """What the session was fed, and what it said of that. None: nothing came, time passed or the session ended."""
-        self.observer.fed(item, events)
+        """Add what the session was fed and the events that it returned for it.
+
+        An item of None means that nothing came: time passed or the session ended."""
+        self.observer.count_item(item, events)
         for event in events:
             if self.observer.add(event):
                 self._draw(event)
@@ -110,7 +112,7 @@ class Report:
             case StrideTaken(final=True):
                 self.prints[event.foot].add(event, POINTS)
             case WearerMoved():
-                self.way.add(event, POINTS)
+                self.wearer_track.add(event, POINTS)
             case LayoutKnown(site=site, layout=layout) if site.foot is not None:
                 self._sole(site.foot).layout = layout
             case Placed(candidates=candidates):
@@ -130,17 +132,17 @@ class Report:
 
     @property
     def clock(self) -> ReportClock:
-        """How times are told."""
-        begin, end = self.sampled or self.spanned or (0.0, 0.0)
-        return ReportClock(begin, end)
+        """Clock of the report's times."""
+        start, end = self.sampled or self.spanned or (0.0, 0.0)
+        return ReportClock(start, end)
 
     def write(self, path: Path) -> None:
-        """The page into a file, UTF-8. OSError, naming the file, when it cannot be written (the disk is full)."""
+        """Write the page to a file, UTF-8. OSError, naming the file, when it cannot be written (the disk is full)."""
         with naming(path):
             path.write_bytes(self.text().encode("utf-8"))
 
     def text(self) -> str:
-        """The page as HTML."""
+        """Return the page as HTML."""
         html, main = skeleton(self.title)
         clock = self.clock
         add(main, "h1", self.title)
@@ -168,10 +170,10 @@ class Report:
         return "<!DOCTYPE html>\n" + tostring(html, encoding="unicode", method="html") + "\n"
 
     def _facts(self, main: Element, clock: ReportClock) -> None:
-        when = f"{clock.begin:.1f} to {clock.end:.1f} s of its own clock" if self.spanned else ""
-        told = [("When", self.when), ("Recording", when), ("Sensors", sensors(self.observer))]
-        told += [("Recipe", self.recipe), ("Made by", f"solepath {self.version}".rstrip())]
-        terms(main, [(name, words) for name, words in told if words], class_="facts")
+        when = f"{clock.start:.1f} to {clock.end:.1f} s of its own clock" if self.spanned else ""
+        facts = [("When", self.when), ("Recording", when), ("Sensors", sensors(self.observer))]
+        facts += [("Recipe", self.recipe), ("Made by", f"solepath {self.version}".rstrip())]
+        terms(main, [(name, words) for name, words in facts if words], class_="facts")
         add(main, "p", CAUTION, class_="caution")
 
     def _track(self, part: Element, clock: ReportClock) -> None:
@@ -179,8 +181,8 @@ class Report:
         if self.plan is not None and not plan_figure(shown, self.plan, list(self.places)):
             add(shown, "p", "Where on the floor plan the wearer was is not known.")
         prints = {foot: list(some) for foot, some in self.prints.items() if len(some)}
-        way: Sequence[Stood] = list(self.way) or max(prints.values(), key=len, default=[])
-        if not track_figure(shown, way, prints, clock):
+        wearer_track: Sequence[TimedPosition] = list(self.wearer_track) or max(prints.values(), key=len, default=[])
+        if not track_figure(shown, wearer_track, prints, clock):
             add(shown, "p", "There is no track: no foot with a motion sensor took two steps.")
         height_figure(shown, {foot: list(some) for foot, some in self.heights.items()}, clock)
 
@@ -188,13 +190,13 @@ class Report:
         header, *rows = link_rows(self.observer)
         if rows:
             table(part, "What came from each sensor", header, rows, "numbers links")
-        told = wrong(self.observer)
-        if told:
+        found = problems(self.observer)
+        if found:
             add(part, "h3", "What was wrong")
-            sentences(part, told)
+            sentences(part, found)
         else:
             add(part, "p", "Nothing was wrong with the sensors and their links.")
-        limits = without(self.observer)
+        limits = limitations(self.observer)
         if limits:
             add(part, "h3", "What had to be done without")
             sentences(part, limits)

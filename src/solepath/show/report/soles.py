@@ -1,6 +1,6 @@
-"""What the soles bore: sums over the strides that were measured, whatever their number.
+"""Sums the load of the soles over the strides that were measured, whatever their number.
 
-A sample is kept until the stride that it belongs to is told, which is up to a second after the stride has ended.
+A sample is kept until its stride is reported, which is up to a second after the stride has ended.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ from ...events import FootPressed, GaitCycleMeasured
 from ...types import Layout
 
 KEPT = 2000
-"""Samples of a foot: 5 s at 400 Hz, and more than a stride of who walks."""
+"""Samples of a foot that are kept: 5 s at 400 Hz, and more than a stride of a walker."""
 LONGEST = 2.5
-"""s: a longer contact is not that of a step."""
+"""Longest contact that counts as that of a step, s."""
 STATIONS = 51
-"""Over a contact, from heel-strike to toe-off, evenly."""
+"""Stations over a contact from heel-strike to toe-off, evenly spaced."""
 PATHS = 20
 """Single paths of the centre of pressure that are kept, the newest."""
 
@@ -27,36 +27,36 @@ Pair = tuple[float, float]
 
 @define
 class ReportSole:
-    """One foot's. Loads in the unit of the samples, places in the foot frame, m."""
+    """Load of one foot's sole; loads in the unit of the samples, places in the foot frame, m."""
 
     layout: Layout | None = None
     samples: int = 0
     contacts: int = 0
-    """Strides that were added up."""
+    """Number of strides in the sums."""
     means: list[float] = field(factory=list)
-    """Sum over contacts of each cell's mean over the contact ..."""
+    """Sum over contacts of each cell's mean over the contact."""
     peaks: list[float] = field(factory=list)
-    """... and of its highest value."""
+    """Sum over contacts of each cell's highest value."""
     forces: list[float] = field(factory=list)
     """Sum over contacts of the force at each station."""
     path: list[tuple[float, float, int]] = field(factory=list)
-    """The same of the centre of pressure, and how often it was known there."""
+    """Sums over contacts of x and y of the centre of pressure at each station, and in how many it was known."""
     paths: deque[list[Pair]] = field(factory=lambda: deque(maxlen=PATHS))
     standing: list[float] = field(factory=list)
-    """Sum of each cell over all samples: for who takes no stride."""
+    """Sum of each cell over all samples, for a wearer who takes no stride."""
     newest: deque[FootPressed] = field(factory=lambda: deque(maxlen=KEPT))
 
     def press(self, event: FootPressed) -> None:
-        """One sample. One of another number of cells than before begins anew."""
+        """Add one sample; one with another number of cells than before restarts the sums."""
         if len(self.standing) != len(event.values):
-            self._begin(len(event.values))
+            self._reset(len(event.values))
         self.samples += 1
         self.standing = [a + b for a, b in zip(self.standing, event.values, strict=True)]
         if self.newest and event.t <= self.newest[-1].t:
             self.newest.clear()
         self.newest.append(event)
 
-    def _begin(self, cells: int) -> None:
+    def _reset(self, cells: int) -> None:
         self.standing, self.means, self.peaks = [0.0] * cells, [0.0] * cells, [0.0] * cells
         self.forces, self.path = [0.0] * STATIONS, [(0.0, 0.0, 0)] * STATIONS
         self.samples = self.contacts = 0
@@ -64,7 +64,7 @@ class ReportSole:
         self.paths.clear()
 
     def stride(self, event: GaitCycleMeasured) -> None:
-        """The contact of a stride is added up, if it was walked and hardly any of its samples are missing."""
+        """Add the contact of a stride, if it was walked and hardly any of its samples are missing."""
         missing = event.degraded and not event.steady
         if missing or event.running or not 0.0 < event.t_toe_off - event.t_start <= LONGEST:
             return
@@ -91,15 +91,15 @@ class ReportSole:
 
     @property
     def mean_path(self) -> list[Pair]:
-        """Of the centre of pressure, where it was known in at least half of the contacts."""
+        """Mean path of the centre of pressure, where it was known in at least half of the contacts."""
         return [(x / n, y / n) for x, y, n in self.path if n > 0 and 2 * n >= self.contacts]
 
     @property
     def unit(self) -> str:
-        """Of the loads."""
+        """Unit of the loads."""
         return "N" if self.layout is not None and self.layout.scale is not None else "counts"
 
     @property
     def mapped(self) -> Layout | None:
-        """Where the cells lie that there are; None where that is not known."""
+        """Layout of the cells; None when it is not known or does not fit their number."""
         return self.layout if self.layout is not None and len(self.layout.cells) == len(self.standing) > 0 else None

@@ -1,4 +1,4 @@
-"""How the report looks: light and dark as the reader's screen is, light on paper, in one column on a phone."""
+"""Style sheet of the report: light and dark as the reader's screen is, light on paper, one column on a phone."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a walk comes to, in words."""
+"""Puts a walk into words."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from ...recording import printable
 from ...types import SITE_OF_FOOT, Foot, Site, Turn
 from ..links import LinkLedger
 from ..observer import Observer
-from ..tables.summary import link_health, worn
+from ..tables.summary import link_health, wear_lines
 from ..tables.table import number
-from .clock import ReportClock, lasted
+from .clock import ReportClock, duration_text
 from .figures.activity import named
 
 CAUTION = (
@@ -17,46 +17,48 @@ CAUTION = (
 )
 
 LONGEST_NAME = 60
-"""Characters of a device's name that are shown, so that it crowds out nothing."""
+"""Characters of a device's name that are shown, so that it leaves room for the rest."""
 TURNS = {Turn.LEFT: "to the left", Turn.RIGHT: "to the right", Turn.ABOUT: "about"}
 
 
-def overview(observer: Observer, clock: ReportClock, begun: bool, measured: dict[Foot, int]) -> list[str]:
-    """The walk in sentences. `begun`: something was heard at all; `measured`: gait cycles of each foot, for a foot
-    without a track."""
-    if not begun:
+def overview(observer: Observer, clock: ReportClock, has_data: bool, measured: dict[Foot, int]) -> list[str]:
+    """Return the walk in sentences.
+
+    `has_data` says that anything came at all. `measured` is the number of gait cycles of each foot, for a foot without
+    a track."""
+    if not has_data:
         return ["Nothing was heard of either foot."]
     time = observer.time
-    told = [f"The recording lasts {lasted(time.total if time.count else clock.end - clock.begin)}."]
+    lines = [f"The recording lasts {duration_text(time.total if time.count else clock.end - clock.start)}."]
     if time.count > 1:
-        told = [f"The recording lasts {lasted(time.total)}; its times go back in between."]
+        lines = [f"The recording lasts {duration_text(time.total)}; its times go back in between."]
     stepped = {foot: observer.feet[foot] for foot in Foot if foot in observer.feet and observer.feet[foot].strides}
     for foot, one in stepped.items():
         far = f" over {number(one.distance, 1)} m" if one.distance > 0.0 else ""
-        told.append(f"The {foot} foot took {one.strides} stride{'s' * (one.strides != 1)}{far}.")
+        lines.append(f"The {foot} foot took {one.strides} stride{'s' * (one.strides != 1)}{far}.")
     for foot, count in measured.items():
         if count and foot not in stepped:
-            told.append(f"The {foot} foot took {count} stride{'s' * (count != 1)}; how far is not known.")
+            lines.append(f"The {foot} foot took {count} stride{'s' * (count != 1)}; how far is not known.")
     if not stepped and not any(measured.values()):
-        told.append("No foot took a step.")
+        lines.append("No foot took a step.")
     if observer.fused is not None:
-        told.append(f"Both feet together went {number(observer.fused.distance, 1)} m.")
+        lines.append(f"Both feet together went {number(observer.fused.distance, 1)} m.")
     spans = observer.timeline.lasted(clock.end)
     if spans:
-        told.append(f"Activities: {', '.join([f'{named(what)} {lasted(t)}' for what, t in spans.items()])}.")
+        lines.append(f"Activities: {', '.join([f'{named(what)} {duration_text(t)}' for what, t in spans.items()])}.")
     for counted, what in ((observer.flights, "Flights of stairs"), (observer.rides, "Lift rides")):
         ways = [f"{counted[up]} {'up' if up else 'down'}" for up in (True, False) if counted[up]]
         if ways:
-            told.append(f"{what}: {', '.join(ways)}.")
+            lines.append(f"{what}: {', '.join(ways)}.")
     turns = [f"{observer.turns[turn]} {words}" for turn, words in TURNS.items() if observer.turns[turn]]
     if turns:
-        told.append(f"Turns: {', '.join(turns)}.")
-    return told
+        lines.append(f"Turns: {', '.join(turns)}.")
+    return lines
 
 
-def wrong(observer: Observer) -> list[str]:
-    """What was wrong with sensors, their wearing and their links; nothing when all is well."""
-    found = [*worn(observer), *link_health(observer)]
+def problems(observer: Observer) -> list[str]:
+    """Return what was wrong with sensors, their wearing and their links; nothing when all is well."""
+    found = [*wear_lines(observer), *link_health(observer)]
     found += [
         f"{foot} foot: in {one.degraded} of {one.strides} strides samples are missing or saturated"
         for foot in Foot
@@ -67,27 +69,27 @@ def wrong(observer: Observer) -> list[str]:
         for foot in Foot
         if (link := observer.links.get(SITE_OF_FOOT[foot])) is not None and link.gaps
     ]
-    found += [f"suspect scale, {what}" for what in observer.suspects]
+    found += [f"suspect scale, {what}" for what in observer.suspect_scales]
     return [f"{one[0].upper()}{one[1:]}." for one in found if one]
 
 
-def without(observer: Observer) -> list[str]:
-    """What the recipe had to do without."""
+def limitations(observer: Observer) -> list[str]:
+    """Return what the recipe had to do without."""
     return [f"{one[0].upper()}{one[1:]}." for one in observer.limitations if one]
 
 
 def sensors(observer: Observer) -> str:
-    """Which there were, in a line."""
-    told = []
+    """Return the sensors in one line."""
+    lines = []
     for site, link in _links(observer):
         named_so = f" ({printable(link.name, LONGEST_NAME)})" if link.name else ""
-        what = [word for word, there in (("motion", link.moves), ("pressure", link.presses)) if there]
-        told.append(f"{site.words}{named_so}{': ' + ' and '.join(what) if what else ''}")
-    return "; ".join(told) if told else "none was heard"
+        what = [word for word, there in (("motion", link.has_motion), ("pressure", link.has_pressure)) if there]
+        lines.append(f"{site.words}{named_so}{': ' + ' and '.join(what) if what else ''}")
+    return "; ".join(lines) if lines else "none was heard"
 
 
 def link_rows(observer: Observer) -> list[list[str]]:
-    """Rows of the table of links, and its header first."""
+    """Return the rows of the table of links, with its header first."""
     rows = [["sensor", "samples", "Hz", "gaps", "s in gaps", "lost", "rejected", "silent", "battery"]]
     for site, link in _links(observer):
         battery = "-" if link.battery is None else f"{100.0 * link.battery:.0f} %"

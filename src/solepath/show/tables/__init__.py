@@ -1,1 +1,1 @@
-"""What people look at: tables, figures in words, the live terminal. Nothing is computed here."""
+"""Tables, figures in words and the live terminal for people; nothing is computed here."""

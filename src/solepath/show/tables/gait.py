@@ -1,5 +1,7 @@
-"""Gait parameters: which are shown, what they are called, in which unit and with how many digits, the same in every
-table, on the page and in the report; and their table in plain text."""
+"""Names, units and digits of the gait parameters, the same in every table, and their table in plain text.
+
+The tables of the terminal, the page and the report all use these rows.
+"""
 
 from __future__ import annotations
 
@@ -12,9 +14,10 @@ from ...types import Foot
 from .table import number, percent, table
 
 DEGREES = "deg"
-ENOUGH = 30
-"""Strides of both feet together: of fewer, standard deviation and CV mean little (Galna et al. 2013, as in
-body/gait/means.py)."""
+MIN_STRIDES = 30
+"""Strides of both feet together below which standard deviation and CV mean little (Galna et al. 2013).
+
+body/gait/means.py uses the same number."""
 ROWS: tuple[tuple[str, str, str, int, float], ...] = (
     ("stride_time", "stride time", "s", 3, 1.0),
     ("step_time", "step time", "s", 3, 1.0),
@@ -26,8 +29,7 @@ ROWS: tuple[tuple[str, str, str, int, float], ...] = (
     ("toe_off_angle", "toe-off angle", DEGREES, 1, degrees(1.0)),
     ("heel_strike_angle", "heel-strike angle", DEGREES, 1, degrees(1.0)),
 )
-"""Parameter of StrideFigures, what it is called, the unit that it is shown in, digits, and how many of that unit one of
-its own is."""
+"""Parameter of StrideFigures, its label, its unit in tables, its digits, and how many of that unit one SI unit is."""
 SHARES = (
     ("stance_time", "stance"),
     ("single_support", "single support"),
@@ -39,12 +41,14 @@ SHARES = (
 
 @frozen
 class GaitRow:
-    """One parameter of steady strides. `left`, `right`, `both`, `sd`: in `unit`, None where it cannot be told (a share
-    of the stride has no `sd`; of one foot alone there is nothing of both). `cv`, `asymmetry`: shares (0.05 is 5 %), as
-    in Figure and GaitParameters; the `cv` of one foot alone is its own.
+    """One parameter of steady strides.
 
-    An angle is against the flat sole, and so its mean may be near zero or of another sign in each foot: a share of it
-    says nothing. It has a `difference`, right - left in `unit`, instead of `cv` and `asymmetry`."""
+    `left`, `right`, `both` and `sd` are in `unit`; they are None where they are not known: a share of the stride has no
+    `sd`, and when only one foot is known there is no value of both. `cv` and `asymmetry` are shares (0.05 is 5 %), as
+    in Figure and GaitParameters; when only one foot is known, `cv` is its own.
+
+    An angle is measured against the flat sole, so that its mean may be near zero or differ in sign between the feet,
+    and a share of it says nothing. It has a `difference`, right - left in `unit`, instead of `cv` and `asymmetry`."""
 
     name: str
     label: str
@@ -58,22 +62,24 @@ class GaitRow:
     asymmetry: float | None
     difference: float | None
 
-    def cells(self, apart: str) -> list[str]:
-        """As it is written in a table: left, right, both +- SD (`apart` stands between the two), CV in %, asymmetry."""
-        both = number(self.both, self.digits) + ("" if self.sd is None else f"{apart} {number(self.sd, self.digits)}")
+    def cells(self, separator: str) -> list[str]:
+        """Return the cells of a table: left, right, both +- SD (`separator` between the two), CV in %, asymmetry."""
+        both = number(self.both, self.digits) + (
+            "" if self.sd is None else f"{separator} {number(self.sd, self.digits)}"
+        )
         feet = [number(one, self.digits) for one in (self.left, self.right)]
-        return [*feet, both, percent(self.cv), self.uneven]
+        return [*feet, both, percent(self.cv), self.asymmetry_text]
 
     @property
-    def uneven(self) -> str:
-        """Asymmetry as it is written in a table, with its unit."""
+    def asymmetry_text(self) -> str:
+        """Asymmetry as a table shows it, with its unit."""
         if self.difference is not None:
             return f"{self.difference:+.{self.digits}f} {self.unit}"
         return "-" if self.asymmetry is None else f"{100.0 * self.asymmetry:+.1f} %"
 
 
 def gait_rows(parameters: GaitParameters) -> list[GaitRow]:
-    """A row for each parameter that was measured, in the order in which they are shown."""
+    """Return a row for each parameter that was measured, in the order in which they are shown."""
     feet = [parameters.feet.get(foot) for foot in Foot]
     rows = []
     for name, label, unit, digits, scale in ROWS:
@@ -95,7 +101,7 @@ def gait_rows(parameters: GaitParameters) -> list[GaitRow]:
             shares = [None if one is None else one.share(name) for one in feet]
             left, right = [None if one is None else 100.0 * one for one in shares]
             both = None if left is None or right is None else 100.0 * share
-            # double support that is a flight has none: relative to a mean below zero it would lean to the other foot
+            # a flight has no asymmetry: relative to a mean below zero its sign would be wrong
             flies = left is None or right is None or min(left, right) <= 0.0
             asymmetry = None if flies else parameters.asymmetry(name)
             rows.append(GaitRow(name, label, "%", 1, left, right, both, None, None, asymmetry, None))
@@ -103,14 +109,15 @@ def gait_rows(parameters: GaitParameters) -> list[GaitRow]:
 
 
 def strides_of(parameters: GaitParameters, foot: Foot) -> int | None:
-    """How many of a foot's strides the means are of; None where it took none."""
+    """Return the number of a foot's strides behind the means; None when it took none."""
     figures = parameters.feet.get(foot)
     return None if figures is None or figures.stride_time is None else figures.stride_time.strides
 
 
 def gait_lines(means: GaitMeans) -> list[str]:
-    """A table for walking and one for running, each of steady strides and followed by a blank line; nothing where there
-    were none."""
+    """Return a table for walking and one for running, each of steady strides and followed by a blank line.
+
+    There are no lines when there were no steady strides."""
     lines: list[str] = []
     for running in (False, True):
         parameters = means.of(running)

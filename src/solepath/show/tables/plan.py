@@ -1,7 +1,7 @@
-"""A floor plan with the track on it, as an SVG picture: every level a panel, drawn to one scale, the plan's +y upwards.
+"""Draws a floor plan with the track as an SVG picture: a panel for each level, one scale, the plan's +y upwards.
 
-Colours of the track go from the start to the end of the recording; candidates, while there are several, are dots that
-are the fainter the less they are believed.
+The colour of the track changes from the start to the end of the recording. While there are several candidates, they are
+dots; the smaller the weight, the fainter the dot.
 """
 
 from __future__ import annotations
@@ -18,30 +18,31 @@ from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan
 from ..output import naming
 
 WIDTH = 720.0
-"""Of the drawing of a level, px, at the most, where nothing else is said ..."""
+"""Largest width of the drawing of a level by default, px."""
 HEIGHT = 640.0
-"""... and its height."""
+"""Largest height of the drawing of a level by default, px."""
 MARGIN, GAP, HEAD, FOOT = 24.0, 36.0, 64.0, 64.0
-"""Around everything, between panels, above them and below, px."""
+"""Margin around everything, gap between panels, space above them and below them, px."""
 NARROW = 640.0
-"""A narrower picture has a legend of two lines, px."""
+"""Width below which the legend has two lines, px."""
 PIECE = 12
 """Steps of the track that share a colour."""
 DOTS = 4000
-"""No more candidates are drawn than about so many."""
+"""Approximate limit of the candidates that are drawn."""
 
 PAPER, INK, SOFT, FLOOR, EDGE = "#ffffff", "#1f2933", "#7b8794", "#f4f6f8", "#323f4b"
 DOOR, STAIRS, LIFT, CANDIDATE = "#d9b382", "#9fb3c8", "#b8a9c9", "#6b7a8c"
 START, END = "#2e7d32", "#c62828"
 COLOURS = ("#440154", "#3b528b", "#21918c", "#5ec962", "#f0b420")
-"""From the start of the track to its end."""
+"""Colours of the track from its start to its end."""
 
 
 @define
 class PlanPicture:
-    """Gathers what a session says of the place, then draws it. `plan`: in whose frame it is. `width`, `height`: of the
-    drawing of a level at the most, px. `columns`: how many panels stand side by side; None for as suits their number.
-    """
+    """Gathers the places that a session reports, then draws them.
+
+    `plan` is the floor plan, in whose frame the places are. `width` and `height` are the largest size of the drawing of
+    a level, px. `columns` is the number of panels side by side; None chooses by the number of levels."""
 
     plan: FloorPlan
     width: float = WIDTH
@@ -49,23 +50,24 @@ class PlanPicture:
     columns: int | None = None
     places: list[Placed] = field(factory=list, init=False)
     breaks: set[int] = field(factory=set, init=False)
-    """Where the place was lost: before the place with this number."""
+    """Indices of the places before which the place was lost."""
 
     def add(self, event: Event) -> None:
+        """Add any event; only places and their losses count."""
         if isinstance(event, Placed):
             self.places.append(event)
         elif isinstance(event, PlaceLost):
             self.breaks.add(len(self.places))
 
     def write(self, path: Path, title: str) -> None:
-        """The picture into a file, UTF-8. OSError, naming the file, when it cannot be written (the disk is full)."""
+        """Write the picture to a file, UTF-8. OSError, naming the file, when it cannot be written (full disk)."""
         tree = ElementTree(self.drawn(title))
         indent(tree, space=" ")
         with naming(path):
             tree.write(path, encoding="utf-8", xml_declaration=True)
 
     def drawn(self, title: str) -> Element:
-        """The picture as an <svg> element."""
+        """Return the picture as an <svg> element."""
         frame = _Frame.around(self.plan, self.places, self.width, self.height)
         count = max(len(self.plan.levels), 1)
         columns = self.columns or (count if count <= 3 else 3 if count > 4 else 2)
@@ -120,7 +122,7 @@ class PlanPicture:
                     SubElement(group, "circle", {"cx": px(x), "cy": px(y), "r": "2.2", "fill-opacity": faint})
 
     def _track(self, panel: Element, level: str, frame: _Frame) -> None:
-        """Where it is decided solid, before that as dots only."""
+        """Draw the track as a line where the place is decided; before that there are only dots."""
         sure = [
             place if place.level == level and len(place.candidates) == 1 and k not in self.breaks else None
             for k, place in enumerate(self.places)
@@ -147,7 +149,7 @@ class PlanPicture:
                 _text(panel, x + 9.0, y + 4.0, word, size=11.0, colour=fill, weight="600", halo=True)
 
     def _legend(self, svg: Element, frame: _Frame, width: float, top: float) -> None:
-        """Scale, time, what the marks mean, and north where the plan knows it."""
+        """Draw scale, time, the meaning of the marks, and north when the plan knows it."""
         metres = _round_length(120.0 / frame.scale)
         bar = metres * frame.scale
         path = f"M{px(MARGIN)} {px(top + 4)}v6h{px(bar)}v-6"
@@ -175,7 +177,7 @@ class PlanPicture:
 
 @define
 class _Frame:
-    """From the plan's metres to a panel's pixels."""
+    """Transforms the plan's metres to a panel's pixels."""
 
     left: float
     top: float
@@ -185,7 +187,7 @@ class _Frame:
 
     @classmethod
     def around(cls, plan: FloorPlan, places: list[Placed], width: float, height: float) -> _Frame:
-        """Around all levels and the whole track, with room beside them, in no more than `width` and `height` px."""
+        """Return the frame of all levels and the whole track, with a margin, in at most `width` by `height` px."""
         corners = [end for level in plan.levels for wall in level.walls for end in (wall.start, wall.end)]
         corners += [point for level in plan.levels for room in level.rooms for point in room]
         corners += [stop.place for connector in plan.connectors for stop in connector.stops]
@@ -199,7 +201,7 @@ class _Frame:
 
     @property
     def pen(self) -> float:
-        """Of a wall, px."""
+        """Width of the line of a wall, px."""
         return min(max(0.14 * self.scale, 1.0), 4.0)
 
     def at(self, point: Point) -> Point:
@@ -226,7 +228,7 @@ def _connector(panel: Element, connector: Connector, stop: ConnectorStop, frame:
 
 
 def _north(svg: Element, x: float, y: float, bearing: float) -> None:
-    """An arrow to true north: the plan's +y, which is up here, lies `bearing` clockwise from it."""
+    """Draw an arrow to true north: the plan's +y, which is up here, lies `bearing` clockwise from it."""
     east, up = -sin(bearing), cos(bearing)
     path = f"M{px(x - 12 * east)} {px(y + 12 * up)}L{px(x + 12 * east)} {px(y - 12 * up)}"
     for side in (0.5, -0.5):
@@ -237,7 +239,7 @@ def _north(svg: Element, x: float, y: float, bearing: float) -> None:
 
 
 def blend(colours: Sequence[str], share: float) -> str:
-    """The colour at a share, 0 to 1, of the way from the first of them to the last, which are evenly apart."""
+    """Return the colour at a share, 0 to 1, of the way through `colours`, which are evenly spaced."""
     at = min(max(share, 0.0), 1.0) * (len(colours) - 1)
     k = min(int(at), len(colours) - 2)
     pairs = zip(bytes.fromhex(colours[k][1:]), bytes.fromhex(colours[k + 1][1:]), strict=True)
@@ -245,7 +247,7 @@ def blend(colours: Sequence[str], share: float) -> str:
 
 
 def _round_length(metres: float) -> float:
-    """1, 2 or 5 times a power of ten, no longer than that."""
+    """Return 1, 2 or 5 times a power of ten, the largest that is not longer than `metres`."""
     power = 1.0
     while power * 10.0 <= metres:
         power *= 10.0
@@ -275,11 +277,13 @@ def _text(
 
 
 def _plain(words: str) -> str:
-    """XML has no control characters and no lone surrogates, and names of levels and lifts may have any."""
+    """Replace characters that XML does not have, control characters and lone surrogates, by spaces.
+
+    Names of levels and lifts may contain any."""
     return "".join([c if c.isprintable() else " " for c in words])
 
 
 def px(value: float) -> str:
-    """Pixels in words: short, and the same everywhere."""
+    """Return pixels as text: short, and the same on every platform."""
     short = f"{value:.1f}".removesuffix(".0")
     return "0" if short == "-0" else short

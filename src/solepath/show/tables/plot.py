@@ -1,4 +1,4 @@
-"""A track drawn with characters."""
+"""Draws a track with characters."""
 
 from __future__ import annotations
 
@@ -7,18 +7,20 @@ from collections.abc import Sequence
 from ...types import Foot
 
 TALL = 2.0
-"""A character cell is about twice as high as it is wide."""
+"""Height of a character cell over its width, about."""
 SMALLEST = 4.0
-"""m that the longer side of the picture shows at least, so that standing still is not magnified."""
+"""Length that the longer side of the picture shows at least, m, so that standing still is not magnified."""
 
 
 def plot(track: Sequence[tuple[Foot, float, float]], width: int, height: int) -> list[str]:
-    """`height` lines of `width` characters: where the feet (foot, x, y) went as dots, seen from above with x to the
-    right and y up, the start as S and the last place of each foot as L or R. The same scale both ways."""
+    """Return `height` lines of `width` characters that show where the feet (foot, x, y) went.
+
+    The track is seen from above, x to the right and y up, with the same scale both ways. Dots are positions, S is the
+    start, and L or R is the last position of each foot."""
     cells = [[" "] * width for _ in range(height)]
     if track:
         xs, ys = [x for _, x, _ in track], [y for _, _, y in track]
-        # metres a column: what is needed for the wider side
+        # metres per column, as the wider side needs
         scale = max((max(xs) - min(xs)) / (width - 1), (max(ys) - min(ys)) / (TALL * (height - 1)), SMALLEST / width)
         left = 0.5 * (min(xs) + max(xs)) - 0.5 * scale * (width - 1)
         top = 0.5 * (min(ys) + max(ys)) + 0.5 * TALL * scale * (height - 1)

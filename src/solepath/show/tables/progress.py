@@ -1,4 +1,4 @@
-"""A progress bar on stderr, where there is somebody to see it."""
+"""Shows a progress bar on stderr when that is a terminal."""
 
 from __future__ import annotations
 
@@ -8,14 +8,16 @@ from contextlib import contextmanager
 from time import monotonic
 
 EVERY = 0.1
-"""s between two looks at the clock's hand."""
+"""Time between two updates of the bar, s."""
 
 
 @contextmanager
-def progress_bar(what: str, total: int, *, wanted: bool = True) -> Iterator[Callable[[int], None]]:
-    """A function that takes how much of `total` is done. It shows nothing when stderr is no terminal, when rich (the
-    `live` extra) is not installed, or when it is not `wanted`."""
-    if not wanted or not sys.stderr.isatty():
+def progress_bar(what: str, total: int, *, enabled: bool = True) -> Iterator[Callable[[int], None]]:
+    """Yield a function that takes how much of `total` is done.
+
+    It shows nothing when stderr is no terminal, when rich (the `live` extra) is not installed, or when it is not
+    `enabled`."""
+    if not enabled or not sys.stderr.isatty():
         yield _ignore
         return
     try:
@@ -24,7 +26,7 @@ def progress_bar(what: str, total: int, *, wanted: bool = True) -> Iterator[Call
     except ImportError:
         yield _ignore
         return
-    # what is printed meanwhile is lifted above the bar, unless it goes into a file
+    # text that is printed meanwhile goes above the bar, unless stdout is a file
     lifted = sys.stdout.isatty()
     with Progress(console=Console(stderr=True), transient=True, redirect_stdout=lifted) as bar:
         task = bar.add_task(what, total=total)
@@ -40,4 +42,4 @@ def progress_bar(what: str, total: int, *, wanted: bool = True) -> Iterator[Call
 
 
 def _ignore(done: int) -> None:
-    """Nobody is looking."""
+    """Do nothing, where no bar is shown."""

@@ -1,4 +1,4 @@
-"""What an observer has counted, in words: all of it at the end, and how links and place are at this moment."""
+"""Puts the counts of an observer into words: the summary at the end, and links and place at this moment."""
 
 from __future__ import annotations
 
@@ -10,25 +10,25 @@ from ...recording import printable
 from ...types import SITE_OF_FOOT, Foot, Site, Turn, WalkingMode
 from ..links import LinkLedger
 from ..observer import GAIT_EVENTS, FootCounts, Observer
-from ..places import MOST, PlaceCounts
+from ..places import MOST_LISTED, PlaceCounts
 from .gait import gait_lines
 from .table import milliseconds, number, table
 
 
 def summary(observer: Observer, *, title: str, seconds: float) -> str:
-    """The summary of one recording; `seconds` is the wall time that it took."""
+    """Return the summary of one recording; `seconds` is the wall time that it took."""
     duration = observer.time.total
     lines = [f"{title}: {duration:.1f} s"]
     lines += _feet(observer)
     lines += _together(observer)
-    lines += did(observer)
+    lines += activity_lines(observer)
     if gait := gait_lines(observer.gait):
         lines += ["", *gait]
-    lines += worn(observer)
+    lines += wear_lines(observer)
     lines += link_health(observer)
     lines += latency(observer)
     lines += [f"limitation, {printable(what)}" for what in observer.limitations]
-    lines += [f"suspect scale, {printable(what)}" for what in observer.suspects]
+    lines += [f"suspect scale, {printable(what)}" for what in observer.suspect_scales]
     samples = sum([observer.samples(foot) for foot in Foot])
     if seconds > 0.0 and samples:
         pace = f", {1e6 * seconds / samples:.0f} us a sample"
@@ -37,12 +37,12 @@ def summary(observer: Observer, *, title: str, seconds: float) -> str:
 
 
 def _feet(observer: Observer) -> list[str]:
-    """A table of the feet, and what is missing of them."""
-    if not observer.heard:
+    """Return a table of the feet, and a line for what is missing of each."""
+    if not observer.known_feet:
         return ["nothing was heard of either foot"]
     header = ["foot", "samples", "Hz", "steps", "distance m", *[f"{name}s" for name in GAIT_EVENTS.values()]]
     rows, missing = [], []
-    for foot in observer.heard:
+    for foot in observer.known_feet:
         one = observer.feet.get(foot, FootCounts())
         link = observer.links.get(SITE_OF_FOOT[foot], LinkLedger())
         row = [f"{foot}", str(link.samples), number(link.rate, 1), str(one.strides), number(one.distance)]
@@ -55,7 +55,7 @@ def _feet(observer: Observer) -> list[str]:
 
 
 def _together(observer: Observer) -> list[str]:
-    """What came of both feet together; nothing when the recipe looks at each by itself."""
+    """Return the lines about both feet together; none when the recipe treats each foot by itself."""
     lines = []
     if (fused := observer.fused) is not None:
         lines.append(f"both feet fused: {number(fused.distance)} m, at the end by the {fused.chosen} foot's path")
@@ -65,8 +65,8 @@ def _together(observer: Observer) -> list[str]:
     return lines
 
 
-def did(observer: Observer) -> list[str]:
-    """What the wearer did, a line for each kind; nothing where nothing was told."""
+def activity_lines(observer: Observer) -> list[str]:
+    """Return a line for each kind of activity, flight, ride and turn; none when nothing was reported."""
     lines = []
     if lasted := observer.timeline.lasted(observer.now):
         lines.append("activities: " + ", ".join(f"{what} {number(t, 0)} s" for what, t in lasted.items()))
@@ -80,14 +80,17 @@ def did(observer: Observer) -> list[str]:
     return lines
 
 
-def worn(observer: Observer) -> list[str]:
-    """What is wrong with how it is worn, a line each; nothing when all is well."""
+def wear_lines(observer: Observer) -> list[str]:
+    """Return a line for each fault in how sensors are worn; none when all is well."""
     silent = {foot: observer.silences[foot] for foot in Foot if observer.silences[foot]}
-    return [*observer.worn, *(f"{foot}: silent {n} times while the other walked on" for foot, n in silent.items())]
+    return [
+        *observer.wear_problems,
+        *(f"{foot}: silent {n} times while the other walked on" for foot, n in silent.items()),
+    ]
 
 
 def link_health(observer: Observer) -> list[str]:
-    """What the links did wrong, a line each; nothing when all went well."""
+    """Return a line for each kind of fault of the links; none when all went well."""
     lines, links = [], list(observer.links.values())
     if lost := sum([link.lost for link in links]):
         received = sum([link.received for link in links])
@@ -114,36 +117,36 @@ def link_health(observer: Observer) -> list[str]:
 
 
 def latency(observer: Observer) -> list[str]:
-    """How long after they happened the gait events were known, the radio's time included; nothing without any."""
+    """Return a line with the median latency of each gait event, radio included; nothing when there were no events."""
     medians = {GAIT_EVENTS[kind]: median(known.elements()) for kind, known in observer.delays.items() if known}
     known = [f"{name} {milliseconds(1e-4 * tenths)} ms" for name, tenths in medians.items()]
     return [f"known after it happened, median: {', '.join(known)}"] if known else []
 
 
 def status(observer: Observer) -> list[str]:
-    """A line for each site that was heard of, in the order of Site, and one for the place once it is known."""
+    """Return a line for each known site, in the order of Site, and one for the place once it is known."""
     lines = [_link(site, observer.links[site], observer.now) for site in Site if site in observer.links]
     place = observer.places.last
-    return lines if place is None else [*lines, here(place)]
+    return lines if place is None else [*lines, place_line(place)]
 
 
 def _link(site: Site, link: LinkLedger, now: float) -> str:
-    told = [f"{site.words}: {link.rate_of_late(now) or 0.0:.0f} Hz"]
+    parts = [f"{site.words}: {link.recent_rate(now) or 0.0:.0f} Hz"]
     if link.loss is not None:
-        told.append(f"{100.0 * link.loss:.1f} % lost")
+        parts.append(f"{100.0 * link.loss:.1f} % lost")
     if link.battery is not None:
-        told.append(f"battery {100.0 * link.battery:.0f} %")
+        parts.append(f"battery {100.0 * link.battery:.0f} %")
     if link.signal is not None:
-        told.append(f"{link.signal} dBm")
+        parts.append(f"{link.signal} dBm")
     if link.state(now) == "lost":
-        told.append("disconnected")
+        parts.append("disconnected")
     if link.trouble:
-        told.append(printable(link.trouble))
-    return ", ".join(told)
+        parts.append(printable(link.trouble))
+    return ", ".join(parts)
 
 
 def place_lines(counts: PlaceCounts) -> list[str]:
-    """A line for each thing that is to be said of a whole recording."""
+    """Return the lines about the place over a whole recording."""
     lines = []
     if counts.found is not None:
         strides, t = counts.found
@@ -155,20 +158,20 @@ def place_lines(counts: PlaceCounts) -> list[str]:
         x, y, _ = counts.last.position
         at = f"({number(x, 1)}, {number(y, 1)}) m"
         several = len(counts.last.candidates)
-        doubt = f", one of {several} candidates" if several > 1 else f", within {number(counts.last.spread, 1)} m"
-        lines.append(f"at the end: level {printable(counts.last.level)}, {at}{doubt}")
+        uncertainty = f", one of {several} candidates" if several > 1 else f", within {number(counts.last.spread, 1)} m"
+        lines.append(f"at the end: level {printable(counts.last.level)}, {at}{uncertainty}")
     if counts.levels:
         levels = ", ".join([f"{printable(name)} from {number(t, 1)} s" for t, name in counts.levels])
-        more = counts.changes - MOST
+        more = counts.changes - MOST_LISTED
         lines.append(f"levels: {levels}{f' and {more} more' if more > 0 else ''}")
     lines += [f"from {number(t, 1)} s without a place: {printable(what)}" for t, what in counts.lost]
-    if counts.losses > MOST:
-        lines.append(f"and {counts.losses - MOST} times more")
+    if counts.losses > MOST_LISTED:
+        lines.append(f"and {counts.losses - MOST_LISTED} times more")
     return lines
 
 
-def here(place: Placed) -> str:
-    """Where the wearer is now, in a line."""
+def place_line(place: Placed) -> str:
+    """Return a line that says where the wearer is now."""
     x, y, _ = place.position
     several = len(place.candidates)
     at = f"place: level {printable(place.level)}, ({number(x, 1)}, {number(y, 1)}) m"

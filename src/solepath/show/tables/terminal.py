@@ -1,4 +1,4 @@
-"""Live pictures in a terminal, drawn with rich (the `live` extra)."""
+"""Draws live pictures in a terminal with rich (the `live` extra)."""
 
 from __future__ import annotations
 
@@ -15,12 +15,13 @@ from rich.text import Text
 from ...types import Foot, Phase
 from ..observer import FootCounts, Observer
 from .plot import plot
-from .summary import link_health, status, worn
+from .summary import link_health, status, wear_lines
 from .table import number
 
 FRAMES = 12.0
 """Pictures a second."""
 PLOT = (72, 18)
+"""Width and height of the plot of the track, characters."""
 COLOURS = {Phase.LOADING: "yellow", Phase.STATIONARY: "green", Phase.PUSH_OFF: "magenta", Phase.SWING: "cyan"}
 
 
@@ -32,28 +33,30 @@ class Screen:
         self._drawn = -1.0
 
     def show(self, observer: Observer, title: str) -> None:
+        """Draw the picture when 1 / FRAMES s have passed since the last one."""
         if monotonic() - self._drawn > 1.0 / FRAMES:
             self.draw(observer, title)
 
     def draw(self, observer: Observer, title: str) -> None:
+        """Draw the picture now."""
         self._live.update(picture(observer, title), refresh=True)
         self._drawn = monotonic()
 
 
 @contextmanager
 def screen(console: Console) -> Iterator[Screen]:
-    """A screen that is wiped when this ends."""
+    """Yield a screen that is wiped at the end of the context."""
     with Live(console=console, auto_refresh=False, transient=True) as live:
         yield Screen(live)
 
 
 def picture(observer: Observer, title: str) -> Group:
-    """Both feet, the track and the links at this moment."""
+    """Return a picture of both feet, the track and the links at this moment."""
     feet = Table.grid(expand=False, padding=(0, 3))
     for foot in Foot:
         feet.add_row(*_foot(observer, foot))
     lines = plot(observer.track.points, *PLOT)
-    health = status(observer) + worn(observer) + link_health(observer)
+    health = status(observer) + wear_lines(observer) + link_health(observer)
     return Group(
         Panel(feet, title=title, width=PLOT[0] + 4),
         Panel(Text("\n".join(lines)), title="track", width=PLOT[0] + 4),

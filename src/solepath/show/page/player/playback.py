@@ -1,4 +1,4 @@
-"""How a recording is played."""
+"""The state of playing a recording."""
 
 from __future__ import annotations
 
@@ -6,15 +6,17 @@ from typing import Any
 
 from attrs import define
 
-from ..messages import shown
+from ..messages import rounded
 
 
 @define
 class Playback:
-    """Where a player stands, in the recording's own time, s; the player writes it. `state`: "playing", "paused" or
-    "ended". `speed`: times real time. `seeking`: where it is on its way to; None when it is not."""
+    """Position and speed of a player, which writes it; times are the recording's own, s.
 
-    begin: float
+    `state` is "playing", "paused" or "ended". `speed` is in multiples of real time. `seeking` is the time that a seek
+    is on its way to, None when there is none."""
+
+    start: float
     end: float
     t: float
     state: str = "paused"
@@ -22,12 +24,12 @@ class Playback:
     seeking: float | None = None
 
     def frame(self) -> dict[str, Any]:
-        """As "playback" of a frame."""
+        """Return the member "playback" of a frame."""
         return {
-            "begin": shown(self.begin),
-            "end": shown(self.end),
-            "t": shown(self.t),
+            "begin": rounded(self.start),
+            "end": rounded(self.end),
+            "t": rounded(self.t),
             "state": self.state,
-            "speed": shown(self.speed),
-            "seeking": shown(self.seeking),
+            "speed": rounded(self.speed),
+            "seeking": rounded(self.seeking),
         }

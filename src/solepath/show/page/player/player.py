@@ -1,11 +1,11 @@
-"""Playing a recording: a session fed at the pace of somebody who watches, with pause, speed and seek.
+"""Plays a recording: feeds a session at the pace of a watcher, with pause, speed and seek.
 
-    player = Player(Kept(source), Session(poses=True, pressures=True), Scene(...))
-    player.passed(0.02)                     # so much time went by on the wall
-    player.work(enough)                     # feed what is due, until `enough()`
+    player = Player(PackedItems(source), Session(poses=True, pressures=True), Scene(...))
+    player.advance(0.02)                    # so much wall time passed
+    player.feed_due(should_stop)            # feed what is due, until `should_stop()`
     player.seek(30.0)
 
-It reads no clock and knows no event loop: playing.py is the side that does.
+It reads no clock and knows no event loop; player_loop.py does.
 """
 
 from __future__ import annotations
@@ -24,23 +24,23 @@ from ....session import Session
 from ....types import Packet, Sample
 from ..messages import FASTEST, SLOWEST, Command
 from ..scene.scene import Scene
-from .kept import KeptItems
+from .packed_items import PackedItems
 from .playback import Playback
 
 SPACING = 10.0
-"""s of the recording between two saved moments, at first: as much is computed again in a fifth of a second."""
-MOMENTS = 60
-"""Of which there are no more: then every other is dropped, and they lie twice as far apart."""
+"""Time of the recording between two saved states at first, s; so much is computed again in a fifth of a second."""
+MOST_SAVED = 60
+"""Largest number of saved states: with more, every other one is dropped and the spacing doubles."""
 LONGEST = 0.25
-"""s on the wall that count as passed at once: a computer that slept does not skip what it slept through."""
+"""Wall time that counts as passed at once, s: after the computer slept, nothing of the recording is skipped."""
 
-Told = Callable[[Packet | Sample | None, list[Event]], None]
-"""Takes an item and what the session said of it; None and what it said at the end."""
+OnEvents = Callable[[Packet | Sample | None, list[Event]], None]
+"""Takes an item and the events that the session reported of it; None and the last events at the end."""
 
 
 @frozen
-class _Moment:
-    """All of it, at a time, before the item `next` was fed. `session` and `scene` are packed."""
+class _SavedState:
+    """State of the player at a time, before the item `next` was fed; `session` and `scene` are compressed."""
 
     t: float
     next: int
@@ -50,43 +50,42 @@ class _Moment:
 
 @define
 class Player:
-    """`items` through `session` into `scene`, both new, as somebody wants to see it.
+    """Plays `items` through `session` into `scene`, both new, as a watcher commands.
 
-    `plan`: the floor plan of the session. `fault`: why the recording goes no further than its last item, said in the
-    scene there. `told` hears of every item once and in order, however often it is played again: what it makes of them
-    does not depend on what somebody does with the player.
+    `plan` is the floor plan of the session. `fault` says why the recording goes no further than its last item; the
+    scene shows it there. `on_events` gets every item once and in order, however often it is played again, so that its
+    result does not depend on the commands.
 
-    What the scene shows at a time of the recording, and the session's snapshot there, are the same whatever was played,
-    skipped or seen again before. Memory: the items (Kept says how much), and MOMENTS saved moments of some 0.1 MB.
-    """
+    The scene at a time of the recording, and the session's snapshot there, are the same whatever was played, skipped or
+    seen again before. Memory: the items (PackedItems says how much), and MOST_SAVED saved states of some 0.1 MB."""
 
-    items: KeptItems
+    items: PackedItems
     session: Session
     scene: Scene
     plan: IndexedPlan | None = None
     fault: str = ""
-    told: Told | None = None
+    on_events: OnEvents | None = None
     spacing: float = SPACING
-    """s of the recording between two saved moments; doubles when there are MOMENTS."""
+    """Time of the recording between two saved states, s; it doubles when there are MOST_SAVED."""
     playback: Playback = field(init=False)
     _next: int = field(default=0, init=False)
-    """Which item comes next."""
+    """Index of the item that comes next."""
     _frontier: int = field(default=0, init=False)
-    """How many were ever fed; one more than there are when the end was told, too."""
+    """Number of items that were ever fed, plus one once `on_events` got the end."""
     _finished: bool = field(default=False, init=False)
     _due: float = field(init=False)
-    """To where it is to be played, s."""
-    _moments: list[_Moment] = field(factory=list, init=False)
+    """Time up to which the recording is to be played, s."""
+    _saved: list[_SavedState] = field(factory=list, init=False)
 
     def __attrs_post_init__(self) -> None:
-        begin, end = self.items.begin, self.items.end
-        self._due = begin
-        self.playback = Playback(begin=begin, end=end, t=begin, state="playing", speed=1.0, seeking=None)
+        start, end = self.items.start, self.items.end
+        self._due = start
+        self.playback = Playback(start=start, end=end, t=start, state="playing", speed=1.0, seeking=None)
         self.scene.playback = self.playback
-        self._save(begin)
+        self._save(start)
 
     def command(self, command: Command) -> None:
-        """What the page asks for. Values beyond what there is are taken as the nearest."""
+        """Execute a command of the page; a value out of range counts as the nearest in range."""
         match command.do:
             case "play":
                 self.play()
@@ -98,45 +97,47 @@ class Player:
                 self.seek(command.value)
 
     def play(self) -> None:
-        """Go on; from the beginning, when it had come to the end."""
+        """Continue; from the start, when it had come to the end."""
         if self.playback.state == "ended":
-            self.seek(self.playback.begin)
+            self.seek(self.playback.start)
         self.playback.state = "playing"
 
     def pause(self) -> None:
+        """Pause, when it is playing."""
         if self.playback.state == "playing":
             self.playback.state = "paused"
 
     def speed(self, times: float) -> None:
-        """Times real time, from SLOWEST to FASTEST."""
+        """Set the speed in multiples of real time, limited to SLOWEST to FASTEST."""
         self.playback.speed = min(max(times, SLOWEST), FASTEST)
 
     def seek(self, t: float) -> None:
-        """To `t` of the recording, s: from the nearest saved moment as fast as it can be computed, in `work`. What had
-        come to its end plays on from there."""
+        """Go to `t` s of the recording, from the nearest saved state; `feed_due` then computes as fast as it can.
+
+        After the end had been reached, it plays on from there."""
         now = self.playback
-        t = min(max(t, now.begin), now.end)
-        there = next(moment for moment in reversed(self._moments) if moment.t <= t)
+        t = min(max(t, now.start), now.end)
+        there = next(moment for moment in reversed(self._saved) if moment.t <= t)
         if t < now.t or there.next > self._next:
             self._restore(there)
-            now.t = max(now.begin, there.t)
+            now.t = max(now.start, there.t)
             if now.state == "ended":
                 now.state = "playing"
         self._due = t
         now.seeking = t if self._behind else None
 
-    def passed(self, seconds: float) -> None:
-        """So much time went by on the wall. Nothing is owed for time in which it could not keep up."""
+    def advance(self, seconds: float) -> None:
+        """Let wall time pass; time in which the player could not keep up is not made up for."""
         now = self.playback
         if now.state == "playing" and now.t >= self._due:
             self._due = min(now.end, self._due + min(seconds, LONGEST) * now.speed)
 
-    def work(self, enough: Callable[[], bool]) -> bool:
-        """Feed what is due, one item at the least and no more once `enough()`; whether more is due."""
+    def feed_due(self, should_stop: Callable[[], bool]) -> bool:
+        """Feed what is due, one item at least and no more once `should_stop()`; return whether more is due."""
         now = self.playback
         while self._next < len(self.items) and self.items.t(self._next) <= self._due:
             self._feed()
-            if enough():
+            if should_stop():
                 break
         if self._behind:
             now.t = max(now.t, min(self._due, self.items.t(self._next - 1)))
@@ -148,18 +149,20 @@ class Player:
         self.scene.tick(now.t)
         return False
 
-    def run_through(self, enough: Callable[[], bool]) -> bool:
-        """`work`, but on to the end as fast as it can; whether there is more. `told` then has heard it all."""
+    def run_through(self, should_stop: Callable[[], bool]) -> bool:
+        """Feed as `feed_due`, but to the end at full speed; return whether there is more.
+
+        When it returns False, `on_events` got all of the recording."""
         if self._frontier > len(self.items):
             return False
         if self._due < self.playback.end or not self._behind:
             self.seek(self.playback.end)
-        self.work(enough)
+        self.feed_due(should_stop)
         return self._frontier <= len(self.items)
 
     @property
     def done(self) -> int:
-        """How many items `told` has heard of."""
+        """Number of items that `on_events` got."""
         return min(self._frontier, len(self.items))
 
     @property
@@ -176,9 +179,9 @@ class Player:
         self._next += 1
         if self._next > self._frontier:
             self._frontier = self._next
-            if self.told is not None:
-                self.told(item, events)
-            if t >= self._moments[-1].t + self.spacing:
+            if self.on_events is not None:
+                self.on_events(item, events)
+            if t >= self._saved[-1].t + self.spacing:
                 self._save(t)
 
     def _finish(self) -> None:
@@ -192,21 +195,21 @@ class Player:
             self.scene.log.add(self.items.end, "link", self.fault)
         if self._frontier <= len(self.items):
             self._frontier = len(self.items) + 1
-            if self.told is not None:
-                self.told(None, events)
+            if self.on_events is not None:
+                self.on_events(None, events)
 
     def _save(self, t: float) -> None:
         scene = copy(self.scene)
-        # neither belongs to the moment, and plans are large
+        # none of them belongs to the saved state, and plans are large
         scene.plan = scene.drawing = scene.playback = None
         session = json.dumps(self.session.snapshot()).encode()
-        packed = pickle.dumps(scene, pickle.HIGHEST_PROTOCOL)  # only ever read again by this process
-        self._moments.append(_Moment(t, self._next, zlib.compress(session, 1), zlib.compress(packed, 1)))
-        if len(self._moments) > MOMENTS:
-            del self._moments[1::2]
+        packed = pickle.dumps(scene, pickle.HIGHEST_PROTOCOL)  # only this process reads it
+        self._saved.append(_SavedState(t, self._next, zlib.compress(session, 1), zlib.compress(packed, 1)))
+        if len(self._saved) > MOST_SAVED:
+            del self._saved[1::2]
             self.spacing *= 2.0
 
-    def _restore(self, moment: _Moment) -> None:
+    def _restore(self, moment: _SavedState) -> None:
         plan, drawing = self.scene.plan, self.scene.drawing
         self.session = Session.restore(json.loads(zlib.decompress(moment.session)), floorplan=self.plan)
         self.scene = pickle.loads(zlib.decompress(moment.scene))

@@ -1,4 +1,4 @@
-"""One foot as a page shows it: phase, place, pressed cells, and what it did of late."""
+"""One foot as a page shows it: phase, position, pressed cells, and its recent phases."""
 
 from __future__ import annotations
 
@@ -11,128 +11,130 @@ from attrs import define, field
 from ....events import FootMoved, FootPressed, StrideTaken
 from ....types import Foot, Layout, Phase, Vec3
 from ...observer import FootCounts
-from ..messages import placed, shown
+from ..messages import rounded, rounded_all
 from .lists import Recent, WalkedTrack
 
-RIBBON = 20.0
-"""s of phases that are kept."""
+PHASES_KEPT = 20.0
+"""Time for which phases are kept, s."""
 MOST_PHASES = 500
-"""More than anybody's foot goes through in that time."""
-FAINT = 0.002
-"""Share of a cell's full scale that the brightest colour stands for at least: what an unloaded sole shows is noise."""
+"""Largest number of phases that are kept; no foot goes through more in PHASES_KEPT."""
+MIN_PEAK_SHARE = 0.002
+"""Share of a cell's full scale that the brightest colour means at least: an unloaded sole shows only noise."""
 
 
 @define
 class FootScene:
-    """Everything from events. The track has a point for where the foot was first seen and one for each step's end: live
-    positions between two steps may still drift."""
+    """One foot, from events alone.
+
+    The track has one point where the foot was first seen and one for the end of each stride: live positions within a
+    stride may still drift."""
 
     foot: Foot
-    heard: bool = field(default=False, init=False)
+    has_data: bool = field(default=False, init=False)
     phase: Phase | None = field(default=None, init=False)
     phases: Recent[tuple[float, str | None]] = field(factory=lambda: Recent(MOST_PHASES), init=False)
-    """Beginning of each phase of late, s, and its name; None for a time in which the foot is not heard."""
+    """Start of each recent phase, s, and its name; None for a time in which nothing comes of the foot."""
     position: Vec3 | None = field(default=None, init=False)
     track: WalkedTrack = field(factory=WalkedTrack, init=False)
     layout: Layout | None = field(default=None, init=False)
     cells: tuple[float, ...] | None = field(default=None, init=False)
-    """The newest values; None while there are none."""
+    """Newest values of the cells; None while there are none."""
     force: float = field(default=0.0, init=False)
     centre: tuple[float, float] | None = field(default=None, init=False)
     peak: float = field(default=0.0, init=False)
-    """What the brightest colour stands for: the highest value so far."""
-    _map: tuple[tuple[float, ...] | None, float, str | None] = field(default=(None, 0.0, None), init=False)
-    """Cells and peak, and what they were last shown as."""
+    """Value that the brightest colour means: the highest value so far."""
+    _shades: tuple[tuple[float, ...] | None, float, str | None] = field(default=(None, 0.0, None), init=False)
+    """Cells and peak, and the text that they were last encoded as."""
 
-    def moved(self, event: FootMoved) -> None:
-        """A live position."""
+    def add_position(self, event: FootMoved) -> None:
+        """Add a live position."""
         self.position = event.position
         if event.phase is not self.phase:
-            self.begin(event.t, event.phase)
+            self.start_phase(event.t, event.phase)
         if not self.track.count:
-            self.track.reach(event.t, event.position)
+            self.track.add_position(event.t, event.position)
 
-    def pressed(self, event: FootPressed) -> None:
-        """Cells of one sample."""
+    def add_pressure(self, event: FootPressed) -> None:
+        """Add the cells of one sample."""
         values = event.values
         self.cells, self.force, self.centre = values, event.force, event.centre
-        self.heard = True
+        self.has_data = True
         largest = max(values, default=0.0)
         if self.peak < largest < inf:
             self.peak = largest
 
-    def begin(self, t: float, phase: Phase | None) -> None:
-        """From `t` s on the foot does this; None: it is not heard."""
-        self.heard = self.heard or phase is not None
+    def start_phase(self, t: float, phase: Phase | None) -> None:
+        """Start a phase at `t` s; None means that nothing comes of the foot."""
+        self.has_data = self.has_data or phase is not None
         if phase is self.phase:
             return
         self.phase = phase
         phases, t = self.phases, round(t, 3)
         if phases.items and t < phases.items[-1][0]:
-            t = phases.items[-1][0]  # one that was dated back behind what was said before
+            t = phases.items[-1][0]  # the event is dated before the last reported phase
         phases.add((t, None if phase is None else phase.value))
-        while len(phases.items) > 1 and phases.items[1][0] <= t - RIBBON:
+        while len(phases.items) > 1 and phases.items[1][0] <= t - PHASES_KEPT:
             phases.items.popleft()
 
-    def stepped(self, event: StrideTaken) -> None:
-        """A step ended."""
+    def add_stride(self, event: StrideTaken) -> None:
+        """Add a stride that ended."""
         if event.final:
-            self.track.reach(event.t, event.position)
+            self.track.add_position(event.t, event.position)
 
-    def wear(self, layout: Layout) -> bool:
-        """Where the cells are; whether that is new."""
+    def set_layout(self, layout: Layout) -> bool:
+        """Set where the cells are; return whether that is new."""
         if layout == self.layout:
             return False
         self.layout = layout
-        self.peak = max(FAINT * layout.full_scale, 0.0) if layout.full_scale < inf else 0.0
+        self.peak = max(MIN_PEAK_SHARE * layout.full_scale, 0.0) if layout.full_scale < inf else 0.0
         return True
 
-    def began_after(self, t: float) -> bool:
-        """Whether what it does now, or that it is not heard, began after `t` s."""
+    def phase_started_after(self, t: float) -> bool:
+        """Return whether the present phase, or the silence of the foot, started after `t` s."""
         phases = self.phases.items
         return bool(phases) and phases[-1][0] > t
 
-    def fall_silent(self, t: float) -> None:
-        """What it does now is not known."""
-        self.begin(t, None)
+    def mark_silent(self, t: float) -> None:
+        """Mark the phase as unknown from `t` s on."""
+        self.start_phase(t, None)
         self.cells = self.centre = None
 
     def frame(self, rate: float, counts: FootCounts) -> dict[str, Any] | None:
-        """As "feet" of a frame; None before it was heard of. `rate`: samples a second."""
-        if not self.heard:
+        """Return the foot's member of "feet" of a frame; None before it has data. `rate` is in samples a second."""
+        if not self.has_data:
             return None
         cells = self.cells
         return {
             "phase": None if self.phase is None else self.phase.value,
-            "position": None if self.position is None else placed(self.position),
+            "position": None if self.position is None else rounded_all(self.position),
             "cells": self._colours(),
-            "peak": shown(self.peak),
-            "force": None if cells is None else shown(self.force, 1),
-            "centre": None if self.centre is None or cells is None else placed(self.centre, 4),
+            "peak": rounded(self.peak),
+            "force": None if cells is None else rounded(self.force, 1),
+            "centre": None if self.centre is None or cells is None else rounded_all(self.centre, 4),
             "rate": rate,
             "steps": counts.strides,
-            "distance": shown(counts.distance, 2),
+            "distance": rounded(counts.distance, 2),
         }
 
     def _colours(self) -> str | None:
-        """One byte a cell, 255 for the highest value so far, as base64."""
+        """Return one byte a cell, 255 for the highest value so far, as base64."""
         cells, peak = self.cells, self.peak
         if cells is None:
             return None
-        if self._map[0] is not cells or self._map[1] != peak:
+        if self._shades[0] is not cells or self._shades[1] != peak:
             scale = 255.0 / peak if peak > 0.0 else 0.0
             shades = bytes([int(min(255.0, value * scale) + 0.5) if value > 0.0 else 0 for value in cells])
-            self._map = (cells, peak, b64encode(shades).decode())
-        return self._map[2]
+            self._shades = (cells, peak, b64encode(shades).decode())
+        return self._shades[2]
 
     def layout_message(self, newtons: bool) -> dict[str, Any] | None:
-        """As "layouts" of a scene. `newtons`: a calibration turns counts into N."""
+        """Return the foot's member of "layouts" of a scene; `newtons` says that a calibration turns counts into N."""
         layout = self.layout
         if layout is None:
             return None
         return {
-            "length": shown(layout.length, 4),
-            "cells": [[shown(cell.x, 4), shown(cell.y, 4), shown(cell.area, 7)] for cell in layout.cells],
+            "length": rounded(layout.length, 4),
+            "cells": [[rounded(cell.x, 4), rounded(cell.y, 4), rounded(cell.area, 7)] for cell in layout.cells],
             "unit": "N" if newtons or layout.scale is not None else "counts",
-            "full": None if newtons and layout.scale is None else shown(layout.full_scale),
+            "full": None if newtons and layout.scale is None else rounded(layout.full_scale),
         }

@@ -6,33 +6,33 @@ from typing import Any
 
 from ....types import Site
 from ...links import LinkLedger
-from ..messages import shown
+from ..messages import rounded
 
 
 def link_frame(link: LinkLedger, now: float) -> dict[str, Any]:
-    """As one of "links" of a frame."""
+    """Return one member of "links" of a frame."""
     state = link.state(now)
-    silent = state in ("silent", "lost") and link.heard is not None
-    rate = link.rate_of_late(now)
+    silent = state in ("silent", "lost") and link.last_sample_at is not None
+    rate = link.recent_rate(now)
     if rate is not None:
         rate = round(rate) if rate >= 20.0 else round(rate, 1)
     return {
         "state": state,
         "rate": rate,
         "lost": link.lost,
-        "loss": shown(link.loss_of_late(now), 4) if state == "ok" else None,
+        "loss": rounded(link.recent_loss(now), 4) if state == "ok" else None,
         "rejected": link.rejected.total(),
         "gaps": link.gaps,
-        "battery": shown(link.battery),
+        "battery": rounded(link.battery),
         "name": link.name,
         "signal": link.signal,
-        "silent_for": shown(max(now - (link.heard or 0.0), 0.0), 1) if silent else None,
+        "silent_for": rounded(max(now - (link.last_sample_at or 0.0), 0.0), 1) if silent else None,
         "trouble": link.trouble,
     }
 
 
-def unheard_since(links: dict[Site, LinkLedger], now: float) -> float | None:
-    """When any foot was heard last, s, while at `now` none is; None while one is, and before."""
+def feet_silent_since(links: dict[Site, LinkLedger], now: float) -> float | None:
+    """Return when the last sample of any foot came, s, while at `now` none sends; None while one does, and before."""
     feet = [link for site, link in links.items() if site.foot is not None]
-    last = max([link.heard for link in feet if link.heard is not None], default=None)
+    last = max([link.last_sample_at for link in feet if link.last_sample_at is not None], default=None)
     return None if any([link.state(now) == "ok" for link in feet]) else last

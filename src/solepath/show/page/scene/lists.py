@@ -1,6 +1,7 @@
 """Lists that grow while somebody reads along: bounded, and numbered, so that a reader asks for what is new to it.
 
-How many items were ever added is a reader's number. A reader that adds what is new by the same rule has the same list.
+The number of a reader is how many items had been added when it read last. A reader that adds the new items by the same
+rule has the same list.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from typing import Generic, TypeVar
 from attrs import define, field
 
 from ....types import Vec3
-from ..messages import placed, shown
+from ..messages import rounded, rounded_all
 
 T = TypeVar("T")
 
@@ -20,25 +21,27 @@ TrackPoint = tuple[float | None, ...]
 """(t, x, y, z) in s and m."""
 
 MOST_POINTS = 2000
-"""Of a track; one more, and every second is left out."""
+"""Largest number of points of a track; with one more, every second one is left out."""
 RECENT = 1000
-"""Points that a reader may be behind."""
+"""Number of points that a reader may be behind."""
 SPACING = 0.02
-"""m; who stands nearer to where they stood adds no point to their track."""
+"""Distance from the last point below which a new position adds no point to the track, m."""
 
 
 @define
 class ThinnedTrack(Generic[T]):
-    """Points of a track from its beginning to now. When there is one more than MOST_POINTS, those at odd places (from
-    0) are left out: the older part thins out evenly, and its first and newest point stay."""
+    """Points of a track from its start to now, thinned evenly.
+
+    When there is one more than MOST_POINTS, the points with odd indices (from 0) are left out. The first and the newest
+    point stay."""
 
     points: list[T] = field(factory=list)
     count: int = 0
-    """Points that were ever added."""
+    """Number of points that were ever added."""
     _recent: deque[T] = field(factory=lambda: deque(maxlen=RECENT))
 
     def add(self, point: T) -> None:
-        """One more."""
+        """Add one point."""
         self.points.append(point)
         if len(self.points) > MOST_POINTS:
             self.points = self.points[::2]
@@ -46,7 +49,7 @@ class ThinnedTrack(Generic[T]):
         self.count += 1
 
     def since(self, number: int) -> list[T] | None:
-        """The points after the first `number` ever; None when not all of them are known any more."""
+        """Return the points after the first `number` ever; None when not all of them are known any more."""
         new = self.count - number
         if new == 0:
             return []
@@ -57,16 +60,16 @@ class ThinnedTrack(Generic[T]):
 
 @define
 class WalkedTrack(ThinnedTrack[TrackPoint]):
-    """Where somebody stood, from one place to another."""
+    """Track of positions, with a point only where the position has changed."""
 
     _last: Vec3 | None = None
-    """The newest point, m."""
+    """Position of the newest point, m."""
 
-    def reach(self, t: float, position: Vec3) -> None:
-        """At `t` s at this place."""
+    def add_position(self, t: float, position: Vec3) -> None:
+        """Add the position at `t` s when it is far enough from the last point."""
         if self._last is None or dist(position, self._last) >= SPACING:
             self._last = position
-            self.add((shown(t), *placed(position)))
+            self.add((rounded(t), *rounded_all(position)))
 
 
 @define
@@ -76,16 +79,16 @@ class Recent(Generic[T]):
     most: int
     items: deque[T] = field(factory=deque)
     count: int = 0
-    """Items that were ever added."""
+    """Number of items that were ever added."""
 
     def add(self, item: T) -> None:
-        """One more."""
+        """Add one item."""
         self.items.append(item)
         self.count += 1
         if len(self.items) > self.most:
             self.items.popleft()
 
     def since(self, number: int) -> list[T]:
-        """The items after the first `number` ever, as far as they are here."""
+        """Return the items after the first `number` ever, as far as they are still kept."""
         new = min(self.count - number, len(self.items))
         return list(self.items)[-new:] if new else []

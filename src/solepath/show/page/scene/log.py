@@ -1,4 +1,4 @@
-"""The log that a page shows: events as sentences, for a wearer or a clinician who reads what happened."""
+"""The log that a page shows: events as sentences, for a wearer or a clinician."""
 
 from __future__ import annotations
 
@@ -33,53 +33,57 @@ from ....events import (
 from ....recording import printable
 from ....types import SITE_OF_FOOT, Turn
 from ...observer import Observer
-from ..messages import shown
+from ..messages import rounded
 from .lists import Recent
 
 MOST_LINES = 50
-LOW = 0.15
-"""A battery that is this empty is said."""
+LOW_BATTERY = 0.15
+"""Charge at or below which the battery is reported, 0 to 1."""
 FAULTS = {
     CellFault.DEAD: ("cell shows no load", "cells show no load"),
     CellFault.STUCK: ("cell shows one value all the time", "cells show one value all the time"),
     CellFault.SATURATED: ("cell stays at the end of its range", "cells stay at the end of their range"),
     CellFault.MISSING: ("cell sends no number", "cells send no number"),
 }
-"""Of one cell and of several."""
+"""Words for a fault of one cell and of several."""
 TURNS = {Turn.LEFT: "turned left", Turn.RIGHT: "turned right", Turn.ABOUT: "turned about"}
 
 LogLine = tuple[float | None, str, str]
-"""(t, kind, sentence)."""
+"""(t, kind, sentence), t in s."""
 
 
 @define
 class SceneLog:
-    """The newest sentences of what happened."""
+    """The newest sentences on what happened."""
 
     lines: Recent[LogLine] = field(factory=lambda: Recent(MOST_LINES))
 
-    def tell(self, event: Event, before: Observer) -> None:
-        """A line of an event that is worth one and was not said just now. `before`: what was observed before it."""
-        told = sentence(event)
-        if told is None:
+    def add_event(self, event: Event, before: Observer) -> None:
+        """Add a line for an event that deserves one and was not just reported.
+
+        `before` is what was observed before the event."""
+        line = sentence(event)
+        if line is None:
             return
         if isinstance(event, FootSilent) and before.link(SITE_OF_FOOT[event.foot]).state(before.now) != "ok":
             return
         if isinstance(event, BatteryLevel):
             level = before.link(event.site).battery
-            if level is not None and level <= LOW:
+            if level is not None and level <= LOW_BATTERY:
                 return
-        self.add(event.t, *told)
+        self.add(event.t, *line)
 
-    def add(self, t: float, kind: str, told: str) -> None:
-        """One more line, of what happened at `t` s."""
-        self.lines.add((shown(t), kind, told))
+    def add(self, t: float, kind: str, text: str) -> None:
+        """Add a line on what happened at `t` s."""
+        self.lines.add((rounded(t), kind, text))
 
 
 def sentence(event: Event) -> tuple[str, str] | None:
-    """(kind, sentence) of what is worth a line; kind is "link", "wear", "gait" or "place". None of all else."""
-    told = _link(event) or _wear(event) or _gait(event)
-    return None if told is None else (told[0], printable(told[1], 300))
+    """Return (kind, sentence) of an event that deserves a line, None of any other.
+
+    `kind` is "link", "wear", "gait" or "place"."""
+    line = _link(event) or _wear(event) or _gait(event)
+    return None if line is None else (line[0], printable(line[1], 300))
 
 
 def _link(event: Event) -> tuple[str, str] | None:
@@ -100,7 +104,7 @@ def _link(event: Event) -> tuple[str, str] | None:
             return "link", f"{site.words}: {count} packet{'s' * (count != 1)} came too fast to be used"
         case LinkTrouble(site=site, what=what):
             return "link", f"{site.words}: {what}"
-        case BatteryLevel(site=site, level=level) if level <= LOW:
+        case BatteryLevel(site=site, level=level) if level <= LOW_BATTERY:
             return "link", f"{site.words}: the battery is at {100.0 * level:.0f} %"
         case _:
             return None

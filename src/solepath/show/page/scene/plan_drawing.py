@@ -5,13 +5,14 @@ from __future__ import annotations
 from typing import Any
 
 from ....floorplan.plan import Connector, Door, FloorPlan, Level, Wall
-from ..messages import Written, placed, shown
+from ..messages import EncodedOnce, rounded, rounded_all
 
 
-def drawn(plan: FloorPlan) -> Written:
-    """As "plan" of a scene: lines and outlines of each level, and where stairs and lifts stop; plan frame, m. It takes
-    some 10 us a wall."""
-    return Written(
+def drawn(plan: FloorPlan) -> EncodedOnce:
+    """Return the member "plan" of a scene, in the plan frame, m.
+
+    It holds lines and outlines of each level, and the stops of stairs and lifts. It takes some 10 us a wall."""
+    return EncodedOnce(
         name=plan.name,
         levels=[_level(level) for level in plan.levels],
         connectors=[_connector(one) for one in plan.connectors],
@@ -22,20 +23,24 @@ def _level(level: Level) -> dict[str, Any]:
     return {
         "id": level.id,
         "name": level.name,
-        "elevation": shown(level.elevation),
+        "elevation": rounded(level.elevation),
         "walls": [_line(wall) for wall in level.walls],
         "doors": [_line(door) for door in level.doors],
-        "rooms": [[placed(point) for point in room] for room in level.rooms],
+        "rooms": [[rounded_all(point) for point in room] for room in level.rooms],
     }
 
 
 def _line(one: Wall | Door) -> list[float | None]:
-    return placed((*one.start, *one.end))
+    return rounded_all((*one.start, *one.end))
 
 
 def _connector(one: Connector) -> dict[str, Any]:
     stops = [
-        {"level": stop.level, "place": placed(stop.place), "outline": [placed(point) for point in stop.outline]}
+        {
+            "level": stop.level,
+            "place": rounded_all(stop.place),
+            "outline": [rounded_all(point) for point in stop.outline],
+        }
         for stop in one.stops
     ]
     return {"kind": one.kind.value, "name": one.name, "stops": stops}

@@ -1,8 +1,9 @@
-"""Where the colours of pressure end: decided here, so that everybody who watches sees the same colours.
+"""Ends of the colour scales of pressure, decided here so that all watchers see the same colours.
 
-A scale is for both feet, ends at a round number, and only ever grows. It holds what a twentieth of a foot's cells shows
-for three samples: an edge of a shoe that presses on one cell, or on all for a hundredth of a second, does not make pale
-what a whole forefoot carries. What is higher is drawn as the end of the scale, and `beyond` says that there is such.
+A scale is for both feet, ends at a round number, and only ever grows. Its end is at least what a twentieth of a foot's
+cells reaches for three samples. An edge of a shoe that presses on one cell, or on all for a hundredth of a second,
+therefore does not make the load of a whole forefoot pale. A higher value is drawn as the end of the scale, and `beyond`
+says that there is one.
 """
 
 from __future__ import annotations
@@ -13,51 +14,51 @@ from typing import Any
 from attrs import define, field
 
 from ....types import Foot, Layout
-from ..messages import shown
+from ..messages import rounded
 
 STEPS = (1.0, 2.0, 4.0, 6.0, 8.0, 10.0)
-"""Times a power of ten: where a scale may end."""
+"""Multiples of a power of ten at which a scale may end."""
 LEAST = {"kPa": 100.0, "N": 1.0, "counts": 1.0}
-"""Where it ends at first: of somebody who stands on both feet, and of one who does nothing."""
+"""First end of a scale in each unit: the pressure of standing on both feet in kPa, no load in N and counts."""
 SHARE = 20
-"""One cell of so many may be higher, and one of fewer."""
+"""Number of cells of which one may be higher than the scale; a smaller insole may have one such cell too."""
 LASTS = 3
-"""Samples."""
+"""Number of samples for which a value must last."""
 
 
 @define
 class UnitScale:
-    """Of one unit."""
+    """Scale of one unit."""
 
     top: float
     highest: float = 0.0
-    """Of any cell so far."""
+    """Highest value of any cell so far."""
 
     def frame(self) -> dict[str, Any]:
-        """As one of "scales" of a frame."""
-        return {"top": shown(self.top), "beyond": self.highest > self.top}
+        """Return one member of "scales" of a frame."""
+        return {"top": rounded(self.top), "beyond": self.highest > self.top}
 
 
 @define
 class InsoleScale:
-    """The insole of a foot: in which unit its cells are drawn, and what it was of late."""
+    """Unit of the cells of a foot's insole, and their recent values."""
 
     unit: str
     per_unit: tuple[float, ...] | None
-    """What one of the layout's unit is in `unit`, of each cell; None where it is the same."""
-    of_late: tuple[float, ...] = ()
-    """What a twentieth of its cells reached, in the newest samples."""
+    """Value in `unit` of one of the layout's unit, for each cell; None where the units are the same."""
+    recent: tuple[float, ...] = ()
+    """Value that a twentieth of the cells reached in each of the newest samples."""
 
 
 @define
 class Scales:
-    """Of all units that are worn, by their names."""
+    """Scales of all units that are in use, by their names."""
 
     units: dict[str, UnitScale] = field(factory=dict)
     worn: dict[Foot, InsoleScale] = field(factory=dict)
 
     def wear(self, foot: Foot, layout: Layout, newtons: bool) -> None:
-        """This foot's cells are so. `newtons`: its values are N, not counts."""
+        """Set the layout of a foot's cells; `newtons` says that their values are N, not counts."""
         areas = [cell.area for cell in layout.cells]
         per_unit = None
         if newtons and areas and all([area > 0.0 for area in areas]):
@@ -68,7 +69,7 @@ class Scales:
         self.units.setdefault(unit, UnitScale(LEAST[unit]))
 
     def press(self, foot: Foot, values: tuple[float, ...]) -> None:
-        """One sample of its cells. Nothing before they are worn: who does not know where cells are draws no map."""
+        """Add one sample of a foot's cells; before its layout is known, none, since no map is drawn without it."""
         worn = self.worn.get(foot)
         if worn is None or not values:
             return
@@ -79,20 +80,20 @@ class Scales:
         if scale.highest < largest < inf:
             scale.highest = largest
         if not largest > scale.top:
-            worn.of_late = ()
+            worn.recent = ()
             return
         at = min(max(1, len(values) // SHARE), len(values) - 1)
-        worn.of_late = (*worn.of_late[1 - LASTS :], sorted(values, reverse=True)[at])
-        reached = min(worn.of_late)
-        if len(worn.of_late) == LASTS and scale.top < reached < inf:
-            scale.top = rounded(reached)
+        worn.recent = (*worn.recent[1 - LASTS :], sorted(values, reverse=True)[at])
+        reached = min(worn.recent)
+        if len(worn.recent) == LASTS and scale.top < reached < inf:
+            scale.top = scale_end(reached)
 
     def frame(self) -> dict[str, Any]:
-        """As "scales" of a frame."""
+        """Return the member "scales" of a frame."""
         return {unit: scale.frame() for unit, scale in self.units.items()}
 
 
-def rounded(value: float) -> float:
-    """The end of a scale that holds `value`, above zero."""
+def scale_end(value: float) -> float:
+    """Return the end of a scale that holds `value`, which is above zero."""
     power: float = 10.0 ** floor(log10(value))
     return next((step * power for step in STEPS if step * power >= value), 10.0 * power)

@@ -1,5 +1,7 @@
-"""Where the page listens, who may see it, and who may steer it. Gait is health data: it is for this machine, or for who
-has the token."""
+"""Decides where the page listens, who may see it, and who may control it.
+
+Gait is health data: it is for this machine, or for whoever has the token.
+"""
 
 from __future__ import annotations
 
@@ -11,12 +13,12 @@ from urllib.parse import urlsplit
 from attrs import frozen
 
 PORT = 8765
-"""Where nobody says another one."""
+"""Port when no other one is given."""
 EVERYWHERE = ("0.0.0.0", "::")
 
 
 class AccessDenied(Exception):
-    """A request that gets nothing; a sentence says why. `status`: of HTTP."""
+    """A request that gets nothing; the message says why, `status` is the HTTP status."""
 
     def __init__(self, why: str, status: int = 403) -> None:
         super().__init__(why)
@@ -25,19 +27,21 @@ class AccessDenied(Exception):
 
 @frozen
 class PageAccess:
-    """Of a page that is served at `host` (a name or an address). `token`: what whoever steers must know."""
+    """Access to a page that is served at `host`, a name or an address; whoever controls it must know `token`."""
 
     host: str
     token: str
 
     @property
-    def beyond(self) -> bool:
-        """Others than this machine reach the page."""
+    def is_public(self) -> bool:
+        """True when other machines than this one reach the page."""
         return not on_loopback(self.host)
 
     def check_host(self, host: str | None) -> None:
-        """`host`: the Host header of a request. A name that somebody else can let point here is refused: a page of
-        theirs could read this one (DNS rebinding). Addresses point nowhere else."""
+        """Check the Host header of a request; AccessDenied for a name that is not this page's.
+
+        A name that somebody else can let point here would let a page of theirs read this one (DNS rebinding). Addresses
+        point nowhere else."""
         name = None if host is None else host_of(host)
         if name is None:
             raise AccessDenied("a request does not say to which host it is", 400)
@@ -45,7 +49,7 @@ class PageAccess:
             raise AccessDenied("a request is to a host that this is not")
 
     def check_origin(self, origins: list[str], host: str) -> None:
-        """`origins`: the Origin headers, which a browser sends of the page that asks. `host`: the Host header."""
+        """Check the Origin headers, which a browser sends for the page that asks, against the Host header."""
         for origin in origins:
             try:
                 parts = urlsplit(origin)
@@ -55,9 +59,12 @@ class PageAccess:
                 raise AccessDenied("a page of another origin wants to watch")
 
     def may_steer(self, tokens: list[str]) -> bool:
-        """`tokens`: those that a watcher shows. Without one it may watch on this machine; a wrong one is refused."""
+        """Return whether a watcher that shows these tokens may control the page.
+
+        Without a token it may watch on this machine. AccessDenied for a wrong token, and for none from another machine.
+        """
         if not tokens:
-            if self.beyond:
+            if self.is_public:
                 raise AccessDenied("somebody without a token wants to watch from another machine")
             return False
         if len(tokens) > 1 or not compare_digest(tokens[0].encode("utf-8", "replace"), self.token.encode()):
@@ -66,7 +73,7 @@ class PageAccess:
 
 
 def host_of(header: str) -> str | None:
-    """The host in a Host header, in lower case, an IPv6 address without brackets; None where there is none."""
+    """Return the host of a Host header in lower case, an IPv6 address without brackets; None when there is none."""
     try:
         parts = urlsplit(f"//{header}")
         parts.port  # noqa: B018 - ValueError of what is no port
@@ -78,7 +85,7 @@ def host_of(header: str) -> str | None:
 
 
 def is_address(name: str) -> bool:
-    """Is it an IP address rather than a name?"""
+    """Return whether the name is an IP address."""
     try:
         ip_address(name)
     except ValueError:
@@ -87,13 +94,14 @@ def is_address(name: str) -> bool:
 
 
 def on_loopback(host: str) -> bool:
-    """Does only this machine reach it?"""
+    """Return whether only this machine reaches the host."""
     return host.lower() == "localhost" or (is_address(host) and ip_address(host).is_loopback)
 
 
 def listen(host: str, port: int | None) -> socket.socket:
-    """A socket that listens at `host`, a name or an address. `port`: 0 for any free one, None for PORT or, where that
-    is taken, a free one. OSError when it cannot."""
+    """Return a socket that listens at `host`, a name or an address; OSError when it cannot.
+
+    `port` 0 takes any free one; None takes PORT or, when that is taken, a free one."""
     if port is None:
         try:
             return listen(host, PORT)
@@ -105,15 +113,15 @@ def listen(host: str, port: int | None) -> socket.socket:
     return socket.create_server((str(address[0]), port), family=family, dualstack_ipv6=both, backlog=32)
 
 
-def reached_at(host: str) -> str:
-    """The host as in a URL; of all addresses the one by which others reach this machine."""
+def url_host(host: str) -> str:
+    """Return the host as in a URL; for all addresses the one by which other machines reach this one."""
     if host in EVERYWHERE:
-        host = _outward()
+        host = _outward_address()
     return f"[{host}]" if ":" in host else host
 
 
-def _outward() -> str:
-    """This machine's address towards others; nothing is sent to find it."""
+def _outward_address() -> str:
+    """Return this machine's address towards others; nothing is sent to find it."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
         try:
             probe.connect(("192.0.2.1", 9))

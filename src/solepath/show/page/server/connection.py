@@ -1,4 +1,4 @@
-"""Whoever has connected to the page: for how long, and what it is told where it does not speak HTTP."""
+"""Connections to the page: how long they may last, and the answer to one that does not speak HTTP."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from typing import cast
 from aiohttp import web
 
 LONGEST = 30.0
-"""s that a connection may last on which nobody watches, whatever it asks for and however slowly it reads."""
+"""Time that a connection may last on which nobody watches, whatever it requests and however slowly it reads, s."""
 BACKLOG = 65_536
-"""Bytes that the system holds back for whoever reads slowly: some seconds of frames."""
+"""Bytes that the system buffers for a slow reader: some seconds of frames."""
 HEADERS = {
     "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
     "connect-src 'self'; base-uri 'none'; frame-ancestors 'none'",
@@ -22,18 +22,20 @@ HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
     "Cache-Control": "no-store",
-    "Server": "solepath",  # or the library tells its version and that of Python
+    "Server": "solepath",  # else the library sends its version and that of Python
 }
 
 
 class BrowserConnection(web.RequestHandler):
-    """`asked`: it has asked for something once; before, and after watching, it may last for `idle` s only."""
+    """A connection of a browser, with limits on its time.
 
-    __slots__ = ("asked", "_ends", "_idle", "_to", "_watches")
+    `has_requested` says that it has sent a request. Before that, and after watching, it may last for `idle` s only."""
+
+    __slots__ = ("has_requested", "_timers", "_idle", "_output", "_watches")
 
     def __init__(self, server: web.Server, idle: float) -> None:
         silent = logging.getLogger("solepath.show.page.http")
-        silent.disabled = True  # the library has a traceback for every request that is none
+        silent.disabled = True  # the library logs a traceback for every malformed request
         super().__init__(
             server,
             loop=asyncio.get_running_loop(),
@@ -42,30 +44,32 @@ class BrowserConnection(web.RequestHandler):
             access_log=None,  # type: ignore[arg-type] # there is none
             logger=silent,
         )
-        self.asked = self._watches = False
+        self.has_requested = self._watches = False
         self._idle = idle
-        self._ends: list[asyncio.TimerHandle] = []
-        self._to: asyncio.WriteTransport | None = None
+        self._timers: list[asyncio.TimerHandle] = []
+        self._output: asyncio.WriteTransport | None = None
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Limit the send buffer, and start the timers of the connection."""
         super().connection_made(transport)
         accepted = transport.get_extra_info("socket")
         if accepted is not None:
             accepted.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, BACKLOG)
-        self._to = cast(asyncio.WriteTransport, transport)
-        # the library sees to those only that have asked for something, and not to what is in the middle of an answer
-        self._end_in(self._idle, unless_asked=True)
+        self._output = cast(asyncio.WriteTransport, transport)
+        # the library ends only connections that have sent a request, and none in the middle of an answer
+        self._end_in(self._idle, unless_requested=True)
         self._end_in(LONGEST)
 
     def connection_lost(self, exc: BaseException | None) -> None:
-        for end in self._ends:
+        """Cancel the timers."""
+        for end in self._timers:
             end.cancel()
-        self._to = None
+        self._output = None
         super().connection_lost(exc)
 
     @contextmanager
     def watching(self) -> Iterator[None]:
-        """A browser watches on it within, for as long as it likes."""
+        """Let the connection last for as long as it likes within the context, in which a browser watches on it."""
         self._watches = True
         try:
             yield
@@ -73,18 +77,18 @@ class BrowserConnection(web.RequestHandler):
             self._watches = False
             self._end_in(self._idle)
 
-    def _end_in(self, seconds: float, unless_asked: bool = False) -> None:
-        if self._to is not None:
-            self._ends.append(asyncio.get_running_loop().call_later(seconds, self._end, unless_asked))
+    def _end_in(self, seconds: float, unless_requested: bool = False) -> None:
+        if self._output is not None:
+            self._timers.append(asyncio.get_running_loop().call_later(seconds, self._end, unless_requested))
 
-    def _end(self, unless_asked: bool) -> None:
-        if self._to is not None and not self._watches and not (unless_asked and self.asked):
-            self._to.abort()  # to close it would wait until all was read
+    def _end(self, unless_requested: bool) -> None:
+        if self._output is not None and not self._watches and not (unless_requested and self.has_requested):
+            self._output.abort()  # close() would wait until all was read
 
     def handle_error(
         self, request: web.BaseRequest, status: int = 500, exc: BaseException | None = None, message: str | None = None
     ) -> web.StreamResponse:
-        """The library's own answers tell what was wrong with words of whoever has sent it; this does not."""
+        """Answer an error with a fixed text; the library's own answer repeats words of the sender."""
         if request.writer.output_size > 0:
             raise ConnectionError("a part of an answer was sent already")
         answer = web.Response(status=status, text="that cannot be answered\n", headers=HEADERS)
@@ -92,8 +96,9 @@ class BrowserConnection(web.RequestHandler):
         return answer
 
 
-class NoRoom(asyncio.Protocol):
-    """Hangs up at once."""
+class ImmediateClose(asyncio.Protocol):
+    """Protocol that closes each connection at once."""
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        """Close the connection."""
         transport.close()

@@ -1,4 +1,4 @@
-"""The page that solepath serves itself: a few files, and the session's scene over one WebSocket (protocol/page.md).
+"""Serves the page: a few files, and the session's scene over one WebSocket (protocol/page.md).
 
     async with Page(scene) as page:
         print(page.url)
@@ -21,32 +21,33 @@ from aiohttp import web
 
 from ..messages import Command
 from ..scene.scene import Scene
-from .access import AccessDenied, PageAccess, listen, reached_at
-from .connection import HEADERS, BrowserConnection, NoRoom
-from .offences import Offences
+from .access import AccessDenied, PageAccess, listen, url_host
+from .client_errors import ClientErrors
+from .connection import HEADERS, BrowserConnection, ImmediateClose
 from .watcher import Watcher
 
 MOST_WATCHERS = 8
 MOST_CONNECTIONS = 64
-"""At once, with those that ask for files or for nothing."""
+"""Connections at one time, with those that request files or nothing."""
 IDLE = 10.0
-"""s after which a connection that asks for nothing, or for half of something, is closed."""
+"""Time after which a connection that requests nothing, or half of something, is closed, s."""
 METHODS = ("GET", "HEAD")
 KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 
 
 class Page:
-    """Serves `scene` while the context lasts. `host`: where; beyond this machine whoever watches needs the token.
-    `port`: 0 for any free one, None for 8765 or, where that is taken, a free one. `token`: random when it is None.
-    `commands`: called with what a watcher who has the token asks for; None where there is nothing to play.
+    """Serves `scene` while the context lasts.
 
-    A watcher gets what has changed 1 to 30 times a second, less often when it is slow to read;
-    there are MOST_WATCHERS at most. `port` and `url` raise RuntimeError before it is entered. For one event loop:
-    `scene` takes events from the same.
+    `host` is where it listens; on one that other machines reach, watchers need the token. `port` is 0 for any free one,
+    None for 8765 or, when that is taken, a free one. `token` is random when it is None. `commands` is called with each
+    command of a watcher who has the token; it is None where there is nothing to play.
 
-    `scene` may be replaced, as after a seek: every watcher gets the new one whole. OSError on entering when it cannot
-    listen there.
-    """
+    A watcher gets the changes 1 to 30 times a second, less often when it reads slowly; there are at most MOST_WATCHERS.
+    `port` and `url` raise RuntimeError before the context is entered. The page is for one event loop, from which
+    `scene` also takes its events.
+
+    `scene` may be replaced, as after a seek: every watcher gets the new one whole. Entering raises OSError when it
+    cannot listen there."""
 
     def __init__(
         self,
@@ -59,7 +60,7 @@ class Page:
     ) -> None:
         self.scene = scene
         self.commands = commands
-        self.offences = Offences(logging.getLogger("solepath.show.page"))
+        self.client_errors = ClientErrors(logging.getLogger("solepath.show.page"))
         self._host = host.removeprefix("[").removesuffix("]")
         self._port = port
         self._access = PageAccess(self._host, secrets.token_urlsafe(16) if token is None else token)
@@ -70,15 +71,15 @@ class Page:
 
     @property
     def port(self) -> int:
-        """Where it listens."""
+        """Port on which it listens."""
         if self._port is None:
             raise RuntimeError("the page is not served yet")
         return self._port
 
     @property
     def url(self) -> str:
-        """For a browser; it holds the token, in the part that a browser keeps to itself."""
-        return f"http://{reached_at(self._host)}:{self.port}/#token={self._access.token}"
+        """Address for a browser, with the token in the part that a browser does not send."""
+        return f"http://{url_host(self._host)}:{self.port}/#token={self._access.token}"
 
     async def __aenter__(self) -> Page:
         socket = listen(self._host, self._port)
@@ -96,15 +97,15 @@ class Page:
             await self._server.shutdown(1.0)
 
     def _connect(self) -> asyncio.BaseProtocol:
-        """What talks to somebody who has just connected."""
+        """Return the protocol for a new connection."""
         if self._server is None or len(self._server.connections) >= MOST_CONNECTIONS:
-            self.offences.tell(f"more than {MOST_CONNECTIONS} connections at once: one is refused")
-            return NoRoom()
+            self.client_errors.report(f"more than {MOST_CONNECTIONS} connections at once: one is refused")
+            return ImmediateClose()
         return BrowserConnection(self._server, IDLE)
 
     async def _answer(self, request: web.BaseRequest) -> web.StreamResponse:
         connection = cast(BrowserConnection, request.protocol)
-        connection.asked = True
+        connection.has_requested = True
         try:
             host = request.headers.get("Host")
             self._access.check_host(host)
@@ -114,11 +115,11 @@ class Page:
                 with connection.watching():
                     return await self._watched(request, host or "")
             return self._file(request)
-        except AccessDenied as refused:
-            self.offences.tell(f"{refused}: refused")
-            return web.Response(status=refused.status, text=f"{refused}\n", headers=HEADERS)
+        except AccessDenied as denied:
+            self.client_errors.report(f"{denied}: refused")
+            return web.Response(status=denied.status, text=f"{denied}\n", headers=HEADERS)
         except ConnectionError:
-            return web.Response(headers=HEADERS)  # to nobody: who asked is gone
+            return web.Response(headers=HEADERS)  # the client has gone, so nobody gets it
         except Exception:
             logging.getLogger("solepath.show.page").exception("the page could not answer")
             return web.Response(status=500, headers=HEADERS)
@@ -148,7 +149,7 @@ class Page:
 
 
 def _files(folder: Traversable) -> dict[str, tuple[bytes, str]]:
-    """By name: what the page is made of, and of which kind it is. Nothing else can be asked for."""
+    """Return the files of the page by name, with content and content type; nothing else can be requested."""
     found = {}
     for one in folder.iterdir():
         kind = KINDS.get(f".{one.name.rpartition('.')[2]}")

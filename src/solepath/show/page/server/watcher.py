@@ -1,4 +1,4 @@
-"""One browser that watches: the newest state at most 30 times a second, at the pace at which it reads."""
+"""Serves one browser that watches: the newest state at most 30 times a second, at the pace at which it reads."""
 
 from __future__ import annotations
 
@@ -12,31 +12,31 @@ from aiohttp import WSCloseCode, WSMsgType, web
 from ..messages import LONGEST, Command, CommandError, encode, parse_command
 from ..scene.scene import Cursor, Scene
 from .access import AccessDenied
+from .client_errors import ClientErrors
 from .connection import HEADERS
-from .offences import Offences
 
 INTERVAL = 1.0 / 30.0
-"""s from one frame to the next, in the mean."""
+"""Mean time from one frame to the next, s."""
 HEARTBEAT = 1.0
-"""s; a frame comes at least this often, so that a page knows that it is still heard."""
+"""Longest time between two frames, s, so that a page knows that the server is there."""
 PATIENCE = 10.0
-"""s for which a browser may read nothing."""
+"""Time for which a browser may read nothing, s."""
 ALIVE = 20.0
-"""s after which a browser that sends nothing is asked for a sign of life (ping)."""
+"""Time after which a browser that sends nothing gets a ping, s."""
 
 
-class Showing(Protocol):
-    """What a watcher needs of a page."""
+class WatchedPage(Protocol):
+    """The members of a page that a watcher uses."""
 
     scene: Scene
-    offences: Offences
+    client_errors: ClientErrors
     commands: Callable[[Command], None] | None
 
 
 class Watcher:
-    """`steers`: it has shown the token."""
+    """One browser that watches; `steers` says that it has shown the token."""
 
-    def __init__(self, page: Showing, steers: bool) -> None:
+    def __init__(self, page: WatchedPage, steers: bool) -> None:
         self._page = page
         self._steers = steers
         self._socket = web.WebSocketResponse(
@@ -49,7 +49,7 @@ class Watcher:
         self._cursor: Cursor | None = None
 
     async def watch(self, request: web.BaseRequest) -> web.StreamResponse:
-        """From the handshake to the end. Refused when the request is none for a WebSocket."""
+        """Serve the browser from the handshake to the end; AccessDenied when the request is not for a WebSocket."""
         try:
             await self._socket.prepare(request)
         except web.HTTPException:
@@ -67,7 +67,7 @@ class Watcher:
         return self._socket
 
     async def end(self) -> None:
-        """The page is going away: what has changed since the last frame, and the end."""
+        """Send what has changed since the last frame, then close: the page is going away."""
         try:
             async with asyncio.timeout(1.0):
                 if self._unread():
@@ -84,7 +84,7 @@ class Watcher:
         try:
             await self._show_all(transport)
         except TimeoutError:
-            self._page.offences.tell(f"a browser that had read nothing for {PATIENCE:.0f} s was let go")
+            self._page.client_errors.report(f"a browser that had read nothing for {PATIENCE:.0f} s was let go")
             self._abort()
         except ConnectionError:
             self._abort()
@@ -93,7 +93,7 @@ class Watcher:
             self._abort()
 
     async def _show_all(self, transport: asyncio.WriteTransport) -> None:
-        """TimeoutError when the browser does not read."""
+        """Send frames until the socket closes; TimeoutError when the browser does not read."""
         loop = asyncio.get_running_loop()
         sent = due = loop.time()
         while not self._socket.closed:
@@ -109,11 +109,11 @@ class Watcher:
                     async with asyncio.timeout(PATIENCE):
                         await self._socket.send_str(encode(message))
                     sent = loop.time()
-            due = max(due + INTERVAL, loop.time())  # what a sleep oversleeps does not add up
+            due = max(due + INTERVAL, loop.time())  # a sleep that lasts too long does not delay later frames
             await asyncio.sleep(due - loop.time())
 
     def _next(self) -> dict[str, Any] | None:
-        """What to send now; None where nothing has changed."""
+        """Return the next message; None when nothing has changed."""
         newest, message = self._page.scene, None
         if self._cursor is None or newest is not self._scene:
             message, self._cursor = newest.whole()
@@ -125,7 +125,7 @@ class Watcher:
         return message
 
     def _unread(self) -> bool:
-        """What was sent is still here, since the browser has not read what went before."""
+        """Return whether data is still in the buffer because the browser has not read what came before."""
         transport = self._transport
         return transport is not None and transport.get_write_buffer_size() > 0
 
@@ -134,25 +134,25 @@ class Watcher:
             self._transport.abort()
 
     async def _listen(self) -> None:
-        offences = self._page.offences
+        client_errors = self._page.client_errors
         async for message in self._socket:
             if message.type is WSMsgType.TEXT:
                 wrong = self._take(message.data)
             elif message.type is WSMsgType.BINARY:
                 wrong = WSCloseCode.UNSUPPORTED_DATA, "a browser sent bytes instead of text"
             else:
-                code = getattr(message.data, "code", None)  # the library has closed the connection with it
-                if code in REFUSED_BY_LIBRARY:
-                    offences.tell(REFUSED_BY_LIBRARY[code])
+                code = getattr(message.data, "code", None)  # the code with which the library has closed the connection
+                if code in CLOSED_BY_LIBRARY:
+                    client_errors.report(CLOSED_BY_LIBRARY[code])
                 return
             if wrong is not None:
                 code, why = wrong
-                offences.tell(why)
+                client_errors.report(why)
                 await self._socket.close(code=code, message=why.encode()[:120])
                 return
 
     def _take(self, text: str) -> tuple[int, str] | None:
-        """A message of the page; with which code and why the connection is to be closed, None when all is well."""
+        """Execute a message of the page; return the close code and reason when it is wrong, else None."""
         try:
             command = parse_command(text)
         except CommandError as error:
@@ -166,9 +166,9 @@ class Watcher:
         return None
 
 
-REFUSED_BY_LIBRARY: dict[int | None, str] = {
+CLOSED_BY_LIBRARY: dict[int | None, str] = {
     WSCloseCode.PROTOCOL_ERROR: "a browser broke the rules of WebSockets",
     WSCloseCode.INVALID_TEXT: "a browser sent text that is not UTF-8",
     WSCloseCode.MESSAGE_TOO_BIG: "a browser sent more than a message may hold",
 }
-"""Close code -> what was wrong before any message was whole."""
+"""Close code, with the error that it means, of connections that the library closed before a message was whole."""

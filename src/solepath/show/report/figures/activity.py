@@ -1,4 +1,4 @@
-"""What the wearer did when."""
+"""Draws the activities of the wearer over time."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from xml.etree.ElementTree import Element
 
 from ....types import Activity
 from ...tables.plan import px
-from ..clock import ReportClock, lasted
+from ..clock import ReportClock, duration_text
 from ..markup import add, figure
 from .axes import AxisScale, drawing, grid, ticks, write
 
@@ -15,18 +15,18 @@ LEFT = 96.0
 
 
 def named(activity: Activity) -> str:
-    """In words: "stairs up"."""
+    """Return an activity in words, such as "stairs up"."""
     return activity.value.replace("_", " ").lower()
 
 
 def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]], clock: ReportClock) -> bool:
-    """A row for every activity, a bar for every time that it was done; False where none was told."""
+    """Draw a row for every activity and a bar for every time that it was done; return False when there was none."""
     rows = [one for one in Activity if any(what is one for _, _, what in spans)]
     if not rows:
         return False
     height = 8.0 + ROW * len(rows) + 36.0
     total = {one: sum([b - a for a, b, what in spans if what is one]) for one in rows}
-    what = "; ".join([f"{named(one)} {lasted(total[one])}" for one in rows])
+    what = "; ".join([f"{named(one)} {duration_text(total[one])}" for one in rows])
     svg = drawing("activities", "Activities over time", f"How long in all: {what}.", height)
     x = AxisScale(*clock.span, LEFT, 390.0)
     bottom = 8.0 + ROW * len(rows)
@@ -38,8 +38,8 @@ def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]],
         bars = []
         for a, b, did in spans:
             if did is one:
-                begin, end = x.at(clock.of(a)), x.at(clock.of(b))
-                bars.append(f"M{px(begin)} {px(y + 4.0)}H{px(max(end, begin + 0.6))}v{px(ROW - 8.0)}H{px(begin)}z")
+                start, end = x.at(clock.of(a)), x.at(clock.of(b))
+                bars.append(f"M{px(start)} {px(y + 4.0)}H{px(max(end, start + 0.6))}v{px(ROW - 8.0)}H{px(start)}z")
         add(svg, "path", d="".join(bars), class_="bar")
     write(svg, 0.5 * (LEFT + 390.0), bottom + 30.0, clock.label, "label", "middle")
     figure(parent, svg, "Activities over time")

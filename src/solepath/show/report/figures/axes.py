@@ -1,6 +1,6 @@
 """Axes for a drawing: ticks at round numbers, a scale from values to pixels, a chart with both.
 
-A drawing is 400 px wide and scales with the page: two beside one another on a desk, one on a phone.
+A drawing is 400 px wide and scales with the page: two stand side by side on a desk, one on a phone.
 """
 
 from __future__ import annotations
@@ -16,13 +16,13 @@ from ..markup import add
 
 WIDTH = 400.0
 LEFT, RIGHT, TOP, BOTTOM = 40.0, 10.0, 24.0, 36.0
-"""Margins of a chart, px."""
+"""Left, right, top and bottom margins of a chart, px."""
 
 Point = tuple[float, float]
 
 
 def ticks(low: float, high: float, most: int = 6) -> list[float]:
-    """At most so many multiples of 1, 2 or 5 times a power of ten within [low, high]; at least one value."""
+    """Return at most so many multiples of 1, 2 or 5 times a power of ten within [low, high]; at least one value."""
     span = high - low
     if not (isfinite(span) and span > 1e-9 * max(abs(low), abs(high), 1e-300)):
         return [low]
@@ -35,8 +35,8 @@ def ticks(low: float, high: float, most: int = 6) -> list[float]:
     return [low]
 
 
-def told(values: Sequence[float]) -> list[str]:
-    """Ticks in words: as many digits as it takes to tell them apart, the same for all."""
+def tick_labels(values: Sequence[float]) -> list[str]:
+    """Return labels of ticks, all with as many digits as it takes to distinguish them."""
     if len(values) < 2:
         return [f"{value:.3g}" for value in values]
     step = abs(values[1] - values[0])
@@ -45,7 +45,7 @@ def told(values: Sequence[float]) -> list[str]:
 
 
 def around(values: Iterable[float], *, least: float, zero: bool = False) -> tuple[float, float]:
-    """Lowest and highest with a margin, at least `least` apart, with zero among them when asked."""
+    """Return the lowest and the highest value with a margin, at least `least` apart; with `zero`, 0 is among them."""
     known = list(values)
     low, high = min(known, default=0.0), max(known, default=0.0)
     if zero:
@@ -58,7 +58,7 @@ def around(values: Iterable[float], *, least: float, zero: bool = False) -> tupl
 
 @frozen
 class AxisScale:
-    """From values to pixels."""
+    """Linear scale from values to pixels."""
 
     low: float
     high: float
@@ -66,12 +66,15 @@ class AxisScale:
     end: float
 
     def at(self, value: float) -> float:
+        """Return the pixel of a value."""
         span = self.high - self.low
         return self.start if span <= 0.0 else self.start + (value - self.low) / span * (self.end - self.start)
 
 
 def drawing(name: str, title: str, what: str, height: float) -> Element:
-    """An empty <svg>. `name`: its own on the page; `title` and `what`: for who cannot see it."""
+    """Return an empty <svg>.
+
+    `name` is its own on the page; `title` and `what` are for readers who cannot see it."""
     svg = Element("svg", {"viewBox": f"0 0 {px(WIDTH)} {px(height)}", "role": "img"})
     svg.set("aria-labelledby", f"{name}-title {name}-what")
     add(svg, "title", title, id=f"{name}-title")
@@ -80,35 +83,35 @@ def drawing(name: str, title: str, what: str, height: float) -> Element:
 
 
 def write(parent: Element, x: float, y: float, words: str, kind: str = "", anchor: str = "start") -> Element:
-    """Words at a place; `kind`: classes of the style sheet."""
+    """Write words at a place; `kind` holds classes of the style sheet."""
     return add(parent, "text", words, x=px(x), y=px(y), class_=kind, text_anchor=anchor)
 
 
 def line(points: Iterable[Point]) -> str:
-    """A path through the points; what would not be seen is left out."""
-    told: list[str] = []
+    """Return a path through the points, without those that would not be seen."""
+    commands: list[str] = []
     last: tuple[str, str] | None = None
     for x, y in points:
         here = (px(x), px(y))
         if here != last:
-            told.append(f"{'L' if told else 'M'}{here[0]} {here[1]}")
+            commands.append(f"{'L' if commands else 'M'}{here[0]} {here[1]}")
             last = here
-    return "".join(told) if len(told) != 1 else f"{told[0]}h0"
+    return "".join(commands) if len(commands) != 1 else f"{commands[0]}h0"
 
 
 def marks(points: Iterable[Point], shape: str) -> str:
-    """One path with the same shape at every point."""
+    """Return one path with the same shape at every point."""
     return "".join([f"M{px(x)} {px(y)}{shape}" for x, y in points])
 
 
 def grid(svg: Element, x: AxisScale, y: AxisScale, across: Sequence[float], up: Sequence[float]) -> Element:
-    """Lines at these values of x and y, a path, and the values beside the axes."""
+    """Draw a grid at these values of x and y, with the values beside the axes; return its path."""
     path = add(svg, "path", class_="grid")
     lines = []
-    for value, words in zip(across, told(across), strict=True):
+    for value, words in zip(across, tick_labels(across), strict=True):
         lines.append(f"M{px(x.at(value))} {px(y.end)}V{px(y.start)}")
         write(svg, x.at(value), y.start + 14.0, words, "tick", "middle")
-    for value, words in zip(up, told(up), strict=True):
+    for value, words in zip(up, tick_labels(up), strict=True):
         lines.append(f"M{px(x.start)} {px(y.at(value))}H{px(x.end)}")
         write(svg, x.start - 5.0, y.at(value) + 4.0, words, "tick", "end")
     path.set("d", "".join(lines))
@@ -117,7 +120,7 @@ def grid(svg: Element, x: AxisScale, y: AxisScale, across: Sequence[float], up: 
 
 @define
 class Chart:
-    """A drawing with two axes. `x`, `y`: from values to its pixels."""
+    """A drawing with two axes; `x` and `y` transform values to its pixels."""
 
     svg: Element
     x: AxisScale
@@ -127,7 +130,7 @@ class Chart:
     def of(
         cls, svg: Element, x: tuple[float, float], y: tuple[float, float], labels: tuple[str, str], height: float
     ) -> Chart:
-        """With a grid and its labels; that of y stands above the axis."""
+        """Make a chart with a grid and labels; that of y stands above the axis."""
         made = cls(svg, AxisScale(*x, LEFT, WIDTH - RIGHT), AxisScale(*y, height - BOTTOM, TOP))
         grid(svg, made.x, made.y, ticks(*x, 6), ticks(*y, 5))
         write(svg, 0.5 * (LEFT + WIDTH - RIGHT), height - 5.0, labels[0], "label", "middle")
@@ -135,14 +138,15 @@ class Chart:
         return made
 
     def at(self, x: float, y: float) -> Point:
+        """Return the pixel of a point."""
         return self.x.at(x), self.y.at(y)
 
     def path(self, points: Iterable[Point], kind: str) -> None:
-        """A line through the values."""
+        """Draw a line through the values."""
         if d := line([self.at(x, y) for x, y in points]):
             add(self.svg, "path", d=d, class_=kind)
 
     def marks(self, points: Iterable[Point], shape: str, kind: str) -> None:
-        """The same shape at every value."""
+        """Draw the same shape at every value."""
         if d := marks([self.at(x, y) for x, y in points], shape):
             add(self.svg, "path", d=d, class_=kind)

@@ -1,4 +1,4 @@
-"""The mean gait cycle: when each foot is on the ground, from 0 to 100 % of the cycle."""
+"""Draws the mean gait cycle: when each foot is on the ground, from 0 to 100 % of the cycle."""
 
 from __future__ import annotations
 
@@ -11,43 +11,46 @@ from ..markup import add, figure
 from .axes import AxisScale, drawing, write
 
 BARS = (30.0, 66.0)
-"""Upper edges, px."""
+"""Upper edges of the bars, px."""
 THICK = 24.0
 LEAST = 0.005
-"""Of the cycle: what is shorter is not told."""
+"""Share of the cycle below which a span is left out."""
 
 
-def spans(begin: float, share: float) -> list[tuple[float, float]]:
-    """Where within [0, 1] a contact is that begins at `begin` and lasts for `share` of the cycle, wrapped round."""
-    begin %= 1.0
-    end = begin + min(max(share, 0.0), 1.0)
-    return [(begin, end)] if end <= 1.0 else [(0.0, end - 1.0), (begin, 1.0)]
+def spans(start: float, share: float) -> list[tuple[float, float]]:
+    """Return where within [0, 1] a contact is, wrapped round.
+
+    It starts at `start` and lasts for `share` of the cycle."""
+    start %= 1.0
+    end = start + min(max(share, 0.0), 1.0)
+    return [(start, end)] if end <= 1.0 else [(0.0, end - 1.0), (start, 1.0)]
 
 
 def contacts(parameters: GaitParameters) -> dict[Foot, list[tuple[float, float]]]:
-    """Of each foot whose stance is known, shares of the cycle that begins with the left foot's contact, or with the
-    right one's where that is the only one."""
+    """Return the contacts of each foot whose stance is known, as shares of the cycle.
+
+    The cycle starts with the left foot's contact, or with the right one's when that is the only one."""
     stance = {foot: one.share("stance_time") for foot, one in parameters.feet.items()}
-    begins = {foot: 0.0 for foot in stance}
+    starts = {foot: 0.0 for foot in stance}
     left, right = parameters.feet.get(Foot.LEFT), parameters.feet.get(Foot.RIGHT)
     if left is not None and right is not None:
         if left.phase is not None:
-            begins[Foot.RIGHT] = left.phase.mean
+            starts[Foot.RIGHT] = left.phase.mean
         elif right.phase is not None:
-            begins[Foot.RIGHT] = 1.0 - right.phase.mean
+            starts[Foot.RIGHT] = 1.0 - right.phase.mean
         else:
-            del stance[Foot.RIGHT]  # nobody knows when it comes down
-    return {foot: spans(begins[foot], share) for foot, share in stance.items() if share is not None}
+            del stance[Foot.RIGHT]  # its contact time relative to the left foot is not known
+    return {foot: spans(starts[foot], share) for foot, share in stance.items() if share is not None}
 
 
 def overlaps(one: list[tuple[float, float]], other: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """What both have in common."""
+    """Return the spans that both have in common."""
     both = [(max(a, c), min(b, d)) for a, b in one for c, d in other]
     return sorted([(a, b) for a, b in both if b - a > LEAST])
 
 
 def neither(one: list[tuple[float, float]], other: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """What none of them has: both feet are in the air."""
+    """Return the spans that neither has: both feet are in the air."""
     free, last = [], 0.0
     for a, b in [*sorted(one + other), (1.0, 1.0)]:
         if a > last:
@@ -57,7 +60,7 @@ def neither(one: list[tuple[float, float]], other: list[tuple[float, float]]) ->
 
 
 def cycle_figure(parent: Element, parameters: GaitParameters) -> bool:
-    """Bars of both feet; False where no stance is known."""
+    """Draw bars of both feet; return False when no stance is known."""
     known = contacts(parameters)
     if not known:
         return False

@@ -1,4 +1,4 @@
-"""What the soles bore: maps of both, with the path of the centre of pressure, and the force over a contact."""
+"""Draws the load of the soles: maps with the path of the centre of pressure, and the force over a contact."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from .axes import Chart, around, drawing, line, write
 from .stride import legend
 
 SHADES = ("#fff7e0", "#fee0a0", "#fdbb6b", "#f98b4a", "#e8562f", "#c0241f", "#7d0b1e")
-"""From no load to the highest: darker is more, on a grey printer too."""
+"""Colours from no load to the highest: darker is more, on a grey printer too."""
 TALL = 250.0
-"""Of a sole, px."""
+"""Height of a sole, px."""
 THIRDS = ("heel", "midfoot", "forefoot")
 
 
 def pressure_figures(parent: Element, soles: dict[Foot, ReportSole]) -> bool:
-    """Maps and curves of what is known; False where there is no pressure."""
+    """Draw maps and curves of what is known; return False when there is no pressure."""
     pressed = {foot: soles[foot] for foot in Foot if foot in soles and soles[foot].samples}
     if not pressed:
         return False
@@ -54,7 +54,7 @@ def _unit(soles: dict[Foot, ReportSole]) -> str:
 
 
 def radius(layout: Layout) -> float:
-    """As large as a cell may be drawn without hiding its neighbours, m."""
+    """Return the largest radius of a drawn cell that does not hide its neighbours, m."""
     places = [(cell.x, cell.y) for cell in layout.cells]
     if len(places) < 2:
         return 0.01
@@ -78,13 +78,13 @@ def _map(
         return
     highest = max([max(values) for values in loads.values()])
     unit = _unit({foot: soles[foot] for foot in maps})
-    said = []
+    texts = []
     for foot, values in loads.items():
         k = max(range(len(values)), key=values.__getitem__)
         x = maps[foot].cells[k].x / max(maps[foot].length, 1e-6)
         load = f"{values[k]:.3g} {soles[foot].unit} a cell"
-        said.append(f"{foot}: highest {load}, at {100.0 * x:.0f} % of the length from the heel")
-    svg = drawing(f"pressure-{name}", title, f"{'; '.join(said)}.", TALL + 66.0)
+        texts.append(f"{foot}: highest {load}, at {100.0 * x:.0f} % of the length from the heel")
+    svg = drawing(f"pressure-{name}", title, f"{'; '.join(texts)}.", TALL + 66.0)
     for foot, layout in maps.items():
         shares = [load / highest if highest > 0.0 else 0.0 for load in loads[foot]]
         _sole(svg, foot, layout, shares, soles[foot] if paths else None)
@@ -93,14 +93,16 @@ def _map(
         add(svg, "rect", x=px(110.0 + 6.0 * k), y=px(y), width="6.4", height="9", fill=blend(SHADES, k / 29.0))
     write(svg, 104.0, y + 9.0, "0", "tick", "end")
     write(svg, 296.0, y + 9.0, f"{highest:.3g} {unit} a cell", "tick")
-    notes = [f"{one[0].upper()}{one[1:]}." for one in said]
+    notes = [f"{one[0].upper()}{one[1:]}." for one in texts]
     if paths:
         notes.append("Line: mean path of the centre of pressure, from heel-strike (ring) on; thin: single steps.")
     figure(parent, svg, title, *notes)
 
 
 def _sole(svg: Element, foot: Foot, layout: Layout, shares: list[float], walked: ReportSole | None) -> None:
-    """A sole seen from above, the toe up. `shares`: of the highest load; `walked`: whose paths are drawn on it."""
+    """Draw a sole seen from above, the toe up.
+
+    `shares` are the loads over the highest one. `walked` is the sole whose paths are drawn on it."""
     middle = 110.0 if foot is Foot.LEFT else 290.0
     xs, ys = [cell.x for cell in layout.cells], [cell.y for cell in layout.cells]
     r = radius(layout)
@@ -129,8 +131,8 @@ def _sole(svg: Element, foot: Foot, layout: Layout, shares: list[float], walked:
 def _forces(parent: Element, soles: dict[Foot, ReportSole]) -> None:
     curves = {foot: [force / sole.contacts for force in sole.forces] for foot, sole in soles.items()}
     unit = _unit(soles)
-    said = [f"{foot}: at most {max(curve):.0f} {soles[foot].unit}" for foot, curve in curves.items()]
-    svg = drawing("force", "Mean force over a contact", f"{'; '.join(said)}.", 190.0)
+    texts = [f"{foot}: at most {max(curve):.0f} {soles[foot].unit}" for foot, curve in curves.items()]
+    svg = drawing("force", "Mean force over a contact", f"{'; '.join(texts)}.", 190.0)
     values = [value for curve in curves.values() for value in curve]
     labels = ("% of the contact, from heel-strike to toe-off", f"sum of the cells, {unit}")
     chart = Chart.of(svg, (0.0, 100.0), around(values, least=1.0, zero=True), labels, 190.0)
@@ -142,7 +144,7 @@ def _forces(parent: Element, soles: dict[Foot, ReportSole]) -> None:
 
 
 def _thirds(parent: Element, maps: dict[Foot, Layout], loads: dict[Foot, list[float]]) -> None:
-    """How the load is shared out over the thirds of the insole's length."""
+    """Add a table of the load's shares on the thirds of the insole's length."""
     rows = []
     for k, name in enumerate(THIRDS):
         row = [f"{name} third, %"]

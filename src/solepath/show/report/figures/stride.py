@@ -1,4 +1,4 @@
-"""Stride length, stride time and speed of each foot over time."""
+"""Draws stride length, stride time and speed of each foot over time."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from .axes import Chart, around, drawing, write
 
 HEIGHT = 190.0
 DISC, CROSS = "h0", "m-2.6-2.6l5.2 5.2m0-5.2l-5.2 5.2"
-"""The left foot's mark and the right one's: told apart without colours too."""
+"""Marks of the left and the right foot, which differ without colours too."""
 SHAPES = {Foot.LEFT: DISC, Foot.RIGHT: CROSS}
 DENSE = 240
-"""Strides of a foot."""
+"""Number of strides of a foot above which its marks would hide one another."""
 TURNED = 0.35
-"""rad: a stride that turns by more is marked as one in a turn (20 degrees)."""
+"""Turn above which a stride is marked as one in a turn, rad (20 degrees)."""
 
 
 LEAST = 0.2
-"""Of the unit, that an axis covers."""
+"""Smallest range of an axis, in its unit."""
 PANELS = (("stride_length", "Stride length", "m"), ("stride_time", "Stride time", "s"), ("speed", "Speed", "m/s"))
 
 
 def stride_figures(parent: Element, strides: dict[Foot, list[GaitCycleMeasured]], clock: ReportClock) -> bool:
-    """A chart for each of the three; False where there are no strides."""
+    """Draw a chart for each of the three; return False when there are no strides."""
     if not any(strides.values()):
         return False
     for name, title, unit in PANELS:
@@ -49,17 +49,17 @@ def stride_figures(parent: Element, strides: dict[Foot, list[GaitCycleMeasured]]
 
 
 def turns(one: GaitCycleMeasured) -> bool:
-    """Whether it is marked as a stride in a turn."""
+    """Return whether a stride is marked as one in a turn."""
     return one.turning_angle is not None and abs(one.turning_angle) > TURNED
 
 
 def dense(some: Sequence[object]) -> bool:
-    """Whether the marks of so many strides would hide one another."""
+    """Return whether the marks of so many strides would hide one another."""
     return len(some) > DENSE
 
 
 def means(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Of as many neighbours in a row as make some 60 points of all."""
+    """Return means of as many consecutive points as give some 60 points in all."""
     count = max(len(points) // 60, 1)
     groups = [points[k : k + count] for k in range(0, len(points), count)]
     return [(sum([x for x, _ in one]) / len(one), sum([y for _, y in one]) / len(one)) for one in groups]
@@ -93,7 +93,7 @@ def _panel(
 
 
 def legend(svg: Element, feet: Sequence[Foot], *, lines: bool = False) -> None:
-    """Which mark, or which of the lines, is whose, at the right above a chart: left solid, right dashed."""
+    """Draw which mark or line is of which foot, above a chart at the right: left solid, right dashed."""
     x = 390.0
     for foot in reversed(feet):
         write(svg, x, 12.0, foot.value, "tick", "end")

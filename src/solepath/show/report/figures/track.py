@@ -1,4 +1,4 @@
-"""Where the wearer went: in the plane, on the floor plan where there is one, and in height."""
+"""Draws the wearer's track from above, on the floor plan when there is one, and its height."""
 
 from __future__ import annotations
 
@@ -14,32 +14,33 @@ from ....types import Foot
 from ...tables.plan import PlanPicture, px
 from ..clock import ReportClock
 from ..markup import add, figure
-from .axes import WIDTH, AxisScale, Chart, Point, around, drawing, grid, line, marks, ticks, told, write
+from .axes import WIDTH, AxisScale, Chart, Point, around, drawing, grid, line, marks, tick_labels, ticks, write
 from .stride import SHAPES, legend
 
 PRINTS = 160
-"""Footprints: more of them would hide the way."""
+"""Footprints that are drawn at the most: more would hide the track."""
 TALLEST = 420.0
-"""Of the drawing of a track, px."""
+"""Largest height of the drawing of a track, px."""
 BESIDE = 1.2
-"""m: farther from the wearer's way no foot of a stride is; who has two tracks that are has tracks that drift apart."""
+"""Largest distance of a stride's foot from the wearer's track, m; more means that the feet's tracks drift apart."""
 SMALLEST = 4.0
-"""m that the longer side shows at least, so that standing still is not magnified."""
+"""Length that the longer side shows at least, m, so that standing still is not magnified."""
 
 
-Stood = FootMoved | StrideTaken | WearerMoved
-"""What says where a foot or the wearer was, and when."""
-OfFeet = Mapping[Foot, Sequence[Stood]]
+TimedPosition = FootMoved | StrideTaken | WearerMoved
+"""Event with a position of a foot or the wearer, and its time."""
+FootPositions = Mapping[Foot, Sequence[TimedPosition]]
 
 
-def track_figure(parent: Element, way: Sequence[Stood], prints: OfFeet, clock: ReportClock) -> bool:
-    """The way from above, x to the right and y up; False where there is none. `way`: the wearer's, or a foot's where
-    only feet are known; `prints`: where the feet stood."""
+def track_figure(parent: Element, track: Sequence[TimedPosition], prints: FootPositions, clock: ReportClock) -> bool:
+    """Draw the track from above, x to the right and y up; return False when there is none.
+
+    `track` is the wearer's, or a foot's where only feet are known. `prints` is where the feet stood."""
     few = sum([len(some) for some in prints.values()]) <= PRINTS
-    off = _astray(way, prints)
+    off = _largest_offset(track, prints)
     beside = few and off <= BESIDE
-    every = [*way, *(one for some in prints.values() for one in some if beside)]
-    if len(way) < 2:
+    every = [*track, *(one for some in prints.values() for one in some if beside)]
+    if len(track) < 2:
         return False
     xs, ys = [one.position[0] for one in every], [one.position[1] for one in every]
     across, up = max(xs) - min(xs), max(ys) - min(ys)
@@ -53,21 +54,21 @@ def track_figure(parent: Element, way: Sequence[Stood], prints: OfFeet, clock: R
     wide, height = inner / scale, high * scale + top + bottom
     x = AxisScale(middle[0] - 0.5 * wide, middle[0] + 0.5 * wide, left, WIDTH - right)
     y = AxisScale(middle[1] - 0.5 * high, middle[1] + 0.5 * high, height - bottom, top)
-    length = sum([_apart(a, b) for a, b in zip(way, way[1:], strict=False)])
+    length = sum([_apart(a, b) for a, b in zip(track, track[1:], strict=False)])
     what = f"The track from above, {across:.1f} m by {up:.1f} m, {length:.0f} m long as drawn."
     svg = drawing("track", "Track from above", what, height)
     _grid(svg, x, y)
 
-    def at(one: Stood) -> Point:
+    def at(one: TimedPosition) -> Point:
         return x.at(one.position[0]), y.at(one.position[1])
 
-    add(svg, "path", d=line([at(one) for one in way]), class_="way")
+    add(svg, "path", d=line([at(one) for one in track]), class_="way")
     if beside:
         for foot, some in prints.items():
             if d := marks([at(one) for one in some], SHAPES[foot]):
                 add(svg, "path", d=d, class_=f"mark {foot}")
-    _times(svg, way, at, clock)
-    for one, word, below in ((way[0], "start", -6.0), (way[-1], "end", 13.0)):
+    _times(svg, track, at, clock)
+    for one, word, below in ((track[0], "start", -6.0), (track[-1], "end", 13.0)):
         a, b = at(one)
         add(svg, "circle", cx=px(a), cy=px(b), r="4.5", class_=word)
         aside, anchor = (-8.0, "end") if a > 0.85 * WIDTH else (8.0, "start")
@@ -81,23 +82,23 @@ def track_figure(parent: Element, way: Sequence[Stood], prints: OfFeet, clock: R
     return True
 
 
-def _astray(way: Sequence[Stood], prints: OfFeet) -> float:
-    """How far a print lies from where the wearer was then, at the most, m."""
-    times, farthest = [one.t for one in way], 0.0
-    for one in [one for some in prints.values() for one in some] if way else []:
+def _largest_offset(track: Sequence[TimedPosition], prints: FootPositions) -> float:
+    """Return the largest distance of a print from the wearer's position at that time, m."""
+    times, farthest = [one.t for one in track], 0.0
+    for one in [one for some in prints.values() for one in some] if track else []:
         k = bisect_left(times, one.t)
-        farthest = max(farthest, min([_apart(one, other) for other in way[max(k - 1, 0) : k + 1]], default=0.0))
+        farthest = max(farthest, min([_apart(one, other) for other in track[max(k - 1, 0) : k + 1]], default=0.0))
     return farthest
 
 
-def _apart(a: Stood, b: Stood) -> float:
+def _apart(a: TimedPosition, b: TimedPosition) -> float:
     (x, y, _), (x1, y1, _) = a.position, b.position
     dx, dy = x1 - x, y1 - y
     return float((dx * dx + dy * dy) ** 0.5)
 
 
 def _grid(svg: Element, x: AxisScale, y: AxisScale) -> None:
-    """One step for both axes."""
+    """Draw the grid with one step for both axes."""
     marked = ticks(x.low, x.high, 8)
     step = marked[1] - marked[0] if len(marked) > 1 else 1.0
     up = [k * step for k in range(int(y.low // step) + 1, int(y.high // step) + 1)]
@@ -105,15 +106,17 @@ def _grid(svg: Element, x: AxisScale, y: AxisScale) -> None:
     write(svg, 0.5 * (x.start + x.end), y.start + 29.0, "x and y, m", "label", "middle")
 
 
-def _times(svg: Element, way: Sequence[Stood], at: Callable[[Stood], Point], clock: ReportClock) -> None:
-    """A few times along the way."""
-    if len(way) < 3:
+def _times(
+    svg: Element, track: Sequence[TimedPosition], at: Callable[[TimedPosition], Point], clock: ReportClock
+) -> None:
+    """Write a few times along the track."""
+    if len(track) < 3:
         return
-    wanted = ticks(clock.of(way[0].t), clock.of(way[-1].t), 7)
+    tick_times = ticks(clock.of(track[0].t), clock.of(track[-1].t), 7)
     unit = "min" if clock.per_unit > 1.0 else "s"
     taken: list[Point] = []
-    for value, words in zip(wanted, told(wanted), strict=True):
-        near = min(way, key=lambda one: abs(clock.of(one.t) - value))
+    for value, words in zip(tick_times, tick_labels(tick_times), strict=True):
+        near = min(track, key=lambda one: abs(clock.of(one.t) - value))
         a, b = at(near)
         if all(abs(a - c) > 36.0 or abs(b - d) > 14.0 for c, d in taken):
             taken.append((a, b))
@@ -121,8 +124,8 @@ def _times(svg: Element, way: Sequence[Stood], at: Callable[[Stood], Point], clo
             write(svg, a, b - 6.0, f"{words} {unit}", "halo tick", "middle")
 
 
-def height_figure(parent: Element, heights: OfFeet, clock: ReportClock) -> bool:
-    """The height of the standing foot over time; False where there is none."""
+def height_figure(parent: Element, heights: FootPositions, clock: ReportClock) -> bool:
+    """Draw the height of the standing foot over time; return False when there is none."""
     known = {foot: some for foot, some in heights.items() if len(some) > 1}
     if not known:
         return False
@@ -137,17 +140,18 @@ def height_figure(parent: Element, heights: OfFeet, clock: ReportClock) -> bool:
     return True
 
 
-def plan_figure(parent: Element, plan: FloorPlan, told_of: Sequence[Placed | PlaceLost]) -> bool:
-    """The track on the floor plan, as `solepath track` draws it: levels where the wearer was; False where no place was
-    told."""
-    places = [one for one in told_of if isinstance(one, Placed)]
+def plan_figure(parent: Element, plan: FloorPlan, events: Sequence[Placed | PlaceLost]) -> bool:
+    """Draw the track on the floor plan, as `solepath track` does; return False when there is no place.
+
+    Only the levels where the wearer was are shown."""
+    places = [one for one in events if isinstance(one, Placed)]
     if not places:
         return False
     visited = {one.level for one in places}
     levels = tuple([level for level in plan.levels if level.id in visited])
     shown = evolve(plan, levels=levels) if levels else plan
     picture = PlanPicture(shown, width=380.0, height=420.0, columns=1)
-    for one in told_of:
+    for one in events:
         picture.add(one)
     svg = picture.drawn(plan.name or "Floor plan")
     svg.set("role", "img")

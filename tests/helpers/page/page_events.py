@@ -1,4 +1,4 @@
-"""Events that a page can be told of."""
+"""Events that a page can show."""
 
 from __future__ import annotations
 
@@ -31,34 +31,34 @@ from solepath.types.vector import ZERO
 
 
 def fed(items: Iterable[Packet | Sample], recipe: Recipe = DEFAULT) -> tuple[Session, list[Event]]:
-    """A session that has heard all of them, and what it said."""
+    """Return a session that was fed with all items, and its events."""
     session = Session(recipe, poses=True, pressures=True)
     return session, session.feed(items)
 
 
 @cache
 def rough() -> tuple[Session, tuple[Event, ...]]:
-    """A short walk of insoles over a bad radio."""
+    """Return a short walk of insoles over a bad radio."""
     session, events = fed(insoles(SHORT, ROUGH).packets)
     return session, tuple(events)
 
 
 def moved(t: float, foot: Foot = Foot.LEFT, known_at: float | None = None) -> FootMoved:
-    """A foot in the air above where it began."""
+    """Return an event of a foot in the air above its start."""
     at = t if known_at is None else known_at
     return FootMoved(t=t, known_at=at, foot=foot, position=ZERO, velocity=ZERO, phase=Phase.SWING)
 
 
 def eventful() -> list[Event]:
-    """The rough walk, and everything else that a page can be told."""
+    """Return the rough walk with events of all other kinds that a page shows."""
     events = list(rough()[1])
-    begin, end = events[0].known_at, events[-1].known_at
+    start, end = events[0].known_at, events[-1].known_at
     middle, third = events[len(events) // 2].known_at, events[len(events) // 3].known_at
     candidate = Candidate("0", (1.0, 2.0, 0.0), 0.5, 0.75, "stairs A")
     other = Candidate("1", (1.0, 2.0, 3.0), None, 0.25, "stairs A")
     others = [
-        Connected(t=begin, known_at=begin, site=Site.LEFT_FOOT, device="", name="Insole", signal=-60),
-        Connected(t=begin, known_at=begin, site=Site.PELVIS, device="", name="", signal=None),
+        Connected(t=start, known_at=start, site=Site.LEFT_FOOT, device="", name="Insole", signal=-60),
+        Connected(t=start, known_at=start, site=Site.PELVIS, device="", name="", signal=None),
         Placed(t=third, known_at=third, level="0", position=(1.0, 2.0, 0.0), spread=2.0, candidates=(candidate, other)),
         Placed(t=middle, known_at=middle, level="0", position=(1.0, 2.0, 0.0), spread=0.5, candidates=(candidate,)),
         PlaceLost(t=end, known_at=end, what="the track goes where the plan has no way"),

@@ -1,4 +1,4 @@
-"""Which devices a command listens to, by which Bluetooth, and for how long."""
+"""Options of the devices that a command listens to, by which Bluetooth, and for how long."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from ..common.failure import Failure, attended, need, note, positive
 if TYPE_CHECKING:
     from ...ble import DeviceConfig, Found
 
-LISTENED = 4.0
-"""s for which devices are looked for when none was named."""
-UNWATCHED = 30.0
-"""s that a command listens where there is no terminal to end it from, unless it is told how long."""
-UNATTENDED = 600.0
-"""s that emulated devices are served there."""
+SCAN_TIME = 4.0
+"""Time for which devices are searched when none was named, s."""
+LISTEN_TIME = 30.0
+"""Time for which a command listens without a terminal to end it from and without --duration, s."""
+SERVE_TIME = 600.0
+"""Time for which emulated devices are served without a terminal and without --duration, s."""
 
 
-def add_air(command: argparse.ArgumentParser) -> None:
-    """Which Bluetooth."""
+def add_via(command: argparse.ArgumentParser) -> None:
+    """Add --via, which Bluetooth to use, to a command."""
     command.add_argument(
         "--via",
         metavar="tcp:HOST:PORT",
@@ -29,8 +29,8 @@ def add_air(command: argparse.ArgumentParser) -> None:
 
 
 def add_devices(command: argparse.ArgumentParser) -> None:
-    """Which devices, and for how long."""
-    add_air(command)
+    """Add the options of the devices and of the time to a command."""
+    add_via(command)
     command.add_argument("--left", metavar="DEVICE", help="address or name of the device on the left foot")
     command.add_argument("--right", metavar="DEVICE", help="address or name of the device on the right foot")
     command.add_argument(
@@ -40,11 +40,11 @@ def add_devices(command: argparse.ArgumentParser) -> None:
         "--profile", metavar="NAME", help="the kind of all these devices, where their names do not say it"
     )
     command.add_argument("--pair", action="store_true", help="pair with the devices")
-    add_duration(command, UNWATCHED)
+    add_duration(command, LISTEN_TIME)
 
 
 def add_duration(command: argparse.ArgumentParser, unattended: float) -> None:
-    """For how long; `unattended`: s, without a terminal."""
+    """Add --duration to a command; `unattended` is the time without a terminal, s."""
     command.add_argument(
         "--duration",
         metavar="S",
@@ -53,8 +53,8 @@ def add_duration(command: argparse.ArgumentParser, unattended: float) -> None:
     )
 
 
-def wanted(options: argparse.Namespace) -> list[DeviceConfig]:
-    """The devices that were named; none when none was. Failure for a site or profile that there is not."""
+def named_devices(options: argparse.Namespace) -> list[DeviceConfig]:
+    """Return the devices that were named, none when none was. Failure for a site or profile that does not exist."""
     from ...ble import DeviceConfig
     from ...ble.config import check_configs
     from ...link.catalogue import BY_NAME
@@ -78,42 +78,43 @@ def wanted(options: argparse.Namespace) -> list[DeviceConfig]:
     return devices
 
 
-def chosen(found: list[Found], kind: str | None) -> list[DeviceConfig]:
-    """What to listen to when no device was named: two insoles, who say their feet, as soon as one is heard; or the one
-    other device, on the right foot as in `track`. `kind`: the profile that was named. Failure where that is not
-    clear."""
+def choose_devices(found: list[Found], kind: str | None) -> list[DeviceConfig]:
+    """Return the devices to listen to when none was named.
+
+    They are two insoles, which report their feet, as soon as one is found; else the one other device, on the right foot
+    as in `track`. `kind` is the profile that was named. Failure where that is not clear."""
     from ...ble import DeviceConfig
     from ...link.catalogue import BY_NAME
     from ...link.devices.insole import PROFILE as INSOLE
 
-    told = None if kind is None else BY_NAME[kind]
-    if told is not None:
-        known = [one for one in found if told.matches_name(one.name) or not {*told.services}.isdisjoint(one.services)]
+    named = None if kind is None else BY_NAME[kind]
+    if named is not None:
+        known = [one for one in found if named.matches_name(one.name) or not {*named.services}.isdisjoint(one.services)]
     else:
         known = [one for one in found if one.profile is not None]
     if any(one.profile is INSOLE for one in known):
         return [DeviceConfig(None, profile=INSOLE), DeviceConfig(None, profile=INSOLE)]
     if len(known) == 1:
         note(f"{known[0].name}: taken for the right foot's (--left {known[0].address} says otherwise)")
-        return [DeviceConfig(Site.RIGHT_FOOT, known[0].address, told or known[0].profile)]
-    if not known and told is not None:
-        raise Failure(f"no {told.name} is heard: switch it on, or say which device it is with --left and --right")
+        return [DeviceConfig(Site.RIGHT_FOOT, known[0].address, named or known[0].profile)]
+    if not known and named is not None:
+        raise Failure(f"no {named.name} is heard: switch it on, or say which device it is with --left and --right")
     if not known:
         raise Failure("no device is heard that is known here: switch it on, or say which with --left and --right")
-    heard = ", ".join(f"{one.address} ({one.name})" for one in known)
-    raise Failure(f"{len(known)} devices are heard, {heard}: say which is where with --left and --right")
+    names = ", ".join(f"{one.address} ({one.name})" for one in known)
+    raise Failure(f"{len(known)} devices are heard, {names}: say which is where with --left and --right")
 
 
 def need_bleak() -> None:
-    """Failure in words where the `ble` extra is not installed."""
+    """Raise Failure where the `ble` extra is not installed."""
     need("Bluetooth needs", "ble", "bleak", "bleak_retry_connector")
 
 
 def how_long(options: argparse.Namespace) -> float | None:
-    """--duration, or what goes without it."""
+    """Return --duration, or the default without it, s; None until Ctrl-C."""
     if options.duration is not None:
         return float(options.duration)
     if attended():
         return None
-    print(f"no terminal to end this from: it ends after {UNWATCHED:g} s (--duration says otherwise)", flush=True)
-    return UNWATCHED
+    print(f"no terminal to end this from: it ends after {LISTEN_TIME:g} s (--duration says otherwise)", flush=True)
+    return LISTEN_TIME

@@ -1,4 +1,4 @@
-"""What the page says in a browser is true of this moment, to eyes and to a screen reader alike."""
+"""Tests that texts and descriptions of the page fit the same moment, to eyes and to a screen reader alike."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from solepath.types import SITE_OF_FOOT, Foot
 FIGURES = ("cadence", "speed")
 WATCH = """() => {
     window.unlike = [];
-    window.said = 0;
+    window.changes = 0;
     const words = (id) => document.getElementById(id).textContent;
     for (const foot of ["left", "right"]) {
         const look = () => {
             const label = document.getElementById(`sole-${foot}`).ariaLabel;
             const [phase, force] = [words(`phase-${foot}`), words(`force-${foot}`).replace(" N", " newton")];
-            window.said += 1;
+            window.changes += 1;
             if (!label.includes(`: ${phase}, ${force}`)) window.unlike.push([label, phase, force]);
         };
         const sole = document.getElementById(`sole-${foot}`);
@@ -26,7 +26,7 @@ WATCH = """() => {
 }"""
 
 
-async def test_the_page_does_not_say_that_somebody_walks_of_whom_nothing_is_heard(chromium: Browser) -> None:
+async def test_the_page_shows_no_walking_while_no_sensor_sends(chromium: Browser) -> None:
     scene = after(12.0)
     async with opened(chromium, scene) as (view, _):
         await view.until("document.getElementById('activity').textContent === 'Walking'")
@@ -51,11 +51,11 @@ async def test_the_page_does_not_say_that_somebody_walks_of_whom_nothing_is_hear
 async def test_all_see_the_colours_that_the_session_chose(chromium: Browser) -> None:
     scene = after(12.0)
     top = scene.scales.units["kPa"].top
-    said = f"document.getElementById('scale-top').textContent.endsWith('{top:.0f} kPa')"
+    scale_text = f"document.getElementById('scale-top').textContent.endsWith('{top:.0f} kPa')"
     async with opened(chromium, scene) as (first, _):
-        await first.until(said)
+        await first.until(scale_text)
         async with opened(chromium, scene) as (late, _):
-            await late.until(said)
+            await late.until(scale_text)
 
 
 async def test_picture_and_words_of_a_sole_are_of_one_moment(chromium: Browser) -> None:
@@ -64,7 +64,7 @@ async def test_picture_and_words_of_a_sole_are_of_one_moment(chromium: Browser) 
         await view.until("document.getElementById('sole-left').ariaLabel.includes(' newton')")
         await view.tab.evaluate(WATCH)
         await show(scene, between(6.0, 10.0))
-        await view.until("window.said >= 4")
+        await view.until("window.changes >= 4")
         assert await view.tab.evaluate("window.unlike") == []
 
 

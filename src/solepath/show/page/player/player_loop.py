@@ -1,4 +1,4 @@
-"""A player on an event loop, with a page in front of it."""
+"""Runs a player on an event loop behind a page."""
 
 from __future__ import annotations
 
@@ -9,33 +9,34 @@ from ..server.server import Page
 from .player import Player
 
 SLICE = 0.02
-"""s for which the player may compute before the page gets its turn."""
+"""Time for which the player may compute before the page gets its turn, s."""
 STEP = 0.02
-"""s between two looks at the clock while something moves."""
+"""Time between two reads of the clock while it plays, s."""
 IDLE = 0.5
-"""s, while nothing does."""
+"""Time between two reads of the clock while nothing plays, s."""
 
 
-class Playing:
+class PlayerLoop:
     """Plays `player` by the event loop's clock: `command` is what a Page is given, `run` the loop."""
 
     def __init__(self, player: Player) -> None:
         self.player = player
-        self._asked = asyncio.Event()
+        self._command_received = asyncio.Event()
 
     def command(self, command: Command) -> None:
+        """Execute a command and wake the loop."""
         self.player.command(command)
-        self._asked.set()
+        self._command_received.set()
 
     async def run(self, page: Page, stop: asyncio.Event, *, once: bool = False) -> None:
-        """Until `stop` is set; `once`: or until the recording was played to its end."""
+        """Run until `stop` is set; with `once` also until the recording was played to its end."""
         player, loop = self.player, asyncio.get_running_loop()
         before = loop.time()
         while not stop.is_set():
             now = loop.time()
-            player.passed(now - before)
+            player.advance(now - before)
             before, end = now, now + SLICE
-            more = player.work(lambda end=end: loop.time() >= end)  # type: ignore[misc]
+            more = player.feed_due(lambda end=end: loop.time() >= end)  # type: ignore[misc]
             if page.scene is not player.scene:
                 page.scene = player.scene
             if more:
@@ -46,12 +47,12 @@ class Playing:
                 await self._wait(stop)
 
     async def _wait(self, stop: asyncio.Event) -> None:
-        """Until there may be something to do."""
+        """Wait until there may be something to do."""
         if self.player.playback.state == "playing":
             await asyncio.sleep(STEP)
             return
-        self._asked.clear()
-        tasks = [asyncio.ensure_future(event.wait()) for event in (self._asked, stop)]
+        self._command_received.clear()
+        tasks = [asyncio.ensure_future(event.wait()) for event in (self._command_received, stop)]
         try:
             await asyncio.wait(tasks, timeout=IDLE, return_when=asyncio.FIRST_COMPLETED)
         finally:

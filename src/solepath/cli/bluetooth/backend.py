@@ -1,4 +1,4 @@
-"""What commands do by Bluetooth: reach it, listen for so long, and end with one line where there is none."""
+"""Bluetooth of the commands: reaching it, listening for a time, and one line when there is none."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ..common.loop import run_to_end
 
 
 def listen_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> int:
-    """run_to_end; errors of Bluetooth are a Failure."""
+    """Run `main` as run_to_end does; an error of Bluetooth is a Failure."""
     try:
         return run_to_end(main)
     except BluetoothError as error:
@@ -22,8 +22,8 @@ def listen_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> 
 
 
 @asynccontextmanager
-async def air(via: str | None) -> AsyncIterator[Backend]:
-    """The Bluetooth of `--via`. Failure when it cannot be reached."""
+async def backend_of(via: str | None) -> AsyncIterator[Backend]:
+    """Yield the Bluetooth of `--via`. Failure when it cannot be reached."""
     if via is None:
         yield NATIVE
         return
@@ -42,7 +42,9 @@ async def air(via: str | None) -> AsyncIterator[Backend]:
 
 
 async def until(packets: AsyncIterable[Packet], stop: asyncio.Event, seconds: float | None) -> AsyncIterator[Packet]:
-    """`packets` until `stop`, or for so many seconds. Devices give a packet four times a second at least."""
+    """Yield `packets` until `stop` is set, or for so many seconds.
+
+    Devices send a packet four times a second at least."""
     loop = asyncio.get_running_loop()
     end = None if seconds is None else loop.time() + seconds
     async for packet in packets:
