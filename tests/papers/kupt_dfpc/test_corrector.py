@@ -240,7 +240,7 @@ def test_a_roll_that_is_believed_up_to_a_good_toe_off_stays_believed() -> None:
 
 def test_a_heel_that_slides_first_is_compared_once_it_rolls() -> None:
     # with slide 0.1 s the first interval that counts is the second: k_h at 0.6 s, error 0.65 - 0.50 = 0.15 there too
-    corrector = moved(fresh(slide_time=0.1))
+    corrector = moved(fresh(slide=0.1))
     assert corrector.error_index == pytest.approx(0.19)
     # rate 0.11 / 0.5; swing 0.2 to 0.6: 0.40 x 0.4 - 0.04 x 0.4 - 0.22 (0.45^2 - 0.05^2) / 2 = 0.16 - 0.016 - 0.022
     assert corrector.position[0] == pytest.approx(0.012 + 0.122 + 0.05 + 0.06)
@@ -264,7 +264,7 @@ def test_a_later_and_better_mark_replaces_an_earlier_one() -> None:
 def test_one_sample_lost_at_30_hz_leaves_a_step_as_good_as_it_was() -> None:
     corrector = moved(fresh(), STEP[:3])
     assert corrector.bridge(0.067) == 0.067
-    assert not corrector.spoilt
+    assert not corrector.has_gap
 
 
 def test_after_a_long_gap_the_foot_is_taken_up_where_it_was() -> None:

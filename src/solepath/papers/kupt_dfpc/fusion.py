@@ -18,7 +18,7 @@ Settled here, because the paper leaves it open:
 - (11) is computed as EI_other / (EI_other + r EI_own), which is the same and divides by zero only where both error
   indices are zero; there it is 1 / (1 + r), as for any two equal ones.
 - (13) adds up pairs of strides. A pair is a stride and the other foot's before it, each stride in one pair at most:
-  with feet that take turns that is the k-th left with the k-th right one, and a stride that is missing on one side shifts
+  with feet that take turns that is the k-th left with the k-th right one, and a stride missing on one side shifts
   nothing. While the sum is zero the foot that stepped first is the chosen one.
 - An abnormal stride has no error index. If (13) left it out, it would count in favour of its foot. In a pair with a
   normal stride it counts as `ABNORMAL_EXCESS` m/s worse than that, by the mean of both lengths as in (13), so the

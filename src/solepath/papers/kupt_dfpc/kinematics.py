@@ -187,7 +187,7 @@ class Sagittal:
         return (ahead * x, ahead * y, above)
 
     def forefoot_position(self, shoe: ShoeGeometry) -> Vec3:
-        """Return the sensor's position from the toe, navigation frame, m: (6) with the sign that makes (7) a difference."""
+        """Return the sensor's position from the toe, navigation frame, m: (6), negated so that (7) is a difference."""
         behind, above = forefoot_position(shoe, -self.pitch)
         x, y = self.forward
         return (-behind * x, -behind * y, above)

@@ -17,7 +17,7 @@ from ...types.attrs import define, field, frozen
 from ...types.vector import TIE, ZERO
 
 SHORT_GAP = 0.08
-"""Longest gap of a normal motion, s: one lost sample of the paper's 30 Hz makes 0.067 s, and differences take true time."""
+"""Longest gap of a normal motion, s: one lost sample of the paper's 30 Hz is 0.067 s; differences take true time."""
 LARGEST_ROLLING_SIGMA = 0.2
 """Sigma above which evidence of a rolling shoe is not used, m/s."""
 LARGEST_ROLLING_ERROR = 0.6
@@ -196,7 +196,7 @@ class SwingDedrift(LinearDedrift):
         self.known_displacement = (x + v[0] * dt, y + v[1] * dt, z + v[2] * dt)
 
     def mark(self, t: float, cue: Cue) -> None:
-        """Set a candidate (`Corrector`): for toe-off the sample before this one (A of fig. 4), for heel-strike this one (D)."""
+        """Set a candidate: for toe-off the sample before this one (A of fig. 4), for heel-strike this one (D)."""
         if cue is Cue.CLEAR:
             self.toe_off = self.previous
             if self.previous is not None:
