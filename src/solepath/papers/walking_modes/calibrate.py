@@ -99,7 +99,7 @@ def touchdowns(walk: Recorded, known: Calibration, heading: float | None = None)
 
 
 def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown]) -> list[StepError]:
-    """Return the error of every step between marks of both feet, with a mark of each foot before them for the direction.
+    """Return the error of every step between marks of both feet; a mark of each foot before them gives the direction.
 
     CalibrationError for a mark without a touchdown, or two marks of one touchdown.
     """
@@ -171,11 +171,12 @@ def remove_heading_error(means: dict[Foot, dict[WalkingMode, tuple[float, float]
 def fit_modes(
     walks: Iterable[tuple[Recorded, Path | str]], known: Calibration | None = None, heading: float | None = None
 ) -> Calibration:
-    """Return a calibration with the compensation of marked walks, each a recording and its csv file of marks (`read_marks`).
+    """Return a calibration with the compensation that marked walks show.
 
-    `known`: limbs and insoles of the wearer. `heading`: direction that the wearer faces at the start of each walk in
-    the world that the sensors share, rad; without it the first step gives the direction, and should not go round a
-    bend. CalibrationError when no step lies between two marks.
+    Each walk is a recording and its csv file of marks (`read_marks`). `known`: limbs and insoles of the wearer.
+    `heading`: direction that the wearer faces at the start of each walk in the world that the sensors share, rad;
+    without it the first step gives the direction, and should not go round a bend. CalibrationError when no step lies
+    between two marks.
     """
     known = Calibration() if known is None else known
     errors: list[StepError] = []

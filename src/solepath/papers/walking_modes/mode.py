@@ -195,7 +195,7 @@ class Contact:
         return 0.0 if self.t_start is None else t - self.t_start
 
     def speed(self, step: float) -> float:
-        """Return the walking speed, m/s, from the length of the stride before, m; `PACE` if the swing time is unknown."""
+        """Return the walking speed, m/s, from the length of the stride before, m; `PACE` if it is unknown."""
         return PACE if self.swing_time is None or self.swing_time <= 0.0 else SWING_SHARE * step / self.swing_time
 
     def shares(self) -> dict[str, float] | None:

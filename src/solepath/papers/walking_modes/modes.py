@@ -96,7 +96,7 @@ class Modes(TrackPart):
         self.places = FootPlaces(self.settings)
 
     def calibrated(self, calibration: Calibration) -> Modes:
-        """Return the part with the wearer's limbs, weight and compensation; methods I to III stay without compensation."""
+        """Return the part with the wearer's limbs, weight and compensation; methods I to III take no compensation."""
         settings = self.settings
         compensation = settings.compensation
         if compensation is not None and calibration.modes:
@@ -161,14 +161,14 @@ class Modes(TrackPart):
         return events + self._resolve_pending(t, known_at)
 
     def _is_alone(self, foot: Foot, t: float) -> bool:
-        """Return whether the other foot is silent while this one takes strides, or its place relative to this one is unknown."""
+        """Return whether the other foot is silent while this one takes strides, or is at an unknown place."""
         other = OTHER[foot]
         if other not in self.signs.shown:
             return self.signs.evidence[foot].stride_count >= UNSEEN_STRIDES
         return self.places.is_lost(other, t)
 
     def _measure_heights(self, t: float) -> float:
-        """Set the heights of both feet, by the chain at the latest instant that it knows, and return that instant, s."""
+        """Set both feet's heights, by the chain at the latest instant that it knows, and return that instant, s."""
         chain = self.places.chain
         complete = chain.complete() if chain.is_current(t) else None
         if complete is not None and complete == self.heights_at:
@@ -213,7 +213,7 @@ class Modes(TrackPart):
         return events
 
     def _add_touchdown(self, foot: Foot, t: float, known_at: float, by_own_track: bool = False) -> list[Event]:
-        """Add a touchdown; `by_own_track`: the foot was the reference already, so only its own track shows its place."""
+        """Add a touchdown; `by_own_track`: only the foot's own track shows its place, as it was the reference."""
         places = self.places
         side, chain = places.sides[foot], places.chain
         if chain.is_current(t):
@@ -242,7 +242,8 @@ class Modes(TrackPart):
         events: list[Event] = []
         if not (chained or self.limitation_reported or chain.is_current(t)):
             self.limitation_reported = True
-            what = f"{chain.why_unusable(t, self.limb_sensors.times)}: the feet are where their own inertial tracks have them"
+            why = chain.why_unusable(t, self.limb_sensors.times)
+            what = f"{why}: the feet are where their own inertial tracks have them"
             events.append(Limitation(t=t, known_at=known_at, site=None, what=what))
         final = places.heading_settled or not (chained or chain.may_recover())
         came = TouchedDown(
@@ -269,7 +270,7 @@ class Modes(TrackPart):
         return Position(t, (x, y, z), self._covariance(x, y, known))
 
     def _covariance(self, x: float, y: float, known: list[FootPose]) -> Covariance3:
-        """Return the covariance from single and common errors of touchdowns and of the first heading; z is the tracks'."""
+        """Return the covariance from single and common errors of touchdowns and the first heading; z is the tracks'."""
         each = STEP_SIGMA**2 * (1 + self.touchdowns)
         scale, turn = SCALE_SIGMA**2, HEADING_SIGMA**2
         xx, yy = each + scale * x * x + turn * y * y, each + scale * y * y + turn * x * x

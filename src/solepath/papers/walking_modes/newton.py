@@ -23,7 +23,7 @@ LEAST_POINTS = 5
 
 @frozen
 class GaugeFit:
-    """A fitted conversion with `points` points; `residual`: rms of the cubic's residuals, N; `worst`: the largest, N."""
+    """A conversion fitted to `points` points; `residual`: rms of the cubic's residuals, N; `worst`: the largest."""
 
     newtons: Newtons
     residual: float

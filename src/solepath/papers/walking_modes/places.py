@@ -99,13 +99,16 @@ class FootPlaces:
             side.offset, side.track = sub(side.offset, shift), displace(side.track, shift)
 
     def _side_offset(self, foot: Foot, other: FootPlace) -> tuple[float, float]:
-        """Return the vector from the other foot to this one when they stand side by side, facing as the other last went, m."""
+        """Return the vector from the other foot to this one when they stand side by side, m.
+
+        They face the way that the other last went.
+        """
         c, s = other.direction
         k = self.settings.feet_distance if foot is Foot.LEFT else -self.settings.feet_distance
         return -s * k, c * k
 
     def is_lost(self, foot: Foot, t: float) -> bool:
-        """Return whether the foot is absent, or its track is not known among both yet, and the chain does not know it either."""
+        """Return whether the foot is absent, or neither its track among both nor the chain is known."""
         placed = self.tracks.left if foot is Foot.LEFT else self.tracks.right
         return (placed.absent or placed.waits) and not self.chain.is_current(t)
 
@@ -141,7 +144,7 @@ class FootPlaces:
         return (x / length, y / length) if length > LEAST_STEP else (lx, ly)
 
     def swing_foot(self, foot: Foot) -> Foot:
-        """Return the foot whose own track has gone further: a method may take the wrong foot for the one that came down."""
+        """Return the foot whose own track has gone further: a method may take the wrong foot for it."""
         other = OTHER[foot]
         (x, y, _), (u, v, _) = self.sides[foot].track, self.sides[other].track
         return other if hypot(u, v) > hypot(x, y) + LEAST_STEP else foot

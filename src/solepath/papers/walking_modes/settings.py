@@ -28,7 +28,7 @@ class ModesSettings:
 
     @property
     def feet_distance(self) -> float:
-        """Distance between the feet at the start, m: the hips' width, as in the chain's N-pose, plus the compensation's part.
+        """Distance between the feet at the start, m: the hips' width, as in the chain's N-pose.
 
         If feet are known to come down nearer to each other than the chain has them, they stood so as well.
         """

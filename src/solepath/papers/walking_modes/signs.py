@@ -62,7 +62,7 @@ class Signs:
         down = []
         for foot, state, flag in ((Foot.LEFT, left, flags[0]), (Foot.RIGHT, right, flags[1])):
             evidence = self.evidence[foot]
-            down.append(evidence.down_flags(flag, state.in_swing, none) and (alone is None or alone is foot))
+            down.append(evidence.is_down(flag, state.in_swing, none) and (alone is None or alone is foot))
             if evidence.uses_strides and not evidence.reported and state is not UNKNOWN_STATE:
                 evidence.reported = True
                 sign = "insole" if isinstance(self.method, PressureTouchdown) else "foot's motion"

@@ -28,7 +28,7 @@ def v_change(left: Vec3, right: Vec3, reference: Foot) -> Vec3:
 
 
 def displace(reference: Vec3, change: Vec3, compensation: Vec3 = ZERO) -> Vec3:
-    """Return the position of the foot in the air: equation (3), P_s = P_t + V_change; with `compensation` (8), + epsilon_P."""
+    """Return the position of the foot in the air: equation (3), P_s = P_t + V_change; (8), + epsilon_P."""
     return (
         reference[0] + change[0] + compensation[0],
         reference[1] + change[1] + compensation[1],
@@ -58,12 +58,16 @@ Flags = tuple[bool, bool]
 """Flags TD_L and TD_R."""
 
 HEIGHT_MARGIN = 0.01
-"""Least difference of height, m, that changes the flags: both feet on a floor differ by their errors. Not in the paper."""
-A_A, STEADY_TIME = 1.0, 0.05
-"""Threshold of the net acceleration, m/s^2, and time for which it must last, s; the paper gives neither A_a nor a filter.
+"""Least difference of height that changes the flags, m: both feet on a floor differ by their errors.
 
-It is the band of 9 to 11 m/s^2 about gravity in which Jimenez, Seco, Prieto, Guevara ("A comparison of pedestrian
-dead-reckoning algorithms using a low-cost MEMS IMU", WISP 2009, condition C1) take a foot for still.
+The paper has none.
+"""
+A_A, STEADY_TIME = 1.0, 0.05
+"""Threshold of the net acceleration, m/s^2, and time for which it must last, s.
+
+The paper gives neither A_a nor a filter. This is the band of 9 to 11 m/s^2 about gravity in which Jimenez, Seco,
+Prieto, Guevara ("A comparison of pedestrian dead-reckoning algorithms using a low-cost MEMS IMU", WISP 2009, condition
+C1) take a foot for still.
 """
 RELEASE_SHARE = 0.5
 """Share of the threshold below which a foot that is down comes up, or a cell that flickers would make steps."""
@@ -149,7 +153,7 @@ class ReferenceFoot:
     down: Flags = field(default=(False, False), init=False)
 
     def update(self, flags: Flags) -> tuple[Foot, bool] | None:
-        """Return the foot that becomes the reference with these flags, and whether it came down now; None for no change.
+        """Return the foot that becomes the reference with these flags, and whether it came down now; None if none.
 
         When both flags rise at once it is the foot that was not the reference, at the very first the left foot.
         """

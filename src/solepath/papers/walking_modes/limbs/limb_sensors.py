@@ -10,7 +10,7 @@ from .inclination import Inclination
 from .limbs import LowerLimbs
 
 FARTHEST_AHEAD = 60.0
-"""Time ahead of all other samples beyond which a sample is rejected, s, unless the last one of its site was ahead too."""
+"""Time ahead of all others at which a sample is rejected, s, unless the last one of its site was ahead too."""
 
 
 @define

@@ -117,7 +117,10 @@ class LowerLimbs:
             self.set_attitude(site, t, quat)
 
     def reset(self, site: Site) -> None:
-        """Discard the times of a sensor whose clock restarts; the world of an attitude that it sends may be another from now on."""
+        """Discard the times of a sensor whose clock restarts.
+
+        The world of an attitude that it sends may be another from now on.
+        """
         segment = self.segments[site]
         segment.t = segment.earlier_t = segment.still_since = None
         segment.world_changed = segment.standing is not None and not segment.own_world
@@ -225,7 +228,7 @@ class LowerLimbs:
         return hip - limbs.thigh * thigh - limbs.shank * shank - limbs.ankle_height * end
 
     def forward(self, foot: Foot, t: float) -> tuple[float, float]:
-        """Return the direction of a foot, a horizontal vector of the world frame, of length 1; (1, 0) when it points up."""
+        """Return the direction of a foot, horizontal, world frame, of length 1; (1, 0) when it points up."""
         x, y, _ = rotate(self._attitude(LEGS[foot][2], t), (1.0, 0.0, 0.0))
         length = hypot(x, y)
         return (x / length, y / length) if length > 1e-6 else (1.0, 0.0)
