@@ -1,1 +1,1 @@
-"""The five published systems: each folder has its parts, its calibration and its recipes, loaded when asked for."""
+"""The five published systems: each folder has its parts, calibration and recipes, loaded when they are requested."""

@@ -14,7 +14,7 @@ from solepath.emulate.sensors.insoles import layout
 from solepath.emulate.wearers.walker import Walker
 from solepath.foot.pressure.insole import InsoleLoads
 from solepath.foot.settings import InsoleSettings
-from solepath.papers.kupt_dfpc.kinematics import forefoot_place
+from solepath.papers.kupt_dfpc.kinematics import forefoot_position
 from solepath.papers.kupt_dfpc.noise import pressure_noise
 from solepath.papers.kupt_dfpc.shoe import fit_shoe
 from solepath.types import Foot, Sample, Site
@@ -110,7 +110,7 @@ def test_postures_of_a_shoe_give_its_curves(tmp_path: Path) -> None:
     shoe = fitted.calibration.shoe
     assert shoe is not None and fitted.calibration == Calibration(shoe=shoe)
     for p in (0.0, 0.3, 0.7, 1.0):
-        assert forefoot_place(shoe, p) == pytest.approx(forefoot_place(ShoeGeometry(), p), abs=5e-4)
+        assert forefoot_position(shoe, p) == pytest.approx(forefoot_position(ShoeGeometry(), p), abs=5e-4)
     assert shoe.steepest == pytest.approx(radians(60))
     assert (fitted.postures, fitted.measurements) == (5, 15)
 

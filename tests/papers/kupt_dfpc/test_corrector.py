@@ -150,7 +150,7 @@ def test_a_shoe_that_nobody_measured_is_as_long_as_its_insole() -> None:
     assert stances[2].v_ref[0] == pytest.approx(3.0 * 0.0586, rel=0.01)
     known = KnownVelocity().calibrated(Foot.LEFT, Calibration(shoe=ShoeGeometry(height=0.04)))
     known.set_layout(Layout(2, Foot.LEFT, (Cell(0.03, 0.0), Cell(0.2, 0.0)), 0.228))
-    assert known.worn == ShoeGeometry(height=0.04)
+    assert known.shoe_in_use == ShoeGeometry(height=0.04)
 
 
 def test_cells_that_have_both_loaded_again_end_a_long_motion_and_speak_as_before() -> None:
@@ -197,7 +197,7 @@ def moved(corrector: LinearDedrift, step: tuple[tuple[Stance, Cue | None], ...] 
 
 
 def fresh(slide: float = 0.0) -> SwingDedrift:
-    return SwingDedrift(SwingSettings(slide=slide, tilt_rate=0.0))
+    return SwingDedrift(SwingSettings(slide_time=slide, tilt_rate=0.0))
 
 
 def test_only_the_swing_loses_a_line_as_in_equation_8_and_the_error_index_is_that_of_equation_10() -> None:
@@ -264,7 +264,7 @@ def test_a_later_and_better_mark_replaces_an_earlier_one() -> None:
 def test_one_sample_lost_at_30_hz_leaves_a_step_as_good_as_it_was() -> None:
     corrector = moved(fresh(), STEP[:3])
     assert corrector.bridge(0.067) == 0.067
-    assert not corrector.spoilt
+    assert not corrector.has_gap
 
 
 def test_after_a_long_gap_the_foot_is_taken_up_where_it_was() -> None:
@@ -283,7 +283,10 @@ def test_heights_lose_a_line_over_the_whole_motion_unless_they_are_asked_for() -
     up = tuple(
         (Stance((0.1, 0.0, 0.3), 0.1, 0.0, stance.hint) if stance.sigma == 0.1 else stance, cue) for stance, cue in STEP
     )
-    plain, known = moved(fresh(), up), moved(SwingDedrift(SwingSettings(slide=0.0, tilt_rate=0.0, vertical=True)), up)
+    plain, known = (
+        moved(fresh(), up),
+        moved(SwingDedrift(SwingSettings(slide_time=0.0, tilt_rate=0.0, vertical=True)), up),
+    )
     assert plain.position[2] == pytest.approx(0.0, abs=1e-12)
     assert known.position[2] > 0.05
     assert plain.position[:2] == known.position[:2]

@@ -19,7 +19,7 @@ from solepath.calibration import Calibration, InsoleCalibration
 from solepath.emulate.routes.route import Route
 from solepath.events import Event, StrideFeatures, StrideFused, StrideTaken
 from solepath.foot.pressure.cells import centre as centre_of
-from solepath.papers.kupt_dfpc.fusion import POINTS, DoubleFoot, correlation, resampled, share
+from solepath.papers.kupt_dfpc.fusion import POINTS, DoubleFoot, correlation, own_share, resample_cop
 from solepath.saving import codec as machine
 from solepath.types import Cell, Foot, Layout, Sample, Site
 
@@ -49,7 +49,7 @@ def step(
 
 def walked(*steps: StrideTaken) -> tuple[DoubleFoot, list[StrideFused]]:
     body = DoubleFoot()
-    return body, [body.step(one, CENTRE) for one in steps]
+    return body, [body.add_stride(one, CENTRE) for one in steps]
 
 
 def test_similarity_is_the_correlation_of_equation_9_worked_by_hand() -> None:
@@ -65,14 +65,14 @@ def test_a_step_that_rolls_the_other_way_is_as_similar_since_9_takes_the_absolut
 def test_steps_of_unequal_sample_counts_are_compared_over_their_own_time() -> None:
     slow = step(LEFT, 10.0, lasts=2.0, cop=tuple((0.09 + 0.13 * k / 31, 0.0) for k in range(32)))
     quick = step(RIGHT, 10.0, lasts=0.8, cop=tuple((0.09 + 0.13 * k / 9, 0.0) for k in range(10)))
-    one, other = resampled(slow, CENTRE), resampled(quick, CENTRE)
+    one, other = resample_cop(slow, CENTRE), resample_cop(quick, CENTRE)
     assert len(one) == len(other) == POINTS
     assert one == pytest.approx(other)
     assert correlation(one, other) == pytest.approx(1.0)
 
 
 def test_the_centre_of_pressure_stays_at_the_foot_centre_while_the_foot_is_in_the_air() -> None:
-    found = resampled(step(LEFT, 10.0), CENTRE)  # 50 % on the ground, 40 % in the air, 10 % loading, left out
+    found = resample_cop(step(LEFT, 10.0), CENTRE)  # 50 % on the ground, 40 % in the air, 10 % loading, left out
     ground = round(POINTS * 5 / 9)
     assert set(found[ground + 1 :]) == {CENTRE}
     assert list(found[:ground]) == sorted(found[:ground])
@@ -81,25 +81,25 @@ def test_the_centre_of_pressure_stays_at_the_foot_centre_while_the_foot_is_in_th
 
 def test_the_coefficient_is_equation_11_worked_by_hand() -> None:
     # EI_R = 0.2, EI_L = 0.1, r_L = 0.8: (0.2 / 0.8) / (0.2 / 0.8 + 0.1) = 0.25 / 0.35
-    assert share(0.8, 0.1, 0.2) == pytest.approx(0.25 / 0.35)
+    assert own_share(0.8, 0.1, 0.2) == pytest.approx(0.25 / 0.35)
 
 
 def test_the_worse_of_two_similar_steps_gets_less_than_half_of_the_weight() -> None:
-    assert share(1.0, 0.3, 0.1) == pytest.approx(0.25)
-    assert share(1.0, 0.1, 0.3) == pytest.approx(0.75)
+    assert own_share(1.0, 0.3, 0.1) == pytest.approx(0.25)
+    assert own_share(1.0, 0.1, 0.3) == pytest.approx(0.75)
 
 
 def test_a_step_that_is_not_similar_keeps_its_own_length() -> None:
-    assert share(0.0, 0.1, 0.1) == 1.0
-    assert share(1e-9, 0.1, 0.1) == pytest.approx(1.0)
-    assert share(None, 0.1, 0.1) == 1.0
+    assert own_share(0.0, 0.1, 0.1) == 1.0
+    assert own_share(1e-9, 0.1, 0.1) == pytest.approx(1.0)
+    assert own_share(None, 0.1, 0.1) == 1.0
 
 
 def test_two_steps_without_error_share_as_two_of_equal_error_do() -> None:
-    assert share(0.8, 0.0, 0.0) == share(0.8, 0.5, 0.5) == pytest.approx(1.0 / 1.8)
-    assert share(0.0, 0.0, 0.0) == 1.0
-    assert share(0.8, 0.3, 0.0) == 0.0
-    assert share(0.8, 0.0, 0.3) == 1.0
+    assert own_share(0.8, 0.0, 0.0) == own_share(0.8, 0.5, 0.5) == pytest.approx(1.0 / 1.8)
+    assert own_share(0.0, 0.0, 0.0) == 1.0
+    assert own_share(0.8, 0.3, 0.0) == 0.0
+    assert own_share(0.8, 0.0, 0.3) == 1.0
 
 
 def test_the_calibrated_stride_is_equation_12_worked_by_hand() -> None:
@@ -145,10 +145,10 @@ def test_the_choice_of_the_foot_is_the_sign_of_equation_13_worked_by_hand() -> N
     body, expected, chosen = DoubleFoot(), 0.0, set[Foot]()
     for k, (left, right, d_left, d_right) in enumerate(pairs):
         t = 2.0 + 1.1 * k
-        a = body.step(step(LEFT, t, d_left, index=left, number=k + 1), CENTRE)
-        b = body.step(step(RIGHT, t + 0.55, d_right, index=right, number=k + 1), CENTRE)
+        a = body.add_stride(step(LEFT, t, d_left, index=left, number=k + 1), CENTRE)
+        b = body.add_stride(step(RIGHT, t + 0.55, d_right, index=right, number=k + 1), CENTRE)
         expected += (left - right) * 0.5 * (a.stride_length + b.stride_length)
-        assert body.weighted == pytest.approx(expected)
+        assert body.error_balance == pytest.approx(expected)
         assert b.chosen is (RIGHT if expected > 0.0 else LEFT)
         chosen.add(b.chosen)
     assert chosen == {LEFT, RIGHT}
@@ -158,11 +158,11 @@ def test_a_foot_whose_step_is_abnormal_beside_a_normal_one_is_not_chosen_for_hav
     steps = [step(LEFT, 2.0, 1.2, index=0.3), step(RIGHT, 2.55, 1.2, index=0.1)]
     body, told = walked(*steps)
     assert told[-1].chosen is RIGHT
-    body.step(step(LEFT, 3.1, 1.2, index=0.3, number=2), CENTRE)
+    body.add_stride(step(LEFT, 3.1, 1.2, index=0.3, number=2), CENTRE)
     before = body.paths[Foot.RIGHT].distance
-    last = body.step(step(RIGHT, 3.65, 20.1, index=None, number=2), CENTRE)
+    last = body.add_stride(step(RIGHT, 3.65, 20.1, index=None, number=2), CENTRE)
     # it counts as 1 m/s worse than the other, by the mean of both lengths
-    assert body.weighted == pytest.approx(0.2 * 1.2 - 1.0 * 0.5 * (20.1 + 1.2), abs=0.02)
+    assert body.error_balance == pytest.approx(0.2 * 1.2 - 1.0 * 0.5 * (20.1 + 1.2), abs=0.02)
     assert last.chosen is LEFT
     assert last.distance == pytest.approx(before + 1.2, abs=0.3)
     # the other way round, with the normal step after the abnormal one
@@ -178,7 +178,7 @@ def test_the_centre_of_the_foot_is_half_way_between_the_first_and_the_last_cell(
     session.feed(flat)
     body = DoubleFoot()
     fed(body, session.feet[LEFT], flat, [step(LEFT, 2.0)])
-    assert body.paths[Foot.LEFT].latest[-1].rhythm[-1] == pytest.approx(0.1)
+    assert body.paths[Foot.LEFT].strides[-1].cop_path[-1] == pytest.approx(0.1)
     assert centre_of(insole) == pytest.approx(0.1)
     assert centre_of(Layout(0, LEFT, (), 0.26)) is None
 
@@ -197,7 +197,7 @@ def test_a_walk_of_equal_steps_ends_where_it_ended_without_calibration() -> None
     steps = [step(foot, 2.0 + 0.55 * k, number=k // 2 + 1) for k, foot in enumerate((LEFT, RIGHT) * 10)]
     body, told = walked(*steps)
     assert told[-1].distance == pytest.approx(13.0)
-    assert body.weighted == 0.0
+    assert body.error_balance == 0.0
     assert {one.chosen for one in told} == {LEFT}
 
 
@@ -262,11 +262,11 @@ def test_any_sequence_of_steps_gives_numbers_and_shares_between_zero_and_one(
     body = DoubleFoot()
     size = 0
     for one, centre in steps:
-        told = body.step(one, centre)
+        told = body.add_stride(one, centre)
         assert 0.0 <= told.coefficient <= 1.0
         assert told.similarity is None or 0.0 <= told.similarity <= 1.0
         assert all(isfinite(x) for x in (told.stride_length, told.distance, *told.position))
         assert told.stride_length >= 0.0
         assert all(isfinite(number) for number in numbers(machine.save(body)))
-        size = max(size, len(body.paths[Foot.LEFT].latest), len(body.paths[Foot.RIGHT].latest))
+        size = max(size, len(body.paths[Foot.LEFT].strides), len(body.paths[Foot.RIGHT].strides))
     assert size <= 3

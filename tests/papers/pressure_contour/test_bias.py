@@ -8,13 +8,13 @@ import pytest
 
 from solepath.calibration import Calibration
 from solepath.foot.stance.stance import Stance
-from solepath.papers.pressure_contour.acc_bias import NOISE, SPREAD, WANDER, AccelerometerBias
+from solepath.papers.pressure_contour.acc_bias import BIAS_SIGMA, BIAS_WANDER, SAMPLE_NOISE, AccelerometerBias
 from solepath.papers.pressure_contour.bias_zupt import BiasZupt, BiasZuptSettings
 from solepath.saving import codec as machine
 from solepath.types import Foot, Phase, Quat, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector, from_yaw, multiply, rotate
 
-STANDS = Stance(ZERO, 0.01, 0.0, Phase.STATIONARY)
+STANDING = Stance(ZERO, 0.01, 0.0, Phase.STATIONARY)
 MOVES = Stance(ZERO, inf, 0.0, None)
 UP: Vec3 = (0.0, 0.0, GRAVITY)
 
@@ -33,43 +33,43 @@ def fed(corrector: BiasZupt, stance: Stance, acc: Vec3, count: int, dt: float = 
 
 
 def test_two_steps_of_the_filter_are_those_of_the_paper() -> None:
-    bias, sigma_v = AccelerometerBias(), NOISE * NOISE
+    bias, sigma_v = AccelerometerBias(), SAMPLE_NOISE * SAMPLE_NOISE
     bias.variance = sigma_v
     # M = Sigma_v: P = M - M^2 / (M + Sigma_v) = Sigma_v / 2, gain P / Sigma_v = 0.5, y = -a_m
-    bias.stood((-0.08, 0.04, 0.0))
+    bias.correct((-0.08, 0.04, 0.0))
     assert bias.bias == pytest.approx((0.04, -0.02, 0.0))
     assert bias.variance == pytest.approx(0.5 * sigma_v)
     # in this time Sigma_w comes to Sigma_v: M = P + Sigma_w = 1.5 Sigma_v
-    bias.pass_time((NOISE / WANDER) ** 2)
+    bias.propagate((SAMPLE_NOISE / BIAS_WANDER) ** 2)
     assert bias.variance == pytest.approx(1.5 * sigma_v)
     # P = (1.5 - 1.5^2 / 2.5) Sigma_v, gain 0.6: 0.04 + 0.6 (0.08 - 0.04) and -0.02 + 0.6 (-0.04 + 0.02)
-    bias.stood((-0.08, 0.04, 0.01))
+    bias.correct((-0.08, 0.04, 0.01))
     assert bias.bias == pytest.approx((0.064, -0.032, -0.006))
     assert bias.variance == pytest.approx(0.6 * sigma_v)
 
 
 def test_before_any_stance_the_bias_is_as_uncertain_as_the_data_sheet_has_it() -> None:
     later, now = AccelerometerBias(), AccelerometerBias()
-    later.pass_time(1.0)
-    assert later.variance == pytest.approx(SPREAD**2 + WANDER**2, rel=1e-12)
-    now.stood((-0.08, 0.04, 0.0))
-    assert now.variance == pytest.approx(SPREAD**2 * NOISE**2 / (SPREAD**2 + NOISE**2))
+    later.propagate(1.0)
+    assert later.variance == pytest.approx(BIAS_SIGMA**2 + BIAS_WANDER**2, rel=1e-12)
+    now.correct((-0.08, 0.04, 0.0))
+    assert now.variance == pytest.approx(BIAS_SIGMA**2 * SAMPLE_NOISE**2 / (BIAS_SIGMA**2 + SAMPLE_NOISE**2))
 
 
 def test_a_bias_that_never_changes_is_known_ever_better() -> None:
     bias = AccelerometerBias()
     for _ in range(1000):
-        bias.pass_time(0.01)
-        bias.stood((0.05, -0.1, 0.2))
+        bias.propagate(0.01)
+        bias.correct((0.05, -0.1, 0.2))
     assert bias.bias == pytest.approx((-0.05, 0.1, -0.2), rel=1e-3)
     assert bias.variance is not None and 0.0 < bias.variance < 1e-6
 
 
 def test_between_stances_only_the_doubt_grows() -> None:
     bias = AccelerometerBias()
-    bias.stood((0.1, 0.0, 0.0))
+    bias.correct((0.1, 0.0, 0.0))
     known, doubt = bias.bias, bias.variance
-    bias.pass_time(10.0)
+    bias.propagate(10.0)
     assert bias.bias == known and bias.variance is not None and doubt is not None and bias.variance > doubt
 
 
@@ -80,14 +80,14 @@ def test_the_bias_is_what_the_sensor_says_beside_gravity_in_its_own_frame(attitu
     gravity = rotate((w, -x, -y, -z), UP)
     off = (0.08, -0.05, 0.03)
     acc = (gravity[0] + off[0], gravity[1] + off[1], gravity[2] + off[2])
-    fed(corrector, STANDS, acc, 500, told=attitude)
+    fed(corrector, STANDING, acc, 500, told=attitude)
     assert corrector.bias.bias == pytest.approx((-0.08, 0.05, -0.03), rel=0.01)
 
 
 def test_a_known_bias_no_longer_moves_the_foot_whichever_way_it_turns() -> None:
     # (10) with the sign of (6): as printed, the error of 0.1 m/s^2 would double
     corrector = begun(BiasZupt())
-    fed(corrector, STANDS, (0.1, 0.0, GRAVITY), 1000, told=IDENTITY)
+    fed(corrector, STANDING, (0.1, 0.0, GRAVITY), 1000, told=IDENTITY)
     turned = from_yaw(0.5 * pi)
     fed(corrector, MOVES, (0.1, 0.0, GRAVITY), 1)
     corrector.velocity, corrector.position = ZERO, ZERO
@@ -100,7 +100,7 @@ def test_a_standing_foot_has_no_velocity() -> None:
     fed(corrector, MOVES, (1.0, 0.0, GRAVITY), 50)
     assert corrector.velocity[0] == pytest.approx(0.5, abs=0.02)
     corrector.predict(0.01, (1.0, 0.0, GRAVITY), ZERO)
-    assert corrector.correct(1.0, STANDS) and corrector.velocity == ZERO
+    assert corrector.correct(1.0, STANDING) and corrector.velocity == ZERO
 
 
 def test_evidence_that_is_too_poor_is_no_stance() -> None:
@@ -112,18 +112,18 @@ def test_evidence_that_is_too_poor_is_no_stance() -> None:
 
 def test_a_steady_error_of_a_swing_costs_no_way_when_it_is_spread_and_half_a_t_squared_when_not() -> None:
     # an error of 0.2 m/s^2 for a second: a t^2 / 2 = 0.1 m
-    for spread, way in ((True, 0.0), (False, 0.1)):
-        corrector = begun(BiasZupt(BiasZuptSettings(spread=spread)))
+    for remove_swing_drift, way in ((True, 0.0), (False, 0.1)):
+        corrector = begun(BiasZupt(BiasZuptSettings(remove_swing_drift=remove_swing_drift)))
         corrector.predict(0.0, UP, ZERO)
-        corrector.correct(0.0, STANDS)
+        corrector.correct(0.0, STANDING)
         fed(corrector, MOVES, (0.2, 0.0, GRAVITY), 99)
-        fed(corrector, STANDS, (0.2, 0.0, GRAVITY), 1)
+        fed(corrector, STANDING, (0.2, 0.0, GRAVITY), 1)
         assert corrector.position[0] == pytest.approx(way, abs=0.002)
 
 
 def test_a_gravity_that_leans_pulls_an_attitude_of_our_own_upright() -> None:
     corrector = begun(BiasZupt(), from_rotation_vector((0.02, 0.0, 0.0)))
-    fed(corrector, STANDS, UP, 300)
+    fed(corrector, STANDING, UP, 300)
     x, y, _ = rotate(corrector.attitude, (0.0, 0.0, 1.0))
     assert abs(x) < 1e-3 and abs(y) < 1e-3
 
@@ -131,7 +131,7 @@ def test_a_gravity_that_leans_pulls_an_attitude_of_our_own_upright() -> None:
 def test_the_device_knows_its_attitude_better_than_we_do() -> None:
     corrector = begun(BiasZupt())
     tilted = from_rotation_vector((0.02, 0.0, 0.0))
-    fed(corrector, STANDS, UP, 300, told=tilted)
+    fed(corrector, STANDING, UP, 300, told=tilted)
     assert corrector.attitude == pytest.approx(tilted, abs=1e-9)
 
 
@@ -166,7 +166,7 @@ def test_a_drift_is_fixed_to_the_world_of_a_device_that_has_one() -> None:
 
 def test_who_stands_for_long_does_not_drift() -> None:
     corrector = drifting((0.02, 0.0))
-    fed(corrector, STANDS, UP, 1000)
+    fed(corrector, STANDING, UP, 1000)
     assert -0.0205 < corrector.position[0] < -0.0195
 
 
@@ -180,7 +180,7 @@ def test_without_a_calibration_nothing_is_taken_off() -> None:
 def test_after_a_clock_reset_the_way_goes_on_whatever_the_heading_of_the_devices_new_world(turn: float) -> None:
     corrector = begun(BiasZupt())
     for world in (from_yaw(0.3), from_yaw(0.3 + turn)):
-        fed(corrector, STANDS, UP, 10, told=world)
+        fed(corrector, STANDING, UP, 10, told=world)
         corrector.velocity = (1.0, 0.0, 0.0)
         fed(corrector, MOVES, UP, 100, told=world)
         corrector.bridge(inf)
@@ -215,10 +215,10 @@ def test_a_long_gap_stops_the_foot_where_it_was() -> None:
 
 def test_it_goes_on_from_a_snapshot() -> None:
     ours = drifting((0.01, 0.0))
-    fed(ours, STANDS, (0.1, 0.0, GRAVITY), 20, told=from_yaw(0.4))
+    fed(ours, STANDING, (0.1, 0.0, GRAVITY), 20, told=from_yaw(0.4))
     fed(ours, MOVES, (0.5, 0.2, GRAVITY), 20, told=from_yaw(0.5))
     theirs = machine.load(BiasZupt, machine.save(ours))
     for one in (ours, theirs):
         fed(one, MOVES, (0.1, 0.1, GRAVITY), 5, told=from_yaw(0.6))
-        fed(one, STANDS, UP, 5)
+        fed(one, STANDING, UP, 5)
     assert ours == theirs

@@ -19,7 +19,7 @@ from solepath.emulate.sensors.parts import AttitudePart
 from solepath.emulate.walk import EmulatedWalk, emulate
 from solepath.papers.pressure_contour.bias_zupt import BiasZupt, BiasZuptSettings
 from solepath.papers.pressure_contour.recipe import GYROSCOPE
-from solepath.papers.pressure_contour.square import CornerMark, check, fitted, read_marks, square_drift
+from solepath.papers.pressure_contour.square import CornerMark, check_laps, fit_drift, read_marks, square_drift
 from solepath.recipes import DEFAULT, Recipe
 from solepath.recording.decoded import decode_recording
 from solepath.types import Foot, Packet, Sample, Site, Vec3
@@ -91,7 +91,7 @@ def test_laps_agree_when_a_wandering_foot_would_do_so_once_in_a_hundred_times() 
 
     def agreed(spread: float) -> bool:
         # movements of 1 - spread, 1 and 1 + spread m a minute: variance spread^2 along x, none along y
-        return fitted(LEFT, {"A": visits(1.0 - spread, 1.0, 1.0 + spread)}, 0.0).agreed
+        return fit_drift(LEFT, {"A": visits(1.0 - spread, 1.0, 1.0 + spread)}, 0.0).agreed
 
     # s^2 = spread^2 / 2 / 3, slope 1: 3 / spread^2 > 18
     assert agreed(0.40) and not agreed(0.42)
@@ -101,7 +101,7 @@ def test_the_slope_is_the_mean_of_the_marks_lines() -> None:
     # by least squares: (0, 0), (1, 1), (2, 5) has the slope 2.5, and (0, 0), (1, 3), (2, 3) has 1.5
     first = [(0.0, (0.0, 0.0, 0.0)), (1.0, (1.0, 0.0, 0.0)), (2.0, (5.0, 0.0, 0.0))]
     second = [(0.0, (0.0, 0.0, 0.0)), (1.0, (3.0, 0.0, 0.0)), (2.0, (3.0, 0.0, 0.0))]
-    found = fitted(LEFT, {"A": first, "B": second}, 0.0)
+    found = fit_drift(LEFT, {"A": first, "B": second}, 0.0)
     assert found.slope == pytest.approx((2.0, 0.0)) and (found.marks, found.visits) == (2, 6)
 
 
@@ -140,24 +140,24 @@ def laps_of_four(drift: float, turn: float = 0.0) -> dict[str, list[tuple[float,
 
 
 def test_laps_that_drift_by_some_centimetres_a_second_are_taken() -> None:
-    check(fitted(LEFT, laps_of_four(0.045), 0.0), laps_of_four(0.045))
+    check_laps(fit_drift(LEFT, laps_of_four(0.045), 0.0), laps_of_four(0.045))
 
 
 def test_a_faster_drift_is_no_drift() -> None:
     with pytest.raises(CalibrationError, match="a drift of 6.0 cm/s: more than 5 cm/s are no drift"):
-        check(fitted(LEFT, laps_of_four(0.06), 0.0), laps_of_four(0.06))
+        check_laps(fit_drift(LEFT, laps_of_four(0.06), 0.0), laps_of_four(0.06))
 
 
 def test_laps_that_do_not_close_are_refused_though_their_slope_is_small() -> None:
     askew = laps_of_four(0.0, turn=9.0)
     with pytest.raises(CalibrationError, match="laps do not close: a mark lies 9.0 m from where it lay a lap before"):
-        check(fitted(LEFT, askew, 0.0), askew)
+        check_laps(fit_drift(LEFT, askew, 0.0), askew)
 
 
 def test_a_straight_walk_is_no_laps() -> None:
     straight = steps_at(*[(1.1 * k, 1.3 * k, 0.0) for k in range(20)])
     with pytest.raises(CalibrationError, match="laps do not close: a mark lies 5.2 m from"):
-        check(fitted(LEFT, straight, 0.0), straight)
+        check_laps(fit_drift(LEFT, straight, 0.0), straight)
     walk = emulate(Route().stand(2.0).walk(25.0, 1.2).stop(1.0), devices={Site.LEFT_FOOT: Insole(rate=50.0)}, seed=3)
     assert "the laps do not close" in refused(items=walk.packets, steps_per_lap=4)
 

@@ -123,7 +123,7 @@ def evidence(detector: ContourVelocity, device: Insole) -> tuple[list[float], li
                 load = cells.update(item.t, item.pressure or ())
                 detector.update(item.t, 0.01, item.acc, item.gyro, load)
                 if load is not None:
-                    found.append((item.t, detector.still))
+                    found.append((item.t, detector.standing))
     return [t for t, _ in found], [still for _, still in found]
 
 
@@ -222,7 +222,7 @@ def test_the_contours_of_a_loose_insole_rest_at_the_wearers_own_slowest() -> Non
     assert hints[60:] == [Phase.STATIONARY] * 30
     for n, load in enumerate([*[AIR] * 50, *rolling]):
         fed(detector, [load], begin=4.0 + 0.01 * n)
-        assert not detector.still
+        assert not detector.standing
 
 
 @pytest.mark.parametrize("share", [0.0, 0.08])

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath.emulate.sensors.insoles import heel_array, layout
-from solepath.papers.pressure_contour.contour import FIGURE_4, Contours, ContourSettings
+from solepath.papers.pressure_contour.contour import PAPER_LEVELS, Contours, ContourSettings
 from solepath.types import Cell, Foot, Layout
 
 LENGTH = 0.28
@@ -58,7 +58,7 @@ def test_the_integral_over_all_directions_divided_by_pi_is_how_fast_the_contour_
     assert x == pytest.approx(0.003 / STEP, rel=1e-6) and y == pytest.approx(-0.001 / STEP, rel=1e-6)
 
 
-@pytest.mark.parametrize("pascals", [None, FIGURE_4])
+@pytest.mark.parametrize("pascals", [None, PAPER_LEVELS])
 def test_a_cone_of_pressure_that_moves_is_seen_to_move_as_fast(pascals: tuple[float, ...] | None) -> None:
     where = grid()
     centre = (0.046, 0.0)
@@ -93,7 +93,7 @@ def test_levels_that_follow_the_load_need_no_scale() -> None:
 
 
 def test_fixed_pressures_ask_for_newtons() -> None:
-    contours = Contours(ContourSettings(pascals=FIGURE_4))
+    contours = Contours(ContourSettings(pascals=PAPER_LEVELS))
     contours.set_layout(grid(scale=None))
     assert not contours.absolute and contours.levels == contours.settings.shares
 

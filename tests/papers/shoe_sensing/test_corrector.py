@@ -26,7 +26,7 @@ DT = 0.01
 
 def begun(**changes: float | bool) -> ShoeSensing:
     """A foot that has stood for a while, with a corrector that does as the paper says and no more."""
-    plain: dict[str, float | bool] = {"behind": 0.0, "heed": 0.0}
+    plain: dict[str, float | bool] = {"detector_delay": 0.0, "tilt_share": 0.0}
     one = ShoeSensing(evolve(ShoeSensingSettings(), **{**plain, **changes}))
     one.start(IDENTITY, 0.02)
     go(one, [ZERO] * 20, STILL)
@@ -110,7 +110,7 @@ def test_tilt_is_fed_back_in_stance_and_not_in_swing() -> None:
     # the foot is level, the attitude says that it is pitched by 0.1 rad
     for stance, expected in ((STILL, 0.1 * 0.3679), (MOVES, 0.1)):
         one = begun(kp=1.0)
-        one.still = stance is STILL
+        one.standing = stance is STILL
         one.attitude = tilted
         go(one, [ZERO] * 100, stance)
         assert 2.0 * one.attitude[2] == pytest.approx(expected, rel=0.03)  # exp(-Kp t) after 1 s
@@ -118,7 +118,7 @@ def test_tilt_is_fed_back_in_stance_and_not_in_swing() -> None:
 
 def test_the_velocity_left_at_the_end_of_a_motion_turns_the_tilt_that_would_explain_it() -> None:
     # pitched by 0.05 rad too little: gravity leaks 0.05 g forwards; when the stance is over, half of it is believed
-    one = begun(heed=0.5, kp=0.0)
+    one = begun(tilt_share=0.5, kp=0.0)
     one.attitude = from_rotation_vector((0.0, 0.05, 0.0))
     one.force = None
     go(one, [ZERO] * 59, MOVES)
@@ -138,9 +138,9 @@ def test_in_mid_swing_a_moment_without_acceleration_is_no_stance() -> None:
 def test_a_jogger_stands_with_doubtful_evidence_but_not_right_after_a_stance() -> None:
     one = begun()
     go(one, [ZERO] * 20, MOVES)
-    assert not go(one, [ZERO], DOUBTFUL) and not one.still
+    assert not go(one, [ZERO], DOUBTFUL) and not one.standing
     go(one, [ZERO] * 20, MOVES)
-    assert not go(one, [ZERO] * 5, DOUBTFUL) and one.still  # until now it stood certainly every time
+    assert not go(one, [ZERO] * 5, DOUBTFUL) and one.standing  # until now it stood certainly every time
     go(one, [ZERO] * 40, MOVES)
     assert go(one, [ZERO], DOUBTFUL)
 
@@ -154,7 +154,7 @@ def test_a_doubtful_landing_is_put_right_by_the_certain_one_that_follows() -> No
     go(sure, [ZERO] * 10, STILL)
     go(hasty, swing[:-5], MOVES)
     assert not go(hasty, swing[-5:-4], DOUBTFUL)  # nor is it told: the last stance was certain
-    assert hasty.still
+    assert hasty.standing
     assert abs(hasty.position[0] - sure.position[0]) > 0.02
     go(hasty, swing[-4:], DOUBTFUL)
     go(hasty, [ZERO] * 10, STILL)
@@ -169,7 +169,7 @@ def test_however_fast_a_spoilt_integration_runs_the_foot_stands_again() -> None:
 
 
 def test_the_motion_that_the_detector_saw_late_is_not_lost() -> None:
-    quick, late = begun(eliminate=False), begun(eliminate=False, behind=0.075)
+    quick, late = begun(eliminate=False), begun(eliminate=False, detector_delay=0.075)
     for one in (quick, late):
         go(one, [(2.0, 0.0, 0.0)] * 7, STILL)
         go(one, [(2.0, 0.0, 0.0)], MOVES)

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.papers.shoe_sensing.posture import GAIN, POINT, POINTS, gravity_error, posture, turned
+from solepath.papers.shoe_sensing.posture import GAIN, POINT_INTERVAL, POINTS, gravity_error, posture, turn
 from solepath.types import Quat, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, from_rotation_vector, multiply, normalise, rotate
 
@@ -34,12 +34,12 @@ def test_feedback_with_the_papers_sign_turns_towards_gravity() -> None:
     force = up_of(from_rotation_vector((0.0, PITCHED, 0.0)))
     ex, ey, ez = gravity_error(IDENTITY, force)
     rate = (-ex, -ey, -ez)  # gyro' = gyro - Kp e, of a gyroscope that reads nothing, Kp = 1
-    after = gravity_error(turned(IDENTITY, rate, rate, 0.1), force)
+    after = gravity_error(turn(IDENTITY, rate, rate, 0.1), force)
     assert abs(after[1]) < abs(ey)
 
 
 def test_posture_converges_within_the_four_seconds_of_figure_7() -> None:
-    assert pytest.approx(4.0) == POINTS * POINT
+    assert pytest.approx(4.0) == POINTS * POINT_INTERVAL
     force = up_of(from_rotation_vector((0.3, PITCHED, 0.0)))
     ex, ey, ez = gravity_error(posture(force), force)
     assert sqrt(ex * ex + ey * ey + ez * ez) < 1e-3
@@ -51,7 +51,7 @@ def test_the_error_falls_as_its_half_tangent_does() -> None:
     for _ in range(100):
         ex, ey, ez = gravity_error(q, force)
         rate = (-GAIN * ex, -GAIN * ey, -GAIN * ez)
-        q = turned(q, rate, rate, POINT)
+        q = turn(q, rate, rate, POINT_INTERVAL)
     left = gravity_error(q, force)[0]
     assert abs(left) == pytest.approx(0.1472, rel=0.02)  # 2 atan(tan(0.5) exp(-2)) = 0.1477 rad, its sine 0.1472
 
@@ -76,7 +76,7 @@ def test_one_step_of_a_constant_rate_has_four_terms_of_the_series() -> None:
     # half of 0.2 rad: k1 + 2 k2 + 2 k3 + k4 makes 1 - a^2/2 + a^4/24 and a - a^3/6
     a = 0.1
     expected = normalise((1.0 - a**2 / 2 + a**4 / 24, 0.0, 0.0, a - a**3 / 6))
-    assert turned(IDENTITY, (0.0, 0.0, 2.0), (0.0, 0.0, 2.0), 0.1) == pytest.approx(expected, abs=1e-15)
+    assert turn(IDENTITY, (0.0, 0.0, 2.0), (0.0, 0.0, 2.0), 0.1) == pytest.approx(expected, abs=1e-15)
 
 
 def runge_kutta(rate: Vec3, h: float, weights: tuple[float, float, float, float]) -> Quat:
@@ -103,33 +103,33 @@ def test_the_printed_weights_turn_a_sixth_too_far_and_the_classical_ones_do_not(
     # 1e-4 rad about z: each k is 0.005 of z, so k1 + 2 k2 + 3 k3 + k4 is 0.035, and h/6 of it half of 7/6 of 1e-4 rad
     rate = (0.0, 0.0, 0.01)
     assert 2.0 * runge_kutta(rate, 0.01, (1.0, 2.0, 3.0, 1.0))[3] == pytest.approx(7.0 / 6.0 * 1e-4, rel=1e-6)
-    assert 2.0 * turned(IDENTITY, rate, rate, 0.01)[3] == pytest.approx(1e-4, rel=1e-6)
+    assert 2.0 * turn(IDENTITY, rate, rate, 0.01)[3] == pytest.approx(1e-4, rel=1e-6)
 
 
 def test_the_quaternion_is_moved_by_the_classical_weights() -> None:
     rate = (3.0, -2.0, 4.0)
-    assert turned(IDENTITY, rate, rate, 0.1) == pytest.approx(runge_kutta(rate, 0.1, (1.0, 2.0, 2.0, 1.0)), abs=1e-15)
+    assert turn(IDENTITY, rate, rate, 0.1) == pytest.approx(runge_kutta(rate, 0.1, (1.0, 2.0, 2.0, 1.0)), abs=1e-15)
 
 
 def test_a_rate_that_grows_counts_with_its_mean() -> None:
-    q = turned(IDENTITY, (0.0, 0.0, 0.0), (0.0, 2.0, 0.0), 0.1)
+    q = turn(IDENTITY, (0.0, 0.0, 0.0), (0.0, 2.0, 0.0), 0.1)
     assert q == pytest.approx((cos(0.05), 0.0, sin(0.05), 0.0), abs=1e-6)
 
 
 def test_a_hundred_small_turns_are_a_large_one() -> None:
     q: Quat = IDENTITY
     for _ in range(100):
-        q = turned(q, (pi, 0.0, 0.0), (pi, 0.0, 0.0), 0.01)
+        q = turn(q, (pi, 0.0, 0.0), (pi, 0.0, 0.0), 0.01)
     assert abs(q[1]) == pytest.approx(1.0, abs=1e-7)
 
 
 @given(st.tuples(*[st.floats(-100.0, 100.0)] * 3), st.tuples(*[st.floats(-100.0, 100.0)] * 3), st.floats(0.0, 0.25))
 def test_whatever_the_rate_the_quaternion_keeps_its_length(before: Vec3, after: Vec3, h: float) -> None:
-    q = turned((0.5, 0.5, -0.5, 0.5), before, after, h)
+    q = turn((0.5, 0.5, -0.5, 0.5), before, after, h)
     assert sum(x * x for x in q) == pytest.approx(1.0)
 
 
 def test_slow_samples_of_a_fast_turn_are_turned_exactly() -> None:
     start = normalise((0.9, 0.1, 0.3, -0.2))
     expected = multiply(start, from_rotation_vector((0.0, 2.0, 0.0)))
-    assert turned(start, (0.0, 20.0, 0.0), (0.0, 20.0, 0.0), 0.1) == pytest.approx(expected)
+    assert turn(start, (0.0, 20.0, 0.0), (0.0, 20.0, 0.0), 0.1) == pytest.approx(expected)

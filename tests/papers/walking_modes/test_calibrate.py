@@ -20,8 +20,8 @@ from solepath.papers.walking_modes.calibrate import (
     fit_modes,
     mean_errors,
     read_marks,
+    remove_heading_error,
     step_errors,
-    without_heading,
 )
 from solepath.papers.walking_modes.newton import fit_gauge
 from solepath.recording.decoded import DecodedRecording
@@ -125,7 +125,7 @@ def test_errors_do_not_accumulate_and_are_told_by_foot() -> None:
 def test_what_both_feet_are_off_to_one_side_is_a_heading_and_no_compensation() -> None:
     mode = WalkingMode.STRAIGHT
     means = {Foot.LEFT: {mode: (0.01, -0.02)}, Foot.RIGHT: {mode: (0.02, 0.03), WalkingMode.LEFT_WIDE: (0.0, 0.04)}}
-    without_heading(means)
+    remove_heading_error(means)
     assert means[Foot.LEFT][mode] == pytest.approx((0.01, -0.025))
     assert means[Foot.RIGHT][mode] == pytest.approx((0.02, 0.025))
     assert means[Foot.RIGHT][WalkingMode.LEFT_WIDE] == (0.0, 0.04)

@@ -18,7 +18,7 @@ from solepath.emulate.wearers.gait import Wearer
 from solepath.emulate.wearers.turning import matrices
 from solepath.emulate.wearers.walker import Walker
 from solepath.papers.walking_modes.limbs.inclination import Inclination
-from solepath.papers.walking_modes.limbs.limbs import ABOVE, SEGMENTS, LowerLimbs, foot_end
+from solepath.papers.walking_modes.limbs.limbs import LIMB_SITES, SEGMENTS, LowerLimbs, foot_end
 from solepath.papers.walking_modes.settings import ModesSettings
 from solepath.saving import codec as machine
 from solepath.types import Foot, Quat, Site, Vec3
@@ -84,7 +84,7 @@ def stood(chain: LowerLimbs, mounted: dict[Site, Quat], segments: dict[Site, Qua
     for k in range(31):
         for site in SEGMENTS:
             turned = IDENTITY if segments is None else segments.get(site, IDENTITY)
-            chain.told(site, 0.02 * k, multiply(turned, mounted[site]))
+            chain.set_attitude(site, 0.02 * k, multiply(turned, mounted[site]))
 
 
 MOUNTED = {site: normalise((1.0, 0.1 * k, -0.2 * k, 0.3)) for k, site in enumerate(SEGMENTS)}
@@ -94,7 +94,7 @@ def swing_back(chain: LowerLimbs, t: float, world: Quat = IDENTITY) -> None:
     """The left leg as one, by 30 degrees, which the chain knows; `world`: how that of the thigh's sensor is turned."""
     for site in (Site.LEFT_THIGH, Site.LEFT_SHANK, Site.LEFT_FOOT):
         told = multiply(pitched(30), MOUNTED[site])
-        chain.told(site, t, multiply(world, told) if site is Site.LEFT_THIGH else told)
+        chain.set_attitude(site, t, multiply(world, told) if site is Site.LEFT_THIGH else told)
     end = foot_end(IDENTITY, pitched(30), pitched(30), pitched(30), HIP, LIMBS)
     assert chain.end(Foot.LEFT, t) == pytest.approx(end)
 
@@ -113,7 +113,7 @@ def test_who_does_not_stand_still_is_not_aligned() -> None:
     chain = LowerLimbs(WORN)
     for k in range(100):
         for site in SEGMENTS:
-            chain.told(site, 0.02 * k, pitched(3.0 * k) if site is Site.LEFT_SHANK else IDENTITY)
+            chain.set_attitude(site, 0.02 * k, pitched(3.0 * k) if site is Site.LEFT_SHANK else IDENTITY)
     assert not chain.aligned
 
 
@@ -123,8 +123,8 @@ def test_the_first_step_tells_where_the_wearer_looked_in_the_world_of_the_sensor
     away = {site: multiply(from_yaw(north), q) for site, q in MOUNTED.items()}
     stood(chain, away)
     for site, lean in ((Site.LEFT_THIGH, -20), (Site.LEFT_SHANK, -20), (Site.RIGHT_THIGH, 15), (Site.RIGHT_SHANK, 15)):
-        chain.told(site, 0.62, multiply(multiply(from_yaw(north), pitched(lean)), MOUNTED[site]))
-    chain.stepped(Foot.LEFT, 0.62)
+        chain.set_attitude(site, 0.62, multiply(multiply(from_yaw(north), pitched(lean)), MOUNTED[site]))
+    chain.add_touchdown(Foot.LEFT, 0.62)
     assert chain.facing == pytest.approx(north)
     step = np.subtract(chain.end(Foot.LEFT, 0.62), chain.end(Foot.RIGHT, 0.62))
     assert step[0] == pytest.approx(0.85 * (sin(radians(20)) + sin(radians(15))))
@@ -136,8 +136,8 @@ def test_whatever_the_sensors_say_the_chain_is_somewhere(told: list[tuple[Site, 
     chain = LowerLimbs(WORN)
     stood(chain, MOUNTED)
     for site, t, quat in told:
-        chain.told(site, t, quat)
-    chain.stepped(Foot.LEFT, 0.7)
+        chain.set_attitude(site, t, quat)
+    chain.add_touchdown(Foot.LEFT, 0.7)
     for foot in Foot:
         assert all(abs(value) < 2.0 for value in (*chain.end(foot, 0.6), *chain.forward(foot, 0.6)))
     assert machine.load(LowerLimbs, json.loads(json.dumps(machine.save(chain), allow_nan=False))) == chain
@@ -176,7 +176,7 @@ def again(chain: LowerLimbs, site: Site, world: Quat, begin: float) -> None:
     for k in range(31):
         for other in SEGMENTS:
             told = multiply(world, MOUNTED[other]) if other is site else MOUNTED[other]
-            chain.told(other, begin + 0.02 * k, told)
+            chain.set_attitude(other, begin + 0.02 * k, told)
 
 
 def test_a_sensor_that_began_anew_is_used_again_in_its_new_world_once_it_stood_still() -> None:
@@ -184,22 +184,22 @@ def test_a_sensor_that_began_anew_is_used_again_in_its_new_world_once_it_stood_s
     stood(chain, MOUNTED)
     world = from_yaw(2.0)
     chain.reset(Site.LEFT_THIGH)
-    chain.told(Site.LEFT_THIGH, 0.62, multiply(world, MOUNTED[Site.LEFT_THIGH]))
-    assert not chain.current(0.62)
-    assert "left thigh began anew" in chain.why_not(0.62, SEGMENTS)
+    chain.set_attitude(Site.LEFT_THIGH, 0.62, multiply(world, MOUNTED[Site.LEFT_THIGH]))
+    assert not chain.is_current(0.62)
+    assert "left thigh began anew" in chain.why_unusable(0.62, SEGMENTS)
     again(chain, Site.LEFT_THIGH, world, 0.64)
-    assert chain.current(1.24)
+    assert chain.is_current(1.24)
     assert chain.end(Foot.LEFT, 1.24) == pytest.approx((0.2, 0.1, -0.95))
     swing_back(chain, 1.26, world)
 
 
 def test_why_the_chain_is_not_known_names_the_site() -> None:
     chain = LowerLimbs(WORN)
-    assert chain.why_not(0.0, ()).startswith("no sensor heard at the pelvis, left thigh")
-    assert chain.why_not(0.0, ABOVE).startswith("no attitude, and no acceleration")
+    assert chain.why_unusable(0.0, ()).startswith("no sensor heard at the pelvis, left thigh")
+    assert chain.why_unusable(0.0, LIMB_SITES).startswith("no attitude, and no acceleration")
     stood(chain, MOUNTED)
     for site in SEGMENTS:
         if site is not Site.RIGHT_SHANK:
-            chain.told(site, 1.0, MOUNTED[site])
-    assert not chain.current(1.0)
-    assert chain.why_not(1.0, ABOVE) == "the newest attitude of the right shank is 0.4 s old"
+            chain.set_attitude(site, 1.0, MOUNTED[site])
+    assert not chain.is_current(1.0)
+    assert chain.why_unusable(1.0, LIMB_SITES) == "the newest attitude of the right shank is 0.4 s old"

@@ -110,7 +110,7 @@ def test_coarse_insoles_have_every_region_though_some_share_cells() -> None:
 def test_a_contact_tells_each_region_as_a_multiple_of_the_mean_cell() -> None:
     insole, contact = layout(99, LEFT), Contact()
     contact.set_layout(insole)
-    contact.begin(0.0)
+    contact.start(0.0)
     cells = [1.0] * 99
     for k in regions(insole)["R1"]:
         cells[k] = 3.0
@@ -139,7 +139,7 @@ def test_a_slow_bend_leaves_less_of_a_mark_and_counts_for_more() -> None:
 def test_whatever_the_cells_bear_a_contact_ends_in_a_mode_or_in_none(rows: list[list[float]], step: float) -> None:
     contact = Contact()
     contact.set_layout(layout(99, LEFT))
-    contact.begin(0.0)
+    contact.start(0.0)
     for row in rows:
         contact.add(tuple(row), sum(row))
     shares = contact.shares()
@@ -169,7 +169,7 @@ def test_cells_that_do_not_tell_left_from_right_have_no_regions_and_tell_no_mode
     assert regions(BLIND[how]) == {}
     contact = Contact()
     contact.set_layout(BLIND[how])
-    contact.begin(0.0)
+    contact.start(0.0)
     cells = (1.0,) * len(BLIND[how].cells)
     contact.add(cells, sum(cells))
     assert contact.shares() is None
@@ -178,9 +178,9 @@ def test_cells_that_do_not_tell_left_from_right_have_no_regions_and_tell_no_mode
 def test_another_layout_of_as_many_cells_has_regions_of_its_own() -> None:
     contact = Contact()
     contact.set_layout(layout(96, LEFT))
-    before = contact.where
+    before = contact.region_cells
     contact.set_layout(shifted(layout(96, LEFT)))
-    assert contact.where == regions(shifted(layout(96, LEFT))) != before
+    assert contact.region_cells == regions(shifted(layout(96, LEFT))) != before
 
 
 def test_a_share_that_no_insole_can_have_is_bounded() -> None:

@@ -10,12 +10,12 @@ from hypothesis import strategies as st
 
 from solepath.papers.walking_modes.touchdown import (
     AnyTouchdown,
-    Carrier,
     FootState,
     Height,
     NetAcceleration,
     PressureTouchdown,
-    suspended,
+    ReferenceFoot,
+    displace,
     v_change,
 )
 from solepath.saving import codec as machine
@@ -30,8 +30,8 @@ def test_while_one_foot_is_down_the_other_is_seen_from_it() -> None:
 
 
 def test_the_foot_in_the_air_is_the_change_and_the_compensation_away_from_the_one_that_is_down() -> None:
-    assert suspended((1.0, 2.0, 0.0), (0.4, 0.2, 0.2)) == pytest.approx((1.4, 2.2, 0.2))  # (3)
-    assert suspended((1.0, 2.0, 0.0), (0.4, 0.2, 0.2), (0.0055, -0.0034, 0.0)) == pytest.approx((1.4055, 2.1966, 0.2))
+    assert displace((1.0, 2.0, 0.0), (0.4, 0.2, 0.2)) == pytest.approx((1.4, 2.2, 0.2))  # (3)
+    assert displace((1.0, 2.0, 0.0), (0.4, 0.2, 0.2), (0.0055, -0.0034, 0.0)) == pytest.approx((1.4055, 2.1966, 0.2))
 
 
 def test_the_lower_foot_is_down() -> None:
@@ -62,12 +62,12 @@ def test_a_foot_is_down_when_one_cell_bears_more_than_five_newtons() -> None:
 
 def test_where_nobody_knows_what_a_newton_is_a_share_of_the_most_counts() -> None:
     method = PressureTouchdown()
-    left, right = FootState(pressure=401.0, full=4000.0), FootState(pressure=399.0, full=4000.0)
+    left, right = FootState(pressure=401.0, highest_pressure=4000.0), FootState(pressure=399.0, highest_pressure=4000.0)
     assert method.update(0.0, left, right) == (True, False)
 
 
 def test_a_cell_that_flickers_about_the_threshold_is_one_touchdown() -> None:
-    method, carrier = PressureTouchdown(), Carrier()
+    method, carrier = PressureTouchdown(), ReferenceFoot()
     came = []
     for k, force in enumerate((0.0, 0.0, 4.0, 5.5, 4.5, 5.5, 4.0, 20.0)):
         taken = carrier.update(method.update(0.01 * k, FootState(pressure=force), FootState(pressure=50.0)))
@@ -76,7 +76,7 @@ def test_a_cell_that_flickers_about_the_threshold_is_one_touchdown() -> None:
 
 
 def test_in_walking_each_foot_carries_from_its_own_touchdown_to_the_others() -> None:
-    carrier = Carrier()
+    carrier = ReferenceFoot()
     walk = [(True, True), (False, True), (True, True), (True, False), (True, True), (False, True)]
     assert [carrier.update(flags) for flags in walk] == [
         (LEFT, False),  # both stand
@@ -89,7 +89,7 @@ def test_in_walking_each_foot_carries_from_its_own_touchdown_to_the_others() -> 
 
 
 def test_a_foot_that_lifts_hands_over_to_the_one_that_stands() -> None:
-    carrier = Carrier()
+    carrier = ReferenceFoot()
     for flags in ((False, True), (True, True)):
         carrier.update(flags)
     assert carrier.foot is LEFT
@@ -97,7 +97,7 @@ def test_a_foot_that_lifts_hands_over_to_the_one_that_stands() -> None:
 
 
 def test_in_flight_nothing_changes() -> None:
-    carrier = Carrier()
+    carrier = ReferenceFoot()
     carrier.update((True, False))
     assert carrier.update((False, False)) is None
     assert carrier.foot is LEFT
@@ -109,7 +109,7 @@ values = st.none() | st.floats(-1e6, 1e6)
 @given(st.lists(st.tuples(st.floats(-10.0, 10.0), *[values] * 8), max_size=30))
 def test_whatever_the_feet_show_somebody_carries_or_nobody(samples: list[tuple[float | None, ...]]) -> None:
     methods: list[AnyTouchdown] = [Height(), NetAcceleration(), PressureTouchdown()]
-    carriers = [Carrier() for _ in methods]
+    carriers = [ReferenceFoot() for _ in methods]
     for t, *shown in samples:
         left, right = FootState(*shown[:4]), FootState(*shown[4:])
         for k, method in enumerate(methods):

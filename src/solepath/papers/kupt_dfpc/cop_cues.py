@@ -1,19 +1,19 @@
-"""Toe-off and heel-strike from the centre of pressure; the phases that follow from them.
+"""Cues for toe-off and heel-strike from the centre of pressure (CoP), and the phases that follow from them.
 
-After Chen et al. 2019 (IEEE Internet of Things Journal 6), section III.C.2 and fig. 4. In the air the centre of
-pressure is set to the foot's centre. Along the foot it jumps there from the toes when the foot leaves the ground (from
-sample A to B of the figure), rests there in the air, and jumps from there to the heel when it lands (C to D).
+After Chen et al. 2019 (IEEE Internet of Things Journal 6), section III.C.2 and fig. 4. In the air the CoP is set to the
+foot's centre. Along the foot it jumps there from the toes when the foot leaves the ground (from sample A to B of the
+figure), rests there in the air, and jumps from there to the heel when the foot lands (C to D).
 
 - Toe-off is the sample before the largest jump from motion start to the first sample of swing (point A).
 - Heel-strike is the sample after the largest jump from swing to motion end (point D).
 - Motion ends and starts with the first and after the last sample that the detector calls stationary.
-- A swing is normal when the centre of pressure rested at the foot's centre for `REST` s. A step without one is abnormal
-  (section IV.A): "toe-off and heel-strike were not extracted for that step". Its phases go on all the same, without a
-  heel-strike, and no mark is set, so that nothing is calibrated by it.
+- A swing is normal when the CoP rested at the foot's centre for `REST_TIME` s. A stride without one is abnormal
+  (section IV.A): "toe-off and heel-strike were not extracted for that step". Its phases continue without a heel-strike,
+  and no mark is set, so that it calibrates nothing.
 
-Where there is no load yet (it is not known before it has fallen and risen once) the inertial cues speak. A foot that
-slides away without ever leaving the ground has cleared it when it has been fast for `SHUFFLE_TIME`. What follows from
-what the cells show is the table of stages.py.
+Where the load is unknown (before it has fallen and risen once) the inertial cues are used. A foot that slides away
+without ever leaving the ground has cleared it when it has been fast for `SHUFFLE_TIME`. The table of stages.py gives
+the next stage for each cue of the cells.
 """
 
 from __future__ import annotations
@@ -31,56 +31,66 @@ from ...types.attrs import define, field
 from ...types.vector import TIE
 from .stages import STAGES, CellCue, StepStage
 
-FARTHEST = 1e3
-"""No centre of pressure jumps so far, m."""
-REST, LONGEST_LANDING = 0.1, 0.4
-"""In a normal swing the centre of pressure rests at the foot's centre for the first of these times, s. A heel-strike is
-reported after the second, s, even when the foot is not stationary yet."""
+LARGEST_JUMP = 1e3
+"""Jump that no centre of pressure exceeds, m."""
+REST_TIME, LONGEST_LANDING = 0.1, 0.4
+"""Rest of the CoP at the foot's centre that makes a swing normal, s, and longest wait for a stationary foot, s.
+
+After the wait a heel-strike is reported even when the foot is not stationary yet.
+"""
 SHUFFLE_TIME = 0.25
-"""How long a foot must be fast (InertialCues) to have left without ever being in the air, s."""
+"""Time for which a foot must be fast (InertialCues) to have left without ever being in the air, s."""
 AREA_ON, AREA_OFF = 0.05, 0.03
-"""Of an insole alone the foot is flat from when heel and forefoot are above the first of these shares of the full load
-until one of them is below the second."""
-STALE = 0.05
-"""Samples without cells, where those come more slowly, are no matter for so long, s."""
+"""Shares of the full load for an insole alone: both areas above the first are flat, until one is below the second."""
+LOAD_VALID_TIME = 0.05
+"""Time for which samples without cells are skipped where cells come more slowly than inertial samples, s."""
 
 
 @define
 class CopCues(Cues):
-    """Latency: toe-off one sample; heel-strike and foot-flat at the first stationary sample, as the paper has it;
-    heel-off one sample."""
+    """Reports toe-off and heel-strike from the centre of pressure.
+
+    Latency: toe-off one sample; heel-strike and foot-flat at the first stationary sample, as the paper has it; heel-off
+    one sample.
+    """
 
     inertial: InertialCues = field(factory=InertialCues)
     touch: Touch = field(factory=Touch)
     sagittal: float = field(default=0.0, init=False)
-    """As in `Cues`."""
+    """Rate about the axis to the wearer's left in the last sample, positive toe down, rad/s (`Cues`)."""
     mark: Cue | None = field(default=None, init=False)
-    """CLEAR: the sample before the last is the best candidate so far for toe-off. CONTACT: the last sample is that for
-    heel-strike."""
-    middle: float | None = field(default=None, init=False)
-    """x of the foot's centre, m; None without a layout."""
+    """Mark of the last sample, None without one.
+
+    CLEAR: the sample before the last is the best candidate so far for toe-off. CONTACT: the last sample is the best
+    candidate for heel-strike.
+    """
+    foot_centre: float | None = field(default=None, init=False)
+    """Coordinate x of the foot's centre, m; None without a layout."""
     stage: StepStage = field(default=StepStage.LEAVING, init=False)
+    """Stage of the stride by the cells."""
     cop: float | None = field(default=None, init=False)
-    """x of the centre of pressure in the last sample, m."""
-    pressed_at: float | None = field(default=None, init=False)
-    """The last sample with a load, s."""
-    jump: float = field(default=-1.0, init=False)
-    """The largest so far of those looked for, m."""
-    moment: float | None = field(default=None, init=False)
-    """When it was: the best candidate for toe-off or heel-strike, s."""
-    loaded_at: float | None = field(default=None, init=False)
-    """The last sample on the ground, s."""
-    since: float = field(default=0.0, init=False)
-    """When the stage began, s."""
+    """Coordinate x of the centre of pressure in the last sample, m."""
+    load_at: float | None = field(default=None, init=False)
+    """Time of the last sample with a load, s."""
+    largest_jump: float = field(default=-1.0, init=False)
+    """Largest jump of the CoP so far in this stage, m."""
+    candidate_at: float | None = field(default=None, init=False)
+    """Time of the best candidate for toe-off or heel-strike, s."""
+    ground_at: float | None = field(default=None, init=False)
+    """Time of the last sample on the ground, s."""
+    stage_since: float = field(default=0.0, init=False)
+    """Start of the stage, s."""
     airborne_since: float | None = field(default=None, init=False)
-    told: bool = field(default=False, init=False)
-    """The heel-strike of this landing was told."""
+    """Start of the time in the air, s; None on the ground."""
+    contact_reported: bool = field(default=False, init=False)
+    """Flag: the heel-strike of this landing was reported."""
     fast_since: float | None = field(default=None, init=False)
+    """Time since which the foot has been fast, s; None while it is not."""
     flat: bool = field(default=False, init=False)
-    """For an insole alone: both areas are loaded."""
+    """Flag, for an insole alone: both areas are loaded."""
 
     def set_layout(self, layout: Layout) -> None:
-        self.middle = centre(layout)
+        self.foot_centre = centre(layout)
         self.touch.set_layout(layout)
 
     def update(
@@ -90,15 +100,15 @@ class CopCues(Cues):
         self.mark = None
         seen = self.inertial.update(t, dt, acc, gyro, still, speed, phase)
         self.sagittal = 0.0 if self.inertial.axis is None else self.inertial.sagittal
-        if load is None and self.pressed_at is not None and t - self.pressed_at < STALE:
+        if load is None and self.load_at is not None and t - self.load_at < LOAD_VALID_TIME:
             return ()
         stationary = still and stance.hint is Phase.STATIONARY
         airborne = self.touch.update(t, load, stationary)
         if load is None or not self.touch.trusted:
-            self._forget(t)
+            self._discard_load(t)
             return () if seen is None else (seen,)
-        found = self._begin(t, airborne, phase) if self.pressed_at is None else []
-        found += self._step(t, stationary, airborne, load)
+        found = self._start(t, airborne, phase) if self.load_at is None else []
+        found += self._add_load(t, stationary, airborne, load)
         if self.stage is StepStage.LEAVING and phase is not Phase.SWING and speed >= SHUFFLE_SPEED:
             if self.fast_since is None:
                 self.fast_since = t
@@ -109,55 +119,58 @@ class CopCues(Cues):
         return found
 
     def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
-        """As in `Cues`: both areas loaded say what the detector would have said. Without a layout there are no areas;
-        a heel-strike is then told at once, and nothing of the sole lying flat."""
+        """Return the cues of one sample of an insole alone (`Cues`): both loaded areas take the place of the detector.
+
+        Without a layout there are no areas; then a heel-strike is reported at once, and foot-flat never.
+        """
         if load.heel is None or load.forefoot is None:
             self.flat = False
-            found = self._step(t, False, self.touch.update(t, load), load)
+            found = self._add_load(t, False, self.touch.update(t, load), load)
             if self.stage is StepStage.LANDING:
-                found += self._dated((Cue.CONTACT,), t)
+                found += self._with_times((Cue.CONTACT,), t)
             return found
         self.flat = min(load.heel, load.forefoot) >= (AREA_OFF if self.flat else AREA_ON)
-        return self._step(t, self.flat, self.touch.update(t, load), load)
+        return self._add_load(t, self.flat, self.touch.update(t, load), load)
 
-    def _begin(self, t: float, airborne: bool, phase: Phase) -> list[SeenCue]:
-        """The cells are believed from here on, in a swing or at its end."""
+    def _start(self, t: float, airborne: bool, phase: Phase) -> list[SeenCue]:
+        """Return the cues at the first sample with a known load, in a swing or at its end."""
         if airborne:
             left = self.touch.moving_since
             self.stage = StepStage.FLYING
-            self.airborne_since = t - REST
+            self.airborne_since = t - REST_TIME
             return [] if phase is Phase.SWING else [SeenCue(Cue.CLEAR, t if left is None else left)]
         if phase is Phase.SWING:
             self._enter(StepStage.LANDING, t)
-            self.jump, self.moment = FARTHEST, t  # it was the first of its load that was seen: told, but no mark
+            self.largest_jump, self.candidate_at = LARGEST_JUMP, t  # its first load: reported, but no mark
         return []
 
-    def _step(self, t: float, stationary: bool, airborne: bool, load: Load) -> list[SeenCue]:
-        was, before = self.cop, self.pressed_at
-        self.pressed_at = t
-        on_ground = was if load.centre is None else load.centre[0]
-        now = self.middle if airborne else on_ground
-        self.cop = now
-        jump = 0.0 if was is None or now is None else abs(now - was)
+    def _add_load(self, t: float, stationary: bool, airborne: bool, load: Load) -> list[SeenCue]:
+        """Return the cues of one sample with a load."""
+        last_cop, before = self.cop, self.load_at
+        self.load_at = t
+        on_ground = last_cop if load.centre is None else load.centre[0]
+        new_cop = self.foot_centre if airborne else on_ground
+        self.cop = new_cop
+        jump = 0.0 if last_cop is None or new_cop is None else abs(new_cop - last_cop)
         found: list[SeenCue] = []
         for cue in self._cell_cues(t, stationary, airborne):
             stage, reported = STAGES[self.stage][cue]
-            found += self._dated(reported, t)
+            found += self._with_times(reported, t)
             if stage is self.stage or cue is CellCue.LEAVES or cue is CellCue.BRUSHES:
-                self.stage = stage  # what is looked for goes on
+                self.stage = stage  # the search for the largest jump continues
             else:
                 self._enter(stage, t)
             if cue is CellCue.MOVES or cue is CellCue.LANDS:
-                self._compare(jump, before, t)
+                self._update_candidate(jump, before, t)
         if not airborne:
-            self.loaded_at, self.airborne_since = t, None
+            self.ground_at, self.airborne_since = t, None
         elif self.airborne_since is None:
             self.airborne_since = t
         return found
 
     def _cell_cues(self, t: float, stationary: bool, airborne: bool) -> list[CellCue]:
-        """From numbers to cues: what this sample shows, in order."""
-        rested = self.airborne_since is not None and t - self.airborne_since >= REST - TIE
+        """Return the cues of the cells in this sample, in order."""
+        rested = self.airborne_since is not None and t - self.airborne_since >= REST_TIME - TIE
         landing = self.stage is StepStage.LANDING
         if airborne:
             if landing:
@@ -168,46 +181,49 @@ class CopCues(Cues):
             return [touched, CellCue.STANDS] if stationary else [touched]
         if stationary:
             return [CellCue.STANDS]
-        lingers = landing and t - self.since >= LONGEST_LANDING - TIE
+        lingers = landing and t - self.stage_since >= LONGEST_LANDING - TIE
         return [CellCue.MOVES, CellCue.LINGERS] if lingers else [CellCue.MOVES]
 
-    def _compare(self, jump: float, before: float | None, t: float) -> None:
-        """The centre of pressure has jumped by `jump` m since the sample at `before` s: the best candidate so far?"""
-        if jump <= self.jump:
+    def _update_candidate(self, jump: float, before: float | None, t: float) -> None:
+        """Make the sample the best candidate if the CoP jumped by more m since `before`, s, than ever in this stage."""
+        if jump <= self.largest_jump:
             return
         if self.stage is StepStage.LEAVING and before is not None:
-            self.jump, self.moment, self.mark = jump, before, Cue.CLEAR
-        elif self.stage is StepStage.LANDING and not self.told:
-            self.jump, self.moment, self.mark = jump, t, Cue.CONTACT
+            self.largest_jump, self.candidate_at, self.mark = jump, before, Cue.CLEAR
+        elif self.stage is StepStage.LANDING and not self.contact_reported:
+            self.largest_jump, self.candidate_at, self.mark = jump, t, Cue.CONTACT
 
-    def _dated(self, cues: Sequence[Cue], t: float) -> list[SeenCue]:
-        """The cues with their times."""
+    def _with_times(self, cues: Sequence[Cue], t: float) -> list[SeenCue]:
+        """Return the cues with their times."""
         found: list[SeenCue] = []
         for cue in cues:
-            at: float | None = t
+            cue_at: float | None = t
             if cue is Cue.CONTACT:
-                at, self.told = None if self.told else self.moment, self.told or self.moment is not None
+                cue_at, self.contact_reported = (
+                    None if self.contact_reported else self.candidate_at,
+                    self.contact_reported or self.candidate_at is not None,
+                )
             elif cue is Cue.CLEAR:
                 landing = self.stage is StepStage.LANDING  # the candidate is one for heel-strike
-                at = self.moment if self.moment is not None and not landing else self.loaded_at
-                if at is None:
-                    at = self.airborne_since if landing else t
-            if at is not None:
-                found.append(SeenCue(cue, at))
+                cue_at = self.candidate_at if self.candidate_at is not None and not landing else self.ground_at
+                if cue_at is None:
+                    cue_at = self.airborne_since if landing else t
+            if cue_at is not None:
+                found.append(SeenCue(cue, cue_at))
         return found
 
     def _enter(self, stage: StepStage, t: float) -> None:
         self.stage = stage
-        self.since = t
-        self.jump = -1.0
-        self.moment = self.airborne_since = None
-        self.told = False
+        self.stage_since = t
+        self.largest_jump = -1.0
+        self.candidate_at = self.airborne_since = None
+        self.contact_reported = False
 
-    def _forget(self, t: float) -> None:
-        """Nothing is known of the load: the step under way is not a normal one."""
-        if self.pressed_at is not None or self.stage is not StepStage.LEAVING:
+    def _discard_load(self, t: float) -> None:
+        """Discard the load, which is unknown now: the stride under way is not a normal one."""
+        if self.load_at is not None or self.stage is not StepStage.LEAVING:
             self._enter(StepStage.LEAVING, t)
-        self.pressed_at = self.cop = self.loaded_at = None
+        self.load_at = self.cop = self.ground_at = None
 
     def cleared(self, t: float) -> SeenCue:
         return self.inertial.cleared(t)
@@ -215,12 +231,12 @@ class CopCues(Cues):
     def reset(self) -> None:
         self.inertial.reset()
         self.fast_since = None
-        if self.pressed_at is not None:
-            self._forget(self.pressed_at)
+        if self.load_at is not None:
+            self._discard_load(self.load_at)
 
     def restart(self) -> None:
         self.inertial = self.inertial.restart()
         self.touch = self.touch.restart()
         self._enter(StepStage.LEAVING, 0.0)
-        self.cop = self.pressed_at = self.loaded_at = self.fast_since = self.mark = None
+        self.cop = self.load_at = self.ground_at = self.fast_since = self.mark = None
         self.flat = False

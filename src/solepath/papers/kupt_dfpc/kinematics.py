@@ -1,4 +1,4 @@
-"""The shoe as rockers: where the sensor in it is, and how fast, while it rolls over its heel or its forefoot.
+"""Position and velocity of the sensor in a shoe that rolls over its heel or its forefoot, as on rockers.
 
 Equations (4) to (7) of Chen et al., "Smart insole-based indoor localization system for Internet of Things
 applications" (IEEE Internet of Things Journal 6, 2019), figs. 5 to 7. Seen from the side the point below the sensor on
@@ -13,10 +13,10 @@ front of the sensor: pitch is heel-up, and the sensor lies P_h + L_p2t behind th
 minus sign in (7). Velocities are differences between two samples over the true time between them (5) (7): the mean
 velocity in between.
 
-The pitch comes from the attitude however the sensor is mounted. `Sagittal` keeps, in the sensor frame, which way was up
-while the foot stood flat and which way the toes point. The heel lifts by turning the foot toe-down, which tilts "up"
-towards the heel: that is how the direction of the toes is learnt. Everything is relative to the foot when it stood, so
-a sensor that lies askew, or a frame whose vertical is a degree off, gives the same pitch.
+The pitch comes from the attitude, for any mounting of the sensor. `Sagittal` keeps, in the sensor frame, the direction
+up while the foot stood flat and the direction of the toes. The heel lifts by turning the foot toe-down, which tilts
+"up" towards the heel: this gives the direction of the toes. Everything is relative to the standing foot, so a sensor
+that is mounted skewed, or a frame whose vertical is a degree off, gives the same pitch.
 """
 
 from __future__ import annotations
@@ -28,26 +28,30 @@ from ...types import Quat, Vec3
 from ...types.attrs import define, evolve, field
 from ...types.vector import ZERO
 
-LENGTH = 0.285
-"""Of the shoe whose geometry is the default, m."""
+DEFAULT_LENGTH = 0.285
+"""Length of the shoe whose geometry is the default, m."""
 SHORTEST, LONGEST = 0.15, 0.40
-"""No insole is shorter or longer, m."""
+"""Lengths of the shortest and the longest insole, m."""
 FLAT_TIME = 0.05
-""""Up" on the flat foot follows what is measured within about this time, s."""
-LEAST_LIFT = 0.35
-"""A push-off lifts the heel by at least this before it tells the direction of the toes, rad."""
-MISFITS, FOLLOW = 3, 0.2
-"""Push-offs in a row in another direction, by more than 60 degrees, after which that one is believed; share by which
-each push-off moves the direction."""
+"""Time constant with which "up" on the flat foot follows the measured direction, s."""
+LEAST_LIFT_ANGLE = 0.35
+"""Least lift of the heel from which a push-off shows the direction of the toes, rad."""
+MISFITS, FOLLOW_SHARE = 3, 0.2
+"""Number of push-offs in a row after which another direction replaces the known one, and share of each push-off.
+
+Another direction differs by more than 60 degrees. Each push-off moves the direction of the toes by the share.
+"""
 
 
 def shoe_for(length: float) -> ShoeGeometry:
-    """The default shoe in the size of an insole of `length` m: all that lies along the sole grows with it, the height
-    of the sensor does not. The default itself for a length that no insole has."""
+    """Return the default shoe in the size of an insole of `length` m; unscaled for a length that no insole has.
+
+    Lengths along the sole grow with the insole, the height of the sensor does not.
+    """
     shoe = ShoeGeometry()
     if not SHORTEST <= length <= LONGEST:
         return shoe
-    k = length / LENGTH
+    k = length / DEFAULT_LENGTH
     return evolve(
         shoe,
         heel_radius=k * shoe.heel_radius,
@@ -56,15 +60,17 @@ def shoe_for(length: float) -> ShoeGeometry:
     )
 
 
-def heel_place(shoe: ShoeGeometry, toe_up: float) -> tuple[float, float]:
-    """(4): (P_h ahead of the heel's end, P_z above the ground) of the sensor, m, at this toe-up pitch, rad."""
+def heel_position(shoe: ShoeGeometry, toe_up: float) -> tuple[float, float]:
+    """Return (P_h ahead of the heel's end, P_z above the ground) of the sensor, m, at this toe-up pitch, rad (4)."""
     s, c = sin(toe_up), cos(toe_up)
     return shoe.heel_radius * c - shoe.height * s, shoe.heel_radius * s + shoe.height * c
 
 
-def forefoot_place(shoe: ShoeGeometry, heel_up: float) -> tuple[float, float]:
-    """(6): (P_h + L_p2t behind the toe, P_z above the ground) of the sensor, m, at this heel-up pitch, rad. Between
-    flat and `steepest` the fitted curves hold; beyond either they stay as they are there."""
+def forefoot_position(shoe: ShoeGeometry, heel_up: float) -> tuple[float, float]:
+    """Return (P_h + L_p2t behind the toe, P_z above the ground) of the sensor, m, at this heel-up pitch, rad (6).
+
+    Between flat and `steepest` the fitted curves hold; beyond, their values stay constant.
+    """
     p = min(max(heel_up, 0.0), shoe.steepest)
     radius = to_toe = 0.0
     for k in reversed(shoe.forefoot_radius):
@@ -77,28 +83,28 @@ def forefoot_place(shoe: ShoeGeometry, heel_up: float) -> tuple[float, float]:
 
 @define
 class Sagittal:
-    """How the foot is pitched and where it points, from the attitude of a sensor mounted anyhow.
+    """Measures the foot's pitch and direction from the attitude of a sensor in any mounting.
 
     Angles in rad. The direction of the toes is known after the first push-off; `toe` is None until then.
     """
 
     up: Vec3 | None = field(default=None, init=False)
-    """Up in the sensor frame while the foot stood flat, unit length."""
+    """Direction up in the sensor frame while the foot stood flat, unit length."""
     toe: Vec3 | None = field(default=None, init=False)
-    """The direction of the toes in the sensor frame, unit length."""
-    lift: Vec3 = field(default=ZERO, init=False)
+    """Direction of the toes in the sensor frame, unit length."""
+    tilt_sum: Vec3 = field(default=ZERO, init=False)
     """Sum of the tilts of "up" in this push-off, sensor frame."""
-    highest: float = field(default=0.0, init=False)
-    """Square of the sine of the largest of them."""
-    strange: int = field(default=0, init=False)
-    """Push-offs in a row that went another way."""
+    largest_tilt: float = field(default=0.0, init=False)
+    """Square of the sine of the largest tilt in this push-off."""
+    misfits: int = field(default=0, init=False)
+    """Number of push-offs in a row in another direction."""
     pitch: float = field(default=0.0, init=False)
-    """Toe-up, rad, of the last sample."""
-    ahead: tuple[float, float] = field(default=(1.0, 0.0), init=False)
-    """Where the foot points, horizontal unit vector in the navigation frame."""
+    """Pitch of the last sample, positive toe-up, rad."""
+    forward: tuple[float, float] = field(default=(1.0, 0.0), init=False)
+    """Direction of the foot, horizontal unit vector in the navigation frame."""
 
-    def stands(self, dt: float, attitude: Quat) -> None:
-        """The foot stands flat."""
+    def add_flat_sample(self, dt: float, attitude: Quat) -> None:
+        """Add one sample of a foot that stands flat."""
         x, y, z = _up(attitude)
         if self.up is None:
             self.up = (x, y, z)
@@ -109,8 +115,8 @@ class Sagittal:
         k = 1.0 / sqrt(u * u + v * v + w * w)
         self.up = (u * k, v * k, w * k)
 
-    def see(self, attitude: Quat) -> None:
-        """Works out `pitch` and `ahead` for this attitude; nothing as long as `toe` is unknown."""
+    def update(self, attitude: Quat) -> None:
+        """Compute `pitch` and `forward` for this attitude; nothing as long as `toe` is unknown."""
         if self.toe is None or self.up is None:
             return
         # the toes' direction at right angles to what is now "up on the flat foot"
@@ -127,10 +133,13 @@ class Sagittal:
         self.pitch = asin(min(max(nz, -1.0), 1.0))
         level = hypot(nx, ny)
         if level > 1e-6:
-            self.ahead = (nx / level, ny / level)
+            self.forward = (nx / level, ny / level)
 
-    def lifts(self, attitude: Quat) -> None:
-        """The heel comes up: one more tilt of this push-off. Tilts after the largest, on the way back, do not count."""
+    def add_lift_sample(self, attitude: Quat) -> None:
+        """Add one sample of a push-off, in which the heel lifts.
+
+        Tilts after the largest, on the way back, do not count.
+        """
         if self.up is None:
             return
         x, y, z = _up(attitude)
@@ -140,56 +149,56 @@ class Sagittal:
         size = x * x + y * y + z * z
         if along < 0.0:
             size = 1.0
-        if size < 0.8 * self.highest:
+        if size < 0.8 * self.largest_tilt:
             return
-        self.highest = max(self.highest, size)
-        a, b, c = self.lift
-        self.lift = (a + x, b + y, c + z)
+        self.largest_tilt = max(self.largest_tilt, size)
+        a, b, c = self.tilt_sum
+        self.tilt_sum = (a + x, b + y, c + z)
 
-    def lifted(self) -> None:
-        """The push-off is over: learn the direction of the toes from it, if it went far enough."""
-        x, y, z = self.lift
-        highest = self.highest
-        self.lift = ZERO
-        self.highest = 0.0
+    def end_lift(self) -> None:
+        """End the push-off, and learn the direction of the toes from it if it was large enough."""
+        x, y, z = self.tilt_sum
+        largest_tilt = self.largest_tilt
+        self.tilt_sum = ZERO
+        self.largest_tilt = 0.0
         size = sqrt(x * x + y * y + z * z)
-        if highest < sin(LEAST_LIFT) ** 2 or size < 1e-9:
+        if largest_tilt < sin(LEAST_LIFT_ANGLE) ** 2 or size < 1e-9:
             return
         x, y, z = -x / size, -y / size, -z / size  # "up" tilts to the heel
         if self.toe is None:
             self.toe = (x, y, z)
             return
         u, v, w = self.toe
-        share = FOLLOW
+        share = FOLLOW_SHARE
         if u * x + v * y + w * z < 0.5:
-            self.strange += 1
-            if self.strange < MISFITS:
+            self.misfits += 1
+            if self.misfits < MISFITS:
                 return
             share = 1.0
-        self.strange = 0
+        self.misfits = 0
         u, v, w = u + share * (x - u), v + share * (y - v), w + share * (z - w)
         size = 1.0 / sqrt(u * u + v * v + w * w)
         self.toe = (u * size, v * size, w * size)
 
-    def heel_place(self, shoe: ShoeGeometry) -> Vec3:
-        """(4): the sensor from the heel's end, navigation frame, m."""
-        ahead, above = heel_place(shoe, self.pitch)
-        x, y = self.ahead
+    def heel_position(self, shoe: ShoeGeometry) -> Vec3:
+        """Return the sensor's position from the heel's end, navigation frame, m (4)."""
+        ahead, above = heel_position(shoe, self.pitch)
+        x, y = self.forward
         return (ahead * x, ahead * y, above)
 
-    def forefoot_place(self, shoe: ShoeGeometry) -> Vec3:
-        """(6), turned round so that (7) is a plain difference: the sensor from the toe, navigation frame, m."""
-        behind, above = forefoot_place(shoe, -self.pitch)
-        x, y = self.ahead
+    def forefoot_position(self, shoe: ShoeGeometry) -> Vec3:
+        """Return the sensor's position from the toe, navigation frame, m: (6), negated so that (7) is a difference."""
+        behind, above = forefoot_position(shoe, -self.pitch)
+        x, y = self.forward
         return (-behind * x, -behind * y, above)
 
 
-def velocity(before: Vec3, now: Vec3, dt: float) -> Vec3:
-    """(5) and (7): the mean velocity between two places, m/s, `dt` s apart."""
+def mean_velocity(before: Vec3, now: Vec3, dt: float) -> Vec3:
+    """Return the mean velocity between two positions, m/s, `dt` s apart: (5) and (7)."""
     return ((now[0] - before[0]) / dt, (now[1] - before[1]) / dt, (now[2] - before[2]) / dt)
 
 
 def _up(attitude: Quat) -> Vec3:
-    """Up in the sensor frame: the last row of the rotation sensor to navigation frame."""
+    """Return the direction up in the sensor frame: the last row of the rotation from sensor to navigation frame."""
     w, x, y, z = attitude
     return (2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y))

@@ -1,4 +1,4 @@
-"""What pressure cells show while the foot swings: equation (1) of Chen et al. 2019 (IEEE Internet of Things Journal 6).
+"""Noise of pressure cells while the foot swings: equation (1) of Chen et al. 2019 (IEEE Internet of Things Journal 6).
 
 The wearer walks for about 20 s. The samples with the least total pressure are those of the swing, which takes 38 % of
 a gait cycle; the paper uses the least 15 %. A cell's noise is their mean plus three standard deviations.
@@ -15,17 +15,18 @@ from ...foot.pressure.insole import in_newtons
 from ...types import Foot, Sample
 
 SHARE = 0.15
-LEAST = 20
-"""Samples in swing, fewer tell nothing of a spread (5 s of walking at 30 Hz have 22)."""
+"""Share of the samples, those with the least total pressure, that are taken for swing."""
+FEWEST_SAMPLES = 20
+"""Fewest samples in swing that show a spread (5 s of walking at 30 Hz have 22)."""
 
 
 def pressure_noise(samples: Iterable[Sample], share: float = SHARE, known: Calibration | None = None) -> Calibration:
-    """The noise of every cell of every insole in `samples`, and nothing else.
+    """Return the noise of every cell of every insole in `samples`, and nothing else.
 
-    `share`: of the samples, those with the least total pressure, that are taken for swing. `known`: where it turns an
-    insole's values into newtons, noise is in N too. Takes the samples one by one and keeps their pressures.
-    CalibrationError when there are no cells, too few samples, or cells that come and go; ValueError for a share that is
-    none.
+    `share`: share of the samples, those with the least total pressure, that are taken for swing. `known`: where it
+    turns an insole's values into newtons, noise is in N too. Takes the samples one by one and keeps their pressures.
+    CalibrationError when there are no cells, too few samples, or a number of cells that changes; ValueError for a share
+    outside 0 to 1.
     """
     if not 0.0 < share <= 1.0:
         raise ValueError(f"share is {share}")
@@ -42,14 +43,16 @@ def pressure_noise(samples: Iterable[Sample], share: float = SHARE, known: Calib
         before.append(cells if newtons is None else in_newtons(newtons, cells))
     if not rows:
         raise CalibrationError("no pressure cells in this recording: nothing to learn of their noise")
-    return Calibration(insoles={foot: _noise(foot, rows[foot], share) for foot in Foot if foot in rows})
+    return Calibration(insoles={foot: _insole_noise(foot, rows[foot], share) for foot in Foot if foot in rows})
 
 
-def _noise(foot: Foot, rows: list[tuple[float, ...]], share: float) -> InsoleCalibration:
+def _insole_noise(foot: Foot, rows: list[tuple[float, ...]], share: float) -> InsoleCalibration:
     pressure = np.array(rows, dtype=np.float64)
     count = round(share * len(pressure))
-    if count < LEAST:
-        what = f"{len(pressure)} samples of the {foot.value} insole, {count} of them in swing; {LEAST} are wanted"
+    if count < FEWEST_SAMPLES:
+        what = (
+            f"{len(pressure)} samples of the {foot.value} insole, {count} of them in swing; {FEWEST_SAMPLES} are wanted"
+        )
         raise CalibrationError(f"too short a walk: {what}")
     # P_total; ties in the order of time, so that the same walk gives the same noise everywhere
     least = pressure[np.argsort(pressure.sum(axis=1), kind="stable")[:count]]

@@ -13,7 +13,7 @@ from .known_velocity import KnownVelocity
 from .swing_dedrift import SwingDedrift
 
 BOARD = 0.44
-"""Where the circuit board parts an insole into two areas, as a share of its length: 12.5 cm of a shoe of 28.5 cm."""
+"""Place of the circuit board that parts an insole into two areas, as a share of its length: 12.5 of 28.5 cm."""
 
 KUPT = Recipe(
     "kupt",
@@ -26,7 +26,7 @@ KUPT = Recipe(
 """Velocity known from heel-strike to toe-off, without the fusion of both feet."""
 
 KUPT_DFPC = evolve(KUPT, name="kupt-dfpc", parts=usual(DoubleFoot()))
-"""Chen et al. 2019: the same, and both feet calibrating each other's strides."""
+"""Chen et al. 2019: `KUPT`, with both feet calibrating each other's strides."""
 
 ZUPT = evolve(KUPT, name="zupt", corrector=LinearDedrift())
-"""The same stationary epochs, velocity known in them only: what Chen et al. compare with."""
+"""Chen et al.'s baseline: stationary as in `KUPT`, but with a known velocity only while stationary."""

@@ -1,4 +1,4 @@
-"""The wearer's own shoe, from static postures measured with rulers (Chen et al. 2019, section III.C.3).
+"""Geometry of the wearer's own shoe, from static postures measured with rulers (Chen et al. 2019, section III.C.3).
 
 The wearer stands in postures between flat and toe-off, the paper's in five of them, three times each. For each the
 file has the heel-up pitch that the sensor showed and two lengths, in a line of comma-separated values with a header:
@@ -27,24 +27,33 @@ from ...calibration.csv_table import read_rows
 from ...types.attrs import frozen
 
 COLUMNS = ("pitch_deg", "L_r_m", "L_p2t_m")
-SINGLE = ("H_imu_m", "heel_L_r_m")
+"""Names of the columns that a file must have."""
+CONSTANT_COLUMNS = ("H_imu_m", "heel_L_r_m")
+"""Names of the columns that a file may have, with one value in all lines."""
 DEGREE = 2
-"""Of the polynomials; 1 with three postures. For the round sole of kinematics.py, five postures to 60 degrees, three
-times each, rulers off by 2 mm: the sensor's way per pitch, which is what velocity needs, errs at 50 degrees by 5 mm/rad
-with a straight line, by 4 with degree 2, by 6 with 3 and with 4."""
+"""Degree of the polynomials; 1 with three postures.
+
+For the round sole of kinematics.py, five postures to 60 degrees, three times each, rulers off by 2 mm: the sensor's way
+per pitch, which is what velocity needs, errs at 50 degrees by 5 mm/rad with a straight line, by 4 with degree 2, by 6
+with 3 and with 4.
+"""
 STEEPEST = 80.0
-"""Nobody stands steeper than this, degrees."""
-LONGEST = 0.5
-"""No shoe is longer than this, m."""
-SAME = 2.0
-"""Pitches this near to each other are one posture, degrees."""
+"""Steepest posture, degrees."""
+LONGEST_SHOE = 0.5
+"""Length of the longest shoe, m."""
+SAME_POSTURE = 2.0
+"""Difference of two pitches up to which they are one posture, degrees."""
 
 Column = NDArray[np.float64]
 
 
 @frozen
-class Fitted:
-    """`residual_radius`, `residual_to_toe`: root mean square of what the curves leave, m. `worst`: the largest, m."""
+class ShoeFit:
+    """A fitted shoe geometry and its residuals.
+
+    `residual_radius`, `residual_to_toe`: root mean square of the curves' residuals, m. `worst`: the largest residual,
+    m.
+    """
 
     calibration: Calibration
     postures: int
@@ -54,19 +63,21 @@ class Fitted:
     worst: float
 
 
-def fit_shoe(path: Path | str) -> Fitted:
-    """The geometry of the shoe whose postures are in the file. CalibrationError with one sentence that names the file,
-    and the line where there is one, when it cannot be used."""
+def fit_shoe(path: Path | str) -> ShoeFit:
+    """Fit the geometry of the shoe whose postures are in the file.
+
+    CalibrationError with one sentence that names the file, and the line where there is one, when it cannot be used.
+    """
     rows, single = _read(path)
     pitch = np.radians(rows[:, 0])
-    postures = 1 + int(np.count_nonzero(np.diff(np.sort(rows[:, 0])) > SAME))
+    postures = 1 + int(np.count_nonzero(np.diff(np.sort(rows[:, 0])) > SAME_POSTURE))
     if postures < 3:
         raise CalibrationError(f"{path}: {postures} postures; three different ones at least make a curve")
     if (steepest := float(pitch.max())) < radians(30.0):
         raise CalibrationError(f"{path}: the steepest posture is {rows[:, 0].max():g} degrees; a toe-off is 50 or more")
     degree = min(DEGREE, postures - 2)
-    radius, left_radius = _fit(pitch, rows[:, 1], degree)
-    to_toe, left_to_toe = _fit(pitch, rows[:, 2], degree)
+    radius, residual_r = _fit(pitch, rows[:, 1], degree)
+    to_toe, residual_t = _fit(pitch, rows[:, 2], degree)
     shoe = ShoeGeometry(
         heel_radius=single.get("heel_L_r_m", ShoeGeometry().heel_radius),
         height=single.get("H_imu_m", ShoeGeometry().height),
@@ -74,21 +85,21 @@ def fit_shoe(path: Path | str) -> Fitted:
         pivot_to_toe=to_toe,
         steepest=steepest,
     )
-    return Fitted(
+    return ShoeFit(
         calibration=Calibration(shoe=shoe),
         postures=postures,
         measurements=len(rows),
-        residual_radius=float(np.sqrt(np.mean(left_radius**2))),
-        residual_to_toe=float(np.sqrt(np.mean(left_to_toe**2))),
-        worst=float(max(np.abs(left_radius).max(), np.abs(left_to_toe).max())),
+        residual_radius=float(np.sqrt(np.mean(residual_r**2))),
+        residual_to_toe=float(np.sqrt(np.mean(residual_t**2))),
+        worst=float(max(np.abs(residual_r).max(), np.abs(residual_t).max())),
     )
 
 
 def _fit(pitch: Column, length: Column, degree: int) -> tuple[tuple[float, ...], Column]:
-    """Coefficients, constant first, and what they leave of each measurement."""
+    """Return the coefficients, constant first, and the residual of each measurement."""
     coefficients = np.polynomial.polynomial.polyfit(pitch, length, degree)
-    left = length - np.polynomial.polynomial.polyval(pitch, coefficients)
-    return tuple(coefficients.tolist()), np.asarray(left, dtype=np.float64)
+    residual = length - np.polynomial.polynomial.polyval(pitch, coefficients)
+    return tuple(coefficients.tolist()), np.asarray(residual, dtype=np.float64)
 
 
 def _read(path: Path | str) -> tuple[Column, dict[str, float]]:
@@ -96,9 +107,9 @@ def _read(path: Path | str) -> tuple[Column, dict[str, float]]:
     single: dict[str, float] = {}
     for row in read_rows(path, COLUMNS):
         pitch = row.number(COLUMNS[0], -5.0, STEEPEST, "degrees")
-        rows.append([pitch, *(row.number(name, 0.0, LONGEST, "m") for name in COLUMNS[1:])])
-        for name in [name for name in SINGLE if name in row.cells]:
-            value = row.number(name, 0.0, LONGEST, "m")
+        rows.append([pitch, *(row.number(name, 0.0, LONGEST_SHOE, "m") for name in COLUMNS[1:])])
+        for name in [name for name in CONSTANT_COLUMNS if name in row.cells]:
+            value = row.number(name, 0.0, LONGEST_SHOE, "m")
             if single.setdefault(name, value) != value:
                 raise CalibrationError(f"{row.where}: {name} is {value:g} here and {single[name]:g} before")
     if not rows:

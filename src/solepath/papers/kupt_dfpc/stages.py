@@ -1,7 +1,7 @@
-"""What the cells have seen of a step, as a table; what turns loads into its cues is cop_cues.py.
+"""Stages of a stride by the pressure cells, as a table; cop_cues.py turns loads into its cues.
 
 A stage is not a phase. A toe-off is known as soon as the foot is in the air, but a heel-strike only once the foot lies
-flat, and a foot that was in the air for no more than a moment had not left the ground yet.
+flat, and a foot that was in the air for only a moment had not left the ground yet.
 """
 
 from __future__ import annotations
@@ -11,23 +11,23 @@ from ...types import Word
 
 
 class StepStage(Word):
-    """How far a step is, as far as the cells tell."""
+    """Stage of a stride, as far as the cells show it."""
 
     STANDING = "standing"  # stationary
-    LEAVING = "leaving"  # motion has started, the foot is on the ground or was so a moment ago
+    LEAVING = "leaving"  # motion has started, the foot is or was just now on the ground
     FLYING = "flying"  # in the air
     LANDING = "landing"  # on the ground again after a normal swing
 
 
 class CellCue(Word):
-    """What the cells show."""
+    """Cue from the pressure cells of one sample."""
 
-    STANDS = "stands"  # it lies still on the ground
-    MOVES = "moves"  # it does so no longer
-    LEAVES = "leaves"  # it is in the air
-    BRUSHES = "brushes"  # it is on the ground again, too soon for a swing
-    LANDS = "lands"  # it is on the ground again after a normal swing
-    LINGERS = "lingers"  # it landed long ago and does not lie still
+    STANDS = "stands"  # the foot lies still on the ground
+    MOVES = "moves"  # the foot no longer lies still
+    LEAVES = "leaves"  # the foot is in the air
+    BRUSHES = "brushes"  # the foot is on the ground again, too soon for a swing
+    LANDS = "lands"  # the foot is on the ground again after a normal swing
+    LINGERS = "lingers"  # the foot landed long ago and does not lie still
 
 
 _STANDING, _LEAVING, _FLYING, _LANDING = StepStage
@@ -37,20 +37,20 @@ _CHANGES: dict[tuple[StepStage, CellCue], tuple[StepStage, tuple[Cue, ...]]] = {
     (_LEAVING, CellCue.STANDS): (_STANDING, (Cue.FLAT,)),
     (_LEAVING, CellCue.LEAVES): (_FLYING, (Cue.CLEAR,)),
     (_FLYING, CellCue.STANDS): (_STANDING, (Cue.FLAT,)),
-    (_FLYING, CellCue.BRUSHES): (_LEAVING, ()),  # it was not in the air yet: the best candidate may still come
+    (_FLYING, CellCue.BRUSHES): (_LEAVING, ()),  # not in the air yet: the best candidate may still come
     (_FLYING, CellCue.LANDS): (_LANDING, ()),
     (_LANDING, CellCue.STANDS): (_STANDING, (Cue.CONTACT, Cue.FLAT)),
-    (_LANDING, CellCue.LEAVES): (_FLYING, (Cue.CONTACT, Cue.CLEAR)),  # it was never flat: toe walking, running
+    (_LANDING, CellCue.LEAVES): (_FLYING, (Cue.CONTACT, Cue.CLEAR)),  # never flat: toe walking, running
     (_LANDING, CellCue.LINGERS): (_LANDING, (Cue.CONTACT,)),
 }
-"""What changes the stage, or is reported; any other cue of the cells does neither."""
+"""Next stage and reported cues, where a cue changes the stage or reports something; any other cue does neither."""
 
 STAGES = {stage: {cue: _CHANGES.get((stage, cue), (stage, ())) for cue in CellCue} for stage in StepStage}
-"""Stage and cue -> the next stage, and what is reported: one contact a landing."""
+"""Next stage and reported cues by stage and cue: one contact a landing."""
 
 
 def describe() -> str:
-    """The table as text, for people: the next stage, and what is reported."""
+    """Return the table as text, for people: the next stage, and the reported cues."""
     rows = [
         [stage.name, *(" ".join((after.name, *(cue.value for cue in reported))) for after, reported in row.values())]
         for stage, row in STAGES.items()

@@ -1,17 +1,17 @@
-"""The accelerometer's bias, estimated while the foot stands: equations (4) to (10) of "Personal navigation via
-high-resolution gait-corrected inertial measurement units" (IEEE Trans. Instrum. Meas. 59, 2010).
+"""Bias of the accelerometer, estimated while the foot stands: equations (4) to (10) of Bebek et al. 2010.
 
-Everything is in the sensor's own frame, where the bias is constant. With a_m the measured acceleration without gravity
-(4), a standing foot has a_m + a_b + a_n = 0 (6)(7), so that -a_m measures the bias z = a_b (8)(9), and with F = I,
-H = I, G_1 = I and no input (A = B = 0)
+"Personal navigation via high-resolution gait-corrected inertial measurement units" (IEEE Trans. Instrum. Meas. 59,
+2010). Everything is in the sensor's own frame, where the bias is constant. With a_m the measured acceleration without
+gravity (4), a standing foot has a_m + a_b + a_n = 0 (6)(7), so that -a_m measures the bias z = a_b (8)(9), and with
+F = I, H = I, G_1 = I and no input (A = B = 0)
 
     measurement   z_hat = z_bar + P Sigma_v^-1 (-a_m - z_bar),   P = M - M (M + Sigma_v)^-1 M
     time          z_bar = z_hat,   M = P + Sigma_w
 
-The covariances are multiples of the identity at the start and stay so: one number each stands for three axes.
+The covariances are multiples of the identity at the start and stay so: one number stands for three axes.
 
-(10) as printed, a_a = a_m - R a_b, contradicts (6), a_a = a_m + R a_b + R a_n, by which -a_m was called a
-measurement of a_b: it would double the error that it removes. The sign is (6)'s here.
+(10) as printed, a_a = a_m - R a_b, contradicts (6), a_a = a_m + R a_b + R a_n, in which -a_m is a measurement of a_b:
+it would double the error that it removes. The sign here is that of (6).
 """
 
 from __future__ import annotations
@@ -20,36 +20,39 @@ from ...types import Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO
 
-SPREAD = 0.098
+BIAS_SIGMA = 0.098
 """Standard deviation of the bias before anything is known, m/s^2."""
-NOISE = 0.0076
+SAMPLE_NOISE = 0.0076
 """Square root of Sigma_v, m/s^2 a sample."""
-WANDER = 1.6e-4
+BIAS_WANDER = 1.6e-4
 """Square root of Sigma_w for one second, m/s^2/sqrt(s): sqrt(2 / 300 s) 0.2 mg."""
 
 
 @define
 class AccelerometerBias:
-    """Kalman filter of three equal axes, m/s^2, sensor frame.
+    """Kalman filter for the bias of three equal axes, m/s^2, sensor frame.
 
     The figures are those of the ST LSM6DSOX (DS12814, table 2): zero-g offset +-20 mg taken as two sigma, 110
     ug/sqrt(Hz) of noise over the 50 Hz of a sensor read at 100 Hz, and 0.1 mg/K of drift over 2 K within 300 s.
     """
 
     bias: Vec3 = field(default=ZERO, init=False)
-    """z_hat."""
+    """Estimated bias z_hat, m/s^2, sensor frame."""
     variance: float | None = field(default=None, init=False)
-    """M, (m/s^2)^2; None before the first sample."""
+    """Variance M of the bias, (m/s^2)^2; None before the first sample."""
 
-    def pass_time(self, dt: float) -> None:
-        """M[k + 1] = P[k] + Sigma_w; z_bar[k + 1] = z_hat[k]."""
-        known = SPREAD * SPREAD if self.variance is None else self.variance
-        self.variance = known + WANDER * WANDER * dt
+    def propagate(self, dt: float) -> None:
+        """Propagate the variance by `dt` s: M[k + 1] = P[k] + Sigma_w; z_bar[k + 1] = z_hat[k]."""
+        known = BIAS_SIGMA * BIAS_SIGMA if self.variance is None else self.variance
+        self.variance = known + BIAS_WANDER * BIAS_WANDER * dt
 
-    def stood(self, measured: Vec3) -> None:
-        """The foot stands, and `measured` is a_m, m/s^2: what the sensor says beside gravity, sensor frame."""
-        prior = SPREAD * SPREAD if self.variance is None else self.variance
-        sigma_v = NOISE * NOISE
+    def correct(self, measured: Vec3) -> None:
+        """Correct the bias by one sample of a standing foot.
+
+        `measured` is a_m, the measured acceleration without gravity, sensor frame, m/s^2.
+        """
+        prior = BIAS_SIGMA * BIAS_SIGMA if self.variance is None else self.variance
+        sigma_v = SAMPLE_NOISE * SAMPLE_NOISE
         posterior = prior - prior * prior / (prior + sigma_v)
         gain = posterior / sigma_v
         x, y, z = self.bias

@@ -1,8 +1,8 @@
 """Contours of pressure under the heel, and the velocity of their centre.
 
 Equations (1) and (2) of "Personal navigation via high-resolution gait-corrected inertial measurement units" (IEEE
-Trans. Instrum. Meas. 59, 2010). Rays leave a fixed centre, the centroid of the heel's cells, at equal angles; where the
-pressure along a ray first falls below a level is a point of that level's contour, at the radius r(theta).
+Trans. Instrum. Meas. 59, 2010). Rays leave a fixed centre, the centroid of the heel's cells, at equal angles. The point
+where the pressure along a ray first falls below a level belongs to that level's contour, at the radius r(theta).
 
     v(theta) = (r(theta, t) - r(theta, t - dt)) / dt        along the ray r_hat (1), looking back instead of ahead
     v_cntr = 1/pi integral of v(theta) r_hat dtheta         (2)
@@ -12,13 +12,13 @@ integral of (u . r_hat) r_hat is pi u. Two more things are left open there:
 
 - Rays end where the cells do, and a contour that lies partly beyond them has no radius there. The integral is then
   taken over the rays that have an opposite with a radius too, and normalised by least squares over those: with all rays
-  that is the factor 1/pi again. Opposites, because an elliptic contour that grows or shrinks has equal v on both,
-  wherever the centre is, and that cancels; half a contour that only grows would seem to move.
+  that is the factor 1/pi again. An elliptic contour that grows or shrinks has equal v on opposite rays, wherever the
+  centre is, and they cancel; half a contour that only grows would seem to move.
 - Which pressures. The paper's figure 4 shows 20 to 70 kPa. But at a fixed pressure the contour also shrinks, by some
   cm/s, as the weight leaves the heel, and cells differ in gain by some per cent: on emulated insoles a heel that lies
   still then seems to move by 5 to 20 mm/s, and the contours are slower than 4 mm/s in a third of the true stance with
   96 cells and in a twentieth with the paper's 24. A level that is a fixed share of the heel's present mean pressure
-  does not see the weight change (1 to 2 mm/s; two thirds of the stance with either), and it needs no scale. Shares are
+  does not change with the weight (1 to 2 mm/s; two thirds of the stance with either), and it needs no scale. Shares are
   the default; `pascals` takes the paper's.
 
 Work per sample: a weighted sum of three cells for each of some 60 points, and one pass along each ray.
@@ -35,28 +35,30 @@ from ...types import Cell, Layout
 from ...types.attrs import define, field, frozen
 from ...types.vector import TIE
 
-HEEL = 0.33
-"""Cells behind this share of the insole's length are the heel's."""
-PORTION = 0.50
-"""Contours are followed over the cells behind this share: the paper takes 54 of the 99 cells of an insole."""
-FEWEST = 4
-"""Fewer heel cells have no contour."""
-FIGURE_4 = (20e3, 30e3, 40e3, 50e3, 60e3, 70e3)
-"""The paper's levels, Pa."""
+HEEL_SHARE = 0.33
+"""Share of the insole's length behind which cells are the heel's."""
+CONTOUR_SHARE = 0.50
+"""Share of the insole's length behind which cells carry contours: the paper takes 54 of the 99 cells of an insole."""
+FEWEST_CELLS = 4
+"""Fewest heel cells that have a contour."""
+PAPER_LEVELS = (20e3, 30e3, 40e3, 50e3, 60e3, 70e3)
+"""Levels of the paper's figure 4, Pa."""
 AXES = 6
-"""Pairs of opposite rays."""
+"""Number of pairs of opposite rays."""
 RINGS = 8
-"""Points on the longest ray, its centre not counted."""
-NEAREST = 10
-"""A point lies in a triangle of three of its nearest cells, out of so many."""
+"""Number of points on the longest ray, its centre not counted."""
+NEAREST_CELLS = 10
+"""Number of nearest cells of which three make the triangle about a point."""
 INTERVAL = 0.05
-"""Delta t of (1), s: long enough for the cells' noise. With `AXES` pairs of rays sigma_v = sqrt(2 / AXES) sigma_r /
-interval an axis and a level, and a radius is as uncertain as the pressure over its slope. A cell of 12-bit resistive
-insoles has 0.12 N rms (emulate/sensors/parts.py), 0.8 kPa on 1.6 cm^2, half a kPa once three are weighted; a heel that
-carries 200 N has slopes of 2 kPa/mm: 0.25 mm, and 0.14 mm over all rays. To stay below the paper's 4 mm/s that takes
-36 ms; 50 ms are taken."""
+"""Delta t of (1), s: long enough for the cells' noise.
+
+With `AXES` pairs of rays sigma_v = sqrt(2 / AXES) sigma_r / interval an axis and a level, and a radius is as uncertain
+as the pressure over its slope. A cell of 12-bit resistive insoles has 0.12 N rms (emulate/sensors/parts.py), 0.8 kPa
+on 1.6 cm^2, half a kPa once three are weighted; a heel that bears 200 N has slopes of 2 kPa/mm: 0.25 mm, and 0.14 mm
+over all rays. To stay below the paper's 4 mm/s that takes 36 ms; 50 ms are taken.
+"""
 MISSING = -1.0
-"""Instead of a radius: the contour does not cross this ray."""
+"""Value in the place of a radius when the contour does not cross the ray."""
 
 Point = tuple[int, int, int, float, float, float]
 """Three cells and their weights; the weighted sum of the cells' loads is the pressure at the point."""
@@ -64,85 +66,94 @@ Point = tuple[int, int, int, float, float, float]
 
 @frozen
 class ContourSettings:
-    """What `Contours` is set to."""
+    """Settings of `Contours`."""
 
     shares: tuple[float, ...] = (1.4, 1.2, 1.0, 0.8, 0.6, 0.4)
-    """The levels as shares of the present mean pressure of the heel's cells: 1.4 is still well below the peak of a
-    patch of pressure, 0.4 lies at its edge, where a heel that leans has its only contours."""
+    """Levels as shares of the present mean pressure of the heel's cells.
+
+    1.4 is still well below the peak of a patch of pressure; 0.4 lies at its edge, where a heel that leans has its only
+    contours.
+    """
     pascals: tuple[float, ...] | None = None
-    """Fixed levels in Pa instead, for cells whose scale is known."""
+    """Fixed levels, Pa, instead of `shares`, for cells whose scale is known; None for shares."""
 
 
 @define
 class Contours:
-    """The velocity of the heel's pressure contours. Feed it the loads of the cells while the heel is loaded. Latency:
-    none beyond `INTERVAL`, over which the contours are compared."""
+    """Measures the velocity of the heel's pressure contours from the loads of the cells while the heel is loaded.
+
+    Latency: none beyond `INTERVAL`, over which the contours are compared.
+    """
 
     settings: ContourSettings = ContourSettings()
     cells: list[int] = field(factory=list, init=False)
-    """Those used here; everything below counts by their order."""
+    """Indices of the cells used here; `per_area` and `points` count in their order."""
     per_area: list[float] = field(factory=list, init=False)
-    """1 / m^2 over the number of heel cells: weights whose sum of loads is the heel's mean pressure."""
+    """Weights, 1 / m^2 over the number of heel cells, whose sum of loads is the heel's mean pressure."""
     points: list[Point] = field(factory=list, init=False)
-    """The centre and, ray by ray, the points along it."""
+    """Centre and, ray by ray, the points along each ray."""
     rays: list[tuple[int, float]] = field(factory=list, init=False)
-    """How many points each ray has, and how far apart they are, m."""
+    """Number of points on each ray, and their distance, m."""
     levels: tuple[float, ...] = field(default=(), init=False)
+    """Levels in falling order, as shares or, if `absolute`, in Pa."""
     absolute: bool = field(default=False, init=False)
-    past: deque[tuple[float, tuple[float, ...]]] = field(factory=deque, init=False)
+    """Flag: the levels are pressures, not shares."""
+    history: deque[tuple[float, tuple[float, ...]]] = field(factory=deque, init=False)
     """Time and radii, level by level and ray by ray, from `INTERVAL` ago until now."""
 
     def set_layout(self, layout: Layout) -> str | None:
-        """Where the cells are. Returns what is wrong with them for this purpose, if anything."""
-        self.past.clear()
+        """Set the places of the cells, and return why they cannot have contours, None if they can."""
+        self.history.clear()
         self.cells, self.points, self.rays = [], [], []
-        heel = [cell for cell in layout.cells if cell.x < HEEL * layout.length]
-        if len(heel) < FEWEST:
-            return f"{len(heel)} pressure cells under the heel have no contour, {FEWEST} are the fewest"
-        self.cells = [i for i, cell in enumerate(layout.cells) if cell.x < PORTION * layout.length]
+        heel = [cell for cell in layout.cells if cell.x < HEEL_SHARE * layout.length]
+        if len(heel) < FEWEST_CELLS:
+            return f"{len(heel)} pressure cells under the heel have no contour, {FEWEST_CELLS} are the fewest"
+        self.cells = [i for i, cell in enumerate(layout.cells) if cell.x < CONTOUR_SHARE * layout.length]
         shares, pascals = self.settings.shares, self.settings.pascals
         self.absolute = pascals is not None and layout.scale is not None
         self.levels = tuple(sorted(pascals if self.absolute and pascals else shares, reverse=True))
         used = [layout.cells[i] for i in self.cells]
         self.per_area = [
-            1.0 / (max(cell.area, 1e-9) * len(heel)) if cell.x < HEEL * layout.length else 0.0 for cell in used
+            1.0 / (max(cell.area, 1e-9) * len(heel)) if cell.x < HEEL_SHARE * layout.length else 0.0 for cell in used
         ]
         centre = (sum(cell.x for cell in heel) / len(heel), sum(cell.y for cell in heel) / len(heel))
-        self._lay_rays(used, centre)
+        self._set_rays(used, centre)
         if not self.rays or sum(1 for count, _ in self.rays if count) < 2 * AXES - 2:
             self.points, self.rays = [], []
             return "the pressure cells under the heel do not surround a centre: they have no contour"
         return None
 
     def reset(self) -> None:
-        """Times begin anew."""
-        self.past.clear()
+        """Discard the radii before the clock restarts."""
+        self.history.clear()
 
     def velocity(self, t: float, cells: list[float]) -> tuple[float, float] | None:
-        """(forward, left) velocity of the contours' centre, foot frame, m/s: the mean of the levels whose contours
-        exist now and `INTERVAL` ago. None where there is none. `cells`: loads above tare of the cells in `self.cells`.
+        """Return the (forward, left) velocity of the contours' centre, foot frame, m/s; None where there is none.
+
+        It is the mean of the levels whose contours exist now and `INTERVAL` ago. `cells`: loads above tare of the cells
+        in `self.cells`.
         """
         if not self.points:
             return None
         now = self._radii(cells)
-        past = self.past
-        if past and past[-1][0] >= t:  # times began anew
-            past.clear()
+        history = self.history
+        if history and history[-1][0] >= t:  # the clock has restarted
+            history.clear()
         before = None
-        while past and past[0][0] <= t - INTERVAL + TIE:
-            before = past.popleft()
-        past.append((t, now))
+        while history and history[0][0] <= t - INTERVAL + TIE:
+            before = history.popleft()
+        history.append((t, now))
         if before is None:
             return None
-        past.appendleft(before)
+        history.appendleft(before)
         since = t - before[0]
         if since > 3.0 * INTERVAL:  # slow samples are not far apart, but a gap is
-            past.popleft()
+            history.popleft()
             return None
-        return self._centre(now, before[1], 1.0 / since)
+        return self._centre_velocity(now, before[1], 1.0 / since)
 
     def _radii(self, cells: list[float]) -> tuple[float, ...]:
-        """r(theta) of every level, m."""
+        """Return r(theta) of every level, m."""
         pressures = [a * cells[i] + b * cells[j] + c * cells[k] for i, j, k, a, b, c in self.points]
         mean = 1.0 if self.absolute else sum(map(mul, self.per_area, cells))
         levels = [share * mean for share in self.levels]
@@ -173,25 +184,27 @@ class Contours:
             at += points
         return tuple(found)
 
-    def _centre(self, now: tuple[float, ...], before: tuple[float, ...], rate: float) -> tuple[float, float] | None:
-        """(1) and (2) for each level, and their mean."""
+    def _centre_velocity(
+        self, now: tuple[float, ...], before: tuple[float, ...], rate: float
+    ) -> tuple[float, float] | None:
+        """Return (1) and (2) for each level, as their mean."""
         sum_x = sum_y = 0.0
         contours = 0
         count = len(self.levels)
         for level in range(count):
-            present, past = now[level::count], before[level::count]
-            if max(present) < 0.0 or max(past) < 0.0:
+            present, history = now[level::count], before[level::count]
+            if max(present) < 0.0 or max(history) < 0.0:
                 continue
-            if min(present) >= 0.0 and min(past) >= 0.0:
+            if min(present) >= 0.0 and min(history) >= 0.0:
                 # all rays: the normal equations have AXES on their diagonal
-                moved = list(map(sub, present, past))
+                moved = list(map(sub, present, history))
                 sum_x += sum(map(mul, moved, _COS)) / AXES
                 sum_y += sum(map(mul, moved, _SIN)) / AXES
                 contours += 1
                 continue
-            found = _by_pairs(present, past)
+            found = _fit_pairs(present, history)
             if found is None and not self.absolute:
-                found = _by_rays(present, past)
+                found = _fit_rays(present, history)
             if found is not None:
                 sum_x += found[0]
                 sum_y += found[1]
@@ -201,7 +214,8 @@ class Contours:
         k = rate / contours
         return sum_x * k, sum_y * k
 
-    def _lay_rays(self, used: list[Cell], centre: tuple[float, float]) -> None:
+    def _set_rays(self, used: list[Cell], centre: tuple[float, float]) -> None:
+        """Set the points of the rays from the centre."""
         x, y = centre
         step = max((hypot(cell.x - x, cell.y - y) for cell in used if cell.x < 2.0 * x), default=0.0) / RINGS
         middle = _triangle(used, x, y)
@@ -210,35 +224,39 @@ class Contours:
         self.points = [middle]
         for k in range(2 * AXES):
             c, s = cos(pi * k / AXES), sin(pi * k / AXES)
-            begun = len(self.points)
+            first_point = len(self.points)
             for ring in range(1, RINGS + 1):
                 point = _triangle(used, x + step * ring * c, y + step * ring * s)
                 if point is None:
                     break
                 self.points.append(point)
-            self.rays.append((len(self.points) - begun, step))
+            self.rays.append((len(self.points) - first_point, step))
 
 
 _COS = [cos(pi * k / AXES) for k in range(2 * AXES)]
+"""Cosine of each ray's direction."""
 _SIN = [sin(pi * k / AXES) for k in range(2 * AXES)]
+"""Sine of each ray's direction."""
 _RAYS = [(c, s, c * c, c * s, s * s) for c, s in zip(_COS, _SIN, strict=True)]
-"""The direction of each ray, and what it adds to the normal equations."""
+"""Direction of each ray, and its terms of the normal equations."""
 
 
-def _by_pairs(now: tuple[float, ...], before: tuple[float, ...]) -> tuple[float, float] | None:
-    """How far the centre of one level's contour has moved, m, by its rays that have an opposite."""
+def _fit_pairs(now: tuple[float, ...], before: tuple[float, ...]) -> tuple[float, float] | None:
+    """Return how far the centre of one level's contour has moved, m, by its rays that have an opposite."""
     opposites = zip(now[:AXES], now[AXES:], before[:AXES], before[AXES:], strict=True)
-    return _fitted([0.5 * (r - p - q + o) if min(r, q, p, o) >= 0.0 else None for r, q, p, o in opposites])
+    return _least_squares([0.5 * (r - p - q + o) if min(r, q, p, o) >= 0.0 else None for r, q, p, o in opposites])
 
 
-def _by_rays(now: tuple[float, ...], before: tuple[float, ...]) -> tuple[float, float] | None:
-    """The same by all rays."""
-    return _fitted([r - p if r >= 0.0 and p >= 0.0 else None for r, p in zip(now, before, strict=True)])
+def _fit_rays(now: tuple[float, ...], before: tuple[float, ...]) -> tuple[float, float] | None:
+    """Return how far the centre of one level's contour has moved, m, by all its rays."""
+    return _least_squares([r - p if r >= 0.0 and p >= 0.0 else None for r, p in zip(now, before, strict=True)])
 
 
-def _fitted(moved: list[float | None]) -> tuple[float, float] | None:
-    """The vector u for which u . r_hat is nearest to what was `moved` along the first rays, m, least squares; None
-    where too few directions, or too similar ones, were seen."""
+def _least_squares(moved: list[float | None]) -> tuple[float, float] | None:
+    """Return the vector u for which u . r_hat is nearest to `moved`, m, along the first rays, by least squares.
+
+    None where too few directions, or too similar ones, have a value.
+    """
     xx = xy = yy = bx = by = 0.0
     for (c, s, cc, cs, ss), along in zip(_RAYS, moved, strict=False):
         if along is not None:
@@ -254,9 +272,11 @@ def _fitted(moved: list[float | None]) -> tuple[float, float] | None:
 
 
 def _triangle(cells: list[Cell], x: float, y: float) -> Point | None:
-    """The tightest triangle of cells about a point and the cells' weights there, for loads that become pressures; None
-    where the cells do not surround it."""
-    order = sorted(range(len(cells)), key=lambda i: (hypot(cells[i].x - x, cells[i].y - y), i))[:NEAREST]
+    """Return the tightest triangle of cells about a point and the cells' weights there; None if no cells surround it.
+
+    The weights turn loads into pressures.
+    """
+    order = sorted(range(len(cells)), key=lambda i: (hypot(cells[i].x - x, cells[i].y - y), i))[:NEAREST_CELLS]
     best: Point | None = None
     tightest = 0.0
     for i, j, k in combinations(order, 3):

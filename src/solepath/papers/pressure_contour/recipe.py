@@ -10,4 +10,4 @@ PRESSURE_CONTOUR = Recipe("pressure-contour", ContourVelocity(), BiasZupt(), nee
 """Bebek et al. 2010: zero velocity where the contours of heel pressure stand still, accelerometer bias, square laps."""
 
 GYROSCOPE = Recipe("gyroscope", GyroscopeMagnitude(), BiasZupt())
-"""The same with zero velocity where the gyroscope is quiet: what Bebek et al. compare with."""
+"""Bebek et al.'s baseline: as `PRESSURE_CONTOUR`, with zero velocity where the gyroscope shows a low rate."""

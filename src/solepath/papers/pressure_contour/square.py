@@ -1,16 +1,16 @@
-"""Drift from laps of a square with marked steps, section V-B of "Personal navigation via high-resolution gait-corrected
-inertial measurement units" (IEEE Trans. Instrum. Meas. 59, 2010).
+"""Drift from laps of a square with marked strides, section V-B of Bebek et al. 2010.
 
-The wearer walks four to six laps of a square on whose edges every step of one foot is marked (40 marks on 4 times 11.7
-m in the paper) and steps on the same marks in every lap. A foot that comes back to its mark is where it was, so a line
-through the positions of one mark over time (least squares) has the slope of the drift. The mean slope of all marks is
-taken off later positions.
+"Personal navigation via high-resolution gait-corrected inertial measurement units" (IEEE Trans. Instrum. Meas. 59,
+2010). The wearer walks four to six laps of a square on whose edges every stride of one foot is marked (40 marks on 4
+times 11.7 m in the paper) and stands on the same marks in every lap. A foot that comes back to its mark is where it
+was, so a line through the positions of one mark over time (least squares) has the slope of the drift. The mean slope of
+all marks is subtracted from later positions.
 
-The paper finds a drift towards a fixed direction. What wanders about is not that: extrapolated from five minutes to a
-half hour it does more harm than it removes. A fixed drift moves all marks by the same amount from every lap to the
-next; so the slope is kept when it is larger than the laps' disagreement explains, by the test that is exact for
-independent movements of two components: with n movements of standard error s an axis, k = n - 1 and a chance of
-CHANCE, slope^2 / (2 s^2) > k (CHANCE^(-1/k) - 1), the F distribution with 2 and 2 k degrees of freedom.
+The paper finds a drift in a fixed direction. A drift that changes direction is different: extrapolated from five
+minutes to half an hour its correction does more harm than good. A fixed drift moves all marks by the same amount from
+every lap to the next; so the slope is kept when it is larger than the laps' disagreement explains, by the test that is
+exact for independent movements of two components: with n movements of standard error s an axis, k = n - 1 and a chance
+of CHANCE, slope^2 / (2 s^2) > k (CHANCE^(-1/k) - 1), the F distribution with 2 and 2 k degrees of freedom.
 """
 
 from __future__ import annotations
@@ -33,23 +33,25 @@ from .bias_zupt import BiasZupt
 from .recipe import PRESSURE_CONTOUR
 
 STEPS_PER_LAP = 40
-"""The paper's marks."""
+"""Number of the paper's marks."""
 FEWEST_LAPS = 3
-"""Two points lie on any line."""
+"""Fewest laps that show a drift: two points lie on any line."""
 CHANCE = 0.01
-"""Of keeping a slope where nothing drifts."""
-LARGEST = 0.05
-"""A foot whose velocity is reset at every step does not drift faster, m/s: 5 cm a step."""
-CLOSES = 0.25
-"""From one visit of a mark to the next it may seem to move by this share of the square's diagonal, beside a drift: the
-laps of a square of 11.7 m then end within 4 m, 9 % of their way."""
-NEAR = 1.0
-"""A step ends at a mark when it ends within this of the time that the marks' file says, s."""
+"""Probability of keeping a slope where nothing drifts."""
+LARGEST_DRIFT = 0.05
+"""Largest drift of a foot whose velocity is reset at every stride, m/s: 5 cm a stride."""
+CLOSURE_SHARE = 0.25
+"""Share of the square's diagonal by which a mark may move from one lap to the next, beside a drift.
+
+The laps of a square of 11.7 m then end within 4 m, 9 % of their way.
+"""
+MARK_TOLERANCE = 1.0
+"""Longest time between the end of a stride and a mark's time in the file, s."""
 
 
 @frozen
 class CornerMark:
-    """The foot stood on mark `name` at `t`, s."""
+    """A visit of mark `name` by the foot at `t`, s."""
 
     name: str
     t: float
@@ -57,8 +59,11 @@ class CornerMark:
 
 @frozen
 class SquareDrift:
-    """What the laps tell. `slope`: mean of the marks' slopes, m/s (x, y), in the frame of `Calibration.drift`;
-    `scatter`: its standard error by the laps' disagreement, m/s an axis; `agreed`: it is more than that explains."""
+    """Drift that the laps show.
+
+    `slope`: mean of the marks' slopes, m/s (x, y), in the frame of `Calibration.drift`; `scatter`: its standard error
+    by the laps' disagreement, m/s an axis; `agreed`: the slope is larger than that explains.
+    """
 
     foot: Foot
     slope: tuple[float, float]
@@ -66,11 +71,11 @@ class SquareDrift:
     agreed: bool
     marks: int
     visits: int
-    """Of all marks together."""
+    """Number of visits of all marks together."""
 
     @property
     def kept(self) -> tuple[float, float]:
-        """What a calibration takes of it: all or nothing, m/s."""
+        """Slope that a calibration takes, m/s: `slope` if `agreed`, otherwise zero."""
         return self.slope if self.agreed else (0.0, 0.0)
 
 
@@ -83,35 +88,42 @@ def square_drift(
     recipe: Recipe = PRESSURE_CONTOUR,
     calibration: Calibration | None = None,
 ) -> SquareDrift:
-    """Run the laps through a session and fit the lines. With `marks` every visit is the step that ends nearest to its
-    time; without, every `steps_per_lap`-th step is on the same mark. `foot`: whose; the right one's where both were
-    recorded. CalibrationError when there are too few laps, or they are none (`check`), or a recipe that cannot use a
-    drift."""
+    """Run the laps through a session and fit a line for each mark.
+
+    With `marks` every visit is the stride that ends nearest to its time; without, every `steps_per_lap`-th stride is on
+    the same mark. `foot`: the foot to use; the right one where both were recorded. CalibrationError when there are too
+    few laps, when they are no laps (`check_laps`), or when the recipe cannot use a drift.
+    """
     if not isinstance(recipe.corrector, BiasZupt):
         raise CalibrationError(f"recipe {recipe.name} takes no drift off")
     known = Calibration() if calibration is None else calibration
     session = Session(recipe, calibration=evolve(known, drift={}))
-    steps: dict[Foot, list[StrideTaken]] = {one: [] for one in Foot}
+    strides: dict[Foot, list[StrideTaken]] = {one: [] for one in Foot}
     for event in [*session.feed(items), *session.finish()]:
         if isinstance(event, StrideTaken):
-            steps[event.foot].append(event)
-    chosen = foot or (Foot.RIGHT if steps[Foot.RIGHT] else Foot.LEFT)
-    if not steps[chosen]:
+            strides[event.foot].append(event)
+    chosen = foot or (Foot.RIGHT if strides[Foot.RIGHT] else Foot.LEFT)
+    if not strides[chosen]:
         raise CalibrationError(f"no step of the {chosen.value} foot in the recording")
-    visits = _counted(steps[chosen], steps_per_lap) if marks is None else _marked(steps[chosen], marks)
+    visits = (
+        _visits_by_count(strides[chosen], steps_per_lap) if marks is None else _visits_by_marks(strides[chosen], marks)
+    )
     tracker = session.feet[chosen]
-    # Steps are in the world frame, whose first heading is the walk's; a drift is in that of the sensor, or the device.
+    # Strides are in the world frame, along the first heading; a drift is in the sensor's or the device's frame.
     corrector = tracker.corrector
-    turned = corrector.turned if isinstance(corrector, BiasZupt) else None
+    heading_offset = corrector.heading_offset if isinstance(corrector, BiasZupt) else None
     north = tracker.gait.world.north or (1.0, 0.0)
-    back = -atan2(north[1], north[0]) - (turned or 0.0)
-    found = fitted(chosen, visits, back)
-    check(found, visits)
+    to_drift_frame = -atan2(north[1], north[0]) - (heading_offset or 0.0)
+    found = fit_drift(chosen, visits, to_drift_frame)
+    check_laps(found, visits)
     return found
 
 
 def read_marks(path: Path | str) -> tuple[CornerMark, ...]:
-    """Marks from a .csv with the columns `mark` and `t`, one row for every visit. CalibrationError when it is not."""
+    """Read marks from a .csv with the columns `mark` and `t`, one row for every visit.
+
+    CalibrationError when the file is not of that form.
+    """
     rows = read_rows(path, ("mark", "t"))
     if not rows:
         raise CalibrationError(f"{path}: no visits of marks")
@@ -119,33 +131,36 @@ def read_marks(path: Path | str) -> tuple[CornerMark, ...]:
 
 
 Visits = dict[str, list[tuple[float, Vec3]]]
-"""By mark: when it was stood on and where that seemed to be, world frame, m."""
+"""Visits by mark, each with its time, s, and the position found for it, world frame, m."""
 
 
-def _counted(steps: Sequence[StrideTaken], steps_per_lap: int) -> Visits:
+def _visits_by_count(strides: Sequence[StrideTaken], steps_per_lap: int) -> Visits:
     if steps_per_lap < 4:
         raise CalibrationError(f"{steps_per_lap} marks are no square")
-    if len(steps) < FEWEST_LAPS * steps_per_lap:
-        raise CalibrationError(f"{len(steps)} steps are less than {FEWEST_LAPS} laps of {steps_per_lap} marks")
+    if len(strides) < FEWEST_LAPS * steps_per_lap:
+        raise CalibrationError(f"{len(strides)} steps are less than {FEWEST_LAPS} laps of {steps_per_lap} marks")
     visits: Visits = {}
-    for number, step in enumerate(steps):
-        visits.setdefault(str(number % steps_per_lap), []).append((step.t, step.position))
+    for number, stride in enumerate(strides):
+        visits.setdefault(str(number % steps_per_lap), []).append((stride.t, stride.position))
     return visits
 
 
-def _marked(steps: Sequence[StrideTaken], marks: Sequence[CornerMark]) -> Visits:
+def _visits_by_marks(strides: Sequence[StrideTaken], marks: Sequence[CornerMark]) -> Visits:
     visits: Visits = {}
-    ends = np.array([step.t for step in steps])
+    ends = np.array([stride.t for stride in strides])
     for mark in marks:
         nearest = int(np.argmin(np.abs(ends - mark.t)))
-        if abs(ends[nearest] - mark.t) > NEAR:
+        if abs(ends[nearest] - mark.t) > MARK_TOLERANCE:
             raise CalibrationError(f"no step ends at mark {mark.name} near {mark.t:.2f} s")
-        visits.setdefault(mark.name, []).append((steps[nearest].t, steps[nearest].position))
+        visits.setdefault(mark.name, []).append((strides[nearest].t, strides[nearest].position))
     return visits
 
 
-def fitted(foot: Foot, visits: Mapping[str, list[tuple[float, Vec3]]], back: float) -> SquareDrift:
-    """One line for each mark that was visited often enough; `back` turns from the world's frame to the drift's, rad."""
+def fit_drift(foot: Foot, visits: Mapping[str, list[tuple[float, Vec3]]], to_drift_frame: float) -> SquareDrift:
+    """Fit one line for each mark that was visited often enough.
+
+    `to_drift_frame` turns from the world frame to the drift's, rad.
+    """
     slopes: list[tuple[float, float]] = []
     moves: dict[int, list[tuple[float, float]]] = {}
     used = 0
@@ -167,29 +182,32 @@ def fitted(foot: Foot, visits: Mapping[str, list[tuple[float, Vec3]]], back: flo
     scatter = float(np.sqrt(np.mean(laps.var(axis=0, ddof=1)) / len(laps))) if len(laps) > 1 else inf
     k = len(laps) - 1
     agreed = k > 0 and x * x + y * y > 2.0 * scatter * scatter * k * (CHANCE ** (-1.0 / k) - 1.0)
-    sx, sy, _ = rotate(from_yaw(back), (x, y, 0.0))
+    sx, sy, _ = rotate(from_yaw(to_drift_frame), (x, y, 0.0))
     return SquareDrift(foot, (sx, sy), scatter, agreed, len(slopes), used)
 
 
-def check(found: SquareDrift, visits: Mapping[str, list[tuple[float, Vec3]]]) -> None:
-    """CalibrationError when what was walked is no laps of a square: when from one lap to the next the marks, in the
-    mean, lie farther apart than `LARGEST` and `CLOSES` allow, or the drift is larger than `LARGEST`."""
+def check_laps(found: SquareDrift, visits: Mapping[str, list[tuple[float, Vec3]]]) -> None:
+    """Check that the laps are laps of a square.
+
+    CalibrationError when from one lap to the next the marks, in the mean, lie farther apart than `LARGEST_DRIFT` and
+    `CLOSURE_SHARE` allow, or the drift is larger than `LARGEST_DRIFT`.
+    """
     marks = [np.array([(t, x, y) for t, (x, y, _) in places]) for places in visits.values() if len(places) > 1]
     middles = np.array([mark[:, 1:].mean(axis=0) for mark in marks])
     diagonal = float(np.linalg.norm(np.ptp(middles, axis=0)))
     moves: dict[int, list[tuple[float, float]]] = {}
     for mark in marks:
-        for number, (lasted, dx, dy) in enumerate(np.diff(mark, axis=0)):
-            moves.setdefault(number, []).append((float(lasted), hypot(dx, dy)))
+        for number, (duration, dx, dy) in enumerate(np.diff(mark, axis=0)):
+            moves.setdefault(number, []).append((float(duration), hypot(dx, dy)))
     for lap in moves.values():
-        lasted, moved = np.mean(lap, axis=0)
-        if moved > LARGEST * lasted + CLOSES * diagonal:
+        duration, moved = np.mean(lap, axis=0)
+        if moved > LARGEST_DRIFT * duration + CLOSURE_SHARE * diagonal:
             raise CalibrationError(
                 f"the laps do not close: a mark lies {moved:.1f} m from where it lay a lap before, "
                 f"the diagonal of all marks is {diagonal:.1f} m; is the number of steps a lap right?"
             )
     speed = hypot(*found.slope)
-    if speed > LARGEST:
+    if speed > LARGEST_DRIFT:
         raise CalibrationError(
-            f"a drift of {100.0 * speed:.1f} cm/s: more than {100.0 * LARGEST:.0f} cm/s are no drift of steps"
+            f"a drift of {100.0 * speed:.1f} cm/s: more than {100.0 * LARGEST_DRIFT:.0f} cm/s are no drift of steps"
         )

@@ -1,5 +1,7 @@
-"""Navigation of Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), sections 3.2 to 3.4:
-tilt fed back in stance only, velocity and, on level steps, height losing what they gathered in a line.
+"""Navigation of Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), sections 3.2 to 3.4.
+
+Gravity corrects the tilt in stance only. A drift that is linear in time is taken out of the velocity and, on level
+strides, out of the height.
 """
 
 from __future__ import annotations
@@ -14,282 +16,283 @@ from ...foot.stance.stance import Stance
 from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY, TIE, ZERO, rotate, tipped
-from .posture import gravity_error, posture, turned
+from .posture import gravity_error, posture, turn
 
-WHOLE = 0.5
-"""A step shorter than this says little of what every metre adds to the height, m."""
-LEARNT = 8
-"""Level steps whose mean is the lean; then older ones fade."""
-BROKEN = 0.3
-"""s: no swing is shorter."""
-USUAL = 1.2
-"""A step that lasts longer has missed a stance, and gathers errors with the square of time, s."""
-LEAST = 0.03
-"""s: no stance is shorter."""
-TOLD = 0.05
-"""Who stood certainly will do so again: a stance after such a one is told when it is certain, or has lasted so long,
-s."""
-LOST = 10.0
-"""m/s^2 for each s: an attitude that saturated gyroscopes have spoilt makes any speed, and must not for ever keep a
-foot from standing."""
-FASTEST = 15.0
-"""No foot is faster, m/s."""
-HIGHEST = 0.12
-"""A step that comes down so much or more above or below where it stood is no level one, m."""
-DOUBTFUL, LATE = 0.04, 0.9
-"""A stance whose evidence has a larger sigma than the first, m/s, is doubtful; of a foot that has moved for so many s
-without a stance, twice as large."""
-SLOW, DRIFTING, STRICT = 0.5, 1.0, 0.5
-"""How fast a standing foot may seem, m/s, and how much more with each second since it last stood, m/s^2: a tilt that is
-off by 6 degrees makes as much. The share of that which doubtful evidence is believed up to."""
+LEAST_LENGTH = 0.5
+"""Length below which a stride is not used to learn the height gained per metre, m."""
+LEARNT_STRIDES = 8
+"""Number of level strides over which `lean` is a plain mean; after that, older strides fade."""
+SHORTEST_SWING = 0.3
+"""Duration of the shortest swing, s."""
+LONGEST_USUAL = 1.2
+"""Duration above which a stride contains a missed stance, s: its errors grow with the square of time."""
+SHORTEST_STANCE = 0.03
+"""Duration of the shortest stance, s."""
+REPORT_AFTER = 0.05
+"""Time after which a stance that is not yet certain is reported although the last one became certain, s."""
+OVERDUE_GROWTH = 10.0
+"""Growth of the speed limit with the square of the overdue time, m/s^3: a spoilt attitude can make any speed."""
+HIGHEST_SPEED = 15.0
+"""Highest speed of a foot, m/s."""
+HIGHEST_LEVEL_RISE = 0.12
+"""Height change from which on a stride is not level, m, up or down."""
+UNCERTAIN_SIGMA, OVERDUE = 0.04, 0.9
+"""Sigma above which evidence is no stance, m/s, and time without a stance after which twice as much is allowed, s."""
+SPEED_LIMIT, SPEED_LIMIT_GROWTH, UNCERTAIN_SHARE = 0.5, 1.0, 0.5
+"""Speed limit of a standing foot, m/s, its growth since the last stance, m/s^2, and the share for uncertain evidence.
+
+A tilt error of 6 degrees makes as much growth.
+"""
 
 
 @frozen
 class ShoeSensingSettings(DedriftSettings):
-    """What `ShoeSensing` is set to."""
+    """Settings of `ShoeSensing`."""
 
     kp: float = 1.0
-    """How fast stance pulls the tilt upright, 1/s; the paper has no figure."""
-    heed: float = 0.4
-    """How much of the tilt that would explain the velocity left at the end of a motion is believed: joggers stand too
-    shortly for the feedback. Not in the paper; 0 leaves it out."""
+    """Gain of the tilt feedback in stance, 1/s; the paper gives no value."""
+    tilt_share: float = 0.4
+    """Share of the tilt error that is corrected after a motion, 0 to 1; 0 turns it off. Not in the paper.
+
+    The velocity left at the end of a motion shows that error. Joggers' stances are too short for the feedback.
+    """
     eliminate: bool = True
-    """Take the height error of level steps out."""
-    behind: float = 0.15
-    """How late the detector may be, s: the window of `ShortTimeEnergy`. A stance that has ended may have done so that
-    long ago, so what the samples since then gained counts as motion."""
+    """Flag: the height error of level strides is removed."""
+    detector_delay: float = 0.15
+    """Longest delay of the detector, s: the window of `ShortTimeEnergy`.
+
+    After a stance, samples of that time count as motion.
+    """
 
 
 @define
 class ShoeSensing(LinearDedrift):
-    """gyro' = gyro - Kp e stationary; Runge-Kutta quaternion; V(T) less e~ (T - t_a); S_z(T) less e~_s (T - t_a).
+    """Corrector that feeds tilt back in stance and takes linear drifts out of velocity and, on level strides, height.
 
-    Frame and units as in `Corrector`. Latency: velocity, position and, on a level step, height are put right, in one
-    jump, with the first sample of stance, and once more when a doubtful stance becomes certain. The feedback of a
-    sample of stance turns the interval after it.
+    gyro' = gyro - Kp e in stance; Runge-Kutta quaternion; V(T) less e~ (T - t_a); S_z(T) less e~_s (T - t_a). Frame and
+    units are those of `Corrector`. Latency: velocity, position and, on a level stride, height are corrected in one jump
+    with the first sample of stance, and once more when an uncertain stance becomes certain. The feedback of a sample of
+    stance turns the interval after it.
 
-    e~ = (dv2 - dv1) / (t_b - t_a) of section 3.3 is the velocity that is left when the foot stands again, over the time
-    since it last stood; removed from the velocity in a line it takes half of itself times that time from the position.
-    Of section 3.4.2's height error, removed in the same way, nothing is left at t_b: the foot stands as high as before.
-    e~_s itself is only known at t_b, and the paper does not say how its live track has it before. Here it has not:
-    within a step the live height (`FootMoved`) is as integration has it, with all that it has drifted since t_a, and
-    the line is taken off in one jump when the foot stands; heights of the samples in between are not told again.
-    Both V(T) and S_z(T) are printed with `stationary = 1` beside the moving foot and 0 beside the standing one; by
-    section 3.1.2 it is the other way about.
+    e~ = (dv2 - dv1) / (t_b - t_a) of section 3.3 is the velocity left when the foot stands again, over the time since
+    it last stood. Removing it linearly from the velocity removes half of it times that time from the position. Section
+    3.4.2's height error is removed in the same way and is zero at t_b: the foot stands as high as before. The paper
+    does not say how its live track knows e~_s before t_b. Here the live height within a stride (`FootMoved`) has the
+    whole drift since t_a, the line is subtracted in one jump when the foot stands, and heights in between are not
+    reported again. V(T) and S_z(T) are printed with `stationary = 1` beside the moving foot and 0 beside the standing
+    one; by section 3.1.2 it is the other way about. A stride is level by its angle per metre (steepness.py).
 
-    A step is level by its angle per metre (steepness.py).
-
-    What is beyond the paper. In the middle of a swing, and before a foot is flat, there are moments without
-    acceleration, and joggers hardly have longer ones. So evidence without the hint STATIONARY is stance for the time
-    being: only later than `BROKEN` after the last stance, of a sigma up to `DOUBTFUL`, and when the integration says
-    that the foot is slow. Should the foot then stand more certainly, the motion is put right by that later moment, and
-    a wearer whose last stance became certain is not told to stand before: walkers' steps end with certainty, a jogger's
-    first one may be told as one with the second. What velocity was left when a stance is over turns the tilt (`heed`).
-    And most of a level step's height is a tilt that an accelerometer's bias makes, so much a metre in step after step
-    (25 mg make 3.5 cm of 1.4 m): what the level steps so far had in common, `lean`, is taken off every step before it
-    is judged. What then still comes down `HIGHEST` or more above or below where it stood is no level step, whatever its
-    angle: it has gone onto or off a stair with a long stride, and keeps its height.
+    Beyond the paper: in mid-swing, and before foot-flat, there are moments without acceleration, and joggers hardly
+    have longer ones. So evidence without the hint STATIONARY is stance for the time being, if it comes `SHORTEST_SWING`
+    after the last stance, its sigma is at most `UNCERTAIN_SIGMA`, and the integrated speed is low. If the foot then
+    stands with more certainty, the motion is corrected by that later moment. A wearer whose last stance became certain
+    is not reported to stand before that: walkers' strides end with certainty, a jogger's first may be reported as one
+    with the second. The velocity left at the end of a stance turns the tilt (`tilt_share`). Most of a level stride's
+    height is a tilt made by an accelerometer bias, equal per metre in every stride (25 mg make 3.5 cm of 1.4 m): the
+    mean of the level strides, `lean`, is subtracted from every stride before it is judged. A stride that still ends
+    `HIGHEST_LEVEL_RISE` or more above or below its start is not level, whatever its angle: it goes onto or off a stair
+    with a long stride, and keeps its height.
     """
 
     settings: ShoeSensingSettings = ShoeSensingSettings()
     lean: float = field(default=0.0, init=False)
-    """Height gained by level steps for each metre of theirs, m; zero without `eliminate`."""
-    levelled: int = field(default=0, init=False)
-    """How many steps that comes from, up to `LEARNT`."""
-    slope: float = field(default=0.0, init=False)
-    """What the step that led to this stance adds to it, if it was a level one."""
-    measured: Vec3 = field(default=ZERO, init=False)
-    """acc of the last sample, sensor frame, m/s^2."""
-    gained: Vec3 = field(default=ZERO, init=False)
-    """By how much it changed the velocity, m/s."""
-    lately: deque[tuple[float, float, Vec3]] = field(factory=deque, init=False)
-    """Of the last samples of stance: its time and how long it was, s, and by how much it changed the velocity, m/s."""
-    still: bool = field(default=True, init=False)
-    """The last sample was one of stance."""
-    best: float = field(default=0.0, init=False)
-    """The least sigma of this stance, m/s."""
-    came: float = field(default=0.0, init=False)
-    """How long ago this stance, or the last one, began, s."""
-    sure: bool = field(default=True, init=False)
-    """The last stance became a certain one."""
-    tipping: tuple[float, float] = field(default=(0.0, 0.0), init=False)
-    """What the attitude will be turned by when this stance is over, half angles about x and y, rad."""
-    raw: tuple[Vec3, Vec3] | None = field(default=None, init=False)
-    """Position and velocity if the motion before this stance went on, m and m/s, as long as a more certain moment may
-    put it right."""
-    raw_swing: float = field(default=0.0, init=False)
-    """For how long that motion has gone on, s."""
-    step: float = field(default=0.0, init=False)
-    """How long the last sample was, s."""
-    stood: Vec3 = field(default=ZERO, init=False)
-    """Where the foot stands, or last stood, m."""
-    before: Vec3 = field(default=ZERO, init=False)
-    """Where it stood before that, m."""
+    """Height gained by level strides per metre of their length, m; zero without `eliminate`."""
+    level_strides: int = field(default=0, init=False)
+    """Number of strides that `lean` comes from, at most `LEARNT_STRIDES`."""
+    stride_slope: float = field(default=0.0, init=False)
+    """Height per metre that the stride before this stance adds to `lean`; zero if that stride was not level."""
+    last_acc: Vec3 = field(default=ZERO, init=False)
+    """Specific force of the last sample, sensor frame, m/s^2."""
+    velocity_change: Vec3 = field(default=ZERO, init=False)
+    """Change of the velocity by the last sample, m/s."""
+    recent: deque[tuple[float, float, Vec3]] = field(factory=deque, init=False)
+    """Last samples of stance, each with its time, s, duration, s, and change of the velocity, m/s."""
+    standing: bool = field(default=True, init=False)
+    """Flag: the last sample was one of stance."""
+    least_sigma: float = field(default=0.0, init=False)
+    """Least sigma of this stance, m/s."""
+    stance_age: float = field(default=0.0, init=False)
+    """Time since the start of this stance or, in a motion, of the last one, s."""
+    certain: bool = field(default=True, init=False)
+    """Flag: the last stance became certain."""
+    tilt_correction: tuple[float, float] = field(default=(0.0, 0.0), init=False)
+    """Turn of the attitude at the end of this stance, half angles about x and y, rad."""
+    uncorrected: tuple[Vec3, Vec3] | None = field(default=None, init=False)
+    """Position, m, and velocity, m/s, as if the motion before this stance went on; None once that motion is final."""
+    uncorrected_swing: float = field(default=0.0, init=False)
+    """Duration of the motion that `uncorrected` continues, s."""
+    last_dt: float = field(default=0.0, init=False)
+    """Duration of the last sample, s."""
+    stance_position: Vec3 = field(default=ZERO, init=False)
+    """Position where the foot stands or last stood, m."""
+    previous_position: Vec3 = field(default=ZERO, init=False)
+    """Position where the foot stood before `stance_position`, m."""
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
-        # the mean force of the rest that the attitude was found in, as the sensor has it
+        # the mean specific force of the rest from which the attitude was found, sensor frame
         w, x, y, z = attitude
         up = (2.0 * (x * z - w * y), 2.0 * (y * z + w * x), w * w - x * x - y * y + z * z)
         LinearDedrift.start(self, posture(up), tilt_sigma)
-        self.stood = self.before = ZERO
-        self.still = True
-        self.best = 0.0
-        self.came = self.raw_swing = self.slope = 0.0
-        self.raw = None
-        self.sure = True
-        self.tipping = (0.0, 0.0)
-        self.lately.clear()
-        self.measured = up
+        self.stance_position = self.previous_position = ZERO
+        self.standing = True
+        self.least_sigma = 0.0
+        self.stance_age = self.uncorrected_swing = self.stride_slope = 0.0
+        self.uncorrected = None
+        self.certain = True
+        self.tilt_correction = (0.0, 0.0)
+        self.recent.clear()
+        self.last_acc = up
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
         before = gyro if self.rate is None else self.rate
         self.rate = after = gyro
         attitude = self.attitude
-        if self.still:
+        if self.standing:
             k = min(self.settings.kp, 0.5 / dt) if dt > 0.0 else 0.0
-            ex, ey, ez = gravity_error(attitude, self.measured)
+            ex, ey, ez = gravity_error(attitude, self.last_acc)
             ex, ey, ez = k * ex, k * ey, k * ez
             x, y, z = before
             before = (x - ex, y - ey, z - ez)
             x, y, z = after
             after = (x - ex, y - ey, z - ez)
-        self.measured = acc
-        self.attitude = attitude = turned(attitude, before, after, dt)
+        self.last_acc = acc
+        self.attitude = attitude = turn(attitude, before, after, dt)
         fx, fy, fz = force = rotate(attitude, acc)
         px, py, pz = force if self.force is None else self.force
         self.force = force
         half = 0.5 * dt
-        dx, dy, dz = self.gained = ((fx + px) * half, (fy + py) * half, (fz + pz) * half - GRAVITY * dt)
+        dx, dy, dz = self.velocity_change = ((fx + px) * half, (fy + py) * half, (fz + pz) * half - GRAVITY * dt)
         vx, vy, vz = self.velocity
         ux, uy, uz = vx + dx, vy + dy, vz + dz
         x, y, z = self.position
         self.position = (x + (vx + ux) * half, y + (vy + uy) * half, z + (vz + uz) * half)
         speed = sqrt(ux * ux + uy * uy + uz * uz)
-        if speed > FASTEST:
-            k = FASTEST / speed
-            ux, uy, uz, speed = ux * k, uy * k, uz * k, FASTEST
+        if speed > HIGHEST_SPEED:
+            k = HIGHEST_SPEED / speed
+            ux, uy, uz, speed = ux * k, uy * k, uz * k, HIGHEST_SPEED
         self.velocity = (ux, uy, uz)
         self.length += speed * dt
-        if self.raw is not None:
-            (x, y, z), (vx, vy, vz) = self.raw
+        if self.uncorrected is not None:
+            (x, y, z), (vx, vy, vz) = self.uncorrected
             x, y, z = x + (vx + 0.5 * dx) * dt, y + (vy + 0.5 * dy) * dt, z + (vz + 0.5 * dz) * dt
-            self.raw = ((x, y, z), (vx + dx, vy + dy, vz + dz))
-            self.raw_swing += dt
-        self.step = dt
-        self.came += dt
+            self.uncorrected = ((x, y, z), (vx + dx, vy + dy, vz + dz))
+            self.uncorrected_swing += dt
+        self.last_dt = dt
+        self.stance_age += dt
         self.swing += dt
         self.lasted += dt
 
     def correct(self, t: float, stance: Stance) -> bool:
-        stood = self.still
-        self.still = still = self._stands(stance)
-        if not still:
-            if stood:
-                self._set_out()
-            elif self.came >= BROKEN:
-                self.raw = None
+        was_standing = self.standing
+        self.standing = standing = self._is_stance(stance)
+        if not standing:
+            if was_standing:
+                self._start_motion()
+            elif self.stance_age >= SHORTEST_SWING:
+                self.uncorrected = None
             return False
-        if stood:
-            lately = self.lately
-            lately.append((t, self.step, self.gained))
-            oldest = t - self.settings.behind + TIE
-            while lately and lately[0][0] <= oldest:
-                lately.popleft()
-        elif self.raw is None:
-            self.before = self.stood
-            self.raw, self.raw_swing = (self.position, self.velocity), self.swing
-            self.came = self.best = 0.0
-        if self.raw is not None and not 0.0 < self.best <= stance.sigma:
-            self._come_down(*self.raw, stance)
+        if was_standing:
+            recent = self.recent
+            recent.append((t, self.last_dt, self.velocity_change))
+            oldest = t - self.settings.detector_delay + TIE
+            while recent and recent[0][0] <= oldest:
+                recent.popleft()
+        elif self.uncorrected is None:
+            self.previous_position = self.stance_position
+            self.uncorrected, self.uncorrected_swing = (self.position, self.velocity), self.swing
+            self.stance_age = self.least_sigma = 0.0
+        if self.uncorrected is not None and not 0.0 < self.least_sigma <= stance.sigma:
+            self._end_motion(*self.uncorrected, stance)
         self.swing = 0.0
-        self.position = self.stood
+        self.position = self.stance_position
         self.velocity = stance.v_ref
-        return self.raw is None or not self.sure or self.came >= TOLD
+        return self.uncorrected is None or not self.certain or self.stance_age >= REPORT_AFTER
 
-    def _stands(self, stance: Stance) -> bool:
-        sigma, sure = stance.sigma, stance.hint is Phase.STATIONARY
-        if self.still and self.came < LEAST:
+    def _is_stance(self, stance: Stance) -> bool:
+        """Return whether the foot stands, judged by the evidence and the integrated speed."""
+        sigma, certain = stance.sigma, stance.hint is Phase.STATIONARY
+        if self.standing and self.stance_age < SHORTEST_STANCE:
             return True
-        if stance.hint is Phase.SWING or sigma > 2.0 * DOUBTFUL:
+        if stance.hint is Phase.SWING or sigma > 2.0 * UNCERTAIN_SIGMA:
             return False
-        if self.still:
-            return sigma <= max(DOUBTFUL, self.best)
+        if self.standing:
+            return sigma <= max(UNCERTAIN_SIGMA, self.least_sigma)
         (vx, vy, vz), swing = self.velocity, self.swing
-        if self.raw is not None:
-            if sigma >= self.best:
+        if self.uncorrected is not None:
+            if sigma >= self.least_sigma:
                 return False
-            (_, (vx, vy, vz)), swing = self.raw, self.raw_swing
-        elif swing < BROKEN and not sure:
+            (_, (vx, vy, vz)), swing = self.uncorrected, self.uncorrected_swing
+        elif swing < SHORTEST_SWING and not certain:
             return False
-        limit = SLOW + DRIFTING * swing
-        if not sure:
-            limit *= STRICT
-        if swing > LATE:
-            limit += LOST * (swing - LATE) ** 2
-        elif sigma > DOUBTFUL:
+        limit = SPEED_LIMIT + SPEED_LIMIT_GROWTH * swing
+        if not certain:
+            limit *= UNCERTAIN_SHARE
+        if swing > OVERDUE:
+            limit += OVERDUE_GROWTH * (swing - OVERDUE) ** 2
+        elif sigma > UNCERTAIN_SIGMA:
             return False
         return vx * vx + vy * vy + vz * vz < limit * limit
 
-    def _come_down(self, place: Vec3, velocity: Vec3, stance: Stance) -> None:
-        """The foot stands, more certainly than it did before, where the motion led to this place and velocity."""
-        (x, y, z), (vx, vy, vz), (rx, ry, rz) = place, velocity, stance.v_ref
-        half = 0.5 * self.raw_swing
-        k = 0.5 * self.settings.heed / (GRAVITY * max(self.raw_swing, BROKEN))
-        self.tipping = (k * (vy - ry), -k * (vx - rx))
+    def _end_motion(self, position: Vec3, velocity: Vec3, stance: Stance) -> None:
+        """End the motion at this position and velocity: the foot stands, with more certainty than it did before."""
+        (x, y, z), (vx, vy, vz), (rx, ry, rz) = position, velocity, stance.v_ref
+        half = 0.5 * self.uncorrected_swing
+        k = 0.5 * self.settings.tilt_share / (GRAVITY * max(self.uncorrected_swing, SHORTEST_SWING))
+        self.tilt_correction = (k * (vy - ry), -k * (vx - rx))
         x, y, z = x + (rx - vx) * half, y + (ry - vy) * half, z + (rz - vz) * half
         if self.settings.eliminate:
-            z = self._height(x, y, z)
-        self.stood = (x, y, z)
-        self.best = stance.sigma
+            z = self._height_at_end(x, y, z)
+        self.stance_position = (x, y, z)
+        self.least_sigma = stance.sigma
         if stance.hint is Phase.STATIONARY:
-            self.raw = None
+            self.uncorrected = None
 
-    def _height(self, x: float, y: float, z: float) -> float:
-        """S_z at the end of a step that integration has brought to (x, y, z), m."""
-        bx, by, bz = self.before
+    def _height_at_end(self, x: float, y: float, z: float) -> float:
+        """Return S_z at the end of a stride that integration has brought to (x, y, z), m."""
+        bx, by, bz = self.previous_position
         ground = hypot(x - bx, y - by)
         height = z - bz - self.lean * ground
-        highest = HIGHEST * max(1.0, self.raw_swing / USUAL) ** 2
+        highest = HIGHEST_LEVEL_RISE * max(1.0, self.uncorrected_swing / LONGEST_USUAL) ** 2
         if abs(height) >= highest or steepness(ground, height) != 0:
-            self.slope = 0.0
+            self.stride_slope = 0.0
             return bz + height
-        self.slope = height / ground if ground > WHOLE else 0.0
+        self.stride_slope = height / ground if ground > LEAST_LENGTH else 0.0
         return bz
 
-    def _set_out(self) -> None:
-        """The stance is over, and was so for the samples in `lately`."""
-        if self.slope != 0.0:
-            self.levelled = min(self.levelled + 1, LEARNT)
-            self.lean += self.slope / self.levelled
-            self.slope = 0.0
-        self.sure = self.raw is None
-        self.attitude = tipped(self.attitude, *self.tipping)
-        self.tipping = (0.0, 0.0)
+    def _start_motion(self) -> None:
+        """End the stance, which was over already for the samples in `recent`."""
+        if self.stride_slope != 0.0:
+            self.level_strides = min(self.level_strides + 1, LEARNT_STRIDES)
+            self.lean += self.stride_slope / self.level_strides
+            self.stride_slope = 0.0
+        self.certain = self.uncorrected is None
+        self.attitude = tipped(self.attitude, *self.tilt_correction)
+        self.tilt_correction = (0.0, 0.0)
         self.swing = 0.0
-        x, y, z = self.stood
+        x, y, z = self.stance_position
         vx = vy = vz = 0.0
-        for _, dt, (dx, dy, dz) in (*self.lately, (0.0, self.step, self.gained)):
+        for _, dt, (dx, dy, dz) in (*self.recent, (0.0, self.last_dt, self.velocity_change)):
             x, y, z = x + (vx + 0.5 * dx) * dt, y + (vy + 0.5 * dy) * dt, z + (vz + 0.5 * dz) * dt
             vx, vy, vz = vx + dx, vy + dy, vz + dz
             self.swing += dt
-        self.lately.clear()
+        self.recent.clear()
         self.position, self.velocity = (x, y, z), (vx, vy, vz)
 
     def bridge(self, dt: float) -> float:
-        self._forget()
+        self._discard_recent()
         return LinearDedrift.bridge(self, dt)
 
     def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
-        self._forget()
-        self.still = False
+        self._discard_recent()
+        self.standing = False
         LinearDedrift.infill(self, dt, attitude, velocity, position)
 
     def repair(self, yaw: float, position: Vec3) -> None:
         LinearDedrift.repair(self, yaw, position)
-        self.stood = self.before = position
-        self._forget()
+        self.stance_position = self.previous_position = position
+        self._discard_recent()
 
-    def _forget(self) -> None:
-        """What the last samples said is of no use any more."""
-        self.raw = None
-        self.lately.clear()
+    def _discard_recent(self) -> None:
+        """Discard the last samples and the uncorrected motion."""
+        self.uncorrected = None
+        self.recent.clear()

@@ -1,9 +1,9 @@
-"""The attitude of a foot as Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), section
-3.2, have it: posture from gravity by its vector product, and the quaternion by Runge and Kutta's fourth-order method.
+"""Attitude of a foot by Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), section 3.2.
 
-Q turns the sensor's coordinates into those of the reference frame, whose gravitational vector is aR = [0, 0, 1]: what
-an accelerometer at rest measures, upwards. gb is that vector as Q has it in the sensor's coordinates, g'R the measured
-one, both of length 1; e = gb x g'R is the axis and, while small, the angle by which Q is off.
+The vector product with gravity gives the posture, and Runge and Kutta's fourth-order method integrates the quaternion.
+Q turns the sensor's coordinates into those of the reference frame, whose gravitational vector is aR = [0, 0, 1]: the
+reading of an accelerometer at rest, upwards. gb is that vector turned by Q into the sensor's coordinates, g'R the
+measured one, both of length 1; e = gb x g'R is the axis and, while small, the angle by which Q is off.
 """
 
 from __future__ import annotations
@@ -14,20 +14,25 @@ from ...types import Quat, Vec3
 from ...types.vector import IDENTITY, from_rotation_vector, levelling, multiply, normalise
 
 POINTS = 400
-"""The initialisation "will converge in about 4 s (i.e., 400 points)" (fig. 7)."""
-POINT = 0.01
-"""s."""
+"""Number of points of the initialisation, which "will converge in about 4 s (i.e., 400 points)" (fig. 7)."""
+POINT_INTERVAL = 0.01
+"""Time between two points of the initialisation, s."""
 GAIN = 2.0
 """Kp of the initialisation, 1/s: tan of half the error falls by exp(-Kp t), to a thousandth within fig. 7's 4 s."""
-SETTLED = 2e-3
-"""rad: a posture that is off by more when the points are through did not converge."""
+LARGEST_ERROR = 2e-3
+"""Error of the posture after all points above which it did not converge, rad."""
 WIDEST_TURN = 1.0
-"""Square of the turn within one sample, rad^2, that Runge and Kutta's polynomial follows to 1e-3 rad; of slow samples a
-wider one is taken exactly."""
+"""Square of the turn within one sample, rad^2, that Runge and Kutta's polynomial follows to 1e-3 rad.
+
+A wider turn, which samples at a low rate have, is computed exactly.
+"""
 
 
 def gravity_error(attitude: Quat, acc: Vec3) -> Vec3:
-    """e = gb x g'R, sensor frame: `acc` is the measured specific force, in any unit; zero where it has no length."""
+    """Return e = gb x g'R, sensor frame; zero if `acc` has no length.
+
+    `acc` is the measured specific force, in any unit.
+    """
     q0, q1, q2, q3 = attitude
     x, y, z = acc
     length = sqrt(x * x + y * y + z * z)
@@ -40,29 +45,29 @@ def gravity_error(attitude: Quat, acc: Vec3) -> Vec3:
 
 
 def posture(acc: Vec3) -> Quat:
-    """Fig. 6: the posture of a foot at rest, from Q = [1, 0, 0, 0] by repeating the vector product until it is zero.
+    """Return the posture of a foot at rest, iterated from Q = [1, 0, 0, 0] until the vector product is zero (fig. 6).
 
-    `acc` is the mean specific force of a rest. Each of 400 points turns Q by what the feedback of stance would, with a
-    gyroscope that reads nothing; the paper's P, "the solution process of the quaternion", is not told further. About an
-    upside-down sensor the vector product says nothing of the way, so that one begins upside down.
+    `acc` is the mean specific force of a rest. Each of 400 points turns Q as the feedback of stance would with a
+    gyroscope that reads zero; the paper does not describe its P, "the solution process of the quaternion", any further.
+    For an upside-down sensor the vector product gives no direction of turn, so the iteration starts upside down.
     """
-    whole = levelling(acc)
-    q = IDENTITY if abs(whole[0]) > 0.1 else whole
+    direct = levelling(acc)
+    q = IDENTITY if abs(direct[0]) > 0.1 else direct
     for _ in range(POINTS):
         ex, ey, ez = gravity_error(q, acc)
         rate = (-GAIN * ex, -GAIN * ey, -GAIN * ez)
-        q = turned(q, rate, rate, POINT)
+        q = turn(q, rate, rate, POINT_INTERVAL)
     ex, ey, ez = gravity_error(q, acc)
-    return q if ex * ex + ey * ey + ez * ez < SETTLED * SETTLED else whole
+    return q if ex * ex + ey * ey + ez * ez < LARGEST_ERROR * LARGEST_ERROR else direct
 
 
-def turned(q: Quat, before: Vec3, after: Vec3, h: float) -> Quat:
-    """Q after `h` s in which the rate went from `before` to `after`, sensor frame, rad/s.
+def turn(q: Quat, before: Vec3, after: Vec3, h: float) -> Quat:
+    """Return Q after `h` s in which the rate went from `before` to `after`, sensor frame, rad/s.
 
-    Q' = 1/2 Q w, of which the paper prints the matrix, by
-    Q_n+1 = Q_n + h/6 (k1 + 2 k2 + 2 k3 + k4), normalised; the paper has 3 k3, a misprint: the weights of the classical
-    method add up to 6; with 3 they add up to 7, and every turn comes out a sixth too wide. Its f(w_n + h/2, ...) is the
-    rate half an interval later: the mean of both.
+    Q' = 1/2 Q w, of which the paper prints the matrix, is integrated by Q_n+1 = Q_n + h/6 (k1 + 2 k2 + 2 k3 + k4) and
+    normalised. The paper has 3 k3, a misprint: the weights of the classical method add up to 6; with 3 they add up to
+    7, and every turn comes out a sixth too wide. Its f(w_n + h/2, ...) is the rate half an interval later: the mean of
+    both.
     """
     ax, ay, az = before
     cx, cy, cz = after

@@ -13,7 +13,7 @@ SHOE_SENSING = Recipe("shoe-sensing", ShortTimeEnergy(), ShoeSensing(), parts=us
 SHOE_MAGNITUDE = Recipe(
     "acceleration-magnitude",
     AccelerationMagnitude(),
-    ShoeSensing(ShoeSensingSettings(behind=0.0)),
+    ShoeSensing(ShoeSensingSettings(detector_delay=0.0)),
     parts=usual(activity=AnglePerMetre()),
 )
-"""The same with stance where the acceleration is as large as gravity: what Li et al. compare with."""
+"""Li et al.'s baseline: as `SHOE_SENSING`, with stance where the acceleration is as large as gravity."""

@@ -1,10 +1,10 @@
-"""A wearer's own compensation of touchdowns, from walks over marks on the floor.
+"""Compensation of a wearer's own touchdowns, from walks over marks on the floor.
 
 After Gong et al. 2023 (Sensors 23, 5417), section 3.3: the wearer steps on a marked point with each footfall, straight
 on and along bends of 4 m and 2 m, and the mean of (marked point - measured) is the compensation of that foot in that
-mode. Each step counts by itself: where a foot should have come down, seen from where the other one stood on its mark,
-so errors do not accumulate. The marks' frame is any on the floor; how it lies to the session's is found from all steps
-together. A mark is where the point of the ground below the ankle comes to be.
+mode. Each step counts by itself: its error is measured from the mark of the other foot, so errors do not accumulate.
+The marks' frame is any on the floor; its turn to the session's frame is found from all steps together. A mark is the
+place of the point of the ground below the ankle.
 """
 
 from __future__ import annotations
@@ -27,14 +27,15 @@ from ...types.attrs import evolve, frozen
 from .modes import Modes
 from .settings import ModesSettings
 
-NEAR = 0.3
-"""A mark that names a time is that of the touchdown within so many s of it."""
+MARK_TOLERANCE = 0.3
+"""Longest time between a mark that names a time and its touchdown, s."""
 MODES = tuple(mode for mode in WalkingMode if mode is not WalkingMode.STANDING)
+"""Walking modes that have a compensation."""
 
 
 @frozen
 class ModeMark:
-    """A point on the floor, m, that a foot stepped on in this mode: at about `t` s, or with its `step`-th touchdown."""
+    """A point on the floor, m, that a foot stepped on in this mode, at about `t` s or with its `step`-th touchdown."""
 
     where: str
     foot: Foot
@@ -47,7 +48,7 @@ class ModeMark:
 
 @frozen
 class StepError:
-    """Marked less measured of one step, in the direction of walking half a step before it ended, m."""
+    """Marked less measured position of one step, in the direction of walking half a step before it ended, m."""
 
     foot: Foot
     mode: WalkingMode
@@ -56,8 +57,10 @@ class StepError:
 
 
 def read_marks(path: Path | str) -> list[ModeMark]:
-    """The marks of a csv file with the columns foot (left, right), x, y (m), mode, and t (s) or step (from 1).
-    CalibrationError that names file and line."""
+    """Read the marks of a csv file with the columns foot (left, right), x, y (m), mode, and t (s) or step (from 1).
+
+    CalibrationError that names file and line.
+    """
     rows = read_rows(path, ("foot", "x", "y", "mode"))
     if not rows:
         raise CalibrationError(f"{path}: no marks")
@@ -80,7 +83,10 @@ def read_marks(path: Path | str) -> list[ModeMark]:
 
 
 def touchdowns(walk: DecodedRecording, known: Calibration, heading: float | None = None) -> list[TouchedDown]:
-    """What method III makes of a walk without compensation, in the order of time. `heading`: as in `ModesSettings`."""
+    """Return the touchdowns of a walk by method III without compensation, in the order of time.
+
+    `heading`: as in `ModesSettings`.
+    """
     insoles = dict(known.insoles)
     for foot, layout in walk.layouts.items():
         insole = known.insole(foot)
@@ -93,11 +99,13 @@ def touchdowns(walk: DecodedRecording, known: Calibration, heading: float | None
 
 
 def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown]) -> list[StepError]:
-    """Every step from a mark of one foot to a mark of the other, with a mark of each before them to tell the direction.
-    CalibrationError for a mark that no touchdown belongs to, or two marks of one."""
+    """Return the error of every step between marks of both feet; a mark of each foot before them gives the direction.
+
+    CalibrationError for a mark without a touchdown, or two marks of one touchdown.
+    """
     at: dict[int, ModeMark] = {}
     for mark in marks:
-        k = _touchdown_of(mark, downs)
+        k = _touchdown_index(mark, downs)
         if k in at:
             raise CalibrationError(f"{mark.where}: the same touchdown as at {at[k].where}")
         at[k] = mark
@@ -106,12 +114,12 @@ def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown]) -> list[Ste
         earliest, earlier, before, newest = (at.get(j) for j in range(k - 3, k + 1))
         if earliest is None or earlier is None or before is None or newest is None:
             continue
-        if not downs[k - 1].final:  # told before the first heading was settled: in another frame
+        if not downs[k - 1].final:  # reported before the first heading was final: in another frame
             continue
         if not earliest.foot is before.foot is not newest.foot is earlier.foot:
             continue
         (x, y, _), (px, py, _) = downs[k].position, downs[k - 1].position
-        # the chord of a foot's stride is the tangent a step back, that of the other's two; half a step back it is
+        # one foot's chord is the tangent a step back, the other's two steps back; this is it half a step back
         ahead = atan2(newest.y - earlier.y, newest.x - earlier.x)
         behind = atan2(before.y - earliest.y, before.x - earliest.x)
         ahead += 0.5 * atan2(sin(ahead - behind), cos(ahead - behind))
@@ -131,7 +139,7 @@ def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown]) -> list[Ste
 
 
 def mean_errors(errors: Iterable[StepError]) -> dict[Foot, dict[WalkingMode, tuple[float, float]]]:
-    """(forward, left), m, by foot and mode, of those that there are; without what is a heading."""
+    """Return the mean errors (forward, left), m, by foot and mode, without the part that is an error of heading."""
     gathered: dict[Foot, dict[WalkingMode, list[StepError]]] = {}
     for error in errors:
         gathered.setdefault(error.foot, {}).setdefault(error.mode, []).append(error)
@@ -143,14 +151,16 @@ def mean_errors(errors: Iterable[StepError]) -> dict[Foot, dict[WalkingMode, tup
         for foot in Foot
         if foot in gathered
     }
-    without_heading(means)
+    remove_heading_error(means)
     return means
 
 
-def without_heading(means: dict[Foot, dict[WalkingMode, tuple[float, float]]]) -> None:
-    """Take out of both feet what they are off to the same side, mode by mode: that turns the way as a whole, as the
-    heading of a sensor does that errs on one walk this way and on the next that way. Where a touchdown is misplaced,
-    the feet are off against each other."""
+def remove_heading_error(means: dict[Foot, dict[WalkingMode, tuple[float, float]]]) -> None:
+    """Remove, mode by mode, the error to the side that both feet have in common.
+
+    It turns the whole path, as a sensor's heading error does, which differs from walk to walk. Where a touchdown is
+    misplaced, the errors of the feet have opposite signs.
+    """
     left, right = means.get(Foot.LEFT, {}), means.get(Foot.RIGHT, {})
     for mode in left.keys() & right.keys():
         aside = 0.5 * (left[mode][1] + right[mode][1])
@@ -161,10 +171,13 @@ def without_heading(means: dict[Foot, dict[WalkingMode, tuple[float, float]]]) -
 def fit_modes(
     walks: Iterable[tuple[DecodedRecording, Path | str]], known: Calibration | None = None, heading: float | None = None
 ) -> Calibration:
-    """A calibration with the compensation that marked walks show, each a recording and its csv file of marks
-    (`read_marks`). `known`: limbs and insoles of the wearer. `heading`: where the wearer looks at the start of each
-    walk in the world that the sensors share, rad; without it the first step has to tell, and should not go round a
-    bend. CalibrationError when no step lies between two marks."""
+    """Return a calibration with the compensation that marked walks show.
+
+    Each walk is a recording and its csv file of marks (`read_marks`). `known`: limbs and insoles of the wearer.
+    `heading`: direction that the wearer faces at the start of each walk in the world that the sensors share, rad;
+    without it the first step gives the direction, and should not go round a bend. CalibrationError when no step lies
+    between two marks.
+    """
     known = Calibration() if known is None else known
     errors: list[StepError] = []
     for walk, path in walks:
@@ -175,10 +188,11 @@ def fit_modes(
     return Calibration(modes=mean_errors(errors))
 
 
-def _touchdown_of(mark: ModeMark, downs: list[TouchedDown]) -> int:
+def _touchdown_index(mark: ModeMark, downs: list[TouchedDown]) -> int:
+    """Return the index of a mark's touchdown."""
     of_foot = [k for k, down in enumerate(downs) if down.foot is mark.foot]
     if mark.t is not None:
-        near = [(abs(downs[k].t - mark.t), k) for k in of_foot if abs(downs[k].t - mark.t) <= NEAR]
+        near = [(abs(downs[k].t - mark.t), k) for k in of_foot if abs(downs[k].t - mark.t) <= MARK_TOLERANCE]
         if not near:
             raise CalibrationError(f"{mark.where}: the {mark.foot.value} foot did not come down at {mark.t:g} s")
         return min(near)[1]

@@ -1,6 +1,6 @@
-"""epsilon_P: what a touchdown is compensated by, for the foot that comes down and the mode that the wearer walks in.
+"""Compensation epsilon_P of a touchdown, by foot and walking mode.
 
-After Gong et al. 2023 (Sensors 23, 5417), equation (8) and table 1. What the paper leaves open, and what is taken here:
+After Gong et al. 2023 (Sensors 23, 5417), equation (8) and table 1. The paper leaves two things open:
 
 - Unit of table 1. Its header says mm, but values of 0.34 to 1.8 mm would move the end of a side of 4 m, some six or
   seven steps, by less than 5 mm, while table 4 has IV better than III by up to 15 cm there. Centimetres fit that in
@@ -14,7 +14,7 @@ from __future__ import annotations
 from ...types import Foot, Vec3, WalkingMode
 
 Compensation = dict[Foot, dict[WalkingMode, tuple[float, float]]]
-"""(forward, left), m, by the foot that comes down and the mode."""
+"""Compensation (forward, left), m, by the foot that comes down and the mode."""
 
 _CM = 0.01
 TABLE_1: Compensation = {
@@ -36,21 +36,23 @@ TABLE_1: Compensation = {
         },
     }.items()
 }
-"""Table 1, (x, y) in cm, as it is used here. It holds for the paper's wearers, limbs and sensors; `solepath calibrate
-modes` finds a wearer's own."""
+"""Table 1, (x, y) in cm, converted to (forward, left) in m.
+
+It holds for the paper's wearers, limbs and sensors; `solepath calibrate modes` finds a wearer's own.
+"""
 
 
-def chosen(table: Compensation, foot: Foot, mode: WalkingMode) -> tuple[float, float]:
-    """(forward, left) of `foot` in `mode`, m; nothing where the table has no such row."""
+def compensation_of(table: Compensation, foot: Foot, mode: WalkingMode) -> tuple[float, float]:
+    """Return (forward, left) of `foot` in `mode`, m; zero where the table has no such row."""
     return table.get(foot, {}).get(mode, (0.0, 0.0))
 
 
 def epsilon_p(table: Compensation, foot: Foot, mode: WalkingMode, direction: tuple[float, float]) -> Vec3:
-    """epsilon_P of (8) as a vector of the world, m; `direction` of walking, world, of length 1."""
-    (c, s), (forward, left) = direction, chosen(table, foot, mode)
+    """Return epsilon_P of (8) as a vector of the world, m; `direction` of walking, world, of length 1."""
+    (c, s), (forward, left) = direction, compensation_of(table, foot, mode)
     return (forward * c - left * s, forward * s + left * c, 0.0)
 
 
-def with_own(table: Compensation, own: Compensation) -> Compensation:
-    """The table with a wearer's `own` values in place of its own, where there are any."""
+def merge_own(table: Compensation, own: Compensation) -> Compensation:
+    """Return the table with a wearer's `own` values in place of its values, where there are any."""
     return {foot: {**table.get(foot, {}), **own.get(foot, {})} for foot in Foot}

@@ -1,35 +1,39 @@
-"""What the recipes of Gong et al. 2023 choose, and what is known of a wearer (walking-modes)."""
+"""Settings of the recipes of Gong et al. 2023, and of a wearer (walking-modes)."""
 
 from __future__ import annotations
 
 from ...calibration import Limbs
 from ...types import Foot, WalkingMode
 from ...types.attrs import frozen
-from .compensation import Compensation, chosen
+from .compensation import Compensation, compensation_of
 from .mode import TH
 
 
 @frozen
 class ModesSettings:
-    """What `Modes` is set to, and all that it is made of."""
+    """Settings of `Modes` and of all its parts."""
 
     compensation: Compensation | None = None
-    """epsilon_P; None for methods I to III."""
+    """Compensation epsilon_P; None for methods I to III."""
     limbs: Limbs = Limbs()
     weight: float | None = None
-    """Of the wearer, N; None: it is learnt as the mean of what both feet bear."""
+    """Weight of the wearer, N; None: learnt as the mean load of both feet."""
     heading: float | None = None
-    """Where the wearer looks in the N-pose, in the world that the devices share, rad, if it is known beforehand, as on
-    a floor that was surveyed; None: where the first step goes."""
+    """Wearer's heading in the N-pose, in the world that the devices share, rad; None: the direction of the first step.
+
+    It is known beforehand on a floor that was surveyed.
+    """
     th: float = TH
-    """TH of mode.py."""
+    """Threshold TH of mode.py."""
 
     @property
-    def apart(self) -> float:
-        """Between the feet at the start, m: the hips' width, as the chain has it in the N-pose. If feet that walk on
-        are known to come down nearer to each other than the chain has them, they stood so as well."""
-        apart = self.limbs.hip_width
+    def feet_distance(self) -> float:
+        """Distance between the feet at the start, m: the hips' width, as in the chain's N-pose.
+
+        If feet are known to come down nearer to each other than the chain has them, they stood so as well.
+        """
+        distance = self.limbs.hip_width
         if self.compensation is None:
-            return apart
-        left, right = (chosen(self.compensation, foot, WalkingMode.STRAIGHT)[1] for foot in Foot)
-        return apart + 0.5 * (left - right)
+            return distance
+        left, right = (compensation_of(self.compensation, foot, WalkingMode.STRAIGHT)[1] for foot in Foot)
+        return distance + 0.5 * (left - right)

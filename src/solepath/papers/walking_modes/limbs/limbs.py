@@ -1,10 +1,10 @@
-"""The lower limbs as a chain of seven segments: where the ends of the feet are, seen from the pelvis.
+"""Lower limbs as a chain of seven segments, which gives the ends of the feet seen from the pelvis.
 
 After Gong et al. 2023 (Sensors 23, 5417), section 3.2.2 and fig. 8: O_0 at the hips, O_1 the knee, O_2 the ankle, O_3
 the end of the foot, and P_R, P_L "from the last column" of the product (7) of the transforms between them.
 
-A sensor is strapped on in any way, so what its attitude says of its segment is taken from the first time that all seven
-are quiet together: the wearer stands upright, thighs and shanks vertical, feet level, everything facing the first
+A sensor is mounted in any way, so the relation of its attitude to its segment is taken from the first time that all
+seven are still together: the wearer stands upright, thighs and shanks vertical, feet level, everything facing the first
 heading (N-pose). Attitudes come from the devices (`Sample.quat`), which share one world with z up, as sensors with a
 magnetometer do; or from acceleration and angular velocity (inclination.py), each in a world of its own heading.
 """
@@ -22,44 +22,49 @@ from ....types.vector import IDENTITY, ZERO, conjugate, from_yaw, multiply, norm
 from ..settings import ModesSettings
 from .segment import LimbSegment
 
-ABOVE = (Site.PELVIS, Site.LEFT_THIGH, Site.RIGHT_THIGH, Site.LEFT_SHANK, Site.RIGHT_SHANK)
+LIMB_SITES = (Site.PELVIS, Site.LEFT_THIGH, Site.RIGHT_THIGH, Site.LEFT_SHANK, Site.RIGHT_SHANK)
 """The sites above the ankles."""
 LEGS = {
     Foot.LEFT: (Site.LEFT_THIGH, Site.LEFT_SHANK, Site.LEFT_FOOT),
     Foot.RIGHT: (Site.RIGHT_THIGH, Site.RIGHT_SHANK, Site.RIGHT_FOOT),
 }
-SEGMENTS = (*ABOVE, Site.LEFT_FOOT, Site.RIGHT_FOOT)
-STOOD = 0.5
-"""For so long all seven must be quiet, s."""
-STALE = 0.25
-"""An attitude older than this is nobody's any more, s."""
-FIRST_WAY = 0.15
-"""A step that is longer tells the first heading, m (as foot/world.py has it)."""
+"""Sites of thigh, shank and foot, by foot."""
+SEGMENTS = (*LIMB_SITES, Site.LEFT_FOOT, Site.RIGHT_FOOT)
+"""Sites of all seven segments."""
+STANDING_TIME = 0.5
+"""Time for which all seven segments must be still, s."""
+ATTITUDE_VALID_TIME = 0.25
+"""Time for which an attitude is valid, s."""
+LEAST_FIRST_STEP = 0.15
+"""Length above which a step gives the first heading, m (as in foot/world.py)."""
 
-LARGEST = 1e6
-"""A quaternion with a part beyond this, or shorter than its inverse, is none."""
+LARGEST_PART = 1e6
+"""Largest component of a valid quaternion; its inverse is the least length."""
 
 
 class Transform(NamedTuple):
-    """A homogeneous transform: `rotation`, then `translation` (m). The last column of its matrix is `translation`."""
+    """A homogeneous transform: `rotation`, then `translation` (m), which is the last column of its matrix."""
 
     rotation: Quat = IDENTITY
     translation: Vec3 = ZERO
 
     def then(self, other: Transform) -> Transform:
-        """The product: `other` is seen from this one's end."""
+        """Return the product with `other`, which is seen from the end of this one."""
         x, y, z = self.translation
         dx, dy, dz = rotate(self.rotation, other.translation)
         return Transform(multiply(self.rotation, other.rotation), (x + dx, y + dy, z + dz))
 
 
 def foot_end(pelvis: Quat, thigh: Quat, shank: Quat, foot: Quat, hip: Vec3, limbs: Limbs) -> Vec3:
-    """O_3 seen from the middle of the hips, in the frame that the segments' attitudes lead to, m: the last column of
+    """Return O_3 seen from the middle of the hips, in the frame that the segments' attitudes lead to, m.
+
+    It is the last column of
 
         0_3R = 0_1R 1_2R 2_3R                                                                                   (7)
 
-    hung on the pelvis. `hip`: the hip joint in the pelvis, m. In the N-pose all attitudes are the identity: thigh and
-    shank point down, the foot forward from below the ankle."""
+    from the pelvis on. `hip`: the hip joint in the pelvis, m. In the N-pose all attitudes are the identity: thigh and
+    shank point down, the foot forward from below the ankle.
+    """
     chain = Transform(pelvis, ZERO).then(Transform(multiply(conjugate(pelvis), thigh), hip))
     chain = chain.then(Transform(multiply(conjugate(thigh), shank), (0.0, 0.0, -limbs.thigh)))
     chain = chain.then(Transform(multiply(conjugate(shank), foot), (0.0, 0.0, -limbs.shank)))
@@ -68,128 +73,142 @@ def foot_end(pelvis: Quat, thigh: Quat, shank: Quat, foot: Quat, hip: Vec3, limb
 
 @define
 class LowerLimbs:
-    """The chain of one wearer: attitudes in, the ends of both feet out."""
+    """Computes the ends of one wearer's feet from the attitudes of seven segments."""
 
     settings: ModesSettings = ModesSettings()
     facing: float | None = field(init=False)
-    """Where the wearer looks in the N-pose, or where the first step has gone, in the world that the devices share, rad.
-    """
+    """Heading of the wearer in the N-pose, or of the first step, in the world that the devices share, rad."""
     turn: float = field(default=0.0, init=False)
-    """From there to the x axis of the world, rad."""
+    """Angle from `facing` to the x axis of the world, rad."""
     segments: dict[Site, LimbSegment] = field(init=False)
     aligned: bool = field(default=False, init=False)
+    """Flag: the N-pose of all segments is known."""
     given_up: bool = field(default=False, init=False)
-    """The wearer walked off before all seven were quiet."""
+    """Flag: the wearer walked off before all seven segments were still."""
 
     def __attrs_post_init__(self) -> None:
         self.facing = self.settings.heading
         self.segments = {site: LimbSegment() for site in SEGMENTS}
 
-    def told(self, site: Site, t: float, quat: Quat) -> None:
-        """A new attitude of a sensor, of any length but 0."""
-        if not all([-LARGEST < part < LARGEST for part in quat]):
+    def set_attitude(self, site: Site, t: float, quat: Quat) -> None:
+        """Set a new attitude of a sensor, of any length but 0."""
+        if not all([-LARGEST_PART < part < LARGEST_PART for part in quat]):
             return
         length = sqrt(sum([part * part for part in quat]))
-        if length < 1.0 / LARGEST:
+        if length < 1.0 / LARGEST_PART:
             return
         k = 1.0 / length
         segment = self.segments[site]
-        segment.told(t, (quat[0] * k, quat[1] * k, quat[2] * k, quat[3] * k))
-        if segment.adrift and segment.quiet_for() >= STOOD:
-            self._moor(segment)
+        segment.set_attitude(t, (quat[0] * k, quat[1] * k, quat[2] * k, quat[3] * k))
+        if segment.world_changed and segment.still_time() >= STANDING_TIME:
+            self._realign(segment)
         if not self.aligned and not self.given_up:
             self._align()
 
-    def told_own(self, site: Site, t: float, quat: Quat, heading: float | None) -> None:
-        """The same of a sensor with a world of its own, in which the wearer's first heading is `heading`, rad, once
-        that is known. Nothing of it is used where the site has told an attitude in the shared world."""
+    def set_own_attitude(self, site: Site, t: float, quat: Quat, heading: float | None) -> None:
+        """Set a new attitude of a sensor with a world of its own.
+
+        `heading`: the wearer's first heading in that world, rad, None until it is known. Not used where the site has
+        sent an attitude in the shared world.
+        """
         segment = self.segments[site]
-        if segment.own or segment.t is None:
-            segment.own, segment.heading = True, heading
-            self.told(site, t, quat)
+        if segment.own_world or segment.t is None:
+            segment.own_world, segment.heading = True, heading
+            self.set_attitude(site, t, quat)
 
     def reset(self, site: Site) -> None:
-        """The clock of a sensor begins anew. If it tells its attitude, its world may be another from now on."""
-        segment = self.segments[site]
-        segment.t = segment.earlier = segment.quiet_since = None
-        segment.adrift = segment.standing is not None and not segment.own
+        """Discard the times of a sensor whose clock restarts.
 
-    def _moor(self, segment: LimbSegment) -> None:
-        """A segment whose sensor's world is new stands as it did in the N-pose, turned as the others are that are
-        known: what its attitude is off by from there is the turn from its old world to its new one."""
+        The world of an attitude that it sends may be another from now on.
+        """
+        segment = self.segments[site]
+        segment.t = segment.earlier_t = segment.still_since = None
+        segment.world_changed = segment.standing is not None and not segment.own_world
+
+    def _realign(self, segment: LimbSegment) -> None:
+        """Find the turn of a segment whose sensor's world is new, which stands as in the N-pose.
+
+        It is turned as the other known segments are. The difference of its attitude from that is the turn from its old
+        world to its new one.
+        """
         standing = segment.standing
-        known = [s for s in self.segments.values() if s is not segment and s.standing is not None and not s.own]
+        known = [s for s in self.segments.values() if s is not segment and s.standing is not None and not s.own_world]
         x = y = 0.0
         for other in known:
-            if other.standing is not None and other.t is not None and not other.adrift:
+            if other.standing is not None and other.t is not None and not other.world_changed:
                 w, _, _, z = multiply(other.sensor, conjugate(other.standing))
                 yaw = 2.0 * atan2(z, w)
                 x, y = x + cos(yaw), y + sin(yaw)
         if standing is None or hypot(x, y) < 1e-6:
             return
         expected = multiply(from_yaw(atan2(y, x)), standing)
-        w, _, _, z = multiply(normalise(segment.total), conjugate(expected))
+        w, _, _, z = multiply(normalise(segment.attitude_sum), conjugate(expected))
         segment.world = from_yaw(-2.0 * atan2(z, w))
-        segment.sensor = segment.before = multiply(segment.world, segment.sensor)
-        segment.adrift = False
+        segment.sensor = segment.earlier_attitude = multiply(segment.world, segment.sensor)
+        segment.world_changed = False
 
     def _align(self) -> None:
-        if any([segment.quiet_for() < STOOD for segment in self.segments.values()]):
+        """Take the attitudes for the N-pose if all segments have been still for long enough."""
+        if any([segment.still_time() < STANDING_TIME for segment in self.segments.values()]):
             return
         for segment in self.segments.values():
-            segment.standing = normalise(segment.total)
+            segment.standing = normalise(segment.attitude_sum)
         self.aligned = True
 
-    def current(self, t: float) -> bool:
-        """Whether the chain can be used for this instant, s."""
+    def is_current(self, t: float) -> bool:
+        """Return whether the chain can be used for this instant, s."""
         if not self.aligned:
             return False
         for segment in self.segments.values():
-            if segment.t is None or abs(t - segment.t) >= STALE or segment.adrift:
+            if segment.t is None or abs(t - segment.t) >= ATTITUDE_VALID_TIME or segment.world_changed:
                 return False
-            if segment.own and segment.heading is None:
+            if segment.own_world and segment.heading is None:
                 return False
         return True
 
-    def hopeful(self) -> bool:
-        """It may yet be known, or known again."""
+    def may_recover(self) -> bool:
+        """Return whether the chain may become usable, or usable again."""
         return (self.aligned or not self.given_up) and not self.missing()
 
     def missing(self) -> tuple[Site, ...]:
-        """The sites above the ankles that no attitude was heard of."""
-        return tuple([site for site in ABOVE if self.segments[site].t is None])
+        """Return the sites above the ankles without an attitude."""
+        return tuple([site for site in LIMB_SITES if self.segments[site].t is None])
 
-    def why_not(self, t: float, heard: Iterable[Site]) -> str:
-        """Why it cannot be used at `t` s; `heard`: the sites that samples came of."""
+    def why_unusable(self, t: float, sampled_sites: Iterable[Site]) -> str:
+        """Return why the chain cannot be used at `t` s; `sampled_sites`: the sites that have sent samples."""
         missing = self.missing()
         if missing:
-            silent = [site for site in missing if site not in heard]
+            silent = [site for site in missing if site not in sampled_sites]
             if silent:
-                return f"no sensor heard at the {_words(silent)}"
-            return f"no attitude, and no acceleration with angular velocity, of the {_words(missing)}"
-        adrift = [site for site in SEGMENTS if self.segments[site].adrift]
-        if adrift:
-            return f"the sensor at the {_words(adrift)} began anew, and its world with it"
+                return f"no sensor heard at the {_names(silent)}"
+            return f"no attitude, and no acceleration with angular velocity, of the {_names(missing)}"
+        world_changed = [site for site in SEGMENTS if self.segments[site].world_changed]
+        if world_changed:
+            return f"the sensor at the {_names(world_changed)} began anew, and its world with it"
         if not self.aligned:
             return "the wearer did not stand still before the first step"
-        old = [(site, t - s.t) for site, s in self.segments.items() if s.t is not None and abs(t - s.t) >= STALE]
+        old = [
+            (site, t - s.t)
+            for site, s in self.segments.items()
+            if s.t is not None and abs(t - s.t) >= ATTITUDE_VALID_TIME
+        ]
         if old:
             most = max([age for _, age in old], key=abs)
-            names = _words([site for site, _ in old])
+            names = _names([site for site, _ in old])
             return f"the newest attitude of the {names} is {abs(most):.2g} s {'old' if most > 0.0 else 'ahead'}"
-        names = _words([site for site, s in self.segments.items() if s.own and s.heading is None])
+        names = _names([site for site, s in self.segments.items() if s.own_world and s.heading is None])
         return f"the sensor at the {names} does not know yet which way the wearer goes"
 
     def _attitude(self, site: Site, t: float) -> Quat:
         return self.segments[site].attitude(self.facing or 0.0, self.turn, t)
 
     def complete(self) -> float | None:
-        """Up to when every segment's attitude is known, s."""
+        """Return the time up to which every segment's attitude is known, s."""
         times = [segment.t for segment in self.segments.values() if segment.t is not None]
         return min(times) if len(times) == len(SEGMENTS) else None
 
     def end(self, foot: Foot, t: float) -> Vec3:
-        """P_L or P_R at `t` s: the end of the foot seen from the middle of the hips, world frame, m."""
+        """Return P_L or P_R at `t` s: the end of the foot seen from the middle of the hips, world frame, m."""
         thigh, shank, end = [self._attitude(site, t) for site in LEGS[foot]]
         side = 0.5 if foot is Foot.LEFT else -0.5
         limbs = self.settings.limbs
@@ -197,9 +216,11 @@ class LowerLimbs:
         return foot_end(self._attitude(Site.PELVIS, t), thigh, shank, end, hip, limbs)
 
     def height(self, foot: Foot, t: float) -> float:
-        """Of the sole below the ankle at `t` s, seen from the middle of the hips, m. Not that of the foot's end, P_Lz
-        and P_Rz of (4): in a chain without toes it dips below the floor when the heel comes up, and the foot that
-        pushes off would be the lower one."""
+        """Return the height of the sole below the ankle at `t` s, seen from the middle of the hips, m.
+
+        It is not that of the foot's end, P_Lz and P_Rz of (4): in a chain without toes the end dips below the floor
+        when the heel comes up, and the foot that pushes off would be the lower one.
+        """
         segments, limbs = self.segments, self.settings.limbs
         thigh, shank, end = [segments[site].upright(t) for site in LEGS[foot]]
         side = 0.5 if foot is Foot.LEFT else -0.5
@@ -207,15 +228,18 @@ class LowerLimbs:
         return hip - limbs.thigh * thigh - limbs.shank * shank - limbs.ankle_height * end
 
     def forward(self, foot: Foot, t: float) -> tuple[float, float]:
-        """Which way a foot points: a horizontal vector of the world frame, of length 1; (1, 0) when it points up."""
+        """Return the direction of a foot, horizontal, world frame, of length 1; (1, 0) when it points up."""
         x, y, _ = rotate(self._attitude(LEGS[foot][2], t), (1.0, 0.0, 0.0))
         length = hypot(x, y)
         return (x / length, y / length) if length > 1e-6 else (1.0, 0.0)
 
-    def stepped(self, foot: Foot, t: float, way: float = 0.0) -> None:
-        """The foot has come down at `t` s: the first step tells where the wearer looked. Hips and feet are left out of
-        it, so that this need not be known for it: legs that hang down do so whatever they face. `way`: where it went,
-        rad from the x axis of the world, when the wearer has walked before the chain was known."""
+    def add_touchdown(self, foot: Foot, t: float, direction: float = 0.0) -> None:
+        """Add a touchdown of the foot at `t` s: the first step gives the wearer's first heading.
+
+        Hips and feet are left out, so the heading need not be known for it: legs that hang down do so for any heading.
+        `direction`: direction of the step, rad from the x axis of the world, when the wearer walked before the chain
+        was known.
+        """
         if self.facing is not None or not self.aligned:
             return
         limbs = self.settings.limbs
@@ -225,11 +249,12 @@ class LowerLimbs:
                 dx, dy, _ = rotate(self.segments[site].attitude(0.0, 0.0, t), (0.0, 0.0, -length))
                 x += sign * dx
                 y += sign * dy
-        if hypot(x, y) > FIRST_WAY:
+        if hypot(x, y) > LEAST_FIRST_STEP:
             self.facing = atan2(y, x)
-            if not any([segment.own for segment in self.segments.values()]):  # those know the first heading themselves
-                self.facing -= way
+            if not any([segment.own_world for segment in self.segments.values()]):  # own worlds know the first heading
+                self.facing -= direction
 
 
-def _words(sites: Iterable[Site]) -> str:
+def _names(sites: Iterable[Site]) -> str:
+    """Return the names of the sites, for a message."""
     return ", ".join([site.words for site in sites])
