@@ -42,7 +42,7 @@ def frame_packet(k: int, **changes: Any) -> Packet:
 
 
 def new_tag(what: str, **fields: Any) -> bytes:
-    """Packets to and from a CC2650."""
+    """Return the bytes of a packet to or from a CC2650."""
     return cc2650.DRIVER.write(f"cc2650/{what}", fields)
 
 
@@ -53,7 +53,7 @@ def config(full_scale: int, **changes: Any) -> Packet:
 
 
 def old_tag(t: float, sensor: str, **fields: Any) -> Packet:
-    """Packets of a sensor of a CC2541."""
+    """Return a packet of a sensor of a CC2541."""
     return packet(t, f"cc2541/{sensor}", build_whole(cc2541.FORMATS[f"cc2541/{sensor}"], fields))
 
 
