@@ -195,7 +195,7 @@ def test_devices_that_report_the_right_feet_are_trusted() -> None:
     session = Session()
     events = session.feed(emulate(WALK, seed=1).packets)
     assert of(FeetSwapped, events) == []
-    sides = session._state.wearer.ask("sides")
+    sides = session._state.wearer.find_attribute("sides")
     assert sides.left.declared and sides.right.declared
     assert not sides.left.turned.rows and not sides.right.turned.rows, "what their feet do need not be remembered"
     sides.left.roll = sides.right.roll = Average(count=24, mean=0.2)

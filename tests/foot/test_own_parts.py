@@ -44,7 +44,7 @@ def test_a_walk_with_parts_of_ones_own_is_saved_and_goes_on_when_their_classes_a
         assert json.dumps(second.snapshot()) == json.dumps(whole.snapshot())
 
 
-def test_a_clock_that_begins_anew_leaves_a_detector_of_ones_own_with_its_settings_alone() -> None:
+def test_a_clock_reset_leaves_the_settings_of_an_own_detector_alone() -> None:
     session = Session(evolve(OWN, detector=StillDetector(limit=0.7)))
     session.feed(WALKED[:50])
     tracker = session.feet[Foot.LEFT]

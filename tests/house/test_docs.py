@@ -157,10 +157,10 @@ def test_a_plain_class_of_hot_code_is_saved_and_goes_on(played):
     _, names = played("docs/hot-code.md")
     kind = names["Rest"]
     rest = kind(CycleSettings(share=0.4))
-    rest.began = 2.0
+    rest.started_at = 2.0
     rest.span.add((0.0, 0.0, 9.8), (0.1, 0.0, 0.0))
     again = codec.load(kind, codec.save(rest))
-    assert list(get_type_hints(kind, names)) == ["settings", "span", "began", "bias"]
+    assert list(get_type_hints(kind, names)) == ["settings", "span", "started_at", "bias"]
     for name in get_type_hints(kind, names):
         assert getattr(again, name) == getattr(rest, name), name
 

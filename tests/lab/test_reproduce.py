@@ -157,7 +157,7 @@ def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeyp
     assert any(of["mean"] is not None for of in table["paper"].values())
 
 
-def test_an_experiment_that_there_is_not_is_refused_in_one_line():
+def test_an_unknown_experiment_is_rejected_in_one_line():
     assert run_failing("reproduce", "kupt") == (
         "solepath: there is no experiment 'kupt'; there are: " + ", ".join(NAMES) + "\n"
     )

@@ -93,7 +93,7 @@ def test_the_true_candidate_is_never_dropped_in_fifty_walks_and_the_mean_error_i
     assert sum(result.mean for result in found) / len(found) <= 1.0
 
 
-def test_while_several_places_are_possible_all_of_them_are_told_with_weights_that_add_up_to_one(part: Method) -> None:
+def test_all_possible_places_are_reported_with_weights_that_add_up_to_one(part: Method) -> None:
     received = tour(4).received
     first = placed(followed(part, received[:3]).events)[-1]
     assert {candidate.origin for candidate in first.candidates} == set(LIFTS)

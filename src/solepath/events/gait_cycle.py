@@ -119,5 +119,5 @@ class GaitCycleMeasured(Happening):
 
     @property
     def running(self) -> bool:
-        """Whether the foot was on the ground for less than half of the cycle, as in no walk (Novacheck 1998)."""
+        """True if the foot was on the ground for less than half of the cycle, as in no walk (Novacheck 1998)."""
         return self.stance_time < 0.5 * self.stride_time

@@ -198,7 +198,7 @@ class LayoutKnown(Happening):
 
     site: Site
     layout: Layout
-    """The layout."""
+    """Layout of the cells."""
 
 
 @frozen(kw_only=True)

@@ -74,7 +74,7 @@ class Connector:
 
 @frozen
 class Level:
-    """One storey.
+    """One storey of a building.
 
     `ordinal` is its place in the order of storeys, 0 at the ground. `elevation` is the height of its floor, m, in the
     plan's z. `rooms` are outlines within which a person can walk, rings that do not repeat their first point; empty
@@ -105,7 +105,7 @@ class Anchor:
 
 @frozen
 class FloorPlan:
-    """A building.
+    """A building with levels and connectors.
 
     `levels` go from the lowest to the highest. `connectors` join them. `anchor` is None when the position on the Earth
     is unknown; nothing requires it. `heights_known` is False when the file has no elevations and the reader has assumed

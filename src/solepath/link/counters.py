@@ -45,7 +45,7 @@ class PacketPosition:
     ticks_after: int = 0
     """Ticks after the newest packet accepted."""
     retransmitted: bool = False
-    """Whether the packet itself says that it was sent before."""
+    """True if the packet itself says that it was sent before."""
 
 
 @frozen

@@ -56,7 +56,7 @@ class Decoder:
     stream_arrived: float | None = None
     """Newest arrival on a channel that must not fall silent, s."""
     stale: bool = False
-    """Whether the stream is silent and StreamStale was reported."""
+    """True if the stream is silent and StreamStale was reported."""
 
     def feed(self, packet: Packet, kinds: DeviceKinds = BUILT_IN_KINDS) -> Output:
         """Return the samples and events of one packet, in the order in which they become known."""

@@ -20,7 +20,7 @@ class DeviceLink(Protocol):
 
     @property
     def may_be_silent(self) -> bool:
-        """Whether the device may send nothing for long."""
+        """True if the device may send nothing for long."""
 
     @property
     def unsettled_until(self) -> float | None:

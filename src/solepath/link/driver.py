@@ -111,7 +111,7 @@ class DriverSignature:
     """
 
     built_in: bool
-    """Whether the device is one of devices/, not one of an app's own."""
+    """True if the device is one of devices/, not one of an app's own."""
     stream: str
     nominal_rate: float
     axis: TimeAxis

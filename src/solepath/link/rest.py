@@ -26,7 +26,7 @@ class RestCheck:
     grain: float
     """Size of one count, m/s^2."""
     done: bool = False
-    """Whether a still window was found; then no more samples are needed."""
+    """True if a still window was found; then no more samples are needed."""
     started: float = 0.0
     """Start of the present window, s."""
     count: int = 0

@@ -80,7 +80,7 @@ class StreamLink(DeviceLink):
     air_pressure: float | None = None
     """Air pressure that waits for the next sample, Pa."""
     limitation_reported: bool = False
-    """Whether the driver's limitation was reported."""
+    """True if the driver's limitation was reported."""
 
     @property
     def unsettled_until(self) -> float | None:

@@ -46,7 +46,7 @@ class RowNode:
 
 @frozen(eq=False)
 class DictNode:
-    """A dict."""
+    """A dict of keys and values of two kinds."""
 
     key: Node
     of: Node

@@ -92,7 +92,7 @@ class RecentLoss:
     """Received and lost packets of samples in the last seconds."""
 
     seconds: deque[list[int]] = field(factory=lambda: deque(maxlen=LOSS_WINDOW + 1))
-    """[second, received, lost] for each second in which there were any packets."""
+    """Lists [second, received, lost] for each second in which there were any packets."""
 
     def add(self, t: float, received: int, lost: int) -> None:
         """Add packets that were received or lost at `t` s."""

@@ -18,7 +18,7 @@ hour would give other results."""
 IDENTITY: Quat = (1.0, 0.0, 0.0, 0.0)
 """Quaternion of no rotation."""
 ZERO: Vec3 = (0.0, 0.0, 0.0)
-"""Zero vector."""
+"""The zero vector."""
 
 
 SPLIT = 2.0**29 + 1.0

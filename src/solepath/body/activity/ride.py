@@ -196,7 +196,7 @@ class LiftRide:
 
     levels: Levels
     velocity: float = 0.0
-    """Velocity, m/s."""
+    """Velocity of the lift, m/s."""
     fastest: float = 0.0
     """Largest speed so far, m/s."""
     height: float = 0.0

@@ -31,7 +31,7 @@ _DEPTHS = {"Point": 0, "MultiPoint": 1, "LineString": 1, "MultiLineString": 2, "
 
 @frozen
 class Feature:
-    """One feature.
+    """One feature of a GeoJSON file.
 
     `name` is for error messages. `lines` holds the parts of a LineString, MultiLineString, Polygon or MultiPolygon, for
     a polygon its outline and then its holes; `points` holds those of a Point or MultiPoint.

@@ -22,7 +22,7 @@ class Load:
     """The load of the pressure cells in one sample; loads are fractions of the wearer's own full load."""
 
     total: float
-    """Total load."""
+    """Load of all cells."""
     heel: float | None
     """Load of the heel area; None without that area."""
     forefoot: float | None

@@ -79,7 +79,7 @@ class Number:
 
 
 def _meanings(module: ModuleType, cls: type | None = None) -> dict[str, str]:
-    """The docstrings of the constants of a module, or of the fields of one of its classes."""
+    """Return the docstrings of the constants of a module, or of the fields of one of its classes."""
     body: Sequence[ast.stmt] = ast.parse(inspect.getsource(module)).body
     if cls is not None:
         (body,) = [node.body for node in body if isinstance(node, ast.ClassDef) and node.name == cls.__name__]
@@ -163,7 +163,7 @@ SCALES = {"": 1.0, "m": 1.0, "%": 100.0, "ms": 1000.0}
 
 
 def _change(column: Column, value: float | None, default: float | None) -> str:
-    """A figure against the default's: relative for errors, absolute for F1 and offsets."""
+    """Format a figure against the default's: relative for errors, absolute for F1 and offsets."""
     if value is None or default is None:
         return "-"
     off = SCALES[column.unit] * (value - default)

@@ -57,7 +57,7 @@ class Assembler:
     gyro_since: float | None = None
     """Time of the first gyroscope measurement since the newest accelerometer measurement, s."""
     gyro_silent: bool = False
-    """Whether the gyroscope is silent, so that acc does not wait for it."""
+    """True if the gyroscope is silent, so that acc does not wait for it."""
     mag: Vec3 | None = None
     """Magnetometer value that waits for the next Sample, T."""
     air_pressure: float | None = None

@@ -173,7 +173,7 @@ class Cc2541Link(DeviceLink):
     gyro_on: bool = True
     calibration: BarometerCalibration | None = None
     limitation_reported: bool = False
-    """Whether the Limitation about the barometer was reported."""
+    """True if the Limitation about the barometer was reported."""
     rest: RestCheck = field(factory=lambda: RestCheck(GRAVITY / COUNTS_PER_G["", WRITTEN_CODE]))
 
     @property

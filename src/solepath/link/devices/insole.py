@@ -88,7 +88,7 @@ class InsoleLink(DeviceLink):
     gyro_scale: float = ASSUMED_GYRO
     pressure_scale: float = 0.0
     limitation_reported: bool = False
-    """Whether the Limitation was reported."""
+    """True if the Limitation was reported."""
     run: PacketRun = field(factory=PacketRun)
     fragments: Reassembly = field(factory=Reassembly)
     rest: RestCheck = field(factory=lambda: RestCheck(ASSUMED_ACC))

@@ -18,7 +18,7 @@ class Reassembly:
     expected: int = 0
     """Index of the next fragment; 0 when no frame is under way."""
     skipping: bool = False
-    """Whether the frame `frame_id` was dropped; the rest of it is then skipped without an event."""
+    """True if the frame `frame_id` was dropped; the rest of it is then skipped without an event."""
     body: bytes = b""
     """Bytes of the frame so far."""
     newest: Fragment | None = None

@@ -39,7 +39,7 @@ class ValueEvidence:
     foot: Foot | None = None
     """Foot of the insole, as its values report it."""
     is_info: bool = False
-    """Whether a value was an INFO record."""
+    """True if a value was an INFO record."""
     read: bytes | None = None
     """The value that was read last."""
     _pieces: Reassembly = field(factory=Reassembly)
