@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from ...papers.footstep_tracker.activity import window_model
 from ...papers.footstep_tracker.activity.two_second_windows import MOVING
-from ...papers.footstep_tracker.activity.window_model import LEAST_VARIANCE, Gaussian, WindowModel, seen
+from ...papers.footstep_tracker.activity.window_model import LEAST_VARIANCE, Gaussian, WindowModel, window_features
 from ...papers.footstep_tracker.activity.windows import HOP, WINDOW, FootWindow, FootWindows
 from ...recording.decoded import recorded
 from ...recording.samples import load_samples
@@ -167,7 +167,7 @@ def _mixtures(taught: Sequence[Taught]) -> dict[Activity, tuple[Gaussian, ...]]:
     for one in taught:
         for told in one.windows:
             if told.activity in MOVING or told.activity is Activity.RUNNING:
-                whole = [x for x in map(seen, told.feet) if len(x) == len(window_model.FEATURES)]
+                whole = [x for x in map(window_features, told.feet) if len(x) == len(window_model.FEATURES)]
                 groups.setdefault((told.activity, one.source), []).extend(whole)
     fit = {key: np.array(rows) for key, rows in groups.items() if len(rows) > 2 * len(window_model.FEATURES)}
     every, size = sum(map(len, fit.values())), len(window_model.FEATURES)
