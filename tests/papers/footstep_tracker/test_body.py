@@ -27,7 +27,7 @@ from solepath.lab.train.turns import ANGLES, read, trained, walk
 from solepath.papers.footstep_tracker.footsteps import Footsteps
 from solepath.papers.footstep_tracker.projection import Projection, ProjectionSettings
 from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
-from solepath.papers.footstep_tracker.toe_out import toe_out_calibration, toe_out
+from solepath.papers.footstep_tracker.toe_out import toe_out, toe_out_calibration
 from solepath.recipes import DEFAULT, Recipe
 from solepath.types import Foot, Turn
 

@@ -53,7 +53,7 @@ class CriticalTimes:
 
 
 def critical_times(rows: Sequence[Row]) -> CriticalTimes | None:
-    """Return the critical times of a segment between two static zones, with a little of both; None without a toe rise."""
+    """Return the critical times of a segment between two static zones, with a little of both; None without a rise."""
     rises = _rises(rows)
     if not rises:
         return None

@@ -27,7 +27,7 @@ from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY, IDENTITY, ZERO
 from .critical_times import Row, critical_times
-from .segment import FootAxes, StepSegment, to_foot_axes, scale_to_offset
+from .segment import FootAxes, StepSegment, scale_to_offset, to_foot_axes
 
 LONGEST_GAP = 0.25
 """Gap after which the foot may have moved within a zone, s."""
@@ -183,7 +183,10 @@ class StaticZones(Detector):
         self.scale = scale
 
     def _learn_resolution(self, acc: Vec3) -> None:
-        """Learn the size of one count: an axis that repeats a value has counts, and the others' differences are multiples."""
+        """Learn the size of one count, from the axes' differences.
+
+        An axis that repeats a value has counts, and the others' differences are multiples of one.
+        """
         ax, ay, az = acc
         x, y, z = self.last_acc
         self.last_acc = acc

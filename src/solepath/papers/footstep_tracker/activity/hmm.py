@@ -25,7 +25,10 @@ def scaled_likelihoods(log_likelihoods: Sequence[float]) -> tuple[float, ...]:
 
 
 def forward(belief: Sequence[float], transitions: Matrix, likelihoods: Sequence[float]) -> tuple[float, ...]:
-    """Return the belief one step later, with the likelihoods of the observation (`scaled_likelihoods`); it sums to 1."""
+    """Return the belief one step later, given the likelihoods of the observation (`scaled_likelihoods`).
+
+    It sums to 1.
+    """
     prior = [0.0] * len(belief)
     for held, row in zip(belief, transitions, strict=True):
         for j, p in enumerate(row):

@@ -41,7 +41,7 @@ from ....events import ActivityChanged, Event, LiftRidden
 from ....foot.view import FootView
 from ....types import Activity, Foot, Site
 from ....types.attrs import define, field, frozen
-from .hmm import forward, scaled_likelihoods, bayes_update
+from .hmm import bayes_update, forward, scaled_likelihoods
 from .window_model import WindowModel, shipped
 from .windows import BLOCKS, HOP, WINDOW, FootWindow, FootWindows
 

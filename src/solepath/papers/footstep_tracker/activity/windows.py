@@ -93,7 +93,7 @@ class FootWindows:
     """Finished windows that have not been taken yet."""
 
     def update(self, since: float, acc: Vec3, gyro: Vec3 | None = None) -> bool:
-        """Add one sample, and return whether it is the first of another half-second, so `ready` may have another window.
+        """Add one sample, and return whether it starts another half-second, so `ready` may have another window.
 
         Specific force in m/s^2 and angular rate in rad/s, sensor frame, `since` s after the start of all windows.
         """
