@@ -93,7 +93,8 @@ def test_log_times_are_those_of_the_wall_where_the_recording_knows_it(exported, 
     assert exported["/left_foot/packets/insole/frame"][0][0] == AT_ZERO + round(first.t * 1e9)
     plain = messages(written(tmp_path / "plain.mcap", packets[:20]))
     assert {round(t * 1e-9, 6) for rows in plain.values() for t, _, _ in rows} >= {round(p.t, 6) for p in packets[:20]}
-    later = messages(written(tmp_path / "first.mcap", packets[:20], **{"began": "2026-11-21T09:29:58.25Z"}))
+    start = {"began": "2026-11-21T09:29:58.25Z"}
+    later = messages(written(tmp_path / "first.mcap", packets[:20], **start))
     assert min(t for name, rows in later.items() if "packets" in name for t, _, _ in rows) == AT_ZERO
 
 

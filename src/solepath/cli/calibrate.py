@@ -183,7 +183,7 @@ def _add_toe_out(kinds: Any) -> None:
 
 
 def _toe_out(options: argparse.Namespace, known: Calibration) -> Learnt:
-    from ..papers.footstep_tracker.toe_out import learnt, toe_out
+    from ..papers.footstep_tracker.toe_out import toe_out, toe_out_calibration
 
     found = toe_out(source_of(options.file, foot_of(options)), options.distance)
     angles = ["none" if one.angle is None else number(degrees(one.angle)) for one in found]
@@ -196,7 +196,7 @@ def _toe_out(options: argparse.Namespace, known: Calibration) -> Learnt:
         raise Failure(f"nothing is learnt: the steps come to {far}, less than the {options.distance:g} m of the walk")
     if "none" in angles:
         lines.append("none: these steps come to less than the walk, which no angle explains: nothing is learnt of it")
-    return learnt(found), lines
+    return toe_out_calibration(found), lines
 
 
 def _add_newton(kinds: Any) -> None:

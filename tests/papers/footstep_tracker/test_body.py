@@ -27,7 +27,7 @@ from solepath.lab.train.turns import ANGLES, read, train_weights, walk
 from solepath.papers.footstep_tracker.footsteps import Footsteps
 from solepath.papers.footstep_tracker.projection import Projection, ProjectionSettings
 from solepath.papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
-from solepath.papers.footstep_tracker.toe_out import learnt, toe_out
+from solepath.papers.footstep_tracker.toe_out import toe_out, toe_out_calibration
 from solepath.recipes import DEFAULT, Recipe
 from solepath.types import Foot, Turn
 
@@ -40,8 +40,8 @@ def step(foot: Foot, t: float, turn: float = 0.0, way: tuple[float, float] = (1.
 def heard() -> Footsteps:
     """Of a wearer with sensors on both feet."""
     body = Footsteps()
-    for way in body.ways.values():
-        way.heard = True
+    for way in body.paths.values():
+        way.has_samples = True
     return body
 
 
@@ -49,13 +49,13 @@ def gone(count: int, left: float, right: float) -> Footsteps:
     """After so many steps of both feet, each m ahead."""
     body = heard()
     for k in range(count):
-        body.step(step(Foot.LEFT, k + 0.5, way=(left, 0.0)))
-        body.step(step(Foot.RIGHT, k + 1.0, way=(right, 0.0)))
+        body.add_stride(step(Foot.LEFT, k + 0.5, way=(left, 0.0)))
+        body.add_stride(step(Foot.RIGHT, k + 1.0, way=(right, 0.0)))
     return body
 
 
 def base(body: Footsteps) -> tuple[float, float]:
-    (lx, ly), (rx, ry), (x, y) = (*(way.here for way in body.ways.values()), body.base)
+    (lx, ly), (rx, ry), (x, y) = (*(way.here for way in body.paths.values()), body.restart_position)
     return (x + 0.5 * (lx + rx), y + 0.5 * (ly + ry))
 
 
@@ -67,21 +67,21 @@ def test_feet_that_are_more_than_a_metre_apart_begin_anew_at_their_mean() -> Non
     body = gone(6, 1.4, 1.0)
     assert body.restarts > 0
     assert base(body) == pytest.approx((0.5 * 6 * 2.4, 0.0))
-    assert hypot(body.ways[Foot.LEFT].here[0] - body.ways[Foot.RIGHT].here[0], 0.0) < 2.0
+    assert hypot(body.paths[Foot.LEFT].here[0] - body.paths[Foot.RIGHT].here[0], 0.0) < 2.0
 
 
 def test_half_a_stride_between_healthy_feet_is_no_difference() -> None:
     body = heard()
     for k in range(40):
-        body.step(step(Foot.LEFT, k + 0.5, way=(0.75 if k == 0 else 1.5, 0.0)))
-        body.step(step(Foot.RIGHT, k + 1.0, way=(1.5, 0.0)))
+        body.add_stride(step(Foot.LEFT, k + 0.5, way=(0.75 if k == 0 else 1.5, 0.0)))
+        body.add_stride(step(Foot.RIGHT, k + 1.0, way=(1.5, 0.0)))
     assert body.restarts == 0
 
 
 def test_a_foot_that_falls_silent_does_not_hold_the_wearer_back() -> None:
     body = gone(5, 1.0, 1.0)
     for k in range(5, 15):
-        body.step(step(Foot.LEFT, k + 0.5))
+        body.add_stride(step(Foot.LEFT, k + 0.5))
     assert base(body) == pytest.approx((15.0, 0.0))
 
 
@@ -89,10 +89,10 @@ def test_both_feet_go_on_in_the_direction_of_the_mean_of_their_turns() -> None:
     body = heard()
     # the left foot says 80 degrees and the right one 100; each then goes on straight by its own track
     for foot, turn in ((Foot.LEFT, radians(80.0)), (Foot.RIGHT, radians(100.0))):
-        body.step(step(foot, 1.0, turn, way=(0.0, 0.0)))
+        body.add_stride(step(foot, 1.0, turn, way=(0.0, 0.0)))
     before = base(body)
     for foot, own in ((Foot.LEFT, radians(80.0)), (Foot.RIGHT, radians(100.0))):
-        body.step(step(foot, 2.0, way=(cos(own), sin(own))))
+        body.add_stride(step(foot, 2.0, way=(cos(own), sin(own))))
     x, y = base(body)
     assert (x - before[0], y - before[1]) == pytest.approx((0.0, 1.0))
 
@@ -196,8 +196,8 @@ def test_without_what_rest_tells_a_gyroscope_that_clips_makes_steps_too_short() 
         lengths: list[float] = [one.length for p in walked.packets for one in of(StrideTaken, session.feed(p))]
         return sum(lengths)
 
-    printed = length(evolve(FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(printed=True))))
-    assert printed < 0.7 * length(FOOTSTEP_TRACKER)
+    as_printed = length(evolve(FOOTSTEP_TRACKER, corrector=Projection(ProjectionSettings(as_printed=True))))
+    assert as_printed < 0.7 * length(FOOTSTEP_TRACKER)
 
 
 @pytest.mark.parametrize("recipe", [DEFAULT, FOOTSTEP_TRACKER])
@@ -218,13 +218,13 @@ def test_the_toe_out_angle_is_the_arc_cosine_of_the_walk_over_the_steps() -> Non
     found = toe_out(packets, 12.0)
     for one in found:
         assert one.angle == pytest.approx(acos(12.0 / one.along))
-    assert set(learnt(found).toe_out) == set(Foot)
+    assert set(toe_out_calibration(found).toe_out) == set(Foot)
 
 
 def test_steps_that_come_to_less_than_the_walk_have_no_angle() -> None:
     found = toe_out(corridor(15.0).packets, 20.0)
     assert [one.angle for one in found] == [None, None]
-    assert learnt(found) == Calibration()
+    assert toe_out_calibration(found) == Calibration()
 
 
 def test_a_walk_of_another_length_or_of_no_steps_is_refused() -> None:

@@ -17,7 +17,7 @@ from solepath.papers.footstep_tracker.critical_times import CriticalTimes, Row, 
 from solepath.papers.footstep_tracker.projection import Projection
 from solepath.papers.footstep_tracker.segment import StepSegment
 from solepath.papers.footstep_tracker.static_zones import StaticZones
-from solepath.papers.footstep_tracker.step_length import closed_step_length, step_length, turned_about_vertical
+from solepath.papers.footstep_tracker.step_length import closed_step_length, step_length, vertical_turn
 from solepath.saving import codec as machine
 from solepath.types import Phase, Vec3
 from solepath.types.vector import GRAVITY, ZERO
@@ -143,10 +143,10 @@ def test_a_foot_that_turns_faster_than_its_gyroscope_can_tell_has_turned_further
     bell = [side * 4.0 * (1.0 - cos(4.0 * pi * 0.02 * k)) if k <= 25 else 0.0 for k in range(41)]
     drawn: list[Row] = [(0.02 * k, 0.0, 0.0, -G, 0.0, 0.0, g) for k, g in enumerate(bell)]
     times = CriticalTimes(0.0, 0.0, 0.8, 0.8)
-    assert turned_about_vertical(drawn, times) == pytest.approx(side * 2.0, abs=0.01)
+    assert vertical_turn(drawn, times) == pytest.approx(side * 2.0, abs=0.01)
     seen = clipped(drawn, 5.0)
-    told = abs(turned_about_vertical(seen, times))
-    known = abs(turned_about_vertical(seen, times, 4.99))
+    told = abs(vertical_turn(seen, times))
+    known = abs(vertical_turn(seen, times, 4.99))
     assert told < 1.7
     assert 0.5 * (2.0 - told) < known - told < 1.1 * (2.0 - told)
 

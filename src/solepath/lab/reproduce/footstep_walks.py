@@ -20,7 +20,7 @@ from ...emulate.wearers.gait import Wearer, random_wearer
 from ...emulate.wearers.shoe import IN_SOLE
 from ...events import StrideTaken, TurnMade
 from ...papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
-from ...papers.footstep_tracker.toe_out import learnt, toe_out
+from ...papers.footstep_tracker.toe_out import toe_out, toe_out_calibration
 from ...session import Session
 from ...types import SITE_OF_FOOT, Foot, Turn
 from ..emulated import activity as emulated_activity
@@ -98,7 +98,7 @@ def _calibrated(known: WearerData, seed: int) -> Calibration:
     """Return the toe-out of both feet from a walk of known length (fig. 10); none where that gives no angle."""
     walk = _worn(known, Route().stand(3.0).walk(KNOWN_WAY, 1.2).stop(2.0), seed + 500)
     try:
-        return learnt(toe_out(walk.packets, KNOWN_WAY))
+        return toe_out_calibration(toe_out(walk.packets, KNOWN_WAY))
     except CalibrationError:
         return Calibration()
 

@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from ...papers.footstep_tracker.activity import window_model
 from ...papers.footstep_tracker.activity.two_second_windows import MOVING
-from ...papers.footstep_tracker.activity.window_model import LEAST_VARIANCE, Gaussian, WindowModel, seen
+from ...papers.footstep_tracker.activity.window_model import LEAST_VARIANCE, Gaussian, WindowModel, window_features
 from ...papers.footstep_tracker.activity.windows import HOP, WINDOW, FootWindow, FootWindows
 from ...recording.decoded import decode_recording
 from ...recording.samples import load_samples
@@ -169,7 +169,7 @@ def _mixtures(examples: Sequence[RecordingWindows]) -> dict[Activity, tuple[Gaus
     for one in examples:
         for labelled in one.windows:
             if labelled.activity in MOVING or labelled.activity is Activity.RUNNING:
-                whole = [x for x in map(seen, labelled.feet) if len(x) == len(window_model.FEATURES)]
+                whole = [x for x in map(window_features, labelled.feet) if len(x) == len(window_model.FEATURES)]
                 groups.setdefault((labelled.activity, one.source), []).extend(whole)
     fit = {key: np.array(rows) for key, rows in groups.items() if len(rows) > 2 * len(window_model.FEATURES)}
     every, size = sum(map(len, fit.values())), len(window_model.FEATURES)

@@ -1,7 +1,7 @@
-"""Heel-off, toe-off, heel-strike and foot-flat as critical times of a step (Liu et al. 2015, IEEE MASS, algorithm 1).
+"""Cues for heel-off, toe-off, heel-strike and foot-flat at the critical times of a step (Liu et al. 2015, IEEE MASS).
 
-A detector that cuts the samples into steps (static_zones.StaticZones) brings them all at once. A foot that lay still
-again without a swing has taken no step, and nothing is said of it.
+By algorithm 1. A detector that cuts the samples into steps (static_zones.StaticZones) gives all four at once. A foot
+that lies still again without a swing has taken no step and gives no cues.
 """
 
 from __future__ import annotations
@@ -19,8 +19,11 @@ from .segment import StepSegment
 
 @define
 class CriticalCues(Cues):
-    """Latency: all four are known when the static zone that ends the step is, `brief` s (static_zones.py) after
-    foot-flat; so toe-off some 0.6 s after it happened. An insole alone is left to `PressureCues`."""
+    """Reports gait events at the critical times of a step.
+
+    Latency: all four are known when the static zone that ends the step is, `loose_length` s (static_zones.py) after
+    foot-flat; so toe-off some 0.6 s after it happened. `PressureCues` handles an insole alone.
+    """
 
     pressure: PressureCues = field(factory=PressureCues)
 
@@ -28,7 +31,7 @@ class CriticalCues(Cues):
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
         load: Load | None, stance: Stance,
     ) -> Sequence[SeenCue]:  # fmt: skip
-        """As in `Cues`: uplift, liftoff, landing and rest of the segment that ends here."""
+        """Return uplift, liftoff, landing and rest of the segment that ends here, as cues (`Cues`)."""
         segment = stance.detail
         if not isinstance(segment, StepSegment) or segment.times is None:
             if still and phase is not Phase.STATIONARY:

@@ -1,14 +1,15 @@
-"""The feet calibrate each other (Liu et al. 2015, IEEE MASS, section IV.C, "Double feet based calibration").
+"""Track of the wearer by the strides of both feet (Liu et al. 2015, IEEE MASS, section IV.C).
 
-"If the difference of displacement for each foot is more than one meter, we chose the mean of them as the displacement,
-and restart the estimation process." The feet's ways are added up since the last restart; each step goes in the common
-direction, which is the mean of what both feet turned (section IV.D). What the paper leaves open:
+"Double feet based calibration": "If the difference of displacement for each foot is more than one meter, we chose the
+mean of them as the displacement, and restart the estimation process." The feet's displacements are summed since the
+last restart; each stride goes in the common direction, the mean of both feet's turns (section IV.D). Open in the paper:
 
-- Up to a restart the wearer is at the mean of both ways, too. A restart moves nothing then: what it ends is the
-  difference, which would otherwise tell of ever older steps.
-- Half a stride lies between the feet. The difference is the mean of those after the newest step of either foot, which
-  does not swing to and fro with it.
-- A foot that took no step while the other took `AWAY` is absent: it counts as if it had gone with the other.
+- Up to a restart the wearer is at the mean of both paths, too. So a restart moves nothing; it sets the difference to
+  zero, which would otherwise hold ever older strides.
+- Half a stride lies between the feet. The difference is the mean of those after the newest stride of either foot, which
+  does not alternate with it.
+- A foot that took no stride while the other took `ABSENT_STRIDES` is absent: it counts as if it had moved with the
+  other.
 """
 
 from __future__ import annotations
@@ -24,99 +25,105 @@ from ...types import OTHER, Foot, Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO
 
-FURTHEST_APART = 1.0
-"""The paper's one metre."""
-AWAY = 3
+LARGEST_DISTANCE = 1.0
+"""Distance between the feet's paths that causes a restart, m: the paper's one metre."""
+ABSENT_STRIDES = 3
+"""Number of strides of the other foot after which a foot without a stride is absent."""
 
 Flat = tuple[float, float]
-"""Horizontal, m."""
+"""Horizontal vector, m."""
 
 
 @define
-class FootWay:
-    """What one foot went since the last restart."""
+class FootPath:
+    """The path of one foot since the last restart."""
 
-    heard: bool = False
+    has_samples: bool = False
+    """Flag: samples of the foot have come."""
     here: Flat = (0.0, 0.0)
-    turned: float = 0.0
-    """Sum of the turns of all of its steps, rad."""
-    own: float = 0.0
-    """The same without what it was given while it was absent, rad: the heading of its own track."""
-    ahead: Flat = (0.0, 0.0)
-    """What it went since the other foot's last step,"""
-    ahead_turned: float = 0.0
-    """and what it turned, rad,"""
-    ahead_steps: int = 0
-    """and in how many steps."""
-    beside: Flat = (0.0, 0.0)
-    """The left way less the right one after its newest step."""
-    stood: Vec3 = ZERO
-    """Where its own track had it then, world frame, m."""
+    """Displacement since the last restart, m."""
+    heading: float = 0.0
+    """Sum of the turns of all of its strides, rad."""
+    own_heading: float = 0.0
+    """Heading of its own track, rad: the sum of turns without those added while it was absent."""
+    lead: Flat = (0.0, 0.0)
+    """Displacement since the other foot's last stride, m."""
+    lead_turn: float = 0.0
+    """Turn since the other foot's last stride, rad."""
+    lead_strides: int = 0
+    """Number of strides since the other foot's last stride."""
+    difference: Flat = (0.0, 0.0)
+    """Left displacement less the right one after its newest stride, m."""
+    track_position: Vec3 = ZERO
+    """Position of its own track after its newest stride, world frame, m."""
 
 
 @define
 class Footsteps(TrackPart):
-    """Where the wearer is by the steps of both feet; between them it goes on with half of what the track of either foot
-    has moved since its last step. World frame, height 0. Latency: none beyond the steps' own."""
+    """Tracks the wearer by the strides of both feet.
+
+    Between strides the position moves by half of what the track of either foot has moved since its last stride. World
+    frame, height 0. Latency: none beyond the strides' own.
+    """
 
     needs_samples: ClassVar[bool] = True
 
-    ways: dict[Foot, FootWay] = field(init=False)
-    base: Flat = field(default=(0.0, 0.0), init=False)
-    """Where the wearer was at the last restart."""
+    paths: dict[Foot, FootPath] = field(init=False)
+    restart_position: Flat = field(default=(0.0, 0.0), init=False)
+    """Position of the wearer at the last restart, m."""
     idle: bool = field(default=False, init=False)
-    """Both feet were heard."""
+    """Flag: samples of both feet have come."""
     restarts: int = field(default=0, init=False)
-    """How often the feet were a metre apart."""
+    """Number of restarts."""
 
     def __attrs_post_init__(self) -> None:
-        self.ways = {foot: FootWay() for foot in Foot}
+        self.paths = {foot: FootPath() for foot in Foot}
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
-        way = self.ways[view.foot]
-        if not way.heard and view.sample.acc is not None and view.sample.gyro is not None:
-            way.heard = True
-            self.idle = all([one.heard for one in self.ways.values()])
+        path = self.paths[view.foot]
+        if not path.has_samples and view.sample.acc is not None and view.sample.gyro is not None:
+            path.has_samples = True
+            self.idle = all([one.has_samples for one in self.paths.values()])
         return ()
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:
         if isinstance(event, StrideTaken):
-            self.step(event)
+            self.add_stride(event)
         return ()
 
-    def step(self, taken: StrideTaken) -> None:
-        """One step of either foot."""
-        this, other = self.ways[taken.foot], self.ways[OTHER[taken.foot]]
-        this.heard = True
+    def add_stride(self, taken: StrideTaken) -> None:
+        """Add one stride of either foot."""
+        this, other = self.paths[taken.foot], self.paths[OTHER[taken.foot]]
+        this.has_samples = True
         turn = taken.heading_change
-        heading = 0.5 * (this.turned + other.turned)
-        x, y = _turned((taken.displacement[0], taken.displacement[1]), heading - this.own - 0.25 * turn)
-        this.own += turn
-        this.turned += turn
-        if abs(this.turned - other.turned) > pi:  # it is known but for whole turns
-            this.turned -= 2.0 * pi * round((this.turned - other.turned) / (2.0 * pi))
+        heading = 0.5 * (this.heading + other.heading)
+        x, y = _rotate((taken.displacement[0], taken.displacement[1]), heading - this.own_heading - 0.25 * turn)
+        this.own_heading += turn
+        this.heading += turn
+        if abs(this.heading - other.heading) > pi:  # whole turns are unknown
+            this.heading -= 2.0 * pi * round((this.heading - other.heading) / (2.0 * pi))
         this.here = (this.here[0] + x, this.here[1] + y)
-        this.ahead = (this.ahead[0] + x, this.ahead[1] + y)
-        this.ahead_turned += turn
-        this.ahead_steps += 1
-        this.stood = taken.position
-        other.ahead, other.ahead_turned, other.ahead_steps = (0.0, 0.0), 0.0, 0
-        if not other.heard or this.ahead_steps >= AWAY:
-            other.here = (other.here[0] + this.ahead[0], other.here[1] + this.ahead[1])
-            other.turned += this.ahead_turned
-            this.ahead, this.ahead_turned = (0.0, 0.0), 0.0
-        (lx, ly), (rx, ry) = (way.here for way in self.ways.values())
-        this.beside = (lx - rx, ly - ry)
-        (ax, ay), (bx, by) = this.beside, other.beside
-        if 0.5 * hypot(ax + bx, ay + by) > FURTHEST_APART:
-            self.base = self._mean()
-            for way in self.ways.values():
-                way.here = way.beside = (0.0, 0.0)
+        this.lead = (this.lead[0] + x, this.lead[1] + y)
+        this.lead_turn += turn
+        this.lead_strides += 1
+        this.track_position = taken.position
+        other.lead, other.lead_turn, other.lead_strides = (0.0, 0.0), 0.0, 0
+        if not other.has_samples or this.lead_strides >= ABSENT_STRIDES:
+            other.here = (other.here[0] + this.lead[0], other.here[1] + this.lead[1])
+            other.heading += this.lead_turn
+            this.lead, this.lead_turn = (0.0, 0.0), 0.0
+        (lx, ly), (rx, ry) = (path.here for path in self.paths.values())
+        this.difference = (lx - rx, ly - ry)
+        (ax, ay), (bx, by) = this.difference, other.difference
+        if 0.5 * hypot(ax + bx, ay + by) > LARGEST_DISTANCE:
+            self.restart_position = self._mean()
+            for path in self.paths.values():
+                path.here = path.difference = (0.0, 0.0)
             self.restarts += 1
 
     def _mean(self) -> Flat:
-        (lx, ly), (rx, ry) = (way.here for way in self.ways.values())
-        x, y = self.base
+        (lx, ly), (rx, ry) = (path.here for path in self.paths.values())
+        x, y = self.restart_position
         return (x + 0.5 * (lx + rx), y + 0.5 * (ly + ry))
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
@@ -124,12 +131,16 @@ class Footsteps(TrackPart):
         if not known:
             return None
         x, y = self._mean()
-        heading = 0.5 * sum([way.turned for way in self.ways.values()])
-        present = [f for f in known if self.ways[f.foot].heard and self.ways[OTHER[f.foot]].ahead_steps < AWAY] or known
+        heading = 0.5 * sum([path.heading for path in self.paths.values()])
+        present = [
+            f
+            for f in known
+            if self.paths[f.foot].has_samples and self.paths[OTHER[f.foot]].lead_strides < ABSENT_STRIDES
+        ] or known
         k = 1.0 / len(present)
         for foot in present:
-            way, (px, py, _) = self.ways[foot.foot], foot.position
-            dx, dy = _turned((px - way.stood[0], py - way.stood[1]), heading - way.own)
+            path, (px, py, _) = self.paths[foot.foot], foot.position
+            dx, dy = _rotate((px - path.track_position[0], py - path.track_position[1]), heading - path.own_heading)
             x, y = x + k * dx, y + k * dy
         covariances = [foot.covariance for foot in present]
         xx, xy, xz, yy, yz, zz = (sum([c[i] for c in covariances]) * k * k for i in range(6))
@@ -137,6 +148,6 @@ class Footsteps(TrackPart):
         return Position(t, (x, y, 0.0), (xx, xy, xz, yy, yz, zz))
 
 
-def _turned(v: Flat, yaw: float) -> Flat:
+def _rotate(v: Flat, yaw: float) -> Flat:
     c, s = cos(yaw), sin(yaw)
     return (c * v[0] - s * v[1], s * v[0] + c * v[1])

@@ -1,12 +1,12 @@
-"""Step by step over the ground (Liu et al. 2015, IEEE MASS, sections IV.C and IV.D): the corrector.
+"""Corrector that moves step by step over the ground (Liu et al. 2015, IEEE MASS, sections IV.C and IV.D).
 
-How long a step is and how far it turns are the equations of step_length.py. What the paper leaves open:
+step_length.py has the equations for a step's length and turn. Open in the paper, and settled here:
 
-- From one rest to the next the foot goes where it points after half of the turn: along the chord of an arc.
-- A step that lost samples for longer than `HOLE` is not one that these integrals hold for: it goes where the live
-  track is, less the drift that its velocity shows at rest.
-- A foot that pivots on its sole, in what looks like a static zone, turns as its gyroscope says.
-- `printed` does with the equations as they are printed, and without all this.
+- From one rest to the next the foot goes along its direction after half of the turn: the chord of an arc.
+- The integrals do not hold for a step that lost samples for longer than `LONGEST_GAP`: it ends where the live track
+  does, less the drift that its velocity shows at rest.
+- A foot that pivots on its sole, in what looks like a static zone, turns by its gyroscope.
+- `as_printed` uses the equations as they are printed, and none of these changes.
 """
 
 from __future__ import annotations
@@ -23,72 +23,73 @@ from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, heading_turned, multiply, rotate, tipped
 from .critical_times import CriticalTimes
 from .segment import StepSegment
-from .step_length import closed_step_length, step_length, turned, turned_about_vertical
+from .step_length import closed_step_length, step_length, swing_turn, vertical_turn
 
-HOLE = 0.12
-"""s: two of the paper's samples."""
-LONGEST = 2.0
-"""A foot that has not lain still for longer than this is not followed any further before it does, s."""
-PIVOT = 0.15
-"""A foot that lies as if still and yet turns faster than this about the vertical pivots on its sole, rad/s."""
-ENDS = 0.8
-"""The bias is taken off already: the ends of a gyroscope's ranges differ by no more than this share."""
-AT_END = 0.95
-"""Rates about the foot's axes are somewhat less than about the sensor's, which are up to 15 degrees off."""
-FURTHEST = 3.0
-"""No step is longer, m."""
+LONGEST_GAP = 0.12
+"""Longest gap of a step that the integrals hold for, s: two of the paper's samples."""
+LONGEST_MOTION = 2.0
+"""Time without rest after which the live position stays until the next rest, s."""
+PIVOT_RATE = 0.15
+"""Rate about the vertical above which a still foot pivots on its sole, rad/s."""
+END_SHARE = 0.8
+"""Least ratio of the ends of a gyroscope's ranges: they differ because the bias is removed already."""
+AXIS_SHARE = 0.95
+"""Ratio of rates about the foot's axes to those about the sensor's, which are up to 15 degrees off."""
+LONGEST_STEP = 3.0
+"""Length of the longest step, m."""
 STEP_ERROR, TURN_ERROR = 0.1, 0.05
-"""What a step is wrong by, as a share of its length: the paper's figure 11; what its turn is wrong by, rad."""
+"""Error of a step as a share of its length (the paper's figure 11), and error of its turn, rad."""
 
 
 @frozen
 class ProjectionSettings:
-    """What `Projection` is set to; phi of (1) is the product of the first two."""
+    """Settings of `Projection`; phi of (1) is the product of the first two."""
 
     toe_out: float = 0.0
-    """phi of this foot, rad, outwards positive."""
+    """Toe-out angle phi of this foot, rad, outwards positive."""
     outwards: float = 1.0
-    """1 for a left foot, -1 for a right one."""
-    printed: bool = False
-    """The equations as they are printed."""
+    """Sign of the outward direction: 1 for a left foot, -1 for a right one."""
+    as_printed: bool = False
+    """Flag: the equations are used as they are printed."""
 
 
 @define
 class Projection(Strapdown):
-    """Moves step by step. Frame as in `Corrector`; height is always 0, for the paper's track has none.
+    """Corrector that moves step by step.
 
-    Latency: a step is known when the static zone that ends it is. Meanwhile the live position and attitude are those of
-    a strapdown, the former without its height, and leap to the step's own end.
+    Frame as in `Corrector`; height is always 0, for the paper's track has none. Latency: a step is known when the
+    static zone that ends it is. Meanwhile the live position and attitude are those of a strapdown, without its height,
+    and jump to the step's own end.
     """
 
     settings: ProjectionSettings = ProjectionSettings()
     turning: TurningSteps = field(factory=TurningSteps)
-    end: float = field(default=0.0, init=False)
-    """The largest rate about an axis that the device called saturated, rad/s; 0 when it never did;"""
-    near: float = field(default=0.0, init=False)
-    """the least of them, but for those of an accelerometer's saturation."""
-    stood: Quat = field(default=IDENTITY, init=False)
+    largest_saturated: float = field(default=0.0, init=False)
+    """Largest rate about an axis that the device called saturated, rad/s; 0 when it never did."""
+    least_saturated: float = field(default=0.0, init=False)
+    """Least saturated rate, rad/s, without those of an accelerometer's saturation."""
+    rest_attitude: Quat = field(default=IDENTITY, init=False)
     """Attitude at the last rest."""
-    anchored: Vec3 = field(default=ZERO, init=False)
-    """Position then, m."""
-    moving: float = field(default=0.0, init=False)
-    """Time since, s."""
+    rest_position: Vec3 = field(default=ZERO, init=False)
+    """Position at the last rest, m."""
+    moving_time: float = field(default=0.0, init=False)
+    """Time since the last rest, s."""
     length: float = field(default=0.0, init=False)
     """Way since the last anchor, m."""
     steps: int = field(default=0, init=False)
-    """Steps since then."""
+    """Number of steps since the last anchor."""
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> Projection:
-        """The same for this foot, with its toe-out angle where it is known."""
+        """Return the corrector for this foot, with its toe-out angle where it is known."""
         outwards = 1.0 if foot is Foot.LEFT else -1.0
         toe_out = calibration.toe_out.get(foot, self.settings.toe_out)
         return evolve(self, settings=evolve(self.settings, toe_out=toe_out, outwards=outwards))
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
-        self.attitude = self.stood = attitude
-        self.velocity = self.position = self.anchored = ZERO
+        self.attitude = self.rest_attitude = attitude
+        self.velocity = self.position = self.rest_position = ZERO
         self.force = self.rate = None
-        self.moving = self.length = 0.0
+        self.moving_time = self.length = 0.0
         self.steps = 0
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
@@ -97,11 +98,14 @@ class Projection(Strapdown):
         if saturated:
             x, y, z = gyro
             rate = max(abs(x), abs(y), abs(z))
-            self.end = max(self.end, rate)
-            if self.near < ENDS * self.end or ENDS * self.end <= rate < self.near:
-                self.near = rate
-        self.moving += dt
-        if self.moving > LONGEST:
+            self.largest_saturated = max(self.largest_saturated, rate)
+            if (
+                self.least_saturated < END_SHARE * self.largest_saturated
+                or END_SHARE * self.largest_saturated <= rate < self.least_saturated
+            ):
+                self.least_saturated = rate
+        self.moving_time += dt
+        if self.moving_time > LONGEST_MOTION:
             self.velocity, self.position = ZERO, before
             return
         vx, vy, _ = self.velocity
@@ -113,56 +117,58 @@ class Projection(Strapdown):
             return False
         segment = stance.detail
         if isinstance(segment, StepSegment):
-            self._rest(segment)
-        elif self.settings.printed or self.rate is None or abs(rotate(self.attitude, self.rate)[2]) < PIVOT:
-            self.attitude = self.stood
-        self.position, self.velocity = self.anchored, ZERO
-        self._level(min(self.moving, 0.1))
-        self.stood, self.moving = self.attitude, 0.0
+            self._end_step(segment)
+        elif self.settings.as_printed or self.rate is None or abs(rotate(self.attitude, self.rate)[2]) < PIVOT_RATE:
+            self.attitude = self.rest_attitude
+        self.position, self.velocity = self.rest_position, ZERO
+        self._level(min(self.moving_time, 0.1))
+        self.rest_attitude, self.moving_time = self.attitude, 0.0
         return True
 
-    def _rest(self, segment: StepSegment) -> None:
-        """The foot lies still again: where it went."""
-        x, y, _ = self.anchored
-        if segment.longest_gap >= HOLE:
-            x, y = self._drifted()
+    def _end_step(self, segment: StepSegment) -> None:
+        """Move the foot, which lies still again, to the end of the step."""
+        x, y, _ = self.rest_position
+        if segment.longest_gap >= LONGEST_GAP:
+            x, y = self._dedrifted_end()
         elif segment.times is not None:
-            x, y = self._stepped(segment, segment.times)
-        # else it turned on the spot, or shook; it did not swing
-        x0, y0, _ = self.anchored
+            x, y = self._step_end(segment, segment.times)
+        # else the foot turned on the spot or shook, without a swing
+        x0, y0, _ = self.rest_position
         self.length += hypot(x - x0, y - y0)
         self.steps += 1
-        self.attitude = multiply(from_yaw(heading_turned(self.stood, self.attitude)), self.stood)
-        self.anchored = (x, y, 0.0)
+        self.attitude = multiply(from_yaw(heading_turned(self.rest_attitude, self.attitude)), self.rest_attitude)
+        self.rest_position = (x, y, 0.0)
 
-    def _stepped(self, segment: StepSegment, times: CriticalTimes) -> tuple[float, float]:
+    def _step_end(self, segment: StepSegment, times: CriticalTimes) -> tuple[float, float]:
+        """Return the end of a step by the equations, m."""
         settings, rows = self.settings, segment.rows
         phi = settings.outwards * settings.toe_out
-        if settings.printed:
-            length, turn = sum(step_length(rows, times, phi)), turned(rows, times)
+        if settings.as_printed:
+            length, turn = sum(step_length(rows, times, phi)), swing_turn(rows, times)
         else:
-            end = AT_END * self.near if self.near > 0.0 else inf
-            length, turn = sum(closed_step_length(rows, times, phi, end)), turned_about_vertical(rows, times, end)
+            end = AXIS_SHARE * self.least_saturated if self.least_saturated > 0.0 else inf
+            length, turn = sum(closed_step_length(rows, times, phi, end)), vertical_turn(rows, times, end)
         turn = self.turning.turn(turn)
-        fx, fy, _ = rotate(self.stood, segment.forward)
-        # x is to the right: from the foot's direction the way lies phi to that side
-        way = atan2(fy, fx) + 0.5 * turn - phi
-        self.attitude = multiply(from_yaw(turn), self.stood)
-        length = min(max(length, -FURTHEST), FURTHEST)
-        x, y, _ = self.anchored
-        return x + length * cos(way), y + length * sin(way)
+        fx, fy, _ = rotate(self.rest_attitude, segment.forward)
+        # x is to the right: the way lies phi to that side of the foot's direction
+        direction = atan2(fy, fx) + 0.5 * turn - phi
+        self.attitude = multiply(from_yaw(turn), self.rest_attitude)
+        length = min(max(length, -LONGEST_STEP), LONGEST_STEP)
+        x, y, _ = self.rest_position
+        return x + length * cos(direction), y + length * sin(direction)
 
-    def _drifted(self) -> tuple[float, float]:
+    def _dedrifted_end(self) -> tuple[float, float]:
+        """Return the end of a step by the live track less its drift, m."""
         x, y, _ = self.position
         vx, vy, _ = self.velocity
-        half = 0.5 * min(self.moving, LONGEST)
+        half = 0.5 * min(self.moving_time, LONGEST_MOTION)
         x, y = x - vx * half, y - vy * half
-        x0, y0, _ = self.anchored
-        k = FURTHEST / max(FURTHEST, hypot(x - x0, y - y0))
+        x0, y0, _ = self.rest_position
+        k = LONGEST_STEP / max(LONGEST_STEP, hypot(x - x0, y - y0))
         return x0 + k * (x - x0), y0 + k * (y - y0)
 
     def repair(self, yaw: float, position: Vec3) -> None:
-        """As in `Corrector`, of a step that lost samples; the others are told by their own equations alone."""
+        """Do nothing: a step that lost samples ends by `_dedrifted_end`, the others by their own equations alone."""
 
     def bridge(self, dt: float) -> float:
         if dt <= LONGEST_BRIDGE:
@@ -175,7 +181,7 @@ class Projection(Strapdown):
     def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
         self.attitude, self.velocity, self.position = attitude, velocity, position
         self.force = self.rate = None
-        self.moving += dt
+        self.moving_time += dt
 
     def anchor(self) -> tuple[float, ...]:
         stretch = self.covariance()
@@ -184,7 +190,7 @@ class Projection(Strapdown):
 
     def covariance(self) -> tuple[float, ...]:
         x, y, _ = self.position
-        x0, y0, _ = self.anchored
+        x0, y0, _ = self.rest_position
         variance = (STEP_ERROR * (self.length + hypot(x - x0, y - y0))) ** 2
         yaw = TURN_ERROR * TURN_ERROR * min(self.steps, 1000)
         return (variance, 0.0, 0.0, variance, 0.0, 0.0, yaw)

@@ -85,8 +85,8 @@ def regions(layout: Layout) -> dict[str, tuple[int, ...]]:
     """Return the cells of each region: for each point the nearest one, measured across by the width of the sole there.
 
     Empty where the cells do not show left and right: fewer cells than regions, a layout that was guessed
-    (foot/pressure/layout_guess.py), or places that are no insole's. Then only standing can be recognised, and a touchdown is
-    taken for one straight on, which most are.
+    (foot/pressure/layout_guess.py), or places that are no insole's. Then only standing can be recognised. A touchdown
+    is then treated as one of straight walking, as most are.
     """
     if len(layout.cells) < len(POINTS) or not SHORTEST_SOLE <= layout.length <= LONGEST_SOLE:
         return {}

@@ -1,13 +1,13 @@
-"""Windows of two seconds of one foot's vertical acceleration, and what a classifier asks of each.
+"""Windows of two seconds of one foot's vertical acceleration, and the features of each.
 
 Liu et al. 2015, "Track Your Foot Step", section IV.A: "We use a slide window with size 40, which equals to 2 seconds in
 time, to ensure that the window contains an entire step period during walking or a process of hypergravity and
-weightlessness." Time counts here, not samples, so any rate will do. By how much a window slides on is not said: here by
-a quarter of itself (`HOP`), so a window is four blocks, of which only sums are kept.
+weightlessness." Time counts here, not samples, so any rate will do. The paper does not give the shift of the window:
+here it is a quarter of the window (`HOP`), so a window is four blocks, of which only sums are kept.
 
-a_z is the paper's vertical axis of a sensor lying flat in the sole. A sensor may be mounted anyhow, so the axis is
-where gravity was in the sensor over the window before: over whole strides a foot begins and ends with the same
-velocity, and what remains of the specific force is gravity. It needs no gyroscope.
+a_z is the paper's vertical axis of a sensor lying flat in the sole. A sensor may have any mounting, so the axis is
+the direction of gravity in the sensor over the window before: over whole strides a foot starts and ends with the same
+velocity, and the mean specific force is gravity. It needs no gyroscope.
 """
 
 from __future__ import annotations
@@ -20,31 +20,34 @@ from ....types.attrs import define, field, frozen
 from ....types.vector import GRAVITY, TIE
 
 HOP = 0.5
-"""A window begins this much later than the one before, s."""
+"""Time from the start of a window to that of the next, s."""
 BLOCKS = 4
+"""Number of blocks in a window."""
 WINDOW = BLOCKS * HOP
-"""s."""
-FEWEST = 8
-"""Samples that a window has at the least; at 10 Hz it has twenty."""
-FASTEST = radians(250.0) ** 2
-"""What turns faster counts as this, rad^2/s^2: the paper's SensorTag measures no more, and other sensors must tell the
-same of the same gait."""
-WEIGHTLESS = 1.0
-"""Gravity has no direction in a window whose mean specific force is less, m/s^2."""
+"""Duration of a window, s."""
+FEWEST_SAMPLES = 8
+"""Least number of samples in a window; at 10 Hz it has twenty."""
+HIGHEST_RATE_SQUARE = radians(250.0) ** 2
+"""Limit of the squared angular rate, rad^2/s^2.
+
+The paper's SensorTag measures no more, and other sensors must give the same result for the same gait.
+"""
+LEAST_FORCE = 1.0
+"""Mean specific force of a window below which gravity has no direction, m/s^2."""
 
 
 @frozen
 class FootWindow:
-    """What a window holds, of one foot."""
+    """The features of one window of one foot."""
 
     index: int
-    """Its last half-second is number `index` from the beginning of all windows."""
+    """Number of its last half-second, from the start of all windows."""
     mean: float
-    """Length of the mean specific force, m/s^2: of a foot that stays level, the mean of a_z."""
+    """Length of the mean specific force, m/s^2: for a foot that stays level, the mean of a_z."""
     variance: float
-    """Of a_z, m^2/s^4."""
+    """Variance of a_z, m^2/s^4."""
     skewness: float
-    """Of a_z: above 0 when its peaks are higher than its troughs are deep."""
+    """Skewness of a_z: above 0 when its peaks are higher than its troughs are deep."""
     across: float
     """Mean square of the specific force across a_z, m^2/s^4."""
     turning: float | None
@@ -52,12 +55,15 @@ class FootWindow:
 
 
 @define
-class HalfSecond:
-    """Sums over half a second. a_z counts as what it is above standard gravity, or its square would drown the rest."""
+class WindowBlock:
+    """Sums over half a second.
+
+    a_z counts less standard gravity, or its square would drown the rest.
+    """
 
     index: int
     levelled: bool
-    """There was an axis to measure a_z along."""
+    """Flag: the axis of a_z was known."""
     count: int = 0
     x: float = 0.0
     y: float = 0.0
@@ -66,33 +72,35 @@ class HalfSecond:
     square: float = 0.0
     cube: float = 0.0
     energy: float = 0.0
-    """Of the whole vector."""
+    """Sum of the squared specific force, all axes, m^2/s^4."""
     turning: float = 0.0
     turns: int = 0
-    """Angular rates among the samples."""
+    """Number of angular rates among the samples."""
 
 
 @define
 class FootWindows:
-    """Feed it the accelerations of one foot in the order of their time. O(1) a sample."""
+    """Computes the windows of one foot from its samples in the order of their time; O(1) a sample."""
 
     axis: Vec3 = (0.0, 0.0, 1.0)
-    """Where gravity is in the sensor, a unit vector."""
+    """Direction of gravity in the sensor, a unit vector."""
     levelled: bool = False
     newest: int | None = None
-    """The half-second that it is in; None before any sample."""
-    blocks: deque[HalfSecond] = field(factory=deque)
-    """Those of the window, the one being filled last."""
+    """Number of the present half-second; None before any sample."""
+    blocks: deque[WindowBlock] = field(factory=deque)
+    """Blocks of the window, the one being filled last."""
     ready: deque[FootWindow] = field(factory=deque)
-    """Windows that nobody has taken yet."""
+    """Finished windows that have not been taken yet."""
 
     def update(self, since: float, acc: Vec3, gyro: Vec3 | None = None) -> bool:
-        """Specific force in m/s^2 and angular rate in rad/s, sensor frame, `since` s after the beginning of all
-        windows. True when the sample is the first of another half-second, so `ready` may have another window."""
+        """Add one sample, and return whether it starts another half-second, so `ready` may have another window.
+
+        Specific force in m/s^2 and angular rate in rad/s, sensor frame, `since` s after the start of all windows.
+        """
         index = int((since + TIE) // HOP)
         fresh = index != self.newest
         if fresh:
-            self._turn(index)
+            self._start_block(index)
         block = self.blocks[-1]
         x, y, z = acc
         ux, uy, uz = self.axis
@@ -109,24 +117,24 @@ class FootWindows:
         if gyro is not None:
             x, y, z = gyro
             square = x * x + y * y + z * z
-            block.turning += square if square < FASTEST else FASTEST
+            block.turning += square if square < HIGHEST_RATE_SQUARE else HIGHEST_RATE_SQUARE
             block.turns += 1
         return fresh
 
-    def _turn(self, index: int) -> None:
-        """Another half-second begins: tell the window that is full, and level the axis."""
+    def _start_block(self, index: int) -> None:
+        """Start another half-second: finish the window that is full, and level the axis."""
         blocks = self.blocks
         if blocks:
             self._level()
         if len(blocks) == BLOCKS and blocks[0].levelled:
-            window = measured(blocks)
+            window = measure_window(blocks)
             if window is not None:
                 self.ready.append(window)
         if self.newest is not None and index != self.newest + 1:
             blocks.clear()  # a gap: no window goes over it
         elif len(blocks) == BLOCKS:
             blocks.popleft()
-        blocks.append(HalfSecond(index, self.levelled))
+        blocks.append(WindowBlock(index, self.levelled))
         self.newest = index
 
     def _level(self) -> None:
@@ -138,15 +146,15 @@ class FootWindows:
             z += block.z
             count += block.count
         length = sqrt(x * x + y * y + z * z)
-        if length > WEIGHTLESS * count:
+        if length > LEAST_FORCE * count:
             self.axis = (x / length, y / length, z / length)
             self.levelled = True
 
 
-def measured(blocks: deque[HalfSecond]) -> FootWindow | None:
-    """The window of these blocks; None when it has too few samples."""
+def measure_window(blocks: deque[WindowBlock]) -> FootWindow | None:
+    """Return the window of these blocks; None when it has too few samples."""
     count = sum([block.count for block in blocks])
-    if count < FEWEST:
+    if count < FEWEST_SAMPLES:
         return None
     share = 1.0 / count
     x, y, z = (share * sum([getattr(block, axis) for block in blocks]) for axis in "xyz")
@@ -161,6 +169,6 @@ def measured(blocks: deque[HalfSecond]) -> FootWindow | None:
         mean=sqrt(x * x + y * y + z * z),
         variance=variance,
         skewness=third / (variance * sqrt(variance)) if variance > 1e-9 else 0.0,
-        turning=sum([block.turning for block in blocks]) / turns if turns >= FEWEST else None,
+        turning=sum([block.turning for block in blocks]) / turns if turns >= FEWEST_SAMPLES else None,
         across=max(0.0, energy - (m2 + 2.0 * GRAVITY * m1 + GRAVITY * GRAVITY)),
     )
