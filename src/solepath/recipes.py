@@ -2,9 +2,8 @@
 
     Session(recipes.DEFAULT)        Session(recipes.by_name("kupt-dfpc"))
 
-A part in a recipe has never received a sample; a session starts with copies. The published systems (papers/) are
-loaded when their recipe is requested. A name from a state or a command line is looked up in the tables here and
-nowhere else.
+A part in a recipe has never received a sample; a session starts with copies. The published systems (papers/) are loaded
+when their recipe is requested. A name from a state or a command line is looked up in the tables here and nowhere else.
 """
 
 from __future__ import annotations
@@ -39,8 +38,7 @@ def usual(
 
     They are: how the sensors are worn, where the wearer is (`track`; MeanOfFeet when it is None), what the wearer does
     (`activity`; Activities when it is None), turns, lifts and air pressure (`altitude`; heights are the feet's own when
-    it is None), and gait cycles.
-    """
+    it is None), and gait cycles."""
     known = (Wear(), track or MeanOfFeet(), activity or Activities(), Turns(), altitude, GaitCycles())
     return tuple([part for part in known if part is not None])
 
@@ -61,18 +59,15 @@ class Recipe:
     parts: tuple[Part, ...] = field(factory=usual)
     """Parts of the body, in the order in which they receive events (body/part.py)."""
     place: Part | None = None
-    """Part that finds the wearer on a floor plan, the last part of a session that has a plan.
-
-    None stands for Particles, which is loaded for such a session only.
-    """
+    """Part that finds the wearer on a floor plan, the last part of a session that has a plan. None stands for
+    Particles, which is loaded for such a session only."""
     needs_pressure: bool = False
     """True when the recipe reports nothing without pressure cells."""
 
     def exchanged(self, kind: type, by: Part | None, name: str | None = None) -> Recipe:
         """Return the recipe with `by` in the place of the part of this kind; None for `by` removes the part.
 
-        `name` renames the recipe. LookupError is raised when the recipe has no part of this kind.
-        """
+        `name` renames the recipe. LookupError is raised when the recipe has no part of this kind."""
         if not any([isinstance(part, kind) for part in self.parts]):
             raise LookupError(f"recipe {self.name} has no {kind.__name__}")
         known = [by if isinstance(part, kind) else part for part in self.parts]
@@ -195,8 +190,7 @@ def own(recipe: Recipe) -> Recipe:
     """Return a copy of the recipe that nobody changes; sessions make their parts from it.
 
     Sessions whose recipes are equal bit for bit share one copy. The function is thread-safe. TypeError is raised when
-    `recipe` is not a Recipe.
-    """
+    `recipe` is not a Recipe."""
     global _copies
     if not isinstance(recipe, Recipe):
         raise TypeError(f"recipe must be a Recipe, not {type(recipe).__name__}")
@@ -223,8 +217,7 @@ class _Copy:
 
     `extra_state` holds the attributes of its parts that are not fields. The text is made at the first comparison,
     because that takes longer than creating a session. It is None when the recipe cannot be saved; such a recipe equals
-    no other.
-    """
+    no other."""
 
     def __init__(self, recipe: Recipe, extra_state: str) -> None:
         self.recipe, self.extra_state = recipe, extra_state

@@ -18,8 +18,7 @@ class DeviceConfig:
     `site` is where it is worn; None for an insole, which reports its own site. `which` is its address, or its name when
     no other device nearby has that name; "" accepts any device of its kind. `profile` is its kind, needed where the
     advertisement does not show it (20 Hz firmware of a CC2541, a device of your own) or `which` is "". Raises
-    ValueError when nothing says which device is meant, or when a device that cannot report its site has none.
-    """
+    ValueError when nothing says which device is meant, or when a device that cannot report its site has none."""
 
     site: Site | None
     which: str = ""

@@ -29,8 +29,7 @@ CONNECTING = 20.0
 PAUSE = 0.25
 """Delay before the next search after a link that broke soon or a connection without stream data, s.
 
-It doubles after each further connection that brought no stream data.
-"""
+It doubles after each further connection that brought no stream data."""
 LONGEST_PAUSE = 8.0
 """Upper limit of the delay before the next search, s."""
 STABLE_AFTER = 1.0
@@ -45,8 +44,7 @@ class ConnectionState(Enum):
     """State of a connection.
 
     SEEKING waits for the device's advertisement, CONNECTING connects, SETTING_UP reads, subscribes and writes as the
-    profile says, and LISTENING passes packets on.
-    """
+    profile says, and LISTENING passes packets on."""
 
     SEEKING = "seeking"
     CONNECTING = "connecting"
@@ -63,8 +61,7 @@ class Connection:
 
     `run` is a task of its own, so no device waits for another. It reports through `emitter`. `pair` makes it pair when
     connected. `patience` is the time until a device that does not advertise is reported, s. `siblings` are all
-    connections of the same owner, this one included; no two of them use the same device or the same site.
-    """
+    connections of the same owner, this one included; no two of them use the same device or the same site."""
 
     config: DeviceConfig
     backend: Backend

@@ -2,8 +2,7 @@
 
 async with Devices([DeviceConfig(Site.LEFT_FOOT, "F0:F1:F2:F3:F4:F5")]) as devices:
     async for packet in devices:
-        for event in session.feed(packet): ...
-"""
+        for event in session.feed(packet): ..."""
 
 from __future__ import annotations
 
@@ -38,8 +37,7 @@ class Devices:
     is configured, when two have the same site, or when nothing distinguishes two of them.
 
     Entering raises BluetoothError when Bluetooth cannot be used; nothing that happens later does. Leaving disconnects;
-    what has arrived by then can still be iterated.
-    """
+    what has arrived by then can still be iterated."""
 
     def __init__(
         self,
@@ -113,8 +111,7 @@ class Devices:
         """Return the next packet.
 
         Raises StopAsyncIteration when the devices were left and all packets are taken, and RuntimeError when they were
-        never entered. An error of this program in one of the tasks is raised unchanged.
-        """
+        never entered. An error of this program in one of the tasks is raised unchanged."""
         if not self._entered:
             raise RuntimeError("nothing comes of devices before they are entered: async with Devices(...) as devices")
         self._taken += 1

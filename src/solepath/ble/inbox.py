@@ -27,8 +27,7 @@ class Inbox:
     that a recording keeps its ranges and layouts. Of these too there are at most `capacity`; beyond it the oldest are
     dropped. A packet receiver/dropped counts the dropped packets of a site and takes their place among the kept packets
     of that site. Only when so many packets were kept that this packet would not fit, its count is reported with the
-    next one.
-    """
+    next one."""
 
     capacity: int
     _packets: deque[tuple[Packet, bool]] = field(factory=deque, init=False)
@@ -37,10 +36,8 @@ class Inbox:
     _dropped: dict[Site, int] = field(factory=dict, init=False)
     """Number of notifications of each site that were dropped since its last packet receiver/dropped."""
     _newest_removed: dict[Site, Packet] = field(factory=dict, init=False)
-    """The newest packet of each site that was dropped, or kept as the oldest of the queue.
-
-    The count of the dropped packets carries its time, since the kept packets are taken first.
-    """
+    """The newest packet of each site that was dropped, or kept as the oldest of the queue. The count of the dropped
+    packets carries its time, since the kept packets are taken first."""
     on_arrival: Callable[[], None] | None = field(default=None, init=False)
 
     def __len__(self) -> int:

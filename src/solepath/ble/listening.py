@@ -27,8 +27,7 @@ class Listening:
     """One established connection that passes notifications on.
 
     `disconnected` is set when the connection is lost. `known` holds values that were read already, by channel.
-    `streamed` is True when stream data arrived. `closed` is True when further notifications are not passed on.
-    """
+    `streamed` is True when stream data arrived. `closed` is True when further notifications are not passed on."""
 
     client: BleakClient
     profile: Profile
@@ -42,8 +41,7 @@ class Listening:
     async def set_up(self) -> None:
         """Read, then subscribe, then write. Raises FAILURES.
 
-        A value that is read after subscribing would arrive twice on BlueZ.
-        """
+        A value that is read after subscribing would arrive twice on BlueZ."""
         for name in self.profile.reads:
             if name in self.known:
                 self.emitter.emit(name, self.known[name])

@@ -22,8 +22,7 @@ async def record(
 
     `header` holds further keys of the first line. `began`, the time of day (UTC), and `began_t`, the packets' clock at
     that time, are set by this function. Raises RecordingError when the file cannot be made or written any further (the
-    disk is full); what is in it stays intact.
-    """
+    disk is full); what is in it stays intact."""
     with PacketWriter(path, {**header, **start_keys()}) as writer:
         async for packet in packets:
             writer.write(packet)

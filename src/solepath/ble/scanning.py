@@ -33,13 +33,11 @@ RETRY = 2.0
 LONGEST_SILENCE = 60.0
 """Time without any advertisement after which the scan is started again, s.
 
-A scan may not survive Bluetooth being switched off and on.
-"""
+A scan may not survive Bluetooth being switched off and on."""
 WEAKEST, STRONGEST = -127, 20
 """Range of the signal strength that a controller may report, dBm (Bluetooth Core, vol 4 part E, 7.7.65.2).
 
-A system that reports any other value has no signal strength to report.
-"""
+A system that reports any other value has no signal strength to report."""
 
 
 @frozen
@@ -47,8 +45,7 @@ class Found:
     """The last advertisement of a device.
 
     `signal` is in dBm, -127 when the system does not know it. `t` is in s on the event loop's clock. `services` holds
-    the UUIDs that the device advertises.
-    """
+    the UUIDs that the device advertises."""
 
     device: BLEDevice
     name: str
@@ -74,8 +71,7 @@ OnAdvertisement = Callable[[Found], None]
 class Scanner:
     """A scanner that scans while it has listeners, in the owner's task that runs `run`.
 
-    `report_trouble` receives a sentence when scanning fails.
-    """
+    `report_trouble` receives a sentence when scanning fails."""
 
     backend: Backend
     report_trouble: Callable[[str], None]
@@ -137,8 +133,7 @@ def make_scanner(backend: Backend, on_advertisement: OnAdvertisement) -> BleakSc
 async def scan(seconds: float = 4.0, *, backend: Backend = NATIVE) -> list[Found]:
     """Return the devices that advertise within `seconds`, unknown ones too, the strongest first.
 
-    The list is known when the time is over. Raises BluetoothError when there is no Bluetooth to scan with.
-    """
+    The list is known when the time is over. Raises BluetoothError when there is no Bluetooth to scan with."""
     found: dict[str, Found] = {}
 
     def on_advertisement(one: Found) -> None:

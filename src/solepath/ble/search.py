@@ -25,8 +25,7 @@ class Search:
 
     `address` is the only address to accept once it is known, else "". `is_excluded` says which devices not to use.
     `report_trouble` receives the reason `patience` s after `since` when nothing was found; once, since the search may
-    go on for hours. `since` may be before this search, which then listens for a short time at least.
-    """
+    go on for hours. `since` may be before this search, which then listens for a short time at least."""
 
     scanner: Scanner
     config: DeviceConfig

@@ -73,8 +73,7 @@ def is_rejection(error: BleakError, client: BleakClient) -> bool:
     """Return whether the device rejected a request while the connection stands.
 
     Not every system reports this as an ATT error: Windows says "Access Denied", BlueZ uses names of its own. An error
-    of D-Bus itself, that BlueZ is absent or silent, is no rejection.
-    """
+    of D-Bus itself, that BlueZ is absent or silent, is no rejection."""
     if isinstance(error, BleakDBusError) and error.dbus_error.startswith("org.freedesktop.DBus."):
         return False
     return isinstance(error, BleakGATTProtocolError) or client.is_connected
@@ -119,8 +118,7 @@ async def write_setup(client: BleakClient, profile: Profile, emitter: Emitter) -
     """Write what the profile prescribes; return the packets of the values that were written.
 
     A channel that the device does not have (old SensorTags have no periods), or a write that it rejects, is reported
-    and skipped: the watchdog detects a stream that does not start because of it.
-    """
+    and skipped: the watchdog detects a stream that does not start because of it."""
     written = []
     for write in profile.setup:
         one = find_characteristic(client, profile.channel(write.channel))

@@ -42,8 +42,7 @@ async def bleak_call(seconds: float) -> AsyncIterator[None]:
     """Limit one call into bleak to `seconds` (then TimeoutError); only FAILURES are raised.
 
     bleak also raises exceptions that it should not: its BlueZ client, for one, asserts that its bus still exists while
-    it waits for an answer. Such an exception ends this connection only; the traceback is logged.
-    """
+    it waits for an answer. Such an exception ends this connection only; the traceback is logged."""
     try:
         async with asyncio.timeout(seconds):
             yield

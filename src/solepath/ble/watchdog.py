@@ -2,8 +2,7 @@
 
 The CC2650's movement sensor is known to freeze while its connection stands (firmware before 1.12 on a weak coin cell);
 writing its configuration again wakes it. A device that may be silent by its configuration (wake-on-motion) is not
-watched.
-"""
+watched."""
 
 from __future__ import annotations
 
@@ -28,8 +27,7 @@ class Watchdog:
     """The watchdog of one connection.
 
     `streams` are the channels that must send, at most `patience` s apart; none when silence is allowed. `t_start` is
-    the time at which the device was set up, s.
-    """
+    the time at which the device was set up, s."""
 
     streams: tuple[str, ...]
     patience: float

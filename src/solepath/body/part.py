@@ -2,8 +2,7 @@
 
 A recipe holds its parts in a tuple. The output of a foot or of a link reaches the parts in that order. The output of a
 part reaches the parts after it, also at the end of a session. Parts never write into a foot: a correction is a value
-that a part returns (`Shift`, `HeightShift`, `Replacement`), and the wearer applies it.
-"""
+that a part returns (`Shift`, `HeightShift`, `Replacement`), and the wearer applies it."""
 
 from __future__ import annotations
 
@@ -33,8 +32,7 @@ class Shift:
 class HeightShift:
     """A correction of the wearer's height: `above` m over the feet's tracks, variance in m^2.
 
-    It holds until the next one.
-    """
+    It holds until the next one."""
 
     above: float
     variance: float
@@ -44,8 +42,7 @@ class HeightShift:
 class Replacement:
     """A correction that puts the event `by` in the place of `event`.
 
-    An earlier part has returned `event` for the same sample.
-    """
+    An earlier part has returned `event` for the same sample."""
 
     event: Event
     by: Event
@@ -63,8 +60,7 @@ class ClockUnsettled:
 class LayoutReported:
     """Notice that the device at a site has reported its cell layout, and with it the foot it is made for.
 
-    A layout of a calibration is not reported this way.
-    """
+    A layout of a calibration is not reported this way."""
 
     site: Site
     layout: Layout
@@ -92,19 +88,16 @@ class Part(Protocol):
 
     For each sample of a foot a part first gets the foot's view, if it declares `needs_samples`, and then every event of
     that sample: those of the foot and those of the parts before. Times are in s. No method may raise, whatever the
-    input is, use more memory the longer it is fed, or read a clock or random numbers.
-    """
+    input is, use more memory the longer it is fed, or read a clock or random numbers."""
 
     __slots__ = ()
 
     needs_samples: ClassVar[bool] = False
     """Flag of a part that needs samples: `feed` is called."""
     idle: bool = False
-    """Flag of a part whose `feed` would do nothing now with a sample that has neither events nor air pressure.
-
-    `feed` is not called with such a sample. The flag is always true, or a field that changes in `receive`, `reset` and
-    `feed`.
-    """
+    """Flag of a part whose `feed` would do nothing now with a sample that has neither events nor air pressure. `feed`
+    is not called with such a sample. The flag is always true, or a field that changes in `receive`, `reset` and
+    `feed`."""
     sites: ClassVar[tuple[Site, ...]] = ()
     """Sites above the ankle whose samples the part needs: `feed_limb` is called."""
     needs_position: ClassVar[bool] = False
@@ -117,8 +110,7 @@ class Part(Protocol):
     def ready(self) -> None:
         """Load the files that the part needs; called for a new wearer and for one restored from a saved state.
 
-        `feed` and `receive` import nothing and open no file.
-        """
+        `feed` and `receive` import nothing and open no file."""
         return
 
     def receive(self, event: PartInput) -> Sequence[PartOutput]:

@@ -56,8 +56,7 @@ def read_rows(path: Path | str, columns: Collection[str]) -> list[TableRow]:
     """Return the lines of a csv file below its header, without empty lines.
 
     CalibrationError is raised when the file cannot be read, does not have each of `columns` exactly once, or has a line
-    whose length differs from the header's.
-    """
+    whose length differs from the header's."""
     try:
         text = StringIO(bounded_text(Path(path), "utf-8-sig"), newline="")
         lines = [[cell.strip() for cell in line] for line in csv.reader(text)]

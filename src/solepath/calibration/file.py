@@ -60,8 +60,7 @@ def bounded_text(path: Path, encoding: str = "utf-8") -> str:
     """Return the text of a file of at most LARGEST bytes.
 
     CalibrationError is raised when the file is larger or never ends, OSError or ValueError when it cannot be read or is
-    not text.
-    """
+    not text."""
     with path.open("rb") as file:
         data = file.read(LARGEST + 1)
     if len(data) > LARGEST:

@@ -16,8 +16,7 @@ def unusable(calibration: Calibration) -> str | None:
     """Return why a calibration cannot be used, or None when it can.
 
     The sentence names the first key whose value is impossible for a wearer, a shoe or an insole. The limits are those
-    of protocol/calibration.md.
-    """
+    of protocol/calibration.md."""
     wrong_type = next(_type_problems(calibration), None)
     if wrong_type is not None:
         return wrong_type

@@ -1,7 +1,6 @@
 """Records of what is known of a wearer, a pair of shoes and a pair of insoles beyond what the devices send.
 
-Everything here is optional: a session without a calibration runs on defaults and on what it learns.
-"""
+Everything here is optional: a session without a calibration runs on defaults and on what it learns."""
 
 from __future__ import annotations
 
@@ -20,8 +19,7 @@ class Newtons:
     """Cubic that turns a cell's raw value c into newtons: N = a + b c + c2 c^2 + c3 c^3.
 
     It is fitted to gauge data (Gong et al. 2023, Sensors 23, 5417, fig. 6). Below `threshold` (N) a cell reads 0, above
-    `most` (N) it reads `most`.
-    """
+    `most` (N) it reads `most`."""
 
     coefficients: tuple[float, float, float, float]
     threshold: float = 5.0
@@ -57,8 +55,7 @@ class ShoeGeometry:
         L_r = 0.070 + R tan(p/2)            L_p2t = 0.090 - R p + R tan(p/2)
 
     in m, exactly. The series tan(p/2) = p/2 + p^3/24 + p^5/240 + ... turns them into polynomials, accurate to 0.2 mm up
-    to `steepest`.
-    """
+    to `steepest`."""
 
     heel_radius: float = 0.125
     height: float = 0.029
@@ -78,8 +75,7 @@ class Limbs:
     the proportions of Drillis and Contini (1966), as in Winter, Biomechanics and Motor Control of Human Movement; three
     quarters of the foot lie before the ankle. Their 0.191 is the breadth of the hips. The joints lie inward of the
     spines, which are 0.24 m apart, by 14 % of that distance on each side (Bell, Brand and Pedersen 1989, Human Movement
-    Science 8).
-    """
+    Science 8)."""
 
     hip_width: float = 0.173
     thigh: float = 0.429
@@ -96,8 +92,7 @@ class Calibration:
     its attitude. Otherwise it is in the navigation frame, whose heading is that of the sensor at the start, so it holds
     for walks that start as the calibration did. `weight` is the wearer's, N. `modes` is the compensation of a touchdown
     by foot and walking mode, (forward, left), m. `toe_out` is the angle from the direction of walking to the foot's
-    long axis, outwards positive, rad (Liu et al. 2015, equation (1)).
-    """
+    long axis, outwards positive, rad (Liu et al. 2015, equation (1))."""
 
     insoles: dict[Foot, InsoleCalibration] = field(factory=dict)
     shoe: ShoeGeometry | None = None
@@ -115,8 +110,7 @@ class Calibration:
 def merged(known: Calibration, newer: Calibration) -> Calibration:
     """Return `known` with every value that `newer` holds in its place, insole by insole and part by part.
 
-    Noise that was learnt in one unit is dropped when `newer` changes the conversion to newtons.
-    """
+    Noise that was learnt in one unit is dropped when `newer` changes the conversion to newtons."""
     insoles = dict(known.insoles)
     for foot, insole in newer.insoles.items():
         before = insoles.get(foot, InsoleCalibration())

@@ -1,7 +1,6 @@
 """`solepath`: the parser, and the handling of errors of all commands.
 
-Exit status: 0 done; 2 the command line or a file is wrong, with one line on stderr; 130 interrupted.
-"""
+Exit status: 0 done; 2 the command line or a file is wrong, with one line on stderr; 130 interrupted."""
 
 from __future__ import annotations
 

@@ -2,8 +2,7 @@
 
 Bluetooth Low Energy keeps the order of notifications, and its link layer repeats lost packets. A bad channel therefore
 shows as delay: a late packet holds up all packets behind it. Loss happens in higher layers: full queues, lossy relays,
-dropped callbacks. Packets do not change their order on one Bluetooth link; `in_order=False` is for other relays.
-"""
+dropped callbacks. Packets do not change their order on one Bluetooth link; `in_order=False` is for other relays."""
 
 from __future__ import annotations
 

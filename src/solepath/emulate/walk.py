@@ -6,8 +6,7 @@
 
 Time 0 is the start of the first stand on the true clock, which is also the receiver's clock. The same arguments give
 the same packets, byte for byte. The gait, each device and each radio link have separate random generators: the same
-seed gives the same gait with any devices and any radio.
-"""
+seed gives the same gait with any devices and any radio."""
 
 from __future__ import annotations
 
@@ -50,8 +49,7 @@ def emulate(
     """Walk `route` and return what the receiver gets. Without `devices`, both feet wear insoles of 96 cells at 100 Hz.
 
     Sites above the ankle wear devices that send their own attitude (Dot). A device that only feet can wear raises
-    ValueError at any other site.
-    """
+    ValueError at any other site."""
     if devices is None:
         devices = {SITE_OF_FOOT[foot]: Insole() for foot in Foot}
     walker = Walker(route, wearer, seed)

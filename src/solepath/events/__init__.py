@@ -2,8 +2,7 @@
 
 Every event is frozen, compares with == and has the same three times: `t`, when it happened (s, sample clock);
 `known_at`, when it was known (s, arrival of the packet that settled it); `final`, whether no later event may revise it.
-Final events never change, however much data follows.
-"""
+Final events never change, however much data follows."""
 
 from __future__ import annotations
 

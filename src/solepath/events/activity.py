@@ -15,8 +15,7 @@ class ActivityChanged(Happening):
     wearer's activity at some time is that of the last event with `t` up to then, without those that were replaced.
 
     Latency of the default: reported 1 to 1.5 s after `t`, final mostly seconds later; standing that may be a ride in a
-    lift stays open for up to a minute. Other recipes: see the docstrings of their parts.
-    """
+    lift stays open for up to a minute. Other recipes: see the docstrings of their parts."""
 
     activity: Activity
     """The new activity."""
@@ -31,8 +30,7 @@ class LiftRidden(Happening):
     """A ride in a lift ended; `t` is when the lift came to rest.
 
     Known with the default once it is settled that this was its end, mostly seconds after `t` and up to 12 s; with
-    `footstep-tracker` as soon as the jolt of its braking is over. Final.
-    """
+    `footstep-tracker` as soon as the jolt of its braking is over. Final."""
 
     t_start: float
     """Start of the ride, s."""
@@ -48,8 +46,7 @@ class FlightClimbed(Happening):
 
     Known when as many level strides as there are feet with data have followed it, about a second after `t`, with the
     first stride the other way, or when both feet have stood at one height for 3 s; where activities are reported later
-    than strides (the default: by 1 to 1.5 s), as much later. Final.
-    """
+    than strides (the default: by 1 to 1.5 s), as much later. Final."""
 
     t_start: float
     """Start of its first stride, s."""
@@ -66,8 +63,7 @@ class TurnMade(Happening):
     """The wearer turned, over one stride or several in a row; `t` is the end of the last of them.
 
     Source: Liu et al. 2015, IEEE MASS, section IV.D. Known when the feet have gone straight on for three strides (two
-    where only one foot has data), or when no foot has touched down for 2 to 4 s. Final.
-    """
+    where only one foot has data), or when no foot has touched down for 2 to 4 s. Final."""
 
     t_start: float
     """Start of the first stride, s."""

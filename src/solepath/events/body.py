@@ -12,8 +12,7 @@ class StrideFused(Happening):
     """The stride of one foot, calibrated by the other foot's.
 
     It names the foot whose path is the wearer's from now on (Chen et al. 2019, IEEE Internet of Things Journal,
-    equations (9) to (13)). Known with the StrideTaken of the stride; `t` is the same, the foot-flat that ends it.
-    """
+    equations (9) to (13)). Known with the StrideTaken of the stride; `t` is the same, the foot-flat that ends it."""
 
     foot: Foot
     """Foot that took the stride."""
@@ -43,8 +42,7 @@ class TouchedDown(Happening):
 
     Source: Gong et al. 2023, Sensors 23, 5417, equations (1) to (3) and (8). Known with the sample that shows it, which
     is `t`; with sensors above the ankles up to 0.06 s later, when their attitudes of that moment are there. Not final
-    before the wearer's first heading is settled, after 1.5 m of walking; later ones are.
-    """
+    before the wearer's first heading is settled, after 1.5 m of walking; later ones are."""
 
     foot: Foot
     """Foot that touched down."""
@@ -61,8 +59,7 @@ class WalkingModeChanged(Happening):
     """The walking mode changed (Gong et al. 2023, section 3.3).
 
     Known with the sample that ends the contact which shows it, which is `t`: most of a second after that foot's
-    touchdown. Final.
-    """
+    touchdown. Final."""
 
     mode: WalkingMode
     """The new walking mode."""

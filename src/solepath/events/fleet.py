@@ -1,8 +1,7 @@
 """Events that the keyed step of a fleet reports beside those of the session, which cannot know them.
 
 They are not part of `solepath.Event`, since an app with one session never sees them. Their time is that of the newest
-packet that was used before, 0 before any.
-"""
+packet that was used before, 0 before any."""
 
 from __future__ import annotations
 
@@ -32,8 +31,7 @@ class SentRejection(Enum):
 class StateRejected(Happening):
     """The state of a wearer cannot be used: it is damaged, of a later release, of another recipe or floor plan.
 
-    A fresh session follows. Known with the first item that is sent after it.
-    """
+    A fresh session follows. Known with the first item that is sent after it."""
 
     detail: str
     """Reason in words."""
@@ -56,8 +54,7 @@ class SentRejected(Happening):
     """An item that was sent is not used; it changed nothing.
 
     Known in its turn, or as soon as it comes where it has none. A packet that its own format forbids is a
-    PacketRejected.
-    """
+    PacketRejected."""
 
     reason: SentRejection
     """Reason in one word."""
@@ -68,9 +65,8 @@ class SentRejected(Happening):
     detail: str = ""
     """Reason in words."""
     count: int = 1
-    """Number of items of this run rejected as LATE or AFTER_END so far, with this one; 1 for other reasons.
-
-    The first, the second, the fourth, the eighth are reported, and so on, until an item of another run is late."""
+    """Number of items of this run rejected as LATE or AFTER_END so far, with this one; 1 for other reasons. The first,
+    the second, the fourth, the eighth are reported, and so on, until an item of another run is late."""
 
 
 @frozen(kw_only=True)
@@ -78,8 +74,7 @@ class WearerFailed(Happening):
     """A reader or a detector of the app raised an exception, or held data that could not be saved.
 
     This wearer restarts with a fresh session; no other wearer is affected. Known with the packet that caused it, or the
-    first after the state was taken.
-    """
+    first after the state was taken."""
 
     detail: str
     """Description of the failure."""

@@ -20,8 +20,7 @@ class HeelStrike(_Phase):
     """The foot touched the ground; LOADING starts. `t` is the middle of the impact, or when cells show load.
 
     Latency with the default cues: one sample with pressure cells, some 40 ms without; until the foot is still where no
-    impact shows.
-    """
+    impact shows."""
 
 
 @frozen(kw_only=True)
@@ -33,8 +32,7 @@ class FootFlat(_Phase):
 class HeelOff(_Phase):
     """The heel lifted; PUSH_OFF starts. The heel lifts slowly, so the event is dated back.
 
-    Latency: 40 to 140 ms, in slow walking up to 320 ms.
-    """
+    Latency: 40 to 140 ms, in slow walking up to 320 ms."""
 
 
 @frozen(kw_only=True)
@@ -54,8 +52,7 @@ class StrideFeatures:
     `toe_off_angle`: angle by which the heel is up at toe-off, against the sole lying flat before, rad;
     `heel_strike_angle`: angle by which the toe is up at heel-strike, against the sole lying flat after it, rad. Both
     are about the axis to the wearer's left, which a foot shows by its first push-off. `rise`: height of the stride as
-    integrated, before the decision whether the stride was level, m.
-    """
+    integrated, before the decision whether the stride was level, m."""
 
     clearance: float
     peak_speed: float
@@ -72,8 +69,7 @@ class StrideFeatures:
 class StrideTaken(Happening):
     """One foot went from foot-flat to its next foot-flat (clinically: a stride). Known at the second foot-flat.
 
-    `t` is the second foot-flat. Vectors are in the world frame (z up, x along the first heading, y left), m.
-    """
+    `t` is the second foot-flat. Vectors are in the world frame (z up, x along the first heading, y left), m."""
 
     foot: Foot
     """Foot that took the stride."""
@@ -86,10 +82,9 @@ class StrideTaken(Happening):
     displacement: Vec3
     """Vector from the first to the second foot-flat, m."""
     position: Vec3
-    """Position of the foot after the stride, m.
-
-    A body that returns corrections to the feet (BothFeet) moves a track between two strides: this stride started at
-    `position` - `displacement`, which is not always where the last one ended."""
+    """Position of the foot after the stride, m. A body that returns corrections to the feet (BothFeet) moves a track
+    between two strides: this stride started at `position` - `displacement`, which is not always where the last one
+    ended."""
     length: float
     """Horizontal length of `displacement`, m."""
     heading_change: float

@@ -17,8 +17,7 @@ def to_frame(events: Iterable[Happening]) -> Any:
     Its columns are the keys of `to_dict`, in the order in which they first come: a vector is one column a component
     (position_x, position_y, position_z, m), a record within an event one column a field (features_clearance, m), any
     other list one column that holds lists. A value that an event does not have is missing in its row. ImportError where
-    neither library is installed.
-    """
+    neither library is installed."""
     rows = [_flat(event.to_dict()) for event in events]
     names = {name: None for row in rows for name in row}
     columns = {name: [row.get(name) for row in rows] for name in names}

@@ -26,8 +26,7 @@ class GaitCycleMeasured(Happening):
     a radio's delay cannot be seen. They are None too where the other foot's contact or toe-off fell into a gap in its
     samples.
 
-    The conditions for a `steady` stride, which counts in the running means, are in body/gait/measuring.py.
-    """
+    The conditions for a `steady` stride, which counts in the running means, are in body/gait/measuring.py."""
 
     foot: Foot
     """Foot of the cycle."""
@@ -48,34 +47,29 @@ class GaitCycleMeasured(Happening):
     step_time: float | None
     """Time from the other foot's contact to the one that ends the cycle, s."""
     initial_double_support: float | None
-    """Time from this foot's first contact until the other's toe-off, s; negative for a flight phase.
-
-    In a flight phase both feet were in the air for so long (Novacheck 1998, Gait & Posture 7)."""
+    """Time from this foot's first contact until the other's toe-off, s; negative for a flight phase. In a flight phase
+    both feet were in the air for so long (Novacheck 1998, Gait & Posture 7)."""
     terminal_double_support: float | None
     """Time from the other foot's contact until this one's toe-off, s; negative for a flight phase."""
     single_support: float | None
     """Time for which only this foot was on the ground, s."""
     phase: float | None
-    """Time of the other foot's contact, as a share of the cycle; 0.5 for a symmetric gait.
-
-    Source: Plotnik et al. 2007, Exp. Brain Res. 181, who have it in degrees."""
+    """Time of the other foot's contact, as a share of the cycle; 0.5 for a symmetric gait. Source: Plotnik et al. 2007,
+    Exp. Brain Res. 181, who have it in degrees."""
     stride_length: float | None
     """Horizontal length from foot-flat to foot-flat around the swing, m (Mariani et al. 2010, J. Biomech. 43)."""
     speed: float | None
     """Speed of walking, `stride_length` / `stride_time`, m/s."""
     step_length: float | None
-    """Distance from the other foot's place to this foot's landing place, along this foot's stride, m.
-
-    Source: Huxham et al. 2006, Gait & Posture 23. It is measured between the sensors: right where both are mounted
-    alike. It needs a recipe whose body measures the position of one foot from the other (body/gait/measuring.py); two
-    tracks that are only assumed to lie beside one another do not give it."""
+    """Distance from the other foot's place to this foot's landing place, along this foot's stride, m. Source: Huxham et
+    al. 2006, Gait & Posture 23. It is measured between the sensors: right where both are mounted alike. It needs a
+    recipe whose body measures the position of one foot from the other (body/gait/measuring.py); two tracks that are
+    only assumed to lie beside one another do not give it."""
     step_width: float | None
     """Distance of the other foot from the line of this stride, m (Huxham et al. 2006); negative when the feet cross."""
     clearance: float | None
-    """Highest rise of the sensor above the higher of both foot-flats, m.
-
-    It is not the minimum toe clearance, which a sensor on the instep does not see (Mariani et al. 2012, IEEE Trans.
-    Biomed. Eng. 59, need the shoe's size)."""
+    """Highest rise of the sensor above the higher of both foot-flats, m. It is not the minimum toe clearance, which a
+    sensor on the instep does not see (Mariani et al. 2012, IEEE Trans. Biomed. Eng. 59, need the shoe's size)."""
     toe_off_angle: float | None
     """Pitch of the foot at toe-off against flat, rad; positive when the heel is up."""
     heel_strike_angle: float | None

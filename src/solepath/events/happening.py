@@ -31,8 +31,7 @@ class Happening:
 
         Keys are `event` (the class's name), `t`, `known_at`, `final`, `foot` where it has one (also where an event of a
         link has a foot's site), then its other fields in SI units; enums by their values, null for a number that is not
-        finite.
-        """
+        finite."""
         values = json_ready(self)
         site = getattr(self, "site", None)
         if isinstance(site, Site) and site.foot is not None:
@@ -44,8 +43,7 @@ class Happening:
 def json_ready(value: Any) -> Any:
     """Return `value` in the types of strict JSON.
 
-    Records become objects, enums their values, tuples lists, bytes hex digits, and numbers that are not finite null.
-    """
+    Records become objects, enums their values, tuples lists, bytes hex digits, and numbers that are not finite null."""
     match value:
         case Enum():
             return json_ready(value.value)

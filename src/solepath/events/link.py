@@ -44,8 +44,7 @@ class PacketRejected(Happening):
 class SampleRejected(Happening):
     """A sample that was fed could not be used; it changed nothing.
 
-    Known when it is fed; `t` is the sample's, or that of the one before where its own time cannot be used.
-    """
+    Known when it is fed; `t` is the sample's, or that of the one before where its own time cannot be used."""
 
     site: Site
     reason: Rejection
@@ -56,8 +55,7 @@ class SampleRejected(Happening):
 class PacketsLost(Happening):
     """Packets never arrived, by the device's counter, or by the time between arrivals where it has none.
 
-    `t` is the time of the first missing one. Known at the arrival of the first packet after them.
-    """
+    `t` is the time of the first missing one. Known at the arrival of the first packet after them."""
 
     site: Site
     channel: str
@@ -69,8 +67,7 @@ class PacketsLost(Happening):
 class SampleGap(Happening):
     """No samples came for longer than the sensor's rate allows; the stride that this falls in is marked degraded.
 
-    `t` is the last sample before the gap. Known with the first sample after it.
-    """
+    `t` is the last sample before the gap. Known with the first sample after it."""
 
     site: Site
     duration: float
@@ -81,8 +78,7 @@ class SampleGap(Happening):
 class ClockReset(Happening):
     """The device's clock jumped or the device restarted; sample times start from a new fit.
 
-    `t` is the start of the new fit. Known at the arrival of the packet that shows it.
-    """
+    `t` is the start of the new fit. Known at the arrival of the packet that shows it."""
 
     site: Site
     restarted: bool
@@ -94,8 +90,7 @@ class StreamStale(Happening):
     """Nothing came from a site for longer than its link allows (1 or 2 s, `Profile.stale_after`).
 
     `t` is the end of that time. Known with the first `Session.advance` or packet of the site after that, so the latency
-    is the interval between these calls.
-    """
+    is the interval between these calls."""
 
     site: Site
     silent_for: float
@@ -115,8 +110,7 @@ class StreamResumed(Happening):
 class Connected(Happening):
     """The receiver connected to a device, for the first time or again; the device is about to be set up.
 
-    `t` is the time by the receiver's clock; known at once.
-    """
+    `t` is the time by the receiver's clock; known at once."""
 
     site: Site
     device: str
@@ -131,8 +125,7 @@ class Connected(Happening):
 class Disconnected(Happening):
     """The connection to the device is lost; the receiver searches for it.
 
-    `t` is when the receiver noticed, seconds after the device went out of reach; known at once.
-    """
+    `t` is when the receiver noticed, seconds after the device went out of reach; known at once."""
 
     site: Site
 
@@ -141,8 +134,7 @@ class Disconnected(Happening):
 class PacketsDropped(Happening):
     """Packets arrived and were dropped, the oldest first, because they were not taken in time.
 
-    Known when the next one is taken; `t` is the arrival of the newest of the site that was dropped by then.
-    """
+    Known when the next one is taken; `t` is the arrival of the newest of the site that was dropped by then."""
 
     site: Site
     count: int
@@ -154,8 +146,7 @@ class StreamRestarted(Happening):
     """A stream stopped although the connection stands, and the receiver set the device up again.
 
     `t` is the time of the restart; known at once, after the silence that the device's profile allows
-    (`Profile.stale_after`, s).
-    """
+    (`Profile.stale_after`, s)."""
 
     site: Site
     channel: str
@@ -166,8 +157,7 @@ class StreamRestarted(Happening):
 class LinkTrouble(Happening):
     """The receiver cannot do its work; `what` is a sentence for a person who can help.
 
-    `t` is when the trouble was noticed; known at once.
-    """
+    `t` is when the trouble was noticed; known at once."""
 
     site: Site
     what: str
@@ -178,8 +168,7 @@ class LinkTrouble(Happening):
 class ScaleSuspect(Happening):
     """The accelerometer does not read 1 g at rest, but 15 % more or less: its assumed range or scale is wrong.
 
-    Reported once. Known at the end of a rest, which `t` is: of 1.5 s in packets, of 0.5 s in samples.
-    """
+    Reported once. Known at the end of a rest, which `t` is: of 1.5 s in packets, of 0.5 s in samples."""
 
     site: Site
     magnitude: float
@@ -193,8 +182,7 @@ class LayoutKnown(Happening):
     """The layout of the pressure cells is known, from the device or from the calibration.
 
     A layout of the calibration applies when samples have as many cells. Known with the packet that has it or the first
-    such sample, whose time `t` is.
-    """
+    such sample, whose time `t` is."""
 
     site: Site
     layout: Layout
@@ -224,8 +212,7 @@ class Limitation(Happening):
     """A limitation of the session by the sensors that it has, reported once.
 
     Known with the packet or sample that shows it, whose time `t` is; a value of a sample counts as missing when it has
-    been missing for a while.
-    """
+    been missing for a while."""
 
     site: Site | None
     """Site whose sensor is the reason; None for the whole session."""

@@ -16,9 +16,8 @@ class Candidate:
     position: Vec3
     """Position in the plan frame, m; z is the height above the plan's zero, or the track's own if that is unknown."""
     heading: float | None
-    """Direction of the track's x axis in the plan frame, rad; None while unknown.
-
-    Counter-clockwise from the plan's x axis."""
+    """Direction of the track's x axis in the plan frame, rad; None while unknown. Counter-clockwise from the plan's x
+    axis."""
     weight: float
     """Share of the probability, 0 to 1; the weights of all candidates add up to 1."""
     origin: str
@@ -30,8 +29,7 @@ class Placed(Happening):
     """The wearer's place on the plan after a stride, or after stairs or a lift.
 
     Source: Liu et al. 2015, IEEE MASS, section IV.E. Known with the StrideTaken, or the event that reports the arrival;
-    `t` is the newest sample then. Live: later strides may show another place.
-    """
+    `t` is the newest sample then. Live: later strides may show another place."""
 
     level: str
     """Level of the best candidate."""
@@ -48,8 +46,7 @@ class Placed(Happening):
 class PlaceLost(Happening):
     """The place on the plan is unknown from here on; the track goes on without the plan.
 
-    Known with the sample or stride that shows it; `t` is the newest sample then. A later Placed ends it.
-    """
+    Known with the sample or stride that shows it; `t` is the newest sample then. A later Placed ends it."""
 
     what: str
     """Reason in one sentence."""

@@ -23,8 +23,7 @@ class CellsFailed(Happening):
     """Some cells are left out from now on. Reported once for each fault and set of cells.
 
     Known at the end of the second window of walking in a row that shows it (four swings each and 3 s at least), which
-    `t` is; MISSING after 1 s.
-    """
+    `t` is; MISSING after 1 s."""
 
     site: Site
     fault: CellFault
@@ -38,8 +37,7 @@ class InsoleNeverUnloads(Happening):
     """The foot walks and its insole shows load all the time: it is jammed, or the shoe presses on it too hard.
 
     Phases come from the inertial sensor as long as that lasts. Known at the end of the second window of walking in a
-    row in which the load never ended (four swings each and 3 s at least), which `t` is.
-    """
+    row in which the load never ended (four swings each and 3 s at least), which `t` is."""
 
     site: Site
     seconds: float
@@ -51,8 +49,7 @@ class FeetSwapped(Happening):
     """The data of the left foot look like a right foot's, and the other way round. Reported once; it changes nothing.
 
     Known once the layouts of both insoles show it, else after 8 strides or more of each foot, by how they roll or how
-    load moves over them; late or never for a wearer who hardly rolls the feet. `t` is that time.
-    """
+    load moves over them; late or never for a wearer who hardly rolls the feet. `t` is that time."""
 
 
 @frozen(kw_only=True)
@@ -60,8 +57,7 @@ class FootSilent(Happening):
     """One foot walks on and no data come from the other.
 
     Known with the walking foot's sample by which it has taken three strides and 3 s have passed since the silent foot's
-    last sample, which `t` is.
-    """
+    last sample, which `t` is."""
 
     foot: Foot
     """The silent foot."""

@@ -3,8 +3,7 @@
     fleet = Fleet(recipes.DEFAULT)
     state, events = fleet.step("w-17", None, [Sent("w-17", 0, packet), ...])
 
-protocol/fleet.md says what a phone sends, in what order it is used, and what a state holds.
-"""
+protocol/fleet.md says what a phone sends, in what order it is used, and what a state holds."""
 
 from ..events.fleet import FleetEvent, NumbersMissing, SentRejected, SentRejection, StateRejected, WearerFailed
 from .fleet import Fleet

@@ -6,8 +6,7 @@
     operators.output("files", events, ParquetSink("told"))
 
 A job that is killed at any moment and started again with its recovery store goes on at the last snapshot: the source,
-every wearer and the sink at the same place. So the files hold each event once, if the source can go back.
-"""
+every wearer and the sink at the same place. So the files hold each event once, if the source can go back."""
 
 from __future__ import annotations
 
@@ -45,8 +44,7 @@ def gait(
     changes memory and no event (unless a part of the app's own cannot be saved at that moment: Fleet.step). `forget`:
     the state of a wearer who has ended, and sent nothing for this time, on the engine's clock and over restarts, is
     discarded. Until then it keeps late copies from starting a session; a row that comes after that starts the wearer
-    again, with events that are numbered from 0 again. bytewax keeps the name (see `purge`).
-    """
+    again, with events that are numbered from 0 again. bytewax keeps the name (see `purge`)."""
     named = operators.map("named", up, lambda item: (item[0], item))  # bytewax does not pass the key to a logic
     return operators.stateful_batch(
         "sessions", named, lambda kept: KeyedWearer(fleet, idle, forget, *kept or (None, None))
@@ -57,8 +55,7 @@ def purge(store: str | Path) -> None:
     """Remove forgotten wearers from the recovery store of a job that does not run.
 
     bytewax keeps their names for ever, and SQLite keeps what was overwritten. What bytewax still relies on stays, which
-    is everything unless the job runs with `-b 0`.
-    """
+    is everything unless the job runs with `-b 0`."""
     for path in sorted(Path(store).glob("part-*.sqlite3")):
         with closing(sqlite3.connect(path)) as kept:
             kept.execute(
@@ -75,8 +72,7 @@ class ParquetSink(FixedPartitionedSink[NumberedEvent, tuple[int, int]]):
 
     All workers must see the directory; every snapshot closes a part. `partitions` is the number of workers that write
     at a time; it must not change during the life of a recovery store. The job ends with an OSError that names the file
-    when one cannot be written.
-    """
+    when one cannot be written."""
 
     directory: Path = field(converter=Path)
     partitions: int = 1
@@ -103,8 +99,7 @@ class _Partition(StatefulSinkPartition[NumberedEvent, tuple[int, int]]):
 class KeyedWearer(StatefulBatchLogic[tuple[str, Any], NumberedEvent, tuple[bytes | None, datetime | None]]):
     """One wearer: a session, or its state as bytes, or both while they are equal.
 
-    `ended` is the time of the last row, once the wearer has ended.
-    """
+    `ended` is the time of the last row, once the wearer has ended."""
 
     fleet: Fleet
     idle: timedelta | None

@@ -1,7 +1,6 @@
 """Files of lines in a directory, read byte for byte, each line once.
 
-This module knows no engine: its user keeps `read` in a state of its own.
-"""
+This module knows no engine: its user keeps `read` in a state of its own."""
 
 from __future__ import annotations
 
@@ -24,8 +23,7 @@ class NamedFiles:
     """The files in `directory` whose names match `pattern`, in the order of their names.
 
     `read` holds the number of bytes of each file that were read, up to and with the last line. A file that is removed,
-    or became shorter, loses its entry.
-    """
+    or became shorter, loses its entry."""
 
     directory: Path
     pattern: str
@@ -35,8 +33,7 @@ class NamedFiles:
         """Yield every line that has its line feed by now, without it; skip empty ones.
 
         Of a line that is too long only as much is yielded as makes `read_line` reject it. Raises an OSError that names
-        the file when one cannot be read.
-        """
+        the file when one cannot be read."""
         sizes = self._sizes()
         self.read = {name: at for name, at in self.read.items() if at <= sizes.get(name, -1)}
         for name in sorted(sizes):

@@ -32,8 +32,7 @@ class Fleet:
                 super().__init__(profiles=[STRAP])
 
             def __reduce__(self) -> tuple[type, tuple[()]]:
-                return Ours, ()
-    """
+                return Ours, ()"""
 
     __slots__ = ("_sessions",)
 
@@ -71,8 +70,7 @@ class Fleet:
 
         It never raises, whatever phones sent; a state that cannot be used gives StateRejected and a fresh session. It
         raises TypeError, since the job itself is wrong, for a state that is neither bytes nor None and for a `sent`
-        that cannot be iterated, and MemoryError when memory runs out.
-        """
+        that cannot be iterated, and MemoryError when memory runs out."""
         keyed = self.open(wearer, state)
         events = keyed.feed(sent)
         return keyed.state(), events
@@ -86,8 +84,7 @@ class Fleet:
 
         A phone hands its wearer over like this, and starts to send at number 0 of a run. Events are numbered from 0.
         The settings of the job's recipe hold from here on, not those in the snapshot. Raises SnapshotError when it
-        cannot continue here (Session.unpack) or is finished.
-        """
+        cannot continue here (Session.unpack) or is finished."""
         session = self._sessions.restore_session(snapshot)
         now = session.now
         identity = Identity(-1, 0, 0, 0.0 if now is None else now)

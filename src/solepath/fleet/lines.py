@@ -4,8 +4,7 @@
     sent = operators.map("read", lines, read_line)                       # of Sent and Unreadable
 
 bytewax has file sources of its own. They end the job at a byte that is no UTF-8, and read all files of a directory at
-the same time, which mixes the hours of one wearer.
-"""
+the same time, which mixes the hours of one wearer."""
 
 from __future__ import annotations
 
@@ -42,8 +41,7 @@ class LineSource(FixedPartitionedSource[bytes, dict[str, int]]):
 
     `batch` is the number of lines read at a time. Raises NotADirectoryError when there is no such directory, and an
     OSError that names the file when one cannot be read. A job that ends logs a warning for each file that does not end
-    with a line feed.
-    """
+    with a line feed."""
 
     directory: Path = field(converter=Path)
     pattern: str = "*.jsonl"

@@ -11,8 +11,7 @@ part comes next; that part and all later ones are removed, since their events co
 once; a reader may see the events of the last seconds before a crash disappear at the restart and come back unchanged.
 
 Every `close` makes a file. With few wearers, close seldom, or join the files of past days in another directory, in
-DuckDB by `COPY (SELECT * FROM 'told/*.parquet' ORDER BY wearer, number) TO 'june.parquet'`.
-"""
+DuckDB by `COPY (SELECT * FROM 'told/*.parquet' ORDER BY wearer, number) TO 'june.parquet'`."""
 
 from __future__ import annotations
 
@@ -67,8 +66,7 @@ class PartFiles:
     are sorted by wearer and packed as one row group.
 
     Raises OSError, naming the file, when one cannot be written (the disk is full). Nothing of it is then left on the
-    disk or here: start again with the last number that counted. Raises ValueError for a partition that is no word.
-    """
+    disk or here: start again with the last number that counted. Raises ValueError for a partition that is no word."""
 
     directory: Path
     partition: str = "0"
@@ -131,8 +129,7 @@ class PartFiles:
     def close(self) -> tuple[int, int]:
         """Write the collected events, if any, to the disk as one part; return the run and the next part's number.
 
-        The engine remembers these two numbers together with the state of the source of the events.
-        """
+        The engine remembers these two numbers together with the state of the source of the events."""
         if self._rows:
             self._flush()
         if self._writer is not None:

@@ -8,8 +8,7 @@
 
 A job that is killed at any moment and started again goes on at the last commit and delivers again what it emitted after
 that: at least once, the same bytes under the same (wearer, number). A reader of the topic gets each event once with
-`Once`.
-"""
+`Once`."""
 
 from __future__ import annotations
 
@@ -28,13 +27,11 @@ from .step.sent import LONGEST_NAME, NumberedEvent, Sent, Unreadable
 MOST_LINES = 4096
 """Largest number of lines in one message.
 
-A message with more is rejected as a whole, since every line that cannot be read is reported.
-"""
+A message with more is rejected as a whole, since every line that cannot be read is reported."""
 UNKEYED = "unkeyed/"
 """Prefix, before the partition's number, of the wearer for messages whose key is no wearer's name.
 
-The number of such an event is the message's offset.
-"""
+The number of such an event is the message's offset."""
 _NO_KEY = SentRejected(
     t=0.0, known_at=0.0, reason=SentRejection.UNREADABLE, detail="a message whose key is no wearer's name"
 )
@@ -48,8 +45,7 @@ def gait(frame: StreamingDataFrame, fleet: Fleet, keep: int = 256) -> StreamingD
     such key, is reported as an event and stops nothing. The state of a wearer, that of Fleet.step, is one value in the
     frame's store. `keep` is the number of wearers whose sessions also stay in memory, which changes the speed and no
     event. Raises ValueError when the topic's values are not left as bytes, since a value that is no JSON would stop the
-    application.
-    """
+    application."""
     for topic in frame.topics:
         if not isinstance(getattr(topic, "_value_deserializer", None), BytesDeserializer):
             raise ValueError(f'topic {topic.name!r} must be made with value_deserializer="bytes"')
@@ -61,8 +57,7 @@ class _GaitStep:
     """The stateful step.
 
     A session in memory is used only while the store holds the state that it returned: the partition may have been
-    elsewhere in the meantime, or messages may be repeated.
-    """
+    elsewhere in the meantime, or messages may be repeated."""
 
     def __init__(self, fleet: Fleet, keep: int) -> None:
         self._fleet, self._keep = fleet, keep

@@ -1,7 +1,6 @@
 """Rows and lines: what a phone sends and the events of a session, as tables, files and topics hold them.
 
-protocol/fleet.md describes both, column by column.
-"""
+protocol/fleet.md describes both, column by column."""
 
 from __future__ import annotations
 
@@ -178,8 +177,7 @@ def event_row(numbered: NumberedEvent) -> dict[str, Any]:
     r"""Return the row of an event, with the columns of EVENT_COLUMNS.
 
     `fields` holds the other fields of the event as JSON, with the names of events.jsonl. An unpaired surrogate in the
-    wearer's name is written `\\ud800`, since a table holds UTF-8.
-    """
+    wearer's name is written `\\ud800`, since a table holds UTF-8."""
     record, wearer = numbered.event.to_dict(), numbered.wearer
     if not wearer.isascii():
         wearer = wearer.encode("utf-8", "backslashreplace").decode()

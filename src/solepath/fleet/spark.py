@@ -7,8 +7,7 @@ Needs the extra `spark`, Java 17, and a session that was configured with STORE. 
 
 A micro-batch reads and writes a wearer's state once, and its events come out when it ends. What Spark repeats after a
 crash gives the same events under the same identities (NumberedEvent), and changes the state once. The sink's files may
-be those of a killed task: Spark ignores these, for other readers see spark_files.py.
-"""
+be those of a killed task: Spark ignores these, for other readers see spark_files.py."""
 
 from __future__ import annotations
 
@@ -29,8 +28,7 @@ STORE = {"spark.sql.streaming.stateStore.providerClass": _ROCKS}
 MOST_LINES = 4096
 """Largest number of lines in one message.
 
-A message with more is rejected as a whole, since every line that cannot be read is reported.
-"""
+A message with more is rejected as a whole, since every line that cannot be read is reported."""
 
 
 def _ddl(columns: Mapping[str, type]) -> str:
@@ -51,8 +49,7 @@ def gait(rows: DataFrame, fleet: Fleet | Callable[[], Fleet], states: DataFrame 
 
     `fleet` goes to the executors by pickle, with every task. For a fleet that is large or cannot be pickled (drivers),
     give a function that makes it, at the top level of a module that the executors can import: it is called once in each
-    process. `states` (wearer string, state binary) holds the wearers' first states for a new checkpoint.
-    """
+    process. `states` (wearer string, state binary) holds the wearers' first states for a new checkpoint."""
     if "value" in rows.columns:
         rows = rows.select(_text("key"), "value")
     else:

@@ -34,8 +34,7 @@ LONGEST = 500e3
 def unusable(plan: FloorPlan) -> str | None:
     """Return the first fault that makes a plan unusable, in one line; None when it is usable.
 
-    The limits are those of protocol/floorplan.md.
-    """
+    The limits are those of protocol/floorplan.md."""
     return next(_faults(plan), None)
 
 
@@ -164,8 +163,7 @@ def warnings(plan: FloorPlan) -> tuple[str, ...]:
     """Return the warnings about a usable plan, one line each.
 
     They are the remarks of its reader, walls that do not close, no stairs or lifts, and levels that none of them leads
-    to. Takes about as long as indexing the plan.
-    """
+    to. Takes about as long as indexing the plan."""
     return (*plan.remarks, *_remarks(plan)) if unusable(plan) is None else ()
 
 

@@ -8,8 +8,7 @@ walls; only where these are uncertain or the move goes through the line, the exa
 Time for a step's move among 500 walls in rooms of 15 m^2, the mean over moves in all directions from anywhere: 2 us;
 0.5 us in the open, 3 to 5 us where it does cross a wall; half as much again among 10,000 walls. A move of 4 m: 8 us.
 Indexing takes about 0.05 ms and 1.2 kB for each wall, for long walls in proportion to their length.
-tests/bench/floorplan.py measures it.
-"""
+tests/bench/floorplan.py measures it."""
 
 from __future__ import annotations
 
@@ -73,8 +72,7 @@ class Walls:
     def crosses(self, x0: float, y0: float, x1: float, y1: float) -> bool:
         """Return whether the straight move from (x0, y0) to (x1, y1), m, touches a wall; ends count.
 
-        Exact for all finite floats. True for a move with an end that is NaN or infinite: no such move is possible.
-        """
+        Exact for all finite floats. True for a move with an end that is NaN or infinite: no such move is possible."""
         dx, dy = x1 - x0, y1 - y0
         long = dx * dx + dy * dy
         across, up = (x0 - self._left) * self._per_m, (y0 - self._bottom) * self._per_m

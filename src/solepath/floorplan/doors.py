@@ -12,8 +12,7 @@ from .plan import Level, Point, Wall
 BESIDE = 0.3
 """Largest distance of both ends of a door from the line of its wall, m.
 
-Doors are drawn on one face of a wall, or between two rooms whose outlines are a wall's thickness apart.
-"""
+Doors are drawn on one face of a wall, or between two rooms whose outlines are a wall's thickness apart."""
 
 SHORTEST = 1e-3
 """Shortest gap that is cut and shortest piece of wall that stays, m."""
@@ -53,8 +52,7 @@ def cut(walls: Iterable[Wall], openings: Openings, beside: float, excluded: int 
     """Return the pieces of the walls after every opening along one of them is removed.
 
     An opening lies along a wall when both its ends are within `beside` (m) of the wall's line and it is at less than 45
-    degrees to it. Openings of the owner `excluded` leave no gaps.
-    """
+    degrees to it. Openings of the owner `excluded` leave no gaps."""
     return tuple([piece for wall in walls for piece in _pieces(wall, openings.near(wall, beside, excluded), beside)])
 
 

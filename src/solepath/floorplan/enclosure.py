@@ -13,8 +13,7 @@ from .segments import side
 LATTICE = 0.5
 """Distance between the tested places, m; larger where there would be more than MOST_PLACES.
 
-A gap in a wall along the axes that is wider than this is found, a slanting one from 0.7 m on.
-"""
+A gap in a wall along the axes that is wider than this is found, a slanting one from 0.7 m on."""
 
 MOST_PLACES = 30_000
 
@@ -32,8 +31,7 @@ class Enclosure:
     """The places that can be reached from outside a level without going through a wall or a door.
 
     Takes about 1 us for each place, 15 to 30 ms for a storey of 56 m by 63 m. `walls` are those of the level, `most` is
-    the largest number of places.
-    """
+    the largest number of places."""
 
     __slots__ = ("_bottom", "_hull", "_left", "_outside", "_closed_doors", "_space", "_walls", "columns", "open_end",
                  "order", "rows")  # fmt: skip
@@ -71,8 +69,7 @@ class Enclosure:
     def _find_barriers(self, lines: list[tuple[float, float, float, float]]) -> tuple[bytearray, bytearray]:
         """Return flags of a line between each place and the next one to the east, and to the north.
 
-        After the last place of a row or a column there always is a barrier.
-        """
+        After the last place of a row or a column there always is a barrier."""
         columns, rows, per_m = self.columns, self.rows, 1.0 / self._space
         east, north = bytearray(columns * rows), bytearray(columns * rows)
         east[columns - 1 :: columns] = b"\1" * rows
@@ -147,8 +144,7 @@ def _lattice_crossings(a: Point, b: Point) -> Iterator[tuple[int, int, int]]:
     """Yield where the line from a to b, in coordinates (u, v), passes the lattice rows.
 
     For each whole number v it gives the first and the last whole number u after which the line passes on that row.
-    Rather one too many than one too few.
-    """
+    Rather one too many than one too few."""
     low, high = ceil(min(a[1], b[1]) - _ON), floor(max(a[1], b[1]) + _ON)
     tall = b[1] - a[1]
     for v in range(low, high + 1):

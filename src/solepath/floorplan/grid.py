@@ -17,8 +17,7 @@ PLACES = 500_000
 def share(most: int, in_all: int, count: int) -> int:
     """Return the largest number of cells of one of `count` grids: `most`, less where all would exceed `in_all`.
 
-    With fewer cells, the cells are larger: the answers stay the same and take longer.
-    """
+    With fewer cells, the cells are larger: the answers stay the same and take longer."""
     return max(min(most, in_all // max(count, 1)), 64)
 
 
@@ -26,8 +25,7 @@ class Grid:
     """Square cells over all lines (ax, ay, bx, by), m, with a `margin` around them.
 
     A cell's number counts along x, then along y. `cell` is its side, m; it is larger where there would be more than
-    `most` cells.
-    """
+    `most` cells."""
 
     __slots__ = ("bottom", "cell", "columns", "left", "per_m", "rows")
 
@@ -46,8 +44,7 @@ class Grid:
     def near(self, ax: float, ay: float, bx: float, by: float, within: float) -> list[tuple[int, float]]:
         """Return the cells whose centres are within `within` m of the line, with their squared distances, m^2.
 
-        The time grows with the length of the line, not with its bounding box.
-        """
+        The time grows with the length of the line, not with its bounding box."""
         dx, dy = bx - ax, by - ay
         long2, most = dx * dx + dy * dy, within * within
         shrunk = 1.0 / long2 if long2 > 0.0 else 0.0

@@ -2,8 +2,7 @@
 
 `crosses` takes 2 us for a step's move (crossing.py), `inside` 1 to 5 us (rooms.py, enclosure.py). Construction takes
 about 0.1 ms for each wall, some seconds for the largest usable plans; no later query waits for any of that. The index
-is not saved: the same plan gives the same index again.
-"""
+is not saved: the same plan gives the same index again."""
 
 from __future__ import annotations
 
@@ -25,8 +24,7 @@ MOST_WALLS_NEAR = 2000
 class IndexedPlan:
     """A floor plan with its walls in grids; levels are numbered by their place in `plan.levels`.
 
-    Raises FloorPlanError when the plan cannot be used.
-    """
+    Raises FloorPlanError when the plan cannot be used."""
 
     __slots__ = ("_insides", "_numbers", "_walls", "fingerprint", "plan")
 
@@ -65,8 +63,7 @@ class IndexedPlan:
         """Return whether the straight move from (x0, y0) to (x1, y1), m, meets a solid wall of this level.
 
         Touching a wall or a corner counts. Doors are gaps. Accepts any floats; True for a move with an end that is NaN
-        or infinite.
-        """
+        or infinite."""
         return self._walls[level].crosses(x0, y0, x1, y1)
 
     def inside(self, level: int, x: float, y: float) -> bool:
@@ -74,8 +71,7 @@ class IndexedPlan:
 
         On a level with rooms that is in a room, a stairwell or a cabin, or on a doorstep; otherwise within the area
         that its walls and doors enclose, or within the hull of all walls where they do not close. False on a level
-        without walls and rooms, and for NaN or infinity.
-        """
+        without walls and rooms, and for NaN or infinity."""
         if not (isfinite(x) and isfinite(y)):
             return False
         return self._insides[level].inside(x, y)

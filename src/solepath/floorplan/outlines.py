@@ -22,8 +22,7 @@ def without_repeats(points: list[Point]) -> list[Point]:
 def ring(points: list[Point]) -> tuple[Ring, float]:
     """Return an outline from points whose last repeats the first, and the distance of that last point from it, m.
 
-    If the distance is more than CLOSED, the last point stays, as a corner.
-    """
+    If the distance is more than CLOSED, the last point stays, as a corner."""
     open_by = hypot(points[-1][0] - points[0][0], points[-1][1] - points[0][1]) if points else 0.0
     kept = without_repeats(points[:-1] if open_by <= CLOSED and len(points) > 1 else points)
     if len(kept) > 1 and kept[0] == kept[-1]:
@@ -59,8 +58,7 @@ def area(outline: Ring) -> float:
 def middle(outline: Ring) -> Point:
     """Return a place within the outline.
 
-    It is the centroid if that is inside, else the middle of the widest stretch at that height.
-    """
+    It is the centroid if that is inside, else the middle of the widest stretch at that height."""
     lines, (ox, oy) = edges(outline), outline[0]
     x, y = sum(p[0] for p in outline) / len(outline), sum(p[1] for p in outline) / len(outline)
     size = area(outline)
@@ -102,8 +100,7 @@ def _straight(a: Point, b: Point, c: Point) -> bool:
 def with_holes(rings: tuple[Ring, ...]) -> Ring:
     """Return one ring for an outline and its holes.
 
-    Each hole is joined to the outline by a cut, passed in both directions, which the even-odd rule ignores.
-    """
+    Each hole is joined to the outline by a cut, passed in both directions, which the even-odd rule ignores."""
     outline = rings[0] if rings else ()
     for hole in rings[1:]:
         k = hole.index(min(hole))

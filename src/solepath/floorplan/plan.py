@@ -2,8 +2,7 @@
 
 Plan frame: x and y in m, right handed, z up; a level's z is its `elevation`. Readers of three formats (reading.py) make
 these records, and so can a program. Walls are solid: a reader cuts every door out of them (doors.py). checks.py has the
-requirements on a plan.
-"""
+requirements on a plan."""
 
 from __future__ import annotations
 
@@ -49,8 +48,7 @@ class ConnectorStop:
     """The part of a connector on one level.
 
     `place` is where a person steps on and off. `outline` is that of the stairwell or the cabin on this level, a ring
-    that does not repeat its first point; empty when unknown.
-    """
+    that does not repeat its first point; empty when unknown."""
 
     level: str
     place: Point
@@ -62,8 +60,7 @@ class Connector:
     """Stairs or a lift.
 
     `stops` go from the lowest to the highest. `flights` is the number of flights of stairs per storey, None when
-    unknown. `rise` is the height of one step of the stairs, m, None when unknown.
-    """
+    unknown. `rise` is the height of one step of the stairs, m, None when unknown."""
 
     kind: ConnectorKind
     name: str
@@ -78,8 +75,7 @@ class Level:
 
     `ordinal` is its place in the order of storeys, 0 at the ground. `elevation` is the height of its floor, m, in the
     plan's z. `rooms` are outlines within which a person can walk, rings that do not repeat their first point; empty
-    when unknown.
-    """
+    when unknown."""
 
     id: str
     name: str
@@ -95,8 +91,7 @@ class Anchor:
     """Position of the plan on the Earth.
 
     `latitude` and `longitude` are those of the plan's origin (0, 0), degrees, WGS84. `bearing` is the angle from true
-    north clockwise to the plan's +y, rad; with 0, +x is east and +y is north.
-    """
+    north clockwise to the plan's +y, rad; with 0, +x is east and +y is north."""
 
     latitude: float
     longitude: float
@@ -110,8 +105,7 @@ class FloorPlan:
     `levels` go from the lowest to the highest. `connectors` join them. `anchor` is None when the position on the Earth
     is unknown; nothing requires it. `heights_known` is False when the file has no elevations and the reader has assumed
     one storey's usual height between the levels: then no height may be corrected by them. `remarks` are the reader's,
-    one line each; they do not count in comparisons of plans.
-    """
+    one line each; they do not count in comparisons of plans."""
 
     name: str
     levels: tuple[Level, ...]
@@ -128,8 +122,7 @@ class FloorPlan:
     def fingerprint(self) -> int:
         """Checksum, the same for equal plans on every machine; others differ but for one chance in 2^32.
 
-        It is computed at each access, in a time that grows with the plan.
-        """
+        It is computed at each access, in a time that grows with the plan."""
         return checksum(save(evolve(self, remarks=())))
 
     @property
@@ -156,8 +149,7 @@ class Start:
     """Initial place of a wearer.
 
     `place` is in m, plan frame. `heading` is the wearer's first heading, rad, counter-clockwise from the plan's +x,
-    None when unknown. `spread` is the uncertainty of `place`, m (rms).
-    """
+    None when unknown. `spread` is the uncertainty of `place`, m (rms)."""
 
     level: str
     place: Point

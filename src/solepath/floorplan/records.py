@@ -23,8 +23,7 @@ MOST_TURNED = 1000.0
 def misshapen(plan: FloorPlan) -> Iterator[str]:
     """Yield one line for each field that is not of the type that plan.py declares.
 
-    Only the first line is reliable: later checks assume that everything before them is right.
-    """
+    Only the first line is reliable: later checks assume that everything before them is right."""
     yield from _kind("the plan", plan, FloorPlan)
     yield from _text("the plan's name", plan.name)
     yield from _kind("heights_known", plan.heights_known, bool)

@@ -12,8 +12,7 @@ from .segments import distance
 DOORSTEP = 0.5
 """Distance from a door within which a place is inside, m.
 
-Rooms are often drawn without the thickness of the wall between them.
-"""
+Rooms are often drawn without the thickness of the wall between them."""
 
 CELL = 0.5
 MOST_CELLS = 30_000
@@ -23,8 +22,7 @@ class Rooms:
     """The rooms of a level in a grid.
 
     A cell that no outline crosses is inside or outside as a whole; the others know the edges that may decide. A test
-    takes 0.4 us in the former, and 0.15 us for each edge in the latter.
-    """
+    takes 0.4 us in the former, and 0.15 us for each edge in the latter."""
 
     __slots__ = ("_bottom", "_cells", "_columns", "_edge_cells", "_left", "_per_m", "_rows")
 

@@ -8,8 +8,7 @@ from math import hypot
 _ROUNDING = 3.4e-16
 """Bound of the error of the cross product, relative to the sum of the sizes of its two products.
 
-Shewchuk 1997, Discrete and Computational Geometry 18: (3 + 16 u) u with u = 2^-53.
-"""
+Shewchuk 1997, Discrete and Computational Geometry 18: (3 + 16 u) u with u = 2^-53."""
 
 _UNDERFLOW = 1e-300
 """Bound above the loss by underflow of a product."""
@@ -18,8 +17,7 @@ _UNDERFLOW = 1e-300
 def side(ax: float, ay: float, bx: float, by: float, cx: float, cy: float) -> int:
     """Return 1 when c lies to the left of the line from a to b, -1 to its right, 0 on it.
 
-    Exact for all finite floats; fractions are used only where floats cannot decide.
-    """
+    Exact for all finite floats; fractions are used only where floats cannot decide."""
     ux, uy, vx, vy = bx - ax, cy - ay, by - ay, cx - ax
     left, right = ux * uy, vx * vy
     turn = left - right
@@ -38,8 +36,7 @@ def side(ax: float, ay: float, bx: float, by: float, cx: float, cy: float) -> in
 def touch(ax: float, ay: float, bx: float, by: float, px: float, py: float, qx: float, qy: float) -> bool:
     """Return whether the straight lines a to b and p to q, ends included, have a point in common.
 
-    Exact for all finite floats, also where a line is a single point.
-    """
+    Exact for all finite floats, also where a line is a single point."""
     if max(ax, bx) < min(px, qx) or max(px, qx) < min(ax, bx) or max(ay, by) < min(py, qy) or max(py, qy) < min(ay, by):
         return False
     # with overlapping boxes, lines that lie on one straight line touch as well

@@ -1,8 +1,7 @@
 """Calibration of an inertial sensor at rest: first attitude, gyroscope bias and accelerometer scale.
 
 `Levelling` finds the first attitude for any mounting. `Rest` keeps learning the gyroscope bias and the accelerometer
-scale from spans in which the foot is as still as only a standing foot is.
-"""
+scale from spans in which the foot is as still as only a standing foot is."""
 
 from __future__ import annotations
 
@@ -105,8 +104,7 @@ class Levelling:
     It averages over the first quarter of a second in which the foot is still. If the foot walks already, it uses the
     middle of a stance: a span of SHORT_SPAN that is about as still as the stillest one so far, once LONGEST_STRIDE has
     passed. After LEVEL_PATIENCE it uses any span. The heading stays as it is: the attitude is the smallest turn that
-    takes the measured up to up.
-    """
+    takes the measured up to up."""
 
     span: SampleSpan = field(factory=SampleSpan, init=False)
     short_span: SampleSpan = field(factory=SampleSpan, init=False)

@@ -1,8 +1,7 @@
 """Tables of the phases of a foot and of the support of the body.
 
 All transitions are in these tables. The tables contain no numbers: cues/ turns numbers into cues, with hysteresis and
-debounce.
-"""
+debounce."""
 
 from __future__ import annotations
 

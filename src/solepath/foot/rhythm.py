@@ -20,8 +20,7 @@ FIRST_INTERVALS = 10
 class Rhythm:
     """The usual interval between samples, learnt from them.
 
-    Many gaps in a row of equal length are no gaps but a new rate.
-    """
+    Many gaps in a row of equal length are no gaps but a new rate."""
 
     seen: int = field(default=0, init=False)
     """Number of intervals so far, up to FIRST_INTERVALS + 1."""

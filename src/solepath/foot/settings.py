@@ -1,7 +1,6 @@
 """Settings of the parts of a foot, which a recipe, a calibration or a researcher chooses.
 
-A number that nobody chooses is a constant in the module that uses it.
-"""
+A number that nobody chooses is a constant in the module that uses it."""
 
 from __future__ import annotations
 
@@ -16,9 +15,8 @@ class FootSettings:
     poses: bool = False
     """Emit FootMoved for every navigated sample."""
     needs_pressure: bool = False
-    """The recipe needs pressure cells.
-
-    A foot without cells reports nothing. If the layout of the cells is unknown, it is learnt."""
+    """The recipe needs pressure cells. A foot without cells reports nothing. If the layout of the cells is unknown, it
+    is learnt."""
 
 
 @frozen
@@ -30,9 +28,7 @@ class CycleSettings:
     floor: float = 2e4
     """Lower limit of the threshold: a statistic that a standing foot shows."""
     least_statistic: float = 3e3
-    """Lower limit of a statistic.
-
-    After standing, the next stance is not as still as standing was."""
+    """Lower limit of a statistic. After standing, the next stance is not as still as standing was."""
     ceiling: float = 6e6
     """Upper limit of the threshold: a statistic that a runner's stance reaches."""
     certain: float = 2e3
@@ -46,13 +42,11 @@ class CycleSettings:
     off_gravity: float = 0.05
     """Velocity noise for each m/s^2 of difference from gravity, s."""
     off_gravity2: float = 0.02
-    """Velocity noise for each (m/s^2)^2 of difference from gravity, s^3/m.
-
-    A foot that brakes before it lands may no longer turn."""
+    """Velocity noise for each (m/s^2)^2 of difference from gravity, s^3/m. A foot that brakes before it lands may no
+    longer turn."""
     span_duration: float = 0.4
-    """Duration of one of the four spans over which the extremes are kept, s.
-
-    Together the spans cover one stride of any walker except a slow one."""
+    """Duration of one of the four spans over which the extremes are kept, s. Together the spans cover one stride of any
+    walker except a slow one."""
     rolls: bool = True
     """The reference velocity is that of a foot that rolls (`sensor_height`); if False, it is zero."""
 
@@ -61,8 +55,7 @@ class CycleSettings:
 class StanceThreshold:
     """The settings of a detector with a fixed threshold, in the unit of its own statistic.
 
-    Each detector needs its own values.
-    """
+    Each detector needs its own values."""
 
     base: float
     """Statistic up to which the foot is certainly at rest."""
@@ -99,16 +92,14 @@ class ErrorStateSettings:
     in_motion: float = 0.001
     """Additional noise as a share of the motion, for scale and alignment errors, 1/sqrt(Hz)."""
     between: float = 0.25
-    """Noise as a share of the difference between two neighbouring samples.
-
-    It covers what a straight line between them cannot know. It is small at 400 Hz; at 20 Hz, where a heel-strike falls
-    between two samples, it is the largest term."""
+    """Noise as a share of the difference between two neighbouring samples. It covers what a straight line between them
+    cannot know. It is small at 400 Hz; at 20 Hz, where a heel-strike falls between two samples, it is the largest
+    term."""
     recover: bool = True
     """Add the turn that a clipped gyroscope did not show (clipping.py, reintegration.py)."""
     suspect: float = 8.5
-    """Rate above which clipping is possible although no end of a range is seen, rad/s.
-
-    A calibration may have rotated the axes since."""
+    """Rate above which clipping is possible although no end of a range is seen, rad/s. A calibration may have rotated
+    the axes since."""
     suspect_noise: float = 0.2
     """Noise of a rate that may be clipped, rad/s/sqrt(Hz)."""
     innovation_gate: float = 12.0
@@ -134,9 +125,8 @@ class InsoleSettings:
     newtons: Newtons | None = None
     """Conversion of raw values to N; None leaves them in the unit of the samples."""
     noise: tuple[float, ...] = ()
-    """Noise of each cell in the air, in the unit of the samples, or N with `newtons`.
-
-    It is not used on another number of cells."""
+    """Noise of each cell in the air, in the unit of the samples, or N with `newtons`. It is not used on another number
+    of cells."""
 
 
 @frozen

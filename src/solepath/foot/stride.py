@@ -27,8 +27,7 @@ class PathCovariance:
     """The covariance of position and heading along a chain of stretches, by the rule of dead reckoning.
 
     A stretch d (m) with covariance C starts with a heading uncertainty s (rad). Its end then errs by C, and by s times
-    d turned by 90 degrees. Memory is O(1) however long the path is.
-    """
+    d turned by 90 degrees. Memory is O(1) however long the path is."""
 
     position: tuple[float, float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     """Covariance of the position: xx, xy, xz, yy, yz, zz, m^2."""

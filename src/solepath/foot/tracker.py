@@ -1,8 +1,7 @@
 """Tracker of one foot: stance evidence, navigation and cues, one sample at a time.
 
 Order within a sample: gap, calibration, prediction, evidence, correction, cues, phases and strides (gait.py). The
-results are events; `position` is the live position after each sample.
-"""
+results are events; `position` is the live position after each sample."""
 
 from __future__ import annotations
 

@@ -50,8 +50,7 @@ class FootView:
     """The state of one foot right after one of its samples.
 
     Vectors are in the navigation frame of this foot: z up, heading as at levelling. `north` turns them into the world
-    frame. The view is read only: type checkers reject assignments, and the foot never sees a changed field.
-    """
+    frame. The view is read only: type checkers reject assignments, and the foot never sees a changed field."""
 
     foot: Final[Foot]
     """Foot of the sample."""

@@ -3,8 +3,7 @@
 World frame: z up, x along the first heading, y left, origin at the first position of the sensor. Navigation starts
 before the first heading is known, in a frame with an arbitrary heading. The first heading is that of the first stride.
 From when the foot has moved `FIRST_HEADING_DISTANCE` until that stride ends, the heading is the direction from the
-origin to the foot. Positions that were reported earlier lie within this distance of the origin and were not final.
-"""
+origin to the foot. Positions that were reported earlier lie within this distance of the origin and were not final."""
 
 from __future__ import annotations
 

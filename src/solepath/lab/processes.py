@@ -25,8 +25,7 @@ def run_jobs(
 ) -> Iterator[Done]:
     """Yield the result of `work`, a function of a module, for every job, in the order of the jobs.
 
-    `before` and `after` are the numbers of jobs of other work that the progress counts before and after these.
-    """
+    `before` and `after` are the numbers of jobs of other work that the progress counts before and after these."""
     with ExitStack() as stack:
         many = processes > 1 and len(jobs) > 1
         pool = stack.enter_context(ProcessPoolExecutor(min(processes, len(jobs)))) if many else None

@@ -17,8 +17,7 @@ or after a device restart, lags until slewing has removed the delay. A clock is 
 5 ms of the line for 5 s of device time. Over radios of up to 50 ms of jitter, or connection intervals up to 50 ms, two
 settled clocks of 100 packets a second then agree within 5 ms. A delay that *every* packet of one device has cannot be
 seen at the receiving end. Where packets are nearly as far apart as the radio's connection events, that delay is up to
-one interval, until the two have drifted past one another.
-"""
+one interval, until the two have drifted past one another."""
 
 from __future__ import annotations
 
@@ -59,8 +58,7 @@ class Clock:
 
     The caller unwraps the ticks. After `observe(ticks, arrival)` for a packet, `assign_time(ticks)` gives the time of
     each of its samples in order. Latency none. The error is 5 ms once the first packet's delay is slewed away, plus the
-    constant part of the radio's delay, which cannot be seen from one end.
-    """
+    constant part of the radio's delay, which cannot be seen from one end."""
 
     rate: float
     """Nominal ticks per second."""
@@ -101,8 +99,7 @@ class Clock:
     def contradicts(self, ticks: float, arrival: float) -> bool:
         """Return whether a packet measured at `ticks` that arrived at `arrival` (s) belongs to another clock.
 
-        Changes nothing.
-        """
+        Changes nothing."""
         if not self.xs:
             return False
         x = (ticks - self.first_tick) / self.rate

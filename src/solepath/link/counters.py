@@ -1,8 +1,7 @@
 """Classification of a packet by the device's counters, and the times of its samples.
 
 A packet is the next one, follows some lost ones, is a repetition, is late, or comes from a device that restarted its
-counters (protocol/clock.md, "What a frame is").
-"""
+counters (protocol/clock.md, "What a frame is")."""
 
 from __future__ import annotations
 
@@ -95,8 +94,7 @@ class PacketRun:
     def count_packets(self, sequence: int, modulus: int, expected: float) -> tuple[int, int]:
         """Return the sequence difference nearest to zero, and the packets after the newest one.
 
-        The second is the true difference: of all that the wrapping counter allows, the one nearest to `expected`.
-        """
+        The second is the true difference: of all that the wrapping counter allows, the one nearest to `expected`."""
         half = modulus // 2
         d = (sequence - self.sequence + half) % modulus - half
         return d, d + modulus * round((expected - d) / modulus)
@@ -105,8 +103,7 @@ class PacketRun:
         """Accept a packet that arrived at `arrival`, s, from a device with `rate` ticks a second.
 
         WireError, and nothing has changed, when it is a duplicate or late. `new_fit`: it belongs to another fit,
-        whatever its counters are.
-        """
+        whatever its counters are."""
         packet_ticks = float(new.interval * new.samples)
         clock, lost, t_missing, restarted = self.clock, 0, 0.0, None
         if clock is None:

@@ -11,8 +11,7 @@ address. Packets about the receiver itself belong to no device and are always ac
 
 Arrival time must not run backwards: such packets are rejected. But a receiver's clock that was set back for good must
 not end the stream, so the twentieth such packet in a row gives ClockReset, and times restart there, before the old
-ones. That count is the only thing that a rejected packet changes.
-"""
+ones. That count is the only thing that a rejected packet changes."""
 
 from __future__ import annotations
 
@@ -38,8 +37,7 @@ class Decoder:
 
     `feed` is total: any packet gives events, never an exception, and a rejected one changes nothing (except the count
     of packets whose time runs backwards). Sample times strictly increase from one ClockReset to the next; `known_at` is
-    the arrival that settled the sample, or `t` where that is later.
-    """
+    the arrival that settled the sample, or `t` where that is later."""
 
     site: Site
     """Site whose packets are decoded."""

@@ -8,8 +8,7 @@ examples/own_device.py one of an app's own, which it hands to `Session(profiles=
 
 A driver holds functions and is never saved. A saved state holds its name and its numbers (`DriverSignature`), and the
 app supplies the driver again when it restores the state. A driver with other numbers is rejected then; whether its
-functions are the same cannot be checked.
-"""
+functions are the same cannot be checked."""
 
 from __future__ import annotations
 
@@ -44,8 +43,7 @@ class Measured:
     """One sample as its device sent it, in SI units (m/s^2, rad/s, T, Pa; pressure as in types.Sample).
 
     `quat`: sensor to world, of any length; all zero where the device does not know it. `saturated`: some sensor was at
-    the end of its range.
-    """
+    the end of its range."""
 
     acc: Vec3 | None = None
     gyro: Vec3 | None = None
@@ -67,8 +65,7 @@ class Reading:
     `battery`: 0 to 1. `keys`: those that are down. `foot`: foot that wears the device. `layout`: of the pressure cells.
     `rate`: samples a second from this value on; or `period`: s from one notification to the next, where only arrivals
     time them. `silent`: whether the device may fall silent from now on (off, or waits for motion). `known`: numbers
-    that later values are read with; "acc_range" is the accelerometer's full scale in g.
-    """
+    that later values are read with; "acc_range" is the accelerometer's full scale in g."""
 
     samples: tuple[Measured, ...] = ()
     sequence: int | None = None
@@ -107,8 +104,7 @@ class TimeAxis(Enum):
 class DriverSignature:
     """The numbers of a driver on which the state of a link depends.
 
-    It is saved with the state, which has no meaning with other numbers.
-    """
+    It is saved with the state, which has no meaning with other numbers."""
 
     built_in: bool
     """True if the device is one of devices/, not one of an app's own."""
@@ -132,8 +128,7 @@ class Driver:
     for u16); 0 when there is none. `tick_rate`, `tick_modulus`: ticks a second of the device's time, and number at
     which it wraps; 0 when there is none. Without a sequence, ticks of which there are fewer than two in a sample's time
     are not used. `acc_range`: full scale of the accelerometer in g until a value says otherwise. `limitation`: what an
-    app must do without, reported once; "" for nothing. ValueError when these do not fit together.
-    """
+    app must do without, reported once; "" for nothing. ValueError when these do not fit together."""
 
     profile: Profile
     formats: Mapping[str, Definition]

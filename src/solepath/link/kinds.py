@@ -1,8 +1,7 @@
 """The kinds of devices that a session knows, by the prefix of their channels.
 
 These are the devices of devices/, each loaded when the first packet of one of its channels arrives, and those that an
-app adds. The table holds functions, so nothing that is saved holds it.
-"""
+app adds. The table holds functions, so nothing that is saved holds it."""
 
 from __future__ import annotations
 
@@ -26,8 +25,7 @@ class DeviceKind:
 
     `make_link`: returns a fresh link at a site, for a device with this firmware as far as that is known. `feed`:
     returns the samples and events of a value (link, channel, data, arrival); WireError when it cannot be used.
-    `signature`: driver numbers on which the state of its links depends; None for devices that are not declared.
-    """
+    `signature`: driver numbers on which the state of its links depends; None for devices that are not declared."""
 
     profile: Profile
     make_link: Callable[[Site, str], DeviceLink]
@@ -79,8 +77,7 @@ class DeviceKinds:
 def make_kinds(drivers: Iterable[Driver] = ()) -> DeviceKinds:
     """Return the table with an app's own devices in it, which may replace declared ones of devices/.
 
-    TypeError for an object that is no Driver, ValueError for a name that is taken.
-    """
+    TypeError for an object that is no Driver, ValueError for a name that is taken."""
     table = DeviceKinds()
     added: set[str] = set()
     for driver in drivers:

@@ -15,8 +15,7 @@ packets that stay behind by as much, and for a third of a second, are a sign of 
 distinguished from lateness, and the fit corrects it.
 
 A period that was never written is estimated from the arrivals: they are clearly faster than the period, or there are
-six gaps in a row.
-"""
+six gaps in a row."""
 
 from __future__ import annotations
 
@@ -54,8 +53,7 @@ NEW_PHASE_SILENCE = 5.0
 class PeriodicClock:
     """The clock of a periodic characteristic, which has no counters.
 
-    Times are assigned in order and never revised. Latency none.
-    """
+    Times are assigned in order and never revised. Latency none."""
 
     period: float
     """Period in s, as written to the device or from its profile."""
@@ -89,8 +87,7 @@ class PeriodicClock:
     def add_packet(self, arrival: float, counts_losses: bool = True) -> SampleTimes:
         """Assign a time to the notification that arrived at `arrival` (s, not before the previous one).
 
-        With `counts_losses` False silence is legal (wake on motion) and is no evidence of losses.
-        """
+        With `counts_losses` False silence is legal (wake on motion) and is no evidence of losses."""
         if self.arrived is None:
             return self._restart(arrival, 0, arrival)
         gap = arrival - self.arrived

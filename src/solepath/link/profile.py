@@ -4,8 +4,7 @@ Each file of devices/ has the profile of its device, as its document in protocol
 `reads`, subscribe to every required `notify` channel, then make the writes of `setup` in order, each followed by its
 own reads. The order matters, because a characteristic that is read while it is subscribed gives its value twice on some
 systems. Values read and written are recorded as packets of the same channels, so that a decoder (and a recording) knows
-the ranges and periods in force.
-"""
+the ranges and periods in force."""
 
 from __future__ import annotations
 
@@ -50,8 +49,7 @@ class Profile:
     `names`, `services`: values of its advertisement (complete names; service UUIDs); `prefixes`: possible starts of its
     name instead. `setup`: writes in order. `reads`: channels to be read once after connecting, where the device has
     them. `nominal_rate`: samples a second after `setup`. `streams`: the channels that must not fall silent, and
-    `stale_after`: s after which one counts as silent. ValueError when these do not fit together.
-    """
+    `stale_after`: s after which one counts as silent. ValueError when these do not fit together."""
 
     name: str
     names: tuple[str, ...]

@@ -1,7 +1,6 @@
 """Check of a Reading (driver.py) before it changes anything, because the readers of an app are not trusted.
 
-A reading must be one that a device can mean and that the core can hold.
-"""
+A reading must be one that a device can mean and that the core can hold."""
 
 from __future__ import annotations
 
@@ -24,8 +23,7 @@ def check_reading(reading: object) -> Reading:
     """Return the same reading, checked.
 
     WireError when it is no Reading, or holds values that no device can mean: other shapes than declared, numbers that
-    are not finite or beyond any sensor, an impossible rate or range.
-    """
+    are not finite or beyond any sensor, an impossible rate or range."""
     if not isinstance(reading, Reading):
         raise malformed(f"a reader gave a {type(reading).__name__}, not a Reading")
     samples = _tuple("samples", reading.samples)

@@ -12,8 +12,7 @@ from ..wire.receiver import parse_connected, parse_dropped, parse_nothing
 def parse_receiver_event(packet: Packet) -> list[LinkEvent]:
     """Return the event of a packet of a channel receiver/..., or none for a tick.
 
-    WireError when the packet cannot be used.
-    """
+    WireError when the packet cannot be used."""
     t, site = packet.t, packet.site
     match packet.channel:
         case "receiver/tick":

@@ -41,8 +41,7 @@ class RestCheck:
     def check(self, sample: Sample, assumed: float) -> list[ScaleSuspect]:
         """Return a ScaleSuspect event when this sample, which has `acc`, shows that the scale is wrong.
 
-        `assumed`: full scale that the sample was computed with, g. Call it with every such sample until `done`.
-        """
+        `assumed`: full scale that the sample was computed with, g. Call it with every such sample until `done`."""
         magnitude = None if sample.acc is None else self.add_acc(sample.t, sample.acc)
         if magnitude is None:
             return []

@@ -6,8 +6,7 @@ Times come from the best source that the device has, by the rules of protocol/cl
   rate of the profile or of a value; six packets in a row at another, steady distance show that the rate was wrong.
 - Else its sequence numbers: they count the samples, and the count is the time. A coarse device time beside them, or a
   silence of 5 s, shows when counting stopped.
-- Else arrivals alone (periodic.py).
-"""
+- Else arrivals alone (periodic.py)."""
 
 from __future__ import annotations
 
@@ -48,8 +47,7 @@ RATE_TOLERANCE = 0.2
 class StreamLink(DeviceLink):
     """The link of one declared device at one site.
 
-    `feed` raises WireError for values that cannot be used, and then nothing has changed. Latency none.
-    """
+    `feed` raises WireError for values that cannot be used, and then nothing has changed. Latency none."""
 
     site: Site
     name: str

@@ -43,8 +43,7 @@ def os_error_text(error: OSError) -> str:
 def open_file(path: Path) -> BinaryIO:
     """Return the file opened for reading bytes.
 
-    RecordingError when there is none, it is a directory or may not be read.
-    """
+    RecordingError when there is none, it is a directory or may not be read."""
     try:
         if path.is_dir():
             raise RecordingError(path, "is a directory, not a recording")

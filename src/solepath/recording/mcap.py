@@ -13,8 +13,7 @@ Every message is JSON with a JSON schema, and has `t`, the exact time in s on th
 
 The publish time is the time at which it was known. Log times count from 1970 where the recording has its start time,
 from the zero of the receiver's clock otherwise. The metadata record `solepath` holds the keys of the recording's
-header.
-"""
+header."""
 
 from __future__ import annotations
 
@@ -116,8 +115,7 @@ class McapWriter:
     app's own, as for Session. `count`: packets written. `outside`: number of times that no log time can hold; the
     nearest possible one replaces each. RecordingError when the file cannot be written, ValueError for a packet whose
     time is not finite. Results that a session holds back come with `close`; a file never closed has no index, but whole
-    chunks.
-    """
+    chunks."""
 
     def __init__(self, path: Path | str, header: Mapping[str, Any] = {}, *, profiles: Iterable[Driver] = ()) -> None:
         self.path, self.count, self.outside = Path(path), 0, 0
@@ -259,8 +257,7 @@ def _topic(foot: Foot, topic: str) -> str:
 def _zero(header: Mapping[str, Any], first: float) -> int:
     """Return the time since 1970 at `t` = 0, ns, of a recording whose first packet is at `first`, s.
 
-    0 when its header has no start time.
-    """
+    0 when its header has no start time."""
     known = read_start_time(header)
     if known is None:
         return 0

@@ -43,8 +43,7 @@ def read_start_time(header: Mapping[str, Any]) -> tuple[datetime, float | None] 
     """Return the time of day (UTC) from a header, and the packets' time `t` (s) at that moment.
 
     `t` is None where the moment is that of the first packet. The result is None where the header has no start, or one
-    that cannot be used.
-    """
+    that cannot be used."""
     text, t = header.get("began"), header.get("began_t")
     if not isinstance(text, str) or type(t) not in (int, float, type(None)):
         return None
@@ -64,8 +63,7 @@ def read_packets(
     """Return an iterator over the packets of a recording in the order in which they arrived; it reads as it goes.
 
     `report` gets one sentence about a torn last line. `progress` gets the number of bytes read so far, line by line.
-    RecordingError, after the packets before the damage, for anything else that protocol/recording.md does not allow.
-    """
+    RecordingError, after the packets before the damage, for anything else that protocol/recording.md does not allow."""
     path = Path(path)
     with open_file(path) as file:
         header_seen = False
@@ -182,15 +180,13 @@ class PacketWriter:
     An existing file is replaced. `count`: number of packets in the file. A process that is killed loses nothing that
     was written. RecordingError when the file cannot be opened or written (disk full); then it ends with its last whole
     packet, and once there is room again writing may go on. ValueError for a packet that no recording can hold (a time
-    that is not finite, a line that would be too long) and for such a header; it leaves the file as it was.
-    """
+    that is not finite, a line that would be too long) and for such a header; it leaves the file as it was."""
 
     def __init__(self, path: Path | str, header: Mapping[str, Any] = {}) -> None:
         """Open the file and write its header.
 
         `header`: further keys for the first line: `began` and `began_t` (protocol/recording.md), a note; or the whole
-        result of `read_header` for another recording. ValueError when it names another format or version.
-        """
+        result of `read_header` for another recording. ValueError when it names another format or version."""
         self.count = 0
         self._path = Path(path)
         own = {"format": FORMAT, "version": VERSION}

@@ -26,8 +26,7 @@ class Source:
 
     Iterating raises RecordingError at data that cannot be used, after everything that came before. A recording of
     packets that ends after its header is whole: that it is empty is reported, and no error. `done` of `total` (bytes of
-    packets, or samples) is the progress of the iteration.
-    """
+    packets, or samples) is the progress of the iteration."""
 
     path: Path
     foot: Foot | None
@@ -62,8 +61,7 @@ def open_source(path: Path | str, foot: Foot | None = None, *, report: Report = 
     """Return the recording at `path`: samples when its name ends in .npz or .csv, packets otherwise.
 
     `foot`: the foot of a recording of one foot's samples (the right one when None); of any other, the only foot to use.
-    RecordingError when nothing in it can be used.
-    """
+    RecordingError when nothing in it can be used."""
     path = Path(path)
     if path.suffix.lower() in SAMPLE_FILES:
         from .samples import load_samples  # imports numpy, which packets do not need
@@ -78,8 +76,7 @@ def read_samples(path: Path | str, foot: Foot | None = None, *, report: Report =
     """Return an iterator over the samples in an .npz or .csv file, merged over the feet by time.
 
     `foot`: the foot of a file of one foot (the right one when None); of a file that names its feet, the only foot to
-    read. RecordingError where a row cannot be used, after everything before it, or when nothing can.
-    """
+    read. RecordingError where a row cannot be used, after everything before it, or when nothing can."""
     from .samples import load_samples
 
     return iter(load_samples(path, foot, report=report))

@@ -1,8 +1,7 @@
 """Saving and restoring as JSON: a record becomes an object of its fields (schema.py defines the types of fields).
 
 Tuples, lists and deques become lists; a deque with a maxlen {"maxlen": most, "is": list}, an open record {"kind": name
-of its class, "is": its fields}, an enum its value, bytes base64. Loaded values are checked against the annotations.
-"""
+of its class, "is": its fields}, an enum its value, bytes base64. Loaded values are checked against the annotations."""
 
 from __future__ import annotations
 
@@ -40,8 +39,7 @@ def save(record: object) -> Json:
     """Return a JSON-able copy of `record`.
 
     Raises TypeError when a field is of a kind that cannot be saved, SnapshotError when it holds a value that cannot;
-    both name its class and the field.
-    """
+    both name its class and the field."""
     return _codec(record_of(type(record)))[0](record)
 
 
@@ -49,8 +47,7 @@ def load(cls: type[T], value: Json, classes: Classes = no_class) -> T:
     """Return the record of class `cls` that `save` turned into `value`.
 
     `classes` looks up the classes of open records. Raises SnapshotError when the value does not fit, TypeError when
-    `cls` is no record.
-    """
+    `cls` is no record."""
     loader = _codec(record_of(cls))[1]
     try:
         loaded: T = loader(value, classes)
@@ -64,8 +61,7 @@ def load(cls: type[T], value: Json, classes: Classes = no_class) -> T:
 def checksum(value: Json) -> int:
     """Return the CRC-32 of a saved value, independent of the order of its keys.
 
-    Minus zero counts as zero, since some encoders lose its sign.
-    """
+    Minus zero counts as zero, since some encoders lose its sign."""
     text = json.dumps(value, sort_keys=True, separators=(",", ":"))
     return crc32(_MINUS_ZERO.sub("0.0", text).encode())
 

@@ -16,8 +16,7 @@ A loop over fields would take eight times as long. The generated code is straigh
 
 F takes floats, N ints, enums (the index in their class), lengths and kinds, M flags, B bytes; f, n, m, b return the
 next of each. `t` is the same record made again: fields outside the schema are taken from it, and shared. C looks
-classes up.
-"""
+classes up."""
 
 from __future__ import annotations
 

@@ -1,7 +1,6 @@
 """Packing and unpacking: records as four streams of floats, ints, flags and bytes (streams.py; protocol/snapshot.md).
 
-The functions are generated from the schema of a record, once (generator.py).
-"""
+The functions are generated from the schema of a record, once (generator.py)."""
 
 from __future__ import annotations
 

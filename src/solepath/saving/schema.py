@@ -41,8 +41,7 @@ _RECORDS: dict[tuple[type, bool], RecordNode] = {}
 def record_of(cls: type, made: bool = False) -> RecordNode:
     """Return the schema of a class; `made` selects its state alone.
 
-    Raises TypeError, which names the class and the field, for a type that cannot be saved.
-    """
+    Raises TypeError, which names the class and the field, for a type that cannot be saved."""
     known = _RECORDS.get((cls, made))
     return _Walk().record(cls, made) if known is None else known
 

@@ -4,8 +4,7 @@ Four streams hold a state: floats, ints, flags and bytes. Three bits give the cl
 below); a flag is a bit. All little-endian. An int of more than 53 bits, such as a generator's state, is written in
 decimal digits.
 
-numpy does it: a loop over two thousand numbers would take longer than all the rest.
-"""
+numpy does it: a loop over two thousand numbers would take longer than all the rest."""
 
 from __future__ import annotations
 
@@ -22,8 +21,7 @@ COUNTS = Struct("<4I2d")
 ZERO, SINGLE, DOUBLE, AGAIN, WHOLE, DECIMAL, LEFT, RIGHT = range(8)
 """Classes of a number.
 
-0.0; a float32; a float64; the last float64 again; an int16; one over 10,000; one times a unit.
-"""
+0.0; a float32; a float64; the last float64 again; an int16; one over 10,000; one times a unit."""
 LARGE = -(2**63)
 """Placeholder for an int that a float would not hold."""
 _SHIFTED = (1 << np.arange(0, 24, 3)).astype("f4")
@@ -107,8 +105,7 @@ def _pack_classes(classes: Any) -> bytes:
 def from_bytes(body: memoryview) -> tuple[list[float], list[int], list[bool], bytes]:
     """Return the arguments of `to_bytes`, with the bytes joined.
 
-    Raises ValueError (or struct's error) for anything else. The result is never much larger than the input.
-    """
+    Raises ValueError (or struct's error) for anything else. The result is never much larger than the input."""
     count, whole_count, flag_count, digits_length, *units = COUNTS.unpack_from(body)
     cursor = _Cursor(body, COUNTS.size)
     numbers = _read_numbers(cursor, cursor.in_bits(count + whole_count, 3), (units[0], units[1]))

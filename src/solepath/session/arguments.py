@@ -16,8 +16,7 @@ if TYPE_CHECKING:
 def check_calibration(calibration: Calibration) -> Calibration:
     """Return a copy of the calibration.
 
-    Raises TypeError for another type, CalibrationError for impossible values.
-    """
+    Raises TypeError for another type, CalibrationError for impossible values."""
     from ..calibration.limits import unusable
 
     if not isinstance(calibration, Calibration):
@@ -45,8 +44,7 @@ def index_floorplan(floorplan: FloorPlan | IndexedPlan | None) -> IndexedPlan | 
 def check_start(start: Start, plan: IndexedPlan | None) -> Start:
     """Return a copy of the start.
 
-    Raises TypeError for another type or without a floor plan, FloorPlanError for impossible values.
-    """
+    Raises TypeError for another type or without a floor plan, FloorPlanError for impossible values."""
     from ..floorplan import plan as plans
     from ..floorplan.records import no_start
 

@@ -4,8 +4,7 @@
 
 `form` is the format of numbers, `version` that of the state, `schema` the CRC-32 of the body's schema, `check` that of
 all the rest. The bytes hold neither the recipe nor what it makes: unpacking starts a session of the given recipe, and
-restores its state.
-"""
+restores its state."""
 
 from __future__ import annotations
 
@@ -67,8 +66,7 @@ def pack(state: SessionState) -> bytes:
     """Return the state as bytes.
 
     Raises TypeError when a part of the app's own has a field of a kind that cannot be saved, SnapshotError when it
-    holds a value that cannot.
-    """
+    holds a value that cannot."""
     wearer = state.wearer
     known = wearer.settings
     check_names(known.recipe)
@@ -96,8 +94,7 @@ def unpack(data: Any, recipe: Recipe, parts: Iterable[type] = ()) -> SessionStat
     """Return the packed state, of a session of this recipe.
 
     Raises SnapshotError for anything else; TypeError and ValueError for an invalid recipe, invalid parts, or two parts
-    of one name.
-    """
+    of one name."""
     held = own(recipe)
     classes = make_class_lookup(parts)
     body = _check_header(data)
@@ -134,8 +131,7 @@ _kept: tuple[tuple[Recipe, Head, SessionState], ...] = ()
 def _read_state(streams: Streams, recipe: Recipe, classes: Classes) -> SessionState:
     """Return the state that the streams hold, of a session of this recipe, which nobody changes (recipes.own).
 
-    Raises SnapshotError when it was of another recipe.
-    """
+    Raises SnapshotError when it was of another recipe."""
     head: Head = read(HEAD, streams, classes)
     if head.recipe != recipe.name:
         raise SnapshotError(f"packed with the recipe {head.recipe!r}, and this is {recipe.name!r}")
@@ -151,8 +147,7 @@ def _read_state(streams: Streams, recipe: Recipe, classes: Classes) -> SessionSt
 def _make_initial_state(recipe: Recipe, head: Head) -> SessionState:
     """Return a new session's state, whose settings, which never change, the unpacked state shares.
 
-    Making one takes longer than all the rest, so the newest are kept; nothing else holds them.
-    """
+    Making one takes longer than all the rest, so the newest are kept; nothing else holds them."""
     global _kept
     for known, known_head, state in _kept:
         if known is recipe and repr(known_head) == repr(head):

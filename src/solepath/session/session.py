@@ -1,8 +1,7 @@
 """The session, which an app holds: packets or samples in, events out.
 
 It opens no socket, reads no clock, starts no thread, and is a plain record that can be saved at any moment. The same
-input gives the same events on every machine, however it is cut into calls.
-"""
+input gives the same events on every machine, however it is cut into calls."""
 
 from __future__ import annotations
 
@@ -51,8 +50,7 @@ class Session:
 
     Latency: zero velocity and live position with the sample. Heel-strike and toe-off one sample once a foot has pushed
     off the first time; a foot that does not push off is known to swing after 0.15 s (0.4 s right after a heel-strike).
-    Foot-flat and the stride that it ends about 40 ms. Heel-off 40 to 140 ms, in slow walking up to 320 ms.
-    """
+    Foot-flat and the stride that it ends about 40 ms. Heel-off 40 to 140 ms, in slow walking up to 320 ms."""
 
     __slots__ = ("_kinds", "_plan", "_state")
 
@@ -251,8 +249,7 @@ class Session:
 
         A snapshot holds no functions and no floor plan: give `profiles`, `floorplan` and `parts`, the classes of the
         app's own parts, again; the app must keep their functions the same. Raises SnapshotError for no sound snapshot
-        of this version, and for one taken with other devices, another floor plan or other parts.
-        """
+        of this version, and for one taken with other devices, another floor plan or other parts."""
         from .snapshot import restore_state
 
         return cls._from_state(restore_state(saved, parts), profiles, floorplan)
@@ -278,8 +275,7 @@ class Session:
         `recipe` must be the same as then; the other arguments are those of `restore`. Only the recipe's name and the
         kind of every part are compared; settings of `recipe` hold from here on, so a tuned recipe can continue. Raises
         SnapshotError if they differ, for other bytes, and where `restore` does. A checksum detects damage, not intent:
-        trust a state like code.
-        """
+        trust a state like code."""
         from .packed import unpack
 
         return cls._from_state(unpack(data, recipe, parts), profiles, floorplan)

@@ -54,8 +54,7 @@ def check_names(recipe: Recipe) -> None:
 def make_class_lookup(parts: Iterable[type]) -> Classes:
     """Return a lookup of classes of parts, the app's first.
 
-    Raises TypeError for a class that is no record, ValueError for two of one name.
-    """
+    Raises TypeError for a class that is no record, ValueError for two of one name."""
     classes = list(dict.fromkeys(parts))
     for cls in classes:
         if not is_record(cls):

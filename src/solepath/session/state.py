@@ -10,8 +10,7 @@ from .wearer import WearerParts
 VERSION = 3
 """Version of the state: one more for every release with other state or other settings.
 
-A state of another version is rejected.
-"""
+A state of another version is rejected."""
 
 
 @define

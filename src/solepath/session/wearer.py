@@ -90,8 +90,7 @@ class WearerParts:
     def feed(self, sample: Sample, scale_reported: bool) -> list[Event]:
         """Add a sample of any site and return the events.
 
-        `scale_reported` says that its link, which knows the range, checks the scale, so the foot need not.
-        """
+        `scale_reported` says that its link, which knows the range, checks the scale, so the foot need not."""
         if sample.quat is not None:
             sample = with_sound_attitude(sample)
         foot = sample.site.foot
@@ -177,8 +176,7 @@ class WearerParts:
     ) -> WearerMoved | None:
         """Pass `view` and `events` to the parts from number `first` on, in order, and add what they emit.
 
-        Returns the position of the wearer after it, if a part needs it.
-        """
+        Returns the position of the wearer after it, if a part needs it."""
         moved = None
         for part in self.parts[first:]:
             received = tuple(events)

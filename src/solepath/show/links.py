@@ -1,8 +1,7 @@
 """Counts what came over each sensor's link: packets, losses, sample rate, gaps and silences.
 
 Terminal, page, report and summary read their figures of links from here, and only here the figures are defined. They
-are counted from the packets that a session was fed and from the events that it reported of them.
-"""
+are counted from the packets that a session was fed and from the events that it reported of them."""
 
 from __future__ import annotations
 
@@ -118,27 +117,23 @@ class LinkLedger:
 
     counted: bool = True
     received: int = 0
-    """Packets of samples that came and were used.
-
-    A frame that is sent in fragments is one packet; it is counted with the fragment that completes a sample. The count
-    is 0 where samples are fed without packets, and for a device of an app's own."""
+    """Packets of samples that came and were used. A frame that is sent in fragments is one packet; it is counted with
+    the fragment that completes a sample. The count is 0 where samples are fed without packets, and for a device of an
+    app's own."""
     lost: int = 0
-    """Packets of samples that never came, by the device's counter or by the time between arrivals (PacketsLost).
-
-    The time between arrivals counts for a device without a counter. A rejected packet is not lost for that reason:
-    nothing is missing when a packet came twice or late. When a packet came damaged, or the receiver dropped it, the
-    counter shows that it is missing."""
+    """Packets of samples that never came, by the device's counter or by the time between arrivals (PacketsLost). The
+    time between arrivals counts for a device without a counter. A rejected packet is not lost for that reason: nothing
+    is missing when a packet came twice or late. When a packet came damaged, or the receiver dropped it, the counter
+    shows that it is missing."""
     dropped: int = 0
     """Packets that came and were discarded because the program did not take them in time (PacketsDropped)."""
     rejected: Counter[tuple[str, str]] = field(factory=Counter)
-    """Packets and samples that came and could not be used, by "packets" or "samples" and the reason.
-
-    They are counted from PacketRejected and SampleRejected."""
+    """Packets and samples that came and could not be used, by "packets" or "samples" and the reason. They are counted
+    from PacketRejected and SampleRejected."""
     samples: int = 0
-    """Samples that were used, each with its own time.
-
-    A sample of a foot counts when the session reported a position or a pressure of it (FootMoved, FootPressed) or when
-    it was fed as a sample. Samples of another site are those that its packets hold."""
+    """Samples that were used, each with its own time. A sample of a foot counts when the session reported a position or
+    a pressure of it (FootMoved, FootPressed) or when it was fed as a sample. Samples of another site are those that its
+    packets hold."""
     has_motion: bool = False
     """True once there were samples of an inertial sensor."""
     has_pressure: bool = False

@@ -99,9 +99,8 @@ class Observer:
     now: float = -inf
     """Latest known moment, s; after a clock was set back, by that clock."""
     time: CoveredTime = field(factory=CoveredTime)
-    """Time from the first to the last packet or sample that was used, s.
-
-    Packets count by their arrival, samples that never were packets by their own time."""
+    """Time from the first to the last packet or sample that was used, s. Packets count by their arrival, samples that
+    never were packets by their own time."""
     links: dict[Site, LinkLedger] = field(factory=dict)
     """Ledger of every site of which anything came."""
     feet: dict[Foot, FootCounts] = field(factory=dict)

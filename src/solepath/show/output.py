@@ -2,8 +2,7 @@
 
 events.jsonl is for programs, in SI units and radians. The tables are for people, with the unit of a column in its
 header and angles in degrees. Times are the recording's own, written so that reading gives the same float again; places
-are in m to the micrometre.
-"""
+are in m to the micrometre."""
 
 from __future__ import annotations
 

@@ -1,9 +1,8 @@
 """Tests whether a part meets the contract of a session: call `broken` in a test of your own part.
 
 It is meant for authors of a stance detector, a corrector, cues or a part of the body. It runs the part on the given
-samples: a detector alone, the others where a session has them, within the default recipe. It does not find what
-samples cannot show: whether each sample costs the same time, and whether the results are any good.
-"""
+samples: a detector alone, the others where a session has them, within the default recipe. It does not find what samples
+cannot show: whether each sample costs the same time, and whether the results are any good."""
 
 from __future__ import annotations
 

@@ -23,8 +23,7 @@ def disagreements(driver: Driver, file: Mapping[str, Any]) -> list[str]:
     `file` is what json.load returns; an empty list is good. `fields` of a valid vector are what the channel's construct
     parses, and they build the same bytes again. `physical` may name fields of the Reading, which agree to `tolerance`
     and are read with `known`. An invalid vector is rejected for its `reason`: by the construct, by the reader, or
-    because no device can send it (reading_check.py).
-    """
+    because no device can send it (reading_check.py)."""
     if not isinstance(file, Mapping):
         return ["a vector file is an object"]
     found = [] if file.get("schema") == SCHEMA else [f"the schema is {SCHEMA!r}, not {file.get('schema')!r}"]

@@ -3,8 +3,7 @@
 attrs writes and compiles `__repr__`, `__eq__` and `__hash__` of every class when its module is imported. That is three
 fifths of the cost of a class then, and was a third of `import solepath`. Here all classes share one of each, which
 reads the fields when it is called. They give the same results as those of attrs; comparing and printing are slower, but
-nothing that runs per sample needs them. `python tests/bench/way.py` prints the time of an import.
-"""
+nothing that runs per sample needs them. `python tests/bench/way.py` prints the time of an import."""
 
 from __future__ import annotations
 

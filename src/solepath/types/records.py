@@ -1,7 +1,6 @@
 """Records that every package shares: feet and sites, packets and samples, vectors and layouts.
 
-Units are SI (s, m/s^2, rad/s, N, Pa, T); times are floats in seconds on one clock.
-"""
+Units are SI (s, m/s^2, rad/s, N, Pa, T); times are floats in seconds on one clock."""
 
 from __future__ import annotations
 
@@ -23,8 +22,7 @@ class Word(Enum):
     """A closed set of words.
 
     Each member is one object, and its identity is its hash: Enum's own hash is a call of Python code at every look-up,
-    and the code that runs per sample looks up feet, sites and phases all the time.
-    """
+    and the code that runs per sample looks up feet, sites and phases all the time."""
 
     __hash__ = object.__hash__
 
@@ -131,8 +129,7 @@ class Packet:
 
     `t` is the arrival time in s on the receiver's clock; `channel` names the format of `data` ("insole/frame",
     "cc2650/movement", ...), so that a recording describes itself. `device`: the address of the device that it came
-    from, "" when it is unknown.
-    """
+    from, "" when it is unknown."""
 
     t: float
     site: Site
@@ -155,8 +152,7 @@ class Sample:
     specific force in m/s^2, sensor frame (+9.81 upwards at rest). `gyro`: rad/s, sensor frame. `pressure`: one value
     per cell in the layout's order and unit (N when the device declares a scale, otherwise counts; more is more load).
     `quat`: the device's own attitude, where it sends one. `mag`: T, sensor frame. `air_pressure`: Pa. `saturated`: the
-    device reports that a sensor was at the end of its range.
-    """
+    device reports that a sensor was at the end of its range."""
 
     t: float
     site: Site
@@ -178,8 +174,7 @@ class Sample:
 class Cell:
     """One pressure cell: its centre in the foot frame, m, and its area, m^2.
 
-    The foot frame has x to the toe, y to the left, and its origin at the heel's rear end on the insole's midline.
-    """
+    The foot frame has x to the toe, y to the left, and its origin at the heel's rear end on the insole's midline."""
 
     x: float
     y: float
@@ -192,8 +187,7 @@ class Layout:
 
     `length`: heel to toe in m. `scale`: N per count of the wire (1.0 when the values are newtons already, None when it
     is unknown: then loads are in counts). `full_scale`: the largest value that a cell can report, in the unit of the
-    samples.
-    """
+    samples."""
 
     id: int
     foot: Foot
@@ -216,8 +210,7 @@ class Layout:
 def shared(layout: Layout) -> Layout:
     """Return the one object for all layouts that are the same to the bit.
 
-    All wearers of one kind of insole share it, and hold it for hours.
-    """
+    All wearers of one kind of insole share it, and hold it for hours."""
     numbers = [layout.length, layout.full_scale, 0.0 if layout.scale is None else layout.scale]
     for cell in layout.cells:
         numbers += (cell.x, cell.y, cell.area)

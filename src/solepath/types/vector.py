@@ -30,8 +30,7 @@ def single(x: float) -> float:
 
     Use it for values that are remembered, not for values that are propagated (a covariance, a position). 60 ns. Below
     1e-38 nothing is gained; `x` must be below 1e290 (T. J. Dekker, "A floating-point technique for extending the
-    available precision", 1971).
-    """
+    available precision", 1971)."""
     high = SPLIT * x
     return high - (high - x)
 

@@ -1,8 +1,7 @@
 """Twelve-bit values packed least significant bit first, the format of pressure cells in a frame.
 
 Value i occupies the bits 12 i .. 12 i + 11 of the block, where bit b is bit (b mod 8) of byte b // 8. Two values share
-three bytes; an odd count leaves the high nibble of the last byte zero.
-"""
+three bytes; an odd count leaves the high nibble of the last byte zero."""
 
 from __future__ import annotations
 
@@ -33,8 +32,7 @@ def packed_size(count: int) -> int:
 def unpack12(data: bytes, count: int) -> tuple[int, ...]:
     """Return `count` values from the `packed_size(count)` bytes of `data`.
 
-    WireError when the unused nibble is not zero.
-    """
+    WireError when the unused nibble is not zero."""
     # A pair lies in the bytes x, y, z as x | low(y) << 8 and high(y) | z << 4. All pairs are spread into 16-bit
     # words at once by slices and translation tables: 3 us for 96 cells, where a loop over cells takes 15 us.
     if count & 1:

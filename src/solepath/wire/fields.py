@@ -1,8 +1,7 @@
 """Additions to construct: packed fields in one call, bytes as digits, parsing of whole values.
 
 `Fields` is a run of plain numbers: one struct call instead of one construct per number, which makes an insole frame
-affordable at 100 Hz. `parse_whole` and `build_whole` turn construct's exceptions into WireError and ValueError.
-"""
+affordable at 100 Hz. `parse_whole` and `build_whole` turn construct's exceptions into WireError and ValueError."""
 
 from __future__ import annotations
 
@@ -33,8 +32,7 @@ LONGEST_VALUE = 512
 class Fields(Definition):
     """A run of numbers in `struct` notation; parses to a tuple, or to the result of `make` for these numbers.
 
-    It builds from an attrs record when `make` is an attrs class, from a tuple otherwise.
-    """
+    It builds from an attrs record when `make` is an attrs class, from a tuple otherwise."""
 
     def __init__(self, layout: str, make: Callable[..., Any] | None = None) -> None:
         super().__init__()

@@ -29,8 +29,7 @@ class InsoleSample:
     """One sample in raw counts; INFO declares the scales.
 
     `cells`: pressure, 0 to 4095 each, in the layout's order. `imu`: specific force x, y, z and angular rate x, y, z as
-    i16 in the sensor frame. `quat`: w, x, y, z in Q14 (16384 is 1), sensor to world.
-    """
+    i16 in the sensor frame. `quat`: w, x, y, z in Q14 (16384 is 1), sensor to world."""
 
     cells: tuple[int, ...]
     imu: tuple[int, int, int, int, int, int] | None = None
@@ -43,8 +42,7 @@ class InsoleFrame:
 
     `layout`: id of the cell layout that INFO describes. `sequence`: u16, +1 a frame. `ticks`: u32, time of the first
     sample; `interval`: ticks from one sample to the next, 1 to 65535. `saturated`: at least one IMU axis or cell was at
-    its limit. `retransmitted`: sent again on request. All samples have the same cells and sensors.
-    """
+    its limit. `retransmitted`: sent again on request. All samples have the same cells and sensors."""
 
     foot: Foot
     layout: int
@@ -60,8 +58,7 @@ class _Samples(Definition):
     """The samples of a frame in a row: cells, then IMU, then quaternion, as far as its flags have them.
 
     To parse, the context has their `count`, their `cells`, the bytes `packed` that these take, and `flags`. One
-    construct handles all of them, because an insole frame comes 100 times a second.
-    """
+    construct handles all of them, because an insole frame comes 100 times a second."""
 
     def _parse(self, stream: IO[bytes], context: Any, path: str) -> tuple[InsoleSample, ...]:
         cells, packed, flags = context.cells, context.packed, context.flags

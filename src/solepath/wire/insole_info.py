@@ -29,8 +29,7 @@ class InsoleInfo:
     `tick_rate`: ticks per second, nominal. `interval`: ticks between samples. `acc_scale`: m/s^2 per count.
     `gyro_scale`: rad/s per count. `pressure_scale`: N per count. A scale of 0 means that there is no such sensor, or
     for pressure that it is not calibrated. `length`: heel to toe, m. `cells`: in the order of the samples, in the foot
-    frame; x 0 to 0.4095 m, y -0.2048 to 0.2047 m, area up to 6.5535e-3 m^2, 0 where unknown.
-    """
+    frame; x 0 to 0.4095 m, y -0.2048 to 0.2047 m, area up to 6.5535e-3 m^2, 0 where unknown."""
 
     foot: Foot
     layout: int
@@ -137,8 +136,7 @@ def parse_info(data: bytes) -> InsoleInfo:
 def build_info(info: InsoleInfo) -> bytes:
     """Return the bytes of `info`, the inverse of `parse_info` for values on the record's grid; others are rounded.
 
-    ValueError when a value does not fit: too many cells, a cell too far out, a firmware name too long.
-    """
+    ValueError when a value does not fit: too many cells, a cell too far out, a firmware name too long."""
     coordinates = [
         c for cell in info.cells for c in (_counts(cell.x, _PER_METRE), _counts(cell.y, _PER_METRE) + _Y_ZERO)
     ]

@@ -1,7 +1,6 @@
 """Packets about the receiver itself (protocol/receiver.md): connections, dropped packets, time.
 
-receiver/restarted (a channel's name) and receiver/trouble (a sentence) are texts, which fields.py parses and builds.
-"""
+receiver/restarted (a channel's name) and receiver/trouble (a sentence) are texts, which fields.py parses and builds."""
 
 from __future__ import annotations
 

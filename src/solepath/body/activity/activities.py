@@ -7,8 +7,7 @@ followed by Viterbi's algorithm (hypotheses.py).
 
 Latency: a block is judged when two more have come, 1 to 1.5 s after it. The likeliest course is reported at once, not
 final. The part on which all likely courses agree is reported again as final, mostly seconds later. Standing that may
-still turn out to be a ride whose start was not detected stays open for up to a minute, a ride's end for 12 s.
-"""
+still turn out to be a ride whose start was not detected stays open for up to a minute, a ride's end for 12 s."""
 
 from __future__ import annotations
 

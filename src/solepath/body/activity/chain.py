@@ -3,8 +3,7 @@
 A ride in a lift sets off, runs, stops, or creeps on to its floor first and stops there. The chances with which
 standing, walking, running and stairs follow each other are learnt (motion.py); so is the delay between the detection of
 a change and its date by people. The other chances describe durations (a pulse 2 s, a ride between its pulses 7 s) and
-rarity. They were not fitted to labels, but they were chosen in view of HuGaDB's recordings and of emulated lifts.
-"""
+rarity. They were not fitted to labels, but they were chosen in view of HuGaDB's recordings and of emulated lifts."""
 
 from __future__ import annotations
 
@@ -40,8 +39,7 @@ CRUISES = frozenset((RISING, NEARLY_UP, SINKING, NEARLY_DOWN))
 Chances = tuple[tuple[float, ...], ...]
 """Chances of a change from STAND, WALK, RUN, UP or DOWN (rows) to each of them within half a second, without rides.
 
-Rows add up to 1.
-"""
+Rows add up to 1."""
 Shifts = tuple[tuple[Activity, Activity, float], ...]
 """Delays of the start of an activity after the half second in which it is first detected, s, by the change."""
 
@@ -91,8 +89,7 @@ class Chain:
     """The transitions between states.
 
     `predecessors`: for each state those that may come before it, with the logarithm of the chance. `shift`: for a
-    change from one state to another, the delay of its start after the half second in which it is first detected, s.
-    """
+    change from one state to another, the delay of its start after the half second in which it is first detected, s."""
 
     predecessors: tuple[tuple[tuple[int, float], ...], ...]
     shift: tuple[tuple[float, ...], ...]

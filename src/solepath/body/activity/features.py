@@ -1,8 +1,7 @@
 """Features of one foot's samples, half a second at a time, from which activities are recognised.
 
 Only lengths of vectors count, so nothing depends on the mounting of the sensor, and shares of samples count instead of
-their number, so little depends on the rate. Accelerometers clip at anything from 2 g: |acc| beyond that has one bin.
-"""
+their number, so little depends on the rate. Accelerometers clip at anything from 2 g: |acc| beyond that has one bin."""
 
 from __future__ import annotations
 
@@ -35,8 +34,7 @@ COUNT = STRIDE + 11
 def features_of(here: ActivityBlock, near: list[ActivityBlock], stride: BlockStride | None) -> list[float]:
     """Return `COUNT` features of the order of 1 for the block `here`; those not known are 0.
 
-    `near` are the blocks of the window, `here` among them, and `stride` is the stride under way.
-    """
+    `near` are the blocks of the window, `here` among them, and `stride` is the stride under way."""
     values = [0.0] * COUNT
     earlier = [block for block in near if block.index < here.index]
     later = [block for block in near if block.index > here.index]

@@ -15,8 +15,7 @@ nobody need walk on, and a wearer who rests on the stairs with a foot on each tr
 A height that no stair stride has (body/activity/steepness.py), or one in the other direction, is an error of the track
 and is not trusted: such a stride is taken to rise by the mean of the trusted strides of the flight. Where less than
 half of the strides are trusted the height is unknown, and no flight is reported. A stride that cannot be judged ends
-flights as level ones do, and belongs to the flight when a stair stride follows it.
-"""
+flights as level ones do, and belongs to the flight when a stair stride follows it."""
 
 from __future__ import annotations
 
@@ -36,8 +35,7 @@ ACTIVE_WITHIN = 4.0
 END_RISE = 0.08
 """Least rise of a level stride beside stair strides that belongs to the flight, m.
 
-It is the flight's first or last riser, taken with a long stride.
-"""
+It is the flight's first or last riser, taken with a long stride."""
 
 
 @define

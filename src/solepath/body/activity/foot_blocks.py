@@ -73,8 +73,7 @@ class FootBlocks:
     def start_block(self, index: int, bias: Vec3, resolution: float) -> None:
         """Start a block with the gyroscope bias, rad/s, and the accelerometer's resolution, m/s^2 a count.
 
-        A resolution of 0 is not known.
-        """
+        A resolution of 0 is not known."""
         self.index = index
         self.force = self.squares = self.rate_squares = 0.0
         self.acc_bins = [0] * BINS

@@ -2,8 +2,7 @@
 
 This is Viterbi's algorithm with the paths kept in tokens (Young, Russell, Thornton 1989, "Token passing"): each state
 holds one token, the best course that ends in it. Where the tokens agree the past is settled; a token that disagrees
-with what is settled is dropped, so that it stays settled. chain.py has the states.
-"""
+with what is settled is dropped, so that it stays settled. chain.py has the states."""
 
 from __future__ import annotations
 
@@ -203,8 +202,7 @@ def _scored(
 ) -> tuple[float, int, Token, Levels, float]:
     """Return the score of the course of `token` after half a second in the state, with its parts.
 
-    The others are the state, the token, the levels of its feet at rest, and the acceleration of the lift, m/s^2.
-    """
+    The others are the state, the token, the levels of its feet at rest, and the acceleration of the lift, m/s^2."""
     levels, acceleration, start_score = token.ride.levels, 0.0, 0.0
     motion = state
     if state in RIDES:

@@ -9,8 +9,7 @@ feature, and the strangeness is the mean square of deviations from the nearest.
 
 math.dist is the one loop over floats that runs in C in every Python from 3.11 on, three times as fast as sum(map(mul,
 ...)) and exact to the last bit, so sums of products use it: w x = (w w + x x - |w - x|^2) / 2. That is off by 1e-12 at
-the most, and its results are rounded to 1e-4 (hypotheses.py).
-"""
+the most, and its results are rounded to 1e-4 (hypotheses.py)."""
 
 from __future__ import annotations
 
@@ -28,8 +27,7 @@ from .features import COUNT, GYRO
 MOTIONS = ("still", "walking", "running", "stairs_up", "stairs_down")
 """Motions that a foot's own samples distinguish, in the order of the outputs.
 
-Still is standing, and also riding in a lift.
-"""
+Still is standing, and also riding in a lift."""
 
 Row = tuple[float, ...]
 
@@ -57,8 +55,7 @@ class Network:
     def log_probabilities(self, features: Sequence[float]) -> list[float]:
         """Return the natural logarithm of the probability of each of `MOTIONS`.
 
-        Features without weights do not count.
-        """
+        Features without weights do not count."""
         given = tuple(features[: len(self.hidden[0])])
         inner = tuple([tanh(value) for value in _weighted_sums(self.hidden, self.hidden_half, given)])
         outer = _weighted_sums(self.output, self.output_half, inner)
@@ -121,8 +118,7 @@ def shipped() -> MotionModel:
 def from_json(data: dict[str, Any]) -> MotionModel:
     """Return the model in the content of activities.json.
 
-    Raises ValueError when it does not fit the features of this release.
-    """
+    Raises ValueError when it does not fit the features of this release."""
     model = MotionModel(
         trained_on=str(data["trained_on"]),
         whole=_network(data["whole"], COUNT),

@@ -31,8 +31,7 @@ SCALE_HEIGHT = 8578.0
 NOISE = 0.25
 """Standard deviation of the mean over half a second, m: 3 Pa.
 
-Small barometers flicker by 1 to 3 Pa, and doors add to it.
-"""
+Small barometers flicker by 1 to 3 Pa, and doors add to it."""
 BLOCKS_BEFORE, BLOCKS_AFTER = 3, 2
 """Numbers of blocks before and after the judged one over which the slope is taken."""
 LEAST_SPAN = 1.0

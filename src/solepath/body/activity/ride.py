@@ -4,8 +4,7 @@ A lift adds its own acceleration to the specific force of a foot at rest: a puls
 one in the other direction as it stops, each a second or more long, and nothing between them. The errors of the feet's
 accelerometers are larger than that and differ in every posture, so the evidence is the difference to the force of the
 same foot at rest. A scalar Kalman filter follows that level for each foot, and each hypothesis has its own: a
-hypothesis that the lift has just set off takes another level for that of rest than one that it stands.
-"""
+hypothesis that the lift has just set off takes another level for that of rest than one that it stands."""
 
 from __future__ import annotations
 
@@ -76,8 +75,7 @@ class LiftEvidence:
     """The forces on both feet in half a second, compared with their levels at rest.
 
     Most courses hold the very same levels, and then the result is computed once. The object lasts no longer than the
-    half second, and is no state.
-    """
+    half second, and is no state."""
 
     __slots__ = ("_acceleration", "_pulses", "_still", "_walks", "forces")
 
@@ -108,8 +106,7 @@ class LiftEvidence:
     def pulse(self, levels: Levels, mean: float, deviation: float) -> tuple[Levels, float, float]:
         """Return the levels after a block of a pulse, its acceleration, m/s^2, and the log-likelihood of the forces.
 
-        The acceleration of the pulse has this `mean` and `deviation`, m/s^2.
-        """
+        The acceleration of the pulse has this `mean` and `deviation`, m/s^2."""
         known = self._pulses.get((id(levels), mean))
         if known is None:
             known = self._pulses[id(levels), mean] = self._pulse(levels, mean, deviation)
@@ -214,8 +211,7 @@ class LiftRide:
     def start(whole: bool, air: float | None, levels: Levels, acceleration: float, block: float) -> LiftRide:
         """Return a ride after its first `block` s; `whole`: with its first pulse.
 
-        `air` is the height at the start, m; for the others see `move`.
-        """
+        `air` is the height at the start, m; for the others see `move`."""
         velocity = round(0.0 + acceleration * block, 6)
         return LiftRide(levels, velocity, abs(velocity), round(0.0 + 0.5 * velocity * block, 6), block, whole, air)
 
@@ -263,8 +259,7 @@ class LiftRide:
         """Return the height of the ride, m; None without air pressure and first pulse. `air`: height now, m.
 
         The height by the pulses, without the drift of a lift that must stand in the end, and the height by the air
-        pressure are weighted by their variances.
-        """
+        pressure are weighted by their variances."""
         by_air = None if air is None or self.air is None else air - self.air
         if not self.whole:
             return by_air

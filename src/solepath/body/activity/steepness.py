@@ -8,8 +8,7 @@ of 3.9 degrees; and with H the ground covered by a stride its 0.60 m and 0.32 m 
 a metre where table 1 has 107.9 and -89.5. Both fit when theta is the angle from the horizontal, positive upwards, and H
 that of one tread, half of the stride of a foot ("we can regard alternating feet once as one step"; a tread is 0.30 m by
 0.16 m): atan(0.32 / 0.60) is 28.1 degrees, and 93.6 degrees a metre lie between both averages, within 0.4 of their
-standard deviations.
-"""
+standard deviations."""
 
 from __future__ import annotations
 
@@ -25,21 +24,18 @@ DOWNSTAIRS = radians(-89.464)
 UP_FROM = 0.5 * (PLANE + UPSTAIRS)
 """Threshold of stairs upwards: 55.9 degrees/m, half way between the averages.
 
-The paper: "by using a threshold of the average theta'".
-"""
+The paper: "by using a threshold of the average theta'"."""
 DOWN_FROM = 0.5 * (PLANE + DOWNSTAIRS)
 """Threshold of stairs downwards: -42.8 degrees/m, half way between the averages."""
 
 LEAST_RISE = 0.08
 """Least height difference of a stair stride, m: half of a riser.
 
-The angle of a foot that hardly moves is large in any case; the paper does not mention such feet.
-"""
+The angle of a foot that hardly moves is large in any case; the paper does not mention such feet."""
 HIGHEST_RISE = 0.88
 """Largest height difference of a stair stride, m: two treads with the highest risers, 0.22 m.
 
-These are the highest that The Building Regulations 2010, Approved Document K (2013), table 1.1, allow.
-"""
+These are the highest that The Building Regulations 2010, Approved Document K (2013), table 1.1, allow."""
 HIGHEST_DEGRADED_RISE = 0.6
 """Largest height difference of a stair stride in which samples are missing, m.
 

@@ -40,8 +40,7 @@ def motion_votes(model: MotionModel, feet: Sequence[Sequence[float] | None]) -> 
 def block_force(block: ActivityBlock | None, resolution: float) -> BlockForce | None:
     """Return the force on a foot in a block, by which lifts are detected; None without a block.
 
-    `resolution` is that of its accelerometer, m/s^2 a count.
-    """
+    `resolution` is that of its accelerometer, m/s^2 a count."""
     if block is None or block.force >= LARGEST_FORCE:
         return None
     variance = SWAY_DEVIATION * SWAY_DEVIATION + 0.05 * min(block.variance, 1e4) + resolution * resolution / 12.0

@@ -11,8 +11,7 @@ neither. From then on corrections are returned to the feet, each at its own foot
 heading that they agree on, live and in their later strides. A stride stays as it was reported.
 
 While the feet are held together their mean does not shrink as they drift apart, and neither is better than the other:
-each has received its share by its variance. A foot that falls silent and comes back is treated as by `MeanOfFeet`.
-"""
+each has received its share by its variance. A foot that falls silent and comes back is treated as by `MeanOfFeet`."""
 
 from __future__ import annotations
 
@@ -71,8 +70,7 @@ class BothFeet(MeanOfFeet):
     """The mean of two feet whose headings and places correct each other.
 
     Latency: none. The information of a stride about the other foot is used at once in `position`; the other foot's
-    track follows at its own next foot-flat. A foot that cannot be shifted keeps its track.
-    """
+    track follows at its own next foot-flat. A foot that cannot be shifted keeps its track."""
 
     settings: BothFeetSettings = BothFeetSettings()
     errors: TrackErrorFilter = field(factory=TrackErrorFilter, init=False)

@@ -9,8 +9,7 @@ The path is cut into blocks that both feet walk. Consecutive blocks whose stride
 direction of its first block is held. The share of a difference that is drift follows from how fast a heading is known
 to drift: a filter of two states, the heading (rad) since the run started and its drift rate (rad/s), is corrected by
 each block. A difference beyond what drift explains ends the run: a bend of less than some 300 m in radius is never
-straightened.
-"""
+straightened."""
 
 from __future__ import annotations
 
@@ -63,8 +62,7 @@ class Corridor:
     def add_stride(self, foot: int, t: float, start: Vec3, end: Vec3, turn: float) -> tuple[float, float] | None:
         """Add a stride of foot 0 or 1 that ended at `t`, s, in one frame for both, m; the foot turned by `turn` rad.
 
-        Returns the corrections of the heading, rad, and of the rate at which it is turned on, rad/s.
-        """
+        Returns the corrections of the heading, rad, and of the rate at which it is turned on, rad/s."""
         dx, dy = end[0] - start[0], end[1] - start[1]
         paused = self.newest is None or t - self.newest > PAUSE
         self.newest = t

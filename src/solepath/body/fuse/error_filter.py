@@ -14,8 +14,7 @@ An error that both feet share cannot be observed from their relative position, a
 it. Therefore x and y belong to a track that is turned with its heading about one point for both feet, the end of the
 newest stride: e = xi + psi c (p - centre), the invariant error of Barrau and Bonnabel, "The invariant extended Kalman
 filter as a stable observer", IEEE Trans. Automatic Control 62, 2017. The correction by a measured difference is shared
-between the feet by their variances, so that it does not move both alike; for such a gain P follows Joseph's form.
-"""
+between the feet by their variances, so that it does not move both alike; for such a gain P follows Joseph's form."""
 
 from __future__ import annotations
 
@@ -38,8 +37,7 @@ FIRST_WIDTH_ERROR = 0.05
 DRIFT_RATE, DRIFT_MEMORY = 0.0012, 100.0
 """Usual drift rate of a track's heading, rad/s (0.07 degrees), and for how long it lasts, s.
 
-The rate changes with the manner of walking.
-"""
+The rate changes with the manner of walking."""
 HEADING_DRIFT = 0.0015
 """Random walk of the heading error that adds to the drift rate, rad/sqrt(s)."""
 DEGRADED_ERROR = 0.06
@@ -85,8 +83,7 @@ class TrackErrorFilter:
     def align(self, foot: int, place: float, heading: float) -> None:
         """Set foot 0 or 1 beside the other one, to `place` m and `heading` rad.
 
-        Apart from these deviations both then have the same errors; the foot keeps its own rate.
-        """
+        Apart from these deviations both then have the same errors; the foot keeps its own rate."""
         p = self.covariance
         for one, sigma in ((X, place), (Y, place), (HEADING, heading)):
             here, there = foot * STATES + one, (1 - foot) * STATES + one
@@ -107,8 +104,7 @@ class TrackErrorFilter:
     ) -> None:
         """Propagate the covariance over a stride of foot 0 or 1 with its stance and swing time, s.
 
-        The stride is `displacement` m long and leads to `end`, m; its covariance is xx, xy, yy (m^2).
-        """
+        The stride is `displacement` m long and leads to `end`, m; its covariance is xx, xy, yy (m^2)."""
         p = self.covariance
         cx, cy = end[0] - self.centre[0], end[1] - self.centre[1]
         self.centre = end
@@ -158,8 +154,7 @@ class TrackErrorFilter:
     def correct(self, terms: Sequence[Term], z: float, variance: float, limit: float) -> list[float] | None:
         """Correct the filter with an innovation `z` of this variance, which is the sum of the terms.
 
-        Returns the value to add to every state, or None when z^2 is more than `limit` times its predicted variance.
-        """
+        Returns the value to add to every state, or None when z^2 is more than `limit` times its predicted variance."""
         p = self.covariance
         ph, gains, errors = [0.0] * COUNT, [0.0] * COUNT, [0.0] * COUNT
         for j, row in enumerate(p):

@@ -4,8 +4,7 @@ A foot that falls silent would hold the mean back by half of the distance walked
 with the other foot from where the mean was, since the feet's tracks may have drifted apart. The displacement and turn
 of an absent foot are not known when it comes back: it stays out until both have taken `STRIDES_TO_ALIGN` strides
 together, and is then turned and set beside the other. A foot whose first sample comes while the other walks is set
-beside it as well. Without absence nothing is turned or set.
-"""
+beside it as well. Without absence nothing is turned or set."""
 
 from __future__ import annotations
 
@@ -51,10 +50,8 @@ class PlacedTrack:
     added_variance: tuple[float, float] = (0.0, 0.0)
     """Variances that the alignment with the other foot has added to `variance`, m^2."""
     separation: Vec3 | None = None
-    """Left foot minus right foot after this one's newest stride, m.
-
-    The mean of both feet's values does not contain the stride between them any more.
-    """
+    """Left foot minus right foot after this one's newest stride, m. The mean of both feet's values does not contain the
+    stride between them any more."""
     unplaced: bool = False
     """Flag: the foot has come back, and its track is not aligned with the other's yet."""
 
@@ -95,8 +92,7 @@ class MeanOfFeet(TrackPart):
     """The mean of the feet that give samples, each in the world frame of its own first heading.
 
     After an alignment of two feet the covariance is that of the foot which was never absent: both then have the same
-    errors.
-    """
+    errors."""
 
     needs_samples: ClassVar[bool] = True
 
@@ -105,10 +101,8 @@ class MeanOfFeet(TrackPart):
     placed_last: Foot | None = field(default=None, init=False)
     """The foot that was aligned with the other last."""
     return_strides: list[tuple[bool, Vec3, Vec3]] = field(factory=list, init=False)
-    """Newest strides of both feet while a foot is unplaced.
-
-    Each one has a flag for the left foot, the unplaced foot's place on its own track, and the other foot's place, m.
-    """
+    """Newest strides of both feet while a foot is unplaced. Each one has a flag for the left foot, the unplaced foot's
+    place on its own track, and the other foot's place, m."""
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
         """Add one sample of a foot, and note which foot is absent or has come back; returns nothing."""

@@ -33,8 +33,7 @@ class DirectedStride:
 class WalkingDirection:
     """The direction in which a foot walks against its own heading.
 
-    A wearer who walks backwards or sideways has the other foot elsewhere.
-    """
+    A wearer who walks backwards or sideways has the other foot elsewhere."""
 
     turned: float = field(default=0.0, init=False)
     """Sum of the foot's turns, rad."""
@@ -58,8 +57,7 @@ class TrackDivergence:
 
     A foot's world frame starts along its own first stride. A wearer who first puts one foot aside, or steps back and
     then walks, has two tracks at any angle to one another, which no small correction can align. Two feet that walk go
-    the same way.
-    """
+    the same way."""
 
     found: float | None = field(default=None, init=False)
     """The last angle, rad."""
@@ -70,8 +68,7 @@ class TrackDivergence:
         """Return the angle by which this track leads further round, rad, if it is large and repeated; else None.
 
         `this` is a stride, `beside` the other foot's that ended within it; `turn` and `others` are the turns of their
-        tracks, rad. `side` is 1 for the left foot, -1 for the right one.
-        """
+        tracks, rad. `side` is 1 for the left foot, -1 for the right one."""
         if this.direction is None or beside.direction is None:
             return None
         before, angle = self.found, wrapped(side * (this.direction + turn - beside.direction - others))
@@ -93,8 +90,7 @@ def align_tracks(
 ) -> None:
     """Turn each of two tracks by half the `angle`, rad, that this one leads further round, and move both as much.
 
-    Then the other foot stands beside the middle of the stride, `half` m before its end and `aside` m to the right.
-    """
+    Then the other foot stands beside the middle of the stride, `half` m before its end and `aside` m to the right."""
     own.correct(this.end, -0.5 * angle, 0.0, 0.0)
     other.correct(beside.end, 0.5 * angle, 0.0, 0.0)
     direction = own.turn + (this.direction or 0.0)

@@ -1,7 +1,6 @@
 """Gait cycles: measures every gait cycle of both feet from their events, with running means of the steady strides.
 
-Latency: see GaitCycleMeasured. A sample without events costs nothing.
-"""
+Latency: see GaitCycleMeasured. A sample without events costs nothing."""
 
 from __future__ import annotations
 
@@ -109,8 +108,7 @@ class GaitCycles(Part):
     def reset(self, site: Site) -> None:
         """Reset a foot whose clock restarts.
 
-        Its cycle under way has no duration, and its times cannot be compared with the other foot's any more.
-        """
+        Its cycle under way has no duration, and its times cannot be compared with the other foot's any more."""
         if site.foot is not None:
             self.means.reset(site.foot)
             if site.foot is Foot.LEFT:

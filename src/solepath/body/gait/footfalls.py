@@ -1,8 +1,7 @@
 """Gait cycles of one foot, from the events of its phases.
 
 A cycle goes from a contact of the foot to its next one. A stance or a swing of more than `LONGEST_PHASE` is no part of
-a stride: the wearer stood, or held the foot up.
-"""
+a stride: the wearer stood, or held the foot up."""
 
 from __future__ import annotations
 

@@ -6,8 +6,7 @@ weight of one in `MEMORY`, and old strides fade. Walking and running have separa
 Means and standard deviations of both feet together: the mean of the feet's means, and the root of the mean of their
 variances, so that a difference between the feet does not count as variability (Galna et al. 2013, Gait & Posture 37;
 Lord et al. 2013, J. Gerontol. A 68). Variability is that standard deviation, or relative to the mean the coefficient of
-variation (Hausdorff 2005, J. NeuroEng. Rehabil. 2). It needs at least 30 steps to be meaningful (Galna et al.).
-"""
+variation (Hausdorff 2005, J. NeuroEng. Rehabil. 2). It needs at least 30 steps to be meaningful (Galna et al.)."""
 
 from __future__ import annotations
 
@@ -96,8 +95,7 @@ class StrideFigures:
     def double_support(self) -> float | None:
         """Mean of initial and terminal double support together, s.
 
-        It is below zero for a runner, whose flight lasts as long.
-        """
+        It is below zero for a runner, whose flight lasts as long."""
         if self.initial_double_support is None or self.terminal_double_support is None:
             return None
         return self.initial_double_support.mean + self.terminal_double_support.mean
@@ -141,11 +139,9 @@ class GaitParameters:
     feet: dict[Foot, StrideFigures]
     both: StrideFigures
     coordination: float | None
-    """Phase coordination index, as a share (0.03 is 3 %); None without both feet.
-
-    It is the coefficient of variation of the phase of the foot that swings longer, plus the mean distance of that phase
-    from a half, relative to a half (Plotnik et al. 2007, Exp. Brain Res. 181). Healthy walkers have 0.02 to 0.04.
-    """
+    """Phase coordination index, as a share (0.03 is 3 %); None without both feet. It is the coefficient of variation of
+    the phase of the foot that swings longer, plus the mean distance of that phase from a half, relative to a half
+    (Plotnik et al. 2007, Exp. Brain Res. 181). Healthy walkers have 0.02 to 0.04."""
 
     @property
     def cadence(self) -> float | None:
@@ -158,8 +154,7 @@ class GaitParameters:
 
         It is 0 for equal feet and positive where the right one's is larger (Robinson et al. 1987, J. Manip. Physiol.
         Ther. 10). For swing times |ln(right / left)| of Plotnik et al. 2005 (Ann. Neurol. 57) has nearly the same size.
-        It is None where one foot's figure is not known, or both are zero.
-        """
+        It is None where one foot's figure is not known, or both are zero."""
         left, right = (getattr(self.feet.get(foot), name, None) for foot in Foot)
         if left is None or right is None or left.mean + right.mean == 0.0:
             return None
@@ -215,8 +210,7 @@ def _swing(sums: dict[Parameter, RunningMean]) -> float:
 class GaitMeans:
     """The running means of the steady strides of both feet.
 
-    A stride is counted once the next one of its foot follows, so that the last one before a stop is not.
-    """
+    A stride is counted once the next one of its foot follows, so that the last one before a stop is not."""
 
     left: GaitCycleMeasured | None = field(default=None, init=False)
     """Newest stride of the left foot."""

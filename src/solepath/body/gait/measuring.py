@@ -11,8 +11,7 @@ steady when
 - it turns by less than `LARGEST_TURN`, and climbs less than `LARGEST_SLOPE` of its length;
 - the foot has a stride in it, where it has a track: stepping on the spot is no walk.
 
-It is counted once the next stride of the foot follows, so that the last one before a stop is not.
-"""
+It is counted once the next stride of the foot follows, so that the last one before a stop is not."""
 
 from __future__ import annotations
 
@@ -43,8 +42,7 @@ def measure_cycle(
     """Return the measurement of one gait cycle of `foot`.
 
     `previous` is the foot's newest stride, `other` the other foot. `tracked`: the foot has a track. `comparable`: the
-    feet's clocks can be compared over the whole cycle.
-    """
+    feet's clocks can be compared over the whole cycle."""
     start, toe_off, end, stride = cycle.start, cycle.toe_off, cycle.end, cycle.stride
     time = end - start
     between = [t for t in other.contacts if start < t < end]

@@ -5,8 +5,7 @@ sum the alpha_i up to get the turning degree alpha for one foot. Then we use the
 degree." By theorem 1 the feet may point anywhere, as long as they keep doing so. It works on the strides of any recipe.
 
 A wearer who turns on the spot hardly swings the feet. A foot that was flat, left the ground undetected and is flat
-again, turned, has pivoted. That is no stride, but part of a turn.
-"""
+again, turned, has pivoted. That is no stride, but part of a turn."""
 
 from __future__ import annotations
 
@@ -20,15 +19,13 @@ from .turning_steps import NO_TURN, TurningSteps
 SHORTEST_PAUSE = 2.0
 """Least time without a foot-flat that ends a turn, s.
 
-The pause is longer, up to `LONGEST_PAUSE`, after a turning stride that took longer together with the time before it.
-"""
+The pause is longer, up to `LONGEST_PAUSE`, after a turning stride that took longer together with the time before it."""
 LONGEST_PAUSE = 4.0
 """Largest time without a foot-flat that ends a turn, s."""
 STRAIGHT_STRIDES = 3
 """Number of straight strides that end a turn, of both feet where both give samples.
 
-One foot may stride twice on the spot while the other turns.
-"""
+One foot may stride twice on the spot while the other turns."""
 
 
 @frozen
@@ -67,8 +64,7 @@ class TurnDetector:
     """Detects whole turns from strides.
 
     Latency: a turn is known after `STRAIGHT_STRIDES` straight strides of the feet (two where only one foot gives
-    samples), or after they have stood for `SHORTEST_PAUSE`.
-    """
+    samples), or after they have stood for `SHORTEST_PAUSE`."""
 
     left: FootTurn = field(factory=FootTurn, init=False)
     right: FootTurn = field(factory=FootTurn, init=False)
@@ -99,8 +95,7 @@ class TurnDetector:
     def add_pivot(self, foot: Foot, t_start: float, t_end: float, angle: float) -> TurnProcess | None:
         """Add a turn of `angle` rad between two foot-flats without a stride, s; return the turn that it ends.
 
-        A small angle is ignored.
-        """
+        A small angle is ignored."""
         this, other = self._feet(foot)
         if abs(angle) <= NO_TURN:
             return None
@@ -164,8 +159,7 @@ def without_whole_turns(left: float | None, right: float | None) -> tuple[float 
     """Return the turns of both feet, rad, with the whole turn removed by which they may differ.
 
     A stride's turn is known except for whole turns (StrideTaken.heading_change), and a wearer who turns about may swing
-    a foot by more than half a turn: a difference between the feet of more than that is not real.
-    """
+    a foot by more than half a turn: a difference between the feet of more than that is not real."""
     if left is None or right is None or abs(left - right) <= pi:
         return left, right
     whole = 2.0 * pi if left < right else -2.0 * pi

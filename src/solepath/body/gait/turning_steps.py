@@ -3,8 +3,7 @@
 "FootStep-Tracker use low-pass filter to extract the turning steps from the steps of walking straight ahead." The paper
 gives no filter. A foot's turn in a straight stride is not zero: each foot has its own usual turn (by the motion of the
 ankle while the foot is off the ground), and noise. The usual turn is the low-passed turn. A stride that differs from it
-by more than `NO_TURN` is a turning stride and turns by that difference; any other goes straight on.
-"""
+by more than `NO_TURN` is a turning stride and turns by that difference; any other goes straight on."""
 
 from __future__ import annotations
 
@@ -13,8 +12,7 @@ from ...types.attrs import define, field
 NO_TURN = 0.12
 """Largest deviation of a straight stride, rad.
 
-The standard deviation is 3 degrees on recorded feet, and 11 degrees a stride lead round a circle of 7 m.
-"""
+The standard deviation is 3 degrees on recorded feet, and 11 degrees a stride lead round a circle of 7 m."""
 LARGEST_DEVIATION = 0.35
 """Largest deviation of a stride that enters the usual turn, rad."""
 WEIGHT = 0.1

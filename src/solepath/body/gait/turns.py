@@ -4,8 +4,7 @@ Liu et al. 2015, IEEE MASS, section V.E: "we use the degree of both foot as feat
 turns to the left and to the right lie on both sides of all others, which no line in the plane of the two angles
 separates; with their magnitudes as features one does. Features of a turn, in half turns (rad / pi): left, right,
 |left|, |right|, 1. The class is that of the largest of three linear functions of them. The weights come from `python -m
-solepath.lab.train.turns`, which lists the training data. For a foot without samples the other foot's angle is used.
-"""
+solepath.lab.train.turns`, which lists the training data. For a foot without samples the other foot's angle is used."""
 
 from __future__ import annotations
 
@@ -24,8 +23,7 @@ from .turn_detector import TurnDetector, TurnProcess
 LEAST_TURN = 0.61
 """Angle below which a turn is a bend and has no class, rad.
 
-It is half-way between 0 and the 70 degrees of the slightest turns to the side.
-"""
+It is half-way between 0 and the 70 degrees of the slightest turns to the side."""
 
 WEIGHTS: dict[Turn, tuple[float, float, float, float, float]] = {
     Turn.LEFT: (2.79, 1.82, -4.51, -5.9, 4.24),

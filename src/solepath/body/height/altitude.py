@@ -14,8 +14,7 @@ On level ground, where no stride gains height, the air pressure cannot move the 
 offsets. On stairs the strides give the height of each tread and the air the sum; in a lift only the air, where there is
 a barometer, gives the height. A ride is reported after it has ended; the readings since it started are then used again
 (`KEPT_TIME` s are kept). Later readings still correct its height, for as long as the offsets are known better than
-their wander allows.
-"""
+their wander allows."""
 
 from __future__ import annotations
 
@@ -58,8 +57,7 @@ OFFSET_DRIFT = 0.03
 STRIDE_ERROR, DEGRADED_FACTOR = 0.05, 3.0
 """Error of a stride's height as a share of it, and the factor of that error for a degraded stride.
 
-The error adds to the stride's own variance.
-"""
+The error adds to the stride's own variance."""
 RIDE_ERROR = 0.1
 """Error of a ride's height as a share of it, without air pressure after its end."""
 LOWEST_RIDE, SLOWEST_RIDE, FASTEST_RIDE = 1.8, 0.25, 4.0
@@ -85,8 +83,7 @@ class HeightEstimate:
     def read(self, source: int, t: float, height: float, noise: float, wander: float) -> None:
         """Correct the estimate with a barometer's height above its foot's track, m.
 
-        `noise` is the variance of the reading, m^2, and `wander` the growth of the offset's variance, m^2/s.
-        """
+        `noise` is the variance of the reading, m^2, and `wander` the growth of the offset's variance, m^2/s."""
         x, p, i = self.values, self.covariance, 1 + source
         before = self.read_at[source]
         self.read_at[source] = t
@@ -136,8 +133,7 @@ class PendingReadings:
 class Altitude(Part):
     """Estimates the correction of the wearer's height from air pressure, strides and lift rides.
 
-    Latency: none for the air pressure; a ride is known after it.
-    """
+    Latency: none for the air pressure; a ride is known after it."""
 
     needs_samples: ClassVar[bool] = True
     idle = True

@@ -1,7 +1,6 @@
 """Recent inputs of the height filter.
 
-A lift ride is known only after it has ended; all inputs since it started are then used again.
-"""
+A lift ride is known only after it has ended; all inputs since it started are then used again."""
 
 from __future__ import annotations
 

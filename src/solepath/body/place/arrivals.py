@@ -23,8 +23,7 @@ ON_STAIRS_WEIGHT = 2.0
 LEAST_OPPOSITE_SHARE = {ConnectorKind.STAIRS: 0.1, ConnectorKind.LIFT: 0.01}
 """Least probability that the wearer goes in the other direction than reported.
 
-To a foot, stairs up and down look much alike.
-"""
+To a foot, stairs up and down look much alike."""
 
 Scatter = Callable[[int, int], tuple[float, float, float, float]]
 
@@ -42,8 +41,7 @@ def fan(
 ) -> list[Row]:
     """Return `count` rows around a place, of all headings where none is known, with `weight` in all.
 
-    `scatter` gives offsets for the k-th row, each from -1 to 1: x, y, heading, stretch.
-    """
+    `scatter` gives offsets for the k-th row, each from -1 to 1: x, y, heading, stretch."""
     x0, y0 = plan.plan.origin
     near = min(max(spread, 0.0), 20.0) * 1.2
     rows: list[Row] = []

@@ -72,8 +72,7 @@ def ways_out(
 ) -> list[tuple[Landing, float]]:
     """Return the exits for a wearer who entered there and gained `height` m (None: any), with their likelihoods.
 
-    Where the plan has no heights, all usual heights of a storey are alike.
-    """
+    Where the plan has no heights, all usual heights of a storey are alike."""
     ways = []
     for landing in _along(stops, entered):
         rise = landing.elevation - entered.elevation

@@ -2,8 +2,7 @@
 
 Activities are evidence, not facts: level walking is taken for stairs, and stairs down for stairs up. Therefore a wearer
 who may have changed level is followed on either level, and in either direction, each with its probability; the walls
-and later events decide.
-"""
+and later events decide."""
 
 from __future__ import annotations
 
@@ -38,8 +37,7 @@ OLD_SHARE = {ConnectorKind.STAIRS: 0.85, ConnectorKind.LIFT: 0.5}
 BOTH_LEVELS = (0.3, 0.8)
 """Limits, as shares of the climb to the next landing, between which the wearer may be on either level.
 
-The height is that of counted steps.
-"""
+The height is that of counted steps."""
 LEAST_SURE = 0.3
 """Least certainty of an arrival for which the wearer is searched elsewhere."""
 
@@ -127,8 +125,7 @@ class LevelChanges(PlaceHypotheses):
     def with_levels(self, plan: FloorPlan, rows: list[Row], here: WearerMoved) -> tuple[list[Row], dict[int, float]]:
         """Return the rows with the level that each is nearer to, and the height of the wearer by landing of entry, m.
 
-        About half-way a row is on either level. The height is no further than the next landing.
-        """
+        About half-way a row is on either level. The height is no further than the next landing."""
         entered = {row[7] for row in rows if row[7]}
         if not entered:
             return rows, {}

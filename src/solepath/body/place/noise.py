@@ -2,8 +2,7 @@
 
 Each row has four numbers from -1 to 1, evenly filled (the additive recurrence of Roberts 2018 in four dimensions:
 multiples of the powers of 1 / 1.16730..., the root of x^5 = x + 1, less their whole part). Consecutive rows from a
-start that `next_random` chooses give all directions alike, and other ones each time.
-"""
+start that `next_random` chooses give all directions alike, and other ones each time."""
 
 from __future__ import annotations
 

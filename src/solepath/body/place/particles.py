@@ -2,8 +2,7 @@
 
 Every particle is a row (rows.py) that moves with random errors (sway.py). A particle that would go through a wall tries
 again with larger errors and less weight; when that fails, it is removed. The others are the places where the wearer can
-be. Random numbers come from a table and a count, so they are the same everywhere.
-"""
+be. Random numbers come from a table and a count, so they are the same everywhere."""
 
 from __future__ import annotations
 

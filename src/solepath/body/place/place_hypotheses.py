@@ -46,8 +46,7 @@ class PlaceHypotheses(Part, ABC):
     def extend(self, plan: IndexedPlan, rows: list[Row], move: Point, rough: float, turned: float) -> list[Row]:
         """Return the rows after a move (m, track), without those that cannot go there.
 
-        `rough`: factor of the track's usual errors. `turned`: turn of the wearer in the move, rad, not negative.
-        """
+        `rough`: factor of the track's usual errors. `turned`: turn of the wearer in the move, rad, not negative."""
 
     @abstractmethod
     def scatter(self, k: int, count: int) -> tuple[float, float, float, float]:
@@ -109,8 +108,7 @@ def penalise_outside(plan: IndexedPlan, rows: list[Row]) -> list[Row]:
 def wrong_turns(plan: IndexedPlan, rows: list[Row], since: Point) -> list[Row]:
     """Return rows of all headings for an about-turn that the track may have wrong, few and of low weight.
 
-    The walls decide between them. `since`: displacement since the turn, m, track.
-    """
+    The walls decide between them. `since`: displacement since the turn, m, track."""
     dx, dy = since
     x0, y0 = plan.plan.origin
     some = resampled([row for row in rows if not row[7]], ROWS_PER_HEADING, 0.5)

@@ -5,8 +5,7 @@ too); walls give the rest: placements of the track that lead through walls are w
 Stairs and lifts lead to another level, and they end where the plan has them.
 
 The track itself is never bent. Latency: a place is reported with the stride that leads there, a level as in
-reference.py.
-"""
+reference.py."""
 
 from __future__ import annotations
 
@@ -41,8 +40,7 @@ CLEAR_WEIGHT, FADE_FACTOR, FADE_RADIUS = 0.9, 0.88, 3.0
 """Weight of a clear candidate, factor of the weight of rows on other levels, and their distance from it, m.
 
 Rows within that distance on another level keep this share of their weight with each stride: floors are often alike, and
-then no wall ever decides.
-"""
+then no wall ever decides."""
 
 
 @define

@@ -6,8 +6,7 @@ certainty. Half a storey is a landing, and a window or two of stairs on level gr
 be an arrival.
 
 Latency: a lift's ride with its event, or two strides or 4 s after an activity without such an event; stairs with the
-activity that follows them, or up to `LONGEST_WAIT` s or `WAIT_DISTANCE` m later when the height fits no storey.
-"""
+activity that follows them, or up to `LONGEST_WAIT` s or `WAIT_DISTANCE` m later when the height fits no storey."""
 
 from __future__ import annotations
 
@@ -34,8 +33,7 @@ LEAST_STOREY, LARGEST_CLIMB = 0.6, 2.0
 KERB_SHARE = 0.35
 """Share of the least storey below which a height is a kerb.
 
-Heights between this and `LEAST_STOREY` are half a storey, or a whole one of which half was detected.
-"""
+Heights between this and `LEAST_STOREY` are half a storey, or a whole one of which half was detected."""
 SURE, FAIR, HALF, SURE_RIDE = 0.97, 0.9, 0.1, 0.99
 """Certainty of an arrival: the height fits a storey, nearly fits one, is half of one; and that of a ride."""
 RIDE_OVER = 4.0
@@ -71,8 +69,7 @@ class Released:
 class Arrived:
     """Reference: at `t` s the wearer left stairs or a lift, entered at `t_start`, on another level.
 
-    `height`: m, None when it is not known.
-    """
+    `height`: m, None when it is not known."""
 
     kind: ConnectorKind
     up: bool

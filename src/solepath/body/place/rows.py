@@ -1,8 +1,7 @@
 """Rows: many places at which the wearer may be, and the candidates that follow from them.
 
 Each row is one hypothesis: the wearer's place, the placement of the track in the plan (turn and stretch), and a weight.
-Its numbers have few digits, since there are many rows and a snapshot must be small.
-"""
+Its numbers have few digits, since there are many rows and a snapshot must be small."""
 
 from __future__ import annotations
 
@@ -18,8 +17,7 @@ Row = tuple[float, float, float, float, float, int, int, int]
 
 x, y: m, plan frame, less the `FloorPlan.origin`. a, b: a move (dx, dy) of the track is (a dx - b dy, b dx + a dy) in
 the plan: a turn and a stretch. Level: its index in the plan. Origin: 0 for the start, else the index of a connector
-plus one. Landing at which it may be changing level: `Landing.index`, 0 for none.
-"""
+plus one. Landing at which it may be changing level: `Landing.index`, 0 for none."""
 
 _DIGITS = Struct("<ffeee")
 """Digits of a row: x, y are kept as float32, a, b and the weight as float16."""
@@ -43,8 +41,7 @@ LEAST_WEIGHT = 0.002
 def rounded(rows: list[Row]) -> list[Row]:
     """Return the rows as they are kept, the largest weight scaled to 1, without those that are too far or too light.
 
-    a, b and the weight keep three digits: a turn by 0.0005 rad is finer than any track.
-    """
+    a, b and the weight keep three digits: a turn by 0.0005 rad is finer than any track."""
     most = max([row[4] for row in rows], default=0.0)
     if not most > 0.0:
         return []
@@ -60,8 +57,7 @@ def resampled(rows: list[Row], count: int, offset: float) -> list[Row]:
     """Return `count` rows that stand for all (systematic resampling; `offset` in 0 to 1).
 
     Each row is drawn as often as the root of its weight says, with that root as weight: the distribution stays as it
-    was, and rows of low weight stay among them.
-    """
+    was, and rows of low weight stay among them."""
     roots = [sqrt(row[4]) for row in rows]
     step = sum(roots) / count
     if not step > 0.0:
@@ -90,8 +86,7 @@ def candidates_of(
 
     `heights`: height of the rows that change level, m, plan frame, by their landing of entry. `track`: height to be
     reported where the plan has none, m, else None. `limit`: all rows are one candidate when they deviate by no more
-    (rms), m. There must be a row. Places are rounded to a millimetre, since they are kept.
-    """
+    (rms), m. There must be a row. Places are rounded to a millimetre, since they are kept."""
     origin = plan.origin
     groups = _grouped(rows, limit)
     total = sum([group[0] for group in groups])

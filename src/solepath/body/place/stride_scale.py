@@ -3,8 +3,7 @@
 The heading of each foot's own track drifts from the truth, and the other's to another side. The mean of two tracks that
 diverge is shorter than either, by a quarter at an angle of 80 degrees; its direction is the mean of theirs. The lengths
 of the strides do not change. Therefore the distance from one stride end of a foot to its next, with one of the other
-foot between, is compared with the mean of both strides.
-"""
+foot between, is compared with the mean of both strides."""
 
 from __future__ import annotations
 

@@ -38,8 +38,7 @@ def sway_rows(
     """Return the rows after a move (m, track), without those that cannot go there.
 
     `rough`: factor of the track's usual errors; `turned`: turn of the wearer, rad; `random`: first row of the table;
-    `both`: a row that meets a wall continues on either side of it, not only on the first that is free.
-    """
+    `both`: a row that meets a wall continues on either side of it, not only on the first that is free."""
     turn = rough * (HEADING_NOISE + TURN_NOISE * turned)
     kept = _sway(plan, rows, move, rough, turn, random % ROWS, both, BENDS)
     return kept or _sway(plan, rows, move, 2.0 * rough, 2.0 * turn, (random + 499) % ROWS, both, WIDE_BENDS)

@@ -34,8 +34,7 @@ class RateIntegral:
     def add(self, t: float, dt: float, gyro: Vec3, most: int) -> None:
         """Add an angular rate at `t`, s, in rad/s, that lasted `dt` s since the newest instant, 0.12 s at the most.
 
-        When there are `most` instants, the oldest eighth is discarded.
-        """
+        When there are `most` instants, the oldest eighth is discarded."""
         x, y, z = self.turn
         gx, gy, gz = gyro
         x, y, z = self.turn = (x + dt * gx, y + dt * gy, z + dt * gz)

@@ -19,8 +19,7 @@ Both feet must agree, over eight strides each. Nothing is reported of feet that 
 climbs may be detected late or never. Of 93 recordings of both feet (healthy walkers and patients, a treadmill, stairs,
 50 to 200 Hz) none is reported as exchanged, and 51 are when they are exchanged; of the others all but 9 have fewer than
 eight strides of a foot. A sensor frame that is left-handed on both feet (the sign of an axis is lost) mirrors the
-motion, and a mirrored left foot looks like a right one: it is reported as exchanged feet, and is as wrong.
-"""
+motion, and a mirrored left foot looks like a right one: it is reported as exchanged feet, and is as wrong."""
 
 from __future__ import annotations
 
@@ -42,8 +41,7 @@ LONGEST_GAP = 0.11
 MOST_INSTANTS = 80
 """Largest number of instants kept of the turn.
 
-At 50 Hz they are at least the last 1.4 s of a stride: a push-off, a swing and the loading after it.
-"""
+At 50 Hz they are at least the last 1.4 s of a stride: a push-off, a swing and the loading after it."""
 PUSH_OFF = 0.3
 """Approximate time before toe-off during which the foot turns over its toes, s."""
 LEAST_PUSH_OFF_TURN = 0.25
@@ -117,8 +115,7 @@ class SwapEvidence:
 class Sides:
     """Detects exchanged feet from the evidence of both; does nothing where a device reports the foot it is on.
 
-    It costs an integral at 50 Hz, or a centre of pressure at 20 Hz for an insole alone.
-    """
+    It costs an integral at 50 Hz, or a centre of pressure at 20 Hz for an insole alone."""
 
     left: SwapEvidence = field(factory=SwapEvidence, init=False)
     right: SwapEvidence = field(factory=SwapEvidence, init=False)

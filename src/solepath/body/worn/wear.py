@@ -45,8 +45,7 @@ class Wear(Part):
     A foot that gave samples before is silent when the other one has taken `steps` strides, and `seconds` have passed,
     since its last sample. FootSilent reports that, and FootResumed comes with the sample that ends it. Nothing is
     reported while nobody walks, nor of a foot that never gave a sample: a recording may be of one foot. Recipes of two
-    feet continue with the one that is left. FeetSwapped is reported once, when `Sides` detects it.
-    """
+    feet continue with the one that is left. FeetSwapped is reported once, when `Sides` detects it."""
 
     needs_samples: ClassVar[bool] = True
 

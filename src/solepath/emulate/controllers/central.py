@@ -111,8 +111,7 @@ class RadioClient(BaseBleakClient):
     """A GATT client on the virtual link.
 
     The disconnected callback is called once for every established link, whichever side ended it. A pending request then
-    ends with a BleakError.
-    """
+    ends with a BleakError."""
 
     radio: ClassVar[VirtualRadio]
     scanner: ClassVar[type[RadioScanner]]
@@ -142,8 +141,7 @@ class RadioClient(BaseBleakClient):
 
         With the keys of an earlier pairing the link is encrypted; without keys and with `pair` the device is paired.
         `timeout`, s: a device that does not answer raises TimeoutError; an address that no device advertises raises
-        BleakDeviceNotFoundError; a link that is lost at once, or a failed pairing, raises BleakError.
-        """
+        BleakDeviceNotFoundError; a link that is lost at once, or a failed pairing, raises BleakError."""
         if self._link is not None:
             raise BleakError("already connected")
         timeout: float = kwargs.get("timeout", self._timeout)

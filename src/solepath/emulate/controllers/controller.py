@@ -2,8 +2,7 @@
 
 Three corrections matter in tests of a reconnect. A cancelled connection request really ends. When a device has just
 accepted another central, a second central does not keep a link that is dead from the start. A scan response has its own
-data. Extended advertising and privacy are left out: nothing here needs them.
-"""
+data. Extended advertising and privacy are left out: nothing here needs them."""
 
 from __future__ import annotations
 
@@ -28,8 +27,7 @@ RSSI = -50
 class VirtualMedium(LocalLink):
     """The radio medium that virtual controllers share.
 
-    `interval` is the time between the connection events of every link, s; None: packets do not wait.
-    """
+    `interval` is the time between the connection events of every link, s; None: packets do not wait."""
 
     def __init__(self, interval: float | None = None) -> None:
         super().__init__()  # type: ignore[no-untyped-call]
@@ -184,8 +182,7 @@ class ConnectionEvents:
     """The connection events of one link, `interval` s apart; the first is `interval` s after the link was made.
 
     All packets that are ready at an event go in their order. There is no limit on their number, as a real radio has.
-    Answers go at the next event.
-    """
+    Answers go at the next event."""
 
     def __init__(self, interval: float) -> None:
         self.interval = interval

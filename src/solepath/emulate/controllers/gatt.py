@@ -15,8 +15,7 @@ class AttributeServer(Server):
     """The GATT server of bumble, without its side effect on the program's logging.
 
     In every discovery bumble reports with `logging.debug` that there is no further attribute of a type. That function
-    configures the root logger of a program that has not done so itself.
-    """
+    configures the root logger of a program that has not done so itself."""
 
     def on_att_read_by_type_request(self, bearer: att.Bearer, request: att.ATT_Read_By_Type_Request) -> None:
         first, last = request.starting_handle, request.ending_handle
@@ -42,8 +41,7 @@ def short_or_long(uuid: str) -> core.UUID:
 def advertisement(name: str, services: Sequence[str]) -> bytes:
     """Return an advertisement of at most 31 bytes: services, name, and flags if they fit.
 
-    Flags may be left out (Core supplement, A 1.3).
-    """
+    Flags may be left out (Core supplement, A 1.3)."""
     uuids = [short_or_long(uuid) for uuid in services]
     short = [uuid for uuid in uuids if len(uuid.to_pdu_bytes()) == 2]
     long = [uuid for uuid in uuids if len(uuid.to_pdu_bytes()) == 16]

@@ -1,8 +1,7 @@
 """One virtual central: a bumble Device that scanners and clients share, opened when it is first needed.
 
 A controller makes one connection at a time. An attempt to reach a device that does not answer holds the controller for
-a few seconds, lets the other attempts go first and then repeats, until its own time is over.
-"""
+a few seconds, lets the other attempts go first and then repeats, until its own time is over."""
 
 from __future__ import annotations
 
@@ -37,8 +36,7 @@ class VirtualRadio:
 
     `reach` opens the transport and raises OSError when there is none; after a loss the next scan or connection calls it
     again. `where` names the transport in messages. `address` is the static random address of the central; None: any.
-    `mtu` is the ATT MTU that the central requests, bytes.
-    """
+    `mtu` is the ATT MTU that the central requests, bytes."""
 
     def __init__(
         self, reach: Callable[[], Awaitable[Transport]], where: str, mtu: int, address: str | None = None
@@ -95,8 +93,7 @@ class VirtualRadio:
         """Handle the loss of the transport.
 
         bumble has already reported it to every link, but tasks that wait for the controller would wait for ever. Scans
-        continue as soon as the controller is back.
-        """
+        continue as soon as the controller is back."""
         if self._device is device:
             self._device = self._transport = None
             for task in self._tasks:
@@ -152,8 +149,7 @@ class VirtualRadio:
     async def connect(self, peer: hci.Address) -> Connection:
         """Return a link to the device of this address; try until cancelled. Raise BleakError when the controller fails.
 
-        A link that is lost as soon as it is made raises BleakError too.
-        """
+        A link that is lost as soon as it is made raises BleakError too."""
         while True:
             device = await self.device()
             async with self._connecting:
@@ -200,8 +196,7 @@ class VirtualRadio:
         """Run an exchange with the controller or a device to its end, even when the caller gives up.
 
         After an abandoned request its answer would be taken for the answer to the next request. An exchange that ends
-        with the link raises BleakError.
-        """
+        with the link raises BleakError."""
         task = self.task(work)
         try:
             return await asyncio.shield(task)
@@ -234,8 +229,7 @@ class VirtualRadio:
 def is_up(link: Connection) -> bool:
     """Return whether the link is up.
 
-    A link that fails to be established may end before a listener can be attached.
-    """
+    A link that fails to be established may end before a listener can be attached."""
     return link.device.connections.get(link.handle) is link
 
 
@@ -277,8 +271,7 @@ class PairingConsent(PairingDelegate):
 def just_works(device: Device, agrees: Callable[[], bool]) -> None:
     """Let the device pair by LE Secure Connections, Just Works, with bonding (the keys are kept).
 
-    When the other side starts the pairing, `agrees()` decides.
-    """
+    When the other side starts the pairing, `agrees()` decides."""
     pairing_consent = PairingConsent(agrees)
 
     def config(link: Connection) -> PairingConfig:

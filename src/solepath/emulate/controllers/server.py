@@ -1,7 +1,6 @@
 """Emulated devices as real GATT servers, each on its own virtual controller, and a central that reaches them.
 
-`virtual_air` is for one process; tcp.py connects other processes to the same medium.
-"""
+`virtual_air` is for one process; tcp.py connects other processes to the same medium."""
 
 from __future__ import annotations
 
@@ -38,8 +37,7 @@ _T = TypeVar("_T")
 ADVERTISING = 62.5
 """Advertising interval as bumble's host takes it, ms.
 
-bumble's controller reads the 0.625 ms units of HCI as milliseconds, so the interval is 100 ms.
-"""
+bumble's controller reads the 0.625 ms units of HCI as milliseconds, so the interval is 100 ms."""
 _CENTRAL = "C0:50:1E:9A:74:01"
 _STANDARD = ("0000180a", "0000180f")
 """Services that the Bluetooth SIG defines: their characteristics need no description."""
@@ -53,8 +51,7 @@ async def virtual_air(
 
     `mtu` is the ATT MTU that the central requests; a device may accept less. `interval` is the time between the
     connection events of each link, s: all ready packets go then, requests and answers too (0.0075 to 4 s on a real
-    link, often 0.03). None: packets do not wait.
-    """
+    link, often 0.03). None: packets do not wait."""
     link = VirtualMedium(interval)
     controller = VirtualController("central", link)
 

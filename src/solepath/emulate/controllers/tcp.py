@@ -4,8 +4,7 @@
     async with reach("tcp:127.0.0.1:9735") as backend: ...                      # any number of others
 
 Any program that speaks HCI over TCP may connect, for example bumble's own tools with `tcp-client:HOST:PORT`. There is
-no authentication: any program that can open the port can use the devices.
-"""
+no authentication: any program that can open the port can use the devices."""
 
 from __future__ import annotations
 
@@ -36,8 +35,7 @@ async def serve(peripherals: Iterable[Peripheral], host: str, port: int) -> Asyn
 
     Several clients may connect at the same time; a device is connected to one of them at a time. When a client
     disconnects, its links are lost as by a supervision timeout, and its devices advertise again. An address that cannot
-    be used raises OSError.
-    """
+    be used raises OSError."""
     link = VirtualMedium()
     clients: set[_TcpClient] = set()
     async with on_air(peripherals, link):
@@ -104,8 +102,7 @@ class _TcpClient(asyncio.Protocol):
 def address_of(where: str) -> tuple[str, int]:
     """Return host and port of "tcp:HOST:PORT"; raise ValueError for any other text.
 
-    An IPv6 host may stand in brackets.
-    """
+    An IPv6 host may stand in brackets."""
     host, colon, port = where.removeprefix(_SCHEME).rpartition(":")
     if not where.startswith(_SCHEME) or not colon or not host or not port.isdecimal() or not 0 < int(port) < 65536:
         raise ValueError(f"{where!r} is not tcp:HOST:PORT")
@@ -118,8 +115,7 @@ async def reach(where: str, mtu: int = 247) -> AsyncIterator[Backend]:
 
     Any other text in `where` raises ValueError; a server that does not answer raises a BleakError that names it. After
     a loss of the connection every client's disconnected callback is called. Scanning and connecting then open the
-    connection again (BleakError if they cannot), and a running scan continues as soon as the server is back.
-    """
+    connection again (BleakError if they cannot), and a running scan continues as soon as the server is back."""
     host, port = address_of(where)
 
     async def opened() -> Transport:

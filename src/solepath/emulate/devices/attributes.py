@@ -103,8 +103,7 @@ def services(
     """Return the services of a device.
 
     They hold the channels of `profile` with their `properties`, the pairs (service, characteristic) of `more`, and the
-    characteristics of Device Information that `information` names (manufacturer, model, hardware, software).
-    """
+    characteristics of Device Information that `information` names (manufacturer, model, hardware, software)."""
     table = [(c.service, Characteristic(c.characteristic, c.name, properties[c.name])) for c in profile.channels]
     table += more
     for name in information:

@@ -24,8 +24,7 @@ class Bench:
 
     SensorTags have their product names, the same on both feet; only the address distinguishes them.
     It is F0:5E:00:00:00:01 for the first site in the order of Site that wears a device, :02 for the next.
-    `started_at` is the loop's time at which the walk starts. A device that the site cannot wear raises ValueError.
-    """
+    `started_at` is the loop's time at which the walk starts. A device that the site cannot wear raises ValueError."""
 
     def __init__(
         self,

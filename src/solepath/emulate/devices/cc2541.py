@@ -1,7 +1,6 @@
 """The emulated CC2541 SensorTag as a GATT server: protocol/cc2541.md from the device's side.
 
-Like the CC2650 it accepts any configuration, and each sensor keeps its own errors for every period.
-"""
+Like the CC2650 it accepts any configuration, and each sensor keeps its own errors for every period."""
 
 from __future__ import annotations
 

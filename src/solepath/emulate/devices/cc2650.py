@@ -1,8 +1,7 @@
 """The emulated CC2650 SensorTag as a GATT server: protocol/cc2650.md from the device's side.
 
 It accepts any configuration: with another range, other axes or another period than the profile's it sends the data that
-the tag would send. Each sensor keeps its own errors for every period.
-"""
+the tag would send. Each sensor keeps its own errors for every period."""
 
 from __future__ import annotations
 

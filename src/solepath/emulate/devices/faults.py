@@ -18,8 +18,7 @@ semicolon ends a fault as the end of a line does:
     0 left_foot pairing               # from now on the device sends and answers only on a link that is paired
     0 left_foot refuse pairing        # the next attempt to pair is rejected
 
-Seconds count from the start of the walk. The same script has the same effect every time.
-"""
+Seconds count from the start of the walk. The same script has the same effect every time."""
 
 from __future__ import annotations
 
@@ -86,8 +85,7 @@ _NAMING = {FaultKind.REJECT: "a channel", FaultKind.NAME: "a name"}
 def parse_faults(text: str) -> tuple[Fault, ...]:
     """Return the faults of a script, in its order.
 
-    A line with an error raises ValueError, which names the line and the reason.
-    """
+    A line with an error raises ValueError, which names the line and the reason."""
     found = []
     for number, line in enumerate(text.splitlines(), 1):
         try:

@@ -17,8 +17,7 @@ class ValueSource(Protocol):
     def due(self, number: int) -> float:
         """Return the time at which the radio has the value, s: never before the previous one; inf when there is none.
 
-        Times grow with the number.
-        """
+        Times grow with the number."""
 
     def values(self, number: int, mtu: int) -> Sequence[bytes]:
         """Return the notifications of the value, in order: none, one, or several when one is too short."""

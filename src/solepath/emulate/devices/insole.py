@@ -55,8 +55,7 @@ class _Frames:
     """A ValueSource of the frames of a signal.
 
     `sequence` and `ticks` are added to those of the signal. `kept` has the numbers of the frames that were sent,
-    `to_resend` the numbers of the frames that must be sent again.
-    """
+    `to_resend` the numbers of the frames that must be sent again."""
 
     signal: InsoleSignal
     batch: int
@@ -107,10 +106,9 @@ class _Frames:
 class InsolePeripheral(Peripheral):
     """A worn insole, "solepath L" or "solepath R", as a GATT server.
 
-    Its frames are byte for byte those of `device.emit` for the same walker, site, seed and interval, as long as
-    SET INTERVAL comes while it is stopped. When it comes while it runs, sequence and ticks continue. The signal of the
-    whole walk is computed once for each interval, when it is first needed or by `prepare`.
-    """
+    Its frames are byte for byte those of `device.emit` for the same walker, site, seed and interval, as long as SET
+    INTERVAL comes while it is stopped. When it comes while it runs, sequence and ticks continue. The signal of the
+    whole walk is computed once for each interval, when it is first needed or by `prepare`."""
 
     def __init__(self, device: Insole, walker: Walker, seed: int, worn: Placement) -> None:
         name = f"solepath {'L' if foot_of(worn.site) is Foot.LEFT else 'R'}"

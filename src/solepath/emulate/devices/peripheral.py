@@ -10,8 +10,7 @@ this for each connection:
         if device.hang_up(now): lose the link
     device.disconnected(now)
 
-A fault script (faults.py) acts inside the device; the server sees only its effects.
-"""
+A fault script (faults.py) acts inside the device; the server sees only its effects."""
 
 from __future__ import annotations
 
@@ -48,8 +47,7 @@ class Placement:
 class Peripheral:
     """A virtual device as a GATT server; insole.py and tag.py define its attributes.
 
-    `sent` counts the sent notifications by channel. When `log` is a list, it collects all of them.
-    """
+    `sent` counts the sent notifications by channel. When `log` is a list, it collects all of them."""
 
     def __init__(self, worn: Placement, name: str, services: Iterable[Service], advertised: Iterable[str]) -> None:
         self.site, self.address = worn.site, worn.address

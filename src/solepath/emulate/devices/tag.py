@@ -97,8 +97,7 @@ class Tag(Peripheral, ABC):
     """A worn SensorTag as a GATT server; `name` is the product name of the model, `clock` its own clock.
 
     `device.rate` is the highest rate that the firmware accepts, if it is above the stock 10 Hz. The host's writes set
-    range and rates.
-    """
+    range and rates."""
 
     def __init__(
         self,
@@ -138,8 +137,7 @@ class Tag(Peripheral, ABC):
     def encoder(self, sensor: str, config: bytes, period: float) -> Encoder | None:
         """Return the encoder of a sensor with this configuration; None when the sensor is off.
 
-        A configuration that the firmware does not accept raises AttError.
-        """
+        A configuration that the firmware does not accept raises AttError."""
         raise AttError(AttCode.APPLICATION_ERROR)
 
     def stop(self) -> None:

@@ -3,8 +3,7 @@
 Six corridors, 2.4 m wide, make four loops of different sizes; rooms with doors lie along them. Four lifts, as many as
 the candidates of the paper's fig. 15, open to four corridors; lift `A` is at the bottom left. Two staircases have two
 flights and a landing per storey. Both floors are alike, except the exits on the ground floor. Plan frame: origin at the
-south-west corner, x to the east, y to the north, m.
-"""
+south-west corner, x to the east, y to the north, m."""
 
 from __future__ import annotations
 
@@ -24,8 +23,7 @@ HALF = 1.2
 COLUMNS, ROWS = (9.0, 25.0, 47.0), (9.0, 27.0, 54.0)
 """Middle lines of the corridors, m: x of those that run north, y of those that run east.
 
-The first and the last column run through the whole building.
-"""
+The first and the last column run through the whole building."""
 GROUND, UPPER = "0", "1"
 """Ids of the two levels."""
 STEPS, RISE, GOING = 10, 0.16, 0.30

@@ -2,8 +2,7 @@
 
 `Walker` and `emulate` take these routes. On routes with marks, `marks` returns which stride of which foot landed on
 each mark, and `modes` the walking mode of every stride. Marks are the points of the ground below the ankle, in the
-world frame of the walk (origin between the feet at the start, x along the first heading).
-"""
+world frame of the walk (origin between the feet at the start, x along the first heading)."""
 
 from __future__ import annotations
 
@@ -131,8 +130,7 @@ def rectangle(speed: float = 1.1, corner: float = CORNER, rounds: int = 1) -> Ro
     """Return a rectangle from A over B, C and D back to A, counter-clockwise, with A at the origin and B ahead of it.
 
     Corners are bends of radius `corner`, walked at TIGHT_TURN (route.py) when it is below 1 m; 0 means a turn on the
-    spot, with a halt. The walk ends on A itself, at the end of DA.
-    """
+    spot, with a halt. The walk ends on A itself, at the end of DA."""
     points = [(ALONG, 0.0), (ALONG, ACROSS), (0.0, ACROSS), (0.0, 0.0)] * rounds
     return through(Route().stand(2.0), points, speed, corner).stop(2.0)
 
@@ -140,8 +138,7 @@ def rectangle(speed: float = 1.1, corner: float = CORNER, rounds: int = 1) -> Ro
 def corridor(length: float = CORRIDOR, speed: float = 1.3, corner: float = 1.0) -> Route:
     """Return one lap around the inner block of a building's floor, to the left and back to the start.
 
-    Long sides are 1.5 times as long as short ones. (The paper shows its path only in fig. 13.)
-    """
+    Long sides are 1.5 times as long as short ones. (The paper shows its path only in fig. 13.)"""
     short = (length - 2.0 * pi * corner) / 5.0 + 2.0 * corner
     long = 1.5 * (short - 2.0 * corner) + 2.0 * corner
     route = Route().stand(2.0)
@@ -172,8 +169,7 @@ def through(route: Route, points: Sequence[Point], speed: float, corner: float) 
     """Return `route` continued on straight lines through the points, with bends of radius `corner`, m.
 
     The first turn is on the spot, and all turns are when `corner` is 0. A bend that does not fit between two points
-    raises ValueError.
-    """
+    raises ValueError."""
     end = route.end
     here, heading, cut = (end.x, end.y), end.heading, 0.0
     for k, there in enumerate(points):
@@ -218,8 +214,7 @@ def modes(walker: Walker) -> dict[Foot, tuple[WalkingMode, ...]]:
 def marks(walker: Walker, per_lap: int | None = None) -> tuple[FloorMark, ...]:
     """Return the marks of a walker on a paced route and the strides on them, in the order of time.
 
-    Closing steps have no mark. `per_lap` is the number of a foot's marks in one lap.
-    """
+    Closing steps have no mark. `per_lap` is the number of a foot's marks in one lap."""
     exact = evolve(walker.wearer, width_variation=0.0, angle_variation=0.0, aim=0.0)
     meant = plan(walker.route, exact, np.random.default_rng(0))
     closing = {
@@ -261,8 +256,7 @@ def _corner(walker: Walker, name: str, t: float, place: Vec3) -> LapCorner:
 def write_marks(path: Path | str, found: Iterable[FloorMark]) -> None:
     """Write marks for `solepath calibrate modes`: a csv file with the columns foot, x, y, mode and t.
 
-    Steps in place are left out.
-    """
+    Steps in place are left out."""
     with Path(path).open("w", newline="", encoding="utf-8") as file:
         rows = csv.writer(file)
         rows.writerow(("foot", "x", "y", "mode", "t"))

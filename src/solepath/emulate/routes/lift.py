@@ -5,9 +5,8 @@ rises linearly, is constant and falls linearly; the car then runs at constant sp
 Lifts of few storeys run at 1.0 to 1.6 m/s with 0.6 to 1.2 m/s^2 and a jerk of about 1 m/s^3. Some approach the floor at
 a very low speed over the last centimetres.
 
-On its rails the car vibrates: SHAKE is of the order of the 10 to 15 milli-g from peak to peak that measurements by
-ISO 18738-1 find in lifts in good order. The frequencies between 2 and 12 Hz are assumed.
-"""
+On its rails the car vibrates: SHAKE is of the order of the 10 to 15 milli-g from peak to peak that measurements by ISO
+18738-1 find in lifts in good order. The frequencies between 2 and 12 Hz are assumed."""
 
 from __future__ import annotations
 

@@ -15,8 +15,7 @@ UP, DOWN = 0.25, 0.17
 """Distance from the ankle to the next edge ahead, before a flight and on every tread, upwards and downwards, m.
 
 Upwards the heel is over the edge behind by 4 cm on treads of 0.30 m, and the forefoot rocker ends 9 cm before the next
-riser; downwards the ball of the foot is 6 cm behind the edge and the toes are over it.
-"""
+riser; downwards the ball of the foot is 6 cm behind the edge and the toes are over it."""
 HEEL = 0.13
 """Least distance from the ankle back to the riser behind it downwards, m; on shorter treads the toes are out more."""
 
@@ -61,8 +60,7 @@ class Flight:
     def above(self, x: Array, y: Array, radius: Array) -> Array:
         """Return the height of the centre of a disc that touches the treads or an edge below it, m.
 
-        The disc is vertical along the flight with its centre above (x, y).
-        """
+        The disc is vertical along the flight with its centre above (x, y)."""
         u = self.along(x, y)
         least = self._tread(u) + radius
         for k in range(self.steps):
@@ -172,8 +170,7 @@ class WalkPath:
     def pace(self, s: float) -> tuple[float, bool]:
         """Return the speed `s` m after the halt, m/s, and whether the wearer runs there.
 
-        A runner accelerates from the speed of the previous piece and slows down to that of the next one.
-        """
+        A runner accelerates from the speed of the previous piece and slows down to that of the next one."""
         piece, rest = self._piece(s)
         if not piece.running:
             return piece.speed, False

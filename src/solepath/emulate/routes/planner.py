@@ -1,7 +1,6 @@
 """The planner: it turns a route into the positions and times of strides.
 
-All random numbers of the gait are drawn here, in the order of the steps.
-"""
+All random numbers of the gait are drawn here, in the order of the steps."""
 
 from __future__ import annotations
 

@@ -10,8 +10,7 @@ and the distance on the ground from there to the tip of the flat shoe (length l)
     L_p2t = l - x_f - R (p - tan(p / 2)).
 
 With these two, equations (6) of Chen et al. 2019 give the path of the sensor over the rocker exactly: the sole's plane
-meets the ground behind the point where a round sole touches it.
-"""
+meets the ground behind the point where a round sole touches it."""
 
 from __future__ import annotations
 

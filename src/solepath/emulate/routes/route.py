@@ -8,8 +8,7 @@ feet at the start.
 
 Stairs and lifts change the floor; landings are ordinary walks and turns:
 
-    Route().stand(2).walk(5).stairs(11).turn(radians(180), 0.7).stairs(11).walk(5).lift(-3.5).jog(30).stop(2)
-"""
+    Route().stand(2).walk(5).stairs(11).turn(radians(180), 0.7).stairs(11).walk(5).lift(-3.5).jog(30).stop(2)"""
 
 from __future__ import annotations
 
@@ -93,8 +92,7 @@ class Route:
         """Return the route with every later footfall on a mark; None: with steps of natural length again.
 
         Marks are `spacing` m apart along the path from one halt to the next, scaled so that the last mark is at its
-        end. The wearer must halt before this.
-        """
+        end. The wearer must halt before this."""
         return evolve(self, spacing=None if spacing is None else _positive("spacing", spacing))
 
     def stand(self, duration: float) -> Route:
@@ -113,8 +111,7 @@ class Route:
     def jog(self, distance: float, speed: float = 2.6) -> Route:
         """Run `distance` m straight on at `speed` m/s; the speed is not kept for later moves.
 
-        The runner walks the first steps after a halt and the last steps before one.
-        """
+        The runner walks the first steps after a halt and the last steps before one."""
         move = Walk(_positive("distance", distance), _positive("speed", speed), self.spacing, running=True)
         return self._then(move)
 
@@ -124,8 +121,7 @@ class Route:
         """Walk a flight of `steps` risers, each foot on every other tread; the speed is not kept for later moves.
 
         `rise` and `going` of each riser are in m, `speed` along the flight in m/s. The first edge is `path.ahead` m
-        ahead of the ankles of a wearer who stands before it, and the flight is `steps * going` m long.
-        """
+        ahead of the ankles of a wearer who stands before it, and the flight is `steps * going` m long."""
         if steps < 1 or going < 0.25 or not 0.0 < rise <= 0.22:
             raise ValueError(f"stairs: 1 step or more, going from 0.25 m, rise to 0.22 m, got {steps}, {going}, {rise}")
         if self.actions and isinstance(self.actions[-1], Stairs):

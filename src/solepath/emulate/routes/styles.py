@@ -7,8 +7,7 @@ with the speed (Cavagna et al. 1988, J. Physiol. 399). The heel lands at more th
 Stairs, foot over foot: Riener et al. 2002 (Gait & Posture 15) and Nadeau et al. 2003 (Clin. Biomech. 18). The speed
 along is about 0.5 m/s, a little more downwards. Upwards the foot lands flat or forefoot first; downwards it lands with
 the toe down by some 20 degrees, and the forefoot brakes. Angles, rates and impacts were compared with recordings on an
-instep (HuGaDB: Chereshnev and Kertesz-Farkas 2018) and on a shoe (MaD stair ambulation).
-"""
+instep (HuGaDB: Chereshnev and Kertesz-Farkas 2018) and on a shoe (MaD stair ambulation)."""
 
 from __future__ import annotations
 

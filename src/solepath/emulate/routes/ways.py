@@ -3,8 +3,7 @@
 way = wandering(seed=7)
 walker = Walker(way.route, seed=7)
 session = Session(recipe, floorplan=BUILDING, start=way.start)
-way.places(walker, t)
-"""
+way.places(walker, t)"""
 
 from __future__ import annotations
 
@@ -69,8 +68,7 @@ class BuildingWalk:
     def places(self, walker: Walker, t: Array | float) -> list[tuple[str, float, float]]:
         """Return level, x and y (plan frame, m) of the middle between both ankles at times `t`, s.
 
-        In a lift and on stairs it is the nearer level.
-        """
+        In a lift and on stairs it is the nearer level."""
         when = np.atleast_1d(np.asarray(t, dtype=np.float64))
         x, y = self.track(walker, when).T
         high = _ELEVATION[self.start.level] + walker.truth().elevation(when)
@@ -90,8 +88,7 @@ def case_study() -> BuildingWalk:
     """Return the walk of section V-F of Liu et al. 2015.
 
     It goes down by the lift at the bottom left, along corridors, and away by another lift. The paper gives no lengths;
-    this walk turns five times on the floor.
-    """
+    this walk turns five times on the floor."""
     a, b = CABINS[:2]
     course = Course(UPPER, a.middle, a.out)
     course.stand()

@@ -64,8 +64,7 @@ class Device(Protocol):
 def setup_notifications(profile: Profile, own: Mapping[str, bytes]) -> list[Notification]:
     """Return what a host reads and writes by `profile` before measuring starts, evenly spread over the time to `SETUP`.
 
-    `own` has by channel the values that are read, and the written values that differ from `profile.setup`.
-    """
+    `own` has by channel the values that are read, and the written values that differ from `profile.setup`."""
     values = [(channel, own[channel]) for channel in profile.reads]
     for write in profile.setup:
         values.append((write.channel, own.get(write.channel, write.value)))

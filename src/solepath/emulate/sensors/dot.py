@@ -32,9 +32,7 @@ class Dot:
     """Position and attitude on the segment of the site, in that segment's frame (limbs.py)."""
     attitude: AttitudePart = CRE_CC02
     """Attitude errors; by default those of the unit of Gong et al. 2023, because the DOT is worn in their experiments.
-
-    MOVELLA_DOT has the errors of the DOT itself.
-    """
+    MOVELLA_DOT has the errors of the DOT itself."""
     north: float = 0.0
     """Yaw of the device's world relative to the walk's world, rad."""
     ppm: float | None = None

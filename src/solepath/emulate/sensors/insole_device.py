@@ -33,8 +33,7 @@ class InsoleSignal:
     """The counts that an insole measures over a walk; sample k is taken at true time `first` + k `step`, s.
 
     Frames can have any number, also below 0 and after the end of the walk: the wearer then stands as at the start or
-    the end, and the device continues to count.
-    """
+    the end, and the device continues to count."""
 
     layout: Layout
     """Layout of the cells."""
@@ -108,10 +107,8 @@ class Insole:
     """A pressure insole with cells of 12 bits and an IMU."""
 
     cells: int | Layout = 96
-    """Number of cells over the whole sole, or a layout for the foot that wears the insole.
-
-    A layout without a scale is read at the default scale and sent as counts.
-    """
+    """Number of cells over the whole sole, or a layout for the foot that wears the insole. A layout without a scale is
+    read at the default scale and sent as counts."""
     rate: float = 100.0
     """Sampling rate, Hz; rounded to whole ticks."""
     batch: int = 1
@@ -249,8 +246,7 @@ def boot(foot: Foot, rate: float = 100.0) -> Insole:
     """Return the sensors of Bebek et al. 2010, IEEE Trans. Instrum. Meas. 59.
 
     They are an array of 24 cells under the heel and an attitude sensor on the back of the heel. Its acceleration and
-    rate have the errors of the other insoles, because the paper gives neither errors nor a sampling rate.
-    """
+    rate have the errors of the other insoles, because the paper gives neither errors nor a sampling rate."""
     return Insole(
         cells=heel_array(foot),
         rate=rate,

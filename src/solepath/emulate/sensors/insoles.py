@@ -1,8 +1,7 @@
 """Pressure insoles: cells laid out in rows over the outline of a sole.
 
 Foot frame as in types.Cell: x to the toe, y left, m, origin at the heel's rear end on the midline. The id of a layout
-is its number of cells.
-"""
+is its number of cells."""
 
 from __future__ import annotations
 
@@ -14,8 +13,7 @@ from ...types import Cell, Foot, Layout
 FULL_SCALE = 204.75
 """Largest load that a cell can report, N: 4095 counts of 12 bits at 0.05 N.
 
-It corresponds to the 5 to 200 N of a published 99-cell insole.
-"""
+It corresponds to the 5 to 200 N of a published 99-cell insole."""
 
 SCALE = FULL_SCALE / 4095
 """Load per count, N."""
@@ -30,8 +28,7 @@ def layout(count: int, foot: Foot, length: float = 0.285, width: float = 0.100) 
     """Return the layout of an insole of `count` cells (24, 35, 96, 99, any number from 8 to 128).
 
     Cells are in rows from heel to toe, each row from right to left. All cells of a row are equally wide; cells are 80 %
-    of the surface.
-    """
+    of the surface."""
     if not 8 <= count <= 128:
         raise ValueError(f"an insole has 8 to 128 cells, got {count}")
     rows = max(4, round(float(np.sqrt(count * length / (0.75 * width)))))

@@ -2,8 +2,7 @@
 
 A tolerance of +-x in a sheet is taken as two standard deviations between parts. No sheet specifies how a bias changes
 over time; here it follows the temperature slowly: the sheet's drift per kelvin times WARMING. Comments name what is
-assumed where a sheet gives no value. (*) marks figures that have not been compared with the sheet itself.
-"""
+assumed where a sheet gives no value. (*) marks figures that have not been compared with the sheet itself."""
 
 from __future__ import annotations
 
@@ -25,8 +24,7 @@ _DPS = radians(1.0)
 class Triad:
     """Errors of a three-axis sensor, as standard deviations between parts.
 
-    The unit u is m/s^2 for accelerometers, rad/s for gyroscopes and T for magnetometers.
-    """
+    The unit u is m/s^2 for accelerometers, rad/s for gyroscopes and T for magnetometers."""
 
     density: float
     """White noise density, u/sqrt(Hz)."""
@@ -67,8 +65,7 @@ def _gyro(
 ) -> Triad:
     """Return the errors of a gyroscope in rad/s.
 
-    `density` is in degrees/s/sqrt(Hz), `bias` in degrees/s, `drift` in degrees/s/K, `g_effect` in degrees/s/g.
-    """
+    `density` is in degrees/s/sqrt(Hz), `bias` in degrees/s, `drift` in degrees/s/K, `g_effect` in degrees/s/g."""
     return Triad(
         density * _DPS, bias * _DPS, drift * WARMING * _DPS, scale, cross, bandwidth, g_effect=g_effect * _DPS / _G
     )
@@ -159,8 +156,7 @@ T5400 = BarometerPart("T5400", noise=6.0, offset=50.0)
 class CellPart:
     """Errors of a pressure cell that a 12-bit converter reads, as standard deviations between cells.
 
-    In the air the foot still touches the insole and presses on it (`hang`, `rub`). A cell's load is never negative.
-    """
+    In the air the foot still touches the insole and presses on it (`hang`, `rub`). A cell's load is never negative."""
 
     name: str
     """Name of the cell."""
@@ -173,10 +169,8 @@ class CellPart:
     lag: float
     """Rise time of the cell and its foam, s."""
     hang: float = 0.0
-    """Relief of the preload per g of specific force upwards beyond 1 g, as a share of the preload.
-
-    The shoe hangs on the laces; below 1 g the cell bears more.
-    """
+    """Relief of the preload per g of specific force upwards beyond 1 g, as a share of the preload. The shoe hangs on
+    the laces; below 1 g the cell bears more."""
     rub: float = 0.0
     """Load that changes as the foot shifts in the air, N rms."""
     rub_memory: float = 0.05
@@ -186,8 +180,7 @@ class CellPart:
 RESISTIVE = CellPart("FSR", gain=0.03, preload=0.5, noise=0.12, lag=0.003)
 """Interlink FSR 400 series integration guide (*): part-to-part repeatability +-6 %, break force 0.2 N.
 
-Noise of 2 to 3 counts, the lag of the cover and the in-shoe preload are assumed.
-"""
+Noise of 2 to 3 counts, the lag of the cover and the in-shoe preload are assumed."""
 
 CAPACITIVE = CellPart("capacitive", gain=0.025, preload=0.3, noise=0.06, lag=0.002)
 """Calibrated capacitive insoles (novel pedar), accuracy +-5 %; noise, lag and preload are assumed as for RESISTIVE."""
@@ -197,22 +190,19 @@ WORN_CAPACITIVE = evolve(CAPACITIVE, name="capacitive in a laced shoe", hang=0.3
 """Resistive and capacitive cells with the contact of the foot in swing.
 
 No sheet and none of the papers gives figures. Assumed: each g relieves a third of the preload (a laced foot presses
-with about 50 N in all), and the load of each cell varies by 0.4 of its mean.
-"""
+with about 50 N in all), and the load of each cell varies by 0.4 of its mean."""
 
 HEEL_ARRAY = evolve(WORN_CAPACITIVE, name="DigiTacts II under a heel")
 """Pressure Profile Systems DigiTacts II: capacitive, calibrated before shipment (Bebek et al. 2010, section IV).
 
-The paper (IEEE Trans. Instrum. Meas. 59) gives only the range; the errors are assumed as for other capacitive cells.
-"""
+The paper (IEEE Trans. Instrum. Meas. 59) gives only the range; the errors are assumed as for other capacitive cells."""
 
 
 @frozen
 class AttitudePart:
     """Errors of a device's own attitude, as standard deviations.
 
-    A sheet's accuracy is taken as one standard deviation, as makers who define it do.
-    """
+    A sheet's accuracy is taken as one standard deviation, as makers who define it do."""
 
     name: str
     """Name of the device."""

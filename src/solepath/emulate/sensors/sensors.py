@@ -1,8 +1,7 @@
 """Sensor models, from the true signal to the counts of a part: errors, low pass, saturation, quantisation.
 
 Signals are computed at several instants per sample and pass the part's low pass before they are sampled. Frequencies
-above half of the sampling rate are therefore attenuated, or alias, as in the real part.
-"""
+above half of the sampling rate are therefore attenuated, or alias, as in the real part."""
 
 from __future__ import annotations
 
@@ -69,8 +68,7 @@ def measure(
     """Return the samples (N, 3) that a triad measures of `true` (fine instants, 3), before quantisation.
 
     `force` is the specific force at the fine instants, for gyroscopes that are sensitive to it, m/s^2. `bandwidth` is
-    that of the device's own low pass, Hz, if it is below the part's.
-    """
+    that of the device's own low pass, Hz, if it is below the part's."""
     measured = errors(true, when, part, rng, force)
     return sample(low_pass(measured, when.rate, min(part.bandwidth, bandwidth)), when)
 
@@ -122,8 +120,7 @@ def sample(signal: Array, when: Instants) -> Array:
 def wander(t: Array, memory: float, axes: int, rng: Rng) -> Array:
     """Return a Gauss-Markov process of unit sigma and correlation time `memory` s that is 0 at the start, (N, axes).
 
-    It is computed ten times per `memory` and interpolated smoothly, because a temperature does not change fast.
-    """
+    It is computed ten times per `memory` and interpolated smoothly, because a temperature does not change fast."""
     nodes = np.arange(float(t[0]), float(t[-1]) + 0.2 * memory, 0.1 * memory)
     keep = exp(-0.1)
     kicks = sqrt(1.0 - keep * keep) * rng.standard_normal((len(nodes), axes))
@@ -141,8 +138,7 @@ def read_cells(
 ) -> CountReading:
     """Return the counts of an insole's cells for their true loads `true` (N, cells), N, at times `when` (N), s.
 
-    `lift` (N) is the specific force along the sole's upward normal, m/s^2, for parts with `hang`.
-    """
+    `lift` (N) is the specific force along the sole's upward normal, m/s^2, for parts with `hang`."""
     cells = true.shape[1]
     gain = 1.0 + part.gain * np.clip(rng.standard_normal(cells), -3.0, 3.0)
     preload = part.preload * np.asarray(rng.uniform(0.0, 2.0, cells))
@@ -193,8 +189,7 @@ def read_attitudes(true: Array, t: Array, part: AttitudePart, north: float, rng:
     """Return the attitudes (N, 4), sensor to the device's world, that a device reports for `true` (N, 4) at times `t`.
 
     The device's world is the walk's world, turned about the vertical by `north` rad and by the part's errors: a
-    Gauss-Markov process about each axis with the same sigma at the start as later.
-    """
+    Gauss-Markov process about each axis with the same sigma at the start as later."""
     initial = np.exp(-(t - t[0]) / part.memory)[:, None] * rng.standard_normal(3)
     turned = (initial + wander(t, part.memory, 3, rng)) * (part.tilt, part.tilt, part.heading)
     angle = np.linalg.norm(turned, axis=1, keepdims=True)

@@ -29,8 +29,7 @@ def limb_mounting(site: Site, limbs: Limbs, seed: int, turned: float = MISALIGNM
     """Return position and attitude of a site's sensor in its segment's frame, with a constant random misalignment.
 
     The pelvis sensor sits on the small of the back, those of thigh and shank on the front half-way down, those of the
-    feet on the instep.
-    """
+    feet on the instep."""
     rng = np.random.default_rng([seed, 5, list(Site).index(site)])
     x, y, z = (turned * float(value) for value in rng.standard_normal(3))
     place = ON_INSTEP.position
@@ -61,8 +60,7 @@ def limb_samples(
     walk's world, with the errors of `attitude`. Acceleration and rate have the errors of `errors`, without saturation
     and rounding; the paper gives no figures for its unit, and another nine-axis part replaces it. None: exact values.
     `limbs` are the wearer's own by default. With `layouts` the samples of the feet have the loads of their cells, N,
-    exact or read by `cell_part` at the scale of the layout. `seed` sets mountings and errors.
-    """
+    exact or read by `cell_part` at the scale of the layout. `seed` sets mountings and errors."""
     wearer = walker.wearer
     limbs = limbs or wearer.limbs
     if limbs == wearer.limbs:
@@ -95,8 +93,7 @@ def suit(
 ) -> dict[Site, Device]:
     """Return seven devices for one session, mounted by `limb_mounting`.
 
-    The feet wear insoles of 99 cells that send their attitude, at `rate` Hz; all other sites wear DOTs.
-    """
+    The feet wear insoles of 99 cells that send their attitude, at `rate` Hz; all other sites wear DOTs."""
     worn: dict[Site, Device] = {}
     for site in Site:
         mounting = limb_mounting(site, limbs, seed)

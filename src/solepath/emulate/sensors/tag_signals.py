@@ -32,8 +32,7 @@ class Series:
     """The values of one sensor over a walk; value k is measured at true time `first` + k `step`, s.
 
     Values can have any number, also below 0 and after the end of the walk: the wearer then stands as at the start or
-    the end.
-    """
+    the end."""
 
     first: float
     """True time of value 0, s."""

@@ -21,8 +21,7 @@ BUMP: Array = np.array([0.0, 0.0, 0.0, 64.0, -192.0, 192.0, -64.0, 0.0])
 EVEN_OUT: Array = np.array([0.0, 0.0, 0.0, 1.0, -5.0, 9.0, -7.0, 2.0])
 """Curve s^3 (1 - s)^3 (1 - 2 s); added to a curve, it makes it start earlier, move slower in the middle, stop later.
 
-Value, slope and curvature are 0 at both ends.
-"""
+Value, slope and curvature are 0 at both ends."""
 
 
 def constant(value: float) -> Array:
@@ -54,8 +53,7 @@ def join(start: End, end: End, duration: float) -> Array:
 def part(curve: Array, start: float, end: float) -> Array:
     """Return the part of a curve between s = start and s = end, over a unit interval of its own.
 
-    It expands (start + (end - start) s)^k by the binomial theorem.
-    """
+    It expands (start + (end - start) s)^k by the binomial theorem."""
     moved = _BINOMIALS * np.where(_LOWER >= 0, float(start) ** np.maximum(_LOWER, 0), 0.0)
     return np.asarray((moved @ curve) * (end - start) ** np.arange(DEGREE + 1))
 

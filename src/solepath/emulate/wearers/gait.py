@@ -3,8 +3,7 @@
 Timing follows level walking of healthy adults: cadence from speed by a constant walk ratio (step length over cadence,
 about 0.0064 m per step/min; Sekiya and Nagasaki 1998, Gait & Posture 7), stance about 60 % and double support twice
 about 11 % of the stride at 1.3 m/s, foot-flat at about 9 % and heel-off at about 38 % of it (Perry, Gait Analysis,
-1992). The values for running and stairs are in styles.py.
-"""
+1992). The values for running and stairs are in styles.py."""
 
 from __future__ import annotations
 
@@ -60,18 +59,15 @@ class Wearer:
     aim: float = 0.01
     """Standard deviation along the path between a foot and the mark that it steps on, m (assumed)."""
     centre_height: float = 0.97
-    """Height of the body's centre of mass, m: 0.555 of a stature of 1.75 m.
-
-    Source: Winter, Biomechanics and Motor Control of Human Movement, 2009.
-    """
+    """Height of the body's centre of mass, m: 0.555 of a stature of 1.75 m. Source: Winter, Biomechanics and Motor
+    Control of Human Movement, 2009."""
     limbs: Limbs = Limbs()
     """Lengths of the limbs."""
 
     def cadence(self, speed: float) -> float:
         """Return the steps per minute at `speed` m/s.
 
-        The walk ratio W = l / c and v = l c / 60 give c = sqrt(60 v / W).
-        """
+        The walk ratio W = l / c and v = l c / 60 give c = sqrt(60 v / W)."""
         return float(np.sqrt(60.0 * speed / self.walk_ratio))
 
 
@@ -171,8 +167,7 @@ def wearer(stature: float, mass: float, foot_length: float) -> Wearer:
 
     Limbs have the proportions of `Limbs`; `foot` is the part of the shoe ahead of the ankle. The walk ratio is
     proportional to the stature to the power of 1.5: by dynamic similarity, step lengths scale with the leg length and
-    cadences with the frequency of a pendulum of that length (Alexander 1989, Physiol. Rev. 69).
-    """
+    cadences with the frequency of a pendulum of that length (Alexander 1989, Physiol. Rev. 69)."""
     plain, k = Wearer(), foot_length / FOOT
     old = plain.shoe
     shoe = Shoe(
@@ -201,8 +196,7 @@ def wearer(stature: float, mass: float, foot_length: float) -> Wearer:
 def random_wearer(rng: Rng) -> tuple[Wearer, float]:
     """Return a random wearer with a stature from 1.55 m to 1.92 m and a body mass index from 21 to 28, and the stature.
 
-    The stature is in m.
-    """
+    The stature is in m."""
     stature = float(rng.uniform(1.55, 1.92))
     return wearer(stature, float(rng.uniform(21.0, 28.0)) * stature**2, 0.153 * stature), stature
 

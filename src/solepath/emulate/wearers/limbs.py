@@ -6,16 +6,15 @@ variation of the speed and lean into a bend follow from the positions of the loa
 Its height is what both legs can reach, smoothed. It turns with the feet; it also turns with the leg ahead and sinks
 with the leg in the air, as gait laboratories measure (Perry, Gait Analysis, 1992: 4 degrees each).
 
-Each leg has two links of constant length from the hip joint to the ankle and one solution: the knee bends forward, in
-a plane whose direction is the mean of the pelvis' and the foot's forward directions.
+Each leg has two links of constant length from the hip joint to the ankle and one solution: the knee bends forward, in a
+plane whose direction is the mean of the pelvis' and the foot's forward directions.
 
 The foot slides a little in its shoe (Gong et al. 2023, Sensors 23, 5417, fig. 9): the force between body and ground
 moves it forward and back, left and right, by up to SLACK. The paper has no figures; SLACK is assumed. The sensor sits
 on the shoe, so a kinematic chain of limbs that ends at the foot differs from the shoe's position by that.
 
 Frames of segments, when standing straight: x ahead, y left, z up. Pelvis: origin between the hip joints. Thigh: at the
-hip, z from knee to hip. Shank: at the knee, z from ankle to knee. Foot: that of types.Cell.
-"""
+hip, z from knee to hip. Shank: at the knee, z from ankle to knee. Foot: that of types.Cell."""
 
 from __future__ import annotations
 

@@ -17,8 +17,7 @@ ground h v^2 / (r g) away from the point below the centre, to the outside of the
 compensate for most of that. LOAD_SHIFT_SHARE of it moves the load under each foot: to the right edge of both feet in a
 turn to the left. Under the heels insoles show the same (Turcato et al. 2015, J NeuroEng Rehabil 12:4: the lateral heel
 of the outer foot bears more, that of the inner foot less). Under the metatarsal heads they found the opposite, which is
-not emulated.
-"""
+not emulated."""
 
 from __future__ import annotations
 
@@ -43,8 +42,7 @@ LOAD_SHIFT_SHARE = 0.3
 """Share of h v^2 / (r g) by which the load moves under a foot (assumed).
 
 At 1.1 m/s it is 18 mm at r = 2 m; the ankle can move the load sideways by about 20 mm (Hof et al. 2007, Gait & Posture
-25).
-"""
+25)."""
 _EVER = 1e6
 """Duration of the stances before the first and after the last stride, s."""
 _BLOCK = 4096
@@ -55,8 +53,7 @@ _BLOCK = 4096
 class Loads:
     """The vertical load under both feet over time.
 
-    In hand-overs the load moves from one foot to the other. Beats are the middles of double support and of flight.
-    """
+    In hand-overs the load moves from one foot to the other. Beats are the middles of double support and of flight."""
 
     weight: float
     """Weight of the body, N."""
@@ -123,8 +120,7 @@ class Loads:
     def cells(self, layout: Layout, width: float, motion: FootMotion, t: Array) -> Array:
         """Return the load on every cell of `layout`, N, (N, cells); the sum of a row is the foot's total.
 
-        Cells that end behind the middle of the foot bear only the load above them, and their sum is smaller.
-        """
+        Cells that end behind the middle of the foot bear only the load above them, and their sum is smaller."""
         foot = layout.foot
         shares = self.shares(foot, t)
         pitch = motion.pitch(t)

@@ -11,8 +11,7 @@ force and angular rate follow by analytical differentiation, not by numerical di
 The velocity of a point p on the rolling shoe is omega x (p - contact). This module evaluates the curves; strides.py
 makes them.
 
-Attitude is Rz(yaw) Ry(-pitch) Rx(roll), foot to world; pitch is positive toe up.
-"""
+Attitude is Rz(yaw) Ry(-pitch) Rx(roll), foot to world; pitch is positive toe up."""
 
 from __future__ import annotations
 

@@ -5,8 +5,7 @@ sole is flat between two circular arcs that are tangent to it: the foot rolls ov
 foot-flat, over the forefoot arc from heel-off to toe-off. When a circle rolls without slip over level ground by the
 pitch angle, its centre moves by radius times angle, so the foot's position follows from its pitch alone. This is the
 known velocity of KUPT (Chen et al. 2019, IEEE Internet of Things Journal, figs. 5 to 7), with round rockers where the
-paper has a pivot and fitted curves.
-"""
+paper has a pivot and fitted curves."""
 
 from __future__ import annotations
 

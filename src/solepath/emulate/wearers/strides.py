@@ -5,8 +5,7 @@ position, velocity and acceleration of the forefoot's roll at toe-off and of the
 that keeps the sole just above the ground.
 
 At heel-strike the heel still moves by some decimetres per second relative to the ground, as in reality. Sole and heel
-pad deform and stop it within IMPACT s; from then on the heel rolls without slip.
-"""
+pad deform and stop it within IMPACT s; from then on the heel rolls without slip."""
 
 from __future__ import annotations
 
@@ -165,8 +164,7 @@ class _Pieces:
     ) -> float:
         """Return the height of the bump, m, at which the sole just clears the treads and edges of a flight.
 
-        The sole is the hull of its two arcs: discs with centre and radius interpolated from one arc to the other.
-        """
+        The sole is the hull of its two arcs: discs with centre and radius interpolated from one arc to the other."""
         shoe, s = self.shoe, np.linspace(0.04, 0.96, 93)
         angle, bump = _pitch_at(pitches, s, _reversal(stride)), evaluate(BUMP, s)
         x, y, z, turned = (evaluate(curve, s) for curve in (*way, yaw))
@@ -240,9 +238,8 @@ def _landing(stride: PlannedStride) -> Array:
 def _swing_pitch(off: End, strike: End, duration: float) -> tuple[Array, Array]:
     """Return the pitch in swing: the reversal after toe-off, then a nearly constant rate until the foot is braked.
 
-    The reversal lasts a, the rest of the swing b. With the rate r after the reversal, the pitch there is
-    off + a (rate_off + r) / 2, and r is SWING_UP times the mean rate over b; this is solved for r.
-    """
+    The reversal lasts a, the rest of the swing b. With the rate r after the reversal, the pitch there is off + a
+    (rate_off + r) / 2, and r is SWING_UP times the mean rate over b; this is solved for r."""
     a, b = REVERSAL * duration, (1.0 - REVERSAL) * duration
     rate = SWING_UP * (strike[0] - off[0] - 0.5 * a * off[1]) / (b + 0.5 * SWING_UP * a)
     middle = (off[0] + 0.5 * a * (off[1] + rate), rate, 0.0)
@@ -284,7 +281,6 @@ def _residual(stride: PlannedStride) -> tuple[float, float, float]:
 def _give(speed: float) -> Array:
     """Return the displacement of the heel from pure rolling over the impact, m; its `speed` decays by a smooth step.
 
-    It is v (1 - (10 s^3 - 15 s^4 + 6 s^5)), integrated so that it ends at 0; the deceleration is the pulse
-    30 s^2 (1 - s)^2.
-    """
+    It is v (1 - (10 s^3 - 15 s^4 + 6 s^5)), integrated so that it ends at 0; the deceleration is the pulse 30 s^2 (1 -
+    s)^2."""
     return -speed * IMPACT * np.array([0.5, -1.0, 0.0, 0.0, 2.5, -3.0, 1.0, 0.0])

@@ -1,9 +1,8 @@
 """The ground truth of a walk.
 
 The position of a foot is always the position of the sensor that is mounted on it, relative to the sensor's position at
-t = 0, in the world frame (z up, x along the route's first heading, y left), m. `FootTruth.origin` is the position at
-t = 0 relative to the point between the feet, so that both feet can be drawn on one floor.
-"""
+t = 0, in the world frame (z up, x along the route's first heading, y left), m. `FootTruth.origin` is the position at t
+= 0 relative to the point between the feet, so that both feet can be drawn on one floor."""
 
 from __future__ import annotations
 
@@ -25,8 +24,7 @@ def activities(plan: WalkPlan) -> tuple[tuple[float, float, Activity], ...]:
     """Return the activities (start, end, activity) from 0 to the plan's end, s, without a gap.
 
     A turn on the spot is walking. Running lasts from the start of its first swing to the last heel-strike, so that
-    walking in between counts as walking.
-    """
+    walking in between counts as walking."""
     found = [(start, end, Activity.WALKING) for start, end in plan.bouts]
     found += _runs(plan)
     for climb in plan.climbs:

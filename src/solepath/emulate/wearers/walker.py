@@ -71,8 +71,7 @@ class Walker:
 
         Without `errors` they are exact point values. With a part they have its errors, its low pass (at most half of
         the rate) and its noise, without saturation and rounding. With a `layout` of this foot every sample has the
-        exact loads of its cells, N.
-        """
+        exact loads of its cells, N."""
         count = int(self.duration * rate) + 1
         if errors is None:
             t = np.arange(count) / rate

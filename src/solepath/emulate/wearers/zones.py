@@ -35,8 +35,7 @@ def pattern(layout: Layout, width: float, zone: Zone, ahead: Array, aside: Array
     The sum of a row is one; for cells under the heel alone it is the share of the zone above the cells. The pressure
     falls with the square of the distance and is zero outside the ellipse. When no cell lies in the ellipse, a Gaussian
     of the distance is used. A `lean` (m, to the left) weights the pressure by exp(lean y / variance): a small lean
-    moves the centre by the lean, and no lean moves it over the edge.
-    """
+    moves the centre by the lean, and no lean moves it over the edge."""
     lateral = 1.0 if layout.foot is Foot.LEFT else -1.0
     x = np.array([cell.x for cell in layout.cells]) / layout.length
     y = np.array([cell.y for cell in layout.cells]) * lateral / width

@@ -1,8 +1,7 @@
 """Reference run of the walks through sessions alone: `python -m solepath.fleet.demo.bare RUN PART`.
 
 It writes the events, and the time that `Session.feed` takes for them, one wearer after the other and with the packets
-prepared beforehand.
-"""
+prepared beforehand."""
 
 from __future__ import annotations
 
@@ -66,8 +65,7 @@ def _through(recipe: Recipe, inputs: list[DemoPayload]) -> tuple[float, float, l
 def _states(fleet: Fleet, wearers: list[DemoWearer], bundles: int) -> list[tuple[int, int, float]]:
     """Measure the wearers' states after each bundle: bytes, rows held in it, and time to take it, s.
 
-    The states are taken one wearer after the other, as an engine does.
-    """
+    The states are taken one wearer after the other, as an engine does."""
     opened, found = [fleet.open(wearer.name, None) for wearer in wearers], []
     for number in range(bundles):
         for keyed, wearer in zip(opened, wearers, strict=True):

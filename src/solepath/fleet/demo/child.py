@@ -14,8 +14,7 @@ def freeze_garbage() -> None:
     """Keep all present objects for ever and exclude them from Python's garbage collection.
 
     Its thresholds stay as they are: reading packets drops reference cycles, so higher ones cost memory and save
-    nothing.
-    """
+    nothing."""
     gc.collect()
     gc.freeze()
 

@@ -34,8 +34,7 @@ def files(directory: Path) -> list[Path]:
 def read_events(directory: Path) -> pa.Table:
     """Return all events of a directory in an order that does not depend on their writers or on the time of writing.
 
-    Raises UnreadableEvents.
-    """
+    Raises UnreadableEvents."""
     tables = [SCHEMA.empty_table()]
     for path in files(directory):
         try:
@@ -48,8 +47,7 @@ def read_events(directory: Path) -> pa.Table:
 def differences(expected: pa.Table, found: pa.Table) -> list[str]:
     """Return the first few differences between two tables of `read_events`, a sentence each.
 
-    The list is empty for the same events, each as often.
-    """
+    The list is empty for the same events, each as often."""
     if expected.equals(found):
         return []
     expected_rows, found_rows = (
@@ -86,8 +84,7 @@ def session_events(events: pa.Table) -> pa.Table:
 def compare_remarks(expected: Mapping[str, Iterable[Remark]], events: pa.Table) -> list[str]:
     """Compare the events of the fleet with the expected ones, by wearer.
 
-    Returns the first few that are missing or were not expected, a sentence each.
-    """
+    Returns the first few that are missing or were not expected, a sentence each."""
     expected_rows = Counter((wearer, remark) for wearer, remarks in expected.items() for remark in remarks)
     found_rows = Counter((row["wearer"], _remark(row)) for row in events.filter(_is_fleet_event(events)).to_pylist())
     wrong = [(*one, "is missing") for one in (expected_rows - found_rows).elements()]

@@ -3,8 +3,7 @@
     python -m solepath.fleet.demo.job STAGE/RUN SECONDS [NUMBER ADDRESS ADDRESS ...]
 
 STAGE was prepared (wearers.py); events go to STAGE/RUN/told, and beside it reports of the run. This module replaces
-`python -m bytewax.run`, which takes only whole seconds between two snapshots (-s), too rare for a short run.
-"""
+`python -m bytewax.run`, which takes only whole seconds between two snapshots (-s), too rare for a short run."""
 
 from __future__ import annotations
 
@@ -46,8 +45,7 @@ Keyed = tuple[str, list[Sent | Unreadable]]
 def main(run: str, every: float, number: int | None, addresses: list[str]) -> None:
     """Run one process of the engine.
 
-    `every` is the time between two snapshots, s. `number` is the index of its own address in `addresses`.
-    """
+    `every` is the time between two snapshots, s. `number` is the index of its own address in `addresses`."""
     cli_main(  # type: ignore[no-untyped-call]
         flow(run),
         process_id=number,
@@ -125,8 +123,7 @@ class ProcessReport:
 class Phones(FixedPartitionedSource[Keyed, int]):
     """A source of the bundles of all wearers at full speed: the first of each, then the second.
 
-    They can be read again from any position.
-    """
+    They can be read again from any position."""
 
     def __init__(self, wearers: Wearers, home: Path, report: ProcessReport) -> None:
         self._wearers, self._home, self._report = wearers, home, report

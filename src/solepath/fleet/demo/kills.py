@@ -22,13 +22,11 @@ STARTING = 5
 READ = (0.3, 0.95)
 """Range of the share of bundles read at which the other kills come.
 
-By then there is a snapshot to go back to; the engine goes back to the last but one.
-"""
+By then there is a snapshot to go back to; the engine goes back to the last but one."""
 LATER = 0.1
 """Largest random delay of a kill, as a share of the time of reading.
 
-The delay keeps the kills from always hitting the start of a bundle.
-"""
+The delay keeps the kills from always hitting the start of a bundle."""
 SOONER = 0.6
 """Factor on the time of a kill that came after the end and is tried again."""
 
@@ -38,8 +36,7 @@ class Kill:
     """A planned kill.
 
     `after` is the time in s after the `share` of the bundles was read or, if that is None, after the start or restart
-    of the job. `which` is the process that is killed; None kills all at once, as in a power failure.
-    """
+    of the job. `which` is the process that is killed; None kills all at once, as in a power failure."""
 
     share: float | None
     after: float
@@ -52,8 +49,7 @@ class KillMark:
 
     `when` is its time on the system's clock, s. `started` says that the job had started to read. `reached` is the
     number of bundles of each partition that were read by then. `reopened` is the number of wearers who had gone on from
-    their states.
-    """
+    their states."""
 
     kill: Kill
     when: float
@@ -69,8 +65,7 @@ class Cost:
     `started` says that the job had started to read, or to read again. `reached` is the share of the bundles that were
     read by then. `replayed` is the share that was read again, and `down` the time until the job read again, s; both are
     None for a kill that was followed by another before that. `reopened` is the number of wearers who went on from their
-    states.
-    """
+    states."""
 
     kill: Kill
     started: bool
@@ -89,8 +84,7 @@ class Cost:
 class Outcome:
     """A run that was killed once or more, and went to its end.
 
-    `differences` are those from the uninterrupted run, a sentence each; empty for the same events, each as often.
-    """
+    `differences` are those from the uninterrupted run, a sentence each; empty for the same events, each as often."""
 
     costs: list[Cost]
     differences: list[str]
@@ -100,8 +94,7 @@ def draw(kills: int, starting: float, reading: float, processes: int, rng: Rando
     """Return the kills of each run.
 
     `starting` and `reading` are the durations of a run until it reads and from then on, s. Most kills come at a random
-    moment of reading, and each of these has a run of its own.
-    """
+    moment of reading, and each of these has a run of its own."""
     found: list[list[Kill]] = []
     for number in range(1, kills + 1):
         which = None if processes == 1 or rng.random() < 0.5 else rng.randrange(processes)
@@ -119,8 +112,7 @@ def draw(kills: int, starting: float, reading: float, processes: int, rng: Rando
 def play(create_run: Callable[[], EngineRun], kills: list[Kill], expected: pa.Table) -> Outcome:
     """Run a job from its start to its end with kills and restarts, and compare its events with `expected`.
 
-    A run that ended before a kill came is started again, and killed sooner. Raises RunFailed.
-    """
+    A run that ended before a kill came is started again, and killed sooner. Raises RunFailed."""
     while True:
         run, marks = create_run(), list[KillMark]()
         with closing(run):

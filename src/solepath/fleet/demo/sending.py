@@ -1,7 +1,6 @@
 """Transport of a phone's packets to the engine: in bundles, with packets late, repeated or out of order.
 
-A Sending is made once and shared by many wearers; only a wearer's name, runs and time of walking are its own.
-"""
+A Sending is made once and shared by many wearers; only a wearer's name, runs and time of walking are its own."""
 
 from __future__ import annotations
 
@@ -22,15 +21,13 @@ from ..step.sent import LONGEST_DATA, End, Tick
 LATE, BEHIND = 0.02, 100
 """Share of the rows that come late, and the largest number of others that may come before one of them.
 
-That number is less than the fleet's window.
-"""
+That number is less than the fleet's window."""
 TWICE, AGAIN = 0.02, 400
 """Share of the rows that come a second time, and the largest number of others that may come in between."""
 LOST, TOO_LATE = 12, 400
 """Rows that are lost for ever, and the number of rows before one of them arrives after all.
 
-That number is more than the fleet's window.
-"""
+That number is more than the fleet's window."""
 TICK_AFTER = 0.25
 """Time without a packet after which a phone sends the time, s."""
 
@@ -46,8 +43,7 @@ class Remark:
     """An expected event of the fleet itself about something that was sent.
 
     `run` is the index of the phone's run; None where no place in the order can be read. `number` is that of the
-    rejected row, or the first missing one. `why` is the reason of a SentRejected or the count of a NumbersMissing.
-    """
+    rejected row, or the first missing one. `why` is the reason of a SentRejected or the count of a NumbersMissing."""
 
     event: str
     run: int | None
@@ -60,8 +56,7 @@ class Sending:
     """The output of a phone.
 
     `bundles` holds the items that arrive, one bundle for each period. `ordered` holds the session's input in order.
-    `remarks` holds the events that the fleet itself must emit.
-    """
+    `remarks` holds the events that the fleet itself must emit."""
 
     bundles: tuple[tuple[Item, ...], ...]
     ordered: tuple[DemoPayload, ...]
@@ -72,8 +67,7 @@ def make_sending(packets: Sequence[Packet], every: float, rng: Random, *, runs: 
     """Return the Sending of a walk, in bundles of `every` s.
 
     `runs` is the number of times that the phone's app was started meanwhile. `ends` adds that the wearer takes the
-    sensors off at last.
-    """
+    sensors off at last."""
     received = [*_add_ticks(packets), *([End()] if ends else [])]
     cuts = [len(received) * k // runs for k in range(runs + 1)]
     arrived: list[Item] = []
@@ -86,8 +80,7 @@ def make_sending(packets: Sequence[Packet], every: float, rng: Random, *, runs: 
 def make_gap(packets: Sequence[Packet], every: float, rng: Random) -> Sending | None:
     """Return the Sending of a walk that loses LOST consecutive rows, one of which comes long after it was given up.
 
-    Returns None when too few rows come after them for that.
-    """
+    Returns None when too few rows come after them for that."""
     received = list(_add_ticks(packets))
     first = len(received) // 8
     end = first + LOST

@@ -37,8 +37,7 @@ class Engine:
     is the time between two snapshots, s, and `snapshots` their number before the one at the end, counted from the
     files, since each snapshot closes one of every part. `cpu` is the time of the processors, s. `empty` and `full` are
     the memory of all processes at the first bundle and at its most, bytes; None where the system does not report it.
-    `events` and `files` are counts.
-    """
+    `events` and `files` are counts."""
 
     whole: float
     seconds: float
@@ -57,8 +56,7 @@ class Bare:
 
     `rate` is that of all together, samples/s; `cpu` is the time of the processors, s. `state` and `largest` are the
     mean and the most bytes of a wearer's state in the engine while no row is held; `held` is the most with held rows,
-    None if there were none. `snapshot` is the median time to take a state, s.
-    """
+    None if there were none. `snapshot` is the median time to take a state, s."""
 
     rate: float
     cpu: float
@@ -73,8 +71,7 @@ class DemoStage:
     """A demonstration in the empty directory `at`.
 
     Its methods are used in this order: `prepare`, `bare`, `uninterrupted`, then `killed`. Raises RunFailed when a
-    process ends with an error.
-    """
+    process ends with an error."""
 
     at: Path
     plan: DemoPlan
@@ -173,8 +170,7 @@ class DemoStage:
     def killed(self, kills: int, *, keep: bool) -> Iterator[Outcome]:
         """Run jobs with so many kills and restarts, and compare each with the uninterrupted one at its end.
 
-        `keep` leaves the files of the runs.
-        """
+        `keep` leaves the files of the runs."""
         engine = self.engine or self.uninterrupted()
         expected = read_events(self.events)
         starting = engine.whole - engine.seconds

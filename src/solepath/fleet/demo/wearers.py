@@ -1,8 +1,7 @@
 """The wearers of a demonstration: their walks, times and transport to the engine, the same in every process.
 
 A stage is a directory with `plan.json` and the shared walks as recordings. Every process of a demonstration reads it,
-so that none has to emulate anything, and what one wearer sends is the same for all.
-"""
+so that none has to emulate anything, and what one wearer sends is the same for all."""
 
 from __future__ import annotations
 
@@ -74,8 +73,7 @@ class DemoPlan:
 
     `seconds` is the duration of walking. `bundle` is the time of walking that a phone sends at once, s. `parts` is the
     number of partitions of the source and of the files, and of processes. `every` is the time between two snapshots, s;
-    None chooses it to suit the run.
-    """
+    None chooses it to suit the run."""
 
     wearers: int
     seconds: float

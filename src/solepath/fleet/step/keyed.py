@@ -23,8 +23,7 @@ class Keyed:
 
     `feed` never raises, whatever phones sent, except MemoryError, after which this object must be discarded: the last
     `state()` is good. The number of calls that the input is cut into makes no difference, nor does, if parts of the
-    app's own can be saved at any moment (Fleet.step), the number of times that `state()` is taken and opened.
-    """
+    app's own can be saved at any moment (Fleet.step), the number of times that `state()` is taken and opened."""
 
     __slots__ = (
         "_known_at",
@@ -62,8 +61,7 @@ class Keyed:
     def feed(self, sent: Iterable[Sent | Unreadable]) -> list[NumberedEvent]:
         """Return the events of the wearer's session and of the fleet for what was sent.
 
-        Latency: none for rows that come in their turn.
-        """
+        Latency: none for rows that come in their turn."""
         emitted: list[NumberedEvent] = []
         if self._pending is not None and self._numbered:
             self._emit_pending(emitted)
@@ -242,8 +240,7 @@ class Keyed:
 def first_number(run: int, number: int) -> int:
     """Return the number of the first event after a state of which nothing can be read.
 
-    `run` and `number` are those of the next row. The result is larger than all numbers used (protocol/fleet.md).
-    """
+    `run` and `number` are those of the next row. The result is larger than all numbers used (protocol/fleet.md)."""
     return 64 * (run + number + 1)
 
 

@@ -2,8 +2,7 @@
 
 An engine that was killed goes on from its last kept state and emits again what it emitted after that: the same events
 under the same identities (wearer, number). A wearer's numbers have no holes, so the received ones are described by one
-number for each wearer, and a few ranges that are still missing.
-"""
+number for each wearer, and a few ranges that are still missing."""
 
 from __future__ import annotations
 
@@ -24,8 +23,7 @@ RANGES = 16
 class _ReceivedNumbers:
     """Numbers received of one wearer: all below `end` except those in `missing`.
 
-    `missing` holds ranges [first, end) in rising order.
-    """
+    `missing` holds ranges [first, end) in rising order."""
 
     end: int = 0
     missing: list[tuple[int, int]] = field(factory=list)
@@ -66,8 +64,7 @@ class Once:
 
     It is a plain record: save `snapshot()` together with the result of the events and with the reader's position, in
     one transaction or one file that is renamed. Use one for each partition, which goes with that partition to its next
-    reader. A sink that itself rejects a second (wearer, number), as a table with that key does, needs none.
-    """
+    reader. A sink that itself rejects a second (wearer, number), as a table with that key does, needs none."""
 
     limit: int = 100_000
     _received: dict[str, _ReceivedNumbers] = field(factory=dict, init=False)
@@ -79,8 +76,7 @@ class Once:
     def first(self, wearer: str, number: int) -> bool:
         """Return whether this is the first delivery of the identity.
 
-        Raises TypeError or ValueError, and changes nothing, for an invalid identity.
-        """
+        Raises TypeError or ValueError, and changes nothing, for an invalid identity."""
         if not isinstance(wearer, str) or type(number) is not int:
             raise TypeError("an identity is a wearer, a str, and a number, an int")
         if number < 0:

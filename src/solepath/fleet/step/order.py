@@ -3,8 +3,7 @@
 A row in its turn passes at once. A row ahead of its turn is held until the missing rows have come, or until more than
 `window` rows or HELD bytes are held: then the missing rows are given up. A row that was used before is dropped without
 a report. A reader can leave a run: when only rows of a smaller run, or of one that was left, come, and more than
-`window` of them, then the phone's clock was corrected or one number was wrong, and the reader switches to that run.
-"""
+`window` of them, then the phone's clock was corrected or one number was wrong, and the reader switches to that run."""
 
 from __future__ import annotations
 

@@ -33,8 +33,7 @@ class Tick:
 class End:
     """The wearer takes the sensors off.
 
-    The session emits what it held back. A new run starts a new session.
-    """
+    The session emits what it held back. A new run starts a new session."""
 
 
 @frozen
@@ -42,8 +41,7 @@ class Sent:
     """An item that the phone of `wearer` sends: a packet as it arrived there, a Tick that time has passed, or the End.
 
     `number` counts 0, 1, 2, ... without holes within a `run`. A phone that cannot continue its count starts a new run,
-    at 0, under a larger number (the time in ms, or the last run + 1 if that is more); the session goes on.
-    """
+    at 0, under a larger number (the time in ms, or the last run + 1 if that is more); the session goes on."""
 
     wearer: str
     number: int
@@ -61,8 +59,7 @@ class Unreadable:
     """A row that is no Sent, and the reason.
 
     `run` and `number` are given if they can be read: then nothing is waited for in its place. `wearer` is "" if that
-    cannot be read either.
-    """
+    cannot be read either."""
 
     wearer: str
     what: str
@@ -74,8 +71,7 @@ class Unreadable:
 class NumberedEvent:
     """An event of a wearer; (wearer, number) is its identity, and a repeated identity is a repeated delivery.
 
-    Numbers start at 0 and have no holes, except after a StateRejected (protocol/fleet.md).
-    """
+    Numbers start at 0 and have no holes, except after a StateRejected (protocol/fleet.md)."""
 
     wearer: str
     number: int

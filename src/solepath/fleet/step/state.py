@@ -1,8 +1,7 @@
 """The state of one wearer between two calls, as bytes (protocol/fleet.md, "The state").
 
 The first bytes, on which the identities of events and the order of packets depend, are the same in every version and
-have a checksum of their own: even if the bytes after them are damaged or unknown, no identity is used twice.
-"""
+have a checksum of their own: even if the bytes after them are damaged or unknown, no identity is used twice."""
 
 from __future__ import annotations
 
@@ -53,8 +52,7 @@ class OtherState:
     """The rest of a state.
 
     `failure` is the exception of a part of the app's own when the session was to be saved; "" for none. `session` is
-    None before the first packet and after the end.
-    """
+    None before the first packet and after the end."""
 
     ended: bool = False
     unused: UnusedNumbers = field(factory=UnusedNumbers)
@@ -203,5 +201,4 @@ class _StateReader:
 READERS: Mapping[int, Callable[[_StateReader], OtherState]] = {1: _read_1}
 """Readers by version: each converts its layout to the newest.
 
-The state of a session has a version of its own (session/state.py).
-"""
+The state of a session has a version of its own (session/state.py)."""

@@ -16,8 +16,7 @@ FORGOTTEN = 4
 class NumberSpan:
     """Numbers from `first` to before `end` that were never used.
 
-    An `end` beyond MOST means everything that was still to come of a run when it was left.
-    """
+    An `end` beyond MOST means everything that was still to come of a run when it was left."""
 
     run: int
     first: int
@@ -32,16 +31,13 @@ class NumberSpan:
 class UnusedNumbers:
     """Spans of numbers and runs that were not used.
 
-    The last span of a run that was left is open: from its first number on nothing of the run was used.
-    """
+    The last span of a run that was left is open: from its first number on nothing of the run was used."""
 
     spans: list[NumberSpan] = field(factory=list)
     """The spans that were given up last, oldest first."""
     forgotten: list[tuple[int, int]] = field(factory=list)
-    """Ranges (first run, last run) of runs that were left and are not remembered.
-
-    Of too many ranges the two that are closest are joined, together with the runs between them.
-    """
+    """Ranges (first run, last run) of runs that were left and are not remembered. Of too many ranges the two that are
+    closest are joined, together with the runs between them."""
 
     def add(self, span: NumberSpan) -> None:
         if len(self.spans) >= SPANS:

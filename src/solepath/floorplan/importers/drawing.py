@@ -2,8 +2,7 @@
 
 Walls are the outlines of spaces, less the parts between two open spaces and less the doors; stairs and lifts are joined
 over the levels where they overlap. The readers of IMDF and OpenStreetMap draw into this; the plan does not depend on
-the order in which they do.
-"""
+the order in which they do."""
 
 from __future__ import annotations
 
@@ -49,8 +48,7 @@ class ConnectorPart:
     """The part of stairs or a lift on one level.
 
     Parts of one `group` are always the same stairs or lift; others are if they overlap on neighbouring levels. `place`
-    is where a person steps on; None stands for the middle.
-    """
+    is where a person steps on; None stands for the middle."""
 
     kind: ConnectorKind
     name: str
@@ -91,8 +89,7 @@ class Drawing:
     def plan(self, anchor: Anchor, storey: float) -> FloorPlan:
         """Return the plan; `storey` is the height from one level to the next, m: these formats have no elevations.
 
-        Raises FloorPlanError when there is more than a building has.
-        """
+        Raises FloorPlanError when there is more than a building has."""
         if len(self.storeys) > MOST_LEVELS:
             raise FloorPlanError(f"has more than {MOST_LEVELS} levels")
         rings = [ring for space in self.spaces for ring in space.rings] + [r for part in self.parts for r in part.rings]
@@ -186,8 +183,7 @@ def _join_parts(parts: list[ConnectorPart], numbers: dict[str, int], storeys: di
     """Join parts into connectors.
 
     Joined are those of one group, and those that overlap on levels whose order is one apart or less, or that are
-    adjacent in the list of levels.
-    """
+    adjacent in the list of levels."""
     ordered = sorted(
         parts,
         key=lambda part: (

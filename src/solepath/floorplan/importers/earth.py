@@ -2,8 +2,7 @@
 
 East and north of the anchor are those of the local tangent plane (ENU) of points on the ellipsoid, turned by the
 anchor's bearing. Lengths in the plane are short by d^2 / 6 R^2 of themselves at a distance d from the anchor, less than
-0.001 mm at 500 m and 0.1 mm at 2.5 km; the arithmetic is good to 1e-8 m.
-"""
+0.001 mm at 500 m and 0.1 mm at 2.5 km; the arithmetic is good to 1e-8 m."""
 
 from __future__ import annotations
 
@@ -76,8 +75,7 @@ def south_west(places: list[tuple[float, float]]) -> Anchor:
     """Return an anchor for places (latitude, longitude) without one, with +y to the north.
 
     It is their south-west corner, to 1e-7 degrees (1 cm). Raises FloorPlanError when there are none, or when they
-    cannot be degrees.
-    """
+    cannot be degrees."""
     if not places:
         raise FloorPlanError("nothing is drawn in it")
     latitude, longitude = min(p[0] for p in places), min(p[1] for p in places)

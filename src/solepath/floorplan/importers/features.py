@@ -34,8 +34,7 @@ class Feature:
     """One feature of a GeoJSON file.
 
     `name` is for error messages. `lines` holds the parts of a LineString, MultiLineString, Polygon or MultiPolygon, for
-    a polygon its outline and then its holes; `points` holds those of a Point or MultiPoint.
-    """
+    a polygon its outline and then its holes; `points` holds those of a Point or MultiPoint."""
 
     id: str
     name: str
@@ -51,8 +50,7 @@ class Feature:
     def text(self, key: str, otherwise: str | None = None) -> str:
         """Return a text or a number of the properties, as text; `otherwise` replaces a missing one.
 
-        Raises FloorPlanError when both are missing.
-        """
+        Raises FloorPlanError when both are missing."""
         value = self.properties.get(key)
         if value is None and otherwise is not None:
             return otherwise
@@ -125,8 +123,7 @@ def _reject_constant(name: str) -> NoReturn:
 def features(collection: dict[str, Any], kind_key: str, in_properties: bool) -> Iterator[Feature]:
     """Yield the features of a FeatureCollection.
 
-    Their kind is the member `kind_key`, of the properties or of the feature.
-    """
+    Their kind is the member `kind_key`, of the properties or of the feature."""
     if collection.get("type") != "FeatureCollection" or not isinstance(collection.get("features"), list):
         raise FloorPlanError("is not a GeoJSON FeatureCollection")
     seen: set[str] = set()

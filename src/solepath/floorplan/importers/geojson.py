@@ -23,8 +23,7 @@ _KINDS = ("level", "wall", "door", "room", "stairs", "lift")
 def read_collection(collection: dict[str, Any], storey: float) -> FloorPlan:
     """Return the plan in a FeatureCollection of the profile; raise FloorPlanError when it does not fit.
 
-    `storey` is the height from level to level where it has no elevations, m.
-    """
+    `storey` is the height from level to level where it has no elevations, m."""
     if collection.get("version") != VERSION or isinstance(collection.get("version"), bool):
         raise FloorPlanError(f"is of version {collection.get('version')!r}; this release reads {VERSION}")
     known = list(features(collection, "feature", in_properties=True))
@@ -176,8 +175,7 @@ class _GeoJsonReader:
 def write_floorplan(path: Path | str, plan: FloorPlan) -> None:
     """Write the plan to a file in its own frame; read again it is equal, once its doors are cut out of its walls.
 
-    Raises OSError when it cannot be written, ValueError for numbers that JSON does not have.
-    """
+    Raises OSError when it cannot be written, ValueError for numbers that JSON does not have."""
     Path(path).write_text(text_of(plan), encoding="utf-8")
 
 

@@ -2,8 +2,7 @@
 
 It is an archive, or a folder, of GeoJSON files, one for each kind of feature; protocol/floorplan.md describes their
 conversion. IMDF draws units, not walls, and has no heights: walls are outlines (drawing.py), and levels lie one storey
-apart.
-"""
+apart."""
 
 from __future__ import annotations
 
@@ -41,8 +40,7 @@ _OBSTACLES = {"obstruction", "wall"}
 def read_archive(files: Mapping[str, bytes], storey: float) -> FloorPlan:
     """Return the plan in the files of an archive, by name; raise FloorPlanError when it does not fit.
 
-    `storey` is the height from one ordinal to the next, m.
-    """
+    `storey` is the height from one ordinal to the next, m."""
     if "manifest.json" not in files:
         raise FloorPlanError("has no manifest.json, which every IMDF archive has")
     with _name_file("manifest.json"):

@@ -2,8 +2,7 @@
 
 Sources: wiki.openstreetmap.org, Simple_Indoor_Tagging, Key:indoor, Key:repeat_on, Tag:highway=elevator.
 protocol/floorplan.md describes the conversion of each tag. The tags draw rooms, not walls, and have no heights: walls
-are outlines (drawing.py), and levels lie one storey apart. Everything in the file counts as one building.
-"""
+are outlines (drawing.py), and levels lie one storey apart. Everything in the file counts as one building."""
 
 from __future__ import annotations
 
@@ -22,8 +21,7 @@ from .osm_tags import BORDERS, connector_kind, is_door, is_indoor, label, level_
 def read_osm(data: bytes, storey: float) -> FloorPlan:
     """Return the plan in an OSM XML file; raise FloorPlanError when it does not fit.
 
-    `storey` is the height from one level to the next, m.
-    """
+    `storey` is the height from one level to the next, m."""
     return _OsmReader(elements(data)).plan(storey)
 
 

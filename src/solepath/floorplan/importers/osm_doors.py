@@ -25,8 +25,7 @@ def door_at(place: Point, neighbours: list[Point], width: float | None) -> Line 
     """Return the door at a node of walls; None where no wall goes on.
 
     `neighbours` are the nodes to which the walls go. In the middle of a wall the door is centred on the node; at a
-    corner it starts there, along the longest wall.
-    """
+    corner it starts there, along the longest wall."""
     directions = sorted({_direction(place, other) for other in neighbours if other != place})
     if not directions:
         return None

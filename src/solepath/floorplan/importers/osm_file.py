@@ -1,8 +1,7 @@
 """Parser of OpenStreetMap XML from untrusted bytes: nodes, ways and relations with their tags.
 
 It reads with expat, straight into records: no tree is built. It rejects a document type, the only way to declare
-entities.
-"""
+entities."""
 
 from __future__ import annotations
 
@@ -20,8 +19,7 @@ MOST_ELEMENTS = 500_000
 class Element:
     """A node (with its degrees), a way (with its `refs` to nodes) or a relation.
 
-    `members` of a relation are (kind, ref, role).
-    """
+    `members` of a relation are (kind, ref, role)."""
 
     kind: str
     id: str
@@ -137,8 +135,7 @@ def shapes_of(one: Element, file: OsmFile) -> tuple[list[list[Refs]], list[Refs]
     """Return the closed shapes of a way or a relation, and its lines that do not close.
 
     A shape is an outline and then its holes, rings that do not repeat their first node. Raises FloorPlanError when a
-    part of it is not in the file.
-    """
+    part of it is not in the file."""
     if one.kind == "way":
         return _split_closed([_find_refs(one, file)])
     outer: list[Refs] = []

@@ -14,8 +14,7 @@ BORDERS = {"room": Border.WALL, "corridor": Border.OPEN, "area": Border.FREE, "c
            "wall": Border.SOLID}  # fmt: skip
 """Border by the value of indoor=* (Key:indoor).
 
-A conventional room with walls, a walled walkway between rooms, an area without walls, a pillar, a wall.
-"""
+A conventional room with walls, a walled walkway between rooms, an area without walls, a pillar, a wall."""
 
 _NUMBER = r"-?\d{1,4}(?:\.\d{1,3})?"
 _RANGE = re.compile(rf"\s*({_NUMBER})\s*(?:-\s*({_NUMBER})\s*)?", re.ASCII)
@@ -26,8 +25,7 @@ def parse_levels(text: str) -> list[float]:
     """Return the levels in a value of `level` or `repeat_on`, each once, ascending.
 
     Examples: "0", "-1", "0.5", "0;1", "0-3", "-3--1", "-1;2-4"; of a range its ends and the whole numbers between.
-    Raises FloorPlanError when it has none.
-    """
+    Raises FloorPlanError when it has none."""
     found: set[float] = set()
     for one in text.split(";"):
         match = _RANGE.fullmatch(one)

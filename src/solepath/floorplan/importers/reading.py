@@ -1,7 +1,6 @@
 """Floor plan files; their format is recognised by their content.
 
-The readers of the formats, and the libraries that they need, are loaded with the first file: most apps read none.
-"""
+The readers of the formats, and the libraries that they need, are loaded with the first file: most apps read none."""
 
 from __future__ import annotations
 
@@ -23,8 +22,7 @@ def read_floorplan(path: Path | str, storey: float = STOREY) -> FloorPlan:
 
     The file is GeoJSON of protocol/floorplan.md, an IMDF archive (a zip file or a folder), or OpenStreetMap XML with
     Simple Indoor Tagging. `storey` is the height from one level to the next, m, where the file has no elevations; such
-    a plan's `heights_known` is False. Raises FloorPlanError, one line, when it cannot be read or used.
-    """
+    a plan's `heights_known` is False. Raises FloorPlanError, one line, when it cannot be read or used."""
     try:
         return _check(_read(Path(path), storey))
     except FloorPlanError as error:

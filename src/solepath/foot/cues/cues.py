@@ -28,8 +28,7 @@ class Cues(Protocol):
     Cues are an attrs class (`@define`) with fields that can be saved. They report the past, never the future. They read
     no clock and no random numbers, have a constant cost for each sample, use bounded memory, and never raise. Samples
     are finite, but otherwise have any size (up to 500 m/s^2, 100 rad/s) and any distance in time. The table in phase.py
-    gives the phase that follows from a cue; a cue that changes no phase has no effect.
-    """
+    gives the phase that follows from a cue; a cue that changes no phase has no effect."""
 
     __slots__ = ()
 
@@ -48,14 +47,11 @@ class Cues(Protocol):
     # optional: the default does nothing
 
     sagittal: float = 0.0
-    """Rate of the last sample about the axis to the wearer's left, positive toe down, rad/s.
-
-    It is 0 while that axis is unknown."""
+    """Rate of the last sample about the axis to the wearer's left, positive toe down, rad/s. It is 0 while that axis is
+    unknown."""
     mark: Cue | None = None
-    """Most likely sample of an event so far (Corrector.mark); None for neither.
-
-    CONTACT: the last sample is most likely the one of heel-strike. CLEAR: the one before it is most likely the one of
-    toe-off."""
+    """Most likely sample of an event so far (Corrector.mark); None for neither. CONTACT: the last sample is most likely
+    the one of heel-strike. CLEAR: the one before it is most likely the one of toe-off."""
 
     def cleared(self, t: float) -> SeenCue:
         """Return a toe-off at `t`, which a gap has hidden; the swing was not over at the end of the gap."""

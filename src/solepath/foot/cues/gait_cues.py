@@ -1,8 +1,7 @@
 """Cues of most recipes, from the inertial sensor and the pressure cells.
 
 `GaitCues` uses the inertial sensor and, if there are cells, the load. Contact and clear then come from the load, flat
-and lift from the inertial sensor. The load of the heel gives the time of lift.
-"""
+and lift from the inertial sensor. The load of the heel gives the time of lift."""
 
 from __future__ import annotations
 
@@ -22,8 +21,7 @@ from .touch import FEW, Touch
 class GaitCues(Cues):
     """Detects gait events from the inertial sensor and the load.
 
-    Latency: that of `InertialCues`, or of `PressureCues` with pressure cells.
-    """
+    Latency: that of `InertialCues`, or of `PressureCues` with pressure cells."""
 
     inertial: InertialCues = field(factory=InertialCues)
     pressure: PressureCues = field(factory=PressureCues)

@@ -7,8 +7,7 @@ jerk, j = d acc / dt,
     t_HS = sum t |j|^2 dt / sum |j|^2 dt.
 
 This needs no threshold on the force, works for any mounting and rate, and does not come early if the sole turns down
-well before it bears weight.
-"""
+well before it bears weight."""
 
 from __future__ import annotations
 

@@ -8,8 +8,7 @@ et al., IEEE Trans. Biomed. Eng. 52, 2005; Mariani et al., Gait & Posture 37, 20
 than the return through zero, or earlier: heel-strike is the middle of the impact (impact.py).
 
 Numbers without source were chosen by hand on the recordings of docs/accuracy.md and not swept; those of heel-strike and
-toe-off on the recordings that contain such events.
-"""
+toe-off on the recordings that contain such events."""
 
 from __future__ import annotations
 
@@ -85,8 +84,7 @@ class InertialCues:
     """Detects gait events from the inertial sensor.
 
     Latency: toe-off one sample; heel-strike IMPACT_SETTLES, or until the foot is still if no impact is found; foot-flat
-    and heel-off SETTLE.
-    """
+    and heel-off SETTLE."""
 
     still_since: float | None = field(default=None, init=False)
     """Time since which zero velocity evidence is accepted, s; None while it is not."""

@@ -1,7 +1,6 @@
 """Cues from the load of the pressure cells.
 
-The numbers were chosen by hand on the recordings of docs/accuracy.md that have cells, and not swept.
-"""
+The numbers were chosen by hand on the recordings of docs/accuracy.md that have cells, and not swept."""
 
 from __future__ import annotations
 

@@ -9,8 +9,7 @@ rise in swing.
 
 The values in the air are learnt from the lowest ones so far (pressure.py). These are wrong before the first step and
 after standing for long, where half of the wearer's weight is the lowest load. So the cells are `trusted` after a swing,
-and no longer when the foot stands still while the cells say that it is in the air.
-"""
+and no longer when the foot stands still while the cells say that it is in the air."""
 
 from __future__ import annotations
 

@@ -1,8 +1,7 @@
 """Infill of a gap in the samples: the same part of the last whole stride stands in for it.
 
 The time for which the foot had moved before the gap, and its motion after the gap, tell which part this is. If the foot
-turned differently from the template before and after the gap, it is taken to have done so in the gap.
-"""
+turned differently from the template before and after the gap, it is taken to have done so in the gap."""
 
 from __future__ import annotations
 

@@ -3,8 +3,7 @@
 If a foot comes down after a gap with about the heading that it had before, the gap has caused the difference
 ("heuristic drift elimination": Borenstein, Ojeda, Kwanmuang, J. Navigation 62, 2009). The heading then errs by the
 difference between one footfall and the next, however many gaps there are. A wearer who turns has turned further than
-that, and the heading is not changed.
-"""
+that, and the heading is not changed."""
 
 from __future__ import annotations
 

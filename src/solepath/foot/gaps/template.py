@@ -2,8 +2,7 @@
 
 Walking is periodic: the same part of two neighbouring strides of one wearer differs by some per cent, whereas a
 straight line over half a second of a swing is wrong by a right angle. The end of a stride with a gap is repaired in the
-same way: it goes about as far as the template, and straight on (straight.py).
-"""
+same way: it goes about as far as the template, and straight on (straight.py)."""
 
 from __future__ import annotations
 
@@ -48,8 +47,7 @@ The height is that of two stairs."""
 class StrideTemplate:
     """The last stride without a gap, from heel-off to foot-flat, and the heading of the footfalls.
 
-    Between the stored moments a sample costs one comparison. MOST_MOMENTS of two strides are stored.
-    """
+    Between the stored moments a sample costs one comparison. MOST_MOMENTS of two strides are stored."""
 
     last: RecordedStride | None = field(default=None, init=False)
     """Last stride without a gap; None before any."""

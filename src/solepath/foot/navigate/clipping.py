@@ -10,8 +10,7 @@ this lasts and the more its ends differ, the flatter the true motion of a foot i
 
 is used: on recorded feet, cut off at 250 degrees/s, it errs by a third of m as a rule. reintegration.py uses the
 result. The end of a range is learnt: an axis that stays at its largest reading for D seconds is at its end, unless a
-smooth maximum could do the same. Between such slopes a smooth maximum would rise by D sqrt(rise fall) / 4.
-"""
+smooth maximum could do the same. Between such slopes a smooth maximum would rise by D sqrt(rise fall) / 4."""
 
 from __future__ import annotations
 
@@ -47,8 +46,7 @@ LONGEST = 0.5
 class SensorLimits:
     """The initial limits of a kind of sensor.
 
-    Integrals are in rad for a gyroscope, in m/s for an accelerometer.
-    """
+    Integrals are in rad for a gyroscope, in m/s for an accelerometer."""
 
     least: float
     """Smallest end of a range, rad/s or m/s^2."""
@@ -109,8 +107,7 @@ class ClippedAxis:
 class Clipping:
     """Detects clipping of the three axes of a sensor.
 
-    Latency: a clipped peak is known two samples after the return into the range.
-    """
+    Latency: a clipped peak is known two samples after the return into the range."""
 
     limits: SensorLimits = GYROSCOPE
     axes: list[ClippedAxis] = field(init=False)

@@ -21,8 +21,7 @@ class Corrector(Protocol):
 
     A corrector is an attrs class (`@define`) with fields that can be saved. It reads no clock and no random numbers,
     has a constant cost for each sample, uses bounded memory, and never raises. Samples are finite, but otherwise have
-    any size (up to 500 m/s^2, 100 rad/s) and any distance in time. Its results are finite.
-    """
+    any size (up to 500 m/s^2, 100 rad/s) and any distance in time. Its results are finite."""
 
     __slots__ = ()
 

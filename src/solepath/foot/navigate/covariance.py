@@ -11,8 +11,7 @@ over T, the error equations dp' = dv, dv' = -[f]x dt (Sola 2017, section 7) inte
     dp(T) = dp + T dv + M2 dt,  M2 = -[D]x      dv(T) = dv + M1 dt,  M1 = -[S]x      dt(T) = dt
 
 The lines below are the blocks of P <- F P F' + Q and of the Kalman update by a measured velocity, H = [0 I 0].
-tests/foot/test_covariance.py compares them with the matrix form.
-"""
+tests/foot/test_covariance.py compares them with the matrix form."""
 
 from __future__ import annotations
 
@@ -125,9 +124,8 @@ def update(
 ) -> tuple[Covariance, Correction] | None:
     """Correct by a velocity error z = measured - estimated (m/s) with variance r (m^2/s^2) on each axis.
 
-    Returns the new P and the corrections of the nine states, or None when z is so unlikely that its normalised
-    square exceeds `limit` (then the measurement is not of this velocity).
-    """
+    Returns the new P and the corrections of the nine states, or None when z is so unlikely that its normalised square
+    exceeds `limit` (then the measurement is not of this velocity)."""
     (
         ppxx, ppxy, ppxz, ppyy, ppyz, ppzz,
         pvxx, pvxy, pvxz, pvyx, pvyy, pvyz, pvzx, pvzy, pvzz,

@@ -4,8 +4,7 @@ This is the textbook corrector (for instance Ojeda and Borenstein, "Non-GPS navi
 responders", 2007): the velocity error at the end of a swing has grown evenly over it. With e(t) = e_T t/T removed from
 the velocity, the position changes by the integral, e_T T/2. The tilt drifts with the gyroscope, so in stance the
 measured direction of gravity corrects the attitude (the proportional term of Mahony, Hamel, Pflimlin, IEEE Trans.
-Autom. Control 53, 2008).
-"""
+Autom. Control 53, 2008)."""
 
 from __future__ import annotations
 
@@ -24,8 +23,7 @@ from .strapdown import Strapdown
 class LinearDedrift(Strapdown):
     """Strapdown navigation that takes the velocity of the evidence in stance and removes the drift of the swing.
 
-    Frame and units as in `Corrector`. Latency: the position is corrected, in one jump, at the first sample of
-    stance.
+    Frame and units as in `Corrector`. Latency: the position is corrected, in one jump, at the first sample of stance.
     """
 
     settings: DedriftSettings = DedriftSettings()

@@ -6,8 +6,7 @@ a state: it is learnt at rest (attitude.py), which costs less and, on short walk
 
 Between corrections the covariance is propagated at once (propagated.py), so a swing costs no more than its integration.
 An innovation gate rejects evidence that the motion so far makes too unlikely, because a slow swing can look as still as
-a fast stance. A filter that has gated everything for some time is lost and takes the most still moment there is.
-"""
+a fast stance. A filter that has gated everything for some time is lost and takes the most still moment there is."""
 
 from __future__ import annotations
 
@@ -64,8 +63,7 @@ class ErrorStateFilter(PropagatedCovariance):
     with the evidence.
 
     Numbers in this module without source were chosen by hand on the recordings of docs/accuracy.md and not swept. The
-    table of the default without one of its parts in that document gives the effect of whole terms.
-    """
+    table of the default without one of its parts in that document gives the effect of whole terms."""
 
     settings: ErrorStateSettings = ErrorStateSettings()
     level: LevelGround = field(factory=LevelGround, init=False)

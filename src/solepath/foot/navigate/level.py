@@ -17,8 +17,7 @@ share of the filter's variance. `upright`: up in the sensor frame when the foot 
 to `upright`, in the direction of the stride, so it contains neither the mounting nor an error of integration.
 
 A slope of less than some 3 % cannot be told from a rise bias and counts as one. The same holds for any slope with a
-sensor whose heights scatter by a decimetre, until the pitch of several strides has shown it.
-"""
+sensor whose heights scatter by a decimetre, until the pitch of several strides has shown it."""
 
 from __future__ import annotations
 

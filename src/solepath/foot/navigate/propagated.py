@@ -1,8 +1,7 @@
 """Strapdown navigation with covariance, which is propagated over any interval at once.
 
 Between two uses of the covariance only the noise is summed up, so a sample costs no more than its integration
-(covariance.py).
-"""
+(covariance.py)."""
 
 from __future__ import annotations
 

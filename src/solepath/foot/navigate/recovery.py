@@ -1,7 +1,6 @@
 """Recovery of the clipped peaks of both sensors of a foot, for the state of a filter.
 
-clipping.py detects clipped peaks, reintegration.py gives their effect; this module stores the samples that both
-need.
+clipping.py detects clipped peaks, reintegration.py gives their effect; this module stores the samples that both need.
 """
 
 from __future__ import annotations

@@ -6,8 +6,7 @@ the effect of an error of m on attitude, velocity and position. This is one unkn
 
     P <- P + sigma^2 b b',  b = d(p, v, theta) / dm
 
-and the zero velocity of the next stance tells its size.
-"""
+and the zero velocity of the next stance tells its size."""
 
 from __future__ import annotations
 

@@ -2,8 +2,7 @@
 
 The navigation frame is z up, with the heading of the sensor at levelling; the tracker turns it into the world frame. A
 corrector (`ErrorStateFilter`, `LinearDedrift`) extends this strapdown with the use of stance evidence, which keeps the
-integration from drifting.
-"""
+integration from drifting."""
 
 from __future__ import annotations
 
@@ -22,8 +21,7 @@ WIDEST_SERIES = 0.06
 class Strapdown(Corrector):
     """Integrates attitude by the rotation vector, velocity and position by the trapezoidal rule.
 
-    Each sample has its own dt.
-    """
+    Each sample has its own dt."""
 
     attitude: Quat = field(default=IDENTITY, init=False)
     velocity: Vec3 = field(default=ZERO, init=False)

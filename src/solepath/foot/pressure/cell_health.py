@@ -10,8 +10,7 @@ Without swings only MISSING is judged.
 `usable` returns 0 for failed cells, so load, areas and centre of pressure work without them. A cell that loads again in
 two windows is used again. This is not reported, but another failure of it is. The pressure of samples with a wrong
 number of cells is not used; their inertial part is. Without a layout, another number of cells means another insole
-after PATIENCE.
-"""
+after PATIENCE."""
 
 from __future__ import annotations
 
@@ -37,8 +36,7 @@ class CellHealth:
     """The health of the cells of one insole.
 
     Call `update` with every sample in order of time, then use the cells that `usable` returns. A sample costs one sum,
-    and 12 times a second the extremes of each cell.
-    """
+    and 12 times a second the extremes of each cell."""
 
     site: Site
     count: int = field(default=0, init=False)

@@ -9,8 +9,7 @@ Earlier windows count only by the number of windows in which each cell was livel
 - SATURATED: the cell is at or beyond the end of its range, even while the foot is in the air (this needs a layout).
 
 A cell at the rim of the sole or under a high arch may never bear load. A cell there that was dead from the start looks
-the same: it is not reported, and does no harm.
-"""
+the same: it is not reported, and does no harm."""
 
 from __future__ import annotations
 

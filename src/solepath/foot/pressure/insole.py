@@ -4,8 +4,7 @@ An insole needs no calibration before walking. The tare is the value of the cell
 shoe still presses on them. The full load is their value when they bear the body. Both are learnt from the signal, so
 newtons and counts work alike. There is no `Load` before the load has once fallen to a fraction of itself and risen
 again. Until then a falling load would always be the lowest so far, and a foot that is about to step would seem to be in
-the air.
-"""
+the air."""
 
 from __future__ import annotations
 
@@ -71,8 +70,7 @@ class InsoleLoads:
 
     With a calibration, raw values become newtons by a cubic (calibration.Newtons). The noise of each cell in the air is
     subtracted, with 0 as the lower limit (Chen et al. 2019: noise "could be removed through deleting p_noise", equation
-    (1)).
-    """
+    (1))."""
 
     settings: InsoleSettings = InsoleSettings()
     layout: Layout | None = field(default=None, init=False)

@@ -1,8 +1,7 @@
 """Estimation of an unknown layout of pressure cells from the order in which a stance loads them.
 
 The cells of the heel bear the start of each stance and those of the toes its end. So the mean time of a cell's load
-within the stance grows from heel to toe. The signal does not show where a cell lies from left to right.
-"""
+within the stance grows from heel to toe. The signal does not show where a cell lies from left to right."""
 
 from __future__ import annotations
 
@@ -31,8 +30,7 @@ LEAST_LOAD = 0.02
 class LayoutGuess:
     """Estimates the layout of an insole from its samples.
 
-    Call `update` with every sample until it returns a layout. A sample costs two additions a cell.
-    """
+    Call `update` with every sample until it returns a layout. A sample costs two additions a cell."""
 
     foot: Foot
     stance_start: float | None = field(default=None, init=False)

@@ -19,8 +19,7 @@ from .layout_guess import LayoutGuess
 class Sole:
     """The pressure cells of one foot.
 
-    Failed cells are not used. If the layout is unknown and the recipe needs pressure, the layout is estimated.
-    """
+    Failed cells are not used. If the layout is unknown and the recipe needs pressure, the layout is estimated."""
 
     foot: Foot
     insole: InsoleLoads

@@ -8,8 +8,7 @@ other latency. Sums are updated, so the cost of a sample does not depend on the 
 needs every pair of samples in the window.
 
 The papers give thresholds for their own sensors. These were chosen by hand on the recordings of docs/accuracy.md, not
-swept.
-"""
+swept."""
 
 from __future__ import annotations
 
@@ -82,8 +81,7 @@ class Graph(Detector):
 
     For every pair of cuts a < b, counted from 0 as in published code, the distances |a_i - a_j| between the samples up
     to a and the samples from b on are summed and divided by (b - a) (W - b + 1). T is the largest of these, in m/s^2.
-    The cost of a sample is O(W^2).
-    """
+    The cost of a sample is O(W^2)."""
 
     settings: CountThreshold = CountThreshold(count=5, base=2.0, gate=8.0)
     entries: deque[Vec3] = field(factory=deque, init=False)

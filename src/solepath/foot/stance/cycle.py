@@ -9,8 +9,7 @@ The unknown part is noise. Its steeper second term keeps early and late stance f
 
 The settings (settings.py) were chosen by hand on the recordings of docs/accuracy.md and not swept. The table of the
 default without one of its parts in that document gives the effect of whole terms: one threshold for all, evidence of
-one noise, zero velocity for a foot that rolls, no extra noise for a foot that brakes.
-"""
+one noise, zero velocity for a foot that rolls, no extra noise for a foot that brakes."""
 
 from __future__ import annotations
 
@@ -47,8 +46,7 @@ NO_LOW = 1e12
 class Cycle(Detector):
     """Compares the SHOE statistic with a threshold from the last cycle, with noise from the motion.
 
-    Latency: 25 ms. The statistic has no unit: SHOE divides each mean square by that of the sensor's noise (shoe.py).
-    """
+    Latency: 25 ms. The statistic has no unit: SHOE divides each mean square by that of the sensor's noise (shoe.py)."""
 
     settings: CycleSettings = CycleSettings()
     sensor_height: SensorHeight = field(factory=SensorHeight, init=False)

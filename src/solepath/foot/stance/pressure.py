@@ -1,7 +1,6 @@
 """Stance evidence from pressure cells, with the same signature as the inertial detectors in shoe.py and classic.py.
 
-Without cells, or while the wearer's full load is unknown, both detectors give no evidence (sigma is infinite).
-"""
+Without cells, or while the wearer's full load is unknown, both detectors give no evidence (sigma is infinite)."""
 
 from __future__ import annotations
 
@@ -22,8 +21,7 @@ class TwoArea(Detector):
 
     Source: "Smart insole-based indoor localization system for Internet of Things applications", stationary epoch
     detection, which uses the forces on both sides of the circuit board. The statistic is the smaller of the two loads
-    as a share of the wearer's full load.
-    """
+    as a share of the wearer's full load."""
 
     on: float = 0.05
     """Smallest load of an area that counts as loaded, as a share of the wearer's full load."""
@@ -47,8 +45,7 @@ class MaximumPressure(Detector):
 
     Source: equation (6) of "Improving accuracy of real-time positioning and path tracking by using an error
     compensation algorithm against walking modes", method III. The statistic is that cell as a share of the highest cell
-    value so far. A foot on the ground still rolls, so the noise is larger.
-    """
+    value so far. A foot on the ground still rolls, so the noise is larger."""
 
     threshold: float = 0.25
     """Smallest statistic of a foot on the ground."""

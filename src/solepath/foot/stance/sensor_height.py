@@ -10,8 +10,7 @@ horizontal, with a slope of u for the tilt, which is not known exactly. Then
 
     u(t) = h c(t) + a + b t
 
-is fitted by least squares to each stance. h is pooled over the stances, with less weight for older ones.
-"""
+is fitted by least squares to each stance. h is pooled over the stances, with less weight for older ones."""
 
 from __future__ import annotations
 
@@ -47,10 +46,8 @@ class SensorHeight:
     square: float = field(default=TRUST, init=False)
     """Sum of c c dt over the stances, (rad/s)^2 s."""
     sums: tuple[float, ...] = field(default=EMPTY, init=False)
-    """Sums over the current stance.
-
-    They are: count, time, last acceleration and u on x and y; sums of t, tt, cc and uc over both axes; sums of u, tu, c
-    and tc on x and on y."""
+    """Sums over the current stance. They are: count, time, last acceleration and u on x and y; sums of t, tt, cc and uc
+    over both axes; sums of u, tu, c and tc on x and on y."""
 
     def roll(self, dt: float, acc: Vec3, gyro: Vec3, attitude: Quat) -> tuple[float, float]:
         """Add one sample of a foot on the ground; return its horizontal velocity h w x up, m/s, navigation frame."""

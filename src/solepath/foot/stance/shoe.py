@@ -2,8 +2,7 @@
 
 Source: Skog, Handel, Nilsson, Rantakokko, "Zero-velocity detection: an algorithm evaluation" (IEEE Trans. Biomed. Eng.
 57, 2010). The thresholds were chosen by hand on the recordings of docs/accuracy.md, not swept. The detector is causal
-and uses a window of `window` seconds; its evidence has no other latency.
-"""
+and uses a window of `window` seconds; its evidence has no other latency."""
 
 from __future__ import annotations
 
@@ -26,8 +25,7 @@ SIGMA_GYRO = 0.1 * 3.141592653589793 / 180.0
 class ShoeDetector(Detector):
     """SHOE: stance hypothesis optimal estimation.
 
-    T = 1/W sum(|a - g a_mean/|a_mean||^2/s_a^2 + |w|^2/s_w^2).
-    """
+    T = 1/W sum(|a - g a_mean/|a_mean||^2/s_a^2 + |w|^2/s_w^2)."""
 
     settings: WindowThreshold = WindowThreshold(window=0.025, base=1e4, gate=3.5e5)
     entries: deque[tuple[float, float, float, float, float, float]] = field(factory=deque, init=False)

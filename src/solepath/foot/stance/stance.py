@@ -2,8 +2,7 @@
 
 A stance detector never answers yes or no. For every sample it returns the velocity that the sensor should have now and
 how far to trust it (`Stance`). All detectors have the same signature, so detectors and the correctors that use them can
-be combined freely.
-"""
+be combined freely."""
 
 from __future__ import annotations
 
@@ -45,14 +44,11 @@ class Stance(NamedTuple):
     sigma: float
     """Standard deviation of each axis of `v_ref` for one update every 5 ms, m/s; inf without evidence."""
     statistic: float
-    """Statistic of the detector, in its own unit.
-
-    If the hint is None, ErrorStateFilter takes a smaller one for more still."""
+    """Statistic of the detector, in its own unit. If the hint is None, ErrorStateFilter takes a smaller one for more
+    still."""
     hint: Phase | None
-    """Phase that the detector is sure of, or None.
-
-    STATIONARY: the foot certainly stands. SWING: it certainly does not. LOADING or PUSH_OFF: `v_ref` is that of a shoe
-    that rolls over heel or forefoot."""
+    """Phase that the detector is sure of, or None. STATIONARY: the foot certainly stands. SWING: it certainly does not.
+    LOADING or PUSH_OFF: `v_ref` is that of a shoe that rolls over heel or forefoot."""
     detail: object = None
     """Data for the cues and the corrector of the detector's own recipe; no other part uses it."""
 
@@ -67,8 +63,7 @@ class Detector(Protocol):
     restart of the device, the session continues with `evolve(detector)`: fields with `init=False` get their initial
     values, settings and other arguments of `__init__` stay. A detector reads no clock and no random numbers, has a
     constant cost for each sample, uses bounded memory, and never raises. Samples are finite, but otherwise have any
-    size (up to 500 m/s^2, 100 rad/s) and any distance in time.
-    """
+    size (up to 500 m/s^2, 100 rad/s) and any distance in time."""
 
     __slots__ = ()
 

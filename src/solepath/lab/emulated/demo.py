@@ -27,8 +27,7 @@ class Demo:
     """An emulated walk and the session that receives it.
 
     `play` goes on packet by packet, so that the caller sets the pace. A caller who feeds `session`, or a session like
-    it, passes the results to `add_events`.
-    """
+    it, passes the results to `add_events`."""
 
     walk: EmulatedWalk
     session: Session
@@ -77,8 +76,7 @@ def make_demo(seed: int, route: Route = ROUTE, radio: Radio = RADIO, *, pressure
 def make_indoors(seed: int, radio: Radio = RADIO, *, pressures: bool = False) -> Demo:
     """Return the walk of this seed in the emulated building, not yet played. `pressures` as in `make_demo`.
 
-    The session has the floor plan, but not the position on it from which the wearer starts.
-    """
+    The session has the floor plan, but not the position on it from which the wearer starts."""
     way, plan = wandering(WAY), IndexedPlan(BUILDING)
     session = Session(poses=True, pressures=pressures, floorplan=plan)
     return Demo(emulate(way.route, radio=radio, seed=seed), session, way, plan)

@@ -1,8 +1,7 @@
 """Scores the position on the floor plan for a wearer in the emulated building.
 
 A stride is scored while its wearer is on a floor. Stairs and lifts are left out, because the level is neither of the
-two floors there, and so is the time `PAUSE` after them, within which no method can know that they are over.
-"""
+two floors there, and so is the time `PAUSE` after them, within which no method can know that they are over."""
 
 from __future__ import annotations
 
@@ -25,8 +24,7 @@ NEAR = 3.0
 FIRST_SCORED_TURN = 2
 """Number of the turn from which positions are scored.
 
-Liu et al. 2015 score places "started from the second turn" (fig. 13 g).
-"""
+Liu et al. 2015 score places "started from the second turn" (fig. 13 g)."""
 
 Points = tuple[tuple[float, float], ...]
 
@@ -36,10 +34,8 @@ class PlaceScore:
     """Score of the positions on the floor plan in one walk."""
 
     off: tuple[float, ...]
-    """Position error after each scored stride from the second turn on, m.
-
-    A wrong level counts with its height above or below the right one.
-    """
+    """Position error after each scored stride from the second turn on, m. A wrong level counts with its height above or
+    below the right one."""
     decided: int | None
     """Number of strides on the plan until the true candidate was the only one; None when that never happened."""
     dropped: int

@@ -8,10 +8,9 @@ The position is `session.position`, twice a second, compared with the mean of th
 track has its own heading and origin, so one turn about the vertical and one shift, by least squares over the first
 ALIGNED m, align it with the truth. Then `position_end` is the horizontal distance at the end and `position_max` the
 largest one, in m; `end_relative` and `largest_relative` are the same two as shares of the path length. So the heading
-error after ALIGNED m counts over the rest of the walk. `rms_2d` is what remains after the best turn and shift over
-the whole walk, as for a VICON track. Heights are compared as they are, from the first: `height_end` is the error at
-the end, `height_max` the largest one.
-"""
+error after ALIGNED m counts over the rest of the walk. `rms_2d` is what remains after the best turn and shift over the
+whole walk, as for a VICON track. Heights are compared as they are, from the first: `height_end` is the error at the
+end, `height_max` the largest one."""
 
 from __future__ import annotations
 

@@ -1,8 +1,7 @@
 """Ablation: the main figures of the default recipe without each of its parts.
 
 A row is the default recipe with one part switched off by its settings, or replaced by the simpler one that it
-superseded. COLUMNS lists the main figures.
-"""
+superseded. COLUMNS lists the main figures."""
 
 from __future__ import annotations
 
@@ -61,8 +60,7 @@ class Column:
     """A main figure of one group of a data set.
 
     `figure` is taken from the mean over the group or, when `pooled`, from all that was pooled. `unit` is m, %, ms or
-    empty.
-    """
+    empty."""
 
     title: str
     data_set: str

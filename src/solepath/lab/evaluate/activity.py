@@ -1,7 +1,6 @@
 """Scores reported activities against labels. Scorers have the form that datasets.py describes.
 
-A session may replace what it reported of a time until it ends. The last report of each time is scored.
-"""
+A session may replace what it reported of a time until it ends. The last report of each time is scored."""
 
 from __future__ import annotations
 
@@ -27,8 +26,7 @@ EVERY = 0.02
 def score_samples(t: Sequence[float], true: Sequence[Activity | None], timeline: Timeline) -> ActivityScore:
     """Return the score of every labelled sample against the activity reported for its time.
 
-    Samples without a label are left out.
-    """
+    Samples without a label are left out."""
     labelled = [(at, activity) for at, activity in zip(t, true, strict=True) if activity is not None]
     return ActivityScore(Counter([(activity, timeline.at(at)) for at, activity in labelled]))
 
@@ -37,8 +35,7 @@ def score_rides(true: Sequence[Span], found: Sequence[LiftRidden]) -> ActivitySc
     """Return the score of reported rides against labelled ones.
 
     A labelled ride is found by a reported one in the same direction that overlaps it by at least half of the shorter
-    one's duration. Each counts once. Reported rides that find none are invented.
-    """
+    one's duration. Each counts once. Reported rides that find none are invented."""
     labelled = [(start, end, LIFTS[activity]) for start, end, activity in true if activity in LIFTS]
     left = list(found)
     n_found = 0
@@ -56,8 +53,7 @@ def score_windows(true: Sequence[Span], timeline: Timeline, length: float = 2.0)
     """Return the score of windows of `length` s that lie within one activity, side by side from its start.
 
     The activity reported for the middle of a window counts. Liu et al. 2015 score windows of one activity (section
-    V.C).
-    """
+    V.C)."""
     middles = [
         (start + (k + 0.5) * length, activity)
         for start, end, activity in true
@@ -88,8 +84,7 @@ CLIMBED: dict[str, tuple[Span, ...]] = {
 
 Nobody labelled these recordings. Each is of one kind by its description; where it has stairs and level parts, the
 strides separate them. Two steps of stairs are 0.3 m high and 0.65 m long (one, on the spiral: 0.2 m and 0.3 m); level
-strides are longer and do not rise. Strides at the edges, of which one foot is on the level, are left out.
-"""
+strides are longer and do not rise. Strides at the edges, of which one foot is on the level, are left out."""
 
 
 def score_stairs(path: Path, meta: Meta, settings: RunSettings) -> Scored:

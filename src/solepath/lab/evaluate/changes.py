@@ -1,9 +1,8 @@
 """Compares every figure with an earlier evaluation, which is read from its JSON file.
 
-The better direction is a property of the figure: smaller for errors, spreads and inventions, nearer to zero for
-biases, larger for F1 and shares found. Counts of true events, path lengths and the figures of others have no better
-direction. Two figures that agree in DIGITS significant digits are the same.
-"""
+The better direction is a property of the figure: smaller for errors, spreads and inventions, nearer to zero for biases,
+larger for F1 and shares found. Counts of true events, path lengths and the figures of others have no better direction.
+Two figures that agree in DIGITS significant digits are the same."""
 
 from __future__ import annotations
 

@@ -1,8 +1,7 @@
 """Recorded data sets with a truth, and the scorer of each. The README in the data folder names their sources.
 
 Every scorer takes the recording's path, its entry in dataset.json and the settings of the run. The session receives
-only the samples. For emulated data the path is only a name, and the entry has the seed.
-"""
+only the samples. For emulated data the path is only a name, and the entry has the seed."""
 
 from __future__ import annotations
 
@@ -27,8 +26,7 @@ class DataSet:
     """A data set, its scorer and the figures of its table.
 
     `figures` are shown in this order. `folders` are names below the data directory, where they differ from the set's
-    own name. `has_truth` takes a recording's name and entry.
-    """
+    own name. `has_truth` takes a recording's name and entry."""
 
     name: str
     title: str

@@ -30,8 +30,7 @@ PHASES: tuple[type[Event], ...] = (HeelStrike, FootFlat, HeelOff, ToeOff)
 class FootRun:
     """Events of one foot: live track, strides and times of gait events.
 
-    `positions` (n,3) in m is the track at `t` (n,) s.
-    """
+    `positions` (n,3) in m is the track at `t` (n,) s."""
 
     t: Floats
     positions: Floats

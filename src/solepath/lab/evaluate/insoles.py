@@ -1,7 +1,6 @@
 """Positions of the pressure cells of recorded insoles, which the recordings themselves do not contain.
 
-Foot frame as in types.Cell: x to the toe, y to the left, m, from the heel's rear end on the midline.
-"""
+Foot frame as in types.Cell: x to the toe, y to the left, m, from the heel's rear end on the midline."""
 
 from __future__ import annotations
 
@@ -46,8 +45,7 @@ def in_dataset(path: Path) -> Calibration:
     """Return the calibration of smart_insole_35 from the dataset.json beside `path` (cell_xy_mm).
 
     There the wide end and its slanted row, the toes', have the smaller y, and the big toe the smaller x. Seen from
-    above with y downwards that is a right foot. RecordingError is raised when the file does not contain the cells.
-    """
+    above with y downwards that is a right foot. RecordingError is raised when the file does not contain the cells."""
     about = path.parent / "dataset.json"
     try:
         places: Sequence[tuple[float, float]] = json.loads(about.read_text(encoding="utf-8"))["cell_xy_mm"]

@@ -89,8 +89,7 @@ def evaluate(
 ) -> Iterator[Result]:
     """Yield the result of each recipe on each data set of `folder` as it is done.
 
-    `calibration` is used for every recording, and `progress` is called with (done, all).
-    """
+    `calibration` is used for every recording, and `progress` is called with (done, all)."""
     data_sets = find(folder, only)
     plan = [(d, recipe, recordings(folder, d)) for recipe in recipes for d in data_sets if d.suits(recipe)]
     to_learn = training_sources(folder, recipes) if any(data_set.folds for data_set in data_sets) else []

@@ -1,8 +1,7 @@
 """Trains activity parts on some wearers' recordings, to be scored on the other wearers'.
 
 A part that learns has a `Learner` here. It computes the features of one source, which takes the time and does not
-depend on the wearers left out, and trains the part on the features of several sources.
-"""
+depend on the wearers left out, and trains the part on the features of several sources."""
 
 from __future__ import annotations
 

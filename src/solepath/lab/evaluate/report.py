@@ -31,8 +31,7 @@ class Result:
 def as_json(results: Sequence[Result]) -> dict[str, Any]:
     """Return {recipe: {data set: {"recordings": {name: figures}, "summary": {group: ...}, "failures": [...]}}}.
 
-    Figures are in SI units, shares are fractions of one, and null stands for what could not be measured.
-    """
+    Figures are in SI units, shares are fractions of one, and null stands for what could not be measured."""
     document: dict[str, Any] = {}
     for result in results:
         document.setdefault(result.recipe, {})[result.data_set.name] = {

@@ -30,8 +30,7 @@ from .gathered import FootRun, Gathering
 class RunSettings:
     """Settings of a run: the recipe, and the calibration known beforehand.
 
-    `activity` replaces the recipe's own part by the same part trained on other recordings.
-    """
+    `activity` replaces the recipe's own part by the same part trained on other recordings."""
 
     recipe: Recipe
     calibration: Calibration = Calibration()
@@ -71,8 +70,7 @@ def run(
     """Run the recording at `path` through a session, sample by sample.
 
     `without_pressure` leaves the pressure out, because the truth was made of it. `calibration` has the positions of the
-    cells. `poses` requests the live position at every sample, `body` that of the wearer.
-    """
+    cells. `poses` requests the live position at every sample, `body` that of the wearer."""
     known = settings.calibration if calibration is None else merged(settings.calibration, calibration)
     recipe = (
         settings.recipe if settings.activity is None else settings.recipe.exchanged(ActivityPart, settings.activity)
@@ -92,8 +90,7 @@ def run_timed(
 ) -> tuple[Gathering, ScoredTrack | None, float]:
     """Return the session's events for the samples, the wearer's track and the wall time, s.
 
-    The track is sampled every `every` s: 0 stands for every sample, None for never.
-    """
+    The track is sampled every `every` s: 0 stands for every sample, None for never."""
     outputs: list[list[Event]] = []
     places: list[tuple[float, Vec3]] = []
     started_at = perf_counter()

@@ -4,8 +4,7 @@
 
 prints the table of docs/settings.md as Markdown. DIR holds recorded data with a reference. The numbers are the settings
 of the detector (`CycleSettings`) and the filter (`ErrorStateSettings`) and the constants of the inertial cues. It takes
-about 45 minutes on two processors.
-"""
+about 45 minutes on two processors."""
 
 from __future__ import annotations
 

@@ -33,8 +33,7 @@ def score_swings(path: Path, meta: Meta, settings: RunSettings) -> Scored:
 
     One leg goes from the start of the walk to the middle of the turn, the other from there to the end of the walk. They
     are measured for each foot (leg) and for the session's position (body_leg). Both together are a closed loop, except
-    that the wearer faces the other way at the end, with each foot beside the place where it started.
-    """
+    that the wearer faces the other way at the end, with each foot beside the place where it started."""
     truth, result = truth_of(path), run(path, settings, body=True)
     swings = {foot: truth[f"gt_{foot.value}"] for foot in result.feet}
     strikes = {foot: of[:, 1].tolist() for foot, of in swings.items()}
@@ -78,8 +77,7 @@ def _about_turn(span: list[float], result: RecordingRun) -> Figures:
     """Return the figures of the one turn about that the wearer makes in the labelled `span`, s.
 
     It is found when a reported turn about overlaps the span. The angle error is the difference of the largest
-    overlapping turn from half a turn (of 0 where no turn was reported). Turns about elsewhere are invented.
-    """
+    overlapping turn from half a turn (of 0 where no turn was reported). Turns about elsewhere are invented."""
     t_start, t_end = span
     there = [turn for turn in result.gathering.turns if turn.t >= t_start and turn.t_start <= t_end]
     about = sum(turn.turn is Turn.ABOUT for turn in result.gathering.turns)
@@ -98,8 +96,7 @@ def score_borders(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     The walk has four legs to and fro. The times of the turns are not known, so each track is cut where the track itself
     turns about (legs.turned_about); only the protocol says that a leg is 10 m. The difference between the legs needs no
     such length: `leg_spread` is the standard deviation of a foot's four legs relative to their mean, averaged over the
-    feet.
-    """
+    feet."""
     truth, result = truth_of(path), run(path, settings, body=True)
     heel_strike, strides = Matching(), Errors()
     for foot, ran in result.feet.items():
@@ -124,8 +121,7 @@ def score_treadmill(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     """Score against the contact times of a light barrier.
 
     The belt is an inertial frame in which the standing foot does not move, so stride lengths compare as they are;
-    positions in the room do not.
-    """
+    positions in the room do not."""
     truth, result = truth_of(path), run(path, settings)
     strides, strikes, offs = StrideScore(), dict[Foot, list[float]](), dict[Foot, list[float]]()
     for foot, ran in result.feet.items():
@@ -141,8 +137,7 @@ def score_treadmill(path: Path, meta: Meta, settings: RunSettings) -> Scored:
 def score_switches(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     """Score against heel and toe switches under the foot.
 
-    The session receives no pressure, because the switches are the truth.
-    """
+    The session receives no pressure, because the switches are the truth."""
     return _against_switches(path, meta, run(path, settings, without_pressure=True))
 
 
@@ -155,8 +150,7 @@ def _against_switches(path: Path, meta: Meta, result: RecordingRun) -> Scored:
     """Score against the switches, and against the walked length of a straight walk.
 
     On a straight walk of known length the way of each foot from its first to its last position is a leg. The wearer
-    stood at both ends, but nobody recorded how near to the lines.
-    """
+    stood at both ends, but nobody recorded how near to the lines."""
     truth = truth_of(path)
     strikes, offs, legs = dict[Foot, list[float]](), dict[Foot, list[float]](), Errors()
     for foot, ran in result.feet.items():

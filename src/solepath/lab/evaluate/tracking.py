@@ -77,9 +77,8 @@ def _closed(first: Any, last: Any) -> Figures:
 AUTHORS = {"exp31": 0.31, "exp33": 1.17, "exp37": 2.31, "exp39": 1.11, "exp41": 0.94, "exp45": 1.80}
 """Mean position error of the authors' own system at the surveyed strides, m.
 
-The system is an INS with an LSTM as zero-velocity detector (log in the repository mtahakoroglu/LLIO-aided-iPyShoe).
-It lost strides of the other trials.
-"""
+The system is an INS with an LSTM as zero-velocity detector (log in the repository mtahakoroglu/LLIO-aided-iPyShoe). It
+lost strides of the other trials."""
 
 
 def score_surveyed(path: Path, meta: Meta, settings: RunSettings) -> Scored:
@@ -115,8 +114,7 @@ def score_counted(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     """Score the number of strides against a count, and the legs between surveyed corners.
 
     Only some corners have surveyed positions; the ways between them are legs. A walk that ends at the corner where it
-    started is a closed loop on one level.
-    """
+    started is a closed loop on one level."""
     truth, result = truth_of(path), run(path, settings)
     foot = result.feet[Foot.RIGHT]
     true, found = int(meta["n_true_strides"]), len(foot.steps)

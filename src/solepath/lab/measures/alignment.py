@@ -1,8 +1,7 @@
 """Aligns a track with the truth and measures the distance between them.
 
-A foot's own track has its own heading and origin, so a turn about the vertical and a shift are removed before an
-error is measured. A scale or a mirror image is never removed.
-"""
+A foot's own track has its own heading and origin, so a turn about the vertical and a shift are removed before an error
+is measured. A scale or a mirror image is never removed."""
 
 from __future__ import annotations
 
@@ -37,8 +36,7 @@ def align(track: NDArray[Any], truth: NDArray[Any]) -> Alignment:
     """Return the turn and shift that bring the horizontal points of `track` nearest to `truth` by least squares.
 
     Both are (n,2) or (n,3), row by row the same instants. Closed form: with both centred on their means, the sum of
-    squared distances is smallest at yaw = atan2(sum of cross products, sum of dot products).
-    """
+    squared distances is smallest at yaw = atan2(sum of cross products, sum of dot products)."""
     ours, theirs = np.asarray(track, np.float64)[:, :2], np.asarray(truth, np.float64)[:, :2]
     our_mean, their_mean = ours.mean(axis=0), theirs.mean(axis=0)
     a, b = ours - our_mean, theirs - their_mean
@@ -66,8 +64,7 @@ def distances(points: NDArray[Any]) -> Floats:
 def aligned_at_start(track: NDArray[Any], truth: NDArray[Any], over: float) -> Floats:
     """Return `track` turned and shifted so that it fits `truth` best over the first `over` m.
 
-    The fit ends with the first point that is `over` m along the truth.
-    """
+    The fit ends with the first point that is `over` m along the truth."""
     first = max(2, int(np.searchsorted(distances(truth), over)) + 1)
     return align(track[:first], truth[:first]).apply(track)
 

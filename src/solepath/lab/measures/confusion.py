@@ -76,8 +76,7 @@ class ActivityScore:
     def table(self) -> dict[str, dict[str, int]]:
         """Confusion matrix {true: {reported: samples}} by name, in the order of the enum.
 
-        Activities that never occur are left out.
-        """
+        Activities that never occur are left out."""
         reported = [activity for activity in Activity if any(answer is activity for _, answer in self.samples)]
         return {
             was.value: {answer.value: self.samples.get((was, answer), 0) for answer in reported}

@@ -22,8 +22,7 @@ def switch_contacts(t: NDArray[Any], counts: NDArray[Any]) -> list[tuple[float, 
     """Return the spans of contact [start, end] in s of one pressure switch; None when it is dead.
 
     `counts` (n,) are its readings at `t` (n,). The spans in which the recording starts and ends are left out, because
-    one of their edges is not seen.
-    """
+    one of their edges is not seen."""
     unloaded, loaded = np.percentile(counts, [2.0, 97.0])
     if loaded - unloaded < LEAST_RANGE:
         return None
@@ -41,8 +40,7 @@ def switch_contacts(t: NDArray[Any], counts: NDArray[Any]) -> list[tuple[float, 
 def force_contacts(t: NDArray[Any], force: NDArray[Any]) -> list[tuple[float, float]]:
     """Return the whole spans of contact [start, end] in s of a force (n,), N, at `t` (n,).
 
-    Spans cut off at an end of the recording are left out.
-    """
+    Spans cut off at an end of the recording are left out."""
     closed = force > FORCE
     turns = np.flatnonzero(closed[1:] != closed[:-1]) + 1
     edges = without_bounces([(float(t[k]), bool(closed[k])) for k in turns])

@@ -1,9 +1,8 @@
 """Errors of legs: straight ways of a known length, walked to and fro.
 
 The length of a leg is known, and at best the time at which the wearer turned about at its end, but not where the feet
-stood. A foot's leg is the horizontal distance between its live positions at both ends. A foot may stop before the
-line or pivot beyond it, so a leg of 10 m is some tenths of a metre too short or too long.
-"""
+stood. A foot's leg is the horizontal distance between its live positions at both ends. A foot may stop before the line
+or pivot beyond it, so a leg of 10 m is some tenths of a metre too short or too long."""
 
 from __future__ import annotations
 
@@ -28,8 +27,7 @@ def leg_lengths(times: Sequence[float] | Floats, t: Floats, positions: Floats) -
 def leg_errors(times: Sequence[float], true: Sequence[float], t: Floats, positions: Floats) -> Errors:
     """Return the relative errors of the legs between `times` (n+1,) s whose lengths are `true` (n,) m.
 
-    A foot without a track has no errors.
-    """
+    A foot without a track has no errors."""
     if not len(t):
         return Errors()
     found = leg_lengths(times, t, positions)
@@ -41,8 +39,7 @@ def turned_about(t: Floats, positions: Floats, legs: int) -> list[float]:
 
     The track is projected on the line along which it reaches furthest (its first principal axis). Among all choices of
     that many instants the function takes the one with the largest sum of ways between them, alternately forth and back
-    along that line. So each turn is where the foot was furthest, and no threshold is needed to find a turn.
-    """
+    along that line. So each turn is where the foot was furthest, and no threshold is needed to find a turn."""
     times = np.arange(t[0], t[-1] + EVERY, EVERY)
     places = at_times(t, positions[:, :2], times)
     places = places - places.mean(axis=0)

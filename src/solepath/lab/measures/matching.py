@@ -77,8 +77,7 @@ def match(
     """Match true and found times, the closest first, each used once, none further apart than TOLERANCE.
 
     `windows` are the labelled spans of time, s. A found event outside all of them, each widened by the tolerance, is
-    neither right nor wrong and is left out. None stands for the span from the first to the last true event.
-    """
+    neither right nor wrong and is left out. None stands for the span from the first to the last true event."""
     truth = sorted(true)
     if windows is None:
         windows = [(truth[0], truth[-1])] if truth else []
@@ -90,8 +89,7 @@ def match(
 def pairs(true: Sequence[float], found: Sequence[float], tolerance: float) -> list[tuple[int, int]]:
     """Return (index in `true`, index in `found`) of the pairs within `tolerance`, in the order of `true`.
 
-    The closest pairs are taken first and each time is used once. Both inputs are in order of time.
-    """
+    The closest pairs are taken first and each time is used once. Both inputs are in order of time."""
     near: list[tuple[float, int, int]] = []
     for i, t in enumerate(true):
         around = range(bisect_left(found, t - 2.0 * tolerance), bisect_right(found, t + 2.0 * tolerance))
@@ -110,8 +108,7 @@ def pairs(true: Sequence[float], found: Sequence[float], tolerance: float) -> li
 def interval_errors(true: Iterable[float], found: Iterable[float], *, longest: float) -> Errors:
     """Return the errors, s, of the intervals between found events that match consecutive true events.
 
-    Only true events that follow each other within `longest` s and are both matched count.
-    """
+    Only true events that follow each other within `longest` s and are both matched count."""
     truth, ours = sorted(true), sorted(found)
     by_true = dict(pairs(truth, ours, TOLERANCE))
     both = [k for k in range(len(truth) - 1) if k in by_true and k + 1 in by_true]

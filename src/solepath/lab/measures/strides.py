@@ -3,8 +3,7 @@
 `times[k]` is the end of the stance before stride k + 1, `places[k]` the surveyed point on which the foot stood then.
 So stride k + 1 lasts from times[k] to times[k + 1]. A found stride belongs to the surveyed stride in which it ends: it
 ends at foot-flat, early in the stance whose end is the survey's time. In fast walking a stance is very short, and a
-foot-flat may come a little after the survey's end of stance; it still belongs to that stance (SLACK).
-"""
+foot-flat may come a little after the survey's end of stance; it still belongs to that stance (SLACK)."""
 
 from __future__ import annotations
 
@@ -23,8 +22,7 @@ from .matching import Errors
 SLACK = 0.15
 """Time by which a found stride may end after its surveyed end, s: less than half of any swing.
 
-So it never ends in the next stride.
-"""
+So it never ends in the next stride."""
 ALIGNED_OVER = 2.0
 """Length of path over which a track is aligned, m; design: "after aligning the first two metres"."""
 STILL_SPEED = 0.15
@@ -70,8 +68,7 @@ def stride_score(
     The true `lengths` (n,) are in m. A found stride belongs to the true stride from times[k] to times[k + 1] when it
     ends in that span moved on by `slack` s; one that ends in no such span is left out. A length that is not known (NaN)
     counts as a stride but gives no error. Where several found strides end in one true stride, the longest counts as
-    found and the others as invented.
-    """
+    found and the others as invented."""
     true_lengths: list[float] = np.asarray(lengths, np.float64).tolist()
     ends: list[list[float]] = [[] for _ in true_lengths]
     for t_end, stride_length in steps:
@@ -88,8 +85,7 @@ def surveyed_score(
 ) -> StrideScore:
     """Score `steps` and the live `track` (m,3) at `track_t` against surveyed `places` (n+1,2) at `times` (n+1,).
 
-    `steps` are pairs of (t_end, stride_length).
-    """
+    `steps` are pairs of (t_end, stride_length)."""
     lengths = np.linalg.norm(np.diff(np.asarray(places, np.float64)[:, :2], axis=0), axis=1)
     known = lengths > 0.0
     off = leg_lengths(times, track_t, track)[known] / lengths[known] - 1.0
@@ -99,8 +95,7 @@ def surveyed_score(
 def marker_stances(t: NDArray[Any], places: NDArray[Any]) -> tuple[Floats, Floats]:
     """Return the ends (n,) of the stances of a marker on a foot, s, and its mean position in each (n,3).
 
-    `places` (m,3) are the marker's positions at `t` (m,).
-    """
+    `places` (m,3) are the marker's positions at `t` (m,)."""
     when, where = np.asarray(t, np.float64), np.asarray(places, np.float64)
     ahead, behind = at_times(when, where, when + SPEED_HALF_WINDOW), at_times(when, where, when - SPEED_HALF_WINDOW)
     still = np.linalg.norm(ahead - behind, axis=1) < STILL_SPEED * 2.0 * SPEED_HALF_WINDOW
@@ -123,8 +118,7 @@ def position_errors(times: NDArray[Any], places: NDArray[Any], track_t: Floats, 
     """Return the horizontal distance (n+1,) in m from each surveyed place to the live track at its time.
 
     The track is first turned and shifted to fit the surveyed places of the first two metres best (up to the first place
-    that is two metres along the path).
-    """
+    that is two metres along the path)."""
     truth = np.asarray(places, np.float64)[:, :2]
     moved = aligned_at_start(at_times(track_t, track[:, :2], times), truth, ALIGNED_OVER)
     return np.asarray(np.linalg.norm(moved - truth, axis=1), dtype=np.float64)

@@ -2,8 +2,7 @@
 
 The experiments of the paper are repeated here (footstep_walks.py): the 63 m corridor by one foot, by the common method
 and by two feet (fig. 13 b), steps (c), activities (a), turns (d, e), and the place on the floor plan (f to h). Most
-figures of the paper are drawn, not printed; their rows have no figure of the paper's.
-"""
+figures of the paper are drawn, not printed; their rows have no figure of the paper's."""
 
 from __future__ import annotations
 

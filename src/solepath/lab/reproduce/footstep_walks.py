@@ -1,7 +1,6 @@
 """Walks of one wearer of the footstep-tracker experiments: corridor, activities, turns, a way through the building.
 
-There are two CC2541 in the insoles at 20 Hz (section IV, "System Deployment"), another pair for every wearer.
-"""
+There are two CC2541 in the insoles at 20 Hz (section IV, "System Deployment"), another pair for every wearer."""
 
 from __future__ import annotations
 
@@ -39,8 +38,7 @@ BY_HEIGHT = 0.413
 """Step length over stature.
 
 The common method of fig. 13 (b) multiplies the steps by "a step length estimated by the user's height". The paper does
-not give the rule; this is the factor that pedometers use for a woman (0.415 for a man).
-"""
+not give the rule; this is the factor that pedometers use for a woman (0.415 for a man)."""
 INCREMENTS = tuple(radians(angle) for angle in range(-180, 181, 30) if angle)
 """Turn angles of fig. 13 (d), rad."""
 CLASSES = {Turn.LEFT: (0.5 * pi,), Turn.RIGHT: (-0.5 * pi,), Turn.ABOUT: (pi, -pi)}
@@ -169,8 +167,7 @@ PER_CLASS = 10
 TURN_SPREAD = radians(15.0)
 """Standard deviation of the turn angle, rad, because nobody turns by exactly 90 degrees.
 
-The classifier was trained with the same value (lab/train/turns.py).
-"""
+The classifier was trained with the same value (lab/train/turns.py)."""
 
 
 def _turn(

@@ -4,8 +4,7 @@ Each walk has another pair of insoles, and the shoe is measured again in five po
 III-C). A recording is 20 s of walking for the pressure noise (section III-B), a halt, and then the 20 m; the sessions
 receive the samples after the halt. Distances are the sums of stride lengths, as in section IV-B. For the corridor the
 drift of that sum counts, as in section IV-C. The paper does not give the corridor's shape; here it is once around the
-inner block of a floor (emulate/routes/laps.py).
-"""
+inner block of a floor (emulate/routes/laps.py)."""
 
 from __future__ import annotations
 
@@ -64,8 +63,7 @@ class KuptWalked:
 
     `distances` has the walked distance by row and `true` the real one of each foot, m. Only a corridor walk has
     `tracks`, the positions at which strides ended with the true path first, and `closing`, the distance of each end
-    from its start, m.
-    """
+    from its start, m."""
 
     distances: dict[str, float]
     true: dict[Foot, float]

@@ -8,8 +8,7 @@ a track's start and its end.
 Lengths are those of table I. The paper says that the fourth walk was the square and the fifth random; here the shorter
 half of the six are rounds of the square and the longer ones random. The wearer's pace is that of the calibration walks,
 235 m in five minutes, or faster where the half hour requires it; in the rest of the half hour the wearer stands. The
-rate of the samples is not in the paper.
-"""
+rate of the samples is not in the paper."""
 
 from __future__ import annotations
 

@@ -6,8 +6,7 @@ High-Resolution Gait-Corrected Inertial Measurement Units", IEEE Transactions on
 et al. 2023: "Improving Accuracy of Real-Time Positioning and Path Tracking by Using an Error Compensation Algorithm
 against Walking Modes", Sensors. Liu et al. 2015: C. Liu and others, "Track Your Foot Step: Anchor-free Indoor
 Localization based on Sensing Users' Foot Steps", IEEE MASS. Li et al. 2016: F. Li and others, "3D Tracking via Shoe
-Sensing", Sensors 16, 1809.
-"""
+Sensing", Sensors 16, 1809."""
 
 from __future__ import annotations
 
@@ -56,8 +55,7 @@ LOOPS = (
 """Experiments 1 to 6 of table I.
 
 The fourth is the square of fig. 14, the fifth the random walk of figs. 15 and 16. The paper does not describe the
-others.
-"""
+others."""
 
 
 PRESSURE_CONTOUR: Table = {
@@ -69,8 +67,7 @@ PRESSURE_CONTOUR: Table = {
 """Statistics of LOOPS: loop-closing error in m and in % of the path.
 
 Means and deviations in m are those that the paper prints (4.87 +- 2.75 and 4.30 +- 3.15). Its mean percentages, 0.40
-and 0.35, are those of the mean errors over the mean distance instead.
-"""
+and 0.35, are those of the mean errors over the mean distance instead."""
 
 
 WALKING_MODES_TITLE = "Gong et al. 2023, table 4"
@@ -107,8 +104,7 @@ CORNERS: dict[str, dict[str, tuple[XY, XY, XY]]] = {
 """Mean, median and standard deviation of the deviation in x and y by point and method, m (table 4).
 
 The table heads its columns mm. Nobody steps on a mark to some hundredths of a millimetre and no inertial sensor
-resolves that, so the figures are taken for m here.
-"""
+resolves that, so the figures are taken for m here."""
 
 
 def corner_row(point: str, method: str, axis: str) -> str:
@@ -139,8 +135,7 @@ FOOTSTEP_TRACKER: Table = {
 """Figures in the text of sections V-C to V-F.
 
 They are 9.23 m, 9.2 m and 2.64 m off after 63 m; "a location error in 1m" on average; and "the initial location is
-determined after six steps" for one user.
-"""
+determined after six steps" for one user."""
 
 
 SHOE_SENSING_TITLE = "Li et al. 2016, tables 1 and 2, figs. 21 to 35"
@@ -169,12 +164,10 @@ SHOE_SENSING: Table = {
 """Table 1; sections 3.4.2 and 4.2.3 (figs. 13, 14, 23, 24); section 4.2.4 (figs. 26 to 32); table 2; section 4.2.5.
 
 Section 4.2.5 has figs. 33 and 34. Errors are of single steps, without their signs. The text's variance or mean square
-error is taken for the standard deviation.
-"""
+error is taken for the standard deviation."""
 
 NORMALISED = 22.5
 """Divisor of table 2, which has the mean error of a step over its length, divided by this number.
 
 "The accuracy of the two sensors differ 22.5-fold": 9.17 % / 22.5 = 0.41 % walking, 8.13 % jogging, 20.0 % downstairs;
-upstairs the error is that of the height, 12.5 %.
-"""
+upstairs the error is that of the height, 12.5 %."""

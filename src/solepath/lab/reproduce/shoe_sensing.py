@@ -2,8 +2,7 @@
 
 Twenty wearers take a hundred steps at a walk and at a jog, two flights of stairs upwards and two downwards, and walk
 for five minutes (shoe_walks.py). Rows are of single steps, all wearers together, unless stated otherwise. The paper
-draws figures 21 and 22 and does not print their values.
-"""
+draws figures 21 and 22 and does not print their values."""
 
 from __future__ import annotations
 

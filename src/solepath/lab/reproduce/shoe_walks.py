@@ -1,8 +1,7 @@
 """Walks of one wearer of the shoe-sensing experiments: walking, jogging, up and down the stairs, five minutes.
 
 One MPU-6050 sits on the laces of the right shoe and samples at 100 Hz without a wire. Every walk has another part and
-other footsteps.
-"""
+other footsteps."""
 
 from __future__ import annotations
 
@@ -55,8 +54,7 @@ class StrideErrors:
     By true stride that was found: `angles` (degrees/m), pairs of error and true value of length and of height (m),
     `courses` (error of the direction, degrees, over the first 19.2 m), `right` (whether the state is right) and `late`
     (start less the true start, s). `found`, `not_found` and `invented` are numbers of strides. `height` is the height
-    error of the track over the whole walk, m.
-    """
+    error of the track over the whole walk, m."""
 
     angles: tuple[float, ...]
     lengths: tuple[tuple[float, float], ...]

@@ -71,8 +71,7 @@ def statistics(values: Sequence[float]) -> Statistics:
     """Return the statistics of one figure over walks.
 
     `std` divides by n - 1: so table I of Bebek et al. 2010 gets its mean and deviation from its six walks. Quartiles
-    are interpolated linearly between the ordered values; no paper states its rule.
-    """
+    are interpolated linearly between the ordered values; no paper states its rule."""
     if not values:
         return Statistics()
     q1, median, q3 = (float(q) for q in np.quantile(values, [0.25, 0.5, 0.75]))
@@ -125,8 +124,7 @@ class Reproduction:
 def as_json(done: Reproduction) -> dict[str, Any]:
     """Return {"name", "emulated": true, "table": {row: {"mean", "std", "q1", "median", "q3"}}, "paper": ...}.
 
-    "paper" has the form of "table". Null stands for a statistic of too few walks, or one that is not in the paper.
-    """
+    "paper" has the form of "table". Null stands for a statistic of too few walks, or one that is not in the paper."""
     return {
         "name": done.name,
         "emulated": True,

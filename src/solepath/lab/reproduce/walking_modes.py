@@ -1,14 +1,13 @@
 """Gong et al. 2023: 40 rectangles of 2.8 m by 4.0 m by touchdown methods I to IV.
 
-Four wearers walk ten rectangles each, with seven attitude sensors and two insoles of 99 cells at 50 Hz. The wearers
-are those of table 3 (emulate/wearers/gait.py). They walk from A over B, C and D back to A, turning left without a
-halt. At each corner every foot has a step that comes down nearest to it. A deviation is the session's position of
-these two touchdowns less the true footprints, averaged over both.
+Four wearers walk ten rectangles each, with seven attitude sensors and two insoles of 99 cells at 50 Hz. The wearers are
+those of table 3 (emulate/wearers/gait.py). They walk from A over B, C and D back to A, turning left without a halt. At
+each corner every foot has a step that comes down nearest to it. A deviation is the session's position of these two
+touchdowns less the true footprints, averaged over both.
 
-The floor is surveyed, as the paper's was: sessions know the direction of the first side relative to the sensors'
-common north. Method IV compensates by the errors of each wearer's own marked walks (section 3.3) on another day: other
-walks, with sensors strapped on again.
-"""
+The floor is surveyed, as the paper's was: sessions know the direction of the first side relative to the sensors' common
+north. Method IV compensates by the errors of each wearer's own marked walks (section 3.3) on another day: other walks,
+with sensors strapped on again."""
 
 from __future__ import annotations
 
@@ -47,8 +46,7 @@ CELLS = 99
 STEPS, REPEATS = 50, 3
 """Number of steps of a marked walk, and number of its repeats.
 
-Section 3.3: "50 steps at a time and repeated this three times along each path".
-"""
+Section 3.3: "50 steps at a time and repeated this three times along each path"."""
 METHODS = {"I": TOUCHDOWN_HEIGHT, "II": TOUCHDOWN_ACCELERATION, "III": TOUCHDOWN_PRESSURE, "IV": WALKING_MODES}
 PLACES = {"A": (0.0, 0.0), "B": (ALONG, 0.0), "C": (ALONG, ACROSS), "D": (0.0, ACROSS)}
 """Positions of the corners, m; the walk starts and ends at A."""

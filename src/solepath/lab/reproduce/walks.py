@@ -38,8 +38,7 @@ def rest_after(walker: Walker, first: Route) -> float:
 class WalkParts:
     """A decoded walk cut in two: samples `before` and `after`, and `layouts`, the positions of the cells.
 
-    An app that is connected to the devices from the start has the positions of the cells too.
-    """
+    An app that is connected to the devices from the start has the positions of the cells too."""
 
     before: tuple[Sample, ...]
     after: tuple[Sample, ...]
@@ -68,8 +67,7 @@ def run_session(
 def align_track(track: Floats, truth: Floats, over: float = ALIGNED_OVER) -> Floats:
     """Return `track` (n, 2) turned and shifted to fit `truth` (n, 2) best over the first `over` metres.
 
-    Rows of both are the same instants.
-    """
+    Rows of both are the same instants."""
     far = np.linalg.norm(truth - truth[0], axis=1) > over
     count = int(np.argmax(far)) + 1 if far.any() else len(truth)
     return align(track[:count], truth[:count]).apply(track)

@@ -36,8 +36,7 @@ EVENTS = {"heel_strike": "heel-strike", "toe_off": "toe-off"}
 def accuracy_table(results: Sequence[Result]) -> str:
     """Return the table with one line a figure over all recordings of each data set.
 
-    It has one column for the result, or one for each recipe when there are several.
-    """
+    It has one column for the result, or one for each recipe when there are several."""
     recipes = list(dict.fromkeys(result.recipe for result in results))
     rows: dict[tuple[str, str], dict[str, str]] = {}
     for result in results:

@@ -2,13 +2,12 @@
 
     python -m solepath.lab.train.activities DATA_DIR [--out FILE] [--without FOLD]
 
-writes activities.json beside the part, or FILE. The same data give the same file. `--without` leaves out the wearers
-of a fold of hugadb (hugadb.py, from 0), for scoring on them.
+writes activities.json beside the part, or FILE. The same data give the same file. `--without` leaves out the wearers of
+a fold of hugadb (hugadb.py, from 0), for scoring on them.
 
 The data are hugadb, as recorded and at other rates; level walks of other wearers, sensors and mountings (only walking
 is known of them, so only blocks with a step count); and emulated wearers with seeds from 101. The recorded stairs of
-gaitmap_examples and xio_closed_walks are not among them.
-"""
+gaitmap_examples and xio_closed_walks are not among them."""
 
 from __future__ import annotations
 
@@ -69,8 +68,7 @@ MISLABELLED = ("various_03_05", "various_03_06")
 """Recordings whose labels are taken for mistakes, so that nothing is learnt from them.
 
 They are labelled as going down, but each stride rises by 0.4 m and swings as two steps up at a time do with other
-wearers.
-"""
+wearers."""
 LEVEL_WALKS = ("ipol_10m_uturn", "gumushane_gcp", "felius_2min_walk", "tripod_treadmill")
 EMULATED = range(emulated.FIRST_TO_LEARN_FROM, emulated.FIRST_TO_LEARN_FROM + 16)
 WORN: tuple[tuple[float, Imu, Mounting] | CC2650 | CC2541, ...] = (
@@ -89,8 +87,7 @@ EMULATOR = 2000
 AFOOT = 0.0
 """Limit of feature 1 (the stillest block of five) for a foot that walks all the time.
 
-It stands for a variance of |acc| above 1 (m/s^2)^2.
-"""
+It stands for a variance of |acc| above 1 (m/s^2)^2."""
 PURE = 0.9
 """Smallest share of one label in a block that is used."""
 
@@ -117,8 +114,7 @@ def blocks_of(
     """Return the labelled blocks of both feet.
 
     `only_steps` keeps the blocks with a step in them. `followed` has the true activities of a recording from which the
-    sequence of activities is learnt.
-    """
+    sequence of activities is learnt."""
     rows: list[list[float]] = []
     classes: list[int] = []
     t_start = samples[0].t
@@ -224,8 +220,7 @@ def _worn(walker: Walker, device: tuple[float, Imu, Mounting] | CC2650 | CC2541,
 def resampled(samples: Sequence[Sample], rate: float) -> list[Sample]:
     """Return the samples at another rate, Hz, interpolated linearly between samples.
 
-    They are first smoothed over half an interval where that is longer, as sensors do.
-    """
+    They are first smoothed over half an interval where that is longer, as sensors do."""
     found: list[Sample] = []
     for foot in Foot:
         own = [one for one in samples if one.site.foot is foot and one.acc is not None]

@@ -1,8 +1,7 @@
 """Learns for `Activities` how activities follow each other: the chances of a change, and its time.
 
 A change is seen in the half second whose window looks more like the new activity. The people who labelled it dated it
-by other signs (the foot on the first tread, the doors of the lift), so the median of the difference is learnt.
-"""
+by other signs (the foot on the first tread, the doors of the lift), so the median of the difference is learnt."""
 
 from __future__ import annotations
 
@@ -72,8 +71,7 @@ def shifts(courses: Sequence[LabelledCourse], model: MotionModel) -> Shifts:
     """Return the time by which each change is labelled later than detected, s.
 
     It is the median for changes labelled by hand and that for emulated ones, or the mean of both medians where there
-    are enough changes of either kind.
-    """
+    are enough changes of either kind."""
     later: dict[tuple[Activity, Activity], dict[bool, list[float]]] = {}
     for course in courses:
         seen = changes(followed(course, model))

@@ -1,8 +1,7 @@
 """The small networks of `Activities`: one hidden layer, fitted by stochastic gradient descent (Adam: Kingma, Ba 2015).
 
 The features of the track and of the steps are hidden from the network for some blocks in every pass, so that it works
-without them. The features of the steps are also disturbed by as much as tracks of clipping accelerometers are wrong.
-"""
+without them. The features of the steps are also disturbed by as much as tracks of clipping accelerometers are wrong."""
 
 from __future__ import annotations
 
@@ -39,8 +38,7 @@ LEAST_SPREAD = 0.02
 def weights(classes: Numbers, wearers: Numbers) -> Floats:
     """Return the weight of each block: 1 over the root of the number of blocks of its class and wearer.
 
-    So a class of a wearer counts by that root, and neither the rare nor the frequent classes alone decide.
-    """
+    So a class of a wearer counts by that root, and neither the rare nor the frequent classes alone decide."""
     found = np.ones(len(classes))
     for wearer in np.unique(wearers):
         for k in range(len(MOTIONS)):
@@ -53,8 +51,7 @@ def weights(classes: Numbers, wearers: Numbers) -> Floats:
 def networks(features: Floats, classes: Numbers, wearers: Numbers) -> tuple[Network, Network]:
     """Return the network of feet with a gyroscope, and that of the accelerometer alone.
 
-    `features` are (n, COUNT), `classes` (n) as in CLASSES, `wearers` (n).
-    """
+    `features` are (n, COUNT), `classes` (n) as in CLASSES, `wearers` (n)."""
     turned = features[:, GYRO] > 0.0
     whole = learn(features[turned], classes[turned], wearers[turned])
     return whole, learn(features[:, :GYRO], classes, wearers)

@@ -6,9 +6,8 @@ writes footstep_activity.json beside the part. The same data give the same file.
 
 Liu et al. 2015 take the thresholds from cumulative distributions (fig. 6). Here a threshold is where the two curves are
 furthest apart, so that the sum of two shares is smallest: of what should be below and is not, and of what should be
-above and is not. The mixture has one component for each activity and source of data. Running is a component of
-walking, because it is none of the paper's activities.
-"""
+above and is not. The mixture has one component for each activity and source of data. Running is a component of walking,
+because it is none of the paper's activities."""
 
 from __future__ import annotations
 

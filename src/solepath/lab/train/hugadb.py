@@ -66,11 +66,10 @@ def labels(path: Path) -> tuple[Sequence[float], list[Activity | None]]:
 FOLDS: tuple[frozenset[int], ...] = tuple(frozenset(wearers) for wearers in ((1, 12), (3, 15), (6,), (8,), (10,)))
 """The wearers (`subject` in dataset.json) of each fold; scores on a fold come from training on the other four.
 
-A wearer is never in two folds, because a gait that was learnt is easily recognised. Five of the wearers have all but
-46 s of the recordings, so each fold has one of them. The two others (one lift ride down, 30 s of sitting and standing)
-are in the folds where they weigh least: wearer 12 with wearer 1, who rides no lift, wearer 15 with wearer 3, who has
-the fewest minutes after wearer 10. The folds are fixed, so that figures of two days and of two methods compare.
-"""
+A wearer is never in two folds, because a gait that was learnt is easily recognised. Five of the wearers have all but 46
+s of the recordings, so each fold has one of them. The two others (one lift ride down, 30 s of sitting and standing) are
+in the folds where they weigh least: wearer 12 with wearer 1, who rides no lift, wearer 15 with wearer 3, who has the
+fewest minutes after wearer 10. The folds are fixed, so that figures of two days and of two methods compare."""
 
 
 def fold_of(subject: int) -> int:

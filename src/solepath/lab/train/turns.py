@@ -4,8 +4,7 @@ As in Liu et al. 2015 (IEEE MASS), section V.E, wearers turn 30 times to the lef
 SVM learns to classify the turns by the angles of both feet. The turns are emulated (turns.csv beside this file has one
 a line: seed, class, angle of the left foot and of the right one in degrees). A wearer of some size with a 20 Hz
 SensorTag in either sole walks 4 m, turns on the spot or along an arc of up to 1.2 m, and walks on. The angles are those
-that the recipe footstep-tracker measured. `--emulate` writes turns.csv again, from seeds that nothing is scored on.
-"""
+that the recipe footstep-tracker measured. `--emulate` writes turns.csv again, from seeds that nothing is scored on."""
 
 from __future__ import annotations
 
@@ -93,8 +92,7 @@ def train_weights(examples: list[Example]) -> dict[Turn, tuple[float, ...]]:
     """Return one linear function for each class against the others.
 
     It minimises SLACK |w|^2 / 2 + mean hinge loss by subgradient steps over all examples at once (Shalev-Shwartz et al.
-    2011, Pegasos), and averages the second half of the steps.
-    """
+    2011, Pegasos), and averages the second half of the steps."""
     examples = [*examples, *(_mirrored(one) for one in examples)]
     x = np.array([features(radians(one.left), radians(one.right)) for one in examples])
     found: dict[Turn, tuple[float, ...]] = {}

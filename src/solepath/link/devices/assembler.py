@@ -10,8 +10,7 @@ between the measurements before and after. So a Sample waits for the next gyrosc
 - An accelerometer packet lost: no Sample there; the next has its own time.
 - Accelerometer silent for 2.5 periods or never seen: Samples with gyro alone, at the gyroscope's times.
 
-Magnetometer and air pressure are slower; each value is attached once, to the next Sample.
-"""
+Magnetometer and air pressure are slower; each value is attached once, to the next Sample."""
 
 from __future__ import annotations
 
@@ -42,8 +41,7 @@ class TimedMeasurement:
 class Assembler:
     """Pairs accelerometer and gyroscope measurements; at most four wait.
 
-    The times given to `add_acc` and to `add_gyro` each increase.
-    """
+    The times given to `add_acc` and to `add_gyro` each increase."""
 
     site: Site
     waiting: list[TimedMeasurement] = field(factory=list)

@@ -1,8 +1,7 @@
 """TI CC2541 SensorTag (protocol/cc2541.md): five separate sensors in raw axes, each with a characteristic of its own.
 
 It has a link of its own, no Driver: accelerometer and gyroscope are two streams on two clocks, which assembler.py
-combines, and the scale of a count depends on the firmware.
-"""
+combines, and the scale of a count depends on the firmware."""
 
 from __future__ import annotations
 
@@ -118,8 +117,7 @@ WRITTEN_CODE = 3
 def counts_per_g(firmware: str, code: int) -> int:
     """Return the accelerometer's scale by firmware revision and AA12 (1 to 3), counts per g.
 
-    "" in the table is any other revision.
-    """
+    "" in the table is any other revision."""
     return COUNTS_PER_G["1.4" if "1.4" in firmware else "", code]
 
 
@@ -143,8 +141,7 @@ class BarometerCalibration:
     def pascal(self, temperature: int, pressure: int) -> float:
         """Return the air pressure in Pa: (S p + O) / 2^14.
 
-        S = c3 + c4 t / 2^17 + c5 t^2 / 2^34 and O = c6 2^14 + c7 t / 2^3 + c8 t^2 / 2^19.
-        """
+        S = c3 + c4 t / 2^17 + c5 t^2 / 2^34 and O = c6 2^14 + c7 t / 2^3 + c8 t^2 / 2^19."""
         t = temperature
         sensitivity = self.c3 + self.c4 * t / 2**17 + self.c5 * t * t / 2**34
         offset = self.c6 * 2**14 + self.c7 * t / 2**3 + self.c8 * t * t / 2**19
@@ -157,8 +154,7 @@ class Cc2541Link(DeviceLink):
 
     `feed` raises WireError for values that cannot be used, and then nothing has changed. Latency: see assembler.py.
     Losses of accelerometer and gyroscope are estimated by their periods (periodic.py); those of slower channels are
-    not.
-    """
+    not."""
 
     name: ClassVar[str] = "cc2541"
 

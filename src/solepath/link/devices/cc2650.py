@@ -1,7 +1,6 @@
 """TI CC2650 SensorTag (protocol/cc2650.md): nine axes in one notification without any counter, 10 Hz at stock firmware.
 
-It sends air pressure and keys as well.
-"""
+It sends air pressure and keys as well."""
 
 from __future__ import annotations
 

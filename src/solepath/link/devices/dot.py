@@ -1,8 +1,7 @@
 """Movella DOT, formerly Xsens DOT (protocol/dot.md), in its mode "rate quantities". Never tried on hardware.
 
 It sends acceleration and angular velocity at 60 Hz with the device's own microseconds. dot_orientation.py is its mode
-"orientation". Source: Movella DOT BLE Service Specification, document XD0506P, revision C, July 2023.
-"""
+"orientation". Source: Movella DOT BLE Service Specification, document XD0506P, revision C, July 2023."""
 
 from __future__ import annotations
 

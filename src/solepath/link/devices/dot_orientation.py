@@ -1,8 +1,7 @@
 """Movella DOT (dot.py) in its mode "orientation (quaternion)": its own attitude at 60 Hz. Never tried on hardware.
 
 It serves the sites of a lower-limb chain, which needs only attitudes (protocol/dot-orientation.md). Source: Movella DOT
-BLE Service Specification, document XD0506P, revision C, July 2023.
-"""
+BLE Service Specification, document XD0506P, revision C, July 2023."""
 
 from __future__ import annotations
 

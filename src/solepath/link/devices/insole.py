@@ -1,7 +1,6 @@
 """The insole (protocol/insole.md): frames to samples, by the rules of protocol/clock.md; INFO to scales and layout.
 
-It has a link of its own, no Driver: frames come in fragments, and each must be of the layout that INFO describes.
-"""
+It has a link of its own, no Driver: frames come in fragments, and each must be of the layout that INFO describes."""
 
 from __future__ import annotations
 
@@ -72,8 +71,7 @@ class InsoleLink(DeviceLink):
 
     `feed` raises WireError for values that cannot be used, and then nothing has changed but the fragments under way.
     Latency none. Before INFO comes, counts are taken for 16 g and 2000 degrees/s full scale and pressure stays in
-    counts; the layout of the first frame is then the only one accepted.
-    """
+    counts; the layout of the first frame is then the only one accepted."""
 
     name: ClassVar[str] = "insole"
     may_be_silent: ClassVar[bool] = False
@@ -215,8 +213,7 @@ def _check_scales(info: InsoleInfo) -> None:
     """Raise WireError for values that no insole has.
 
     Full scales must be from 1 to 1000 g and from 10 to 100,000 degrees/s, pressure up to 100 kN, the tick rate at least
-    100 Hz. Zero is legal and means that there is no such sensor, or no calibration.
-    """
+    100 Hz. Zero is legal and means that there is no such sensor, or no calibration."""
     full_acc = info.acc_scale * FULL_SCALE_COUNTS / GRAVITY
     full_gyro = info.gyro_scale * FULL_SCALE_COUNTS
     if (

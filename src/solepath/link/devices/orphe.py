@@ -2,8 +2,7 @@
 
 Notifications have two or four samples and a number, at 104 or 208 Hz.
 
-Source: the maker's library ORPHE-INSOLE.js, 1.3.4 (its parser, its tests and docs/SENSOR_SPEC.md); facts only.
-"""
+Source: the maker's library ORPHE-INSOLE.js, 1.3.4 (its parser, its tests and docs/SENSOR_SPEC.md); facts only."""
 
 from __future__ import annotations
 

@@ -36,8 +36,7 @@ class Reassembly:
     def feed(self, fragment: Fragment) -> tuple[bytes | None, str | None]:
         """Return the whole frame when this was its last fragment, and a description of a dropped frame; or None.
 
-        WireError, and nothing has changed, when the fragment is the newest one again, body and all.
-        """
+        WireError, and nothing has changed, when the fragment is the newest one again, body and all."""
         if fragment == self.newest:
             raise WireError(Rejection.DUPLICATE, f"fragment {fragment.index} again")
         known = fragment.frame_id == self.frame_id

@@ -1,8 +1,7 @@
 """Nordic Thingy:52 (protocol/thingy.md): nine axes at up to 200 Hz without any counter, and air pressure.
 
 Never tried on hardware. Source: the published firmware, Nordic-Thingy52-FW 2.2.0 (m_motion.c, drv_motion.c, ble_tms.h,
-ble_tes.h).
-"""
+ble_tes.h)."""
 
 from __future__ import annotations
 

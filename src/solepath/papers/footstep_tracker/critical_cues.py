@@ -1,8 +1,7 @@
 """Cues for heel-off, toe-off, heel-strike and foot-flat at the critical times of a step (Liu et al. 2015, IEEE MASS).
 
 By algorithm 1. A detector that cuts the samples into steps (static_zones.StaticZones) gives all four at once. A foot
-that lies still again without a swing has taken no step and gives no cues.
-"""
+that lies still again without a swing has taken no step and gives no cues."""
 
 from __future__ import annotations
 
@@ -22,8 +21,7 @@ class CriticalCues(Cues):
     """Reports gait events at the critical times of a step.
 
     Latency: all four are known when the static zone that ends the step is, `loose_length` s (static_zones.py) after
-    foot-flat; so toe-off some 0.6 s after it happened. `PressureCues` handles an insole alone.
-    """
+    foot-flat; so toe-off some 0.6 s after it happened. `PressureCues` handles an insole alone."""
 
     pressure: PressureCues = field(factory=PressureCues)
 

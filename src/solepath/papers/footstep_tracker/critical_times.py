@@ -17,8 +17,7 @@ a_z = -g cos(theta), so that a_y cos(theta) + a_z sin(theta) = 0. No other choic
   liftoff is the first crossing between the heel's fastest rise and the toe's, landing the last one in or after the last
   rise of the toe that lies where g_x is no more than `FLAT_RATE` and not later than `LANDING_TIME` after that (the
   shoe goes on shaking). Where a_y does not cross there (the heel strikes at 20 Hz between two samples, a sensor on the
-  instep is slower than its shoe), it is where g_x itself crosses.
-"""
+  instep is slower than its shoe), it is where g_x itself crosses."""
 
 from __future__ import annotations
 
@@ -43,8 +42,7 @@ LEAST_SWING = 0.12
 class CriticalTimes:
     """The critical times of a step, s, in this order.
 
-    At liftoff the foot starts to move forward, at landing it touches the ground.
-    """
+    At liftoff the foot starts to move forward, at landing it touches the ground."""
 
     uplift: float
     liftoff: float
@@ -72,8 +70,7 @@ def critical_times(rows: Sequence[Row]) -> CriticalTimes | None:
 def _rises(rows: Sequence[Row]) -> list[tuple[int, int]]:
     """Return [start, end) of each span of positive g_x in which the toe rises by `LEAST_SWING`.
 
-    A dip that does not reach the edge of the dead band ends no span.
-    """
+    A dip that does not reach the edge of the dead band ends no span."""
     found: list[tuple[int, int]] = []
     start, last, angle = None, 0, 0.0
     for i in range(1, len(rows)):

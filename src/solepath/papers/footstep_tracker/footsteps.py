@@ -9,8 +9,7 @@ last restart; each stride goes in the common direction, the mean of both feet's 
 - Half a stride lies between the feet. The difference is the mean of those after the newest stride of either foot, which
   does not alternate with it.
 - A foot that took no stride while the other took `ABSENT_STRIDES` is absent: it counts as if it had moved with the
-  other.
-"""
+  other."""
 
 from __future__ import annotations
 
@@ -63,8 +62,7 @@ class Footsteps(TrackPart):
     """Tracks the wearer by the strides of both feet.
 
     Between strides the position moves by half of what the track of either foot has moved since its last stride. World
-    frame, height 0. Latency: none beyond the strides' own.
-    """
+    frame, height 0. Latency: none beyond the strides' own."""
 
     needs_samples: ClassVar[bool] = True
 

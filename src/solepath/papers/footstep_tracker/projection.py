@@ -6,8 +6,7 @@ step_length.py has the equations for a step's length and turn. Open in the paper
 - The integrals do not hold for a step that lost samples for longer than `LONGEST_GAP`: it ends where the live track
   does, less the drift that its velocity shows at rest.
 - A foot that pivots on its sole, in what looks like a static zone, turns by its gyroscope.
-- `as_printed` uses the equations as they are printed, and none of these changes.
-"""
+- `as_printed` uses the equations as they are printed, and none of these changes."""
 
 from __future__ import annotations
 
@@ -59,8 +58,7 @@ class Projection(Strapdown):
 
     Frame as in `Corrector`; height is always 0, for the paper's track has none. Latency: a step is known when the
     static zone that ends it is. Meanwhile the live position and attitude are those of a strapdown, without its height,
-    and jump to the step's own end.
-    """
+    and jump to the step's own end."""
 
     settings: ProjectionSettings = ProjectionSettings()
     turning: TurningSteps = field(factory=TurningSteps)

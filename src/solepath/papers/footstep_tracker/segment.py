@@ -23,8 +23,7 @@ class StepSegment:
     """The samples of one step.
 
     `rows` in the paper's axes; `times` None where there is no swing in them. `forward`: the foot's y axis in the sensor
-    frame, a unit vector. `longest_gap`: the longest time between two of its samples, s.
-    """
+    frame, a unit vector. `longest_gap`: the longest time between two of its samples, s."""
 
     rows: tuple[Row, ...]
     times: CriticalTimes | None
@@ -38,8 +37,7 @@ class FootAxes:
 
     Up is the specific force of a foot at rest. Across is the axis about which the heel rises at the start of a step,
     for any mounting. Forward is the foot's own direction, the paper's d_f: between it and the way lies the toe-out
-    angle.
-    """
+    angle."""
 
     right: Vec3 | None = field(default=None, init=False)
     """Learnt axis to the right, sensor frame; None before the first step."""
@@ -89,8 +87,7 @@ def to_foot_axes(rows: Sequence[Row], right: Vec3, forward: Vec3, up: Vec3) -> t
 def scale_to_offset(rows: Sequence[Row], scale: float) -> tuple[Row, ...]:
     """Return rows whose error at rest is corrected as an offset of the vertical axis instead of a scale.
 
-    The accelerations were multiplied by `scale`, so that they read 1 g at rest.
-    """
+    The accelerations were multiplied by `scale`, so that they read 1 g at rest."""
     k = 1.0 / scale
     offset = GRAVITY * (k - 1.0)
     return tuple([(t, k * ax, k * ay, k * az + offset, gx, gy, gz) for t, ax, ay, az, gx, gy, gz in rows])

@@ -6,8 +6,7 @@ with the track, and those that run into a wall are dropped. The one that is left
 The paper has no more detail. Its traces err by some per cent in length and by degrees in each turn, so the right one
 would run into a wall before long. Therefore each trace sways a little from step to step (sway.py), as a snake does, and
 one that meets a wall continues to either side of it, in two traces that count less and keep the heading that let them
-pass. Traces that have become the same are merged.
-"""
+pass. Traces that have become the same are merged."""
 
 from __future__ import annotations
 

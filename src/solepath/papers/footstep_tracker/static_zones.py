@@ -15,8 +15,7 @@ changed because it finds no zone:
   1.3 m/s it is flat for less, and on a hard floor or in a soft shoe it rolls all the time. So a zone is also found
   where samples lie within `loose_within` for `loose_length` while the foot hardly turns (`low_rate`, not in the paper).
 - Fast walkers' feet have not even that. When no zone has come for `OVERDUE` less is required (`HURRIED_SHARE`), until
-  the foot lies still for a whole `length` again. The first such stride is lost, with the next one in its segment.
-"""
+  the foot lies still for a whole `length` again. The first such stride is lost, with the next one in its segment."""
 
 from __future__ import annotations
 
@@ -49,8 +48,7 @@ ROW_SPACING, MEAN_TIME, MOST_ROWS = 0.0149, 0.045, 72
 """Time between two kept rows, s, time of the means that are judged, s, and largest number of rows.
 
 100 Hz give means of two samples, 20 Hz the samples themselves. When there are more rows, the older half of them becomes
-twice as coarse.
-"""
+twice as coarse."""
 ZONE_BEFORE = 0.25
 """Time of the zone before it that belongs to a segment, s."""
 
@@ -97,10 +95,8 @@ class StaticZonesSettings:
     loose_length: float = 0.075
     """Shortest duration of a zone in which the foot hardly turns, s."""
     low_rate: float = 1.4
-    """Rate on every axis below which a foot hardly turns, rad/s.
-
-    A foot that rolls on without a rest is not below it for 0.1 s, nor is any swing.
-    """
+    """Rate on every axis below which a foot hardly turns, rad/s. A foot that rolls on without a rest is not below it
+    for 0.1 s, nor is any swing."""
     sigma: float = 0.01
     """Noise of the zero velocity in a zone, m/s."""
 
@@ -111,8 +107,7 @@ class StaticZones(Detector):
 
     The first sample of a zone brings the segment that it ends, a `StepSegment` in `Stance.detail`. Latency:
     `loose_length` after the foot lies still and `MEAN_TIME` more at rates above 20 Hz, or `length` when the gyroscope
-    shows more than `low_rate`. At 10 Hz three samples take 0.2 s: the least for a zone.
-    """
+    shows more than `low_rate`. At 10 Hz three samples take 0.2 s: the least for a zone."""
 
     settings: StaticZonesSettings = StaticZonesSettings()
     axes: FootAxes = field(factory=FootAxes)
@@ -185,8 +180,7 @@ class StaticZones(Detector):
     def _learn_resolution(self, acc: Vec3) -> None:
         """Learn the size of one count, from the axes' differences.
 
-        An axis that repeats a value has counts, and the others' differences are multiples of one.
-        """
+        An axis that repeats a value has counts, and the others' differences are multiples of one."""
         ax, ay, az = acc
         x, y, z = self.last_acc
         self.last_acc = acc

@@ -26,8 +26,7 @@ Axes and signs are those of critical_times.py. Open in the paper, and settled he
 - A foot that turns about swings round at up to 570 degrees/s, of which that gyroscope has 105 degrees where 160 were
   turned. No rest shows the clipped part. It is estimated as the area between the end of the range and the curve that
   leaves it and comes back to it as steeply as g_z did (a cubic), which is 40 to 100 % of it.
-- The integrals are trapezoidal. The critical times lie between two samples, where the signals are straight lines.
-"""
+- The integrals are trapezoidal. The critical times lie between two samples, where the signals are straight lines."""
 
 from __future__ import annotations
 
@@ -52,8 +51,7 @@ def step_length(rows: Sequence[Row], times: CriticalTimes, toe_out: float = 0.0)
 def closed_step_length(rows: Sequence[Row], times: CriticalTimes, toe_out: float = 0.0, end: float = inf) -> Vec3:
     """Return S_x, S_y, S_z of (6) in m from uplift to rest, where theta and the velocity are zero again.
 
-    `end`: g_x beyond this, rad/s, may be clipped.
-    """
+    `end`: g_x beyond this, rad/s, may be clipped."""
     duration = times.rest - times.uplift
     if not duration > 0.0:
         return (0.0, 0.0, 0.0)
@@ -65,8 +63,7 @@ def closed_step_length(rows: Sequence[Row], times: CriticalTimes, toe_out: float
 def close_at_rest(rows: Sequence[Row], times: CriticalTimes, end: float = inf) -> list[Row]:
     """Return the rows from uplift to rest (later than that), with g_x changed so that theta is zero at rest.
 
-    Where some of g_x was beyond `end` to either side, the velocity of a_f is zero at rest, too.
-    """
+    Where some of g_x was beyond `end` to either side, the velocity of a_f is zero at rest, too."""
     step = span(rows, times.uplift, times.rest)
     left = _angle(step, 4)
     rises = [1.0 if row[4] > end else 0.0 for row in step]
@@ -110,8 +107,7 @@ def swing_turn(rows: Sequence[Row], times: CriticalTimes) -> float:
 def vertical_turn(rows: Sequence[Row], times: CriticalTimes, end: float = inf) -> float:
     """Return the turn about the vertical from uplift to the last row, rad: a flat foot may pivot yet.
 
-    `end`: rates beyond this, rad/s, may be clipped.
-    """
+    `end`: rates beyond this, rad/s, may be clipped."""
     if not times.rest > times.uplift:
         return 0.0
     step = close_at_rest(rows, times, end)
@@ -145,8 +141,7 @@ def hidden_turn(rows: Sequence[Row], end: float) -> float:
 def _edge(rows: Sequence[tuple[float, float]], most: float) -> tuple[float, float]:
     """Return when the line through two rows below the end of a range meets `most`, s, and its slope, rad/s^2.
 
-    The third row is at the end of the range. The line to it is taken where that is steeper. Rows in (s, rad/s).
-    """
+    The third row is at the end of the range. The line to it is taken where that is steeper. Rows in (s, rad/s)."""
     (t0, a), (t1, b), (t2, _) = rows
     slope = max((b - a) / max(t1 - t0, 1e-3), (most - b) / max(t2 - t1, 1e-3), 1.0)
     return t1 + (most - b) / slope, slope

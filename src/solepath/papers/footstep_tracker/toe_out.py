@@ -4,8 +4,7 @@ The wearer walks straight ahead for s metres. The steps along the foot's own dir
 to s_f, and since the foot points phi beside its way, phi = arccos(s / s_f).
 
 An arc cosine is insensitive at small angles: 7 degrees of toe-out make s_f longer than s by 0.7 %, and an accelerometer
-errs by more. Where s_f is shorter than s there is no such angle, and none is learnt of that foot.
-"""
+errs by more. Where s_f is shorter than s there is no such angle, and none is learnt of that foot."""
 
 from __future__ import annotations
 
@@ -29,8 +28,7 @@ LARGEST_ANGLE = 1.0
 class ToeOut:
     """The toe-out angle of one foot.
 
-    `along`: s_f, m. `angle`: phi, rad, outwards; None where s_f is shorter than the walk.
-    """
+    `along`: s_f, m. `angle`: phi, rad, outwards; None where s_f is shorter than the walk."""
 
     foot: Foot
     steps: int
@@ -42,8 +40,7 @@ def toe_out(items: Iterable[Packet | Sample], distance: float) -> list[ToeOut]:
     """Return the toe-out of each foot with samples, from a straight walk of `distance` m.
 
     CalibrationError when there are too few steps, or an angle that no foot has; ValueError for a distance that is not
-    positive and finite.
-    """
+    positive and finite."""
     if not (isfinite(distance) and distance > 0.0):
         raise ValueError(f"distance is {distance}")
     session = Session(FOOTSTEP_TRACKER)

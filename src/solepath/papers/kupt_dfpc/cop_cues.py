@@ -13,8 +13,7 @@ figure), rests there in the air, and jumps from there to the heel when the foot 
 
 Where the load is unknown (before it has fallen and risen once) the inertial cues are used. A foot that slides away
 without ever leaving the ground has cleared it when it has been fast for `SHUFFLE_TIME`. The table of stages.py gives
-the next stage for each cue of the cells.
-"""
+the next stage for each cue of the cells."""
 
 from __future__ import annotations
 
@@ -36,8 +35,7 @@ LARGEST_JUMP = 1e3
 REST_TIME, LONGEST_LANDING = 0.1, 0.4
 """Rest of the CoP at the foot's centre that makes a swing normal, s, and longest wait for a stationary foot, s.
 
-After the wait a heel-strike is reported even when the foot is not stationary yet.
-"""
+After the wait a heel-strike is reported even when the foot is not stationary yet."""
 SHUFFLE_TIME = 0.25
 """Time for which a foot must be fast (InertialCues) to have left without ever being in the air, s."""
 AREA_ON, AREA_OFF = 0.05, 0.03
@@ -51,19 +49,15 @@ class CopCues(Cues):
     """Reports toe-off and heel-strike from the centre of pressure.
 
     Latency: toe-off one sample; heel-strike and foot-flat at the first stationary sample, as the paper has it; heel-off
-    one sample.
-    """
+    one sample."""
 
     inertial: InertialCues = field(factory=InertialCues)
     touch: Touch = field(factory=Touch)
     sagittal: float = field(default=0.0, init=False)
     """Rate about the axis to the wearer's left in the last sample, positive toe down, rad/s (`Cues`)."""
     mark: Cue | None = field(default=None, init=False)
-    """Mark of the last sample, None without one.
-
-    CLEAR: the sample before the last is the best candidate so far for toe-off. CONTACT: the last sample is the best
-    candidate for heel-strike.
-    """
+    """Mark of the last sample, None without one. CLEAR: the sample before the last is the best candidate so far for
+    toe-off. CONTACT: the last sample is the best candidate for heel-strike."""
     foot_centre: float | None = field(default=None, init=False)
     """Coordinate x of the foot's centre, m; None without a layout."""
     stage: StepStage = field(default=StepStage.LEAVING, init=False)
@@ -121,8 +115,7 @@ class CopCues(Cues):
     def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
         """Return the cues of one sample of an insole alone (`Cues`): both loaded areas take the place of the detector.
 
-        Without a layout there are no areas; then a heel-strike is reported at once, and foot-flat never.
-        """
+        Without a layout there are no areas; then a heel-strike is reported at once, and foot-flat never."""
         if load.heel is None or load.forefoot is None:
             self.flat = False
             found = self._add_load(t, False, self.touch.update(t, load), load)

@@ -24,8 +24,7 @@ Settled here, because the paper leaves it open:
   normal stride it counts as `ABNORMAL_EXCESS` m/s worse than that, by the mean of both lengths as in (13), so the
   weight of an absurd stride is its length. A pair of two abnormal strides favours neither foot.
 - A foot that took no stride during `ABSENT_STRIDES` strides of the other is not chosen, whatever (13) gives. When it
-  steps again its path continues from the other's end, since its way in between is not known.
-"""
+  steps again its path continues from the other's end, since its way in between is not known."""
 
 from __future__ import annotations
 
@@ -55,13 +54,11 @@ LONGEST_WAIT, LENGTH_RATIO, ABSENT_STRIDES = 1.0, 0.75, 3
 """Oldest end of a stride of the other foot that is used, s, a ratio of lengths, and a number of strides.
 
 If one stride is shorter than this ratio of the other, r is 0. A foot without a stride during so many of the other's is
-not chosen.
-"""
+not chosen."""
 ABNORMAL_EXCESS = 1.0
 """Excess error of an abnormal stride over a normal one, m/s.
 
-It is about the sum of the error indices of normal strides on recorded insoles.
-"""
+It is about the sum of the error indices of normal strides on recorded insoles."""
 
 
 @define
@@ -107,8 +104,7 @@ class DoubleFoot(TrackPart):
     The live position is that of the chosen foot on its calibrated path: the path's end, plus the motion of the foot's
     own track since; it is the other foot's while the chosen one is absent. So it stands while that foot stands, and
     jumps by half a stride when the choice changes. Its covariance is that of the foot's own track plus the square of
-    the shift by calibration, because either may be right.
-    """
+    the shift by calibration, because either may be right."""
 
     needs_samples: ClassVar[bool] = True
     idle = True
@@ -137,8 +133,7 @@ class DoubleFoot(TrackPart):
         """Add one stride and return its fusion with the other foot's.
 
         `centre`: x of the insole's centre in the foot frame, m, where the centre of pressure is taken to be while the
-        foot is in the air (section III.C.2); None when there is no insole.
-        """
+        foot is in the air (section III.C.2); None when there is no insole."""
         foot = taken.foot
         path, other_path = self.paths[foot], self.paths[OTHER[foot]]
         index = _valid_index(taken.features.error_index)
@@ -236,8 +231,7 @@ def resample_cop(taken: StrideTaken, centre: float) -> tuple[float, ...]:
     Strides have unequal numbers of samples and (9) needs equal ones, so both are compared over the stride's own time
     from foot-flat to heel-strike: first the path on the ground, as `StrideFeatures.cop` has it from foot-flat to toe-
     off, then `centre` while the foot is in the air, each in proportion to its time. The loading after heel-strike is
-    not part of that path and is left out. Empty without a path, and for a stride without a toe-off.
-    """
+    not part of that path and is left out. Empty without a path, and for a stride without a toe-off."""
     cop, start, off = taken.features.cop, taken.t_start, taken.t_toe_off
     end = taken.t_end if taken.t_heel_strike is None else taken.t_heel_strike
     if not cop or off is None or not start <= off <= end or not end > start:
@@ -260,8 +254,7 @@ def resample_cop(taken: StrideTaken, centre: float) -> tuple[float, ...]:
 def correlation(one: tuple[float, ...], other: tuple[float, ...]) -> float | None:
     """Return r of (9), the similarity of two paths of equally many points, 0 to 1.
 
-    None when one of them is constant or empty.
-    """
+    None when one of them is constant or empty."""
     n = len(one)
     if n == 0 or n != len(other):
         return None

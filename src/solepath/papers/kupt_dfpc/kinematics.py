@@ -1,8 +1,8 @@
 """Position and velocity of the sensor in a shoe that rolls over its heel or its forefoot, as on rockers.
 
-Equations (4) to (7) of Chen et al., "Smart insole-based indoor localization system for Internet of Things
-applications" (IEEE Internet of Things Journal 6, 2019), figs. 5 to 7. Seen from the side the point below the sensor on
-the shoe's bottom is L_r away from a pivot on the ground, the sensor H_imu above that point, and the sole is pitched:
+Equations (4) to (7) of Chen et al., "Smart insole-based indoor localization system for Internet of Things applications"
+(IEEE Internet of Things Journal 6, 2019), figs. 5 to 7. Seen from the side the point below the sensor on the shoe's
+bottom is L_r away from a pivot on the ground, the sensor H_imu above that point, and the sole is pitched:
 
     P_h = L_r cos(pitch) - H_imu sin(pitch)         along the ground, from the pivot
     P_z = L_r sin(pitch) + H_imu cos(pitch)         above it
@@ -16,8 +16,7 @@ velocity in between.
 The pitch comes from the attitude, for any mounting of the sensor. `Sagittal` keeps, in the sensor frame, the direction
 up while the foot stood flat and the direction of the toes. The heel lifts by turning the foot toe-down, which tilts
 "up" towards the heel: this gives the direction of the toes. Everything is relative to the standing foot, so a sensor
-that is mounted skewed, or a frame whose vertical is a degree off, gives the same pitch.
-"""
+that is mounted skewed, or a frame whose vertical is a degree off, gives the same pitch."""
 
 from __future__ import annotations
 
@@ -39,15 +38,13 @@ LEAST_LIFT_ANGLE = 0.35
 MISFITS, FOLLOW_SHARE = 3, 0.2
 """Number of push-offs in a row after which another direction replaces the known one, and share of each push-off.
 
-Another direction differs by more than 60 degrees. Each push-off moves the direction of the toes by the share.
-"""
+Another direction differs by more than 60 degrees. Each push-off moves the direction of the toes by the share."""
 
 
 def shoe_for(length: float) -> ShoeGeometry:
     """Return the default shoe in the size of an insole of `length` m; unscaled for a length that no insole has.
 
-    Lengths along the sole grow with the insole, the height of the sensor does not.
-    """
+    Lengths along the sole grow with the insole, the height of the sensor does not."""
     shoe = ShoeGeometry()
     if not SHORTEST <= length <= LONGEST:
         return shoe
@@ -69,8 +66,7 @@ def heel_position(shoe: ShoeGeometry, toe_up: float) -> tuple[float, float]:
 def forefoot_position(shoe: ShoeGeometry, heel_up: float) -> tuple[float, float]:
     """Return (P_h + L_p2t behind the toe, P_z above the ground) of the sensor, m, at this heel-up pitch, rad (6).
 
-    Between flat and `steepest` the fitted curves hold; beyond, their values stay constant.
-    """
+    Between flat and `steepest` the fitted curves hold; beyond, their values stay constant."""
     p = min(max(heel_up, 0.0), shoe.steepest)
     radius = to_toe = 0.0
     for k in reversed(shoe.forefoot_radius):
@@ -85,8 +81,7 @@ def forefoot_position(shoe: ShoeGeometry, heel_up: float) -> tuple[float, float]
 class Sagittal:
     """Measures the foot's pitch and direction from the attitude of a sensor in any mounting.
 
-    Angles in rad. The direction of the toes is known after the first push-off; `toe` is None until then.
-    """
+    Angles in rad. The direction of the toes is known after the first push-off; `toe` is None until then."""
 
     up: Vec3 | None = field(default=None, init=False)
     """Direction up in the sensor frame while the foot stood flat, unit length."""
@@ -138,8 +133,7 @@ class Sagittal:
     def add_lift_sample(self, attitude: Quat) -> None:
         """Add one sample of a push-off, in which the heel lifts.
 
-        Tilts after the largest, on the way back, do not count.
-        """
+        Tilts after the largest, on the way back, do not count."""
         if self.up is None:
             return
         x, y, z = _up(attitude)

@@ -2,8 +2,7 @@
 
 Chen et al., "Smart insole-based indoor localization system for Internet of Things applications" (IEEE Internet of
 Things Journal 6, 2019), section III.C. While the shoe rolls over its forefoot or its heel, the velocity of the sensor
-follows from its pitch (kinematics.py); only the swing is left to integration, and only there a drift is taken out.
-"""
+follows from its pitch (kinematics.py); only the swing is left to integration, and only there a drift is taken out."""
 
 from __future__ import annotations
 
@@ -28,8 +27,7 @@ LONGEST_STRIDE, UNCERTAIN_SIGMA = 3.0, 0.05
 """Longest stride, s, and sigma of a zero velocity that ends a longer motion, m/s.
 
 In a longer motion the foot has stood, and integration must not continue. After that time the inertial detector need not
-be certain.
-"""
+be certain."""
 
 
 @frozen
@@ -58,8 +56,7 @@ class KnownVelocity(Detector):
     the forefoot lands first, there is no evidence. As long as the cells are not reliable, or have no layout, an
     inertial detector is used. It is also used in a motion longer than any stride, from then on until the foot is
     certainly stationary: an area that measures nothing would leave it moving for ever. The statistic is the smaller of
-    the two loads as a share of the wearer's full load.
-    """
+    the two loads as a share of the wearer's full load."""
 
     settings: KnownVelocitySettings = KnownVelocitySettings()
     sagittal: Sagittal = field(factory=Sagittal)

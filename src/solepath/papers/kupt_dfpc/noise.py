@@ -1,8 +1,7 @@
 """Noise of pressure cells while the foot swings: equation (1) of Chen et al. 2019 (IEEE Internet of Things Journal 6).
 
-The wearer walks for about 20 s. The samples with the least total pressure are those of the swing, which takes 38 % of
-a gait cycle; the paper uses the least 15 %. A cell's noise is their mean plus three standard deviations.
-"""
+The wearer walks for about 20 s. The samples with the least total pressure are those of the swing, which takes 38 % of a
+gait cycle; the paper uses the least 15 %. A cell's noise is their mean plus three standard deviations."""
 
 from __future__ import annotations
 
@@ -26,8 +25,7 @@ def pressure_noise(samples: Iterable[Sample], share: float = SHARE, known: Calib
     `share`: share of the samples, those with the least total pressure, that are taken for swing. `known`: where it
     turns an insole's values into newtons, noise is in N too. Takes the samples one by one and keeps their pressures.
     CalibrationError when there are no cells, too few samples, or a number of cells that changes; ValueError for a share
-    outside 0 to 1.
-    """
+    outside 0 to 1."""
     if not 0.0 < share <= 1.0:
         raise ValueError(f"share is {share}")
     rows: dict[Foot, list[tuple[float, ...]]] = {}

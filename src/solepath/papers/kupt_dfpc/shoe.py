@@ -1,7 +1,7 @@
 """Geometry of the wearer's own shoe, from static postures measured with rulers (Chen et al. 2019, section III.C.3).
 
-The wearer stands in postures between flat and toe-off, the paper's in five of them, three times each. For each the
-file has the heel-up pitch that the sensor showed and two lengths, in a line of comma-separated values with a header:
+The wearer stands in postures between flat and toe-off, the paper's in five of them, three times each. For each the file
+has the heel-up pitch that the sensor showed and two lengths, in a line of comma-separated values with a header:
 
     pitch_deg,L_r_m,L_p2t_m
     0,0.070,0.090
@@ -11,8 +11,7 @@ file has the heel-up pitch that the sensor showed and two lengths, in a line of 
 sole touches the ground is a little further ahead; with that point (6) would have the velocity at toe-off too low by
 some decimetres per second.) `L_p2t_m`: on the ground, from there to where the tip of the flat shoe was, m. Columns may
 come in any order, others are ignored; `H_imu_m` and `heel_L_r_m`, where there are such columns, are the same in every
-line and go into the geometry.
-"""
+line and go into the geometry."""
 
 from __future__ import annotations
 
@@ -35,8 +34,7 @@ DEGREE = 2
 
 For the round sole of kinematics.py, five postures to 60 degrees, three times each, rulers off by 2 mm: the sensor's way
 per pitch, which is what velocity needs, errs at 50 degrees by 5 mm/rad with a straight line, by 4 with degree 2, by 6
-with 3 and with 4.
-"""
+with 3 and with 4."""
 STEEPEST = 80.0
 """Steepest posture, degrees."""
 LONGEST_SHOE = 0.5
@@ -52,8 +50,7 @@ class ShoeFit:
     """A fitted shoe geometry and its residuals.
 
     `residual_radius`, `residual_to_toe`: root mean square of the curves' residuals, m. `worst`: the largest residual,
-    m.
-    """
+    m."""
 
     calibration: Calibration
     postures: int
@@ -66,8 +63,7 @@ class ShoeFit:
 def fit_shoe(path: Path | str) -> ShoeFit:
     """Fit the geometry of the shoe whose postures are in the file.
 
-    CalibrationError with one sentence that names the file, and the line where there is one, when it cannot be used.
-    """
+    CalibrationError with one sentence that names the file, and the line where there is one, when it cannot be used."""
     rows, single = _read(path)
     pitch = np.radians(rows[:, 0])
     postures = 1 + int(np.count_nonzero(np.diff(np.sort(rows[:, 0])) > SAME_POSTURE))

@@ -1,8 +1,7 @@
 """Stages of a stride by the pressure cells, as a table; cop_cues.py turns loads into its cues.
 
 A stage is not a phase. A toe-off is known as soon as the foot is in the air, but a heel-strike only once the foot lies
-flat, and a foot that was in the air for only a moment had not left the ground yet.
-"""
+flat, and a foot that was in the air for only a moment had not left the ground yet."""
 
 from __future__ import annotations
 

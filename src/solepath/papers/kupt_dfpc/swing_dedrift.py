@@ -1,8 +1,7 @@
 """Corrector of KUPT: velocity known from heel-strike to toe-off, a linear drift taken out of the swing between.
 
 Chen et al., "Smart insole-based indoor localization system for Internet of Things applications" (IEEE Internet of
-Things Journal 6, 2019), section III.C.3, equations (8) and (10). The velocities come from known_velocity.py.
-"""
+Things Journal 6, 2019), section III.C.3, equations (8) and (10). The velocities come from known_velocity.py."""
 
 from __future__ import annotations
 
@@ -25,8 +24,7 @@ LARGEST_ROLLING_ERROR = 0.6
 
 In 0.3 s a tilt that is off by 2 degrees and an accelerometer by 20 mg make 0.16 m/s, a rolling velocity is good to 0.1,
 and three times both together is 0.57. Emulated feet stay within 0.05; recorded ones that roll reach 0.5, and those
-whose cells release late are at 0.7 to 1.3.
-"""
+whose cells release late are at 0.7 to 1.3."""
 
 
 @frozen
@@ -77,8 +75,7 @@ class SwingDedrift(LinearDedrift):
     until then.
 
     A motion without both marks, with a gap in it, or without a usable velocity at toe-off is abnormal: it loses one
-    linear drift over its whole time, as with ZUPT. Memory is three moments, however long the motion.
-    """
+    linear drift over its whole time, as with ZUPT. Memory is three moments, however long the motion."""
 
     settings: SwingSettings = SwingSettings()
     motion_start: Vec3 = field(default=ZERO, init=False)
@@ -111,8 +108,7 @@ class SwingDedrift(LinearDedrift):
         """Error index (10), m/s: the length of the horizontal part of V_errt + V_errh; None for an abnormal motion.
 
         The paper has one number for a velocity that has three; the error of the horizontal position is the one that
-        matters.
-        """
+        matters."""
         return self.last_error_index
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:

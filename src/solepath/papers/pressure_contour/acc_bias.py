@@ -2,8 +2,8 @@
 
 "Personal navigation via high-resolution gait-corrected inertial measurement units" (IEEE Trans. Instrum. Meas. 59,
 2010). Everything is in the sensor's own frame, where the bias is constant. With a_m the measured acceleration without
-gravity (4), a standing foot has a_m + a_b + a_n = 0 (6)(7), so that -a_m measures the bias z = a_b (8)(9), and with
-F = I, H = I, G_1 = I and no input (A = B = 0)
+gravity (4), a standing foot has a_m + a_b + a_n = 0 (6)(7), so that -a_m measures the bias z = a_b (8)(9), and with F =
+I, H = I, G_1 = I and no input (A = B = 0)
 
     measurement   z_hat = z_bar + P Sigma_v^-1 (-a_m - z_bar),   P = M - M (M + Sigma_v)^-1 M
     time          z_bar = z_hat,   M = P + Sigma_w
@@ -11,8 +11,7 @@ F = I, H = I, G_1 = I and no input (A = B = 0)
 The covariances are multiples of the identity at the start and stay so: one number stands for three axes.
 
 (10) as printed, a_a = a_m - R a_b, contradicts (6), a_a = a_m + R a_b + R a_n, in which -a_m is a measurement of a_b:
-it would double the error that it removes. The sign here is that of (6).
-"""
+it would double the error that it removes. The sign here is that of (6)."""
 
 from __future__ import annotations
 
@@ -33,8 +32,7 @@ class AccelerometerBias:
     """Kalman filter for the bias of three equal axes, m/s^2, sensor frame.
 
     The figures are those of the ST LSM6DSOX (DS12814, table 2): zero-g offset +-20 mg taken as two sigma, 110
-    ug/sqrt(Hz) of noise over the 50 Hz of a sensor read at 100 Hz, and 0.1 mg/K of drift over 2 K within 300 s.
-    """
+    ug/sqrt(Hz) of noise over the 50 Hz of a sensor read at 100 Hz, and 0.1 mg/K of drift over 2 K within 300 s."""
 
     bias: Vec3 = field(default=ZERO, init=False)
     """Estimated bias z_hat, m/s^2, sensor frame."""
@@ -49,8 +47,7 @@ class AccelerometerBias:
     def correct(self, measured: Vec3) -> None:
         """Correct the bias by one sample of a standing foot.
 
-        `measured` is a_m, the measured acceleration without gravity, sensor frame, m/s^2.
-        """
+        `measured` is a_m, the measured acceleration without gravity, sensor frame, m/s^2."""
         prior = BIAS_SIGMA * BIAS_SIGMA if self.variance is None else self.variance
         sigma_v = SAMPLE_NOISE * SAMPLE_NOISE
         posterior = prior - prior * prior / (prior + sigma_v)

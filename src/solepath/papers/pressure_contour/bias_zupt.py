@@ -2,8 +2,7 @@
 
 "Personal navigation via high-resolution gait-corrected inertial measurement units" (IEEE Trans. Instrum. Meas. 59,
 2010). The acceleration without its bias is integrated, the velocity is reset to zero while the foot stands, and the
-drift found by calibration laps (papers/pressure_contour/square.py) is subtracted from the position.
-"""
+drift found by calibration laps (papers/pressure_contour/square.py) is subtracted from the position."""
 
 from __future__ import annotations
 
@@ -28,18 +27,13 @@ class BiasZuptSettings(DedriftSettings):
     """Settings of `BiasZupt`."""
 
     drift: tuple[float, float] | None = None
-    """Calibrated slope of the position, m/s (x, y); None without a calibration.
-
-    It is in the device's own world frame where the device has an attitude of its own, otherwise in the navigation
-    frame.
-    """
+    """Calibrated slope of the position, m/s (x, y); None without a calibration. It is in the device's own world frame
+    where the device has an attitude of its own, otherwise in the navigation frame."""
     remove_swing_drift: bool = True
-    """Flag: a linear drift of the velocity in swing is removed from the position.
-
-    The velocity left at the end of a swing is taken to have grown evenly, so the position loses half of it times the
-    time since the foot last stood. The paper speaks of resets alone. Without this a tilt of a quarter of a degree,
-    which is what its sensor promises, costs a centimetre a stride.
-    """
+    """Flag: a linear drift of the velocity in swing is removed from the position. The velocity left at the end of a
+    swing is taken to have grown evenly, so the position loses half of it times the time since the foot last stood. The
+    paper speaks of resets alone. Without this a tilt of a quarter of a degree, which is what its sensor promises, costs
+    a centimetre a stride."""
     turn_error: float = 0.0175
     """Heading error of a device's own attitude, rad: the InertiaCube3's data sheet has 1 degree."""
 
@@ -147,7 +141,6 @@ class BiasZupt(LinearDedrift):
     def _level(self) -> None:
         """Pull an integrated attitude by the specific force without the bias.
 
-        With the bias in it, bias and tilt could drift against each other.
-        """
+        With the bias in it, bias and tilt could drift against each other."""
         if self.integrated:
             self._pull(rotate(self.attitude, self.motion_acc), self.last_dt)

@@ -21,8 +21,7 @@ integral of (u . r_hat) r_hat is pi u. Two more things are left open there:
   does not change with the weight (1 to 2 mm/s; two thirds of the stance with either), and it needs no scale. Shares are
   the default; `pascals` takes the paper's.
 
-Work per sample: a weighted sum of three cells for each of some 60 points, and one pass along each ray.
-"""
+Work per sample: a weighted sum of three cells for each of some 60 points, and one pass along each ray."""
 
 from __future__ import annotations
 
@@ -53,10 +52,9 @@ INTERVAL = 0.05
 """Delta t of (1), s: long enough for the cells' noise.
 
 With `AXES` pairs of rays sigma_v = sqrt(2 / AXES) sigma_r / interval an axis and a level, and a radius is as uncertain
-as the pressure over its slope. A cell of 12-bit resistive insoles has 0.12 N rms (emulate/sensors/parts.py), 0.8 kPa
-on 1.6 cm^2, half a kPa once three are weighted; a heel that bears 200 N has slopes of 2 kPa/mm: 0.25 mm, and 0.14 mm
-over all rays. To stay below the paper's 4 mm/s that takes 36 ms; 50 ms are taken.
-"""
+as the pressure over its slope. A cell of 12-bit resistive insoles has 0.12 N rms (emulate/sensors/parts.py), 0.8 kPa on
+1.6 cm^2, half a kPa once three are weighted; a heel that bears 200 N has slopes of 2 kPa/mm: 0.25 mm, and 0.14 mm over
+all rays. To stay below the paper's 4 mm/s that takes 36 ms; 50 ms are taken."""
 MISSING = -1.0
 """Value in the place of a radius when the contour does not cross the ray."""
 
@@ -69,11 +67,8 @@ class ContourSettings:
     """Settings of `Contours`."""
 
     shares: tuple[float, ...] = (1.4, 1.2, 1.0, 0.8, 0.6, 0.4)
-    """Levels as shares of the present mean pressure of the heel's cells.
-
-    1.4 is still well below the peak of a patch of pressure; 0.4 lies at its edge, where a heel that leans has its only
-    contours.
-    """
+    """Levels as shares of the present mean pressure of the heel's cells. 1.4 is still well below the peak of a patch of
+    pressure; 0.4 lies at its edge, where a heel that leans has its only contours."""
     pascals: tuple[float, ...] | None = None
     """Fixed levels, Pa, instead of `shares`, for cells whose scale is known; None for shares."""
 
@@ -82,8 +77,7 @@ class ContourSettings:
 class Contours:
     """Measures the velocity of the heel's pressure contours from the loads of the cells while the heel is loaded.
 
-    Latency: none beyond `INTERVAL`, over which the contours are compared.
-    """
+    Latency: none beyond `INTERVAL`, over which the contours are compared."""
 
     settings: ContourSettings = ContourSettings()
     cells: list[int] = field(factory=list, init=False)
@@ -131,8 +125,7 @@ class Contours:
         """Return the (forward, left) velocity of the contours' centre, foot frame, m/s; None where there is none.
 
         It is the mean of the levels whose contours exist now and `INTERVAL` ago. `cells`: loads above tare of the cells
-        in `self.cells`.
-        """
+        in `self.cells`."""
         if not self.points:
             return None
         now = self._radii(cells)
@@ -255,8 +248,7 @@ def _fit_rays(now: tuple[float, ...], before: tuple[float, ...]) -> tuple[float,
 def _least_squares(moved: list[float | None]) -> tuple[float, float] | None:
     """Return the vector u for which u . r_hat is nearest to `moved`, m, along the first rays, by least squares.
 
-    None where too few directions, or too similar ones, have a value.
-    """
+    None where too few directions, or too similar ones, have a value."""
     xx = xy = yy = bx = by = 0.0
     for (c, s, cc, cs, ss), along in zip(_RAYS, moved, strict=False):
         if along is not None:
@@ -274,8 +266,7 @@ def _least_squares(moved: list[float | None]) -> tuple[float, float] | None:
 def _triangle(cells: list[Cell], x: float, y: float) -> Point | None:
     """Return the tightest triangle of cells about a point and the cells' weights there; None if no cells surround it.
 
-    The weights turn loads into pressures.
-    """
+    The weights turn loads into pressures."""
     order = sorted(range(len(cells)), key=lambda i: (hypot(cells[i].x - x, cells[i].y - y), i))[:NEAREST_CELLS]
     best: Point | None = None
     tightest = 0.0

@@ -1,8 +1,7 @@
 """Stance evidence of Bebek et al. 2010: the heel's pressure contours or, as baseline, the gyroscope.
 
 "Personal navigation via high-resolution gait-corrected inertial measurement units" (IEEE Trans. Instrum. Meas. 59,
-2010).
-"""
+2010)."""
 
 from __future__ import annotations
 
@@ -26,8 +25,7 @@ HEEL_RISE_TIME = 0.4
 STANCE_OVERDUE, LONGEST_MOTION = 1.0, 2.5
 """Duration of a motion that must contain a missed stance, and one after which thresholds rise until it ends, s.
 
-Feet that stroll move for up to 1 s.
-"""
+Feet that stroll move for up to 1 s."""
 LONGEST_STANCE = 1.0
 """Longest stance of walking, s: a longer one, or a heel loaded for longer, sets no threshold for the next stance."""
 LONGEST_GAP = 0.3
@@ -35,8 +33,7 @@ LONGEST_GAP = 0.3
 HOLD_TIME, NO_CONTOUR_TIME, LOAD_VALID_TIME = 0.03, 0.1, 0.05
 """Times, s: fast contours that do not end a stance, a loaded heel without contours at rest, and validity of a load.
 
-After the second the gyroscope decides.
-"""
+After the second the gyroscope decides."""
 
 
 @frozen
@@ -74,8 +71,7 @@ class GyroscopeMagnitude(Detector):
 
     A motion that has lasted for `STANCE_OVERDUE` s contains a missed stance: then `margin` times the lowest rate of
     that motion is the threshold, and after `LONGEST_MOTION` s in proportion to the motion's duration, without a
-    ceiling. So every motion ends.
-    """
+    ceiling. So every motion ends."""
 
     settings: GyroscopeSettings = GyroscopeSettings()
     t: float | None = field(default=None, init=False)

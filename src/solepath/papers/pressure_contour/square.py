@@ -10,8 +10,7 @@ The paper finds a drift in a fixed direction. A drift that changes direction is 
 minutes to half an hour its correction does more harm than good. A fixed drift moves all marks by the same amount from
 every lap to the next; so the slope is kept when it is larger than the laps' disagreement explains, by the test that is
 exact for independent movements of two components: with n movements of standard error s an axis, k = n - 1 and a chance
-of CHANCE, slope^2 / (2 s^2) > k (CHANCE^(-1/k) - 1), the F distribution with 2 and 2 k degrees of freedom.
-"""
+of CHANCE, slope^2 / (2 s^2) > k (CHANCE^(-1/k) - 1), the F distribution with 2 and 2 k degrees of freedom."""
 
 from __future__ import annotations
 
@@ -43,8 +42,7 @@ LARGEST_DRIFT = 0.05
 CLOSURE_SHARE = 0.25
 """Share of the square's diagonal by which a mark may move from one lap to the next, beside a drift.
 
-The laps of a square of 11.7 m then end within 4 m, 9 % of their way.
-"""
+The laps of a square of 11.7 m then end within 4 m, 9 % of their way."""
 MARK_TOLERANCE = 1.0
 """Longest time between the end of a stride and a mark's time in the file, s."""
 
@@ -62,8 +60,7 @@ class SquareDrift:
     """Drift that the laps show.
 
     `slope`: mean of the marks' slopes, m/s (x, y), in the frame of `Calibration.drift`; `scatter`: its standard error
-    by the laps' disagreement, m/s an axis; `agreed`: the slope is larger than that explains.
-    """
+    by the laps' disagreement, m/s an axis; `agreed`: the slope is larger than that explains."""
 
     foot: Foot
     slope: tuple[float, float]
@@ -92,8 +89,7 @@ def square_drift(
 
     With `marks` every visit is the stride that ends nearest to its time; without, every `steps_per_lap`-th stride is on
     the same mark. `foot`: the foot to use; the right one where both were recorded. CalibrationError when there are too
-    few laps, when they are no laps (`check_laps`), or when the recipe cannot use a drift.
-    """
+    few laps, when they are no laps (`check_laps`), or when the recipe cannot use a drift."""
     if not isinstance(recipe.corrector, BiasZupt):
         raise CalibrationError(f"recipe {recipe.name} takes no drift off")
     known = Calibration() if calibration is None else calibration
@@ -122,8 +118,7 @@ def square_drift(
 def read_marks(path: Path | str) -> tuple[CornerMark, ...]:
     """Read marks from a .csv with the columns `mark` and `t`, one row for every visit.
 
-    CalibrationError when the file is not of that form.
-    """
+    CalibrationError when the file is not of that form."""
     rows = read_rows(path, ("mark", "t"))
     if not rows:
         raise CalibrationError(f"{path}: no visits of marks")
@@ -159,8 +154,7 @@ def _visits_by_marks(strides: Sequence[StrideTaken], marks: Sequence[CornerMark]
 def fit_drift(foot: Foot, visits: Mapping[str, list[tuple[float, Vec3]]], to_drift_frame: float) -> SquareDrift:
     """Fit one line for each mark that was visited often enough.
 
-    `to_drift_frame` turns from the world frame to the drift's, rad.
-    """
+    `to_drift_frame` turns from the world frame to the drift's, rad."""
     slopes: list[tuple[float, float]] = []
     moves: dict[int, list[tuple[float, float]]] = {}
     used = 0
@@ -190,8 +184,7 @@ def check_laps(found: SquareDrift, visits: Mapping[str, list[tuple[float, Vec3]]
     """Check that the laps are laps of a square.
 
     CalibrationError when from one lap to the next the marks, in the mean, lie farther apart than `LARGEST_DRIFT` and
-    `CLOSURE_SHARE` allow, or the drift is larger than `LARGEST_DRIFT`.
-    """
+    `CLOSURE_SHARE` allow, or the drift is larger than `LARGEST_DRIFT`."""
     marks = [np.array([(t, x, y) for t, (x, y, _) in places]) for places in visits.values() if len(places) > 1]
     middles = np.array([mark[:, 1:].mean(axis=0) for mark in marks])
     diagonal = float(np.linalg.norm(np.ptp(middles, axis=0)))

@@ -1,8 +1,7 @@
 """Navigation of Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), sections 3.2 to 3.4.
 
 Gravity corrects the tilt in stance only. A drift that is linear in time is taken out of the velocity and, on level
-strides, out of the height.
-"""
+strides, out of the height."""
 
 from __future__ import annotations
 
@@ -41,8 +40,7 @@ UNCERTAIN_SIGMA, OVERDUE = 0.04, 0.9
 SPEED_LIMIT, SPEED_LIMIT_GROWTH, UNCERTAIN_SHARE = 0.5, 1.0, 0.5
 """Speed limit of a standing foot, m/s, its growth since the last stance, m/s^2, and the share for uncertain evidence.
 
-A tilt error of 6 degrees makes as much growth.
-"""
+A tilt error of 6 degrees makes as much growth."""
 
 
 @frozen
@@ -52,17 +50,13 @@ class ShoeSensingSettings(DedriftSettings):
     kp: float = 1.0
     """Gain of the tilt feedback in stance, 1/s; the paper gives no value."""
     tilt_share: float = 0.4
-    """Share of the tilt error that is corrected after a motion, 0 to 1; 0 turns it off. Not in the paper.
-
-    The velocity left at the end of a motion shows that error. Joggers' stances are too short for the feedback.
-    """
+    """Share of the tilt error that is corrected after a motion, 0 to 1; 0 turns it off. Not in the paper. The velocity
+    left at the end of a motion shows that error. Joggers' stances are too short for the feedback."""
     eliminate: bool = True
     """Flag: the height error of level strides is removed."""
     detector_delay: float = 0.15
-    """Longest delay of the detector, s: the window of `ShortTimeEnergy`.
-
-    After a stance, samples of that time count as motion.
-    """
+    """Longest delay of the detector, s: the window of `ShortTimeEnergy`. After a stance, samples of that time count as
+    motion."""
 
 
 @define
@@ -91,8 +85,7 @@ class ShoeSensing(LinearDedrift):
     height is a tilt made by an accelerometer bias, equal per metre in every stride (25 mg make 3.5 cm of 1.4 m): the
     mean of the level strides, `lean`, is subtracted from every stride before it is judged. A stride that still ends
     `HIGHEST_LEVEL_RISE` or more above or below its start is not level, whatever its angle: it goes onto or off a stair
-    with a long stride, and keeps its height.
-    """
+    with a long stride, and keeps its height."""
 
     settings: ShoeSensingSettings = ShoeSensingSettings()
     lean: float = field(default=0.0, init=False)

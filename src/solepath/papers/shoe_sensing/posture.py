@@ -3,8 +3,7 @@
 The vector product with gravity gives the posture, and Runge and Kutta's fourth-order method integrates the quaternion.
 Q turns the sensor's coordinates into those of the reference frame, whose gravitational vector is aR = [0, 0, 1]: the
 reading of an accelerometer at rest, upwards. gb is that vector turned by Q into the sensor's coordinates, g'R the
-measured one, both of length 1; e = gb x g'R is the axis and, while small, the angle by which Q is off.
-"""
+measured one, both of length 1; e = gb x g'R is the axis and, while small, the angle by which Q is off."""
 
 from __future__ import annotations
 
@@ -24,15 +23,13 @@ LARGEST_ERROR = 2e-3
 WIDEST_TURN = 1.0
 """Square of the turn within one sample, rad^2, that Runge and Kutta's polynomial follows to 1e-3 rad.
 
-A wider turn, which samples at a low rate have, is computed exactly.
-"""
+A wider turn, which samples at a low rate have, is computed exactly."""
 
 
 def gravity_error(attitude: Quat, acc: Vec3) -> Vec3:
     """Return e = gb x g'R, sensor frame; zero if `acc` has no length.
 
-    `acc` is the measured specific force, in any unit.
-    """
+    `acc` is the measured specific force, in any unit."""
     q0, q1, q2, q3 = attitude
     x, y, z = acc
     length = sqrt(x * x + y * y + z * z)
@@ -49,8 +46,7 @@ def posture(acc: Vec3) -> Quat:
 
     `acc` is the mean specific force of a rest. Each of 400 points turns Q as the feedback of stance would with a
     gyroscope that reads zero; the paper does not describe its P, "the solution process of the quaternion", any further.
-    For an upside-down sensor the vector product gives no direction of turn, so the iteration starts upside down.
-    """
+    For an upside-down sensor the vector product gives no direction of turn, so the iteration starts upside down."""
     direct = levelling(acc)
     q = IDENTITY if abs(direct[0]) > 0.1 else direct
     for _ in range(POINTS):
@@ -67,8 +63,7 @@ def turn(q: Quat, before: Vec3, after: Vec3, h: float) -> Quat:
     Q' = 1/2 Q w, of which the paper prints the matrix, is integrated by Q_n+1 = Q_n + h/6 (k1 + 2 k2 + 2 k3 + k4) and
     normalised. The paper has 3 k3, a misprint: the weights of the classical method add up to 6; with 3 they add up to
     7, and every turn comes out a sixth too wide. Its f(w_n + h/2, ...) is the rate half an interval later: the mean of
-    both.
-    """
+    both."""
     ax, ay, az = before
     cx, cy, cz = after
     half = 0.5 * h

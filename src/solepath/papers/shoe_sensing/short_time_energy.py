@@ -1,8 +1,7 @@
 """Stance evidence of Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), section 3.1.2.
 
 `ShortTimeEnergy` uses the short-time energy of the acceleration's magnitude, `AccelerationMagnitude`, the paper's
-baseline, the magnitude itself.
-"""
+baseline, the magnitude itself."""
 
 from __future__ import annotations
 
@@ -52,8 +51,7 @@ class ShortTimeEnergy(Detector):
     "N is critical": with 0.15 s a walker's stances are found and little else, but a jogger's foot is flat for 0.08 s.
     So the energy is summed backwards for as long as it stays below E_T. If that covers all of `window`, E < E_T: sigma
     is `sigma` and the hint STATIONARY. If it covers less, down to `shortest_stance`, sigma is larger in proportion and
-    there is no hint: it may be a jogger's stance, and a corrector that knows how fast the foot is can decide.
-    """
+    there is no hint: it may be a jogger's stance, and a corrector that knows how fast the foot is can decide."""
 
     settings: EnergySettings = EnergySettings()
     entries: deque[tuple[float, float]] = field(factory=deque, init=False)
@@ -120,9 +118,8 @@ class AccelerationMagnitude(Detector):
     """Detector: the foot stands where the acceleration is as large as gravity.
 
     Li et al. compare with it in section 4.2.1, without a threshold. The threshold is that of Jimenez and others, "A
-    comparison of pedestrian dead-reckoning algorithms using a low-cost MEMS IMU" (IEEE WISP 2009), condition C1:
-    9 m/s^2 < |a| < 11 m/s^2. The statistic is |a| - g, m/s^2. No latency.
-    """
+    comparison of pedestrian dead-reckoning algorithms using a low-cost MEMS IMU" (IEEE WISP 2009), condition C1: 9
+    m/s^2 < |a| < 11 m/s^2. The statistic is |a| - g, m/s^2. No latency."""
 
     lowest: float = 9.0
     """Magnitude that the acceleration of a standing foot exceeds, m/s^2."""

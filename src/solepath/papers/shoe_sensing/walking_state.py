@@ -1,8 +1,7 @@
 """Walking state by the angle per metre of each stride.
 
 Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), section 3.4.1. The angle and its
-thresholds are in body/activity/steepness.py.
-"""
+thresholds are in body/activity/steepness.py."""
 
 from __future__ import annotations
 
@@ -40,8 +39,7 @@ class AnglePerMetre(ActivityPart):
     nothing: the activity of a wearer who walked or climbed stays, that of one who stood becomes UNKNOWN. When the clock
     of one foot restarts, events have the times of the other foot. A foot more than `CLOCKS_APART` s away from the other
     is left out until it is nearer, the other foot's clock restarts too, or the other foot has no samples for
-    `SILENT_AFTER` s.
-    """
+    `SILENT_AFTER` s."""
 
     needs_samples: ClassVar[bool] = True
 
@@ -52,10 +50,8 @@ class AnglePerMetre(ActivityPart):
     clocks: dict[Foot, float] = field(factory=dict, init=False)
     """Newest time of each foot whose clock dates events, s."""
     waiting_since: dict[Foot, float | None] = field(factory=dict, init=False)
-    """Start of the wait for the other foot, s, own clock, by foot whose clock restarted and does not date events.
-
-    None when the other foot sent a sample just now.
-    """
+    """Start of the wait for the other foot, s, own clock, by foot whose clock restarted and does not date events. None
+    when the other foot sent a sample just now."""
     moved_at: float | None = field(default=None, init=False)
     """Last time at which a foot was off the ground or about to leave it, s; at first, the time of the first sample."""
     stride_at: float | None = field(default=None, init=False)

@@ -4,8 +4,7 @@ After Gong et al. 2023 (Sensors 23, 5417), section 3.3: the wearer steps on a ma
 on and along bends of 4 m and 2 m, and the mean of (marked point - measured) is the compensation of that foot in that
 mode. Each step counts by itself: its error is measured from the mark of the other foot, so errors do not accumulate.
 The marks' frame is any on the floor; its turn to the session's frame is found from all steps together. A mark is the
-place of the point of the ground below the ankle.
-"""
+place of the point of the ground below the ankle."""
 
 from __future__ import annotations
 
@@ -59,8 +58,7 @@ class StepError:
 def read_marks(path: Path | str) -> list[ModeMark]:
     """Read the marks of a csv file with the columns foot (left, right), x, y (m), mode, and t (s) or step (from 1).
 
-    CalibrationError that names file and line.
-    """
+    CalibrationError that names file and line."""
     rows = read_rows(path, ("foot", "x", "y", "mode"))
     if not rows:
         raise CalibrationError(f"{path}: no marks")
@@ -85,8 +83,7 @@ def read_marks(path: Path | str) -> list[ModeMark]:
 def touchdowns(walk: DecodedRecording, known: Calibration, heading: float | None = None) -> list[TouchedDown]:
     """Return the touchdowns of a walk by method III without compensation, in the order of time.
 
-    `heading`: as in `ModesSettings`.
-    """
+    `heading`: as in `ModesSettings`."""
     insoles = dict(known.insoles)
     for foot, layout in walk.layouts.items():
         insole = known.insole(foot)
@@ -101,8 +98,7 @@ def touchdowns(walk: DecodedRecording, known: Calibration, heading: float | None
 def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown]) -> list[StepError]:
     """Return the error of every step between marks of both feet; a mark of each foot before them gives the direction.
 
-    CalibrationError for a mark without a touchdown, or two marks of one touchdown.
-    """
+    CalibrationError for a mark without a touchdown, or two marks of one touchdown."""
     at: dict[int, ModeMark] = {}
     for mark in marks:
         k = _touchdown_index(mark, downs)
@@ -159,8 +155,7 @@ def remove_heading_error(means: dict[Foot, dict[WalkingMode, tuple[float, float]
     """Remove, mode by mode, the error to the side that both feet have in common.
 
     It turns the whole path, as a sensor's heading error does, which differs from walk to walk. Where a touchdown is
-    misplaced, the errors of the feet have opposite signs.
-    """
+    misplaced, the errors of the feet have opposite signs."""
     left, right = means.get(Foot.LEFT, {}), means.get(Foot.RIGHT, {})
     for mode in left.keys() & right.keys():
         aside = 0.5 * (left[mode][1] + right[mode][1])
@@ -176,8 +171,7 @@ def fit_modes(
     Each walk is a recording and its csv file of marks (`read_marks`). `known`: limbs and insoles of the wearer.
     `heading`: direction that the wearer faces at the start of each walk in the world that the sensors share, rad;
     without it the first step gives the direction, and should not go round a bend. CalibrationError when no step lies
-    between two marks.
-    """
+    between two marks."""
     known = Calibration() if known is None else known
     errors: list[StepError] = []
     for walk, path in walks:

@@ -6,8 +6,7 @@ After Gong et al. 2023 (Sensors 23, 5417), equation (8) and table 1. The paper l
   seven steps, by less than 5 mm, while table 4 has IV better than III by up to 15 cm there. Centimetres fit that in
   kind. Table 4 is headed mm as well, and its values (0.17 at the corner C of 4.0 m) are metres.
 - Axes of table 1. x goes across and y along the direction of walking; x to the right, so that x, y and up are right
-  handed.
-"""
+  handed."""
 
 from __future__ import annotations
 
@@ -38,8 +37,7 @@ TABLE_1: Compensation = {
 }
 """Table 1, (x, y) in cm, converted to (forward, left) in m.
 
-It holds for the paper's wearers, limbs and sensors; `solepath calibrate modes` finds a wearer's own.
-"""
+It holds for the paper's wearers, limbs and sensors; `solepath calibrate modes` finds a wearer's own."""
 
 
 def compensation_of(table: Compensation, foot: Foot, mode: WalkingMode) -> tuple[float, float]:

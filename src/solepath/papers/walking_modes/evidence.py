@@ -1,8 +1,7 @@
 """Check of a foot's touchdown sign against its own strides, which replace a sign that fails (walking-modes).
 
 The methods of Gong et al. 2023 find touchdowns by one sign. An insole that sends no more values, or one that never
-unloads, has lost that sign, while the foot's inertial sensor still finds its strides.
-"""
+unloads, has lost that sign, while the foot's inertial sensor still finds its strides."""
 
 from __future__ import annotations
 
@@ -47,8 +46,7 @@ class SignEvidence:
     def is_down(self, flag: bool, swings: bool, none: bool = False) -> bool:
         """Return whether the foot is down.
 
-        `flag`: down by the sign; `swings`: in swing by its own phase; `none`: there is no sign.
-        """
+        `flag`: down by the sign; `swings`: in swing by its own phase; `none`: there is no sign."""
         if flag is not self.last_flag:
             self.last_flag, self.strides_since_change = flag, 0
         uses_strides = none or self.silent or self.strides_since_change >= UNSEEN_STRIDES

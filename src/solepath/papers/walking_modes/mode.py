@@ -16,8 +16,7 @@ F1 and F2 across the sole, L1 to L3 and R1, R2 along it, against a threshold `th
   slower pace, and `th` belongs to one speed (`PACE`): the load of a region beyond that on a straight way
   (`STRAIGHT_ON`) is converted to that speed, its logarithm by the square (`at_pace`). The paper has one pace.
 - "Total pressure at the relevant positions" of standing still, 0.7 body weights, cannot stand on eight cells of two
-  feet: it is taken over both insoles.
-"""
+  feet: it is taken over both insoles."""
 
 from __future__ import annotations
 
@@ -35,14 +34,12 @@ POINTS: dict[str, tuple[tuple[float, float], tuple[float, float]]] = {
 }
 """Fourteen points, two for each region: share of the insole's length from the heel, and share across the sole.
 
-The share across goes from the middle of the sole there to its edge, outer (lateral) positive.
-"""
+The share across goes from the middle of the sole there to its edge, outer (lateral) positive."""
 TH = 2.1
 """Threshold `th`, as a multiple of the mean cell's load.
 
 On the emulator's feet, whose load moves outward in a bend as physics has it, the regions' shares in contacts of another
-mode end below and those of their own start above it, at 1.1 m/s.
-"""
+mode end below and those of their own start above it, at 1.1 m/s."""
 LEAST_MEAN = 1e-9
 """Mean load of a cell below which there is no load, any unit."""
 PACE = 1.1
@@ -54,8 +51,7 @@ SWING_SHARE = 0.38
 SLOWEST, FASTEST = 0.7, 1.7
 """Speeds between which shares are converted to `PACE`, m/s.
 
-Beyond them the nearer one is taken, or the noise of a slow step would make a bend.
-"""
+Beyond them the nearer one is taken, or the noise of a slow step would make a bend."""
 LEAST_STEP = 0.15
 """Length L_w below which a step is dragging, not walking, m (table 2)."""
 STANDING_WEIGHT = 0.7
@@ -86,8 +82,7 @@ def regions(layout: Layout) -> dict[str, tuple[int, ...]]:
 
     Empty where the cells do not show left and right: fewer cells than regions, a layout that was guessed
     (foot/pressure/layout_guess.py), or places that are no insole's. Then only standing can be recognised. A touchdown
-    is then treated as one of straight walking, as most are.
-    """
+    is then treated as one of straight walking, as most are."""
     if len(layout.cells) < len(POINTS) or not SHORTEST_SOLE <= layout.length <= LONGEST_SOLE:
         return {}
     if not all([abs(cell.x) <= LONGEST_SOLE and abs(cell.y) <= LONGEST_SOLE for cell in layout.cells]):
@@ -122,8 +117,7 @@ def decide(foot: Foot, step: float, shares: dict[str, float], forward: float, th
     """Return the mode by table 2, from a contact of `foot` that a step of `step` m ended in; None: no rule applies.
 
     `shares`: those of this foot's regions, as multiples of the mean cell's, at `PACE`. `forward`: F1 of both feet less
-    F2 of both. A tight bend goes before a wide one, and of two edges the one that is further beyond the threshold.
-    """
+    F2 of both. A tight bend goes before a wide one, and of two edges the one that is further beyond the threshold."""
     edges = (
         ("inner", "tight", shares["R2"]),
         ("outer", "tight", shares["L1"]),

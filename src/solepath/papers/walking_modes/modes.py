@@ -19,8 +19,7 @@ Open in the paper, and settled here:
   the chain method I compares how far each foot is above its own last foot-flat.
 - A touchdown that was not found. A foot that becomes the reference after it moved on since its last touchdown came down
   meanwhile: it is a touchdown. So is one of a reference foot elsewhere. A foot whose sign fails (evidence.py) comes
-  down with its own strides; without the other foot it is the only reference, along its own track.
-"""
+  down with its own strides; without the other foot it is the only reference, along its own track."""
 
 from __future__ import annotations
 
@@ -54,8 +53,7 @@ LEAST_MOVE = 0.03
 OWN_STEP = 0.3
 """Distance from which on a reference foot that comes down has moved by itself, m.
 
-The heel of a foot that rolls over its toes moves less.
-"""
+The heel of a foot that rolls over its toes moves less."""
 LONGEST_WAIT = 0.06
 """Longest wait of a touchdown for attitudes of its instant, s: three samples of the paper's 50 Hz."""
 STEP_SIGMA = 0.02

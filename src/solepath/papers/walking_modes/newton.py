@@ -1,9 +1,8 @@
 """Conversion from counts to newtons: a cubic for each insole, fitted to forces of a gauge and counts of the insole.
 
 After Gong et al. 2023 (Sensors 23, 5417), section 3.1 and fig. 6: a gauge presses a cell with 0 to 200 N, and "the
-mathematical relationship between the pressure value and the AD value of the insole is a cubic polynomial"; forces
-below 5 N are not recorded, and 200 N is the most.
-"""
+mathematical relationship between the pressure value and the AD value of the insole is a cubic polynomial"; forces below
+5 N are not recorded, and 200 N is the most."""
 
 from __future__ import annotations
 
@@ -34,8 +33,7 @@ class GaugeFit:
 def fit_gauge(path: Path | str) -> GaugeFit:
     """Fit the cubic of a csv file with the columns `counts` and `newtons`, by least squares.
 
-    CalibrationError for a file that cannot be read, too few points, or counts that do not rise with the force.
-    """
+    CalibrationError for a file that cannot be read, too few points, or counts that do not rise with the force."""
     rows = read_rows(path, ("counts", "newtons"))
     counts = np.array([row.number("counts") for row in rows])
     forces = np.array([row.number("newtons", 0.0, MOST, "N") for row in rows])

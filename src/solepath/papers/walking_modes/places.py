@@ -4,8 +4,7 @@ After Gong et al. 2023 (Sensors 23, 5417), equations (1) to (3). P_L and P_R are
 attitudes (limbs.py) while it knows them, else the feet's own inertial tracks, set apart as they stood at the start. A
 foot that was silent for a while continues beside the other when it sends samples again (`MeanOfFeet`).
 
-The chain has the ends of the feet, a touchdown is a place below an ankle; `FootPlace.reach` lies between them.
-"""
+The chain has the ends of the feet, a touchdown is a place below an ankle; `FootPlace.reach` lies between them."""
 
 from __future__ import annotations
 
@@ -101,8 +100,7 @@ class FootPlaces:
     def _side_offset(self, foot: Foot, other: FootPlace) -> tuple[float, float]:
         """Return the vector from the other foot to this one when they stand side by side, m.
 
-        They face the way that the other last went.
-        """
+        They face the way that the other last went."""
         c, s = other.direction
         k = self.settings.feet_distance if foot is Foot.LEFT else -self.settings.feet_distance
         return -s * k, c * k
@@ -122,8 +120,7 @@ class FootPlaces:
     def locate(self, foot: Foot, t: float) -> tuple[Vec3, bool]:
         """Return the ground below `foot`, seen from the other foot by (1) to (3), and whether the chain was used.
 
-        The own track is used where the other foot, by its track, has moved since it came down, and is no reference.
-        """
+        The own track is used where the other foot, by its track, has moved since it came down, and is no reference."""
         chained, reference = self.chain.is_current(t), self.sides[OTHER[foot]]
         if not chained and reference.moved_distance > LEAST_STEP:
             x, y, _ = self.sides[foot].own_position
@@ -166,8 +163,7 @@ class FootPlaces:
         """Turn the world so that x lies along the way so far, until the wearer has gone `FIRST_DISTANCE`.
 
         One footfall may lie half a foot's width further left or right. The tracks' world has its x along the first
-        heading.
-        """
+        heading."""
         if self.heading_settled:
             return
         left, right = self.sides.values()

@@ -4,8 +4,7 @@ After Gong et al. 2023 (Sensors 23, 5417), section 3.3. The paper leaves open wh
 its mode when it ends, long after its touchdown. But when a foot comes down the other has borne the whole weight, and
 the mode of the step that ends is that of the other's contact up to then; where it shows none, the latest that it
 showed. Standing is no mode to walk in: the first step after it is taken for a straight one. So is every step of insoles
-whose cells do not show left and right.
-"""
+whose cells do not show left and right."""
 
 from __future__ import annotations
 
@@ -55,8 +54,7 @@ class Recognition:
         """Add a sample of the cells of `foot` at `t` s, and return the mode if the foot shows another one.
 
         `state` has the sample's pressure; `layout` as far as it is known; `both_feet`: samples of the other foot have
-        come too.
-        """
+        come too."""
         sole = self.soles[foot]
         contact = sole.contact
         sole.in_newtons = state.highest_pressure is None

@@ -20,9 +20,7 @@ class ModesSettings:
     """Weight of the wearer, N; None: learnt as the mean load of both feet."""
     heading: float | None = None
     """Wearer's heading in the N-pose, in the world that the devices share, rad; None: the direction of the first step.
-
-    It is known beforehand on a floor that was surveyed.
-    """
+    It is known beforehand on a floor that was surveyed."""
     th: float = TH
     """Threshold TH of mode.py."""
 
@@ -30,8 +28,7 @@ class ModesSettings:
     def feet_distance(self) -> float:
         """Distance between the feet at the start, m: the hips' width, as in the chain's N-pose.
 
-        If feet are known to come down nearer to each other than the chain has them, they stood so as well.
-        """
+        If feet are known to come down nearer to each other than the chain has them, they stood so as well."""
         distance = self.limbs.hip_width
         if self.compensation is None:
             return distance

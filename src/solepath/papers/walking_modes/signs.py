@@ -54,8 +54,7 @@ class Signs:
     def down_flags(self, t: float, alone: Foot | None, known_at: float, events: list[Event]) -> Flags:
         """Return TD_L and TD_R, by the method or, where that fails, by the foot's own strides, which is reported once.
 
-        `alone`: the only foot with samples.
-        """
+        `alone`: the only foot with samples."""
         left, right = self.shown.get(Foot.LEFT, UNKNOWN_STATE), self.shown.get(Foot.RIGHT, UNKNOWN_STATE)
         flags = self.method.update(t, left, right)
         none = alone is not None and isinstance(self.method, Height)  # one foot is lower than no other

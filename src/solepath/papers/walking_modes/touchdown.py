@@ -9,8 +9,7 @@ The paper compares flags but does not say which foot is the reference while both
 (`ReferenceFoot`): a foot whose flag rises becomes the reference, whatever the other's; if the reference's flag falls,
 the other foot becomes the reference if that is down; else nothing changes. So in walking each foot is the reference
 from its own touchdown to the other's. A foot whose sign fails (evidence.py) may become the reference without a
-touchdown since it moved on: it has come down unseen (modes.py).
-"""
+touchdown since it moved on: it has come down unseen (modes.py)."""
 
 from __future__ import annotations
 
@@ -22,8 +21,7 @@ from ...types.vector import TIE, ZERO, sub
 def v_change(left: Vec3, right: Vec3, reference: Foot) -> Vec3:
     """Return the vector from the foot that is down to the one in the air, in the positions' frame, m.
 
-    Equation (1), P_L - P_R, where the right foot is down, and (2), P_R - P_L, where the left one is.
-    """
+    Equation (1), P_L - P_R, where the right foot is down, and (2), P_R - P_L, where the left one is."""
     return sub(left, right) if reference is Foot.RIGHT else sub(right, left)
 
 
@@ -60,15 +58,13 @@ Flags = tuple[bool, bool]
 HEIGHT_MARGIN = 0.01
 """Least difference of height that changes the flags, m: both feet on a floor differ by their errors.
 
-The paper has none.
-"""
+The paper has none."""
 A_A, STEADY_TIME = 1.0, 0.05
 """Threshold of the net acceleration, m/s^2, and time for which it must last, s.
 
 The paper gives neither A_a nor a filter. This is the band of 9 to 11 m/s^2 about gravity in which Jimenez, Seco,
 Prieto, Guevara ("A comparison of pedestrian dead-reckoning algorithms using a low-cost MEMS IMU", WISP 2009, condition
-C1) take a foot for still.
-"""
+C1) take a foot for still."""
 RELEASE_SHARE = 0.5
 """Share of the threshold below which a foot that is down comes up, or a cell that flickers would make steps."""
 
@@ -155,8 +151,7 @@ class ReferenceFoot:
     def update(self, flags: Flags) -> tuple[Foot, bool] | None:
         """Return the foot that becomes the reference with these flags, and whether it came down now; None if none.
 
-        When both flags rise at once it is the foot that was not the reference, at the very first the left foot.
-        """
+        When both flags rise at once it is the foot that was not the reference, at the very first the left foot."""
         before, self.down = self.down, flags
         rose = (flags[0] and not before[0], flags[1] and not before[1])
         if self.foot is None:

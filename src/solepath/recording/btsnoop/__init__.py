@@ -6,8 +6,7 @@
             writer.write(packet)
 
 records.py: the file; hci.py: connections and L2CAP; att.py: attributes; values.py, evidence.py, devices.py: the devices
-and their channels; log.py: the packets.
-"""
+and their channels; log.py: the packets."""
 
 from .devices import LoggedDevice
 from .log import BtsnoopLog, open_btsnoop

@@ -1,8 +1,7 @@
 """The attribute protocol in a log: UUIDs of the handles, and the values notified, read and written.
 
 Source: Bluetooth Core, vol 3 part F, 3.4. Either end of a link may be the server: in a phone's log the peer is, in the
-log of a device's own host the host is. Services are not needed: a characteristic's UUID is enough.
-"""
+log of a device's own host the host is. Services are not needed: a characteristic's UUID is enough."""
 
 from __future__ import annotations
 
@@ -125,8 +124,7 @@ class Conversation:
     """The PDUs of one client and one server on one link.
 
     `types`: UUID by handle as discovered, shared by all conversations with the same server. `flaws` counts PDUs that
-    were not understood.
-    """
+    were not understood."""
 
     types: dict[int, str]
     flaws: Counter[str]
@@ -221,8 +219,7 @@ class Conversation:
     def _add_read(self, handle: int, value: bytes, newest: int | None = None) -> None:
         """Add an answer to a read; one that fills the MTU may not be the whole value.
 
-        `newest`: bytes of the last answer, when it was not the first.
-        """
+        `newest`: bytes of the last answer, when it was not the first."""
         self._partial_read = AttValue(AttOperation.READ, handle, value)
         size = len(value) if newest is None else newest
         if size < self.mtu - 1 or len(value) >= LONGEST_VALUE:

@@ -39,8 +39,7 @@ class LoggedDevice:
     """One device of a log.
 
     `address`: or another name that identifies it. `profile`: None when its discovery is not in the log, or it is no
-    known device. `channels`: channel by attribute handle and operation.
-    """
+    known device. `channels`: channel by attribute handle and operation."""
 
     address: str
     site: Site | None = None
@@ -61,8 +60,7 @@ def name_attributes(device: LoggedDevice, types: Mapping[int, str], handles: Han
     """Find the channels of the device's attributes: by `handles`, by discovery, by proof. Return the used `handles`.
 
     An entry for any device counts only where discovery has no type for the attribute, and no entry turns one device
-    into another.
-    """
+    into another."""
     device.profile = _profile(set(types.values()))
     used: set[tuple[str, int]] = set()
     for handle, evidence in device.seen.items():

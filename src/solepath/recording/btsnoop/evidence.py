@@ -1,8 +1,7 @@
 """Identification of an attribute without discovery, from its values, as far as they prove it.
 
 Only an insole's values do: its frames and its INFO have a magic and a CRC. Of other devices only the length is known,
-which proves nothing; the caller must name their attributes.
-"""
+which proves nothing; the caller must name their attributes."""
 
 from __future__ import annotations
 

@@ -1,8 +1,7 @@
 """HCI packets to connections and PDUs of the attribute protocol (Bluetooth Core, vol 4 part E; vol 3 part A).
 
 Of the two hundred commands and events only a few matter here: those that give the peer of a connection handle, and the
-end of a connection. L2CAP PDUs are reassembled from the ACL packets that carry their pieces.
-"""
+end of a connection. L2CAP PDUs are reassembled from the ACL packets that carry their pieces."""
 
 from __future__ import annotations
 
@@ -51,8 +50,7 @@ DYNAMIC_CHANNELS = 0x40
 class HciConnection:
     """One connection, from its start (or the log's) to its end (or the log's).
 
-    `number`: counted through the log. `address`: the peer's; "" when the connection is older than the log.
-    """
+    `number`: counted through the log. `address`: the peer's; "" when the connection is older than the log."""
 
     number: int
     adapter: int

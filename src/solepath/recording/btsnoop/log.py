@@ -1,8 +1,7 @@
 """A btsnoop log as a recording of packets: every value of a known device's channel, at the site of the device.
 
 The log is read twice: once to identify devices and channels, which may be possible only late in the log or not at all,
-and once for the packets, so that an hour of a phone's log need not fit into memory.
-"""
+and once for the packets, so that an hour of a phone's log need not fit into memory."""
 
 from __future__ import annotations
 
@@ -30,8 +29,7 @@ class BtsnoopLog:
     """The usable content of a btsnoop log. Iterating gives its packets in order of arrival.
 
     `started_at`: us since 1970 of the first record, which is `t` = 0 s of the packets. `total`, `done`: bytes.
-    Iterating raises RecordingError where the log is damaged, after everything before that.
-    """
+    Iterating raises RecordingError where the log is damaged, after everything before that."""
 
     path: Path
     devices: dict[str, LoggedDevice]
@@ -76,8 +74,7 @@ def open_btsnoop(
     `sites`: site of each device, by address; insoles report their foot themselves. `handles`: channels of attributes
     whose discovery the log does not hold, because the host knew them from earlier. `report` gets one sentence about
     each thing that is left out. RecordingError for a file that is no btsnoop log, or has no packets of a device whose
-    site is known, or not what `sites` and `handles` name; ValueError for a channel that no device has.
-    """
+    site is known, or not what `sites` and `handles` name; ValueError for a channel that no device has."""
     path = Path(path)
     reject_pipe(path)
     handles = {(device.upper(), handle): channel for (device, handle), channel in (handles or {}).items()}

@@ -1,8 +1,7 @@
 """The btsnoop file: a header, then records of HCI packets, each with the time at which it was logged.
 
 The format is that of RFC 1761 with other datalinks, as Symbian, BlueZ and Android write it. It is big-endian, unlike
-the packets in it.
-"""
+the packets in it."""
 
 from __future__ import annotations
 
@@ -56,8 +55,7 @@ class HciRecord:
     """One HCI packet of the log.
 
     `t`: us since 1970, UTC, by the logger's clock. `sent`: by the host to its controller. `whole`: False when the
-    logger kept only the start of the packet.
-    """
+    logger kept only the start of the packet."""
 
     t: int
     adapter: int
@@ -72,8 +70,7 @@ class RecordHeader:
     """The header of a record.
 
     `original`, `included`: size of the packet, and of its part in the file, bytes. `drops`: records lost since the log
-    started.
-    """
+    started."""
 
     original: int
     included: int
@@ -98,8 +95,7 @@ _MONITOR = {
 def is_btsnoop(path: Path) -> bool:
     """Return whether the file starts as a btsnoop log does.
 
-    RecordingError when it cannot be read, or only once: reading the start of a pipe would remove it.
-    """
+    RecordingError when it cannot be read, or only once: reading the start of a pipe would remove it."""
     reject_pipe(path)
     with open_file(path) as file:
         return file.read(len(MAGIC)) == MAGIC
@@ -117,8 +113,7 @@ def read_records(
     """Yield the records of a log in order.
 
     `report` gets a sentence about a torn last record; `flaws` counts what the logger left out. RecordingError, after
-    everything before it, for a file that is no btsnoop log and for an impossible record.
-    """
+    everything before it, for a file that is no btsnoop log and for an impossible record."""
     with open_file(path) as file:
         datalink = _datalink(path, file.read(HEADER_SIZE))
         number, read, drops = 0, HEADER_SIZE, 0

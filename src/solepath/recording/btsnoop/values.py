@@ -18,8 +18,7 @@ from .records import read_records
 class Value:
     """One value of a log.
 
-    `t`: us since 1970. `device`: the address of the server, or another name that identifies it.
-    """
+    `t`: us since 1970. `device`: the address of the server, or another name that identifies it."""
 
     t: int
     link: HciConnection
@@ -32,8 +31,7 @@ class ValueListener:
     """Reads all values of a log, in order, with the starts and ends of the connections.
 
     `types`: UUID by device and attribute handle, as discovered so far. It outlives a connection, since hosts remember
-    what they discovered once and do not ask again.
-    """
+    what they discovered once and do not ask again."""
 
     path: Path
     report: Report
@@ -45,8 +43,7 @@ class ValueListener:
     def listen(self, progress: Callable[[int], None] | None = None) -> Iterator[Value | LinkChange]:
         """Yield the values and changes of connections.
 
-        RecordingError, after everything before it, for a log that cannot be used.
-        """
+        RecordingError, after everything before it, for a log that cannot be used."""
         controller = Controller(self.flaws)
         t, failure = 0, None
         try:

@@ -36,8 +36,7 @@ UNREADABLE = (
 def read_npz(path: Path, one_foot: Foot) -> list[FootTable]:
     """Return the tables of the feet in the file; only their shapes are checked.
 
-    `one_foot` is the foot of a file whose keys name no foot.
-    """
+    `one_foot` is the foot of a file whose keys name no foot."""
     with open_file(path) as file:
         start = file.read(4)
     if not start:

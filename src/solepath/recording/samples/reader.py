@@ -24,8 +24,7 @@ class SampleRecording:
     """A file of samples that was read and found usable, at least in its first rows.
 
     Iterating gives the samples of all its feet in the order of their times (the left foot first where times are equal)
-    and, where a row cannot be used, RecordingError after everything that came before that row.
-    """
+    and, where a row cannot be used, RecordingError after everything that came before that row."""
 
     path: Path
     tables: tuple[FootTable, ...]
@@ -55,8 +54,7 @@ def load_samples(path: Path | str, foot: Foot | None = None, *, report: Report =
     """Return the samples in an .npz or .csv file, all read into memory.
 
     `foot`: the foot of a file of one foot (the right one when None); of a file that names its feet, the only foot to
-    read. `report` gets one sentence about a last line that was cut off. RecordingError when nothing can be used.
-    """
+    read. `report` gets one sentence about a last line that was cut off. RecordingError when nothing can be used."""
     path = Path(path)
     kind = path.suffix.lower()
     if kind not in KINDS:

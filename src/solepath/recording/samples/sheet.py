@@ -4,8 +4,7 @@
     t,acc_x_left,...,gyro_z_left,pressure_0_left,...,acc_x_right,...       (or t_left and t_right instead of t)
 
 The foot may also stand before the component (acc_left_x), and 0, 1, 2 may replace x, y, z. Other columns are ignored.
-In a file of both feet, a row in which all cells of one foot are blank holds no sample of that foot.
-"""
+In a file of both feet, a row in which all cells of one foot are blank holds no sample of that foot."""
 
 from __future__ import annotations
 
@@ -46,8 +45,7 @@ def read_csv(path: Path, one_foot: Foot, report: Report) -> tuple[list[FootTable
     """Return the tables of the feet in the file up to the first bad row, and the reason why they end there, or None.
 
     A last line that was cut off goes to `report` and is left out. (A cut within the digits of the last column leaves a
-    whole row, which cannot be detected.)
-    """
+    whole row, which cannot be detected.)"""
     with open_file(path) as file:
         data = file.read()
     if not data.strip():

@@ -2,8 +2,7 @@
 
 There are two kinds of fault. A fault of a whole column (its shape, its unit) is raised at once, because none of its
 values can be trusted. A fault from one row on (a value that is not finite, time that runs backwards) ends the table
-there, so that the rows before are used and the error comes after them.
-"""
+there, so that the rows before are used and the error comes after them."""
 
 from __future__ import annotations
 
@@ -76,8 +75,7 @@ class FootTable:
 def as_floats(path: Path, name: str, value: NDArray[Any], width: int | None) -> Floats:
     """Return `value` as float64 of shape (n,) for width 0, (n, width), or (n, any) for None.
 
-    RecordingError for another shape or type.
-    """
+    RecordingError for another shape or type."""
     if value.dtype.kind not in "fiu":
         raise RecordingError(path, f"holds {printable(str(value.dtype), 40)}, not numbers", name)
     expected = "(n,)" if width == 0 else f"(n, {'cells' if width is None else width})"

@@ -1,7 +1,6 @@
 """Sums the load of the soles over the strides that were measured, whatever their number.
 
-A sample is kept until its stride is reported, which is up to a second after the stride has ended.
-"""
+A sample is kept until its stride is reported, which is up to a second after the stride has ended."""
 
 from __future__ import annotations
 

@@ -1,7 +1,6 @@
 """Names, units and digits of the gait parameters, the same in every table, and their table in plain text.
 
-The tables of the terminal, the page and the report all use these rows.
-"""
+The tables of the terminal, the page and the report all use these rows."""
 
 from __future__ import annotations
 

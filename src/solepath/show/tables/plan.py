@@ -1,8 +1,7 @@
 """Draws a floor plan with the track as an SVG picture: a panel for each level, one scale, the plan's +y upwards.
 
 The colour of the track changes from the start to the end of the recording. While there are several candidates, they are
-dots; the smaller the weight, the fainter the dot.
-"""
+dots; the smaller the weight, the fainter the dot."""
 
 from __future__ import annotations
 

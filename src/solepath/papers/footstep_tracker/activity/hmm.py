@@ -1,8 +1,7 @@
 """Forward filter of a hidden Markov model, online; plain floats, a few states.
 
 Rabiner 1989, "A tutorial on hidden Markov models": alpha of equations (19) and (20), scaled to sum 1 as in its section
-V.A.
-"""
+V.A."""
 
 from __future__ import annotations
 
@@ -27,8 +26,7 @@ def scaled_likelihoods(log_likelihoods: Sequence[float]) -> tuple[float, ...]:
 def forward(belief: Sequence[float], transitions: Matrix, likelihoods: Sequence[float]) -> tuple[float, ...]:
     """Return the belief one step later, given the likelihoods of the observation (`scaled_likelihoods`).
 
-    It sums to 1.
-    """
+    It sums to 1."""
     prior = [0.0] * len(belief)
     for held, row in zip(belief, transitions, strict=True):
         for j, p in enumerate(row):

@@ -28,8 +28,7 @@ walking and stairs the middle of the window counts. The first windows of a movem
 like stairs: the hidden Markov model starts with the first that holds none, and a movement is reported when one more
 window has moved, so a foot that is put elsewhere within half a second has not walked. So a label is known within
 0.5 s after the start of a pulse, 2.5 s of movement, 2 s of standing, 1.5 s of stairs after walking. A lift that has
-set off is reported as not final until its second pulse.
-"""
+set off is reported as not final until its second pulse."""
 
 from __future__ import annotations
 

@@ -1,8 +1,7 @@
 """Model of `TwoSecondWindows`: thresholds of its tree, and mixtures for windows of walking and of stairs.
 
 `solepath.lab.train.footstep_activity` learns it, and `shipped` reads the result from footstep_activity.json, which
-names its training data.
-"""
+names its training data."""
 
 from __future__ import annotations
 
@@ -39,8 +38,7 @@ def window_features(window: FootWindow) -> tuple[float, ...]:
 class Gaussian:
     """One component of a mixture.
 
-    `factor`: the lower triangle, row by row, whose product with its own transpose is the covariance.
-    """
+    `factor`: the lower triangle, row by row, whose product with its own transpose is the covariance."""
 
     weight: float
     mean: tuple[float, ...]
@@ -49,8 +47,7 @@ class Gaussian:
     def log_density(self, x: tuple[float, ...]) -> float:
         """Return the log density of the features `x`, times the weight, but for a constant of all Gaussians.
 
-        Where `x` lacks the last features it is that of the others: the triangle's first rows are theirs.
-        """
+        Where `x` lacks the last features it is that of the others: the triangle's first rows are theirs."""
         log_sum = log(self.weight)
         solved: list[float] = []
         for value, mean, row in zip(x, self.mean, self.factor, strict=False):
@@ -85,8 +82,7 @@ class WindowModel:
     def log_likelihoods(self, window: FootWindow) -> tuple[float, float, float]:
         """Return the log likelihoods of walking, stairs up and stairs down.
 
-        A mixture counts as its likeliest component: they lie apart.
-        """
+        A mixture counts as its likeliest component: they lie apart."""
         x = window_features(window)
         up, down = (max([one.log_density(x) for one in part]) for part in (self.stairs_up, self.stairs_down))
         return max([one.log_density(x) for one in self.walking]), up, down

@@ -5,10 +5,9 @@ time, to ensure that the window contains an entire step period during walking or
 weightlessness." Time counts here, not samples, so any rate will do. The paper does not give the shift of the window:
 here it is a quarter of the window (`HOP`), so a window is four blocks, of which only sums are kept.
 
-a_z is the paper's vertical axis of a sensor lying flat in the sole. A sensor may have any mounting, so the axis is
-the direction of gravity in the sensor over the window before: over whole strides a foot starts and ends with the same
-velocity, and the mean specific force is gravity. It needs no gyroscope.
-"""
+a_z is the paper's vertical axis of a sensor lying flat in the sole. A sensor may have any mounting, so the axis is the
+direction of gravity in the sensor over the window before: over whole strides a foot starts and ends with the same
+velocity, and the mean specific force is gravity. It needs no gyroscope."""
 
 from __future__ import annotations
 
@@ -30,8 +29,7 @@ FEWEST_SAMPLES = 8
 HIGHEST_RATE_SQUARE = radians(250.0) ** 2
 """Limit of the squared angular rate, rad^2/s^2.
 
-The paper's SensorTag measures no more, and other sensors must give the same result for the same gait.
-"""
+The paper's SensorTag measures no more, and other sensors must give the same result for the same gait."""
 LEAST_FORCE = 1.0
 """Mean specific force of a window below which gravity has no direction, m/s^2."""
 
@@ -58,8 +56,7 @@ class FootWindow:
 class WindowBlock:
     """Sums over half a second.
 
-    a_z counts less standard gravity, or its square would drown the rest.
-    """
+    a_z counts less standard gravity, or its square would drown the rest."""
 
     index: int
     levelled: bool
@@ -95,8 +92,7 @@ class FootWindows:
     def update(self, since: float, acc: Vec3, gyro: Vec3 | None = None) -> bool:
         """Add one sample, and return whether it starts another half-second, so `ready` may have another window.
 
-        Specific force in m/s^2 and angular rate in rad/s, sensor frame, `since` s after the start of all windows.
-        """
+        Specific force in m/s^2 and angular rate in rad/s, sensor frame, `since` s after the start of all windows."""
         index = int((since + TIE) // HOP)
         fresh = index != self.newest
         if fresh:

@@ -3,8 +3,7 @@
 A complementary filter: the attitude turns with the gyroscope and is pulled towards the accelerometer's direction up,
 slowly enough for a walker's accelerations to cancel. Only the gyroscope, whose bias is learnt while the wearer stands
 (foot/attitude.py), holds the heading. The sensor's world starts with any heading; the wearer's first heading in it is
-the direction in which the sensor moves when the wearer sets out.
-"""
+the direction in which the sensor moves when the wearer sets out."""
 
 from __future__ import annotations
 

@@ -6,8 +6,7 @@ the end of the foot, and P_R, P_L "from the last column" of the product (7) of t
 A sensor is mounted in any way, so the relation of its attitude to its segment is taken from the first time that all
 seven are still together: the wearer stands upright, thighs and shanks vertical, feet level, everything facing the first
 heading (N-pose). Attitudes come from the devices (`Sample.quat`), which share one world with z up, as sensors with a
-magnetometer do; or from acceleration and angular velocity (inclination.py), each in a world of its own heading.
-"""
+magnetometer do; or from acceleration and angular velocity (inclination.py), each in a world of its own heading."""
 
 from __future__ import annotations
 
@@ -63,8 +62,7 @@ def foot_end(pelvis: Quat, thigh: Quat, shank: Quat, foot: Quat, hip: Vec3, limb
         0_3R = 0_1R 1_2R 2_3R                                                                                   (7)
 
     from the pelvis on. `hip`: the hip joint in the pelvis, m. In the N-pose all attitudes are the identity: thigh and
-    shank point down, the foot forward from below the ankle.
-    """
+    shank point down, the foot forward from below the ankle."""
     chain = Transform(pelvis, ZERO).then(Transform(multiply(conjugate(pelvis), thigh), hip))
     chain = chain.then(Transform(multiply(conjugate(thigh), shank), (0.0, 0.0, -limbs.thigh)))
     chain = chain.then(Transform(multiply(conjugate(shank), foot), (0.0, 0.0, -limbs.shank)))
@@ -109,8 +107,7 @@ class LowerLimbs:
         """Set a new attitude of a sensor with a world of its own.
 
         `heading`: the wearer's first heading in that world, rad, None until it is known. Not used where the site has
-        sent an attitude in the shared world.
-        """
+        sent an attitude in the shared world."""
         segment = self.segments[site]
         if segment.own_world or segment.t is None:
             segment.own_world, segment.heading = True, heading
@@ -119,8 +116,7 @@ class LowerLimbs:
     def reset(self, site: Site) -> None:
         """Discard the times of a sensor whose clock restarts.
 
-        The world of an attitude that it sends may be another from now on.
-        """
+        The world of an attitude that it sends may be another from now on."""
         segment = self.segments[site]
         segment.t = segment.earlier_t = segment.still_since = None
         segment.world_changed = segment.standing is not None and not segment.own_world
@@ -129,8 +125,7 @@ class LowerLimbs:
         """Find the turn of a segment whose sensor's world is new, which stands as in the N-pose.
 
         It is turned as the other known segments are. The difference of its attitude from that is the turn from its old
-        world to its new one.
-        """
+        world to its new one."""
         standing = segment.standing
         known = [s for s in self.segments.values() if s is not segment and s.standing is not None and not s.own_world]
         x = y = 0.0
@@ -219,8 +214,7 @@ class LowerLimbs:
         """Return the height of the sole below the ankle at `t` s, seen from the middle of the hips, m.
 
         It is not that of the foot's end, P_Lz and P_Rz of (4): in a chain without toes the end dips below the floor
-        when the heel comes up, and the foot that pushes off would be the lower one.
-        """
+        when the heel comes up, and the foot that pushes off would be the lower one."""
         segments, limbs = self.segments, self.settings.limbs
         thigh, shank, end = [segments[site].upright(t) for site in LEGS[foot]]
         side = 0.5 if foot is Foot.LEFT else -0.5
@@ -238,8 +232,7 @@ class LowerLimbs:
 
         Hips and feet are left out, so the heading need not be known for it: legs that hang down do so for any heading.
         `direction`: direction of the step, rad from the x axis of the world, when the wearer walked before the chain
-        was known.
-        """
+        was known."""
         if self.facing is not None or not self.aligned:
             return
         limbs = self.settings.limbs

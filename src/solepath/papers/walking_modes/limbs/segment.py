@@ -78,8 +78,7 @@ class LimbSegment:
         """Return the attitude, segment to world, at `t` s.
 
         `facing`: the wearer's heading in the N-pose, in the devices' world, rad; `turn`: angle from there to the x axis
-        of the world, rad.
-        """
+        of the world, rad."""
         if self.standing is None:
             return IDENTITY
         wearer_heading = (self.heading or 0.0) if self.own_world else facing

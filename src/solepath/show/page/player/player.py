@@ -5,8 +5,7 @@
     player.feed_due(should_stop)            # feed what is due, until `should_stop()`
     player.seek(30.0)
 
-It reads no clock and knows no event loop; player_loop.py does.
-"""
+It reads no clock and knows no event loop; player_loop.py does."""
 
 from __future__ import annotations
 

@@ -1,8 +1,7 @@
 """Lists that grow while somebody reads along: bounded, and numbered, so that a reader asks for what is new to it.
 
 The number of a reader is how many items had been added when it read last. A reader that adds the new items by the same
-rule has the same list.
-"""
+rule has the same list."""
 
 from __future__ import annotations
 

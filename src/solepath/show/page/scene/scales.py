@@ -3,8 +3,7 @@
 A scale is for both feet, ends at a round number, and only ever grows. Its end is at least what a twentieth of a foot's
 cells reaches for three samples. An edge of a shoe that presses on one cell, or on all for a hundredth of a second,
 therefore does not make the load of a whole forefoot pale. A higher value is drawn as the end of the scale, and `beyond`
-says that there is one.
-"""
+says that there is one."""
 
 from __future__ import annotations
 

@@ -1,7 +1,6 @@
 """Turns events into messages for a page: a whole scene for a new watcher, then what has changed since.
 
-protocol/page.md says what the messages hold. Nothing here knows a clock, a thread or a network.
-"""
+protocol/page.md says what the messages hold. Nothing here knows a clock, a thread or a network."""
 
 from __future__ import annotations
 

@@ -1,7 +1,6 @@
 """Decides where the page listens, who may see it, and who may control it.
 
-Gait is health data: it is for this machine, or for whoever has the token.
-"""
+Gait is health data: it is for this machine, or for whoever has the token."""
 
 from __future__ import annotations
 

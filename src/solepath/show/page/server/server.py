@@ -4,8 +4,7 @@
         print(page.url)
         ...                             # scene.take(packet, events), from the same event loop
 
-It needs aiohttp (the extra `view`).
-"""
+It needs aiohttp (the extra `view`)."""
 
 from __future__ import annotations
 

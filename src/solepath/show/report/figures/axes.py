@@ -1,7 +1,6 @@
 """Axes for a drawing: ticks at round numbers, a scale from values to pixels, a chart with both.
 
-A drawing is 400 px wide and scales with the page: two stand side by side on a desk, one on a phone.
-"""
+A drawing is 400 px wide and scales with the page: two stand side by side on a desk, one on a phone."""
 
 from __future__ import annotations
 
