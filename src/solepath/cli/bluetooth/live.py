@@ -57,7 +57,7 @@ def run(options: argparse.Namespace) -> int:
     view = view_of(options)
     plan, start = floorplan_of(options)
     need_bleak()
-    from .air import listen_to_end
+    from .backend import listen_to_end
     from .live_run import listen
 
     return listen_to_end(partial(listen, options, recipe, calibration, plan, start, view))

@@ -1,4 +1,4 @@
-// What the wearer does, and the few figures that everybody asks for first.
+// The wearer's activity, and the few figures that everybody looks for first.
 
 import { ACTIVITIES, SUPPORTS, describe, doing, fixed, say, span, tell, write } from "./words.js";
 
@@ -29,7 +29,7 @@ export class Doing {
     write(this.speed, fixed(pace?.speed ?? NaN, 2));
     const heard = Object.values(feet).filter((foot) => foot !== null);
     write(this.steps, heard.length > 0 ? String(heard.reduce((sum, foot) => sum + (foot.steps || 0), 0)) : "–");
-    // either foot goes about as far as the wearer
+    // each foot goes about as far as the wearer
     const ways = heard.map((foot) => foot.distance || 0);
     write(this.distance, heard.length > 0 ? fixed(ways.reduce((a, b) => a + b, 0) / ways.length, 1) : "–");
     return "done";

@@ -1,9 +1,9 @@
-// What a screen reader says by itself: activity, links lost and found, the level, and the page's own connection.
+// Announcements for a screen reader: activity, lost and restored links, the level, and the page's own connection.
 
 import { nameOf } from "./saying.js";
 import { capital, doing } from "./words.js";
 
-const APART = 1500; // ms: what comes meanwhile is said together
+const APART = 1500; // ms; what comes within this time is announced together
 
 export class Announcer {
   #waiting = [];
@@ -26,7 +26,7 @@ export class Announcer {
     }, APART);
   }
 
-  // On the way to another time of a recording what is passed by is no news.
+  // During a seek nothing on the way is announced.
   hear(state, changed) {
     const say = state.playback?.seeking != null ? () => {} : (words) => this.say(words);
     if (changed.has("activity") && state.activity) {

@@ -3,7 +3,7 @@
 import { child, fixed, percent, show, signed, write } from "./words.js";
 
 const WIDEST = 0.2; // asymmetry that fills half of its bar
-const STEEPEST = 10; // degrees that do
+const STEEPEST = 10; // difference that fills half of its bar, degrees
 const UNITS = { deg: "°" };
 
 export class Gait {
@@ -73,7 +73,7 @@ class Row {
     write(this.mean, fixed(row.both, digits));
     write(this.sd, Number.isFinite(row.sd) ? `± ${fixed(row.sd, digits)}` : "");
     write(this.cv, Number.isFinite(row.cv) ? fixed(100 * row.cv, 1) : "–");
-    const turned = Number.isFinite(row.difference); // an angle: a share of one says nothing
+    const turned = Number.isFinite(row.difference); // an angle has a difference, since a share of an angle says nothing
     const known = turned || Number.isFinite(row.asymmetry);
     const lean = turned ? row.difference / STEEPEST : row.asymmetry / WIDEST;
     const degrees = () => `${signed(row.difference, digits)}${UNITS[row.unit] ?? ""}`;

@@ -1,4 +1,4 @@
-// How each sensor is heard. One that is lost is said at the top of the page as well.
+// State of each sensor's link. A lost link is also shown at the top of the page.
 
 import { LINKS, capital, child, fixed, percent, say, show, span, tell, write } from "./words.js";
 
@@ -62,7 +62,7 @@ class Link {
     write(this.state, say(LINKS, link.state ?? "waiting") + silent);
     write(this.device, typeof link.name === "string" ? link.name : "");
     this.#figure("rate", `${fixed(link.rate)} Hz`, Number.isFinite(link.rate));
-    this.#figure("loss", percent(link.loss, 1), Number.isFinite(link.loss)); // of late
+    this.#figure("loss", percent(link.loss, 1), Number.isFinite(link.loss)); // recent loss
     this.#figure("lost", fixed(link.lost), link.lost > 0);
     this.#figure("battery", percent(link.battery), Number.isFinite(link.battery));
     this.#figure("signal", `${fixed(link.signal)} dBm`, Number.isFinite(link.signal));

@@ -1,4 +1,4 @@
-// What happened, in sentences, the newest at the top.
+// The log of events as sentences, the newest at the top.
 
 import { child, clock } from "./words.js";
 

@@ -1,6 +1,6 @@
-// Messages in, pictures out: what a message changes is drawn with the browser's next frame, and only that.
+// Takes messages and draws pictures: each change is drawn with the browser's next frame, and only that.
 //
-// For tests and the curious: window.solepath = {frames, messages, state}: frames drawn, messages taken, and what they
+// For tests: window.solepath = {frames, messages, state}: frames drawn, messages taken, and the state that they
 // add up to (state.js).
 
 import { Doing } from "./activity.js";
@@ -78,7 +78,7 @@ function draw(now) {
 
 const wants = (panel, news) => panel.wants.some((name) => news.has(name));
 
-// What it will want to see another time.
+// Choices that the page keeps for the next visit.
 function later(panel, news) {
   for (const name of news) if (panel.wants.includes(name)) changed.add(name);
 }
@@ -113,7 +113,7 @@ const connection = new Connection(
           element("connection-word"),
           { open: "connected", connecting: "connecting", closed: "not connected", ended: "ended" }[how],
         );
-        // only what was open can be missed; a first try needs no alarm
+        // only an open connection can be missed; a first try needs no alarm
         element("offline").hidden = how === "open" || (how === "connecting" && was === "");
         const left = Math.ceil((at - performance.now()) / 1000);
         const next = how === "connecting" || left < 1 ? "Trying now" : `Trying again in ${left} s`;
@@ -141,14 +141,14 @@ const connection = new Connection(
 
 element("retry").addEventListener("click", () => connection.retry());
 document.addEventListener("visibilitychange", () => {
-  asked = false; // a frame that was asked for before may never have come
+  asked = false; // a frame that was requested before may never have come
   if (!document.hidden) mark("scene", "theme", "feet", "links", "gait", "activity");
 });
 document.addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.altKey || event.metaKey || event.defaultPrevented) return;
   const { target, key } = event;
   if (target.matches("select, textarea, input:not([type=range])")) return;
-  if (key === " " && target.closest("button, summary")) return; // there it presses
+  if (key === " " && target.closest("button, summary")) return; // on a button the space bar presses it
   if (playback.key(key, event.shiftKey) || looking.key(key)) event.preventDefault();
 });
 setInterval(() => mark("second"), 1000);

@@ -1,10 +1,10 @@
-// Pause, speed and seek of a recording; who may only watch sees where it is.
+// Pause, speed and seek of a recording; a watcher without control sees the position.
 
 import { clock, describe, show, tell, write } from "./words.js";
 
 const STEP = 5; // s
 const LONG_STEP = 30; // s, with Shift
-const PATIENCE = 1500; // ms in which what was asked for is shown, until it is so
+const PATIENCE = 1500; // ms in which a requested value is shown, until it is reached
 const OFTEN = 150; // ms between seeks while the bar is dragged
 
 export class Playback {
@@ -46,7 +46,7 @@ export class Playback {
     if (!this.#dragged) this.seek.value = shown;
     const whither = seeking === null ? "" : "on the way to ";
     describe(this.seek, "aria-valuetext", `${whither}${clock(shown - begin)} of ${clock(end - begin)}`);
-    write(this["time-now"], clock((seeking === null ? shown : t) - begin)); // the bar is where it is going already
+    write(this["time-now"], clock((seeking === null ? shown : t) - begin)); // the bar already shows the target
     write(this["time-end"], clock(end - begin));
     this.#speed(speed);
     for (const part of [this.play, this.seek, this["speed-choice"]])
@@ -67,7 +67,7 @@ export class Playback {
     this.send({ do: state === "playing" ? "pause" : "play" });
   }
 
-  // True when it was one of its keys.
+  // Returns true when the key was one of these.
   key(key, shift) {
     if (!this.#mayControl()) return false;
     if (key === " ") this.toggle();
@@ -99,7 +99,7 @@ export class Playback {
     this.draw(this.state);
   }
 
-  // A speed that is not among the choices, from a command line perhaps, becomes one.
+  // A speed that is not among the choices, perhaps from a command line, is added to them.
   #speed(speed) {
     const choice = this["speed-choice"];
     if (Number(choice.value) === speed || (document.activeElement === choice && choice.matches(":open"))) return;

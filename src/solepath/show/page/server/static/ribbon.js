@@ -1,5 +1,5 @@
 // The phases of both feet over the last seconds: a ramp up while the foot is loaded, level while it is flat, a ramp
-// down while it pushes off, a line while it swings. Between the feet: when both were on the ground.
+// down while it pushes off, a line while it swings. Between the feet: the times with both on the ground.
 
 import { Alternative, FONT, Surface, calm } from "./canvas.js";
 import { FEET } from "./state.js";
@@ -8,10 +8,10 @@ import { LINKS, PHASES, SUPPORTS, clock, say } from "./words.js";
 
 const WINDOW = 8; // s
 const NAMES = 20; // px for the names of the rows
-// Height at the beginning and at the end.
+// Height at the start and at the end.
 const RAMPS = { LOADING: [0.32, 1], STATIONARY: [1, 1], PUSH_OFF: [1, 0.32], SWING: [0.08, 0.08] };
 const SHADES = { LOADING: "-soft", STATIONARY: "", PUSH_OFF: "-soft", SWING: "" };
-const CALM = 500; // ms between pictures for who wants less motion
+const CALM = 500; // ms between pictures with reduced motion
 
 export class Ribbon {
   wants = ["phases", "scene", "theme", "playback", "links"];
@@ -72,18 +72,18 @@ export class Ribbon {
     }
   }
 
-  // Draws a row; the spans on the ground come back.
+  // Draws a row and returns the spans on the ground.
   #row(context, phases, foot, [y, band], x, t) {
     const ground = [];
     const paths = { "": new Path2D(), "-soft": new Path2D() };
     for (let i = 0; i < phases.length; i++) {
       const [from, phase] = phases[i];
       const to = Math.min(t, phases[i + 1]?.[0] ?? t);
-      if (to <= t - WINDOW || to <= from || phase === "") continue; // "": the foot is not heard
+      if (to <= t - WINDOW || to <= from || phase === "") continue; // "": nothing comes of the foot
       if (phase !== "SWING") ground.push([from, to]);
       const [rise, fall] = RAMPS[phase] ?? [0.5, 0.5];
       const path = paths[SHADES[phase] ?? "-soft"];
-      // a ramp that the window cuts begins where the window does
+      // a ramp that the window cuts starts where the window does
       const share = Math.max(0, (t - WINDOW - from) / (to - from));
       const top = rise + (fall - rise) * share;
       path.moveTo(x(from), y + band);
@@ -108,7 +108,7 @@ function heard({ phases, links }, foot) {
   return phases[foot].length > 0 ? "not heard any more" : "not heard yet";
 }
 
-// Of two lists of [from, to] in order of time, where both are.
+// Intersection of two lists of [from, to] in order of time.
 function overlaps(one, other) {
   const found = [];
   let [i, j] = [0, 0];

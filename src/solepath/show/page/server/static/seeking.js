@@ -1,17 +1,17 @@
-// On the way to another time of a recording, which takes as long as it takes to compute it: until it is there, what is
-// seen is of another moment than the bar says, and looks so.
+// Shows that a seek is on its way, which takes as long as its computation: until it is there, the page shows
+// another moment than the bar, and looks so.
 
 import { clock, describe, show, write } from "./words.js";
 
-const SOON = 400; // ms: what is there sooner needs no words
-const LONG = 900; // ms: what takes longer is said to who does not see it
+const SOON = 400; // ms; a shorter seek needs no words
+const LONG = 900; // ms; a longer seek is announced to a screen reader
 
 export class Seeking {
   wants = ["playback", "scene", "second"];
-  #since = null; // when it set out, ms
+  #since = null; // start of the seek, ms
   #said = false;
 
-  // say(words): to who listens
+  // say(words) announces to a screen reader
   constructor(say) {
     this.say = say;
     this.main = document.querySelector("main");

@@ -1,4 +1,4 @@
-// Both soles from above: pressure over the cells where their places are known, else what is known.
+// Both soles from above: pressure over the cells where their positions are known, else what is known.
 
 import { Alternative, Surface, calm } from "./canvas.js";
 import { Field } from "./field.js";
@@ -8,12 +8,12 @@ import { FEET } from "./state.js";
 import { theme } from "./theme.js";
 import { LINKS, PHASES, capital, fixed, say, show, tell, write } from "./words.js";
 
-const LENGTH = 0.27; // m, of a shoe that nobody described
+const LENGTH = 0.27; // m, of a shoe without a known layout
 const PAD = 6; // px
-const READABLE = 120; // ms between numbers that change
+const READABLE = 120; // ms between changes of a number, so that it can be read
 
 export class Soles {
-  // each second as well: a number that was written a moment ago may not have been the last
+  // also each second: the newest number may not have been written yet
   wants = ["feet", "scales", "links", "theme", "scene", "second"];
 
   constructor(redraw) {
@@ -25,7 +25,7 @@ export class Soles {
     this.drawn = 0;
   }
 
-  // Whether it drew; who wants less motion sees ten pictures a second.
+  // Returns whether it drew; with reduced motion there are ten pictures a second.
   draw(state, now, changed) {
     if (calm.matches && now - this.drawn < 100 && !changed.has("theme")) return "later";
     this.drawn = now;
@@ -61,7 +61,7 @@ function shown(foot, layout) {
   if (!foot) return "outline";
   if (foot.cells) return layout ? "pressure" : "bars";
   if (foot.phase) return "contact";
-  return layout ? "pressure" : "outline"; // unheard for a while, and unloaded therefore
+  return layout ? "pressure" : "outline"; // nothing came for a while, so no load is shown
 }
 
 class Sole {
@@ -79,7 +79,7 @@ class Sole {
     this.#shape(null);
   }
 
-  // Once for a layout: outline, and the field within it.
+  // Computed once for a layout: outline, and the field within it.
   #shape(layout) {
     this.layout = layout;
     const apart = layout && spacing(layout.cells);
@@ -117,8 +117,8 @@ class Sole {
     context.globalAlpha = 1;
   }
 
-  // What is seen below the picture and what is read out in place of it are of one moment: whenever the latter is
-  // written the former is as well.
+  // The text below the picture and its text alternative are of one moment: whenever the latter is written, the
+  // former is as well.
   #words(foot, layout, lost, link, now) {
     const phase = foot?.phase ? say(PHASES, foot.phase) : "–";
     const force = foot && foot.force !== null && !lost ? fixed(foot.force) : "";
@@ -134,7 +134,7 @@ class Sole {
     });
   }
 
-  // No more often than one can read it, but with each phase; the last one is written in any case.
+  // At most as often as one can read it, but with each phase; the last text is written in any case.
   #number(words, phase, now) {
     clearTimeout(this.timer);
     const wait = phase === this.said ? READABLE - (now - this.written) : 0;
@@ -205,7 +205,7 @@ class Sole {
     });
   }
 
-  // Heel, all of it, or forefoot; nothing in the air.
+  // Draws heel, whole sole, or forefoot; nothing in the air.
   #contact(context, outline, place, phase) {
     const part = { LOADING: [0, 0.42], STATIONARY: [0, 1], PUSH_OFF: [0.56, 1] }[phase];
     if (!part) return;
@@ -219,7 +219,7 @@ class Sole {
     context.restore();
   }
 
-  // A white line on a dark one is seen on every colour of the scale.
+  // A white line on a dark one can be seen on every colour of the scale.
   #centre(context, place, trail, centre) {
     context.lineJoin = "round";
     context.lineCap = "butt";
