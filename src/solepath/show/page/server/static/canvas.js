@@ -57,7 +57,7 @@ export class Alternative {
     this.canvas = canvas;
   }
 
-  say(words) {
+  setText(words) {
     this.#waiting = words;
     if (!this.#silent) this.#speak();
   }
@@ -81,4 +81,4 @@ export function round(value) {
 }
 
 export const FONT = '11px system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", sans-serif';
-export const calm = matchMedia("(prefers-reduced-motion: reduce)");
+export const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");

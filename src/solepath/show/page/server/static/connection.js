@@ -4,7 +4,7 @@ const FIRST_WAIT = 0.5; // s
 const LONGEST_WAIT = 10; // s
 const ENDED_WAIT = 30; // s, after the program ended: perhaps no other one ever starts
 const ENDED = 1001; // close code (protocol/page.md)
-const QUIET = 6; // s without a message, though one comes at least every second: the connection is dead
+const IDLE_LIMIT = 6; // s without a message, though one comes at least every second: the connection is dead
 const KEY = "solepath-token";
 
 export class Connection {
@@ -12,7 +12,7 @@ export class Connection {
   #failures = 0;
   #ended = false;
   #timer = 0;
-  #quiet = 0;
+  #idleTicks = 0;
   #token = claimToken();
   #withToken = true;
 
@@ -48,9 +48,9 @@ export class Connection {
     this.changed("connecting", 0);
     const socket = new WebSocket(address);
     this.#socket = socket;
-    this.#quiet = 0;
+    this.#idleTicks = 0;
     socket.onmessage = ({ data }) => {
-      this.#quiet = 0;
+      this.#idleTicks = 0;
       let message;
       try {
         message = JSON.parse(data);
@@ -87,8 +87,8 @@ export class Connection {
 
   #listen() {
     if (this.#socket === null) return;
-    this.#quiet += 1;
-    if (this.#quiet < QUIET) return;
+    this.#idleTicks += 1;
+    if (this.#idleTicks < IDLE_LIMIT) return;
     const dead = this.#socket;
     dead.close();
     this.#closed(dead);

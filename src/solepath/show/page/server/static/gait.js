@@ -7,7 +7,7 @@ const STEEPEST = 10; // difference that fills half of its bar, degrees
 const UNITS = { deg: "°" };
 
 export class Gait {
-  wants = ["gait", "scene"];
+  uses = ["gait", "scene"];
 
   constructor() {
     for (const id of ["gait-rows", "gait-scroll", "gait-waiting", "gait-kind", "gait-note"])
@@ -21,7 +21,7 @@ export class Gait {
     this["gait-waiting"].hidden = some;
     this["gait-scroll"].hidden = !some;
     write(this["gait-kind"], some ? (gait.running ? "running" : "walking") : "");
-    const notes = some ? said(gait) : "";
+    const notes = some ? notesOn(gait) : "";
     show(this["gait-note"], notes !== "");
     write(this["gait-note"], notes);
     const all = some ? [{ name: "strides", label: "strides", digits: 0, ...gait.strides }, ...rows] : [];
@@ -35,7 +35,7 @@ export class Gait {
   }
 }
 
-function said({ strides, enough, coordination }) {
+function notesOn({ strides, enough, coordination }) {
   const count = Object.values(strides).reduce((sum, one) => sum + (one ?? 0), 0);
   const few = `Of ${count} strides: figures settle with ${enough} and more (Galna et al. 2013).`;
   const index = coordination === null ? "" : `Phase coordination index ${percent(coordination, 1)}.`;

@@ -9,7 +9,7 @@ const NAMES = 44; // px for heights as numbers; names of levels stand on their l
 const OFTEN = 250; // ms
 
 export class Height {
-  wants = ["tracks", "places", "place", "scene", "theme"];
+  uses = ["tracks", "places", "place", "scene", "theme"];
 
   constructor(redraw) {
     const canvas = document.getElementById("height");
@@ -28,7 +28,7 @@ export class Height {
     const last = points.at(-1);
     write(this.now, last ? `${lines.length > 0 ? fixed(last[1], 1) : signed(last[1], 1)} m` : "");
     const against = lines.length > 0 ? "above the plan's zero" : "against the start";
-    this.alternative.say(() =>
+    this.alternative.setText(() =>
       last ? `Height over time: now ${fixed(last[1], 1)} m ${against}` : "Height: no step yet",
     );
     let [low, high] = points.reduce(([a, b], [, z]) => [Math.min(a, z), Math.max(b, z)], [Infinity, -Infinity]);

@@ -3,7 +3,7 @@
 import { child, clock } from "./words.js";
 
 export class Log {
-  wants = ["log", "scene"];
+  uses = ["log", "scene"];
 
   constructor() {
     this.list = document.getElementById("log");

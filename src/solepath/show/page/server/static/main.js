@@ -3,7 +3,7 @@
 // For tests: window.solepath = {frames, messages, state}: frames drawn, messages taken, and the state that they
 // add up to (state.js).
 
-import { Doing } from "./activity.js";
+import { ActivityPanel } from "./activity.js";
 import { Announcer } from "./announce.js";
 import { keepClear } from "./clearance.js";
 import { Connection } from "./connection.js";
@@ -28,7 +28,7 @@ const seen = { frames: 0, messages: 0, state };
 window.solepath = seen;
 
 let changed = new Set();
-let asked = false;
+let frameRequested = false;
 let ready = false;
 const redraw = () => mark("theme");
 
@@ -43,30 +43,30 @@ const panels = [
   ribbon,
   track,
   new Height(redraw),
-  new Doing(),
+  new ActivityPanel(),
   new Gait(),
   new Links(),
   new Log(),
   playback,
-  new Seeking((words) => announcer.say(words)),
+  new Seeking((words) => announcer.announce(words)),
 ];
 
 function mark(...names) {
   for (const name of names) changed.add(name);
-  if (asked || !ready || document.hidden) return;
-  asked = true;
+  if (frameRequested || !ready || document.hidden) return;
+  frameRequested = true;
   requestAnimationFrame(draw);
 }
 
 function draw(now) {
-  asked = false;
+  frameRequested = false;
   const news = changed;
   changed = new Set();
   const t = pace.at(state, now);
   let drew = false;
   for (const panel of panels) {
-    const wanted = wants(panel, news) || (panel === ribbon && pace.moving) || (panel === track && track.moving);
-    if (!wanted) continue;
+    const due = uses(panel, news) || (panel === ribbon && pace.moving) || (panel === track && track.moving);
+    if (!due) continue;
     if (panel.draw(state, now, news, t) === "done") drew = true;
     else later(panel, news);
   }
@@ -76,11 +76,11 @@ function draw(now) {
   if (pace.moving || track.moving || changed.size > 0) mark();
 }
 
-const wants = (panel, news) => panel.wants.some((name) => news.has(name));
+const uses = (panel, news) => panel.uses.some((name) => news.has(name));
 
 // Choices that the page keeps for the next visit.
 function later(panel, news) {
-  for (const name of news) if (panel.wants.includes(name)) changed.add(name);
+  for (const name of news) if (panel.uses.includes(name)) changed.add(name);
 }
 
 function heading() {
@@ -97,8 +97,8 @@ const connection = new Connection(
     const news = state.take(message);
     seen.messages += 1;
     if (news.size === 0 && message?.type !== "frame") return;
-    pace.heard(state, performance.now());
-    announcer.hear(state, news);
+    pace.update(state, performance.now());
+    announcer.update(state, news);
     mark(...news);
   },
   (() => {
@@ -127,11 +127,13 @@ const connection = new Connection(
       show();
       if (how === "closed" || how === "ended") {
         timer = setInterval(show, 1000);
-        if (was !== how) announcer.say(how === "ended" ? "solepath has ended" : "The connection to solepath is lost");
+        if (was !== how) {
+          announcer.announce(how === "ended" ? "solepath has ended" : "The connection to solepath is lost");
+        }
         was = how;
       }
       if (how === "open") {
-        if (was === "closed" || was === "ended") announcer.say("Connected again");
+        if (was === "closed" || was === "ended") announcer.announce("Connected again");
         was = "open";
       }
       document.body.classList.toggle("old", how !== "open" && state.known);
@@ -141,7 +143,7 @@ const connection = new Connection(
 
 element("retry").addEventListener("click", () => connection.retry());
 document.addEventListener("visibilitychange", () => {
-  asked = false; // a frame that was requested before may never have come
+  frameRequested = false; // a frame that was requested before may never have come
   if (!document.hidden) mark("scene", "theme", "feet", "links", "gait", "activity");
 });
 document.addEventListener("keydown", (event) => {

@@ -35,8 +35,8 @@ export function around(cells, length, foot, spacing) {
   if (cells.length >= DENSE && front - back > COVERED * length) return hull(cells, back, front, spacing);
   const ring = shoe(foot, length);
   const wide = Math.max(...ring.map((point) => Math.abs(point[1])));
-  const wanted = Math.max(...cells.map((cell) => Math.abs(cell[1]))) + 0.008;
-  return wanted > wide ? ring.map(([x, y]) => [x, (y * wanted) / wide]) : ring;
+  const needed = Math.max(...cells.map((cell) => Math.abs(cell[1]))) + 0.008;
+  return needed > wide ? ring.map(([x, y]) => [x, (y * needed) / wide]) : ring;
 }
 
 // Median of the cells' distances to their nearest neighbours.

@@ -9,24 +9,24 @@ const ALMOST = 0.9; // share of the requested speed that counts as that speed: m
 export class Pace {
   #shown = null;
   #last = 0;
-  #heard = 0;
+  #receivedAt = 0;
   #t = 0;
-  #told = []; // recent [now, t]
+  #recent = []; // recent [now, t]
   #speed = 0; // requested speed
   #most = Infinity; // limit in multiples of real time: the speed reached where the requested one could not be kept up
   #generation = 0;
 
-  heard(state, now) {
+  update(state, now) {
     if (state.generation !== this.#generation) {
       this.#shown = null;
-      this.#told = [];
+      this.#recent = [];
     }
     this.#generation = state.generation;
     if (state.t !== this.#t) {
-      if (now - this.#heard > 1000 * AHEAD) this.#told = [];
-      this.#heard = now;
-      this.#told.push([now, state.t]);
-      while (this.#told.length > 2 && this.#told[1][0] <= now - WINDOW) this.#told.shift();
+      if (now - this.#receivedAt > 1000 * AHEAD) this.#recent = [];
+      this.#receivedAt = now;
+      this.#recent.push([now, state.t]);
+      while (this.#recent.length > 2 && this.#recent[1][0] <= now - WINDOW) this.#recent.shift();
     }
     this.#t = state.t;
   }
@@ -35,7 +35,7 @@ export class Pace {
   at(state, now) {
     const { playback } = state;
     const speed = playback === null ? 1 : this.#real(playback.state === "playing" ? playback.speed : 0);
-    const since = (now - this.#heard) / 1000;
+    const since = (now - this.#receivedAt) / 1000;
     this.moving = speed > 0 && since < AHEAD;
     const goal = this.#t + (this.moving ? since * speed : 0);
     if (this.#shown === null || Math.abs(goal - this.#shown) > FAR * Math.max(1, speed)) this.#shown = goal;
@@ -48,11 +48,11 @@ export class Pace {
 
   // A machine that cannot keep up plays slower than requested; scrolling pictures must not run ahead of it.
   #real(speed) {
-    if (speed !== this.#speed) this.#told = [];
+    if (speed !== this.#speed) this.#recent = [];
     this.#speed = speed;
-    const took = this.#told.length > 0 ? this.#heard - this.#told[0][0] : 0;
+    const took = this.#recent.length > 0 ? this.#receivedAt - this.#recent[0][0] : 0;
     if (took >= SURE) {
-      const rate = (1000 * (this.#t - this.#told[0][1])) / took;
+      const rate = (1000 * (this.#t - this.#recent[0][1])) / took;
       this.#most = rate > ALMOST * speed ? Infinity : Math.max(0, rate);
     }
     return Math.min(speed, this.#most);

@@ -1,20 +1,20 @@
 // The phases of both feet over the last seconds: a ramp up while the foot is loaded, level while it is flat, a ramp
 // down while it pushes off, a line while it swings. Between the feet: the times with both on the ground.
 
-import { Alternative, FONT, Surface, calm } from "./canvas.js";
+import { Alternative, FONT, Surface, reducedMotion } from "./canvas.js";
 import { FEET } from "./state.js";
 import { theme } from "./theme.js";
-import { LINKS, PHASES, SUPPORTS, clock, say } from "./words.js";
+import { LINKS, PHASES, SUPPORTS, clock, wordOf } from "./words.js";
 
 const WINDOW = 8; // s
 const NAMES = 20; // px for the names of the rows
 // Height at the start and at the end.
 const RAMPS = { LOADING: [0.32, 1], STATIONARY: [1, 1], PUSH_OFF: [1, 0.32], SWING: [0.08, 0.08] };
 const SHADES = { LOADING: "-soft", STATIONARY: "", PUSH_OFF: "-soft", SWING: "" };
-const CALM = 500; // ms between pictures with reduced motion
+const SLOW_INTERVAL = 500; // ms between pictures with reduced motion
 
 export class Ribbon {
-  wants = ["phases", "scene", "theme", "playback", "links"];
+  uses = ["phases", "scene", "theme", "playback", "links"];
 
   constructor(redraw) {
     const canvas = document.getElementById("ribbon");
@@ -24,7 +24,7 @@ export class Ribbon {
   }
 
   draw(state, now, changed, t) {
-    if (calm.matches && now - this.drawn < CALM && !changed.has("theme")) return "later";
+    if (reducedMotion.matches && now - this.drawn < SLOW_INTERVAL && !changed.has("theme")) return "later";
     this.drawn = now;
     const context = this.surface.begin();
     const { width, height } = this.surface;
@@ -45,9 +45,9 @@ export class Ribbon {
       context.fillStyle = theme.colours[foot];
       context.fillText(foot === "left" ? "L" : "R", 2, rows[foot][0] + band / 2 + 4);
     }
-    this.alternative.say(() => {
+    this.alternative.setText(() => {
       const words = FEET.map((foot) => `${foot} ${heard(state, foot)}`);
-      const ground = say(SUPPORTS, state.support) || "not known";
+      const ground = wordOf(SUPPORTS, state.support) || "not known";
       return `Phases of both feet over the last ${WINDOW} seconds. Now: ${words.join(", ")}; on the ground: ${ground}`;
     });
     return "done";
@@ -102,9 +102,9 @@ export class Ribbon {
 
 function heard({ phases, links }, foot) {
   const phase = phases[foot].at(-1)?.[1];
-  if (phase) return say(PHASES, phase);
+  if (phase) return wordOf(PHASES, phase);
   const link = links[`${foot} foot`]?.state;
-  if (link === "lost" || link === "silent") return say(LINKS, link);
+  if (link === "lost" || link === "silent") return wordOf(LINKS, link);
   return phases[foot].length > 0 ? "not heard any more" : "not heard yet";
 }
 

@@ -7,13 +7,13 @@ const SOON = 400; // ms; a shorter seek needs no words
 const LONG = 900; // ms; a longer seek is announced to a screen reader
 
 export class Seeking {
-  wants = ["playback", "scene", "second"];
+  uses = ["playback", "scene", "second"];
   #since = null; // start of the seek, ms
-  #said = false;
+  #announced = false;
 
-  // say(words) announces to a screen reader
-  constructor(say) {
-    this.say = say;
+  // announce(words) announces to a screen reader
+  constructor(announce) {
+    this.announce = announce;
     this.main = document.querySelector("main");
     for (const id of ["seeking", "seek-way", "seek-done"]) this[id] = document.getElementById(id);
   }
@@ -27,13 +27,13 @@ export class Seeking {
     describe(this.main, "aria-busy", String(seen));
     show(this.seeking, seen);
     show(this["seek-way"], seen);
-    if (!going) this.#said = false;
+    if (!going) this.#announced = false;
     if (!seen) return going ? "later" : "done";
     write(this.seeking, `Going to ${clock(seeking - begin)}, now at ${clock(t - begin)}`);
     this["seek-done"].style.width = `${(100 * (t - begin)) / Math.max(0.1, end - begin)}%`;
-    if (passed >= LONG && !this.#said) {
-      this.#said = true;
-      this.say(`Going to ${clock(seeking - begin)}`);
+    if (passed >= LONG && !this.#announced) {
+      this.#announced = true;
+      this.announce(`Going to ${clock(seeking - begin)}`);
     }
     return "done";
   }

@@ -1,12 +1,12 @@
 // Both soles from above: pressure over the cells where their positions are known, else what is known.
 
-import { Alternative, Surface, calm } from "./canvas.js";
+import { Alternative, Surface, reducedMotion } from "./canvas.js";
 import { Field } from "./field.js";
 import { around, shoe, spacing } from "./outline.js";
 import { pressure, scaleOf } from "./scales.js";
 import { FEET } from "./state.js";
 import { theme } from "./theme.js";
-import { LINKS, PHASES, capital, fixed, say, show, tell, write } from "./words.js";
+import { LINKS, PHASES, capital, fixed, wordOf, show, setData, write } from "./words.js";
 
 const LENGTH = 0.27; // m, of a shoe without a known layout
 const PAD = 6; // px
@@ -14,7 +14,7 @@ const READABLE = 120; // ms between changes of a number, so that it can be read
 
 export class Soles {
   // also each second: the newest number may not have been written yet
-  wants = ["feet", "scales", "links", "theme", "scene", "second"];
+  uses = ["feet", "scales", "links", "theme", "scene", "second"];
 
   constructor(redraw) {
     this.soles = FEET.map((foot) => new Sole(foot, redraw));
@@ -27,7 +27,7 @@ export class Soles {
 
   // Returns whether it drew; with reduced motion there are ten pictures a second.
   draw(state, now, changed) {
-    if (calm.matches && now - this.drawn < 100 && !changed.has("theme")) return "later";
+    if (reducedMotion.matches && now - this.drawn < 100 && !changed.has("theme")) return "later";
     this.drawn = now;
     for (const sole of this.soles) sole.draw(state, now);
     this.#legend(state);
@@ -96,7 +96,7 @@ class Sole {
     const link = state.links[`${this.foot} foot`]?.state ?? "waiting";
     const lost = link === "lost" || link === "silent";
     this.shows = shown(foot, layout);
-    tell(this.figure, { link, shows: this.shows, phase: foot?.phase ?? "" });
+    setData(this.figure, { link, shows: this.shows, phase: foot?.phase ?? "" });
     this.#words(foot, layout, lost, link, now);
 
     const context = this.surface.begin();
@@ -120,11 +120,11 @@ class Sole {
   // The text below the picture and its text alternative are of one moment: whenever the latter is written, the
   // former is as well.
   #words(foot, layout, lost, link, now) {
-    const phase = foot?.phase ? say(PHASES, foot.phase) : "–";
+    const phase = foot?.phase ? wordOf(PHASES, foot.phase) : "–";
     const force = foot && foot.force !== null && !lost ? fixed(foot.force) : "";
-    write(this.phase, lost ? say(LINKS, link) : phase);
+    write(this.phase, lost ? wordOf(LINKS, link) : phase);
     this.#number(force && `${force} ${layout?.forces ? "N" : "counts"}`, phase, now);
-    this.alternative.say(() => {
+    this.alternative.setText(() => {
       this.put();
       const side = capital(this.foot);
       if (lost) return `${side} sole: no signal`;
@@ -137,8 +137,8 @@ class Sole {
   // At most as often as one can read it, but with each phase; the last text is written in any case.
   #number(words, phase, now) {
     clearTimeout(this.timer);
-    const wait = phase === this.said ? READABLE - (now - this.written) : 0;
-    this.said = phase;
+    const wait = phase === this.writtenPhase ? READABLE - (now - this.written) : 0;
+    this.writtenPhase = phase;
     this.put = () => {
       clearTimeout(this.timer);
       this.written = performance.now();

@@ -3,7 +3,7 @@
 
 const LONGEST = 2000; // points of a track
 const REMEMBERED = 20; // s of phases
-const SAID = 50; // sentences of the log
+const LOG_LINES = 50; // sentences of the log
 const TRAIL = 240; // points of a centre of pressure's path
 export const FEET = ["left", "right"];
 
@@ -31,7 +31,7 @@ export class State {
     this.layouts = { left: null, right: null };
     this.t = 0;
     this.begin = 0; // session time that is shown as 0:00
-    this.heard = false; // true once anything came of a sensor
+    this.anyData = false; // true once anything came of a sensor
     this.feet = { left: null, right: null };
     this.trails = { left: [], right: [] };
     this.phases = { left: [], right: [] };
@@ -100,7 +100,7 @@ export class State {
     }
     for (const [t, kind, words] of list(message.log).filter(Array.isArray)) {
       this.log.push([number(t) ?? this.t, text(kind), text(words)]);
-      if (this.log.length > SAID) this.log.shift();
+      if (this.log.length > LOG_LINES) this.log.shift();
       changed.add("log");
     }
     for (const [name, read] of Object.entries(READ)) {
@@ -118,12 +118,12 @@ export class State {
   // A recording states its start. Live, the start is the first known time, on a clock that may show anything.
   #begins({ playback, tracks, phases, log, feet, links }) {
     if (number(playback?.begin) !== null) this.begin = playback.begin;
-    else if (this.playback === null && !this.heard) {
+    else if (this.playback === null && !this.anyData) {
       const firsts = [...Object.values(record(tracks)), ...Object.values(record(phases)), log].map((some) =>
         number(list(some)[0]?.[0]),
       );
-      this.heard = [feet, links].some((one) => Object.keys(record(one)).length > 0) || firsts.some((t) => t !== null);
-      if (this.heard) this.begin = Math.min(...firsts.filter((t) => t !== null), this.t || Infinity);
+      this.anyData = [feet, links].some((one) => Object.keys(record(one)).length > 0) || firsts.some((t) => t !== null);
+      if (this.anyData) this.begin = Math.min(...firsts.filter((t) => t !== null), this.t || Infinity);
       if (!Number.isFinite(this.begin)) this.begin = 0;
     }
   }

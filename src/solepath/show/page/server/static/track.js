@@ -1,7 +1,7 @@
 // The track, seen from above: by itself, or on the floor plan. What does not move is kept as a picture, to which
 // only new points are added as long as the view does not change.
 
-import { Alternative, Surface, calm } from "./canvas.js";
+import { Alternative, Surface, reducedMotion } from "./canvas.js";
 import {
   axes,
   drawCandidates,
@@ -18,20 +18,20 @@ import {
 } from "./marks.js";
 import { drawLevel, extent } from "./plan.js";
 import { Possibility } from "./possibility.js";
-import { noteAlone, noteOnPlan, spokenOnPlan, spokenTrack } from "./saying.js";
+import { noteAlone, noteOnPlan, spokenOnPlan, spokenTrack } from "./position.js";
 import { FEET } from "./state.js";
 import { theme } from "./theme.js";
 import { View } from "./view.js";
-import { show, tell, write } from "./words.js";
+import { show, setData, write } from "./words.js";
 
 const LEAST = 3; // m that are shown at least
 const [EDGE, BUTTONS] = [20, 56]; // px around the fitted part, and at the buttons
 const JUMP = 5; // m between two places from which on another candidate became the likeliest, and nobody walked there
-const CALM = 200; // ms between pictures with reduced motion
+const SLOW_INTERVAL = 200; // ms between pictures with reduced motion
 const WIDTHS = { left: 1.25, right: 1.25, wearer: 3.25 };
 
 export class Track {
-  wants = ["tracks", "places", "feet", "wearer", "place", "scene", "theme"];
+  uses = ["tracks", "places", "feet", "wearer", "place", "scene", "theme"];
   level = null; // chosen by hand; null follows the wearer
   byItself = null; // chosen by hand: true without the plan, false on it; null on it once there is a place
 
@@ -63,11 +63,11 @@ export class Track {
   }
 
   get moving() {
-    return !this.view.rests;
+    return !this.view.settled;
   }
 
   draw(state, now, changed) {
-    if (calm.matches && now - this.drawnAt < CALM && !changed.has("theme")) return "later";
+    if (reducedMotion.matches && now - this.drawnAt < SLOW_INTERVAL && !changed.has("theme")) return "later";
     this.drawnAt = now;
     if (changed.has("scene") && state.generation !== this.generation) this.#scene(state);
     const onPlan = this.onPlan(state);
@@ -93,8 +93,8 @@ export class Track {
 
     const view = onPlan ? "plan" : "track";
     const points = onPlan ? state.places.length : Object.values(state.tracks).reduce((sum, one) => sum + one.length, 0);
-    tell(this.canvas, { view, points, level: level?.id ?? "", since: onPlan ? this.possibility.since(state) : 0 });
-    tell(this.section, { view });
+    setData(this.canvas, { view, points, level: level?.id ?? "", since: onPlan ? this.possibility.since(state) : 0 });
+    setData(this.section, { view });
     return "done";
   }
 
@@ -156,13 +156,13 @@ export class Track {
       this.drawn = { left: 0, right: 0, wearer: 0, places: 0 };
     }
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    const anew = Object.values(this.drawn).every((count) => count === 0);
+    const blank = Object.values(this.drawn).every((count) => count === 0);
     if (level) {
-      if (anew) drawLevel(context, state.plan, level, px, scale);
+      if (blank) drawLevel(context, state.plan, level, px, scale);
       this.#walked(context, state.places, since, level.id, px);
       return;
     }
-    if (anew) {
+    if (blank) {
       drawGrid(context, this.surface, px([0, 0]), scale);
       drawStart(context, px([0, 0]));
     }
@@ -226,7 +226,7 @@ export class Track {
       }
       this.noted = words;
     }
-    this.alternative.say(() => (onPlan ? spokenOnPlan(state, level) : spokenTrack(state)));
+    this.alternative.setText(() => (onPlan ? spokenOnPlan(state, level) : spokenTrack(state)));
   }
 }
 

@@ -1,6 +1,6 @@
 // View of the plane: its middle and px per metre; it shows everything by itself, or what a person chooses.
 
-import { calm } from "./canvas.js";
+import { reducedMotion } from "./canvas.js";
 
 const EASE = 220; // ms until two thirds of the way to the goal are done, about
 const [LEAST, MOST] = [0.2, 400]; // px per metre
@@ -36,7 +36,7 @@ export class View {
     if (this.#goal !== null && this.#suits(box, width, height, scale)) return;
     const first = this.#goal === null;
     this.#goal = { x, y, scale: scale * (1 - spare) };
-    if (first || calm.matches || this.#now === null) this.#now = { ...this.#goal };
+    if (first || reducedMotion.matches || this.#now === null) this.#now = { ...this.#goal };
   }
 
   // Returns whether nothing is near the edge, and it does not all lie in a small part.
@@ -47,12 +47,12 @@ export class View {
     return inside && shown > 0.45 * scale;
   }
 
-  // Returns the view at the moment `now`: {x, y, scale}; `rests` once it has reached its goal.
+  // Returns the view at the moment `now`: {x, y, scale}; `settled` once it has reached its goal.
   at(now) {
     if (this.#now === null) return { x: 0, y: 0, scale: 30 };
     const passed = Math.min(100, now - this.#last);
     this.#last = now;
-    const share = this.rests ? 0 : 1 - Math.exp(-passed / EASE);
+    const share = this.settled ? 0 : 1 - Math.exp(-passed / EASE);
     for (const key of ["x", "y"]) this.#now[key] += share * (this.#goal[key] - this.#now[key]);
     this.#now.scale *= (this.#goal.scale / this.#now.scale) ** share;
     const off = Math.hypot(this.#goal.x - this.#now.x, this.#goal.y - this.#now.y) * this.#now.scale;
@@ -60,7 +60,7 @@ export class View {
     return this.#now;
   }
 
-  get rests() {
+  get settled() {
     return this.#now === null || ["x", "y", "scale"].every((key) => this.#now[key] === this.#goal[key]);
   }
 
@@ -91,7 +91,7 @@ export class View {
   #take(view, atOnce) {
     this.follows = false;
     this.#goal = { ...view, scale: Math.min(MOST, Math.max(LEAST, view.scale)) };
-    if (atOnce || calm.matches || this.#now === null) this.#now = { ...this.#goal };
+    if (atOnce || reducedMotion.matches || this.#now === null) this.#now = { ...this.#goal };
     this.moved();
   }
 

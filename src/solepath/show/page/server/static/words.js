@@ -15,15 +15,15 @@ export const SUPPORTS = { DOUBLE: "both feet", LEFT: "left foot", RIGHT: "right 
 export const LINKS = { ok: "connected", silent: "silent", lost: "lost", waiting: "waiting" };
 
 // A word of a newer version is shown as it comes.
-export const say = (words, key) =>
+export const wordOf = (words, key) =>
   Object.hasOwn(words, key)
     ? words[key]
     : String(key ?? "")
         .toLowerCase()
         .replaceAll("_", " ");
 // Activity of the wearer; while nothing comes of any foot, that it is not known.
-export const doing = ({ now, last }) =>
-  last === null ? say(ACTIVITIES, now) : `Not known, last: ${say(ACTIVITIES, last).toLowerCase()}`;
+export const activityText = ({ now, last }) =>
+  last === null ? wordOf(ACTIVITIES, now) : `Not known, last: ${wordOf(ACTIVITIES, last).toLowerCase()}`;
 export const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
 
 export const fixed = (value, digits = 0) => {
@@ -57,7 +57,7 @@ export function show(element, shown) {
 }
 
 // Sets data-..., for style.css and tests.
-export function tell(element, data) {
+export function setData(element, data) {
   for (const [name, value] of Object.entries(data)) {
     if (element.dataset[name] !== String(value)) element.dataset[name] = value;
   }
