@@ -27,7 +27,7 @@ from solepath.show.page.scene.scene import Scene
 pytest.importorskip("aiohttp")
 
 ALONE = "import sys; sys.modules.update(dict.fromkeys(['bleak', 'bumble', 'rich', 'mcap', 'matplotlib'])); "
-"""Packages of the extra `view` only."""
+"""Code that makes packages of all other extras than `view` unavailable."""
 
 
 @pytest.fixture(scope="module")

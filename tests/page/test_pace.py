@@ -18,7 +18,7 @@ PLAYED = """async ([speed, real, paused]) => {
         t += still ? 0 : real / 60;
         if (now >= due) {
             state.t = t;
-            pace.heard(state, now);
+            pace.update(state, now);
             due += 1000 / 30;
         }
         const before = shown;

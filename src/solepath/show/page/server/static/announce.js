@@ -1,14 +1,14 @@
-// What a screen reader says by itself: activity, links lost and found, the level, and the page's own connection.
+// Announcements for a screen reader: activity, lost and restored links, the level, and the page's own connection.
 
-import { nameOf } from "./saying.js";
-import { capital, doing } from "./words.js";
+import { nameOf } from "./position.js";
+import { capital, activityText } from "./words.js";
 
-const APART = 1500; // ms: what comes meanwhile is said together
+const APART = 1500; // ms; what comes within this time is announced together
 
 export class Announcer {
   #waiting = [];
   #timer = 0;
-  #missed = new Set();
+  #broken = new Set();
   #activity = null;
   #level = null;
   #decided = false;
@@ -17,7 +17,7 @@ export class Announcer {
     this.element = document.getElementById("announcer");
   }
 
-  say(words) {
+  announce(words) {
     this.#waiting.push(words);
     if (this.#timer) return;
     this.#timer = setTimeout(() => {
@@ -26,27 +26,27 @@ export class Announcer {
     }, APART);
   }
 
-  // On the way to another time of a recording what is passed by is no news.
-  hear(state, changed) {
-    const say = state.playback?.seeking != null ? () => {} : (words) => this.say(words);
+  // During a seek nothing on the way is announced.
+  update(state, changed) {
+    const announce = state.playback?.seeking != null ? () => {} : (words) => this.announce(words);
     if (changed.has("activity") && state.activity) {
-      const words = doing(state.activity);
-      if (words !== this.#activity) say(words);
+      const words = activityText(state.activity);
+      if (words !== this.#activity) announce(words);
       this.#activity = words;
     }
     if (changed.has("links")) {
       for (const [site, { state: how }] of Object.entries(state.links)) {
-        const missed = how === "lost" || how === "silent";
-        if (missed && !this.#missed.has(site)) say(`Nothing heard of the ${site}`);
-        if (how === "ok" && this.#missed.has(site)) say(`${capital(site)} heard again`);
-        if (missed) this.#missed.add(site);
-        if (how === "ok") this.#missed.delete(site);
+        const broken = how === "lost" || how === "silent";
+        if (broken && !this.#broken.has(site)) announce(`Nothing heard of the ${site}`);
+        if (how === "ok" && this.#broken.has(site)) announce(`${capital(site)} heard again`);
+        if (broken) this.#broken.add(site);
+        if (how === "ok") this.#broken.delete(site);
       }
     }
     if (changed.has("place") && state.place) {
       const { decided } = state.place;
       if (decided && (state.place.level !== this.#level || !this.#decided))
-        say(`On ${nameOf(state.plan, state.place.level)}`);
+        announce(`On ${nameOf(state.plan, state.place.level)}`);
       [this.#level, this.#decided] = [state.place.level, decided];
     }
   }

@@ -1,13 +1,13 @@
 // A canvas that always has as many pixels as the screen shows of it.
 
-const SHARPEST = 2; // more pixels cost time and show nothing
+const SHARPEST = 2; // device pixels per CSS px; more cost time and show nothing
 
 export class Surface {
   width = 0; // CSS px
   height = 0;
   ratio = 1;
 
-  // resized() is called when it has another size, and is blank.
+  // resized() is called when the canvas has another size, and is blank.
   constructor(canvas, resized) {
     this.canvas = canvas;
     this.context = canvas.getContext("2d");
@@ -27,14 +27,14 @@ export class Surface {
     this.resized();
   }
 
-  // Blank, in CSS px.
+  // Clear the canvas; sizes are in CSS px.
   begin() {
     this.context.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     this.context.clearRect(0, 0, this.width, this.height);
     return this.context;
   }
 
-  // Zooming the page or moving it to another screen changes the ratio and maybe not the size.
+  // Zooming the page or moving it to another screen changes the pixel ratio and maybe not the size.
   #watchRatio() {
     matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener(
       "change",
@@ -47,8 +47,8 @@ export class Surface {
   }
 }
 
-// A text alternative, no more than once a second, so that a screen reader is not talked over. What is said in between
-// waits its turn, and the last of it is heard.
+// A text alternative that changes at most once a second, so that a screen reader is not interrupted. Of the texts that
+// come within the second, the last one is read out.
 export class Alternative {
   #waiting = null;
   #silent = false;
@@ -57,7 +57,7 @@ export class Alternative {
     this.canvas = canvas;
   }
 
-  say(words) {
+  setText(words) {
     this.#waiting = words;
     if (!this.#silent) this.#speak();
   }
@@ -81,4 +81,4 @@ export function round(value) {
 }
 
 export const FONT = '11px system-ui, -apple-system, "Segoe UI", Roboto, "Noto Sans", sans-serif';
-export const calm = matchMedia("(prefers-reduced-motion: reduce)");
+export const reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");

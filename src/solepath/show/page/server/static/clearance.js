@@ -1,4 +1,4 @@
-// What sticks to the window's edges must not hide what has the focus: the browser scrolls that clear of it.
+// Keeps the focused control visible: the browser scrolls it clear of what sticks to the window's edges.
 
 const SPARE = 12; // px, for the mark of the focus
 

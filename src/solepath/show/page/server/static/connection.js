@@ -1,10 +1,10 @@
-// One WebSocket to the server that this page came from, made anew whenever it breaks.
+// One WebSocket to the server of this page, opened again whenever it breaks.
 
 const FIRST_WAIT = 0.5; // s
 const LONGEST_WAIT = 10; // s
-const ENDED_WAIT = 30; // s, after a program that ended: nobody may ever be there again
+const ENDED_WAIT = 30; // s, after the program ended: perhaps no other one ever starts
 const ENDED = 1001; // close code (protocol/page.md)
-const QUIET = 6; // s without a message, though one comes at least every second: the connection is dead
+const IDLE_LIMIT = 6; // s without a message, though one comes at least every second: the connection is dead
 const KEY = "solepath-token";
 
 export class Connection {
@@ -12,15 +12,15 @@ export class Connection {
   #failures = 0;
   #ended = false;
   #timer = 0;
-  #quiet = 0;
+  #idleTicks = 0;
   #token = claimToken();
   #withToken = true;
 
-  // take(message), changed(state, s until the next try): state is "connecting" | "open" | "closed" | "ended"
+  // take(message), changed(state, s until the next try); state is "connecting" | "open" | "closed" | "ended"
   constructor(take, changed) {
     this.take = take;
     this.changed = changed;
-    // Ticks, not times: a page that slept finds its messages still queued behind the timer.
+    // It counts ticks, not times: a page that slept finds its messages still queued behind the timer.
     setInterval(() => this.#listen(), 1000);
     addEventListener("online", () => this.retry());
     document.addEventListener("visibilitychange", () => document.hidden || this.retry());
@@ -31,7 +31,7 @@ export class Connection {
     if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(command));
   }
 
-  // Now, where it would have been later.
+  // Try now, instead of at the end of the wait.
   retry() {
     if (this.#socket !== null) return;
     clearTimeout(this.#timer);
@@ -48,9 +48,9 @@ export class Connection {
     this.changed("connecting", 0);
     const socket = new WebSocket(address);
     this.#socket = socket;
-    this.#quiet = 0;
+    this.#idleTicks = 0;
     socket.onmessage = ({ data }) => {
-      this.#quiet = 0;
+      this.#idleTicks = 0;
       let message;
       try {
         message = JSON.parse(data);
@@ -70,7 +70,7 @@ export class Connection {
     this.#socket = null;
     this.#failures = code === ENDED ? 0 : this.#failures + 1;
     this.#ended ||= code === ENDED;
-    // A token of a program that ended is refused by the one that took its place, which may let this page watch.
+    // The token of a program that ended is rejected by the one that took its place, which may let this page watch.
     const sure = this.#ended ? 1 : 3;
     if (this.#token) this.#withToken = this.#failures < sure || (this.#failures - sure) % 2 === 1;
     const wait = this.#wait() * (0.8 + 0.4 * Math.random());
@@ -87,15 +87,15 @@ export class Connection {
 
   #listen() {
     if (this.#socket === null) return;
-    this.#quiet += 1;
-    if (this.#quiet < QUIET) return;
+    this.#idleTicks += 1;
+    if (this.#idleTicks < IDLE_LIMIT) return;
     const dead = this.#socket;
     dead.close();
     this.#closed(dead);
   }
 }
 
-// From the address (#token=...), which then no longer shows it, or from before in this tab.
+// The token of the address (#token=...), which then no longer shows it, or the one stored in this tab.
 function claimToken() {
   const given = new URLSearchParams(location.hash.slice(1)).get("token");
   try {

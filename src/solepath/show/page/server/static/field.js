@@ -1,11 +1,11 @@
-// Pressure between the cells: a small picture, whose weights are worked out once for a layout.
+// Pressure between the cells: a small picture, whose weights are computed once for a layout.
 
 export const COLUMNS = 64;
 export const ROWS = 160;
 const NEAREST = 6;
 
 export class Field {
-  // box: [x least, x most, y least, y most] that the picture shows, m, toes up and the wearer's left on the left
+  // box: [least x, greatest x, least y, greatest y] of the picture, m, toes up and the wearer's left on the left
   constructor(cells, spacing, box) {
     this.picture = document.createElement("canvas");
     Object.assign(this.picture, { width: COLUMNS, height: ROWS });
@@ -14,7 +14,7 @@ export class Field {
     this.near = Math.min(NEAREST, cells.length);
     this.cells = new Uint16Array(COLUMNS * ROWS * this.near);
     this.weights = new Float32Array(COLUMNS * ROWS * this.near);
-    this.cover = new Uint8Array(COLUMNS * ROWS); // opacity: nothing is known far from all cells
+    this.cover = new Uint8Array(COLUMNS * ROWS); // opacity: far from all cells nothing is known
     this.values = new Float32Array(cells.length);
     const [back, front, right, left] = box;
     const sigma = 0.55 * spacing;
@@ -28,7 +28,7 @@ export class Field {
   }
 
   #weigh(pixel, x, y, cells, sigma, spacing) {
-    const found = []; // the nearest ones, nearest first
+    const found = []; // the nearest cells, nearest first
     for (let i = 0; i < cells.length; i++) {
       const squared = (cells[i][0] - x) ** 2 + (cells[i][1] - y) ** 2;
       if (found.length === this.near && squared >= found[this.near - 1][0]) continue;
@@ -47,7 +47,7 @@ export class Field {
     this.cover[pixel] = 255 * Math.min(1, Math.max(0, 2.6 - Math.sqrt(least) / spacing));
   }
 
-  // values[i]: of cell i, 0 to 1 of the scale; table: 256 colours
+  // values[i]: value of cell i, 0 to 1 of the scale; table: 256 colours
   paint(values, table) {
     const { near, cells, weights, cover } = this;
     const { data } = this.image;

@@ -3,11 +3,11 @@
 import { child, fixed, percent, show, signed, write } from "./words.js";
 
 const WIDEST = 0.2; // asymmetry that fills half of its bar
-const STEEPEST = 10; // degrees that do
+const STEEPEST = 10; // difference that fills half of its bar, degrees
 const UNITS = { deg: "°" };
 
 export class Gait {
-  wants = ["gait", "scene"];
+  uses = ["gait", "scene"];
 
   constructor() {
     for (const id of ["gait-rows", "gait-scroll", "gait-waiting", "gait-kind", "gait-note"])
@@ -21,7 +21,7 @@ export class Gait {
     this["gait-waiting"].hidden = some;
     this["gait-scroll"].hidden = !some;
     write(this["gait-kind"], some ? (gait.running ? "running" : "walking") : "");
-    const notes = some ? said(gait) : "";
+    const notes = some ? notesOn(gait) : "";
     show(this["gait-note"], notes !== "");
     write(this["gait-note"], notes);
     const all = some ? [{ name: "strides", label: "strides", digits: 0, ...gait.strides }, ...rows] : [];
@@ -35,7 +35,7 @@ export class Gait {
   }
 }
 
-function said({ strides, enough, coordination }) {
+function notesOn({ strides, enough, coordination }) {
   const count = Object.values(strides).reduce((sum, one) => sum + (one ?? 0), 0);
   const few = `Of ${count} strides: figures settle with ${enough} and more (Galna et al. 2013).`;
   const index = coordination === null ? "" : `Phase coordination index ${percent(coordination, 1)}.`;
@@ -73,7 +73,7 @@ class Row {
     write(this.mean, fixed(row.both, digits));
     write(this.sd, Number.isFinite(row.sd) ? `± ${fixed(row.sd, digits)}` : "");
     write(this.cv, Number.isFinite(row.cv) ? fixed(100 * row.cv, 1) : "–");
-    const turned = Number.isFinite(row.difference); // an angle: a share of one says nothing
+    const turned = Number.isFinite(row.difference); // an angle has a difference, since a share of an angle says nothing
     const known = turned || Number.isFinite(row.asymmetry);
     const lean = turned ? row.difference / STEEPEST : row.asymmetry / WIDEST;
     const degrees = () => `${signed(row.difference, digits)}${UNITS[row.unit] ?? ""}`;

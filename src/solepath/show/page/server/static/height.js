@@ -1,15 +1,15 @@
-// How high the wearer is over time, between the levels of the plan where there is one.
+// The wearer's height over time, between the levels of the plan where there is one.
 
 import { Alternative, FONT, Surface, round } from "./canvas.js";
 import { theme } from "./theme.js";
 import { clock, fixed, signed, write } from "./words.js";
 
-const LEAST = 1; // m that are seen at least
-const NAMES = 44; // px for heights in figures; names of levels stand on their lines
+const LEAST = 1; // m that are shown at least
+const NAMES = 44; // px for heights as numbers; names of levels stand on their lines
 const OFTEN = 250; // ms
 
 export class Height {
-  wants = ["tracks", "places", "place", "scene", "theme"];
+  uses = ["tracks", "places", "place", "scene", "theme"];
 
   constructor(redraw) {
     const canvas = document.getElementById("height");
@@ -28,7 +28,7 @@ export class Height {
     const last = points.at(-1);
     write(this.now, last ? `${lines.length > 0 ? fixed(last[1], 1) : signed(last[1], 1)} m` : "");
     const against = lines.length > 0 ? "above the plan's zero" : "against the start";
-    this.alternative.say(() =>
+    this.alternative.setText(() =>
       last ? `Height over time: now ${fixed(last[1], 1)} m ${against}` : "Height: no step yet",
     );
     let [low, high] = points.reduce(([a, b], [, z]) => [Math.min(a, z), Math.max(b, z)], [Infinity, -Infinity]);
@@ -97,14 +97,14 @@ export class Height {
   }
 }
 
-// [t, z] of what there is, and the levels' elevations where it is in the plan's frame.
+// [t, z] of the known points, and the levels' elevations where the points are in the plan's frame.
 function series({ plan, place, places, tracks, t }) {
   if (plan && places.length > 1) {
     const lines = plan.levels
       .filter((level) => level.elevation !== null)
       .map(({ elevation, name }) => ({ z: elevation, name }));
     const points = places.map(([t, , , , z]) => [t, z]);
-    const now = place?.position[2]; // the places are those whose level is decided
+    const now = place?.position[2]; // places are those whose level is decided
     if (Number.isFinite(now) && t > points.at(-1)[0]) points.push([t, now]);
     return { points, lines };
   }

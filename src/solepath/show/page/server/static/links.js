@@ -1,9 +1,9 @@
-// How each sensor is heard. One that is lost is said at the top of the page as well.
+// State of each sensor's link. A lost link is also shown at the top of the page.
 
-import { LINKS, capital, child, fixed, percent, say, show, span, tell, write } from "./words.js";
+import { LINKS, capital, child, fixed, percent, wordOf, show, span, setData, write } from "./words.js";
 
 export class Links {
-  wants = ["links", "scene"];
+  uses = ["links", "scene"];
 
   constructor() {
     this.list = document.getElementById("links");
@@ -20,15 +20,15 @@ export class Links {
       this.list.replaceChildren(...[...this.sites.values()].map((link) => link.element));
     }
     for (const [name, link] of this.sites) link.show(links[name]);
-    const missed = names.filter((name) => ["lost", "silent"].includes(links[name].state));
-    show(this.banner, missed.length > 0);
+    const broken = names.filter((name) => ["lost", "silent"].includes(links[name].state));
+    show(this.banner, broken.length > 0);
     write(
       this.banner,
-      missed
+      broken
         .map((name) => {
           const { state, silent_for } = links[name];
           const since = Number.isFinite(silent_for) ? ` for ${span(silent_for)}` : "";
-          return `${capital(name)} ${say(LINKS, state)}: nothing heard${since}.`;
+          return `${capital(name)} ${wordOf(LINKS, state)}: nothing heard${since}.`;
         })
         .join(" "),
     );
@@ -57,12 +57,12 @@ class Link {
   }
 
   show(link) {
-    tell(this.element, { state: link.state ?? "waiting" });
+    setData(this.element, { state: link.state ?? "waiting" });
     const silent = Number.isFinite(link.silent_for) && link.state !== "ok" ? `, ${span(link.silent_for)}` : "";
-    write(this.state, say(LINKS, link.state ?? "waiting") + silent);
+    write(this.state, wordOf(LINKS, link.state ?? "waiting") + silent);
     write(this.device, typeof link.name === "string" ? link.name : "");
     this.#figure("rate", `${fixed(link.rate)} Hz`, Number.isFinite(link.rate));
-    this.#figure("loss", percent(link.loss, 1), Number.isFinite(link.loss)); // of late
+    this.#figure("loss", percent(link.loss, 1), Number.isFinite(link.loss)); // recent loss
     this.#figure("lost", fixed(link.lost), link.lost > 0);
     this.#figure("battery", percent(link.battery), Number.isFinite(link.battery));
     this.#figure("signal", `${fixed(link.signal)} dBm`, Number.isFinite(link.signal));

@@ -1,9 +1,9 @@
-// What happened, in sentences, the newest at the top.
+// The log of events as sentences, the newest at the top.
 
 import { child, clock } from "./words.js";
 
 export class Log {
-  wants = ["log", "scene"];
+  uses = ["log", "scene"];
 
   constructor() {
     this.list = document.getElementById("log");

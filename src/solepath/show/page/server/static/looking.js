@@ -1,4 +1,4 @@
-// The buttons and keys with which one looks around on the track: nearer, farther, another level, plan or track alone.
+// Buttons and keys that move the view of the track: nearer, farther, another level, plan or track alone.
 
 import { describe, show } from "./words.js";
 
@@ -19,7 +19,7 @@ export class Looking {
     document.getElementById("track-section").addEventListener("keydown", (event) => this.#arrow(event));
   }
 
-  // True when it was one of its keys.
+  // Returns true when the key was one of these.
   key(key) {
     const { view } = this.track;
     if (key === "+" || key === "=") view.zoom(true);

@@ -1,9 +1,9 @@
-// Messages in, pictures out: what a message changes is drawn with the browser's next frame, and only that.
+// Takes messages and draws pictures: each change is drawn with the browser's next frame, and only that.
 //
-// For tests and the curious: window.solepath = {frames, messages, state}: frames drawn, messages taken, and what they
+// For tests: window.solepath = {frames, messages, state}: frames drawn, messages taken, and the state that they
 // add up to (state.js).
 
-import { Doing } from "./activity.js";
+import { ActivityPanel } from "./activity.js";
 import { Announcer } from "./announce.js";
 import { keepClear } from "./clearance.js";
 import { Connection } from "./connection.js";
@@ -28,7 +28,7 @@ const seen = { frames: 0, messages: 0, state };
 window.solepath = seen;
 
 let changed = new Set();
-let asked = false;
+let frameRequested = false;
 let ready = false;
 const redraw = () => mark("theme");
 
@@ -43,30 +43,30 @@ const panels = [
   ribbon,
   track,
   new Height(redraw),
-  new Doing(),
+  new ActivityPanel(),
   new Gait(),
   new Links(),
   new Log(),
   playback,
-  new Seeking((words) => announcer.say(words)),
+  new Seeking((words) => announcer.announce(words)),
 ];
 
 function mark(...names) {
   for (const name of names) changed.add(name);
-  if (asked || !ready || document.hidden) return;
-  asked = true;
+  if (frameRequested || !ready || document.hidden) return;
+  frameRequested = true;
   requestAnimationFrame(draw);
 }
 
 function draw(now) {
-  asked = false;
+  frameRequested = false;
   const news = changed;
   changed = new Set();
   const t = pace.at(state, now);
   let drew = false;
   for (const panel of panels) {
-    const wanted = wants(panel, news) || (panel === ribbon && pace.moving) || (panel === track && track.moving);
-    if (!wanted) continue;
+    const due = uses(panel, news) || (panel === ribbon && pace.moving) || (panel === track && track.moving);
+    if (!due) continue;
     if (panel.draw(state, now, news, t) === "done") drew = true;
     else later(panel, news);
   }
@@ -76,11 +76,11 @@ function draw(now) {
   if (pace.moving || track.moving || changed.size > 0) mark();
 }
 
-const wants = (panel, news) => panel.wants.some((name) => news.has(name));
+const uses = (panel, news) => panel.uses.some((name) => news.has(name));
 
-// What it will want to see another time.
+// Choices that the page keeps for the next visit.
 function later(panel, news) {
-  for (const name of news) if (panel.wants.includes(name)) changed.add(name);
+  for (const name of news) if (panel.uses.includes(name)) changed.add(name);
 }
 
 function heading() {
@@ -97,8 +97,8 @@ const connection = new Connection(
     const news = state.take(message);
     seen.messages += 1;
     if (news.size === 0 && message?.type !== "frame") return;
-    pace.heard(state, performance.now());
-    announcer.hear(state, news);
+    pace.update(state, performance.now());
+    announcer.update(state, news);
     mark(...news);
   },
   (() => {
@@ -113,7 +113,7 @@ const connection = new Connection(
           element("connection-word"),
           { open: "connected", connecting: "connecting", closed: "not connected", ended: "ended" }[how],
         );
-        // only what was open can be missed; a first try needs no alarm
+        // only an open connection can be missed; a first try needs no alarm
         element("offline").hidden = how === "open" || (how === "connecting" && was === "");
         const left = Math.ceil((at - performance.now()) / 1000);
         const next = how === "connecting" || left < 1 ? "Trying now" : `Trying again in ${left} s`;
@@ -127,11 +127,13 @@ const connection = new Connection(
       show();
       if (how === "closed" || how === "ended") {
         timer = setInterval(show, 1000);
-        if (was !== how) announcer.say(how === "ended" ? "solepath has ended" : "The connection to solepath is lost");
+        if (was !== how) {
+          announcer.announce(how === "ended" ? "solepath has ended" : "The connection to solepath is lost");
+        }
         was = how;
       }
       if (how === "open") {
-        if (was === "closed" || was === "ended") announcer.say("Connected again");
+        if (was === "closed" || was === "ended") announcer.announce("Connected again");
         was = "open";
       }
       document.body.classList.toggle("old", how !== "open" && state.known);
@@ -141,14 +143,14 @@ const connection = new Connection(
 
 element("retry").addEventListener("click", () => connection.retry());
 document.addEventListener("visibilitychange", () => {
-  asked = false; // a frame that was asked for before may never have come
+  frameRequested = false; // a frame that was requested before may never have come
   if (!document.hidden) mark("scene", "theme", "feet", "links", "gait", "activity");
 });
 document.addEventListener("keydown", (event) => {
   if (event.ctrlKey || event.altKey || event.metaKey || event.defaultPrevented) return;
   const { target, key } = event;
   if (target.matches("select, textarea, input:not([type=range])")) return;
-  if (key === " " && target.closest("button, summary")) return; // there it presses
+  if (key === " " && target.closest("button, summary")) return; // on a button the space bar presses it
   if (playback.key(key, event.shiftKey) || looking.key(key)) event.preventDefault();
 });
 setInterval(() => mark("second"), 1000);

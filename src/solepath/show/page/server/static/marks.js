@@ -1,4 +1,4 @@
-// What is drawn on the plane of the track: grid, ruler, feet, the wearer, and how sure that is. Places are in px.
+// Marks on the plane of the track: grid, ruler, feet, the wearer, and their uncertainty. Places are in px.
 
 import { round } from "./canvas.js";
 import { label } from "./plan.js";
@@ -6,12 +6,12 @@ import { theme } from "./theme.js";
 import { fixed } from "./words.js";
 
 const SURE = Math.sqrt(5.991); // 95 % of two dimensions: chi squared, 2 degrees of freedom
-const LARGEST = 4000; // px; nothing larger is seen anyhow
+const LARGEST = 4000; // px; nothing larger can be seen
 
-// m, of a variance.
+// Half axis of the 95 % ellipse for a variance, m.
 export const sure = (variance) => SURE * Math.sqrt(Math.max(0, variance));
 
-// Half axes of the ellipse that holds the place in 95 of 100 cases, m, and the angle of the long one, rad.
+// Half axes of the ellipse that holds the position with 95 % probability, m, and the angle of the long one, rad.
 export function axes([xx, xy, , yy]) {
   const middle = 0.5 * (xx + yy);
   const off = Math.hypot(0.5 * (xx - yy), xy);
@@ -59,7 +59,7 @@ export function drawRuler(context, { height }, scale) {
   label(context, words, x + 4, y - 6, theme.colours.muted);
 }
 
-// The left one is round and the right one square, whoever sees which colours.
+// The left foot is round and the right one square, for readers who do not see the colours.
 export function drawFoot(context, foot, [x, y]) {
   context.beginPath();
   if (foot === "left") context.arc(x, y, 6, 0, 2 * Math.PI);
@@ -75,7 +75,7 @@ export function drawFoot(context, foot, [x, y]) {
   context.fillText(foot === "left" ? "L" : "R", x, y + 3.25);
 }
 
-// The wearer, around both feet where they are too near to one another to be told apart.
+// The wearer, drawn around both feet where these are too near to each other to be distinguished.
 export function drawRing(context, [x, y]) {
   circle(context, x, y, 11);
   context.lineWidth = 2.5;
@@ -104,7 +104,7 @@ export function drawSpread(context, [x, y], radius) {
   veil(context);
 }
 
-// The larger, the likelier; those of other levels are faint.
+// A candidate's mark is larger the likelier it is; on other levels it is faint.
 export function drawCandidates(context, candidates, level, px) {
   context.fillStyle = theme.colours.candidate;
   for (const { level: of, x, y, weight } of candidates) {

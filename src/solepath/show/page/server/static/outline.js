@@ -1,6 +1,6 @@
 // The outline of a sole, as a ring of [x, y] in the foot frame (x to the toe, y to the left, m).
 
-// A left shoe's: x, and how far it reaches outwards and inwards there, in shares of the length. Drawn by eye.
+// Left shoe: x, and its extent outwards and inwards there, in shares of the length. Drawn by eye.
 const SOLE = [
   [0, 0, 0],
   [0.012, 0.045, -0.045],
@@ -18,28 +18,28 @@ const SOLE = [
   [1, -0.04, -0.045],
 ];
 const STATIONS = 44;
-const DENSE = 16; // cells that show the outline of a sole by themselves
-const COVERED = 0.75; // of the length
+const DENSE = 16; // number of cells that show the outline of a sole by themselves
+const COVERED = 0.75; // share of the length
 
-// Of a shoe of `length` m that nobody described.
+// Outline of a shoe of `length` m without a known layout.
 export function shoe(foot, length) {
   const side = foot === "left" ? 1 : -1;
   const ring = (edge) => SOLE.map((row) => [row[0] * length, side * row[edge] * length]);
   return rounded([...ring(1), ...ring(2).reverse().slice(1, -1)]);
 }
 
-// Around the cells; where they are few, or cover a part only, a shoe's that is wide enough for them.
+// Outline around the cells; where they are few, or cover a part only, that of a shoe wide enough for them.
 export function around(cells, length, foot, spacing) {
   const xs = cells.map((cell) => cell[0]);
   const [back, front] = [Math.min(...xs), Math.max(...xs)];
   if (cells.length >= DENSE && front - back > COVERED * length) return hull(cells, back, front, spacing);
   const ring = shoe(foot, length);
   const wide = Math.max(...ring.map((point) => Math.abs(point[1])));
-  const wanted = Math.max(...cells.map((cell) => Math.abs(cell[1]))) + 0.008;
-  return wanted > wide ? ring.map(([x, y]) => [x, (y * wanted) / wide]) : ring;
+  const needed = Math.max(...cells.map((cell) => Math.abs(cell[1]))) + 0.008;
+  return needed > wide ? ring.map(([x, y]) => [x, (y * needed) / wide]) : ring;
 }
 
-// Of the cells' distances to the nearest other one, the middle one.
+// Median of the cells' distances to their nearest neighbours.
 export function spacing(cells) {
   const nearest = cells.map((one) =>
     Math.min(...cells.map((other) => (other === one ? Infinity : Math.hypot(one[0] - other[0], one[1] - other[1])))),
@@ -48,7 +48,7 @@ export function spacing(cells) {
   return middle > 0 && middle < 1 ? middle : 0.02;
 }
 
-// How far the cells reach to both sides, station by station from heel to toe, smoothed and closed by round ends.
+// Extent of the cells to both sides, station by station from heel to toe, smoothed and closed by round ends.
 function hull(cells, back, front, spacing) {
   const margin = Math.min(0.012, Math.max(0.006, 0.75 * spacing));
   const [begin, end] = [back - margin, front + margin];
@@ -78,7 +78,7 @@ function hull(cells, back, front, spacing) {
   return rounded([...ring(0), ...ring(1).reverse().slice(1, -1)]);
 }
 
-// Catmull-Rom through a closed ring.
+// Catmull-Rom spline through a closed ring.
 function rounded(ring) {
   const fine = [];
   ring.forEach((b, i) => {

@@ -1,41 +1,41 @@
-// The session's time between two messages, so that what scrolls does so evenly.
+// Estimates the session's time between two messages, so that scrolling pictures move evenly.
 
-const AHEAD = 0.6; // s that it may go on without hearing anything
-const FAR = 0.7; // s off: jump
-const WINDOW = 1000; // ms over which it is seen how fast a recording really plays ...
-const SURE = 200; // ... and no shorter than this
-const ALMOST = 0.9; // of the speed that was asked for is that speed: messages do not come evenly
+const AHEAD = 0.6; // s that it may go on without a message
+const FAR = 0.7; // s of error above which it jumps
+const WINDOW = 1000; // ms over which the real speed of a recording is measured
+const SURE = 200; // ms over which it is measured at least
+const ALMOST = 0.9; // share of the requested speed that counts as that speed: messages do not come evenly
 
 export class Pace {
   #shown = null;
   #last = 0;
-  #heard = 0;
+  #receivedAt = 0;
   #t = 0;
-  #told = []; // [now, t] of late
-  #speed = 0; // at which that was to be played
-  #most = Infinity; // times real time: what was reached where that could not be kept up
+  #recent = []; // recent [now, t]
+  #speed = 0; // requested speed
+  #most = Infinity; // limit in multiples of real time: the speed reached where the requested one could not be kept up
   #generation = 0;
 
-  heard(state, now) {
+  update(state, now) {
     if (state.generation !== this.#generation) {
       this.#shown = null;
-      this.#told = [];
+      this.#recent = [];
     }
     this.#generation = state.generation;
     if (state.t !== this.#t) {
-      if (now - this.#heard > 1000 * AHEAD) this.#told = [];
-      this.#heard = now;
-      this.#told.push([now, state.t]);
-      while (this.#told.length > 2 && this.#told[1][0] <= now - WINDOW) this.#told.shift();
+      if (now - this.#receivedAt > 1000 * AHEAD) this.#recent = [];
+      this.#receivedAt = now;
+      this.#recent.push([now, state.t]);
+      while (this.#recent.length > 2 && this.#recent[1][0] <= now - WINDOW) this.#recent.shift();
     }
     this.#t = state.t;
   }
 
-  // s; whether it moves on by itself is `moving`
+  // s; `moving` says whether it moves on by itself
   at(state, now) {
     const { playback } = state;
     const speed = playback === null ? 1 : this.#real(playback.state === "playing" ? playback.speed : 0);
-    const since = (now - this.#heard) / 1000;
+    const since = (now - this.#receivedAt) / 1000;
     this.moving = speed > 0 && since < AHEAD;
     const goal = this.#t + (this.moving ? since * speed : 0);
     if (this.#shown === null || Math.abs(goal - this.#shown) > FAR * Math.max(1, speed)) this.#shown = goal;
@@ -46,13 +46,13 @@ export class Pace {
     return this.#shown;
   }
 
-  // A machine that cannot keep up plays slower than it was asked to; what scrolls must not run ahead of it.
+  // A machine that cannot keep up plays slower than requested; scrolling pictures must not run ahead of it.
   #real(speed) {
-    if (speed !== this.#speed) this.#told = [];
+    if (speed !== this.#speed) this.#recent = [];
     this.#speed = speed;
-    const took = this.#told.length > 0 ? this.#heard - this.#told[0][0] : 0;
+    const took = this.#recent.length > 0 ? this.#receivedAt - this.#recent[0][0] : 0;
     if (took >= SURE) {
-      const rate = (1000 * (this.#t - this.#told[0][1])) / took;
+      const rate = (1000 * (this.#t - this.#recent[0][1])) / took;
       this.#most = rate > ALMOST * speed ? Infinity : Math.max(0, rate);
     }
     return Math.min(speed, this.#most);

@@ -3,7 +3,7 @@
 import { FONT } from "./canvas.js";
 import { theme } from "./theme.js";
 
-// [x least, y least, x most, y most] of all levels, m; null of a plan without anything.
+// [least x, least y, greatest x, greatest y] of all levels, m; null for an empty plan.
 export function extent(plan) {
   const points = plan.levels
     .flatMap((level) => [

@@ -1,15 +1,15 @@
-// Pause, speed and seek of a recording; who may only watch sees where it is.
+// Pause, speed and seek of a recording; a watcher without control sees the position.
 
-import { clock, describe, show, tell, write } from "./words.js";
+import { clock, describe, show, setData, write } from "./words.js";
 
 const STEP = 5; // s
 const LONG_STEP = 30; // s, with Shift
-const PATIENCE = 1500; // ms in which what was asked for is shown, until it is so
+const PATIENCE = 1500; // ms in which a requested value is shown, until it is reached
 const OFTEN = 150; // ms between seeks while the bar is dragged
 
 export class Playback {
-  wants = ["playback", "scene"];
-  #asked = null; // {t, at} of the newest seek
+  uses = ["playback", "scene"];
+  #requested = null; // {t, at} of the newest seek
   #sent = 0;
   #dragged = false;
 
@@ -23,11 +23,11 @@ export class Playback {
     );
     this.seek.addEventListener("input", () => {
       this.#dragged = true;
-      this.#ask(Number(this.seek.value), false);
+      this.#request(Number(this.seek.value), false);
     });
     this.seek.addEventListener("change", () => {
       this.#dragged = false;
-      this.#ask(Number(this.seek.value), true);
+      this.#request(Number(this.seek.value), true);
     });
   }
 
@@ -37,16 +37,16 @@ export class Playback {
     show(this.playback, playback !== null);
     if (playback === null) return "done";
     const { begin, end, t, state: how, speed, seeking } = playback;
-    const asked = this.#asked && performance.now() - this.#asked.at < PATIENCE ? this.#asked.t : null;
-    const shown = this.#dragged ? Number(this.seek.value) : (seeking ?? asked ?? t);
-    tell(this.playback, { state: how });
+    const requested = this.#requested && performance.now() - this.#requested.at < PATIENCE ? this.#requested.t : null;
+    const shown = this.#dragged ? Number(this.seek.value) : (seeking ?? requested ?? t);
+    setData(this.playback, { state: how });
     describe(this.play, "aria-label", how === "playing" ? "Pause" : how === "ended" ? "Play again" : "Play");
     describe(this.seek, "min", String(begin));
     describe(this.seek, "max", String(Math.max(end, begin + 0.1)));
     if (!this.#dragged) this.seek.value = shown;
     const whither = seeking === null ? "" : "on the way to ";
     describe(this.seek, "aria-valuetext", `${whither}${clock(shown - begin)} of ${clock(end - begin)}`);
-    write(this["time-now"], clock((seeking === null ? shown : t) - begin)); // the bar is where it is going already
+    write(this["time-now"], clock((seeking === null ? shown : t) - begin)); // the bar already shows the target
     write(this["time-end"], clock(end - begin));
     this.#speed(speed);
     for (const part of [this.play, this.seek, this["speed-choice"]])
@@ -63,17 +63,17 @@ export class Playback {
   toggle() {
     if (!this.#mayControl()) return;
     const { state, begin } = this.state.playback;
-    if (state === "ended") this.#ask(begin, true);
+    if (state === "ended") this.#request(begin, true);
     this.send({ do: state === "playing" ? "pause" : "play" });
   }
 
-  // True when it was one of its keys.
+  // Returns true when the key was one of these.
   key(key, shift) {
     if (!this.#mayControl()) return false;
     if (key === " ") this.toggle();
     else if (key === "ArrowLeft" || key === "ArrowRight") {
       const step = (shift ? LONG_STEP : STEP) * (key === "ArrowLeft" ? -1 : 1);
-      this.#ask(this.#here() + step, true);
+      this.#request(this.#here() + step, true);
     } else return false;
     return true;
   }
@@ -83,15 +83,15 @@ export class Playback {
   }
 
   #here() {
-    const fresh = this.#asked && performance.now() - this.#asked.at < PATIENCE;
-    return fresh ? this.#asked.t : (this.state.playback.seeking ?? this.state.playback.t);
+    const fresh = this.#requested && performance.now() - this.#requested.at < PATIENCE;
+    return fresh ? this.#requested.t : (this.state.playback.seeking ?? this.state.playback.t);
   }
 
-  #ask(t, surely) {
+  #request(t, surely) {
     const { begin, end } = this.state.playback;
     const now = performance.now();
     const value = Math.min(end, Math.max(begin, t));
-    this.#asked = { t: value, at: now };
+    this.#requested = { t: value, at: now };
     if (surely || now - this.#sent > OFTEN) {
       this.#sent = now;
       this.send({ do: "seek", value });
@@ -99,7 +99,7 @@ export class Playback {
     this.draw(this.state);
   }
 
-  // A speed that is not among the choices, from a command line perhaps, becomes one.
+  // A speed that is not among the choices, perhaps from a command line, is added to them.
   #speed(speed) {
     const choice = this["speed-choice"];
     if (Number(choice.value) === speed || (document.activeElement === choice && choice.matches(":open"))) return;

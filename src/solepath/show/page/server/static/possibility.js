@@ -1,15 +1,15 @@
-// On the plan: from where on what was walked belongs to the place that the wearer is thought to be at now. When another
-// possibility becomes the likeliest, what was drawn before is of one that was given up.
+// The part of the track on the plan that belongs to the present place. When another candidate becomes the
+// likeliest, the track that was drawn before belongs to the rejected one.
 
-const JUMP = 5; // m by which a place went elsewhere than the wearer did
-const DRIFT = 0.2; // of what was walked between two places: as much may the track be off
+const JUMP = 5; // m of movement of the place without the wearer from which on it is another candidate
+const DRIFT = 0.2; // share of the distance walked between two places by which the track may be wrong
 
 export class Possibility {
   #key = "";
   #seen = 0;
   #since = 0;
 
-  // The index of the first place of it.
+  // Returns the index of the first place of it.
   since({ places, tracks, generation, thinned }) {
     const key = `${generation} ${thinned}`;
     if (key !== this.#key) [this.#key, this.#seen, this.#since] = [key, 1, 0];
@@ -20,7 +20,7 @@ export class Possibility {
   }
 }
 
-// The track turns and drifts against the plan, but goes as far.
+// The track turns and drifts against the plan, but its length is right.
 function jumped([t1, , x1, y1], [t2, , x2, y2], track) {
   const far = Math.hypot(x2 - x1, y2 - y1);
   const [a, b] = [at(track, t1), at(track, t2)];
@@ -28,7 +28,7 @@ function jumped([t1, , x1, y1], [t2, , x2, y2], track) {
   return Math.abs(far - walked) > JUMP + DRIFT * walked;
 }
 
-// The last point until t, or the first one there is.
+// Last point until t, or the first one there is.
 function at(track, t) {
   let [low, high] = [0, track.length - 1];
   while (low < high) {

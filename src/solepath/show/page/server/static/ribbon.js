@@ -1,20 +1,20 @@
 // The phases of both feet over the last seconds: a ramp up while the foot is loaded, level while it is flat, a ramp
-// down while it pushes off, a line while it swings. Between the feet: when both were on the ground.
+// down while it pushes off, a line while it swings. Between the feet: the times with both on the ground.
 
-import { Alternative, FONT, Surface, calm } from "./canvas.js";
+import { Alternative, FONT, Surface, reducedMotion } from "./canvas.js";
 import { FEET } from "./state.js";
 import { theme } from "./theme.js";
-import { LINKS, PHASES, SUPPORTS, clock, say } from "./words.js";
+import { LINKS, PHASES, SUPPORTS, clock, wordOf } from "./words.js";
 
 const WINDOW = 8; // s
 const NAMES = 20; // px for the names of the rows
-// Height at the beginning and at the end.
+// Height at the start and at the end.
 const RAMPS = { LOADING: [0.32, 1], STATIONARY: [1, 1], PUSH_OFF: [1, 0.32], SWING: [0.08, 0.08] };
 const SHADES = { LOADING: "-soft", STATIONARY: "", PUSH_OFF: "-soft", SWING: "" };
-const CALM = 500; // ms between pictures for who wants less motion
+const SLOW_INTERVAL = 500; // ms between pictures with reduced motion
 
 export class Ribbon {
-  wants = ["phases", "scene", "theme", "playback", "links"];
+  uses = ["phases", "scene", "theme", "playback", "links"];
 
   constructor(redraw) {
     const canvas = document.getElementById("ribbon");
@@ -24,7 +24,7 @@ export class Ribbon {
   }
 
   draw(state, now, changed, t) {
-    if (calm.matches && now - this.drawn < CALM && !changed.has("theme")) return "later";
+    if (reducedMotion.matches && now - this.drawn < SLOW_INTERVAL && !changed.has("theme")) return "later";
     this.drawn = now;
     const context = this.surface.begin();
     const { width, height } = this.surface;
@@ -45,9 +45,9 @@ export class Ribbon {
       context.fillStyle = theme.colours[foot];
       context.fillText(foot === "left" ? "L" : "R", 2, rows[foot][0] + band / 2 + 4);
     }
-    this.alternative.say(() => {
+    this.alternative.setText(() => {
       const words = FEET.map((foot) => `${foot} ${heard(state, foot)}`);
-      const ground = say(SUPPORTS, state.support) || "not known";
+      const ground = wordOf(SUPPORTS, state.support) || "not known";
       return `Phases of both feet over the last ${WINDOW} seconds. Now: ${words.join(", ")}; on the ground: ${ground}`;
     });
     return "done";
@@ -72,18 +72,18 @@ export class Ribbon {
     }
   }
 
-  // Draws a row; the spans on the ground come back.
+  // Draws a row and returns the spans on the ground.
   #row(context, phases, foot, [y, band], x, t) {
     const ground = [];
     const paths = { "": new Path2D(), "-soft": new Path2D() };
     for (let i = 0; i < phases.length; i++) {
       const [from, phase] = phases[i];
       const to = Math.min(t, phases[i + 1]?.[0] ?? t);
-      if (to <= t - WINDOW || to <= from || phase === "") continue; // "": the foot is not heard
+      if (to <= t - WINDOW || to <= from || phase === "") continue; // "": nothing comes of the foot
       if (phase !== "SWING") ground.push([from, to]);
       const [rise, fall] = RAMPS[phase] ?? [0.5, 0.5];
       const path = paths[SHADES[phase] ?? "-soft"];
-      // a ramp that the window cuts begins where the window does
+      // a ramp that the window cuts starts where the window does
       const share = Math.max(0, (t - WINDOW - from) / (to - from));
       const top = rise + (fall - rise) * share;
       path.moveTo(x(from), y + band);
@@ -102,13 +102,13 @@ export class Ribbon {
 
 function heard({ phases, links }, foot) {
   const phase = phases[foot].at(-1)?.[1];
-  if (phase) return say(PHASES, phase);
+  if (phase) return wordOf(PHASES, phase);
   const link = links[`${foot} foot`]?.state;
-  if (link === "lost" || link === "silent") return say(LINKS, link);
+  if (link === "lost" || link === "silent") return wordOf(LINKS, link);
   return phases[foot].length > 0 ? "not heard any more" : "not heard yet";
 }
 
-// Of two lists of [from, to] in order of time, where both are.
+// Intersection of two lists of [from, to] in order of time.
 function overlaps(one, other) {
   const found = [];
   let [i, j] = [0, 0];

@@ -1,8 +1,8 @@
-// Where the colours of pressure end: the session says it, so that everybody sees the same ones.
+// Ends of the colour scales of pressure: the session decides them, so that all watchers see the same ones.
 
 const UNKNOWN = { top: Infinity, beyond: false };
 
-// kPa where newtons and areas are known; else what comes, by its own name.
+// kPa where newtons and areas are known; else the unit that comes, by its own name
 export const scaleOf = (scales, { unit }) => scales[unit] ?? UNKNOWN;
 
 export function pressure(layout, i, value) {

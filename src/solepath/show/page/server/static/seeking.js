@@ -1,19 +1,19 @@
-// On the way to another time of a recording, which takes as long as it takes to compute it: until it is there, what is
-// seen is of another moment than the bar says, and looks so.
+// Shows that a seek is on its way, which takes as long as its computation: until it is there, the page shows
+// another moment than the bar, and looks so.
 
 import { clock, describe, show, write } from "./words.js";
 
-const SOON = 400; // ms: what is there sooner needs no words
-const LONG = 900; // ms: what takes longer is said to who does not see it
+const SOON = 400; // ms; a shorter seek needs no words
+const LONG = 900; // ms; a longer seek is announced to a screen reader
 
 export class Seeking {
-  wants = ["playback", "scene", "second"];
-  #since = null; // when it set out, ms
-  #said = false;
+  uses = ["playback", "scene", "second"];
+  #since = null; // start of the seek, ms
+  #announced = false;
 
-  // say(words): to who listens
-  constructor(say) {
-    this.say = say;
+  // announce(words) announces to a screen reader
+  constructor(announce) {
+    this.announce = announce;
     this.main = document.querySelector("main");
     for (const id of ["seeking", "seek-way", "seek-done"]) this[id] = document.getElementById(id);
   }
@@ -27,13 +27,13 @@ export class Seeking {
     describe(this.main, "aria-busy", String(seen));
     show(this.seeking, seen);
     show(this["seek-way"], seen);
-    if (!going) this.#said = false;
+    if (!going) this.#announced = false;
     if (!seen) return going ? "later" : "done";
     write(this.seeking, `Going to ${clock(seeking - begin)}, now at ${clock(t - begin)}`);
     this["seek-done"].style.width = `${(100 * (t - begin)) / Math.max(0.1, end - begin)}%`;
-    if (passed >= LONG && !this.#said) {
-      this.#said = true;
-      this.say(`Going to ${clock(seeking - begin)}`);
+    if (passed >= LONG && !this.#announced) {
+      this.#announced = true;
+      this.announce(`Going to ${clock(seeking - begin)}`);
     }
     return "done";
   }

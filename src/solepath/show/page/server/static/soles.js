@@ -1,20 +1,20 @@
-// Both soles from above: pressure over the cells where their places are known, else what is known.
+// Both soles from above: pressure over the cells where their positions are known, else what is known.
 
-import { Alternative, Surface, calm } from "./canvas.js";
+import { Alternative, Surface, reducedMotion } from "./canvas.js";
 import { Field } from "./field.js";
 import { around, shoe, spacing } from "./outline.js";
 import { pressure, scaleOf } from "./scales.js";
 import { FEET } from "./state.js";
 import { theme } from "./theme.js";
-import { LINKS, PHASES, capital, fixed, say, show, tell, write } from "./words.js";
+import { LINKS, PHASES, capital, fixed, wordOf, show, setData, write } from "./words.js";
 
-const LENGTH = 0.27; // m, of a shoe that nobody described
+const LENGTH = 0.27; // m, of a shoe without a known layout
 const PAD = 6; // px
-const READABLE = 120; // ms between numbers that change
+const READABLE = 120; // ms between changes of a number, so that it can be read
 
 export class Soles {
-  // each second as well: a number that was written a moment ago may not have been the last
-  wants = ["feet", "scales", "links", "theme", "scene", "second"];
+  // also each second: the newest number may not have been written yet
+  uses = ["feet", "scales", "links", "theme", "scene", "second"];
 
   constructor(redraw) {
     this.soles = FEET.map((foot) => new Sole(foot, redraw));
@@ -25,9 +25,9 @@ export class Soles {
     this.drawn = 0;
   }
 
-  // Whether it drew; who wants less motion sees ten pictures a second.
+  // Returns whether it drew; with reduced motion there are ten pictures a second.
   draw(state, now, changed) {
-    if (calm.matches && now - this.drawn < 100 && !changed.has("theme")) return "later";
+    if (reducedMotion.matches && now - this.drawn < 100 && !changed.has("theme")) return "later";
     this.drawn = now;
     for (const sole of this.soles) sole.draw(state, now);
     this.#legend(state);
@@ -61,7 +61,7 @@ function shown(foot, layout) {
   if (!foot) return "outline";
   if (foot.cells) return layout ? "pressure" : "bars";
   if (foot.phase) return "contact";
-  return layout ? "pressure" : "outline"; // unheard for a while, and unloaded therefore
+  return layout ? "pressure" : "outline"; // nothing came for a while, so no load is shown
 }
 
 class Sole {
@@ -79,7 +79,7 @@ class Sole {
     this.#shape(null);
   }
 
-  // Once for a layout: outline, and the field within it.
+  // Computed once for a layout: outline, and the field within it.
   #shape(layout) {
     this.layout = layout;
     const apart = layout && spacing(layout.cells);
@@ -96,7 +96,7 @@ class Sole {
     const link = state.links[`${this.foot} foot`]?.state ?? "waiting";
     const lost = link === "lost" || link === "silent";
     this.shows = shown(foot, layout);
-    tell(this.figure, { link, shows: this.shows, phase: foot?.phase ?? "" });
+    setData(this.figure, { link, shows: this.shows, phase: foot?.phase ?? "" });
     this.#words(foot, layout, lost, link, now);
 
     const context = this.surface.begin();
@@ -117,14 +117,14 @@ class Sole {
     context.globalAlpha = 1;
   }
 
-  // What is seen below the picture and what is read out in place of it are of one moment: whenever the latter is
-  // written the former is as well.
+  // The text below the picture and its text alternative are of one moment: whenever the latter is written, the
+  // former is as well.
   #words(foot, layout, lost, link, now) {
-    const phase = foot?.phase ? say(PHASES, foot.phase) : "–";
+    const phase = foot?.phase ? wordOf(PHASES, foot.phase) : "–";
     const force = foot && foot.force !== null && !lost ? fixed(foot.force) : "";
-    write(this.phase, lost ? say(LINKS, link) : phase);
+    write(this.phase, lost ? wordOf(LINKS, link) : phase);
     this.#number(force && `${force} ${layout?.forces ? "N" : "counts"}`, phase, now);
-    this.alternative.say(() => {
+    this.alternative.setText(() => {
       this.put();
       const side = capital(this.foot);
       if (lost) return `${side} sole: no signal`;
@@ -134,11 +134,11 @@ class Sole {
     });
   }
 
-  // No more often than one can read it, but with each phase; the last one is written in any case.
+  // At most as often as one can read it, but with each phase; the last text is written in any case.
   #number(words, phase, now) {
     clearTimeout(this.timer);
-    const wait = phase === this.said ? READABLE - (now - this.written) : 0;
-    this.said = phase;
+    const wait = phase === this.writtenPhase ? READABLE - (now - this.written) : 0;
+    this.writtenPhase = phase;
     this.put = () => {
       clearTimeout(this.timer);
       this.written = performance.now();
@@ -205,7 +205,7 @@ class Sole {
     });
   }
 
-  // Heel, all of it, or forefoot; nothing in the air.
+  // Draws heel, whole sole, or forefoot; nothing in the air.
   #contact(context, outline, place, phase) {
     const part = { LOADING: [0, 0.42], STATIONARY: [0, 1], PUSH_OFF: [0.56, 1] }[phase];
     if (!part) return;
@@ -219,7 +219,7 @@ class Sole {
     context.restore();
   }
 
-  // A white line on a dark one is seen on every colour of the scale.
+  // A white line on a dark one can be seen on every colour of the scale.
   #centre(context, place, trail, centre) {
     context.lineJoin = "round";
     context.lineCap = "butt";

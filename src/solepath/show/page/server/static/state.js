@@ -1,14 +1,14 @@
-// What the messages of protocol/page.md add up to. Nothing here draws, and nothing from outside gets past it unchecked:
-// a panel may take for granted that a point is made of numbers.
+// The state that the messages of protocol/page.md add up to. Nothing here draws, and all input is checked here:
+// a panel may rely on points being made of numbers.
 
 const LONGEST = 2000; // points of a track
 const REMEMBERED = 20; // s of phases
-const SAID = 50; // sentences of the log
+const LOG_LINES = 50; // sentences of the log
 const TRAIL = 240; // points of a centre of pressure's path
 export const FEET = ["left", "right"];
 
-const LARGEST = 1e12; // of any number: farther and later nothing happens, and seconds can still be counted
-const MOST = 500; // cells, candidates, rows of the table: more are nobody's, and would take their time
+const LARGEST = 1e12; // limit of any number: nothing happens farther away or later, and seconds can still be counted
+const MOST = 500; // limit of cells, candidates and rows of the table: nobody has more, and they would take time
 
 const sound = (value) => Number.isFinite(value) && Math.abs(value) < LARGEST;
 const number = (value) => (sound(value) ? value : null);
@@ -30,13 +30,13 @@ export class State {
     this.plan = null;
     this.layouts = { left: null, right: null };
     this.t = 0;
-    this.begin = 0; // the session's time that is shown as 0:00
-    this.heard = false; // anything of a sensor
+    this.begin = 0; // session time that is shown as 0:00
+    this.anyData = false; // true once anything came of a sensor
     this.feet = { left: null, right: null };
     this.trails = { left: [], right: [] };
     this.phases = { left: [], right: [] };
     this.tracks = { left: [], right: [], wearer: [] };
-    this.thinned = 0; // how often a track lost points, so that who drew them knows to draw anew
+    this.thinned = 0; // how often a track lost points, after which it must be drawn again
     this.places = [];
     this.log = [];
     this.wearer = null;
@@ -50,7 +50,7 @@ export class State {
     this.scales = {};
   }
 
-  // The names of what changed; a message of an unknown type changes nothing.
+  // Returns the names of what changed; a message of an unknown type changes nothing.
   take(message) {
     const { type } = record(message);
     if (type === "scene") return this.#scene(message);
@@ -66,7 +66,7 @@ export class State {
     this.plan = plan(message.plan);
     for (const foot of FEET) this.layouts[foot] = layout(record(message.layouts)[foot]);
     const { tracks, places, phases, log } = message;
-    this.#frame({ ...record(message.frame), tracks, places, phases, log }); // the scene's own lists are whole
+    this.#frame({ ...record(message.frame), tracks, places, phases, log }); // the lists of the scene itself are whole
     return new Set(["scene", "feet", "phases", "tracks", "places", "log", "links", ...Object.keys(READ)]);
   }
 
@@ -100,7 +100,7 @@ export class State {
     }
     for (const [t, kind, words] of list(message.log).filter(Array.isArray)) {
       this.log.push([number(t) ?? this.t, text(kind), text(words)]);
-      if (this.log.length > SAID) this.log.shift();
+      if (this.log.length > LOG_LINES) this.log.shift();
       changed.add("log");
     }
     for (const [name, read] of Object.entries(READ)) {
@@ -115,15 +115,15 @@ export class State {
     return changed;
   }
 
-  // A recording says when it begins. Live it is the first time that is known of, on a clock that may read anything.
+  // A recording states its start. Live, the start is the first known time, on a clock that may show anything.
   #begins({ playback, tracks, phases, log, feet, links }) {
     if (number(playback?.begin) !== null) this.begin = playback.begin;
-    else if (this.playback === null && !this.heard) {
+    else if (this.playback === null && !this.anyData) {
       const firsts = [...Object.values(record(tracks)), ...Object.values(record(phases)), log].map((some) =>
         number(list(some)[0]?.[0]),
       );
-      this.heard = [feet, links].some((one) => Object.keys(record(one)).length > 0) || firsts.some((t) => t !== null);
-      if (this.heard) this.begin = Math.min(...firsts.filter((t) => t !== null), this.t || Infinity);
+      this.anyData = [feet, links].some((one) => Object.keys(record(one)).length > 0) || firsts.some((t) => t !== null);
+      if (this.anyData) this.begin = Math.min(...firsts.filter((t) => t !== null), this.t || Infinity);
       if (!Number.isFinite(this.begin)) this.begin = 0;
     }
   }
@@ -140,7 +140,7 @@ export class State {
     this.feet[foot] = one;
     changed.add("feet");
     const trail = this.trails[foot];
-    if (one.centre === null) return; // in the air the last stance's path stays
+    if (one.centre === null) return; // in the air the path of the last stance stays
     if (old.centre === null || old.centre === undefined) trail.length = 0;
     trail.push(one.centre);
     if (trail.length > TRAIL) trail.shift();
@@ -157,10 +157,10 @@ export class State {
 
 const support = (value) => text(value) || null;
 
-// What a frame says anew as a whole, and how it is read.
+// Members that a frame sends whole, and how each is read.
 const READ = { wearer, place, activity, pace, scales, support, gait, playback };
 
-// By time: a phase may become known after one that began later.
+// Sorted by time: a phase may become known after one that started later.
 function insert(phases, one) {
   let at = phases.length;
   while (at > 0 && phases[at - 1][0] > one[0]) at -= 1;
@@ -187,7 +187,7 @@ function layout(value) {
   return {
     cells,
     length: value.length > 0 ? value.length : 0.27,
-    // without areas newtons are no pressure, and are shown as what they are
+    // without areas newtons are not a pressure, and are shown as newtons
     unit: value.unit === "N" ? (areas ? "kPa" : "N") : "counts",
     word: value.unit === "N" ? (areas ? "kPa" : "N a cell") : "counts a cell",
     forces: value.unit === "N",

@@ -25,7 +25,7 @@ const NAMES = [
 ];
 
 // Low to high: viridis (matplotlib, CC0). On a dark page it rises to bright yellow, on a light one it falls to dark
-// violet, so that what is loaded stands out against the sole and lightness alone tells the order.
+// violet, so that load stands out against the sole, and lightness alone shows the order.
 const VIRIDIS = [
   [68, 1, 84],
   [71, 44, 122],
@@ -44,7 +44,7 @@ export const theme = { version: 0, dark: false, colours: {}, pressure: new Uint8
 
 const system = matchMedia("(prefers-color-scheme: dark)");
 
-// changed() is called whenever the colours are other ones.
+// changed() is called whenever the colours change.
 export function startTheme(button, changed) {
   const read = () => {
     const chosen = recall();
@@ -83,11 +83,11 @@ function remember(which) {
   try {
     localStorage.setItem(KEY, which);
   } catch {
-    // then it holds until the page is left
+    // the choice lasts until the page is left
   }
 }
 
-// light-dark() is settled in a computed colour only.
+// light-dark() is resolved in a computed colour only.
 function resolved(name) {
   const probe = document.createElement("i");
   probe.style.color = `var(--${name})`;

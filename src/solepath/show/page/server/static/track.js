@@ -1,7 +1,7 @@
-// The way walked, seen from above: by itself, or on the floor plan. What does not move is kept as a picture, to which
-// only new points are added as long as nobody looks elsewhere.
+// The track, seen from above: by itself, or on the floor plan. What does not move is kept as a picture, to which
+// only new points are added as long as the view does not change.
 
-import { Alternative, Surface, calm } from "./canvas.js";
+import { Alternative, Surface, reducedMotion } from "./canvas.js";
 import {
   axes,
   drawCandidates,
@@ -18,22 +18,22 @@ import {
 } from "./marks.js";
 import { drawLevel, extent } from "./plan.js";
 import { Possibility } from "./possibility.js";
-import { noteAlone, noteOnPlan, spokenOnPlan, spokenTrack } from "./saying.js";
+import { noteAlone, noteOnPlan, spokenOnPlan, spokenTrack } from "./position.js";
 import { FEET } from "./state.js";
 import { theme } from "./theme.js";
 import { View } from "./view.js";
-import { show, tell, write } from "./words.js";
+import { show, setData, write } from "./words.js";
 
-const LEAST = 3; // m that are seen at least
-const [EDGE, BUTTONS] = [20, 56]; // px around what is fitted, and where the buttons are
-const JUMP = 5; // m between two places: another candidate became the best, nobody walked there
-const CALM = 200; // ms between pictures for who wants less motion
+const LEAST = 3; // m that are shown at least
+const [EDGE, BUTTONS] = [20, 56]; // px around the fitted part, and at the buttons
+const JUMP = 5; // m between two places from which on another candidate became the likeliest, and nobody walked there
+const SLOW_INTERVAL = 200; // ms between pictures with reduced motion
 const WIDTHS = { left: 1.25, right: 1.25, wearer: 3.25 };
 
 export class Track {
-  wants = ["tracks", "places", "feet", "wearer", "place", "scene", "theme"];
+  uses = ["tracks", "places", "feet", "wearer", "place", "scene", "theme"];
   level = null; // chosen by hand; null follows the wearer
-  byItself = null; // the same: true without the plan, false on it; null on it once there is a place
+  byItself = null; // chosen by hand: true without the plan, false on it; null on it once there is a place
 
   constructor(redraw) {
     const canvas = document.getElementById("track");
@@ -53,7 +53,7 @@ export class Track {
     this.drawnAt = 0;
   }
 
-  // What is fitted leaves out the note at the top, and the buttons: below, or at the right where there is more room.
+  // The fitted part excludes the note at the top, and the buttons: below, or at the right where there is more room.
   #room() {
     const noted = this.note.offsetHeight; // 0 while hidden
     const upright = getComputedStyle(document.getElementById("zoom")).flexDirection === "column";
@@ -63,18 +63,18 @@ export class Track {
   }
 
   get moving() {
-    return !this.view.rests;
+    return !this.view.settled;
   }
 
   draw(state, now, changed) {
-    if (calm.matches && now - this.drawnAt < CALM && !changed.has("theme")) return "later";
+    if (reducedMotion.matches && now - this.drawnAt < SLOW_INTERVAL && !changed.has("theme")) return "later";
     this.drawnAt = now;
     if (changed.has("scene") && state.generation !== this.generation) this.#scene(state);
     const onPlan = this.onPlan(state);
     if (onPlan !== this.wasOnPlan && this.wasOnPlan !== undefined) this.view.all();
     this.wasOnPlan = onPlan;
     const level = onPlan ? this.shown(state) : null;
-    this.#words(state, onPlan, level); // before it is fitted beside them
+    this.#words(state, onPlan, level); // written before the view is fitted beside them
     const { width, height } = this.surface;
     const box = onPlan && this.extent ? this.extent : this.#box(state);
     this.view.fit(box, width - this.margins[0], height - this.margins[1], onPlan ? 0 : 0.14);
@@ -93,8 +93,8 @@ export class Track {
 
     const view = onPlan ? "plan" : "track";
     const points = onPlan ? state.places.length : Object.values(state.tracks).reduce((sum, one) => sum + one.length, 0);
-    tell(this.canvas, { view, points, level: level?.id ?? "", since: onPlan ? this.possibility.since(state) : 0 });
-    tell(this.section, { view });
+    setData(this.canvas, { view, points, level: level?.id ?? "", since: onPlan ? this.possibility.since(state) : 0 });
+    setData(this.section, { view });
     return "done";
   }
 
@@ -102,7 +102,7 @@ export class Track {
     return plan !== null && !(this.byItself ?? (place === null && places.length === 0));
   }
 
-  // The level to be seen: the chosen one, or where the wearer is.
+  // Level that is shown: the chosen one, or that of the wearer.
   shown({ plan, place, places }) {
     const id = this.level ?? place?.level ?? places.at(-1)?.[1];
     return plan.levels.find((level) => level.id === id) ?? plan.levels[0];
@@ -111,7 +111,7 @@ export class Track {
   #scene(state) {
     this.generation = state.generation;
     const drawn = JSON.stringify(state.plan);
-    if (drawn === this.plan) return; // the same building after a seek: who looks around goes on
+    if (drawn === this.plan) return; // the same building after a seek: the view stays
     this.plan = drawn;
     this.extent = state.plan && extent(state.plan);
     this.level = null;
@@ -129,7 +129,7 @@ export class Track {
     for (const points of Object.values(tracks)) for (const point of points) hold(point[1], point[2]);
     for (const foot of FEET) if (feet[foot]?.position) hold(feet[foot].position[0], feet[foot].position[1]);
     if (wearer?.covariance) {
-      // as much of the uncertainty as leaves the way large enough to see
+      // as much of the uncertainty as leaves the track large enough to see
       const most = 0.25 * Math.max(LEAST, box[2] - box[0], box[3] - box[1]);
       const [x, y] = wearer.position;
       const [dx, dy] = [0, 3].map((k) => Math.min(most, sure(wearer.covariance[k])));
@@ -156,13 +156,13 @@ export class Track {
       this.drawn = { left: 0, right: 0, wearer: 0, places: 0 };
     }
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    const anew = Object.values(this.drawn).every((count) => count === 0);
+    const blank = Object.values(this.drawn).every((count) => count === 0);
     if (level) {
-      if (anew) drawLevel(context, state.plan, level, px, scale);
+      if (blank) drawLevel(context, state.plan, level, px, scale);
       this.#walked(context, state.places, since, level.id, px);
       return;
     }
-    if (anew) {
+    if (blank) {
       drawGrid(context, this.surface, px([0, 0]), scale);
       drawStart(context, px([0, 0]));
     }
@@ -173,8 +173,8 @@ export class Track {
     }
   }
 
-  // Between two places of which one is elsewhere nothing is drawn solid; what was walked before `since`, by a
-  // possibility that was given up, is dashed.
+  // Between two places of which one is elsewhere there is no solid line; track before `since`, of a rejected
+  // candidate, is dashed.
   #walked(context, places, since, level, px) {
     const paths = { here: new Path2D(), elsewhere: new Path2D(), before: new Path2D() };
     for (let i = Math.max(1, this.drawn.places); i < places.length; i++) {
@@ -198,7 +198,7 @@ export class Track {
     for (const foot of FEET) {
       const place = feet[foot]?.position;
       if (!place) continue;
-      const last = tracks[foot].at(-1); // a track has the steps that ended, this one has not
+      const last = tracks[foot].at(-1); // a track has the strides that ended; the present one has not
       if (last) line(context, [last, [0, ...place]], px, WIDTHS[foot], theme.colours[foot]);
       drawFoot(context, foot, px(place));
     }
@@ -226,11 +226,11 @@ export class Track {
       }
       this.noted = words;
     }
-    this.alternative.say(() => (onPlan ? spokenOnPlan(state, level) : spokenTrack(state)));
+    this.alternative.setText(() => (onPlan ? spokenOnPlan(state, level) : spokenTrack(state)));
   }
 }
 
-// Points that fall on the same pixel are one.
+// Points that fall on the same pixel are drawn as one.
 function line(context, points, px, width, colour) {
   const path = new Path2D();
   let [lastX, lastY] = [Infinity, Infinity];

@@ -1,22 +1,22 @@
-// Where one looks at the plane from: the middle and px per metre; to all of it by itself, or as a person likes.
+// View of the plane: its middle and px per metre; it shows everything by itself, or what a person chooses.
 
-import { calm } from "./canvas.js";
+import { reducedMotion } from "./canvas.js";
 
-const EASE = 220; // ms to come about two thirds nearer
+const EASE = 220; // ms until two thirds of the way to the goal are done, about
 const [LEAST, MOST] = [0.2, 400]; // px per metre
 const STEP = 1.4;
 const PUSH = 48; // px
 
 export class View {
-  follows = true; // shows all of it by itself
-  above = 0; // px that its middle is above the canvas's, and left of it
+  follows = true; // true while it shows everything by itself
+  above = 0; // px by which its middle is above the canvas's, and left of it
   aside = 0;
   #goal = null;
   #now = null;
   #fingers = new Map();
   #last = 0;
 
-  // moved() is called when a person looked elsewhere
+  // moved() is called when a person changed the view
   constructor(canvas, moved) {
     this.canvas = canvas;
     this.moved = moved;
@@ -26,8 +26,8 @@ export class View {
     canvas.addEventListener("wheel", (event) => this.#wheel(event), { passive: false });
   }
 
-  // box: [x least, y least, x most, y most] that is to be seen, m; spare: the share of the picture left for what comes.
-  // It looks again only when something gets near the edge. Looking around ends with `all`.
+  // box: [least x, least y, greatest x, greatest y] to be shown, m; spare: share of the picture left for new parts.
+  // It changes only when something gets near the edge. A view by hand ends with `all`.
   fit(box, width, height, spare) {
     if (!this.follows || width < 1 || height < 1) return;
     const [x, y] = [0.5 * (box[0] + box[2]), 0.5 * (box[1] + box[3])];
@@ -36,10 +36,10 @@ export class View {
     if (this.#goal !== null && this.#suits(box, width, height, scale)) return;
     const first = this.#goal === null;
     this.#goal = { x, y, scale: scale * (1 - spare) };
-    if (first || calm.matches || this.#now === null) this.#now = { ...this.#goal };
+    if (first || reducedMotion.matches || this.#now === null) this.#now = { ...this.#goal };
   }
 
-  // Nothing is near the edge, and it is not all in a small heap.
+  // Returns whether nothing is near the edge, and it does not all lie in a small part.
   #suits(box, width, height, scale) {
     const { x, y, scale: shown } = this.#goal;
     const [w, h] = [(0.5 * width) / shown, (0.5 * height) / shown];
@@ -47,12 +47,12 @@ export class View {
     return inside && shown > 0.45 * scale;
   }
 
-  // Where the view is at the moment `now`: {x, y, scale}; `rests` when it has come to its goal.
+  // Returns the view at the moment `now`: {x, y, scale}; `settled` once it has reached its goal.
   at(now) {
     if (this.#now === null) return { x: 0, y: 0, scale: 30 };
     const passed = Math.min(100, now - this.#last);
     this.#last = now;
-    const share = this.rests ? 0 : 1 - Math.exp(-passed / EASE);
+    const share = this.settled ? 0 : 1 - Math.exp(-passed / EASE);
     for (const key of ["x", "y"]) this.#now[key] += share * (this.#goal[key] - this.#now[key]);
     this.#now.scale *= (this.#goal.scale / this.#now.scale) ** share;
     const off = Math.hypot(this.#goal.x - this.#now.x, this.#goal.y - this.#now.y) * this.#now.scale;
@@ -60,7 +60,7 @@ export class View {
     return this.#now;
   }
 
-  get rests() {
+  get settled() {
     return this.#now === null || ["x", "y", "scale"].every((key) => this.#now[key] === this.#goal[key]);
   }
 
@@ -70,7 +70,7 @@ export class View {
     this.moved();
   }
 
-  // The canvas has another size.
+  // Adapts to another size of the canvas.
   resized() {
     if (this.follows) this.#goal = null;
   }
@@ -91,11 +91,11 @@ export class View {
   #take(view, atOnce) {
     this.follows = false;
     this.#goal = { ...view, scale: Math.min(MOST, Math.max(LEAST, view.scale)) };
-    if (atOnce || calm.matches || this.#now === null) this.#now = { ...this.#goal };
+    if (atOnce || reducedMotion.matches || this.#now === null) this.#now = { ...this.#goal };
     this.moved();
   }
 
-  // The same metres stay under the point (px from the canvas's middle).
+  // Zooms so that the same place stays under the point (px from the canvas's middle).
   #about(px, py, factor) {
     const { x, y, scale } = this.#here();
     const next = Math.min(MOST, Math.max(LEAST, scale * factor));

@@ -1,4 +1,4 @@
-// How what comes is said.
+// Puts values into words.
 
 export const PHASES = { LOADING: "loading", STATIONARY: "flat", PUSH_OFF: "push-off", SWING: "swing" };
 export const ACTIVITIES = {
@@ -15,15 +15,15 @@ export const SUPPORTS = { DOUBLE: "both feet", LEFT: "left foot", RIGHT: "right 
 export const LINKS = { ok: "connected", silent: "silent", lost: "lost", waiting: "waiting" };
 
 // A word of a newer version is shown as it comes.
-export const say = (words, key) =>
+export const wordOf = (words, key) =>
   Object.hasOwn(words, key)
     ? words[key]
     : String(key ?? "")
         .toLowerCase()
         .replaceAll("_", " ");
-// What the wearer does; while no foot is heard, that it is not known.
-export const doing = ({ now, last }) =>
-  last === null ? say(ACTIVITIES, now) : `Not known, last: ${say(ACTIVITIES, last).toLowerCase()}`;
+// Activity of the wearer; while nothing comes of any foot, that it is not known.
+export const activityText = ({ now, last }) =>
+  last === null ? wordOf(ACTIVITIES, now) : `Not known, last: ${wordOf(ACTIVITIES, last).toLowerCase()}`;
 export const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
 
 export const fixed = (value, digits = 0) => {
@@ -34,7 +34,7 @@ export const fixed = (value, digits = 0) => {
 export const percent = (share, digits = 0) => (Number.isFinite(share) ? `${fixed(100 * share, digits)} %` : "–");
 export const signed = (value, digits) => (Number(value.toFixed(digits)) > 0 ? "+" : "") + fixed(value, digits);
 
-// 83.2 s is 1:23.
+// Shows 83.2 s as 1:23.
 export function clock(seconds) {
   const whole = Math.max(0, Math.floor(Number.isFinite(seconds) ? seconds : 0));
   const two = (value) => String(value).padStart(2, "0");
@@ -47,7 +47,7 @@ export function span(seconds) {
   return seconds < 60 ? `${Math.max(0, Math.floor(seconds))} s` : `${clock(seconds)} min`;
 }
 
-// Only where it is another one: the browser works out anew what is written, thirty times a second.
+// Writes a text only when it is a new one: the browser lays it out again, thirty times a second.
 export function write(element, words) {
   if (element.textContent !== words) element.textContent = words;
 }
@@ -56,8 +56,8 @@ export function show(element, shown) {
   if (element.hidden === shown) element.hidden = !shown;
 }
 
-// As data-..., for style.css and tests.
-export function tell(element, data) {
+// Sets data-..., for style.css and tests.
+export function setData(element, data) {
   for (const [name, value] of Object.entries(data)) {
     if (element.dataset[name] !== String(value)) element.dataset[name] = value;
   }
@@ -67,7 +67,7 @@ export function describe(element, name, words) {
   if (element.getAttribute(name) !== words) element.setAttribute(name, words);
 }
 
-// A new last child.
+// Adds a new last child.
 export function child(parent, name, kind) {
   const element = document.createElement(name);
   if (kind) element.className = kind;

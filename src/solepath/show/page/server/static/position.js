@@ -1,4 +1,4 @@
-// Where the wearer is, in words.
+// Position of the wearer in words.
 
 import { axes } from "./marks.js";
 import { fixed, percent } from "./words.js";
@@ -7,7 +7,7 @@ export function nameOf(plan, id) {
   return plan?.levels.find((level) => level.id === id)?.name ?? id;
 }
 
-// What one must know who sees this level; "" when there is nothing to say.
+// Note for a reader of this level; "" when there is none.
 export function noteOnPlan({ place, places, plan }, level) {
   if (!place && places.length > 0) return "The place was lost; the track by itself goes on.";
   if (!place) return "Where on the plan is not known yet.";
@@ -15,7 +15,7 @@ export function noteOnPlan({ place, places, plan }, level) {
   return place.level === level.id ? "" : `The wearer is on ${nameOf(plan, place.level)}.`;
 }
 
-// The same, where the track is shown by itself.
+// Note where the track is shown by itself.
 export function noteAlone({ place, places, plan }) {
   return plan && !place && places.length === 0 ? "Where on the plan is not known yet; this is the track by itself." : "";
 }
