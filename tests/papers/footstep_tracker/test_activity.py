@@ -74,7 +74,7 @@ def test_what_swings_across_the_axis_is_no_part_of_its_variance():
     assert first.across == pytest.approx(4.0)
 
 
-def test_the_gyroscope_counts_by_its_mean_square_and_is_not_missed_where_there_is_none():
+def test_the_gyroscope_counts_by_its_mean_square_and_is_optional():
     still = upright(*[0.0] * 80)
     assert windows(still, [(0.0, 2.0, 1.0)] * 80)[0].turning == pytest.approx(5.0)
     assert windows(still)[0].turning is None
@@ -105,16 +105,16 @@ PULSE = 0.8
 """m/s^2."""
 
 
-def samples(acc, seconds, feet=tuple(Foot), rate=RATE, begin=0.0):
+def samples(acc, seconds, feet=tuple(Foot), rate=RATE, start=0.0):
     """`acc`: of the time in s, m/s^2 along the axis beyond gravity."""
     found = []
     for k in range(round(seconds * rate)):
-        t = begin + k / rate
-        found += [Sample(t=t, site=SITE_OF_FOOT[foot], acc=(0.0, 0.0, GRAVITY + acc(t - begin))) for foot in feet]
+        t = start + k / rate
+        found += [Sample(t=t, site=SITE_OF_FOOT[foot], acc=(0.0, 0.0, GRAVITY + acc(t - start))) for foot in feet]
     return found
 
 
-def told(items, part=None):
+def events_of(items, part=None):
     part = TwoSecondWindows() if part is None else part
     return [event for item in items for event in fed(part, FEET[item.site.foot], item, [])]
 
@@ -127,9 +127,9 @@ def timeline(events):
     return found
 
 
-def ride(t, begin, end, up=1.0):
-    """A lift that sets off at `begin` and stands again at `end`, each for 1.25 s of pulse."""
-    if begin <= t < begin + 1.25:
+def ride(t, start, end, up=1.0):
+    """A lift that sets off at `start` and stands again at `end`, each for 1.25 s of pulse."""
+    if start <= t < start + 1.25:
         return up * PULSE
     return -up * PULSE if end - 1.25 <= t < end else 0.0
 
@@ -141,7 +141,7 @@ def stride(t):
 
 @pytest.mark.parametrize(("up", "activity"), [(1.0, UP), (-1.0, DOWN)])
 def test_hypergravity_then_weightlessness_is_a_lift_up_and_the_other_order_one_down(up, activity):
-    events = told(samples(lambda t: ride(t, 6.0, 16.0, up), 24.0))
+    events = events_of(samples(lambda t: ride(t, 6.0, 16.0, up), 24.0))
     (arrived,) = [event for event in events if isinstance(event, LiftRidden)]
     assert arrived.up is (up > 0.0) and arrived.height is None
     assert arrived.t_start == pytest.approx(6.0, abs=0.5) and arrived.t == pytest.approx(16.0, abs=0.5)
@@ -149,8 +149,8 @@ def test_hypergravity_then_weightlessness_is_a_lift_up_and_the_other_order_one_d
     assert [found.at(t) for t in (3.0, 7.0, 11.0, 15.0, 20.0)] == [STILL, activity, activity, activity, STILL]
 
 
-def test_a_lift_that_has_set_off_is_told_at_once_and_is_final_with_its_second_pulse():
-    events = [e for e in told(samples(lambda t: ride(t, 6.0, 16.0), 24.0)) if isinstance(e, ActivityChanged)]
+def test_a_lift_that_has_set_off_is_reported_at_once_and_is_final_with_its_second_pulse():
+    events = [e for e in events_of(samples(lambda t: ride(t, 6.0, 16.0), 24.0)) if isinstance(e, ActivityChanged)]
     assert [(e.activity, e.final) for e in events] == [(STILL, True), (UP, False), (UP, True), (STILL, True)]
     first, again = events[1:3]
     assert again.revises == first.t == again.t
@@ -159,14 +159,14 @@ def test_a_lift_that_has_set_off_is_told_at_once_and_is_final_with_its_second_pu
 
 
 def test_who_walks_off_before_the_second_pulse_rode_no_lift():
-    events = told(samples(lambda t: ride(t, 6.0, 99.0) if t < 12.0 else stride(t), 20.0))
+    events = events_of(samples(lambda t: ride(t, 6.0, 99.0) if t < 12.0 else stride(t), 20.0))
     assert not [event for event in events if isinstance(event, LiftRidden)]
     found = timeline(events)
     assert found.at(8.0) is STILL and found.at(14.0) in MOVING
 
 
 def test_no_second_pulse_for_a_minute_means_that_there_was_no_ride():
-    events = told(samples(lambda t: ride(t, 6.0, 999.0), 12.0 + 0.5 * LONGEST_RIDE))
+    events = events_of(samples(lambda t: ride(t, 6.0, 999.0), 12.0 + 0.5 * LONGEST_RIDE))
     assert timeline(events).at(30.0) is STILL
     assert all(event.final for event in events[-1:])
 
@@ -174,7 +174,7 @@ def test_no_second_pulse_for_a_minute_means_that_there_was_no_ride():
 def test_a_foot_that_falls_silent_is_not_waited_for():
     both = samples(lambda t: 0.0, 6.0)
     one = samples(lambda t: ride(t, 6.0, 16.0), 24.0, feet=(Foot.LEFT,))
-    events = told(both + [item for item in one if item.t >= 6.0])
+    events = events_of(both + [item for item in one if item.t >= 6.0])
     assert [event.up for event in events if isinstance(event, LiftRidden)] == [True]
 
 
@@ -206,7 +206,7 @@ def test_the_forward_filter_by_hand():
     part = TwoSecondWindows(two_second_windows.TwoSecondSettings(model()))
     items = samples(lambda t: swing * (-1.0) ** round(t * RATE), 4.55, feet=(Foot.LEFT,))
     # windows end at 2.5, 3.0, 3.5, 4.0 and 4.5 s; the first without any standing is the fourth of a movement
-    told(items, part)
+    events_of(items, part)
     likely = np.exp(-0.5 * (3.6 - np.array([3.0, 4.0, 2.0])) ** 2 / BLOCKS)
     belief = likely / likely.sum()
     belief = belief @ np.array(model().transitions) * likely
@@ -218,7 +218,7 @@ def test_the_variance_tree_comes_first():
     # variance 0.81 is below the threshold of 1, 1.21 above it, whatever the hidden Markov model says
     for swing, moves in ((0.9, False), (1.1, True)):
         part = TwoSecondWindows(two_second_windows.TwoSecondSettings(model()))
-        told(samples(lambda t, v=swing: v * (-1.0) ** round(t * RATE), 6.0), part)
+        events_of(samples(lambda t, v=swing: v * (-1.0) ** round(t * RATE), 6.0), part)
         assert (part.activity in MOVING) is moves
 
 
@@ -238,16 +238,16 @@ def test_any_numbers_give_events_in_order_of_being_known(items):
     json.dumps(save(part), allow_nan=False)
 
 
-def test_a_clock_that_begins_anew_begins_all_windows_anew():
+def test_a_restarted_clock_restarts_all_windows():
     part = TwoSecondWindows()
-    told(samples(lambda t: 0.0, 6.0, begin=100.0), part)
+    events_of(samples(lambda t: 0.0, 6.0, start=100.0), part)
     part.reset(SITE_OF_FOOT[Foot.LEFT])
     assert part.activity is Activity.UNKNOWN
-    (first,) = told(samples(lambda t: 0.0, 6.0), part)
+    (first,) = events_of(samples(lambda t: 0.0, 6.0), part)
     assert first.t == 0.0 and first.activity is STILL
 
 
-def test_the_shipped_model_is_sound_and_says_what_it_was_taught_on():
+def test_the_shipped_model_is_sound_and_names_its_training_data():
     known = shipped()
     assert "hugadb" in known.trained_on and "seeds 101" in known.trained_on
     assert known.moving > 0.0 and known.pulse > 0.0
@@ -269,7 +269,7 @@ def test_no_wearer_that_is_scored_was_learnt_from():
     assert last < footstep_tracker.FIRST and first > 50  # and the tests' own wearers come before
 
 
-def test_an_emulated_wearer_is_told_what_he_does():
-    said = score(FOOTSTEP_TRACKER, 2)
-    assert (said.windows.accuracy or 0.0) >= 0.93
-    assert said.time.rides_found == said.time.rides_true == 4
+def test_the_activities_of_an_emulated_wearer_are_found():
+    scores = score(FOOTSTEP_TRACKER, 2)
+    assert (scores.windows.accuracy or 0.0) >= 0.93
+    assert scores.time.rides_found == scores.time.rides_true == 4

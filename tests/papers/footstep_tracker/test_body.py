@@ -37,7 +37,7 @@ def step(foot: Foot, t: float, turn: float = 0.0, way: tuple[float, float] = (1.
     return stride(foot, t, (*way, 0.0), heading_change=turn)
 
 
-def heard() -> Footsteps:
+def new_track() -> Footsteps:
     """Of a wearer with sensors on both feet."""
     body = Footsteps()
     for way in body.paths.values():
@@ -45,9 +45,9 @@ def heard() -> Footsteps:
     return body
 
 
-def gone(count: int, left: float, right: float) -> Footsteps:
+def walked(count: int, left: float, right: float) -> Footsteps:
     """After so many steps of both feet, each m ahead."""
-    body = heard()
+    body = new_track()
     for k in range(count):
         body.add_stride(step(Foot.LEFT, k + 0.5, way=(left, 0.0)))
         body.add_stride(step(Foot.RIGHT, k + 1.0, way=(right, 0.0)))
@@ -60,18 +60,18 @@ def base(body: Footsteps) -> tuple[float, float]:
 
 
 def test_the_wearer_is_at_the_mean_of_what_both_feet_went() -> None:
-    assert base(gone(4, 1.2, 1.0)) == pytest.approx((4.4, 0.0))
+    assert base(walked(4, 1.2, 1.0)) == pytest.approx((4.4, 0.0))
 
 
-def test_feet_that_are_more_than_a_metre_apart_begin_anew_at_their_mean() -> None:
-    body = gone(6, 1.4, 1.0)
+def test_feet_that_are_more_than_a_metre_apart_restart_at_their_mean() -> None:
+    body = walked(6, 1.4, 1.0)
     assert body.restarts > 0
     assert base(body) == pytest.approx((0.5 * 6 * 2.4, 0.0))
     assert hypot(body.paths[Foot.LEFT].here[0] - body.paths[Foot.RIGHT].here[0], 0.0) < 2.0
 
 
 def test_half_a_stride_between_healthy_feet_is_no_difference() -> None:
-    body = heard()
+    body = new_track()
     for k in range(40):
         body.add_stride(step(Foot.LEFT, k + 0.5, way=(0.75 if k == 0 else 1.5, 0.0)))
         body.add_stride(step(Foot.RIGHT, k + 1.0, way=(1.5, 0.0)))
@@ -79,14 +79,14 @@ def test_half_a_stride_between_healthy_feet_is_no_difference() -> None:
 
 
 def test_a_foot_that_falls_silent_does_not_hold_the_wearer_back() -> None:
-    body = gone(5, 1.0, 1.0)
+    body = walked(5, 1.0, 1.0)
     for k in range(5, 15):
         body.add_stride(step(Foot.LEFT, k + 0.5))
     assert base(body) == pytest.approx((15.0, 0.0))
 
 
 def test_both_feet_go_on_in_the_direction_of_the_mean_of_their_turns() -> None:
-    body = heard()
+    body = new_track()
     # the left foot says 80 degrees and the right one 100; each then goes on straight by its own track
     for foot, turn in ((Foot.LEFT, radians(80.0)), (Foot.RIGHT, radians(100.0))):
         body.add_stride(step(foot, 1.0, turn, way=(0.0, 0.0)))
@@ -97,7 +97,7 @@ def test_both_feet_go_on_in_the_direction_of_the_mean_of_their_turns() -> None:
     assert (x - before[0], y - before[1]) == pytest.approx((0.0, 1.0))
 
 
-def told(direction: TurnDetector, steps: list[StrideTaken]) -> list[TurnProcess]:
+def turns_of(direction: TurnDetector, steps: list[StrideTaken]) -> list[TurnProcess]:
     return [found for one in steps if (found := direction.add_stride(one)) is not None]
 
 
@@ -111,7 +111,7 @@ def both(turns: list[tuple[float, float]], first: float = 1.0) -> list[StrideTak
 
 
 def test_a_turn_over_several_steps_is_their_sum_and_the_mean_of_both_feet() -> None:
-    (found,) = told(TurnDetector(), both([(0, 0), (30, 50), (40, 50), (0, 0), (0, 0)]))
+    (found,) = turns_of(TurnDetector(), both([(0, 0), (30, 50), (40, 50), (0, 0), (0, 0)]))
     assert found.left is not None and found.right is not None
     assert degrees(found.left) == pytest.approx(70.0) and degrees(found.right) == pytest.approx(100.0)
     assert degrees(found.angle) == pytest.approx(85.0)
@@ -119,12 +119,12 @@ def test_a_turn_over_several_steps_is_their_sum_and_the_mean_of_both_feet() -> N
 
 
 def test_who_walks_straight_on_makes_no_turn() -> None:
-    assert told(TurnDetector(), both([(3, -4), (-2, 5), (6, -3)] * 10)) == []
+    assert turns_of(TurnDetector(), both([(3, -4), (-2, 5), (6, -3)] * 10)) == []
 
 
 def test_a_turn_ends_when_the_wearer_stands() -> None:
     direction = TurnDetector()
-    assert told(direction, both([(0, 0), (90, 90)])) == []
+    assert turns_of(direction, both([(0, 0), (90, 90)])) == []
     assert direction.advance(3.0) is None
     found = direction.advance(6.0)
     assert found is not None and degrees(found.angle) == pytest.approx(90.0)
@@ -132,17 +132,17 @@ def test_a_turn_ends_when_the_wearer_stands() -> None:
 
 
 def test_one_foot_stepping_on_the_spot_does_not_end_the_other_s_turn() -> None:
-    found = told(TurnDetector(), both([(0, 0), (100, 0), (0, 90), (70, 80), (0, 0), (0, 0)]))
+    found = turns_of(TurnDetector(), both([(0, 0), (100, 0), (0, 90), (70, 80), (0, 0), (0, 0)]))
     assert len(found) == 1 and degrees(found[0].angle) == pytest.approx(170.0)
 
 
 def test_a_foot_that_pivots_without_a_step_has_turned_all_the_same() -> None:
     direction = TurnDetector()
-    told(direction, both([(0, 0), (0, 0)]))
+    turns_of(direction, both([(0, 0), (0, 0)]))
     for k in range(3):
         assert direction.add_pivot(Foot.LEFT, 3.0 + k, 3.5 + k, radians(30.0)) is None
         assert direction.add_pivot(Foot.RIGHT, 3.5 + k, 4.0 + k, radians(32.0)) is None
-    (found,) = told(direction, both([(0, 0), (0, 0)], first=7.0))
+    (found,) = turns_of(direction, both([(0, 0), (0, 0)], first=7.0))
     assert degrees(found.angle) == pytest.approx(93.0)
     assert (found.t_start, found.t_end) == (3.0, 6.0)
 
@@ -171,7 +171,7 @@ def test_the_weights_are_those_that_the_training_turns_give() -> None:
     assert train_weights(examples) == WEIGHTS
 
 
-def test_a_wearer_who_turns_is_told_to_have_turned() -> None:
+def test_the_turn_of_a_wearer_is_reported() -> None:
     right = 0
     for seed in range(3, 7):
         for turn in ANGLES:
@@ -188,7 +188,7 @@ def corridor(metres: float, seed: int = 1) -> EmulatedWalk:
     )
 
 
-def test_without_what_rest_tells_a_gyroscope_that_clips_makes_steps_too_short() -> None:
+def test_without_the_conditions_at_rest_a_clipping_gyroscope_makes_steps_too_short() -> None:
     walked = corridor(15.0)
 
     def length(recipe: Recipe) -> float:
@@ -227,7 +227,7 @@ def test_steps_that_come_to_less_than_the_walk_have_no_angle() -> None:
     assert toe_out_calibration(found) == Calibration()
 
 
-def test_a_walk_of_another_length_or_of_no_steps_is_refused() -> None:
+def test_a_walk_of_another_length_or_of_no_steps_is_rejected() -> None:
     packets = corridor(15.0).packets
     with pytest.raises(CalibrationError, match="length of the walk"):
         toe_out(packets, 5.0)
@@ -244,14 +244,14 @@ def test_the_angle_of_a_calibration_is_the_one_that_the_foot_uses() -> None:
     assert (right.toe_out, right.outwards, left.toe_out, left.outwards) == (0.2, -1.0, 0.0, 1.0)
 
 
-def test_calibrate_toe_out_writes_what_a_walk_tells_and_nothing_where_it_tells_none(tmp_path: Path) -> None:
+def test_calibrate_toe_out_writes_the_angles_of_a_walk_and_nothing_where_it_has_none(tmp_path: Path) -> None:
     file, out, other = recorded(tmp_path / "walk.jsonl", corridor(15.0).packets), tmp_path / "me.json", tmp_path / "no"
     done = run("calibrate", "toe-out", file, "--distance", "12", "--out", out)
     assert done.returncode == 0 and "toe-out degrees" in done.stdout
     assert set(read_calibration(out).toe_out) == set(Foot)
     for distance in ("20", "80", "1e308"):
-        said_of_it = run_failing("calibrate", "toe-out", file, "--distance", distance, "--out", other)
-        assert "nothing is learnt: the steps come to " in said_of_it and "m of the left foot and " in said_of_it
+        failure = run_failing("calibrate", "toe-out", file, "--distance", distance, "--out", other)
+        assert "nothing is learnt: the steps come to " in failure and "m of the left foot and " in failure
     for distance in ("3", "-3"):
         assert run("calibrate", "toe-out", file, "--distance", distance, "--out", other).returncode == 2
     assert not other.exists()

@@ -44,7 +44,7 @@ def test_the_critical_times_of_a_step_drawn_by_hand_are_where_algorithm_1_has_th
     assert times.rest == pytest.approx(0.60)
 
 
-def test_mid_swing_where_the_foot_begins_to_slow_down_is_no_landing() -> None:
+def test_mid_swing_where_the_foot_starts_to_slow_down_is_no_landing() -> None:
     slows = [*A_Y[:10], -1.0, -4.0, 0.0, 0.0]  # a_y does not come up again as the heel strikes
     times = critical_times(rows(0.05, slows, G_X))
     assert times is not None
@@ -80,7 +80,7 @@ def test_gravity_alone_moves_no_step_however_the_foot_is_tilted() -> None:
     assert sum(closed_step_length(drawn, times)) == pytest.approx(0.0, abs=1e-3)
 
 
-def test_a_step_of_constant_push_and_brake_is_as_long_as_the_double_integral_says() -> None:
+def test_a_step_of_constant_push_and_brake_is_as_long_as_its_double_integral() -> None:
     # 4 m/s^2 for half a second, then -4 for as long: 0.5 + 0.5 m by (5), all of it S_y of (6)
     drawn = [(0.01 * k, 0.0, 4.0 if k < 50 else -4.0 if k > 50 else 0.0, -G, 0.0, 0.0, 0.0) for k in range(101)]
     times = CriticalTimes(0.0, 0.0, 1.0, 1.0)
@@ -128,7 +128,7 @@ def swing() -> list[Row]:
     return drawn
 
 
-def test_what_a_clipped_gyroscope_missed_is_found_from_tilt_and_velocity_at_rest() -> None:
+def test_the_clipped_angle_is_found_from_tilt_and_velocity_at_rest() -> None:
     drawn, times = swing(), CriticalTimes(0.0, 0.0, 1.0, 1.0)
     assert sum(closed_step_length(drawn, times)) == pytest.approx(1.0, abs=0.01)
     seen = clipped(drawn, 4.0)  # its toe rises at up to 7.5 rad/s and sinks at up to 4.2
@@ -138,17 +138,17 @@ def test_what_a_clipped_gyroscope_missed_is_found_from_tilt_and_velocity_at_rest
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
-def test_a_foot_that_turns_faster_than_its_gyroscope_can_tell_has_turned_further(side: float) -> None:
+def test_a_foot_that_turns_faster_than_its_gyroscope_measures_has_turned_further(side: float) -> None:
     # a bell of 8 rad/s and 0.5 s: 2 rad, of which 5 rad/s leave some
     bell = [side * 4.0 * (1.0 - cos(4.0 * pi * 0.02 * k)) if k <= 25 else 0.0 for k in range(41)]
     drawn: list[Row] = [(0.02 * k, 0.0, 0.0, -G, 0.0, 0.0, g) for k, g in enumerate(bell)]
     times = CriticalTimes(0.0, 0.0, 0.8, 0.8)
     assert vertical_turn(drawn, times) == pytest.approx(side * 2.0, abs=0.01)
     seen = clipped(drawn, 5.0)
-    told = abs(vertical_turn(seen, times))
+    measured = abs(vertical_turn(seen, times))
     known = abs(vertical_turn(seen, times, 4.99))
-    assert told < 1.7
-    assert 0.5 * (2.0 - told) < known - told < 1.1 * (2.0 - told)
+    assert measured < 1.7
+    assert 0.5 * (2.0 - measured) < known - measured < 1.1 * (2.0 - measured)
 
 
 def feed(zones: StaticZones, samples: list[tuple[float, Vec3, Vec3]]) -> list[Stance]:
@@ -164,13 +164,13 @@ def still(n: int, rate: float, acc: Vec3 = (0.0, 0.0, G), gyro: Vec3 = ZERO) -> 
     return [(k / rate, acc, gyro) for k in range(n)]
 
 
-def test_six_samples_at_20_hz_make_a_static_zone_and_five_do_not_while_the_gyroscope_is_not_quiet() -> None:
+def test_six_samples_at_20_hz_make_a_static_zone_and_five_do_not_while_the_foot_turns() -> None:
     turning = still(6, 20.0, gyro=(0.0, 0.0, 2.0))
     found = feed(StaticZones(), turning)
     assert [one.hint for one in found] == [None] * 5 + [Phase.STATIONARY]
 
 
-def test_a_sample_that_does_not_lie_with_the_others_begins_the_zone_anew() -> None:
+def test_a_sample_away_from_the_others_restarts_the_zone() -> None:
     samples = still(12, 20.0, gyro=(0.0, 0.0, 2.0))
     t, (x, y, z), gyro = samples[4]
     samples[4] = (t, (x + 1.0, y, z), gyro)  # half of this may be a count
@@ -179,13 +179,13 @@ def test_a_sample_that_does_not_lie_with_the_others_begins_the_zone_anew() -> No
     assert [k for k, one in enumerate(found) if one.hint is Phase.STATIONARY][0] == 10
 
 
-def stride(rate: float, *, lasts: float = 0.6, rests: float = 0.4, strides: int = 3) -> list[tuple[float, Vec3, Vec3]]:
+def stride(rate: float, *, lasts: float = 0.6, rest: float = 0.4, strides: int = 3) -> list[tuple[float, Vec3, Vec3]]:
     """A foot with x forward and y left: rests, rises toe down, swings toe up, and rests again."""
-    period = lasts + rests
+    period = lasts + rest
     samples = []
     for k in range(int(strides * period * rate) + int(0.5 * rate)):
         t = k / rate
-        u = (t % period) - rests
+        u = (t % period) - rest
         if u < 0.0 or t > strides * period:
             samples.append((t, (0.0, 0.0, G), ZERO))
             continue
@@ -267,7 +267,7 @@ def test_the_cues_of_a_step_come_all_at_once_with_their_own_times() -> None:
     assert not cues.update(1.9, 0.01, ZERO, ZERO, True, 0.0, Phase.STATIONARY, None, stance._replace(detail=None))
 
 
-def test_the_habit_of_a_straight_step_is_no_turn_and_a_corner_is() -> None:
+def test_the_usual_turn_of_a_straight_step_is_no_turn_and_a_corner_is() -> None:
     turning = TurningSteps()
     for _ in range(60):
         turning.turn(0.1)

@@ -31,7 +31,7 @@ def test_noise_is_the_mean_of_the_least_loaded_samples_and_three_deviations() ->
     assert noise == pytest.approx((2.0 + 3.0, 4.0 + 0.0))
 
 
-def test_only_the_share_that_is_asked_for_counts() -> None:
+def test_only_the_requested_share_counts() -> None:
     # the 30 lowest totals: 20 in the air, and 10 with 10 on the first cell
     rows = [(1.0, 4.0), (3.0, 4.0)] * 10 + [(10.0, 4.0)] * 10 + [(80.0, 90.0)] * 70
     mean = (10 * 1.0 + 10 * 3.0 + 10 * 10.0) / 30
@@ -46,7 +46,7 @@ def test_noise_is_in_newtons_where_the_calibration_makes_newtons() -> None:
     assert pressure_noise(worn(rows), 0.20, known).insoles[Foot.LEFT].noise == pytest.approx((2.0, 8.0))
 
 
-def test_each_foot_has_its_own_noise_and_nothing_else_is_said() -> None:
+def test_each_foot_has_its_own_noise_and_nothing_else_is_calibrated() -> None:
     rows = [(1.0, 4.0)] * 40 + [(80.0, 90.0)] * 110
     found = pressure_noise([*worn(rows), *worn([(2.0 * a, b) for a, b in rows], Site.RIGHT_FOOT)])
     assert {foot: insole.noise for foot, insole in found.insoles.items()} == {
@@ -64,12 +64,12 @@ def test_each_foot_has_its_own_noise_and_nothing_else_is_said() -> None:
         ([(1.0, 2.0)] * 150 + [(1.0, 2.0, 3.0)], "2 cells and then 3"),
     ],
 )
-def test_a_walk_that_tells_nothing_of_noise_is_refused(rows: list[tuple[float, ...]], complaint: str) -> None:
+def test_a_walk_that_shows_no_noise_is_rejected(rows: list[tuple[float, ...]], complaint: str) -> None:
     with pytest.raises(CalibrationError, match=complaint):
         pressure_noise(worn(rows))
 
 
-def test_with_its_noise_taken_off_a_foot_in_the_air_carries_nothing() -> None:
+def test_with_its_noise_removed_a_foot_in_the_air_has_no_load() -> None:
     walker = Walker(Route().stand(1.0).walk(20.0, 1.3).stop(1.0), seed=203)
     cells = layout(96, Foot.LEFT)
     rng = np.random.default_rng(5)
@@ -130,7 +130,7 @@ def test_postures_of_a_shoe_give_its_curves(tmp_path: Path) -> None:
         (HEADER + "0,0.07,0.09\n10,0.07,0.09\n20,0.1,0.06\n", "the steepest posture is 20 degrees"),
     ],
 )
-def test_a_bad_table_of_postures_is_refused_in_one_line(tmp_path: Path, text: str, complaint: str) -> None:
+def test_a_bad_table_of_postures_is_rejected_in_one_line(tmp_path: Path, text: str, complaint: str) -> None:
     file = tmp_path / "postures.csv"
     file.write_text(text)
     with pytest.raises(ValueError, match=complaint) as caught:

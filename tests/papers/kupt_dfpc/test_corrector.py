@@ -38,22 +38,22 @@ def detector() -> KnownVelocity:
     return known
 
 
-def said(known: KnownVelocity, *samples: tuple[Load | None, float]) -> list[Stance]:
+def stances_of(known: KnownVelocity, *samples: tuple[Load | None, float]) -> list[Stance]:
     """What it says of samples at 100 Hz: the load and the heel-up pitch, rad."""
-    told = []
+    stances = []
     for k, (load, pitch) in enumerate(samples):
         # a foot that turns: no inertial detector takes it for still
-        told.append(known.update(0.01 * k, 0.01, STILL, (0.0, 0.4, 0.0), load, heel_up(pitch)))
-    return told
+        stances.append(known.update(0.01 * k, 0.01, STILL, (0.0, 0.4, 0.0), load, heel_up(pitch)))
+    return stances
 
 
 def test_both_areas_loaded_is_a_zero_velocity() -> None:
-    stance = said(detector(), (BOTH, 0.0))[0]
+    stance = stances_of(detector(), (BOTH, 0.0))[0]
     assert stance.hint is Phase.STATIONARY and stance.v_ref == ZERO and stance.statistic == 0.5
 
 
 def test_then_the_forefoot_alone_is_a_rolling_shoe_with_the_velocity_of_its_pitch() -> None:
-    stances = said(detector(), (BOTH, 0.0), (FOREFOOT, 0.02), (FOREFOOT, 0.06))
+    stances = stances_of(detector(), (BOTH, 0.0), (FOREFOOT, 0.02), (FOREFOOT, 0.06))
     assert [stance.hint for stance in stances] == [Phase.STATIONARY, Phase.PUSH_OFF, Phase.PUSH_OFF]
     # a height of 0.029 to 0.033 m above a pivot times 4 rad/s
     assert stances[2].v_ref[0] == pytest.approx(4.0 * 0.0315, rel=0.03)
@@ -61,13 +61,13 @@ def test_then_the_forefoot_alone_is_a_rolling_shoe_with_the_velocity_of_its_pitc
     assert stances[2].sigma < inf
 
 
-def test_no_load_is_swing_about_whose_velocity_nothing_is_said() -> None:
-    stance = said(detector(), (BOTH, 0.0), (FOREFOOT, 0.5), (AIR, 0.9))[2]
+def test_no_load_is_swing_without_velocity_evidence() -> None:
+    stance = stances_of(detector(), (BOTH, 0.0), (FOREFOOT, 0.5), (AIR, 0.9))[2]
     assert stance.hint is Phase.SWING and isinf(stance.sigma)
 
 
 def test_the_heel_after_a_swing_is_a_foot_that_rolls_down_over_its_heel() -> None:
-    stances = said(detector(), (AIR, -0.35), (HEEL, -0.33), (HEEL, -0.30))
+    stances = stances_of(detector(), (AIR, -0.35), (HEEL, -0.33), (HEEL, -0.30))
     assert [stance.hint for stance in stances] == [Phase.SWING, Phase.LOADING, Phase.LOADING]
     assert isinf(stances[1].sigma)  # the sample before was in the air
     # (4): P_z at 0.315 rad = 0.125 x 0.310 + 0.029 x 0.951 = 0.0663, times 3 rad/s
@@ -76,19 +76,19 @@ def test_the_heel_after_a_swing_is_a_foot_that_rolls_down_over_its_heel() -> Non
 
 
 def test_weight_that_goes_back_to_the_heel_is_no_push_off() -> None:
-    stance = said(detector(), (BOTH, 0.0), (HEEL, 0.0))[1]
+    stance = stances_of(detector(), (BOTH, 0.0), (HEEL, 0.0))[1]
     assert stance.hint is None and isinf(stance.sigma)
 
 
 def test_a_foot_that_lands_on_its_toes_has_no_known_velocity() -> None:
-    stances = said(detector(), (AIR, 0.4), (HEEL, 0.4), (HEEL, 0.3))
+    stances = stances_of(detector(), (AIR, 0.4), (HEEL, 0.4), (HEEL, 0.3))
     assert all(isinf(stance.sigma) for stance in stances)
 
 
 def test_before_the_first_push_off_there_is_no_rolling_velocity() -> None:
     known = detector()
     known.sagittal = Sagittal()
-    stances = said(known, (BOTH, 0.0), (FOREFOOT, 0.2), (FOREFOOT, 0.5))
+    stances = stances_of(known, (BOTH, 0.0), (FOREFOOT, 0.2), (FOREFOOT, 0.5))
     assert [stance.hint for stance in stances[1:]] == [Phase.PUSH_OFF] * 2
     assert all(isinf(stance.sigma) for stance in stances[1:])
 
@@ -97,7 +97,7 @@ def test_that_push_off_teaches_the_next_one() -> None:
     known = detector()
     known.sagittal = Sagittal()
     first = ((BOTH, 0.0), (FOREFOOT, 0.3), (FOREFOOT, 0.8), (AIR, 1.0), (HEEL, -0.2), (BOTH, 0.0))
-    stances = said(known, *first, (FOREFOOT, 0.1), (FOREFOOT, 0.2))
+    stances = stances_of(known, *first, (FOREFOOT, 0.1), (FOREFOOT, 0.2))
     assert stances[-1].sigma < inf and stances[-1].v_ref[0] > 0.0
 
 
@@ -119,22 +119,22 @@ NO_AREAS = evolve(BOTH, heel=None, forefoot=None, centre=None)
 """Nobody has said where the cells are."""
 
 
-def test_as_long_as_nobody_says_where_the_cells_are_a_foot_at_rest_stands() -> None:
+def test_without_a_layout_a_foot_at_rest_stands() -> None:
     known = detector()
     moves = known.update(0.0, 0.01, STILL, (0.0, 3.0, 0.0), NO_AREAS, IDENTITY)
-    rests = [known.update(0.01 * k, 0.01, STILL, ZERO, NO_AREAS, IDENTITY) for k in range(10, 20)][-1]
+    standing = [known.update(0.01 * k, 0.01, STILL, ZERO, NO_AREAS, IDENTITY) for k in range(10, 20)][-1]
     assert moves.hint is None and isinf(moves.sigma)
-    assert rests.hint is Phase.STATIONARY and rests.v_ref == ZERO and rests.sigma < 0.05
+    assert standing.hint is Phase.STATIONARY and standing.v_ref == ZERO and standing.sigma < 0.05
     assert known.update(0.2, 0.01, STILL, (0.0, 3.0, 0.0), evolve(AIR, heel=None), IDENTITY).hint is Phase.SWING
 
 
-def test_a_motion_longer_than_any_stride_ends_where_the_foot_is_quiet() -> None:
+def test_a_motion_longer_than_any_stride_ends_where_the_foot_is_still() -> None:
     """An area that feels nothing: the cells never have both loaded."""
     known = detector()
-    quiet = [known.update(0.01 * k, 0.01, STILL, ZERO, HEEL, IDENTITY).hint for k in range(600)]
-    first = quiet.index(Phase.STATIONARY)
+    hints = [known.update(0.01 * k, 0.01, STILL, ZERO, HEEL, IDENTITY).hint for k in range(600)]
+    first = hints.index(Phase.STATIONARY)
     assert 2.0 < 0.01 * first < 4.0
-    assert set(quiet[first:]) == {Phase.STATIONARY}
+    assert set(hints[first:]) == {Phase.STATIONARY}
     # once it was overdue it need not be as quiet: half a radian per second
     slow = [known.update(6.0 + 0.01 * k, 0.01, STILL, (0.0, 0.5, 0.0), HEEL, IDENTITY).hint for k in range(10)]
     assert slow[5:] == [Phase.STATIONARY] * 5
@@ -145,7 +145,7 @@ def test_a_motion_longer_than_any_stride_ends_where_the_foot_is_quiet() -> None:
 def test_a_shoe_that_nobody_measured_is_as_long_as_its_insole() -> None:
     known = detector()
     known.set_layout(Layout(2, Foot.LEFT, (Cell(0.03, 0.0), Cell(0.2, 0.0)), 0.228))
-    stances = said(known, (AIR, -0.35), (HEEL, -0.33), (HEEL, -0.30))
+    stances = stances_of(known, (AIR, -0.35), (HEEL, -0.33), (HEEL, -0.30))
     # 22.8 cm are four fifths of 28.5: (4) with L_r = 0.100: P_z at 0.315 rad = 0.0310 + 0.0276, times 3 rad/s
     assert stances[2].v_ref[0] == pytest.approx(3.0 * 0.0586, rel=0.01)
     known = KnownVelocity().calibrated(Foot.LEFT, Calibration(shoe=ShoeGeometry(height=0.04)))
@@ -221,7 +221,7 @@ def test_a_heel_that_never_rolls_leaves_the_line_to_run_to_motion_end() -> None:
 
 
 @pytest.mark.parametrize("v", [-0.6, 0.8])
-def test_a_rolling_velocity_far_from_one_that_was_zero_a_moment_ago_is_not_believed(v: float) -> None:
+def test_a_rolling_velocity_far_from_one_that_was_zero_a_moment_ago_is_not_used(v: float) -> None:
     """Raw means are 0.05 and 0.15 m/s: no integration goes wrong by half a metre per second within 0.2 s, but a foot
     that has left the ground, or slides, does not roll."""
     step = ((rolling(v, Phase.PUSH_OFF), None), (rolling(v, Phase.PUSH_OFF), None), *STEP[2:])
@@ -232,7 +232,7 @@ def test_a_rolling_velocity_far_from_one_that_was_zero_a_moment_ago_is_not_belie
     assert live.velocity[0] == pytest.approx(0.2) and live.position[0] == pytest.approx(0.02)
 
 
-def test_a_roll_that_is_believed_up_to_a_good_toe_off_stays_believed() -> None:
+def test_a_roll_that_is_used_up_to_a_good_toe_off_stays_used() -> None:
     """The foot that goes on to contradict it had left the ground."""
     early = (STEP[0], STEP[1], (rolling(0.9, Phase.PUSH_OFF), Cue.CLEAR), *STEP[3:])
     assert moved(fresh(), early).error_index == pytest.approx(0.19)
@@ -279,7 +279,7 @@ def test_after_a_long_gap_the_foot_is_taken_up_where_it_was() -> None:
     assert corrector.error_index is None
 
 
-def test_heights_lose_a_line_over_the_whole_motion_unless_they_are_asked_for() -> None:
+def test_heights_lose_a_line_over_the_whole_motion_unless_vertical_is_set() -> None:
     up = tuple(
         (Stance((0.1, 0.0, 0.3), 0.1, 0.0, stance.hint) if stance.sigma == 0.1 else stance, cue) for stance, cue in STEP
     )

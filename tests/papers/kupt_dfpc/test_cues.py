@@ -34,7 +34,7 @@ FLIGHT: list[Row] = [(None, False)] * 12
 LANDING: list[Row] = [(0.05, False), (0.06, False), (0.08, False)]
 
 
-def believed() -> CopCues:
+def cues_with_load() -> CopCues:
     """One that stands and whose cells were right in the last swing."""
     cues = CopCues(touch=Touch())
     cues.set_layout(FOUR)
@@ -47,7 +47,7 @@ def watch(
     rows: list[Row], cues: CopCues | None = None, speed: float = 0.0
 ) -> tuple[list[tuple[SeenCue, int]], list[Cue | None]]:
     """What was seen, each with the number of the sample at which it was told, and the marks; 100 Hz."""
-    cues = cues or believed()
+    cues = cues or cues_with_load()
     seen: list[tuple[SeenCue, int]] = []
     marks: list[Cue | None] = []
     phase = Phase.STATIONARY
@@ -62,7 +62,7 @@ def watch(
     return seen, marks
 
 
-def told(rows: list[Row]) -> list[tuple[Cue, int, int]]:
+def cues_of(rows: list[Row]) -> list[tuple[Cue, int, int]]:
     """(cue, number of the sample that it names, number of the sample at which it was told)."""
     return [(one.cue, round(one.t / 0.01), k) for one, k in watch(rows)[0]]
 
@@ -78,21 +78,21 @@ def test_the_centre_of_pressure_is_the_mean_of_places_weighted_by_pressure() -> 
     assert load is not None and load.centre == pytest.approx((0.125, 0.0075))
 
 
-def test_toe_off_is_the_sample_before_the_jump_to_the_foots_centre_and_told_with_the_first_of_swing() -> None:
+def test_toe_off_is_the_sample_before_the_jump_to_the_foots_centre_and_known_at_the_first_of_swing() -> None:
     # samples 0 and 1 stand, 2 to 4 push off; A is 4, B is 5: from 0.16 to 0.10 is the largest jump
-    assert told(STANCE + PUSH + FLIGHT) == [(Cue.LIFT, 2, 2), (Cue.CLEAR, 4, 5)]
+    assert cues_of(STANCE + PUSH + FLIGHT) == [(Cue.LIFT, 2, 2), (Cue.CLEAR, 4, 5)]
 
 
-def test_heel_strike_is_the_sample_after_the_jump_from_the_foots_centre_and_told_with_foot_flat() -> None:
+def test_heel_strike_is_the_sample_after_the_jump_from_the_foots_centre_and_known_at_foot_flat() -> None:
     # B to C are 5 to 16, D is 17: from 0.10 to 0.05; 20 is the first that stands
-    cues = told(STANCE + PUSH + FLIGHT + LANDING + STANCE)
+    cues = cues_of(STANCE + PUSH + FLIGHT + LANDING + STANCE)
     assert cues[2:] == [(Cue.CONTACT, 17, 20), (Cue.FLAT, 20, 20)]
 
 
 def test_a_larger_jump_later_in_landing_is_the_heel_strike() -> None:
     # the first contact is at 0.09, hardly off the centre; then the heel: from 0.09 to 0.04
     landing: list[Row] = [(0.09, False), (0.04, False), (0.06, False)]
-    assert told(STANCE + PUSH + FLIGHT + landing + STANCE)[2] == (Cue.CONTACT, 18, 20)
+    assert cues_of(STANCE + PUSH + FLIGHT + landing + STANCE)[2] == (Cue.CONTACT, 18, 20)
 
 
 def test_marks_are_set_at_the_best_candidates_so_far() -> None:
@@ -123,7 +123,7 @@ def test_a_heel_that_bounces_strikes_once() -> None:
     assert cues == [Cue.LIFT, Cue.CLEAR, Cue.CONTACT, Cue.FLAT]
 
 
-def test_a_heel_strike_is_told_after_a_while_even_when_the_foot_never_lies_flat() -> None:
+def test_a_heel_strike_is_reported_after_a_while_even_when_the_foot_never_lies_flat() -> None:
     landing: list[Row] = [(0.05, False)] * 60
     (contact,) = [(one, k) for one, k in watch(STANCE + PUSH + FLIGHT + landing)[0] if one.cue is Cue.CONTACT]
     assert round(contact[0].t / 0.01) == 17 and contact[1] - 17 == 40
@@ -210,7 +210,7 @@ def few(count: int, foot: Foot) -> Layout:
 
 
 @pytest.mark.parametrize("count", [2, 8, 24, 96])
-def test_insoles_alone_tell_heel_strike_and_toe_off_with_few_cells_as_with_many(count: int) -> None:
+def test_insoles_alone_show_heel_strike_and_toe_off_with_few_cells_as_with_many(count: int) -> None:
     walker = Walker(WALK, seed=211)
     for foot in Foot:
         seen, truth = alone(few(count, foot), walker), walker.truth().feet[foot]

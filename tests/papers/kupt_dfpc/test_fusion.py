@@ -103,41 +103,41 @@ def test_two_steps_without_error_share_as_two_of_equal_error_do() -> None:
 
 
 def test_the_calibrated_stride_is_equation_12_worked_by_hand() -> None:
-    _, told = walked(step(LEFT, 2.0, 1.2, index=0.3), step(RIGHT, 2.55, 1.4, index=0.1))
-    r = told[1].similarity
+    _, fused = walked(step(LEFT, 2.0, 1.2, index=0.3), step(RIGHT, 2.55, 1.4, index=0.1))
+    r = fused[1].similarity
     assert r == pytest.approx(1.0)
     # Calicoef_R = 0.3 / (0.3 + 0.1) = 0.75; D = 1.4 * 0.75 + 1.2 * 0.25
-    assert told[1].coefficient == pytest.approx(0.75)
-    assert told[1].stride_length == pytest.approx(1.35)
-    assert told[1].own_length == 1.4
+    assert fused[1].coefficient == pytest.approx(0.75)
+    assert fused[1].stride_length == pytest.approx(1.35)
+    assert fused[1].own_length == 1.4
 
 
 def test_each_step_is_calibrated_by_the_step_before_it_as_the_other_foot_measured_it() -> None:
     # fig. 9: L1 calibrates R1, R1 calibrates L2, with d and not with D
-    _, told = walked(
+    _, fused = walked(
         step(LEFT, 2.0, 1.2, index=0.1), step(RIGHT, 2.55, 1.4, index=0.1), step(LEFT, 3.1, 1.2, index=0.1, number=2)
     )
-    assert [one.stride_length for one in told] == pytest.approx([1.2, 1.3, 1.3])
+    assert [one.stride_length for one in fused] == pytest.approx([1.2, 1.3, 1.3])
 
 
 def test_the_first_step_has_nothing_to_be_compared_with_and_keeps_its_length() -> None:
-    _, (told,) = walked(step(LEFT, 2.0, 1.2))
-    assert (told.stride_length, told.coefficient, told.similarity, told.chosen) == (1.2, 1.0, None, LEFT)
-    assert (told.distance, told.position) == (1.2, (1.2, 0.0, 0.0))
+    _, (fused,) = walked(step(LEFT, 2.0, 1.2))
+    assert (fused.stride_length, fused.coefficient, fused.similarity, fused.chosen) == (1.2, 1.0, None, LEFT)
+    assert (fused.distance, fused.position) == (1.2, (1.2, 0.0, 0.0))
 
 
-def test_a_wearer_who_stood_begins_again_without_the_other_foot() -> None:
-    _, told = walked(step(LEFT, 2.0), step(RIGHT, 2.55, 1.0), step(LEFT, 22.0, 1.2, lasts=20.0, number=2))
-    assert told[1].similarity is not None
-    assert told[2].similarity is None
-    assert told[2].stride_length == 1.2
+def test_a_wearer_who_stood_starts_again_without_the_other_foot() -> None:
+    _, fused = walked(step(LEFT, 2.0), step(RIGHT, 2.55, 1.0), step(LEFT, 22.0, 1.2, lasts=20.0, number=2))
+    assert fused[1].similarity is not None
+    assert fused[2].similarity is None
+    assert fused[2].stride_length == 1.2
 
 
 def test_an_abnormal_step_neither_is_calibrated_nor_calibrates() -> None:
-    _, told = walked(step(LEFT, 2.0, 1.2), step(RIGHT, 2.55, 2.0, index=None), step(LEFT, 3.1, 1.3, number=2))
-    assert [one.stride_length for one in told] == [1.2, 2.0, 1.3]
-    assert [one.error_index for one in told] == [0.1, None, 0.1]
-    assert told[2].similarity is None
+    _, fused = walked(step(LEFT, 2.0, 1.2), step(RIGHT, 2.55, 2.0, index=None), step(LEFT, 3.1, 1.3, number=2))
+    assert [one.stride_length for one in fused] == [1.2, 2.0, 1.3]
+    assert [one.error_index for one in fused] == [0.1, None, 0.1]
+    assert fused[2].similarity is None
 
 
 def test_the_choice_of_the_foot_is_the_sign_of_equation_13_worked_by_hand() -> None:
@@ -156,8 +156,8 @@ def test_the_choice_of_the_foot_is_the_sign_of_equation_13_worked_by_hand() -> N
 
 def test_a_foot_whose_step_is_abnormal_beside_a_normal_one_is_not_chosen_for_having_no_error() -> None:
     steps = [step(LEFT, 2.0, 1.2, index=0.3), step(RIGHT, 2.55, 1.2, index=0.1)]
-    body, told = walked(*steps)
-    assert told[-1].chosen is RIGHT
+    body, fused = walked(*steps)
+    assert fused[-1].chosen is RIGHT
     body.add_stride(step(LEFT, 3.1, 1.2, index=0.3, number=2), CENTRE)
     before = body.paths[Foot.RIGHT].distance
     last = body.add_stride(step(RIGHT, 3.65, 20.1, index=None, number=2), CENTRE)
@@ -166,8 +166,8 @@ def test_a_foot_whose_step_is_abnormal_beside_a_normal_one_is_not_chosen_for_hav
     assert last.chosen is LEFT
     assert last.distance == pytest.approx(before + 1.2, abs=0.3)
     # the other way round, with the normal step after the abnormal one
-    body, told = walked(step(LEFT, 2.0, 9.0, index=None), step(RIGHT, 2.55, 1.2, index=0.1))
-    assert [one.chosen for one in told] == [LEFT, RIGHT]
+    body, fused = walked(step(LEFT, 2.0, 9.0, index=None), step(RIGHT, 2.55, 1.2, index=0.1))
+    assert [one.chosen for one in fused] == [LEFT, RIGHT]
 
 
 def test_the_centre_of_the_foot_is_half_way_between_the_first_and_the_last_cell() -> None:
@@ -184,28 +184,28 @@ def test_the_centre_of_the_foot_is_half_way_between_the_first_and_the_last_cell(
 
 
 def test_the_chosen_path_is_the_calibrated_one_in_the_foots_own_direction() -> None:
-    body, told = walked(
+    body, fused = walked(
         step(LEFT, 2.0, 1.2, index=0.3, direction=(0.6, 0.8)), step(RIGHT, 2.55, 1.4, index=0.1, direction=(0.0, 1.0))
     )
-    assert told[1].chosen is RIGHT
-    assert told[1].position == pytest.approx((0.0, 1.35, 0.0))
-    assert told[1].distance == pytest.approx(1.35)
+    assert fused[1].chosen is RIGHT
+    assert fused[1].position == pytest.approx((0.0, 1.35, 0.0))
+    assert fused[1].distance == pytest.approx(1.35)
     assert body.paths[Foot.LEFT].end == pytest.approx((0.72, 0.96, 0.0))
 
 
 def test_a_walk_of_equal_steps_ends_where_it_ended_without_calibration() -> None:
     steps = [step(foot, 2.0 + 0.55 * k, number=k // 2 + 1) for k, foot in enumerate((LEFT, RIGHT) * 10)]
-    body, told = walked(*steps)
-    assert told[-1].distance == pytest.approx(13.0)
+    body, fused = walked(*steps)
+    assert fused[-1].distance == pytest.approx(13.0)
     assert body.error_balance == 0.0
-    assert {one.chosen for one in told} == {LEFT}
+    assert {one.chosen for one in fused} == {LEFT}
 
 
 WALK = Route().stand(1.5).walk(14.0, 1.25).stop(1.5)
 
 
 @cache
-def heard(silent: bool = False) -> tuple[Session, list[Event]]:
+def run_walk(silent: bool = False) -> tuple[Session, list[Event]]:
     """A straight walk of 14 m with two insoles through the recipe; `silent`: the left one says nothing from 8 s on."""
     session = Session(recipes.by_name("kupt-dfpc"))
     packets = insoles(WALK).packets
@@ -213,7 +213,7 @@ def heard(silent: bool = False) -> tuple[Session, list[Event]]:
 
 
 def test_most_steps_of_a_steady_walk_are_similar_and_calibrated() -> None:
-    fused = [one for one in of(StrideFused, heard()[1]) if one.similarity is not None]
+    fused = [one for one in of(StrideFused, run_walk()[1]) if one.similarity is not None]
     assert len(fused) > 12
     steady = fused[:-1]
     assert min([one.similarity for one in steady]) > 0.8
@@ -221,8 +221,8 @@ def test_most_steps_of_a_steady_walk_are_similar_and_calibrated() -> None:
 
 
 def test_the_wearer_stands_at_the_end_of_the_chosen_path_and_within_its_covariance() -> None:
-    session, told = heard()
-    fused = of(StrideFused, told)
+    session, fused = run_walk()
+    fused = of(StrideFused, fused)
     here = session.position
     assert here is not None
     assert here.position == pytest.approx(fused[-1].position, abs=0.02)
@@ -262,11 +262,11 @@ def test_any_sequence_of_steps_gives_numbers_and_shares_between_zero_and_one(
     body = DoubleFoot()
     size = 0
     for one, centre in steps:
-        told = body.add_stride(one, centre)
-        assert 0.0 <= told.coefficient <= 1.0
-        assert told.similarity is None or 0.0 <= told.similarity <= 1.0
-        assert all(isfinite(x) for x in (told.stride_length, told.distance, *told.position))
-        assert told.stride_length >= 0.0
+        fused = body.add_stride(one, centre)
+        assert 0.0 <= fused.coefficient <= 1.0
+        assert fused.similarity is None or 0.0 <= fused.similarity <= 1.0
+        assert all(isfinite(x) for x in (fused.stride_length, fused.distance, *fused.position))
+        assert fused.stride_length >= 0.0
         assert all(isfinite(number) for number in numbers(machine.save(body)))
         size = max(size, len(body.paths[Foot.LEFT].strides), len(body.paths[Foot.RIGHT].strides))
     assert size <= 3

@@ -133,17 +133,17 @@ def test_a_foot_that_hardly_lifts_teaches_nothing() -> None:
     assert sagittal.toe is None
 
 
-def test_one_odd_push_off_changes_nothing_and_three_in_a_row_are_believed() -> None:
+def test_one_odd_push_off_changes_nothing_and_three_in_a_row_are_learnt() -> None:
     sagittal = taught()
     aside = from_yaw(1.8)  # the sensor was turned on the foot
-    said = []
+    toes = []
     for _ in range(3):
         for heel_up in (0.3, 0.6, 0.9):
             sagittal.add_lift_sample(multiply(pitched(-heel_up), aside))
         sagittal.end_lift()
-        said.append(sagittal.toe)
-    assert said[:2] == [said[0]] * 2 and said[0] == pytest.approx((1.0, 0.0, 0.0), abs=1e-9)
-    assert said[2] == pytest.approx(rotate(conjugate(aside), (1.0, 0.0, 0.0)), abs=1e-9)
+        toes.append(sagittal.toe)
+    assert toes[:2] == [toes[0]] * 2 and toes[0] == pytest.approx((1.0, 0.0, 0.0), abs=1e-9)
+    assert toes[2] == pytest.approx(rotate(conjugate(aside), (1.0, 0.0, 0.0)), abs=1e-9)
 
 
 def test_places_change_smoothly_from_flat_to_toe_off() -> None:

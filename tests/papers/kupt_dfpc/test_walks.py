@@ -160,7 +160,7 @@ def test_a_foot_without_pressure_has_no_use_for_this_recipe() -> None:
     assert not steps(run("kupt", tuple(bare)))
 
 
-def test_when_the_clock_begins_anew_the_next_steps_are_found() -> None:
+def test_when_the_clock_restarts_the_next_steps_are_found() -> None:
     """As when a device restarts: the same walk again, at earlier times."""
     walk = samples(221, Foot.LEFT, 100.0)
     late = [evolve(sample, t=sample.t + 1000.0) for sample in walk]
@@ -182,7 +182,7 @@ def test_a_session_can_be_saved_at_any_sample_of_its_first_steps() -> None:
         json.dumps(session.snapshot(), allow_nan=False)
 
 
-def test_insoles_that_say_nothing_of_their_cells_make_no_step_longer_than_the_wearers() -> None:
+def test_insoles_without_a_layout_make_no_step_longer_than_the_wearers() -> None:
     """Before the order of loading has told where the cells are there are no areas, and the foot still stands."""
     walk = samples(223, Foot.RIGHT, 100.0)
     found, true = steps(run_session(walk, recipes.by_name("kupt"))), walker(223).truth().steps(Foot.RIGHT)

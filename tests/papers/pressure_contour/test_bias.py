@@ -19,15 +19,17 @@ MOVES = Stance(ZERO, inf, 0.0, None)
 UP: Vec3 = (0.0, 0.0, GRAVITY)
 
 
-def begun(corrector: BiasZupt, attitude: Quat = IDENTITY) -> BiasZupt:
+def started(corrector: BiasZupt, attitude: Quat = IDENTITY) -> BiasZupt:
     corrector.start(attitude, 0.02)
     return corrector
 
 
-def fed(corrector: BiasZupt, stance: Stance, acc: Vec3, count: int, dt: float = 0.01, told: Quat | None = None) -> None:
+def fed(
+    corrector: BiasZupt, stance: Stance, acc: Vec3, count: int, dt: float = 0.01, attitude: Quat | None = None
+) -> None:
     for k in range(count):
-        if told is not None:
-            corrector.told(told)
+        if attitude is not None:
+            corrector.use_attitude(attitude)
         corrector.predict(dt, acc, ZERO)
         corrector.correct(k * dt, stance)
 
@@ -65,38 +67,38 @@ def test_a_bias_that_never_changes_is_known_ever_better() -> None:
     assert bias.variance is not None and 0.0 < bias.variance < 1e-6
 
 
-def test_between_stances_only_the_doubt_grows() -> None:
+def test_between_stances_only_the_variance_grows() -> None:
     bias = AccelerometerBias()
     bias.correct((0.1, 0.0, 0.0))
-    known, doubt = bias.bias, bias.variance
+    known, variance = bias.bias, bias.variance
     bias.propagate(10.0)
-    assert bias.bias == known and bias.variance is not None and doubt is not None and bias.variance > doubt
+    assert bias.bias == known and bias.variance is not None and variance is not None and bias.variance > variance
 
 
 @pytest.mark.parametrize("attitude", [IDENTITY, from_rotation_vector((0.3, -0.2, 1.0))])
-def test_the_bias_is_what_the_sensor_says_beside_gravity_in_its_own_frame(attitude: Quat) -> None:
-    corrector = begun(BiasZupt())
+def test_the_bias_is_the_reading_beside_gravity_in_the_sensor_frame(attitude: Quat) -> None:
+    corrector = started(BiasZupt())
     w, x, y, z = attitude
     gravity = rotate((w, -x, -y, -z), UP)
     off = (0.08, -0.05, 0.03)
     acc = (gravity[0] + off[0], gravity[1] + off[1], gravity[2] + off[2])
-    fed(corrector, STANDING, acc, 500, told=attitude)
+    fed(corrector, STANDING, acc, 500, attitude=attitude)
     assert corrector.bias.bias == pytest.approx((-0.08, 0.05, -0.03), rel=0.01)
 
 
 def test_a_known_bias_no_longer_moves_the_foot_whichever_way_it_turns() -> None:
     # (10) with the sign of (6): as printed, the error of 0.1 m/s^2 would double
-    corrector = begun(BiasZupt())
-    fed(corrector, STANDING, (0.1, 0.0, GRAVITY), 1000, told=IDENTITY)
+    corrector = started(BiasZupt())
+    fed(corrector, STANDING, (0.1, 0.0, GRAVITY), 1000, attitude=IDENTITY)
     turned = from_yaw(0.5 * pi)
     fed(corrector, MOVES, (0.1, 0.0, GRAVITY), 1)
     corrector.velocity, corrector.position = ZERO, ZERO
-    fed(corrector, MOVES, (0.1, 0.0, GRAVITY), 100, told=turned)
+    fed(corrector, MOVES, (0.1, 0.0, GRAVITY), 100, attitude=turned)
     assert abs(corrector.velocity[0]) < 0.003 and abs(corrector.velocity[1]) < 0.003
 
 
 def test_a_standing_foot_has_no_velocity() -> None:
-    corrector = begun(BiasZupt())
+    corrector = started(BiasZupt())
     fed(corrector, MOVES, (1.0, 0.0, GRAVITY), 50)
     assert corrector.velocity[0] == pytest.approx(0.5, abs=0.02)
     corrector.predict(0.01, (1.0, 0.0, GRAVITY), ZERO)
@@ -104,7 +106,7 @@ def test_a_standing_foot_has_no_velocity() -> None:
 
 
 def test_evidence_that_is_too_poor_is_no_stance() -> None:
-    corrector = begun(BiasZupt())
+    corrector = started(BiasZupt())
     corrector.predict(0.01, UP, ZERO)
     assert not corrector.correct(0.0, Stance(ZERO, 0.2, 0.0, None))
     assert not corrector.correct(0.0, Stance(ZERO, 0.01, 0.0, Phase.SWING))
@@ -113,7 +115,7 @@ def test_evidence_that_is_too_poor_is_no_stance() -> None:
 def test_a_steady_error_of_a_swing_costs_no_way_when_it_is_spread_and_half_a_t_squared_when_not() -> None:
     # an error of 0.2 m/s^2 for a second: a t^2 / 2 = 0.1 m
     for remove_swing_drift, way in ((True, 0.0), (False, 0.1)):
-        corrector = begun(BiasZupt(BiasZuptSettings(remove_swing_drift=remove_swing_drift)))
+        corrector = started(BiasZupt(BiasZuptSettings(remove_swing_drift=remove_swing_drift)))
         corrector.predict(0.0, UP, ZERO)
         corrector.correct(0.0, STANDING)
         fed(corrector, MOVES, (0.2, 0.0, GRAVITY), 99)
@@ -122,33 +124,33 @@ def test_a_steady_error_of_a_swing_costs_no_way_when_it_is_spread_and_half_a_t_s
 
 
 def test_a_gravity_that_leans_pulls_an_attitude_of_our_own_upright() -> None:
-    corrector = begun(BiasZupt(), from_rotation_vector((0.02, 0.0, 0.0)))
+    corrector = started(BiasZupt(), from_rotation_vector((0.02, 0.0, 0.0)))
     fed(corrector, STANDING, UP, 300)
     x, y, _ = rotate(corrector.attitude, (0.0, 0.0, 1.0))
     assert abs(x) < 1e-3 and abs(y) < 1e-3
 
 
 def test_the_device_knows_its_attitude_better_than_we_do() -> None:
-    corrector = begun(BiasZupt())
+    corrector = started(BiasZupt())
     tilted = from_rotation_vector((0.02, 0.0, 0.0))
-    fed(corrector, STANDING, UP, 300, told=tilted)
+    fed(corrector, STANDING, UP, 300, attitude=tilted)
     assert corrector.attitude == pytest.approx(tilted, abs=1e-9)
 
 
-def test_the_heading_goes_on_as_it_was_when_a_device_tells_its_own() -> None:
-    corrector = begun(BiasZupt(), from_yaw(0.3))
+def test_the_heading_continues_when_a_device_reports_its_own() -> None:
+    corrector = started(BiasZupt(), from_yaw(0.3))
     north = from_yaw(2.0)  # the device's world is turned against ours
-    corrector.told(multiply(north, from_yaw(0.3)))
+    corrector.use_attitude(multiply(north, from_yaw(0.3)))
     corrector.predict(0.01, UP, ZERO)
     assert corrector.attitude == pytest.approx(from_yaw(0.3), abs=1e-9)
-    corrector.told(multiply(north, from_yaw(0.8)))
+    corrector.use_attitude(multiply(north, from_yaw(0.8)))
     corrector.predict(0.01, UP, ZERO)
     assert corrector.attitude == pytest.approx(from_yaw(0.8), abs=1e-9)
 
 
 def drifting(drift: tuple[float, float] | None) -> BiasZupt:
     part = BiasZupt().calibrated(Foot.LEFT, Calibration(drift={} if drift is None else {Foot.LEFT: drift}))
-    return begun(part)
+    return started(part)
 
 
 def test_a_calibrated_drift_is_taken_off_every_sample() -> None:
@@ -160,7 +162,7 @@ def test_a_calibrated_drift_is_taken_off_every_sample() -> None:
 def test_a_drift_is_fixed_to_the_world_of_a_device_that_has_one() -> None:
     corrector = drifting((0.02, 0.0))
     # the device says 0.4 where navigation has 0: its x axis lies at -0.4 rad in navigation
-    fed(corrector, MOVES, UP, 100, told=from_yaw(0.4))
+    fed(corrector, MOVES, UP, 100, attitude=from_yaw(0.4))
     assert corrector.position == pytest.approx((-0.02 * cos(-0.4), -0.02 * sin(-0.4), 0.0), abs=1e-9)
 
 
@@ -178,18 +180,18 @@ def test_without_a_calibration_nothing_is_taken_off() -> None:
 
 @pytest.mark.parametrize("turn", [0.0, 0.5 * pi, -2.0])
 def test_after_a_clock_reset_the_way_goes_on_whatever_the_heading_of_the_devices_new_world(turn: float) -> None:
-    corrector = begun(BiasZupt())
+    corrector = started(BiasZupt())
     for world in (from_yaw(0.3), from_yaw(0.3 + turn)):
-        fed(corrector, STANDING, UP, 10, told=world)
+        fed(corrector, STANDING, UP, 10, attitude=world)
         corrector.velocity = (1.0, 0.0, 0.0)
-        fed(corrector, MOVES, UP, 100, told=world)
+        fed(corrector, MOVES, UP, 100, attitude=world)
         corrector.bridge(inf)
     assert corrector.position == pytest.approx((2.0, 0.0, 0.0), abs=0.03)
     assert rotate(corrector.attitude, (1.0, 0.0, 0.0)) == pytest.approx((1.0, 0.0, 0.0), abs=1e-6)
 
 
-def test_doubt_grows_with_the_way_and_an_anchor_ends_it() -> None:
-    corrector = begun(BiasZupt())
+def test_covariance_grows_with_the_way_and_an_anchor_resets_it() -> None:
+    corrector = started(BiasZupt())
     corrector.velocity = (1.0, 0.0, 0.0)
     fed(corrector, MOVES, UP, 100)
     stretch = corrector.covariance()
@@ -199,15 +201,15 @@ def test_doubt_grows_with_the_way_and_an_anchor_ends_it() -> None:
 
 
 def test_a_devices_heading_error_is_in_every_stretch_and_does_not_add_up() -> None:
-    corrector = begun(BiasZupt())
+    corrector = started(BiasZupt())
     corrector.velocity = (1.0, 0.0, 0.0)
-    fed(corrector, MOVES, UP, 100, told=IDENTITY)
+    fed(corrector, MOVES, UP, 100, attitude=IDENTITY)
     stretch = corrector.covariance()
     assert stretch[0] == pytest.approx(0.01**2 + 0.0175**2, rel=0.05) and stretch[6] == 0.0
 
 
 def test_a_long_gap_stops_the_foot_where_it_was() -> None:
-    corrector = begun(BiasZupt())
+    corrector = started(BiasZupt())
     corrector.velocity = (1.0, 0.0, 0.0)
     assert corrector.bridge(0.2) == 0.2 and corrector.velocity == (1.0, 0.0, 0.0)
     assert corrector.bridge(inf) == 0.0 and corrector.velocity == ZERO
@@ -215,10 +217,10 @@ def test_a_long_gap_stops_the_foot_where_it_was() -> None:
 
 def test_it_goes_on_from_a_snapshot() -> None:
     ours = drifting((0.01, 0.0))
-    fed(ours, STANDING, (0.1, 0.0, GRAVITY), 20, told=from_yaw(0.4))
-    fed(ours, MOVES, (0.5, 0.2, GRAVITY), 20, told=from_yaw(0.5))
+    fed(ours, STANDING, (0.1, 0.0, GRAVITY), 20, attitude=from_yaw(0.4))
+    fed(ours, MOVES, (0.5, 0.2, GRAVITY), 20, attitude=from_yaw(0.5))
     theirs = machine.load(BiasZupt, machine.save(ours))
     for one in (ours, theirs):
-        fed(one, MOVES, (0.1, 0.1, GRAVITY), 5, told=from_yaw(0.6))
+        fed(one, MOVES, (0.1, 0.1, GRAVITY), 5, attitude=from_yaw(0.6))
         fed(one, STANDING, UP, 5)
     assert ours == theirs

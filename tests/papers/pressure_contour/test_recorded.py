@@ -24,12 +24,12 @@ def steps(recipe: Recipe, file: Path, calibration: Calibration) -> list[StrideTa
 
 @pytest.mark.parametrize("name", ["shape_C1", "shape_C3", "shape_I2", "shape_L1", "shape_L3", "both_20241113_105919"])
 @pytest.mark.parametrize("recipe", [GYROSCOPE, PRESSURE_CONTOUR], ids=["gyroscope", "contours"])
-@pytest.mark.parametrize("told", [False, True], ids=["cells nobody knows", "cells known"])
+@pytest.mark.parametrize("with_layout", [False, True], ids=["cells nobody knows", "cells known"])
 def test_hardly_a_stride_is_lost_in_feet_that_never_quite_rest(
-    data_dir: Path, recipe: Recipe, name: str, told: bool
+    data_dir: Path, recipe: Recipe, name: str, with_layout: bool
 ) -> None:
     file = data_dir / "smart_insole_35" / f"{name}.npz"
-    known = in_dataset(file) if told else Calibration()
+    known = in_dataset(file) if with_layout else Calibration()
     usual, found = steps(DEFAULT, file, known), steps(recipe, file, known)
     assert abs(len(found) - len(usual)) <= len(usual) // 10
     assert max(one.length for one in found) < LONGEST

@@ -73,12 +73,12 @@ def test_a_drift_that_all_laps_agree_on_is_kept_and_then_taken_off() -> None:
         return last
 
     # what the recipe adds, the calibration takes off again, but for the stands, in which nothing is taken off
-    plain, mended = end(GYROSCOPE, Calibration()), end(GYROSCOPE, Calibration(drift={LEFT: fast}))
-    apart = hypot(*(a - b for a, b in zip(plain.position[:2], mended.position[:2], strict=True)))
+    plain, corrected = end(GYROSCOPE, Calibration()), end(GYROSCOPE, Calibration(drift={LEFT: fast}))
+    apart = hypot(*(a - b for a, b in zip(plain.position[:2], corrected.position[:2], strict=True)))
     assert apart == pytest.approx(hypot(*fast) * plain.t, rel=0.1)
 
 
-def test_what_the_laps_do_not_agree_on_is_not_taken_off_unless_it_is_asked_for() -> None:
+def test_a_drift_that_laps_disagree_on_is_removed_only_on_request() -> None:
     found = square_drift(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE)
     assert not found.agreed and found.kept == (0.0, 0.0)
 
@@ -105,7 +105,7 @@ def test_the_slope_is_the_mean_of_the_marks_lines() -> None:
     assert found.slope == pytest.approx((2.0, 0.0)) and (found.marks, found.visits) == (2, 6)
 
 
-def test_marks_by_time_say_the_same_as_counted_steps() -> None:
+def test_marks_by_time_give_the_same_as_counted_steps() -> None:
     steps = of(StrideTaken, run_session(samples(), GYROSCOPE))
     marks = [CornerMark(str(k % PER_LAP), step.t + 0.1) for k, step in enumerate(steps)]
     counted = square_drift(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE)
@@ -148,10 +148,10 @@ def test_a_faster_drift_is_no_drift() -> None:
         check_laps(fit_drift(LEFT, laps_of_four(0.06), 0.0), laps_of_four(0.06))
 
 
-def test_laps_that_do_not_close_are_refused_though_their_slope_is_small() -> None:
-    askew = laps_of_four(0.0, turn=9.0)
+def test_laps_that_do_not_close_are_rejected_though_their_slope_is_small() -> None:
+    skewed = laps_of_four(0.0, turn=9.0)
     with pytest.raises(CalibrationError, match="laps do not close: a mark lies 9.0 m from where it lay a lap before"):
-        check_laps(fit_drift(LEFT, askew, 0.0), askew)
+        check_laps(fit_drift(LEFT, skewed, 0.0), skewed)
 
 
 def test_a_straight_walk_is_no_laps() -> None:
@@ -159,24 +159,24 @@ def test_a_straight_walk_is_no_laps() -> None:
     with pytest.raises(CalibrationError, match="laps do not close: a mark lies 5.2 m from"):
         check_laps(fit_drift(LEFT, straight, 0.0), straight)
     walk = emulate(Route().stand(2.0).walk(25.0, 1.2).stop(1.0), devices={Site.LEFT_FOOT: Insole(rate=50.0)}, seed=3)
-    assert "the laps do not close" in refused(items=walk.packets, steps_per_lap=4)
+    assert "the laps do not close" in failure_of(items=walk.packets, steps_per_lap=4)
 
 
-def refused(**asked: object) -> str:
+def failure_of(**changes: object) -> str:
     with pytest.raises(CalibrationError) as error:
-        square_drift(**{"items": samples(), "recipe": GYROSCOPE, "steps_per_lap": PER_LAP, **asked})  # type: ignore[arg-type]
+        square_drift(**{"items": samples(), "recipe": GYROSCOPE, "steps_per_lap": PER_LAP, **changes})  # type: ignore[arg-type]
     assert "\n" not in str(error.value)
     return str(error.value)
 
 
-def test_what_cannot_be_used_is_said_in_one_line() -> None:
-    assert "less than 3 laps of 40 marks" in refused(steps_per_lap=40)
-    assert refused(items=()) == "no step of the left foot in the recording"
-    assert refused(foot=Foot.RIGHT) == "no step of the right foot in the recording"
-    assert refused(recipe=DEFAULT) == "recipe default takes no drift off"
-    assert refused(marks=[CornerMark("a", 1e4)]) == "no step ends at mark a near 10000.00 s"
-    assert refused(marks=[CornerMark("a", 5.0)]) == "no mark was stood on 3 times"
-    assert refused(steps_per_lap=0) == "0 marks are no square"
+def test_an_unusable_walk_is_reported_in_one_line() -> None:
+    assert "less than 3 laps of 40 marks" in failure_of(steps_per_lap=40)
+    assert failure_of(items=()) == "no step of the left foot in the recording"
+    assert failure_of(foot=Foot.RIGHT) == "no step of the right foot in the recording"
+    assert failure_of(recipe=DEFAULT) == "recipe default takes no drift off"
+    assert failure_of(marks=[CornerMark("a", 1e4)]) == "no step ends at mark a near 10000.00 s"
+    assert failure_of(marks=[CornerMark("a", 5.0)]) == "no mark was stood on 3 times"
+    assert failure_of(steps_per_lap=0) == "0 marks are no square"
 
 
 def test_marks_are_read_from_a_table(tmp_path: Path) -> None:

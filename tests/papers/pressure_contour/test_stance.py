@@ -56,24 +56,24 @@ def at_once() -> GyroscopeMagnitude:
     return GyroscopeMagnitude(GyroscopeSettings(lasting=0.0))
 
 
-def test_it_says_what_it_said_until_the_foot_turns_much_faster_than_at_its_quietest() -> None:
+def test_a_stance_lasts_until_the_foot_turns_much_faster_than_at_its_lowest_rate() -> None:
     # 0.2 rad/s is less than `below` 0.25: the stance ends at 1.6 times 0.25
     assert rates(at_once(), 0.6, 0.2, 0.39, 0.41, 0.6) == [False, True, True, False, False]
     # and where 0.45 rad/s was the quietest moment, at 1.6 times that
     assert rates(at_once(), 0.6, 0.45, 0.71, 0.73) == [False, True, True, False]
 
 
-def strides(quietest: float, count: int = 8) -> list[float]:
+def strides(lowest_rate: float, count: int = 8) -> list[float]:
     """Rates of so many strides of 1.1 s, at 100 Hz: half a second of swing, and a stance that is quietest in its
     middle."""
     swing = [3.0, *[5.0] * 48, 3.0]
-    stance = [quietest + (3.0 - quietest) * (abs(k - 30) / 30.0) ** 2 for k in range(60)]
+    stance = [lowest_rate + (3.0 - lowest_rate) * (abs(k - 30) / 30.0) ** 2 for k in range(60)]
     return [rate for _ in range(count) for rate in (*swing, *stance)]
 
 
-@pytest.mark.parametrize("quietest", [0.03, 0.3, 0.6, 0.9, 1.2])
-def test_a_wobbling_foot_stands_in_each_of_its_stances_once_its_quietest_moments_are_known(quietest: float) -> None:
-    still = rates(GyroscopeMagnitude(), *strides(quietest))
+@pytest.mark.parametrize("lowest_rate", [0.03, 0.3, 0.6, 0.9, 1.2])
+def test_a_wobbling_foot_stands_in_each_of_its_stances_once_its_lowest_rates_are_known(lowest_rate: float) -> None:
+    still = rates(GyroscopeMagnitude(), *strides(lowest_rate))
     stands = [any(still[k : k + 110]) for k in range(0, len(still), 110)]
     assert all(stands[2:])
     swings = [still[k + 10 : k + 50] for k in range(0, len(still), 110)]
@@ -87,7 +87,7 @@ def test_the_threshold_of_a_foot_that_wobbles_little_is_no_higher_for_that() -> 
     assert rates(detector, 3.0, *[0.3] * 50) == [False] * 51
 
 
-def test_standing_says_nothing_of_the_stances_of_walking() -> None:
+def test_standing_sets_no_threshold_for_walking() -> None:
     detector = GyroscopeMagnitude()
     rates(detector, *strides(0.6))
     walking = detector.levels
@@ -96,7 +96,7 @@ def test_standing_says_nothing_of_the_stances_of_walking() -> None:
 
 
 @pytest.mark.parametrize("slowest", [0.5, 2.0, 6.0])
-def test_a_motion_without_any_rest_ends_at_its_quietest_moment(slowest: float) -> None:
+def test_a_motion_without_any_rest_ends_at_its_lowest_rate(slowest: float) -> None:
     turning = [slowest + (8.0 - slowest) * abs(k % 100 - 50) / 50.0 for k in range(500)]
     still = rates(GyroscopeMagnitude(), *turning)
     assert still.index(True) <= 350, "the first quietest moment after 2.5 s"
@@ -141,7 +141,7 @@ def test_they_rest_in_nearly_every_stance(name: str) -> None:
     t, still = (np.array(found) for found in evidence(ContourVelocity(), DEVICES[name]))
     strides = walk.walker.plan.strides[LEFT]
     stances = [(one.foot_flat, after.heel_off) for one, after in zip(strides[1:], strides[2:], strict=False)]
-    rested = [bool(still[(t > begin) & (t < end)].any()) for begin, end in stances]
+    rested = [bool(still[(t > start) & (t < end)].any()) for start, end in stances]
     assert len(stances) >= 8 and sum(rested) >= len(rested) - 1
 
 
@@ -150,10 +150,10 @@ def heel(share: float, *, airborne: bool = False, cells: tuple[float, ...] = ())
 
 
 def fed(
-    detector: ContourVelocity, loads: Sequence[Load | None], rate: float = 2.0, begin: float = 0.0
+    detector: ContourVelocity, loads: Sequence[Load | None], rate: float = 2.0, start: float = 0.0
 ) -> list[Phase | None]:
     return [
-        detector.update(begin + 0.01 * k, 0.01, (0.0, 0.0, GRAVITY), (0.0, rate, 0.0), load).hint
+        detector.update(start + 0.01 * k, 0.01, (0.0, 0.0, GRAVITY), (0.0, rate, 0.0), load).hint
         for k, load in enumerate(loads)
     ]
 
@@ -168,7 +168,7 @@ def pressed(x: float = 0.045) -> tuple[float, ...]:
 
 
 AIR = heel(0.0, airborne=True, cells=(0.5,) * 96)
-RESTS = heel(0.8, cells=pressed())
+AT_REST = heel(0.8, cells=pressed())
 
 
 def worn() -> ContourVelocity:
@@ -178,8 +178,8 @@ def worn() -> ContourVelocity:
     return detector
 
 
-def test_a_heel_that_rests_is_a_standing_foot_until_it_is_unloaded() -> None:
-    hints = fed(worn(), [*[AIR] * 10, *[RESTS] * 10, AIR])
+def test_a_heel_at_rest_is_a_standing_foot_until_it_is_unloaded() -> None:
+    hints = fed(worn(), [*[AIR] * 10, *[AT_REST] * 10, AIR])
     assert hints[:10] == [Phase.SWING] * 10
     assert hints[10:15] == [None] * 5, "contours are compared over 50 ms"
     assert hints[15:20] == [Phase.STATIONARY] * 5
@@ -199,15 +199,15 @@ def test_a_heel_without_contours_is_left_to_the_gyroscope_after_a_while() -> Non
 
 @pytest.mark.parametrize("pace", [2, 4])
 def test_between_loads_that_come_more_slowly_than_samples_the_contours_keep_their_word(pace: int) -> None:
-    loads = [load if k % pace == 0 else None for k, load in enumerate([*[AIR] * 12, *[RESTS] * 28])]
+    loads = [load if k % pace == 0 else None for k, load in enumerate([*[AIR] * 12, *[AT_REST] * 28])]
     hints = fed(worn(), loads, rate=2.0)  # a gyroscope that never rests
     assert hints[:12] == [Phase.SWING] * 12 and hints[20:] == [Phase.STATIONARY] * 20
     hints = fed(worn(), loads, rate=0.0)  # and one that rests in the air
     assert hints[:12] == [Phase.SWING] * 12
 
 
-def test_a_load_that_is_not_heard_of_for_long_is_left_to_the_gyroscope() -> None:
-    hints = fed(worn(), [*[RESTS] * 10, *[None] * 10], rate=2.0)
+def test_without_a_recent_load_the_gyroscope_decides() -> None:
+    hints = fed(worn(), [*[AT_REST] * 10, *[None] * 10], rate=2.0)
     assert hints[9:14] == [Phase.STATIONARY] * 5 and hints[15:] == [None] * 5
 
 
@@ -218,21 +218,21 @@ def test_the_contours_of_a_loose_insole_rest_at_the_wearers_own_slowest() -> Non
     stride = [*[AIR] * 50, *creeping]
     assert Phase.STATIONARY not in fed(detector, stride)
     for k in range(3):
-        hints = fed(detector, stride, begin=1.0 + k)
+        hints = fed(detector, stride, start=1.0 + k)
     assert hints[60:] == [Phase.STATIONARY] * 30
     for n, load in enumerate([*[AIR] * 50, *rolling]):
-        fed(detector, [load], begin=4.0 + 0.01 * n)
+        fed(detector, [load], start=4.0 + 0.01 * n)
         assert not detector.standing
 
 
 @pytest.mark.parametrize("share", [0.0, 0.08])
 def test_a_heel_that_never_comes_down_leaves_no_motion_without_an_end(share: float) -> None:
     detector, on_toes = worn(), heel(share, airborne=share == 0.0, cells=pressed())
-    calm = [
+    stances = [
         detector.update(0.01 * k, 0.01, (0.0, 0.0, GRAVITY), (0.0, 2.0 + 3.0 * abs(k % 100 - 50) / 50.0, 0.0), on_toes)
         for k in range(400)
     ]
-    assert Phase.STATIONARY in [stance.hint for stance in calm]
+    assert Phase.STATIONARY in [stance.hint for stance in stances]
 
 
 def test_as_long_as_the_load_is_not_known_the_gyroscope_speaks() -> None:
@@ -241,7 +241,7 @@ def test_as_long_as_the_load_is_not_known_the_gyroscope_speaks() -> None:
     assert fed(detector, [None] * 6, rate=1.0)[-1] is None
 
 
-def test_too_few_cells_are_said_once_and_the_walk_goes_on_by_the_gyroscope() -> None:
+def test_too_few_cells_are_reported_once_and_the_walk_continues_by_the_gyroscope() -> None:
     sparse = Layout(
         2, LEFT, (Cell(0.03, 0.0), Cell(0.05, 0.01), Cell(0.20, 0.0), Cell(0.21, 0.02)), 0.285, 0.05, 204.75
     )
@@ -254,7 +254,7 @@ def test_too_few_cells_are_said_once_and_the_walk_goes_on_by_the_gyroscope() -> 
 
 
 @pytest.mark.parametrize("recipe", [PRESSURE_CONTOUR, GYROSCOPE], ids=["contours", "gyroscope"])
-def test_all_steps_are_found_and_a_square_ends_where_it_began(recipe: Recipe) -> None:
+def test_all_steps_are_found_and_a_square_ends_where_it_started(recipe: Recipe) -> None:
     side = Route().stand(2.0)
     for _ in range(4):
         side = side.walk(8.0, 1.2).turn(radians(90), radius=1.0)

@@ -69,7 +69,7 @@ def test_a_cone_of_pressure_that_moves_is_seen_to_move_as_fast(pascals: tuple[fl
         assert hypot(seen[0] - true[0], seen[1] - true[1]) < 0.06 * hypot(*true)
 
 
-def test_a_contour_that_only_shrinks_does_not_move_wherever_the_rays_begin() -> None:
+def test_a_contour_that_only_shrinks_does_not_move_wherever_the_rays_start() -> None:
     where = grid()
     for tip in ((0.046, 0.0), (0.051, 0.003)):
         contours = Contours(ContourSettings(pascals=(60e3, 100e3)))
@@ -92,7 +92,7 @@ def test_levels_that_follow_the_load_need_no_scale() -> None:
     assert raw == pytest.approx(newtons)
 
 
-def test_fixed_pressures_ask_for_newtons() -> None:
+def test_fixed_pressures_need_newtons() -> None:
     contours = Contours(ContourSettings(pascals=PAPER_LEVELS))
     contours.set_layout(grid(scale=None))
     assert not contours.absolute and contours.levels == contours.settings.shares

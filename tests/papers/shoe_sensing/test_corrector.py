@@ -20,11 +20,11 @@ from solepath.types.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector
 
 STILL = Stance(ZERO, 0.01, 0.0, Phase.STATIONARY)
 MOVES = Stance(ZERO, inf, 9.0, None)
-DOUBTFUL = Stance(ZERO, 0.03, 9.0, None)
+UNCERTAIN = Stance(ZERO, 0.03, 9.0, None)
 DT = 0.01
 
 
-def begun(**changes: float | bool) -> ShoeSensing:
+def started(**changes: float | bool) -> ShoeSensing:
     """A foot that has stood for a while, with a corrector that does as the paper says and no more."""
     plain: dict[str, float | bool] = {"detector_delay": 0.0, "tilt_share": 0.0}
     one = ShoeSensing(evolve(ShoeSensingSettings(), **{**plain, **changes}))
@@ -35,11 +35,11 @@ def begun(**changes: float | bool) -> ShoeSensing:
 
 def go(one: ShoeSensing, accelerations: Sequence[Vec3], stance: Stance, t: float = 0.0) -> bool:
     """Samples of these accelerations without gravity, m/s^2, all with this evidence."""
-    said = False
+    corrected = False
     for k, (x, y, z) in enumerate(accelerations):
         one.predict(DT, (x, y, z + GRAVITY), ZERO)
-        said = one.correct(t + k * DT, stance)
-    return said
+        corrected = one.correct(t + k * DT, stance)
+    return corrected
 
 
 def stride(one: ShoeSensing, length: float, height: float, drift: Vec3 = ZERO, seconds: float = 0.8) -> None:
@@ -55,7 +55,7 @@ def stride(one: ShoeSensing, length: float, height: float, drift: Vec3 = ZERO, s
 
 def test_a_constant_error_of_the_acceleration_leaves_the_foot_where_it_stood() -> None:
     # e~ = b: V = b t - e~ t = 0, so S = 0; without the removal 0.3 m/s^2 over 0.8 s makes 0.096 m
-    one = begun(eliminate=False)
+    one = started(eliminate=False)
     go(one, [(0.3, -0.2, 0.1)] * 80, MOVES)
     assert one.velocity[0] == pytest.approx(0.24, rel=0.01)
     assert one.position[0] == pytest.approx(0.096, rel=0.02)
@@ -65,17 +65,17 @@ def test_a_constant_error_of_the_acceleration_leaves_the_foot_where_it_stood() -
 
 
 def test_a_stride_with_a_linear_drift_of_velocity_is_as_long_as_it_was() -> None:
-    one = begun(eliminate=False)
+    one = started(eliminate=False)
     stride(one, 1.2, 0.32, (0.3, 0.2, -0.2))
     assert one.position == pytest.approx((1.2, 0.0, 0.32), abs=5e-3)
 
 
 def test_the_height_of_a_level_step_is_taken_out_and_that_of_a_stair_is_kept() -> None:
-    one = begun()
+    one = started()
     stride(one, 1.2, 0.05)
     assert one.position[2] == 0.0
     assert one.position[0] == pytest.approx(1.2, abs=5e-3)
-    up, down = begun(), begun()
+    up, down = started(), started()
     stride(up, 0.6, 0.32)
     stride(down, 0.6, -0.32)
     assert up.position[2] == pytest.approx(0.32, abs=5e-3)
@@ -83,20 +83,20 @@ def test_the_height_of_a_level_step_is_taken_out_and_that_of_a_stair_is_kept() -
 
 
 def test_without_elimination_heights_add_up() -> None:
-    one = begun(eliminate=False)
+    one = started(eliminate=False)
     for _ in range(3):
         stride(one, 1.2, 0.05)
     assert one.position[2] == pytest.approx(0.15, abs=5e-3)
 
 
 def test_the_first_riser_of_a_long_stride_is_kept() -> None:
-    one = begun()
+    one = started()
     stride(one, 1.1, 0.16)
     assert one.position[2] == pytest.approx(0.16, abs=5e-3)
 
 
 def test_what_level_steps_have_in_common_is_taken_off_the_stairs_that_follow() -> None:
-    one = begun()
+    one = started()
     for _ in range(10):
         stride(one, 1.2, 0.06)
     assert one.position[2] == 0.0
@@ -109,7 +109,7 @@ def test_tilt_is_fed_back_in_stance_and_not_in_swing() -> None:
     tilted = from_rotation_vector((0.0, 0.1, 0.0))
     # the foot is level, the attitude says that it is pitched by 0.1 rad
     for stance, expected in ((STILL, 0.1 * 0.3679), (MOVES, 0.1)):
-        one = begun(kp=1.0)
+        one = started(kp=1.0)
         one.standing = stance is STILL
         one.attitude = tilted
         go(one, [ZERO] * 100, stance)
@@ -118,7 +118,7 @@ def test_tilt_is_fed_back_in_stance_and_not_in_swing() -> None:
 
 def test_the_velocity_left_at_the_end_of_a_motion_turns_the_tilt_that_would_explain_it() -> None:
     # pitched by 0.05 rad too little: gravity leaks 0.05 g forwards; when the stance is over, half of it is believed
-    one = begun(tilt_share=0.5, kp=0.0)
+    one = started(tilt_share=0.5, kp=0.0)
     one.attitude = from_rotation_vector((0.0, 0.05, 0.0))
     one.force = None
     go(one, [ZERO] * 59, MOVES)
@@ -129,47 +129,47 @@ def test_the_velocity_left_at_the_end_of_a_motion_turns_the_tilt_that_would_expl
 
 
 def test_in_mid_swing_a_moment_without_acceleration_is_no_stance() -> None:
-    one = begun()
+    one = started()
     go(one, [(8.0, 0.0, 0.0)] * 40, MOVES)  # 3.2 m/s
     assert not go(one, [ZERO], STILL)
     assert one.velocity[0] == pytest.approx(3.2, rel=0.02)
 
 
-def test_a_jogger_stands_with_doubtful_evidence_but_not_right_after_a_stance() -> None:
-    one = begun()
+def test_a_jogger_stands_with_uncertain_evidence_but_not_right_after_a_stance() -> None:
+    one = started()
     go(one, [ZERO] * 20, MOVES)
-    assert not go(one, [ZERO], DOUBTFUL) and not one.standing
+    assert not go(one, [ZERO], UNCERTAIN) and not one.standing
     go(one, [ZERO] * 20, MOVES)
-    assert not go(one, [ZERO] * 5, DOUBTFUL) and one.standing  # until now it stood certainly every time
+    assert not go(one, [ZERO] * 5, UNCERTAIN) and one.standing  # until now it stood certainly every time
     go(one, [ZERO] * 40, MOVES)
-    assert go(one, [ZERO], DOUBTFUL)
+    assert go(one, [ZERO], UNCERTAIN)
 
 
-def test_a_doubtful_landing_is_put_right_by_the_certain_one_that_follows() -> None:
-    sure, hasty = begun(), begun()
+def test_an_uncertain_landing_is_corrected_by_the_certain_one_that_follows() -> None:
+    sure, hasty = started(), started()
     n = 80
     wave = [9.0 * sin(2.0 * 3.141592653589793 * (k + 0.5) / n) for k in range(n)]
     swing: list[Vec3] = [(w, 0.0, 0.0) for w in wave]
     go(sure, swing, MOVES)
     go(sure, [ZERO] * 10, STILL)
     go(hasty, swing[:-5], MOVES)
-    assert not go(hasty, swing[-5:-4], DOUBTFUL)  # nor is it told: the last stance was certain
+    assert not go(hasty, swing[-5:-4], UNCERTAIN)  # nor is it told: the last stance was certain
     assert hasty.standing
     assert abs(hasty.position[0] - sure.position[0]) > 0.02
-    go(hasty, swing[-4:], DOUBTFUL)
+    go(hasty, swing[-4:], UNCERTAIN)
     go(hasty, [ZERO] * 10, STILL)
     assert hasty.position == pytest.approx(sure.position, abs=2e-3)
 
 
 def test_however_fast_a_spoilt_integration_runs_the_foot_stands_again() -> None:
-    one = begun()
+    one = started()
     go(one, [(9.0, 0.0, 3.0)] * 300, MOVES)
     assert go(one, [ZERO], STILL)
     assert one.velocity == ZERO
 
 
 def test_the_motion_that_the_detector_saw_late_is_not_lost() -> None:
-    quick, late = begun(eliminate=False), begun(eliminate=False, detector_delay=0.075)
+    quick, late = started(eliminate=False), started(eliminate=False, detector_delay=0.075)
     for one in (quick, late):
         go(one, [(2.0, 0.0, 0.0)] * 7, STILL)
         go(one, [(2.0, 0.0, 0.0)], MOVES)
@@ -177,8 +177,8 @@ def test_the_motion_that_the_detector_saw_late_is_not_lost() -> None:
     assert late.velocity[0] == pytest.approx(0.16, rel=0.1)
 
 
-def test_a_gap_forgets_the_motion_and_where_the_foot_stood_is_mended() -> None:
-    one = begun()
+def test_a_gap_discards_the_motion_and_the_stance_position_is_repaired() -> None:
+    one = started()
     go(one, [(5.0, 0.0, 0.0)] * 30, MOVES)
     assert one.bridge(3.0) == 0.0
     assert one.velocity == ZERO
@@ -188,7 +188,9 @@ def test_a_gap_forgets_the_motion_and_where_the_foot_stood_is_mended() -> None:
 
 
 numbers = st.floats(-500.0, 500.0)
-evidence = st.sampled_from((STILL, MOVES, DOUBTFUL, Stance(ZERO, 0.06, 1.0, None), Stance(ZERO, inf, 1.0, Phase.SWING)))
+evidence = st.sampled_from(
+    (STILL, MOVES, UNCERTAIN, Stance(ZERO, 0.06, 1.0, None), Stance(ZERO, inf, 1.0, Phase.SWING))
+)
 
 
 @given(

@@ -19,50 +19,50 @@ from solepath.types.vector import GRAVITY, ZERO
 
 def last(detector: ShortTimeEnergy | AccelerationMagnitude, magnitudes: list[float], rate: float = 100.0) -> Stance:
     """What it says of the last of these |acc|, in g."""
-    said = None
+    stance = None
     for k, g in enumerate(magnitudes):
-        said = detector.update(k / rate, 1.0 / rate, (0.0, 0.6 * g * GRAVITY, 0.8 * g * GRAVITY), ZERO, None)
-    assert said is not None
-    return said
+        stance = detector.update(k / rate, 1.0 / rate, (0.0, 0.6 * g * GRAVITY, 0.8 * g * GRAVITY), ZERO, None)
+    assert stance is not None
+    return stance
 
 
 def test_fifteen_samples_that_are_off_by_a_twentieth_of_g_have_an_energy_of_0_0375() -> None:
-    said = last(ShortTimeEnergy(), [1.05] * 40)
-    assert said.statistic == pytest.approx(15 * 0.05**2)
-    assert said == Stance(ZERO, 0.01, said.statistic, Phase.STATIONARY)
+    stance = last(ShortTimeEnergy(), [1.05] * 40)
+    assert stance.statistic == pytest.approx(15 * 0.05**2)
+    assert stance == Stance(ZERO, 0.01, stance.statistic, Phase.STATIONARY)
 
 
-def test_beyond_the_threshold_the_foot_moves_though_it_was_quiet_for_a_while() -> None:
+def test_beyond_the_threshold_the_foot_moves_though_it_was_still_for_a_while() -> None:
     # 0.06 g: 15 samples make 0.054; the last 13 of them 0.0468
-    said = last(ShortTimeEnergy(), [1.06] * 40)
-    assert said.statistic == pytest.approx(0.054)
-    assert said.hint is None
-    assert said.sigma == pytest.approx(0.01 * 15 / 13)
+    stance = last(ShortTimeEnergy(), [1.06] * 40)
+    assert stance.statistic == pytest.approx(0.054)
+    assert stance.hint is None
+    assert stance.sigma == pytest.approx(0.01 * 15 / 13)
 
 
-def test_a_jogger_that_is_quiet_for_five_samples_may_stand() -> None:
-    said = last(ShortTimeEnergy(), [4.0] * 30 + [1.01] * 5)
-    assert said.hint is None
-    assert said.sigma == pytest.approx(0.03)
+def test_a_jogger_that_is_still_for_five_samples_may_stand() -> None:
+    stance = last(ShortTimeEnergy(), [4.0] * 30 + [1.01] * 5)
+    assert stance.hint is None
+    assert stance.sigma == pytest.approx(0.03)
     assert last(ShortTimeEnergy(), [4.0] * 30).sigma == inf
 
 
 @pytest.mark.parametrize("rate", [20.0, 40.0, 100.0, 200.0, 400.0])
 def test_the_energy_of_the_same_motion_is_the_same_at_every_rate(rate: float) -> None:
-    said = last(ShortTimeEnergy(EnergySettings(window=0.2)), [1.04] * 100, rate)
-    assert said.statistic == pytest.approx(20 * 0.04**2)
+    stance = last(ShortTimeEnergy(EnergySettings(window=0.2)), [1.04] * 100, rate)
+    assert stance.statistic == pytest.approx(20 * 0.04**2)
 
 
-def test_at_ten_hertz_two_quiet_samples_are_a_stance() -> None:
+def test_at_ten_hertz_two_still_samples_are_a_stance() -> None:
     assert last(ShortTimeEnergy(), [3.0, 3.0, 1.0], 10.0).hint is None
     assert last(ShortTimeEnergy(), [3.0, 3.0, 1.0, 1.0], 10.0).hint is Phase.STATIONARY
 
 
 def test_the_magnitude_is_that_of_a_foot_at_rest_between_9_and_11() -> None:
     for magnitude, still in ((8.99, False), (9.01, True), (10.99, True), (11.01, False)):
-        said = last(AccelerationMagnitude(), [magnitude / GRAVITY])
-        assert (said.hint is Phase.STATIONARY) is still
-        assert said.statistic == pytest.approx(magnitude - GRAVITY)
+        stance = last(AccelerationMagnitude(), [magnitude / GRAVITY])
+        assert (stance.hint is Phase.STATIONARY) is still
+        assert stance.statistic == pytest.approx(magnitude - GRAVITY)
 
 
 acc = st.floats(-500.0, 500.0)
@@ -73,9 +73,9 @@ def test_whatever_is_measured_the_energy_is_finite(samples: list[tuple[float, fl
     detector, t = ShortTimeEnergy(), 0.0
     for dt, x, y, z in samples:
         t += dt
-        said = detector.update(t, dt, (x, y, z), ZERO, None)
-        assert isfinite(said.statistic) and said.statistic >= 0.0
-        assert said.sigma > 0.0
+        stance = detector.update(t, dt, (x, y, z), ZERO, None)
+        assert isfinite(stance.statistic) and stance.statistic >= 0.0
+        assert stance.sigma > 0.0
     assert machine.load(ShortTimeEnergy, json.loads(json.dumps(machine.save(detector), allow_nan=False))) == detector
 
 

@@ -28,17 +28,17 @@ def flights_of(risers: list[int], *, feet: tuple[Foot, ...] = FEET, last: bool =
     """Footfalls of alternating feet: `risers` is how far up each comes down, in risers. Each foot has stood at 0. A
     foot that rises by one riser takes it with a long stride, which is judged level."""
     flights = Flights()
-    told: list[FlightClimbed] = []
+    found: list[FlightClimbed] = []
     stood = dict.fromkeys(FEET, 0)
     for k, riser in enumerate(risers):
         foot = FEET[k % 2]
         rise, stood[foot] = riser - stood[foot], riser
         if foot in feet:
             way = 0 if abs(rise) < 2 else (1 if rise > 0 else -1)
-            told += flights.add_stride(step(foot, 0.6 * k, RISER * rise), way)
+            found += flights.add_stride(step(foot, 0.6 * k, RISER * rise), way)
     if last:
-        told += flights.advance(0.6 * len(risers) + 5.0, 0.6 * len(risers) + 5.0)
-    return told
+        found += flights.advance(0.6 * len(risers) + 5.0, 0.6 * len(risers) + 5.0)
+    return found
 
 
 UP_10 = [0, 0, *range(1, 11), 10, 10, 10]
@@ -63,11 +63,11 @@ def test_a_landing_parts_two_flights_and_one_foot_alone_sees_it_too() -> None:
         assert sum(f.height for f in alone) == pytest.approx(3.2)
 
 
-def test_down_is_told_from_up_also_without_a_landing_between() -> None:
-    told = flights_of([*UP_10[:-3], *range(9, -1, -1), 0])
-    assert [f.up for f in told] == [True, False]
-    assert told[1].height < 0.0
-    assert told[1].known_at == pytest.approx(0.6 * 23 + 5.0)  # both stand: nobody need walk on
+def test_down_is_separated_from_up_also_without_a_landing_between() -> None:
+    found = flights_of([*UP_10[:-3], *range(9, -1, -1), 0])
+    assert [f.up for f in found] == [True, False]
+    assert found[1].height < 0.0
+    assert found[1].known_at == pytest.approx(0.6 * 23 + 5.0)  # both stand: nobody need walk on
 
 
 def test_a_kerb_is_no_flight() -> None:
@@ -76,10 +76,10 @@ def test_a_kerb_is_no_flight() -> None:
 
 def judged(strides: Iterable[tuple[float, int | None]], degraded: bool = False) -> list[FlightClimbed]:
     """Strides of alternating feet, how high each is, m, and what its judge says of it; and a rest at the end."""
-    flights, told = Flights(), list[FlightClimbed]()
+    flights, found = Flights(), list[FlightClimbed]()
     for k, (height, way) in enumerate(strides):
-        told += flights.add_stride(step(FEET[k % 2], 0.6 * k, height, degraded=degraded), way)
-    return told + flights.finish(60.0)
+        found += flights.add_stride(step(FEET[k % 2], 0.6 * k, height, degraded=degraded), way)
+    return found + flights.finish(60.0)
 
 
 def test_one_misjudged_stride_of_two_feet_does_not_part_a_flight() -> None:
@@ -97,30 +97,30 @@ def test_a_long_level_stride_before_a_flight_is_its_first_riser_if_it_can_be_one
     first: Vec3, last: Vec3, risers: int
 ) -> None:
     flights = Flights()
-    told = flights.add_stride(stride(Foot.LEFT, 1.0, first), 0)
-    told += [event for k in range(4) for event in flights.add_stride(step(Foot.LEFT, 2.0 + k, 2 * RISER), 1)]
-    told += flights.add_stride(stride(Foot.LEFT, 7.0, last), 0)
-    assert told[0].height == pytest.approx(risers * RISER)
+    found = flights.add_stride(stride(Foot.LEFT, 1.0, first), 0)
+    found += [event for k in range(4) for event in flights.add_stride(step(Foot.LEFT, 2.0 + k, 2 * RISER), 1)]
+    found += flights.add_stride(stride(Foot.LEFT, 7.0, last), 0)
+    assert found[0].height == pytest.approx(risers * RISER)
 
 
-def test_who_rests_with_a_foot_on_each_tread_is_not_there_yet() -> None:
+def test_a_wearer_who_stops_with_a_foot_on_each_tread_has_not_arrived() -> None:
     paused = [0, 0, *range(1, 7)]
     flights = Flights()
-    told: list[FlightClimbed] = []
+    found: list[FlightClimbed] = []
     stood = dict.fromkeys(FEET, 0)
     for k, riser in enumerate(paused):
         foot = FEET[k % 2]
         rise, stood[foot] = riser - stood[foot], riser
-        told += flights.add_stride(step(foot, 0.6 * k, RISER * rise), int(rise > 0))
-    assert told + flights.advance(60.0, 60.0) == []
-    told += flights.add_stride(step(Foot.LEFT, 60.0, RISER), 1)  # joins the other foot
-    assert told == []
+        found += flights.add_stride(step(foot, 0.6 * k, RISER * rise), int(rise > 0))
+    assert found + flights.advance(60.0, 60.0) == []
+    found += flights.add_stride(step(Foot.LEFT, 60.0, RISER), 1)  # joins the other foot
+    assert found == []
     (flight,) = flights.advance(64.0, 64.0)
     assert flight.t == 60.0
     assert flight.known_at == 64.0
 
 
-def test_a_clock_that_begins_anew_gives_up_the_flight() -> None:
+def test_a_restarted_clock_gives_up_the_flight() -> None:
     flights = Flights()
     for k in range(6):
         flights.add_stride(step(FEET[k % 2], 1000.0 + k, 2 * RISER), 1)
@@ -158,7 +158,7 @@ def test_a_stride_that_rises_where_the_stairs_go_down_rises_by_what_the_others_d
     assert flight.height == pytest.approx(6 * 0.16)
 
 
-def test_where_most_strides_are_not_believed_there_is_no_height_to_tell() -> None:
+def test_where_most_strides_are_not_trusted_there_is_no_height() -> None:
     assert climbed([0.32, 0.32, 5.0, 5.0, 5.0]) == []
     assert len(climbed([0.32, 0.32, 5.0, 5.0])) == 1
 
@@ -182,7 +182,7 @@ def test_strides_that_nobody_can_judge_end_a_flight_as_level_ones_do() -> None:
     assert first.known_at == pytest.approx(0.6 * 5)
 
 
-def test_who_rests_after_a_stride_of_unknown_height_has_arrived() -> None:
+def test_a_wearer_who_stops_after_a_stride_of_unknown_height_has_arrived() -> None:
     flights = Flights()
     for k, height in enumerate((0.32, 0.32, 7.0, 0.32)):
         assert flights.add_stride(step(FEET[k % 2], 0.6 * k, height), 1) == []
@@ -205,10 +205,10 @@ strides = st.lists(
 
 
 @given(strides)
-def test_whatever_the_strides_flights_are_in_order_and_high(told: list[tuple[Foot, float, float, int | None]]) -> None:
+def test_whatever_the_strides_flights_are_in_order_and_high(found: list[tuple[Foot, float, float, int | None]]) -> None:
     flights, t = Flights(), 0.0
     found: list[FlightClimbed] = []
-    for foot, dt, height, way in told:
+    for foot, dt, height, way in found:
         t += dt
         found += flights.add_stride(step(foot, t, height), way)
         found += flights.advance(t + 1.0, t + 1.0)

@@ -33,18 +33,18 @@ def test_the_nearest_is_matched_though_an_earlier_one_is_near_too() -> None:
     assert [one.t for one, _ in matched([step(1.75), step(2.2)], [true(2.0)])] == [2.2]
 
 
-def test_two_steps_told_as_one_are_a_merged_one_that_is_off_by_a_whole_step(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_two_steps_found_as_one_are_a_merged_one_that_is_off_by_a_whole_step(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(shoe_walks, "STEPS", 10)
     samples, truth = worn(route_of("walking"), 1)
     steps = [event for event in run_session(SHOE_SENSING, samples) if isinstance(event, StrideTaken)]
     first, second = steps[4:6]
     both = evolve(second, t_start=first.t_start, length=first.length + second.length)
     whole = score_strides(steps, truth, "walking")
-    told = score_strides([*steps[:4], both, *steps[6:]], truth, "walking")
-    assert (whole.merged, told.merged, told.split) == (0, 1, 0)
-    assert len(told.whole) == len(told.lengths) - 1
-    assert told.not_found == whole.not_found + 1
-    assert max(error for error, _ in told.lengths) == pytest.approx(first.length, abs=0.15)
+    merged = score_strides([*steps[:4], both, *steps[6:]], truth, "walking")
+    assert (whole.merged, merged.merged, merged.split) == (0, 1, 0)
+    assert len(merged.whole) == len(merged.lengths) - 1
+    assert merged.not_found == whole.not_found + 1
+    assert max(error for error, _ in merged.lengths) == pytest.approx(first.length, abs=0.15)
 
 
 def test_table_2_is_the_mean_error_over_the_length_divided_by_22_5() -> None:
@@ -88,5 +88,5 @@ def test_a_row_stands_for_every_figure_of_the_paper(monkeypatch: pytest.MonkeyPa
     assert done.table["walking, height of 100 steps after m"].mean == pytest.approx(0.0, abs=0.1)
     assert len(done.panels) == 2
     notes = " ".join(done.notes)
-    for said in ("by construction", " of 1 tracks end exactly", "the end is off by", "in the method corrects it"):
-        assert said in notes
+    for claim in ("by construction", " of 1 tracks end exactly", "the end is off by", "in the method corrects it"):
+        assert claim in notes

@@ -42,8 +42,8 @@ def worn(route: Route, seed: int, rate: float = 100.0) -> tuple[tuple[Sample, ..
 
 
 @cache
-def heard(route: Route, seed: int, rate: float = 100.0, energy: bool = True) -> tuple[Event, ...]:
-    return tuple(run_session(worn(route, seed, rate)[0], SHOE_SENSING if energy else SHOE_MAGNITUDE))
+def events_of(route: Route, seed: int, rate: float = 100.0, energy: bool = True) -> tuple[Event, ...]:
+    return tuple(said(worn(route, seed, rate)[0], SHOE_SENSING if energy else SHOE_MAGNITUDE))
 
 
 def steps(events: tuple[Event, ...], foot: Foot) -> list[StrideTaken]:
@@ -57,10 +57,10 @@ def changes(events: Iterable[Event]) -> list[tuple[float, Activity]]:
 @pytest.mark.parametrize(
     ("route", "rate"), [(LEVEL, 100.0), (LEVEL, 40.0), (JOG, 100.0)], ids=["walk", "walk at 40 Hz", "jog"]
 )
-def test_every_level_step_is_found_and_ends_as_high_as_it_began(route: Route, rate: float) -> None:
+def test_every_level_step_is_found_and_ends_as_high_as_it_started(route: Route, rate: float) -> None:
     for seed in (1, 2):
         for foot in Foot:
-            found, true = steps(heard(route, seed, rate), foot), worn(route, seed, rate)[1].steps(foot)
+            found, true = steps(events_of(route, seed, rate), foot), worn(route, seed, rate)[1].steps(foot)
             # of a jog the first two may be told as one
             assert len(true) - (route is JOG) <= len(found) <= len(true)
             assert all(min(abs(step.t - other.t_end) for other in true) < 0.15 for step in found)
@@ -70,7 +70,7 @@ def test_every_level_step_is_found_and_ends_as_high_as_it_began(route: Route, ra
 
 def test_the_magnitude_alone_gets_the_way_wrong_where_the_energy_does_not() -> None:
     energy, magnitude = (
-        sum(step.length for step in steps(heard(LEVEL, 1, energy=one), Foot.LEFT)) for one in (True, False)
+        sum(step.length for step in steps(events_of(LEVEL, 1, energy=one), Foot.LEFT)) for one in (True, False)
     )
     assert abs(energy - 30.0) < 0.06 * 30.0
     assert abs(magnitude - 30.0) > 0.2 * 30.0
@@ -79,7 +79,7 @@ def test_the_magnitude_alone_gets_the_way_wrong_where_the_energy_does_not() -> N
 @pytest.mark.parametrize(("route", "up"), [(STAIRS, True), (DOWN, False)], ids=["up", "down"])
 def test_flights_on_both_sides_of_a_landing_are_two(route: Route, up: bool) -> None:
     for seed in (1, 2):
-        found = [event for event in heard(route, seed) if isinstance(event, FlightClimbed)]
+        found = [event for event in events_of(route, seed) if isinstance(event, FlightClimbed)]
         true = worn(route, seed)[1].flights
         assert [flight.up for flight in found] == [up, up]
         for flight, other in zip(found, true, strict=True):
@@ -91,47 +91,47 @@ def test_flights_on_both_sides_of_a_landing_are_two(route: Route, up: bool) -> N
     ("route", "stairs"), [(STAIRS, Activity.STAIRS_UP), (DOWN, Activity.STAIRS_DOWN)], ids=["up", "down"]
 )
 def test_states_are_those_of_the_steps(route: Route, stairs: Activity) -> None:
-    told = [event for event in heard(route, 1) if isinstance(event, ActivityChanged)]
-    assert [event.t for event in told] == sorted(event.t for event in told)
-    assert all(event.final and event.probability is None and event.known_at >= event.t for event in told)
-    kinds = [event.activity for event in told]
+    found = [event for event in events_of(route, 1) if isinstance(event, ActivityChanged)]
+    assert [event.t for event in found] == sorted(event.t for event in found)
+    assert all(event.final and event.probability is None and event.known_at >= event.t for event in found)
+    kinds = [event.activity for event in found]
     assert kinds[0] is Activity.STANDING and kinds[1] is Activity.WALKING and kinds[-1] is Activity.STANDING
     assert set(kinds) == {Activity.STANDING, Activity.WALKING, stairs}
     truth = worn(route, 1)[1]
-    begun = [begin for begin, _, what in truth.activities if what is stairs]
-    assert any(abs(event.t - begun[0]) < 1.5 for event in told if event.activity is stairs)
+    starts = [start for start, _, what in truth.activities if what is stairs]
+    assert any(abs(event.t - starts[0]) < 1.5 for event in found if event.activity is stairs)
 
 
 def by_the_left_foot(
     part: AnglePerMetre, change: Callable[[Event], Event | None] = lambda one: one, until: float = inf
 ) -> list[Any]:
     """What it says of the left foot's level walk up to `until` s, hearing of its events as they are changed."""
-    foot, told = FootTracker(Foot.LEFT, ShortTimeEnergy(), ShoeSensing()), []
+    foot, found = FootTracker(Foot.LEFT, ShortTimeEnergy(), ShoeSensing()), []
     for sample in worn(LEVEL, 1)[0]:
         if sample.site.foot is Foot.LEFT and sample.t < until:
             events = [one for event in foot.feed(sample) if (one := change(event)) is not None]
-            told += fed(part, foot, sample, events)
-    return told
+            found += fed(part, foot, sample, events)
+    return found
 
 
 def test_a_foot_that_only_fidgets_is_in_the_end_unknown() -> None:
     # the steps are kept from it, as if the foot had come down where it stood
-    told = by_the_left_foot(AnglePerMetre(), lambda one: None if isinstance(one, StrideTaken) else one, until=12.0)
-    assert [what for _, what in changes(told)] == [Activity.STANDING, Activity.UNKNOWN]
+    found = by_the_left_foot(AnglePerMetre(), lambda one: None if isinstance(one, StrideTaken) else one, until=12.0)
+    assert [what for _, what in changes(found)] == [Activity.STANDING, Activity.UNKNOWN]
 
 
 def test_who_has_stood_for_long_and_sets_out_is_not_unknown() -> None:
     samples, _ = worn(Route().stand(12.0).walk(6.0, 1.3).stop(2.0), 1)
-    told = changes(run_session(samples, SHOE_SENSING))
-    assert [what for _, what in told] == [Activity.STANDING, Activity.WALKING, Activity.STANDING]
+    found = changes(said(samples, SHOE_SENSING))
+    assert [what for _, what in found] == [Activity.STANDING, Activity.WALKING, Activity.STANDING]
 
 
-def test_a_clock_that_begins_anew_is_told_on_the_new_one() -> None:
+def test_after_a_restart_events_are_on_the_new_clock() -> None:
     part = AnglePerMetre()
-    part.since, part.moved_at, part.stepped_at = 1000.0, 1000.0, 1000.0
+    part.changed_at, part.moved_at, part.stride_at = 1000.0, 1000.0, 1000.0
     part.reset(worn(LEVEL, 1)[0][0].site)
-    told = by_the_left_foot(part, until=4.0)
-    assert told[0].activity is Activity.STANDING and told[0].t < 3.0
+    found = by_the_left_foot(part, until=4.0)
+    assert found[0].activity is Activity.STANDING and found[0].t < 3.0
     assert load(AnglePerMetre, save(part)) == part
 
 
@@ -157,19 +157,19 @@ def rebound(shifts: dict[Foot, float], *, silent: Foot | None = None) -> tuple[l
 @pytest.mark.parametrize("shift", [-1e9, -40.0, 0.0, 1e9])
 def test_a_foot_whose_clock_restarts_dates_nothing_while_the_other_goes_on(shift: float) -> None:
     before, after = rebound({Foot.LEFT: shift})
-    told = changes([*before, *after])
-    assert [t for t, _ in told] == sorted(t for t, _ in told)
+    found = changes([*before, *after])
+    assert [t for t, _ in found] == sorted(t for t, _ in found)
     # the other foot's clock dates the second walk, as if nothing had happened
-    expected = [what for _, what in changes(heard(LEVEL, 1))]
-    assert [what for _, what in told] == expected + expected[1:]
-    assert told[-1][0] == pytest.approx(told[len(expected) - 1][0] + worn(LEVEL, 1)[0][-1].t, abs=1.0)
+    expected = [what for _, what in changes(events_of(LEVEL, 1))]
+    assert [what for _, what in found] == expected + expected[1:]
+    assert found[-1][0] == pytest.approx(found[len(expected) - 1][0] + worn(LEVEL, 1)[0][-1].t, abs=1.0)
 
 
-def test_a_restarted_clock_dates_what_is_told_once_the_other_foot_has_fallen_silent() -> None:
+def test_a_restarted_clock_dates_events_once_the_other_foot_has_fallen_silent() -> None:
     _, after = rebound({Foot.LEFT: -1e9}, silent=Foot.RIGHT)
-    told = changes(after)
-    assert [what for _, what in told][-2:] == [Activity.WALKING, Activity.STANDING]
-    assert all(t < -9e8 for t, _ in told)
+    found = changes(after)
+    assert [what for _, what in found][-2:] == [Activity.WALKING, Activity.STANDING]
+    assert all(t < -9e8 for t, _ in found)
 
 
 @pytest.mark.parametrize("height", [-11.46, 2.31])
@@ -177,9 +177,9 @@ def test_a_step_higher_than_stairs_have_is_neither_upstairs_nor_downstairs(heigh
     def raised(one: Event) -> Event:
         return evolve(one, height_change=height) if isinstance(one, StrideTaken) and one.number % 3 == 0 else one
 
-    told = by_the_left_foot(AnglePerMetre(), raised)
-    assert [what for _, what in changes(told)] == [Activity.STANDING, Activity.WALKING, Activity.STANDING]
-    assert not any(isinstance(event, FlightClimbed) for event in told)
+    found = by_the_left_foot(AnglePerMetre(), raised)
+    assert [what for _, what in changes(found)] == [Activity.STANDING, Activity.WALKING, Activity.STANDING]
+    assert not any(isinstance(event, FlightClimbed) for event in found)
 
 
 @pytest.mark.parametrize("path", ["xio_closed_walks/spiralStairs", "gaitmap_examples/stair_up"])
@@ -187,7 +187,7 @@ def test_recorded_stairs_are_two_flights_upwards_with_a_landing_between(path: st
     file = data_dir / f"{path}.npz"
     if not file.exists():
         pytest.skip(f"no {path} among the recorded data")
-    told = run_session(load_samples(file), SHOE_SENSING)
-    flights = [event.up for event in told if isinstance(event, FlightClimbed)]
+    found = run_session(load_samples(file), SHOE_SENSING)
+    flights = [event.up for event in found if isinstance(event, FlightClimbed)]
     assert flights == [True, True]
-    assert Activity.STAIRS_UP in {event.activity for event in told if isinstance(event, ActivityChanged)}
+    assert Activity.STAIRS_UP in {event.activity for event in found if isinstance(event, ActivityChanged)}

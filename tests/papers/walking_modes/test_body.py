@@ -48,7 +48,7 @@ def suit(route: Route = AROUND, north: float = 0.0, seed: int = 101) -> tuple[Sa
 
 
 @cache
-def told(heading: float | None = None, north: float = 0.0) -> list[Event]:
+def run_walk(heading: float | None = None, north: float = 0.0) -> list[Event]:
     session = Session(III.exchanged(TrackPart, Modes(settings=ModesSettings(heading=heading))), calibration=KNOWN)
     return [*session.feed(suit(north=north)), *session.finish()]
 
@@ -63,7 +63,7 @@ def off(modes: Modes, samples: Sequence[Sample]) -> tuple[tuple[float, float], C
 
 
 def test_every_step_is_a_touchdown_where_the_foot_came_down() -> None:
-    downs = of(TouchedDown, told(0.0))
+    downs = of(TouchedDown, run_walk(0.0))
     for foot in Foot:
         mine, true = [down for down in downs if down.foot is foot], walker().plan.strides[foot]
         assert len(mine) == len(true)
@@ -74,19 +74,19 @@ def test_every_step_is_a_touchdown_where_the_foot_came_down() -> None:
 
 
 def test_a_touchdown_is_known_within_three_samples() -> None:
-    assert all(down.t <= down.known_at < down.t + 0.07 for down in of(TouchedDown, told()))
+    assert all(down.t <= down.known_at < down.t + 0.07 for down in of(TouchedDown, run_walk()))
 
 
 def test_the_world_of_the_sensors_may_point_anywhere() -> None:
     """x is along the first heading, whatever the sensors call north."""
-    here, there = (of(TouchedDown, told(north=north)) for north in (0.0, 2.5))
+    here, there = (of(TouchedDown, run_walk(north=north)) for north in (0.0, 2.5))
     for one, other in zip(here, there, strict=True):
         assert one.position[:2] == pytest.approx(other.position[:2], abs=0.1)
         assert one.final is other.final
 
 
 def test_touchdowns_are_final_once_the_first_heading_is() -> None:
-    finals = [down.final for down in of(TouchedDown, told())]
+    finals = [down.final for down in of(TouchedDown, run_walk())]
     assert finals == sorted(finals) and not finals[0] and finals[4]
 
 
@@ -95,14 +95,14 @@ def test_the_other_methods_go_the_same_way_less_well(method: Height | NetAcceler
     assert hypot(*off(Modes(method, LOOKS_AHEAD), suit())[0]) < 0.1 * walker().route.length
 
 
-def test_the_position_is_midway_between_the_feet_and_says_how_far_it_may_be_off() -> None:
+def test_the_position_is_midway_between_the_feet_and_has_a_covariance() -> None:
     (dx, dy), (xx, xy, _, yy, _, _) = off(Modes(settings=LOOKS_AHEAD), suit())
     assert hypot(dx, dy) < 0.15
     assert (yy * dx * dx - 2.0 * xy * dx * dy + xx * dy * dy) / (xx * yy - xy * xy) < 9.2  # 99 % of a normal pair
 
 
 @pytest.mark.parametrize("mode", [mode for mode in WalkingMode if mode is not WalkingMode.STANDING])
-def test_modes_are_told_from_the_insoles(mode: WalkingMode) -> None:
+def test_modes_are_recognised_from_the_insoles(mode: WalkingMode) -> None:
     route = marked(mode, steps=20)
     session = Session(III, calibration=KNOWN)
     changes = of(WalkingModeChanged, session.feed(suit(route)))
@@ -117,7 +117,7 @@ def test_modes_are_told_from_the_insoles(mode: WalkingMode) -> None:
     assert whole >= 15 and right >= 0.95 * whole
 
 
-def test_who_stands_is_told_to_stand() -> None:
+def test_a_wearer_who_stands_is_in_mode_standing() -> None:
     session = Session(III, calibration=KNOWN)
     changes = of(WalkingModeChanged, session.feed([s for s in suit() if s.t < 1.9]))
     assert {change.foot for change in changes} == set(Foot)
@@ -131,7 +131,7 @@ def test_the_compensation_of_the_mode_is_added_along_the_way() -> None:
     downs = of(TouchedDown, session.feed(suit()))
     ahead = [down for down in downs if down.mode is WalkingMode.STRAIGHT and down.t < 6.0]
     assert ahead and all(down.compensation[0] == pytest.approx(0.02, abs=0.002) for down in ahead[:-1])
-    bare = of(TouchedDown, told(0.0))
+    bare = of(TouchedDown, run_walk(0.0))
     assert downs[3].position[0] - bare[3].position[0] == pytest.approx(4 * 0.02, abs=0.01)
 
 

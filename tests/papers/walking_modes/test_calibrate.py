@@ -57,7 +57,7 @@ def test_noise_of_the_gauge_is_its_residual(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("lines", "said"),
+    ("lines", "error"),
     [
         (("hello,5",), "line 19: counts is 'hello', not a number"),
         (("7,nan",), "line 19: newtons is 'nan', not a finite number"),
@@ -65,14 +65,14 @@ def test_noise_of_the_gauge_is_its_residual(tmp_path: Path) -> None:
         (("7,250",), "line 19: newtons is 250, which is not between 0 and 200 N"),
     ],
 )
-def test_a_bad_line_is_named(tmp_path: Path, lines: tuple[str, ...], said: str) -> None:
+def test_a_bad_line_is_named(tmp_path: Path, lines: tuple[str, ...], error: str) -> None:
     path = gauge(tmp_path / "g.csv", [1000.0 * k for k in range(17)], lines)
-    with pytest.raises(CalibrationError, match=said) as error:
+    with pytest.raises(CalibrationError, match=error) as error:
         fit_gauge(path)
     assert str(path) in str(error.value)
 
 
-def test_a_table_that_is_none_is_refused(tmp_path: Path) -> None:
+def test_a_table_that_is_none_is_rejected(tmp_path: Path) -> None:
     empty, short, falling = (tmp_path / name for name in ("empty.csv", "short.csv", "falling.csv"))
     empty.write_text("")
     with pytest.raises(CalibrationError, match="line 1: wants one column counts"):
@@ -105,13 +105,13 @@ def straight(short: float, turned: float = 0.0) -> tuple[list[ModeMark], list[To
 
 
 @pytest.mark.parametrize("turned", [0.0, 2.0])
-def test_steps_that_are_measured_too_short_are_told_so_wherever_the_marks_x_points(turned: float) -> None:
+def test_steps_that_are_measured_too_short_have_that_error_wherever_the_marks_x_points(turned: float) -> None:
     errors = step_errors(*straight(0.02, turned))
     assert len(errors) == 6
     assert [(error.forward, error.left) for error in errors] == [pytest.approx((0.02, 0.0), abs=1e-9)] * 6
 
 
-def test_errors_do_not_accumulate_and_are_told_by_foot() -> None:
+def test_errors_do_not_accumulate_and_are_separated_by_foot() -> None:
     marked_points, downs = straight(0.0)
     moved = [down(one.foot, one.t, one.position[0] + (0.03 if k >= 5 else 0.0), one.position[1])
              for k, one in enumerate(downs)]  # fmt: skip
@@ -144,7 +144,7 @@ def test_marks_that_belong_to_no_touchdown_are_named() -> None:
 
 
 @pytest.mark.parametrize(
-    ("line", "said"),
+    ("line", "error"),
     [
         ("middle,1,0,0,STRAIGHT", "line 2: foot is 'middle', not one of left, right"),
         ("left,1,0,0,STANDING", "line 2: mode is 'STANDING', not one of STRAIGHT"),
@@ -152,14 +152,14 @@ def test_marks_that_belong_to_no_touchdown_are_named() -> None:
         ("left,1,zero,0,STRAIGHT", "line 2: x is 'zero', not a number"),
     ],
 )
-def test_a_bad_mark_is_named(tmp_path: Path, line: str, said: str) -> None:
+def test_a_bad_mark_is_named(tmp_path: Path, line: str, error: str) -> None:
     path = tmp_path / "marks.csv"
     path.write_text(f"foot,t,x,y,mode\n{line}\n")
-    with pytest.raises(CalibrationError, match=said):
+    with pytest.raises(CalibrationError, match=error):
         read_marks(path)
 
 
-def test_marks_may_be_told_by_the_number_of_the_step(tmp_path: Path) -> None:
+def test_marks_may_name_the_number_of_the_step(tmp_path: Path) -> None:
     path = tmp_path / "marks.csv"
     path.write_text("foot,step,x,y,mode\nleft,3,1.5,0.1,LEFT_WIDE\n")
     (mark,) = read_marks(path)

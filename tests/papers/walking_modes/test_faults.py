@@ -54,7 +54,7 @@ def without_numbers(samples: Sequence[Sample], since: float) -> list[Sample]:
     return spoiled.missing(samples, LEFT, range(96), since)
 
 
-def told(
+def run_walk(
     recipe: str | Recipe, samples: Sequence[Sample], known: Calibration = KNOWN
 ) -> tuple[tuple[float, float], list[Event]]:
     """Where the walk ends, x and y, and what was said."""
@@ -72,7 +72,7 @@ def sentences(events: Sequence[Event]) -> list[str]:
 @cache
 def clean(samples: Callable[[], tuple[Sample, ...]]) -> tuple[float, float]:
     """Where the walk ends when nothing is wrong."""
-    return told("walking-modes", samples())[0]
+    return run_walk("walking-modes", samples())[0]
 
 
 BROKEN: dict[str, Callable[[], Sequence[Sample]]] = {
@@ -87,7 +87,7 @@ BROKEN: dict[str, Callable[[], Sequence[Sample]]] = {
 
 @pytest.mark.parametrize("how", BROKEN)
 def test_an_insole_without_usable_pressure_does_not_lead_astray(how: str) -> None:
-    (x, y), events = told("walking-modes", BROKEN[how]())
+    (x, y), events = run_walk("walking-modes", BROKEN[how]())
     clean_x, clean_y = clean(feet)
     assert hypot(x - clean_x, y - clean_y) < 1.0
     assert len([what for what in sentences(events) if "left insole" in what and "steps" in what]) == 1
@@ -100,19 +100,19 @@ def test_nor_does_it_with_seven_sites(since: float | None) -> None:
     """`since`: without pressure, s; None for an insole that never unloads."""
     sites = seven()
     worn = spoiled.never_unloads(sites, LEFT, 30.0) if since is None else spoiled.cut_off(sites, LEFT, 0, since)
-    (x, y), _ = told("walking-modes", worn)
+    (x, y), _ = run_walk("walking-modes", worn)
     clean_x, clean_y = clean(seven)
     assert hypot(x - clean_x, y - clean_y) < 1.3
 
 
 @pytest.mark.parametrize("recipe", RECIPES)
 def test_the_feet_alone_go_all_the_way_by_any_method(recipe: str) -> None:
-    (x, y), events = told(recipe, feet())
+    (x, y), events = run_walk(recipe, feet())
     assert hypot(x - FAR, y) < 2.0
     strides = sum(len(strides) for strides in walker().plan.strides.values())
     assert strides - 2 <= len(of(TouchedDown, events)) <= strides + 1
-    (said,) = [what for what in sentences(events) if "own inertial tracks" in what]
-    assert "pelvis" in said
+    (limitation,) = [what for what in sentences(events) if "own inertial tracks" in what]
+    assert "pelvis" in limitation
 
 
 def lagging(samples: Sequence[Sample]) -> list[Sample]:
@@ -136,17 +136,17 @@ SUITS: dict[str, tuple[Callable[[], Sequence[Sample]], str]] = {
 @cache
 def by_tracks(how: str) -> float:
     """How far the feet's own tracks go in that suit, m."""
-    return told(TRACKS, SUITS[how][0]())[0][0]
+    return run_walk(TRACKS, SUITS[how][0]())[0][0]
 
 
 @pytest.mark.parametrize("how", SUITS)
 @pytest.mark.parametrize("recipe", RECIPES)
-def test_whoever_loses_the_chain_goes_on_by_the_tracks_and_says_why_once(recipe: str, how: str) -> None:
+def test_a_lost_chain_is_replaced_by_the_tracks_and_reported_once(recipe: str, how: str) -> None:
     samples, named = SUITS[how]
-    (x, y), events = told(recipe, samples())
+    (x, y), events = run_walk(recipe, samples())
     assert hypot(x - by_tracks(how), y) < 2.3
-    (said,) = [what for what in sentences(events) if "own inertial tracks" in what]
-    assert named in said
+    (limitation,) = [what for what in sentences(events) if "own inertial tracks" in what]
+    assert named in limitation
 
 
 @pytest.mark.parametrize("recipe", RECIPES)
@@ -154,14 +154,14 @@ def test_whoever_loses_the_chain_goes_on_by_the_tracks_and_says_why_once(recipe:
 def test_a_foot_that_falls_silent_neither_freezes_nor_halves_the_wearer(
     recipe: str, silence: tuple[float, float]
 ) -> None:
-    (x, y), events = told(recipe, spoiled.silent(feet(), LEFT, *silence))
+    (x, y), events = run_walk(recipe, spoiled.silent(feet(), LEFT, *silence))
     assert hypot(x - FAR, y) < 1.7
     assert len([what for what in sentences(events) if "not heard" in what]) == 1
 
 
 def test_with_the_chain_too() -> None:
     for silence in ((8.0, 100.0), (8.4, 13.3)):
-        (x, y), _ = told("walking-modes", spoiled.silent(seven(), LEFT, *silence))
+        (x, y), _ = run_walk("walking-modes", spoiled.silent(seven(), LEFT, *silence))
         assert hypot(x - FAR, y) < 2.0
 
 
@@ -176,7 +176,7 @@ def round_a_bend() -> tuple[Walker, tuple[Sample, ...], tuple[Sample, ...]]:
 @pytest.mark.parametrize(("site", "end"), [(LEFT, 13.3), (RIGHT, 15.3), (RIGHT, 100.0)])
 def test_a_foot_that_comes_back_after_a_bend_goes_on_beside_the_other(site: Site, end: float) -> None:
     walked, two, _ = round_a_bend()
-    (x, y), events = told("walking-modes", spoiled.silent(two, site, 8.4, end))
+    (x, y), events = run_walk("walking-modes", spoiled.silent(two, site, 8.4, end))
     assert hypot(x - walked.route.end.x, y - walked.route.end.y) < 1.0
     downs = [down.t for down in of(TouchedDown, events) if SITE_OF_FOOT[down.foot] is site]
     strides = [s.heel_strike for foot in Foot for s in walked.plan.strides[foot] if SITE_OF_FOOT[foot] is site]
@@ -188,13 +188,13 @@ def test_a_chain_that_is_known_only_after_a_bend_lies_in_the_world_as_the_tracks
     """The sensors above the ankles are 0.3 s behind until 14 s, when the wearer is round the bend."""
     walked, _, sensors = round_a_bend()
     late = [evolve(s, known_at=s.t + 0.3) if s.site.foot is None and s.t < 14.0 else s for s in sensors]
-    (x, y), events = told("walking-modes", sorted(late, key=_known_at))
+    (x, y), events = run_walk("walking-modes", sorted(late, key=_known_at))
     assert hypot(x - walked.route.end.x, y - walked.route.end.y) < 2.5
     assert all(down.final for down in of(TouchedDown, events)[8:])
 
 
-def test_insoles_of_which_nobody_says_where_the_cells_are_tell_no_walking_modes() -> None:
-    _, events = told("walking-modes", feet(), Calibration())
+def test_insoles_without_a_layout_give_no_walking_modes() -> None:
+    _, events = run_walk("walking-modes", feet(), Calibration())
     assert {change.mode for change in of(WalkingModeChanged, events)} <= {WalkingMode.STANDING}
     assert {down.mode for down in of(TouchedDown, events)} == {WalkingMode.STRAIGHT}
     assert len([what for what in sentences(events) if "no walking modes" in what]) == 2
@@ -206,7 +206,7 @@ def test_one_sample_from_the_far_future_does_not_silence_its_site() -> None:
         samples.append(sample)
         if sample.site is Site.PELVIS and 10.0 <= sample.t < 10.02:
             samples.append(evolve(sample, t=1e10))
-    _, events = told("walking-modes", samples)
+    _, events = run_walk("walking-modes", samples)
     (rejected,) = of(SampleRejected, events)
     assert rejected.site is Site.PELVIS
     assert not [what for what in sentences(events) if "own inertial tracks" in what]

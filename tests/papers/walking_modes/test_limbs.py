@@ -38,7 +38,7 @@ def test_who_stands_straight_has_the_ends_of_the_feet_below_and_before_the_hips(
     assert foot_end(IDENTITY, IDENTITY, IDENTITY, IDENTITY, HIP, LIMBS) == pytest.approx((0.2, 0.1, -0.95))
 
 
-def test_a_thigh_lifted_to_the_front_carries_the_shank_and_the_foot_along() -> None:
+def test_a_thigh_lifted_to_the_front_moves_the_shank_and_the_foot_along() -> None:
     # thigh horizontal, pointing ahead; shank down, foot level
     end = foot_end(IDENTITY, pitched(-90), IDENTITY, IDENTITY, HIP, LIMBS)
     assert end == pytest.approx((0.4 + 0.2, 0.1, -0.55))
@@ -50,7 +50,7 @@ def test_a_leg_swung_back_by_30_degrees_with_the_foot_on_it() -> None:
     assert end == pytest.approx((-0.95 * s + 0.2 * c, 0.1, -0.95 * c - 0.2 * s))
 
 
-def test_a_pelvis_turned_left_carries_its_left_hip_back() -> None:
+def test_a_pelvis_turned_left_moves_its_left_hip_back() -> None:
     end = foot_end(from_yaw(pi / 2), IDENTITY, IDENTITY, IDENTITY, HIP, LIMBS)
     assert end == pytest.approx((0.2 - 0.1, 0.0, -0.95))
 
@@ -93,13 +93,13 @@ MOUNTED = {site: normalise((1.0, 0.1 * k, -0.2 * k, 0.3)) for k, site in enumera
 def swing_back(chain: LowerLimbs, t: float, world: Quat = IDENTITY) -> None:
     """The left leg as one, by 30 degrees, which the chain knows; `world`: how that of the thigh's sensor is turned."""
     for site in (Site.LEFT_THIGH, Site.LEFT_SHANK, Site.LEFT_FOOT):
-        told = multiply(pitched(30), MOUNTED[site])
-        chain.set_attitude(site, t, multiply(world, told) if site is Site.LEFT_THIGH else told)
+        attitude = multiply(pitched(30), MOUNTED[site])
+        chain.set_attitude(site, t, multiply(world, attitude) if site is Site.LEFT_THIGH else attitude)
     end = foot_end(IDENTITY, pitched(30), pitched(30), pitched(30), HIP, LIMBS)
     assert chain.end(Foot.LEFT, t) == pytest.approx(end)
 
 
-def test_standing_tells_how_every_sensor_sits_on_its_segment() -> None:
+def test_standing_shows_how_every_sensor_sits_on_its_segment() -> None:
     chain = LowerLimbs(WORN)
     stood(chain, MOUNTED)
     assert chain.aligned
@@ -117,7 +117,7 @@ def test_who_does_not_stand_still_is_not_aligned() -> None:
     assert not chain.aligned
 
 
-def test_the_first_step_tells_where_the_wearer_looked_in_the_world_of_the_sensors() -> None:
+def test_the_first_step_shows_the_wearers_heading_in_the_world_of_the_sensors() -> None:
     north = 2.0
     chain = LowerLimbs(WORN)
     away = {site: multiply(from_yaw(north), q) for site, q in MOUNTED.items()}
@@ -132,10 +132,10 @@ def test_the_first_step_tells_where_the_wearer_looked_in_the_world_of_the_sensor
 
 
 @given(st.lists(st.tuples(st.sampled_from(SEGMENTS), st.floats(-5, 5), st.tuples(*[st.floats()] * 4)), max_size=40))
-def test_whatever_the_sensors_say_the_chain_is_somewhere(told: list[tuple[Site, float, Quat]]) -> None:
+def test_for_any_attitudes_the_chain_is_finite(attitudes: list[tuple[Site, float, Quat]]) -> None:
     chain = LowerLimbs(WORN)
     stood(chain, MOUNTED)
-    for site, t, quat in told:
+    for site, t, quat in attitudes:
         chain.set_attitude(site, t, quat)
     chain.add_touchdown(Foot.LEFT, 0.7)
     for foot in Foot:
@@ -149,11 +149,11 @@ def test_a_sensor_without_an_attitude_of_its_own_is_held_upright_by_gravity() ->
     walker = Walker(Route().stand(2.0).walk(15.0, 1.2).stop(1.0), Wearer(), seed=5)
     site = Site.LEFT_SHANK
     exact = [s for s in limb_samples(walker, 100.0, seed=5, attitude=None, errors=None) if s.site is site]
-    felt = [s for s in limb_samples(walker, 100.0, seed=5, attitude=None, errors=MPU9250) if s.site is site]
+    samples = [s for s in limb_samples(walker, 100.0, seed=5, attitude=None, errors=MPU9250) if s.site is site]
     sensor = Inclination()
     off: list[float] = []
     stood: tuple[Quat, Quat] | None = None
-    for true, sample in zip(exact, felt, strict=True):
+    for true, sample in zip(exact, samples, strict=True):
         assert true.quat is not None and sample.acc is not None and sample.gyro is not None
         attitude = sensor.update(sample.t, sample.acc, sample.gyro)
         if attitude is None or sample.t < 1.0:
@@ -171,15 +171,15 @@ def lean(attitude: Quat, stood: Quat) -> float:
     return float(np.arccos(min(1.0, z)))
 
 
-def again(chain: LowerLimbs, site: Site, world: Quat, begin: float) -> None:
+def again(chain: LowerLimbs, site: Site, world: Quat, start: float) -> None:
     """The wearer stands for 0.6 s more, with a sensor whose world is turned by `world` from the one before."""
     for k in range(31):
         for other in SEGMENTS:
-            told = multiply(world, MOUNTED[other]) if other is site else MOUNTED[other]
-            chain.set_attitude(other, begin + 0.02 * k, told)
+            attitude = multiply(world, MOUNTED[other]) if other is site else MOUNTED[other]
+            chain.set_attitude(other, start + 0.02 * k, attitude)
 
 
-def test_a_sensor_that_began_anew_is_used_again_in_its_new_world_once_it_stood_still() -> None:
+def test_a_restarted_sensor_is_used_again_in_its_new_world_once_it_stood_still() -> None:
     chain = LowerLimbs(WORN)
     stood(chain, MOUNTED)
     world = from_yaw(2.0)

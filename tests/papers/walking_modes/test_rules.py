@@ -107,7 +107,7 @@ def test_coarse_insoles_have_every_region_though_some_share_cells() -> None:
     assert all(regions(layout(cells, LEFT))[name] for cells in (8, 24, 35) for name in POINTS)
 
 
-def test_a_contact_tells_each_region_as_a_multiple_of_the_mean_cell() -> None:
+def test_a_contact_gives_each_region_as_a_multiple_of_the_mean_cell() -> None:
     insole, contact = layout(99, LEFT), Contact()
     contact.set_layout(insole)
     contact.start(0.0)
@@ -165,7 +165,7 @@ BLIND = {
 
 
 @pytest.mark.parametrize("how", BLIND)
-def test_cells_that_do_not_tell_left_from_right_have_no_regions_and_tell_no_mode(how: str) -> None:
+def test_cells_that_do_not_separate_left_from_right_have_no_regions_and_no_mode(how: str) -> None:
     assert regions(BLIND[how]) == {}
     contact = Contact()
     contact.set_layout(BLIND[how])

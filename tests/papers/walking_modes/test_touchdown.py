@@ -67,18 +67,18 @@ def test_where_nobody_knows_what_a_newton_is_a_share_of_the_most_counts() -> Non
 
 
 def test_a_cell_that_flickers_about_the_threshold_is_one_touchdown() -> None:
-    method, carrier = PressureTouchdown(), ReferenceFoot()
+    method, reference = PressureTouchdown(), ReferenceFoot()
     came = []
     for k, force in enumerate((0.0, 0.0, 4.0, 5.5, 4.5, 5.5, 4.0, 20.0)):
-        taken = carrier.update(method.update(0.01 * k, FootState(pressure=force), FootState(pressure=50.0)))
+        taken = reference.update(method.update(0.01 * k, FootState(pressure=force), FootState(pressure=50.0)))
         came.append(taken)
     assert came == [(RIGHT, False), None, None, (LEFT, True), None, None, None, None]
 
 
-def test_in_walking_each_foot_carries_from_its_own_touchdown_to_the_others() -> None:
-    carrier = ReferenceFoot()
+def test_in_walking_each_foot_is_the_reference_from_its_own_touchdown_to_the_others() -> None:
+    reference = ReferenceFoot()
     walk = [(True, True), (False, True), (True, True), (True, False), (True, True), (False, True)]
-    assert [carrier.update(flags) for flags in walk] == [
+    assert [reference.update(flags) for flags in walk] == [
         (LEFT, False),  # both stand
         (RIGHT, False),  # the left one has left
         (LEFT, True),  # and comes down
@@ -89,25 +89,25 @@ def test_in_walking_each_foot_carries_from_its_own_touchdown_to_the_others() -> 
 
 
 def test_a_foot_that_lifts_hands_over_to_the_one_that_stands() -> None:
-    carrier = ReferenceFoot()
+    reference = ReferenceFoot()
     for flags in ((False, True), (True, True)):
-        carrier.update(flags)
-    assert carrier.foot is LEFT
-    assert carrier.update((False, True)) == (RIGHT, False)
+        reference.update(flags)
+    assert reference.foot is LEFT
+    assert reference.update((False, True)) == (RIGHT, False)
 
 
 def test_in_flight_nothing_changes() -> None:
-    carrier = ReferenceFoot()
-    carrier.update((True, False))
-    assert carrier.update((False, False)) is None
-    assert carrier.foot is LEFT
+    reference = ReferenceFoot()
+    reference.update((True, False))
+    assert reference.update((False, False)) is None
+    assert reference.foot is LEFT
 
 
 values = st.none() | st.floats(-1e6, 1e6)
 
 
 @given(st.lists(st.tuples(st.floats(-10.0, 10.0), *[values] * 8), max_size=30))
-def test_whatever_the_feet_show_somebody_carries_or_nobody(samples: list[tuple[float | None, ...]]) -> None:
+def test_for_any_states_there_is_one_reference_or_none(samples: list[tuple[float | None, ...]]) -> None:
     methods: list[AnyTouchdown] = [Height(), NetAcceleration(), PressureTouchdown()]
     carriers = [ReferenceFoot() for _ in methods]
     for t, *shown in samples:
