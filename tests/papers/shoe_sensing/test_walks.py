@@ -43,7 +43,7 @@ def worn(route: Route, seed: int, rate: float = 100.0) -> tuple[tuple[Sample, ..
 
 @cache
 def events_of(route: Route, seed: int, rate: float = 100.0, energy: bool = True) -> tuple[Event, ...]:
-    return tuple(said(worn(route, seed, rate)[0], SHOE_SENSING if energy else SHOE_MAGNITUDE))
+    return tuple(run_session(worn(route, seed, rate)[0], SHOE_SENSING if energy else SHOE_MAGNITUDE))
 
 
 def steps(events: tuple[Event, ...], foot: Foot) -> list[StrideTaken]:
@@ -122,7 +122,7 @@ def test_a_foot_that_only_fidgets_is_in_the_end_unknown() -> None:
 
 def test_who_has_stood_for_long_and_sets_out_is_not_unknown() -> None:
     samples, _ = worn(Route().stand(12.0).walk(6.0, 1.3).stop(2.0), 1)
-    found = changes(said(samples, SHOE_SENSING))
+    found = changes(run_session(samples, SHOE_SENSING))
     assert [what for _, what in found] == [Activity.STANDING, Activity.WALKING, Activity.STANDING]
 
 
