@@ -221,8 +221,8 @@ def test_most_steps_of_a_steady_walk_are_similar_and_calibrated() -> None:
 
 
 def test_the_wearer_stands_at_the_end_of_the_chosen_path_and_within_its_covariance() -> None:
-    session, fused = run_walk()
-    fused = of(StrideFused, fused)
+    session, events = run_walk()
+    fused = of(StrideFused, events)
     here = session.position
     assert here is not None
     assert here.position == pytest.approx(fused[-1].position, abs=0.02)

@@ -205,10 +205,10 @@ strides = st.lists(
 
 
 @given(strides)
-def test_whatever_the_strides_flights_are_in_order_and_high(found: list[tuple[Foot, float, float, int | None]]) -> None:
+def test_whatever_the_strides_flights_are_in_order_and_high(taken: list[tuple[Foot, float, float, int | None]]) -> None:
     flights, t = Flights(), 0.0
     found: list[FlightClimbed] = []
-    for foot, dt, height, way in found:
+    for foot, dt, height, way in taken:
         t += dt
         found += flights.stepped(step(foot, t, height), way)
         found += flights.waited(t + 1.0, t + 1.0)
