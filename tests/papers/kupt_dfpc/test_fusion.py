@@ -206,7 +206,7 @@ WALK = Route().stand(1.5).walk(14.0, 1.25).stop(1.5)
 
 @cache
 def run_walk(silent: bool = False) -> tuple[Session, list[Event]]:
-    """A straight walk of 14 m with two insoles through the recipe; `silent`: the left one says nothing from 8 s on."""
+    """A straight walk of 14 m with two insoles through the recipe; `silent`: the left one sends nothing from 8 s on."""
     session = Session(recipes.by_name("kupt-dfpc"))
     packets = insoles(WALK).packets
     return session, session.feed([p for p in packets if not (silent and p.site is Site.LEFT_FOOT and p.t > 8.0)])

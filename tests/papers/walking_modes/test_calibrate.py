@@ -1,4 +1,4 @@
-"""`solepath calibrate newton` and `modes`: what a gauge and marked walks teach."""
+"""`solepath calibrate newton` and `modes`: calibration by a gauge and by marked walks."""
 
 from __future__ import annotations
 
