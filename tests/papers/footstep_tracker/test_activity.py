@@ -1,4 +1,4 @@
-"""Two-second windows: what is in one, the tree, the order of a lift's pulses, the hidden Markov model; by hand."""
+"""Two-second windows: their features, the tree, the order of a lift's pulses, the hidden Markov model; by hand."""
 
 import json
 from math import log, pi, sin
@@ -36,7 +36,7 @@ STILL, UP, DOWN = Activity.STANDING, Activity.ELEVATOR_UP, Activity.ELEVATOR_DOW
 
 
 def windows(accs, gyros=None, rate=RATE):
-    """Of one foot."""
+    """Return the windows of one foot."""
     foot = FootWindows()
     for k, acc in enumerate(accs):
         foot.update(k / rate, acc, None if gyros is None else gyros[k])
@@ -48,7 +48,7 @@ def upright(*a_z):
 
 
 def test_a_window_holds_two_seconds_and_slides_by_half_of_one():
-    # the first half-second has no axis yet; windows begin at 0.5, 1.0, 1.5 s and the last one ends at 4.0 s
+    # the first half-second has no axis yet; windows start at 0.5, 1.0, 1.5 s and the last one ends at 4.0 s
     found = windows(upright(*[0.0] * 81))
     assert [window.index for window in found] == [4, 5, 6, 7]
 
@@ -97,7 +97,7 @@ def test_no_window_goes_over_a_gap():
     foot = FootWindows()
     for t in [*np.arange(0.0, 2.0, 0.05), *np.arange(2.6, 6.0, 0.05)]:
         foot.update(float(t), (0.0, 0.0, GRAVITY))
-    # nothing is heard from 2.0 to 2.5 s; the window from 2.5 s on ends with half-second number 8
+    # no samples from 2.0 to 2.5 s; the window from 2.5 s on ends with half-second number 8
     assert [window.index for window in foot.ready] == [8, 9, 10]
 
 
@@ -215,7 +215,7 @@ def test_the_forward_filter_by_hand():
 
 
 def test_the_variance_tree_comes_first():
-    # variance 0.81 is below the threshold of 1, 1.21 above it, whatever the hidden Markov model says
+    # variance 0.81 is below the threshold of 1, 1.21 above it, for any state of the hidden Markov model
     for swing, moves in ((0.9, False), (1.1, True)):
         part = TwoSecondWindows(two_second_windows.TwoSecondSettings(model()))
         events_of(samples(lambda t, v=swing: v * (-1.0) ** round(t * RATE), 6.0), part)

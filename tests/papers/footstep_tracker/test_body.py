@@ -38,7 +38,7 @@ def step(foot: Foot, t: float, turn: float = 0.0, way: tuple[float, float] = (1.
 
 
 def new_track() -> Footsteps:
-    """Of a wearer with sensors on both feet."""
+    """Return the track of a wearer with sensors on both feet."""
     body = Footsteps()
     for way in body.paths.values():
         way.has_samples = True
@@ -46,7 +46,7 @@ def new_track() -> Footsteps:
 
 
 def walked(count: int, left: float, right: float) -> Footsteps:
-    """After so many steps of both feet, each m ahead."""
+    """Return the track after `count` steps of both feet, each `left` or `right` m ahead."""
     body = new_track()
     for k in range(count):
         body.add_stride(step(Foot.LEFT, k + 0.5, way=(left, 0.0)))
@@ -87,7 +87,7 @@ def test_a_foot_that_falls_silent_does_not_hold_the_wearer_back() -> None:
 
 def test_both_feet_go_on_in_the_direction_of_the_mean_of_their_turns() -> None:
     body = new_track()
-    # the left foot says 80 degrees and the right one 100; each then goes on straight by its own track
+    # the left foot measures 80 degrees and the right one 100; each then goes straight by its own track
     for foot, turn in ((Foot.LEFT, radians(80.0)), (Foot.RIGHT, radians(100.0))):
         body.add_stride(step(foot, 1.0, turn, way=(0.0, 0.0)))
     before = base(body)
@@ -102,7 +102,7 @@ def turns_of(direction: TurnDetector, steps: list[StrideTaken]) -> list[TurnProc
 
 
 def both(turns: list[tuple[float, float]], first: float = 1.0) -> list[StrideTaken]:
-    """Steps of both feet by turns, in degrees of the left and of the right one."""
+    """Return alternate steps of both feet that turn by (left, right) degrees."""
     steps = []
     for k, (left, right) in enumerate(turns):
         steps.append(step(Foot.LEFT, first + k, radians(left)))

@@ -26,7 +26,7 @@ G = GRAVITY
 
 
 def rows(dt: float, a_y: list[float], g_x: list[float]) -> list[Row]:
-    """Rows `dt` s apart with these signals and a foot that otherwise feels gravity alone."""
+    """Rows `dt` s apart with these signals and a foot with no force but gravity."""
     return [(k * dt, 0.0, a, -G, g, 0.0, 0.0) for k, (a, g) in enumerate(zip(a_y, g_x, strict=True))]
 
 
@@ -109,7 +109,7 @@ def test_what_is_left_of_velocity_and_tilt_at_rest_is_taken_out() -> None:
 
 
 def clipped(drawn: list[Row], most: float) -> list[Row]:
-    """What a gyroscope that ends at `most` rad/s has of it."""
+    """Return the rows of a gyroscope that clips at `most` rad/s."""
     return [(*row[:4], *[min(max(g, -most), most) for g in row[4:]]) for row in drawn]  # type: ignore[misc]
 
 

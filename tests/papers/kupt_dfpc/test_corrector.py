@@ -31,7 +31,7 @@ def heel_up(pitch: float) -> Quat:
 
 
 def detector() -> KnownVelocity:
-    """One that has learnt that the sensor's axes are the foot's, and whose cells were right in the last swing."""
+    """Return a detector that knows that the sensor's axes are the foot's, and whose cells are reliable."""
     known = KnownVelocity(sagittal=Sagittal())
     known.sagittal.up, known.sagittal.toe = (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)
     known.touch.trusted, known.touch.load_unknown = True, False
@@ -39,7 +39,7 @@ def detector() -> KnownVelocity:
 
 
 def stances_of(known: KnownVelocity, *samples: tuple[Load | None, float]) -> list[Stance]:
-    """What it says of samples at 100 Hz: the load and the heel-up pitch, rad."""
+    """Return the evidence of samples at 100 Hz: the load and the heel-up pitch, rad."""
     stances = []
     for k, (load, pitch) in enumerate(samples):
         # a foot that turns: no inertial detector takes it for still
@@ -116,7 +116,7 @@ def test_the_wearers_own_shoe_is_taken_from_the_calibration() -> None:
 
 
 NO_AREAS = evolve(BOTH, heel=None, forefoot=None, centre=None)
-"""Nobody has said where the cells are."""
+"""A load without a layout."""
 
 
 def test_without_a_layout_a_foot_at_rest_stands() -> None:
@@ -129,13 +129,13 @@ def test_without_a_layout_a_foot_at_rest_stands() -> None:
 
 
 def test_a_motion_longer_than_any_stride_ends_where_the_foot_is_still() -> None:
-    """An area that feels nothing: the cells never have both loaded."""
+    """One area measures nothing, so both are never loaded."""
     known = detector()
     hints = [known.update(0.01 * k, 0.01, STILL, ZERO, HEEL, IDENTITY).hint for k in range(600)]
     first = hints.index(Phase.STATIONARY)
     assert 2.0 < 0.01 * first < 4.0
     assert set(hints[first:]) == {Phase.STATIONARY}
-    # once it was overdue it need not be as quiet: half a radian per second
+    # once it is overdue a higher rate is allowed: half a radian per second
     slow = [known.update(6.0 + 0.01 * k, 0.01, STILL, (0.0, 0.5, 0.0), HEEL, IDENTITY).hint for k in range(10)]
     assert slow[5:] == [Phase.STATIONARY] * 5
     turns = [known.update(6.1 + 0.01 * k, 0.01, STILL, (0.0, 3.0, 0.0), HEEL, IDENTITY).hint for k in range(10)]

@@ -35,7 +35,7 @@ LANDING: list[Row] = [(0.05, False), (0.06, False), (0.08, False)]
 
 
 def cues_with_load() -> CopCues:
-    """One that stands and whose cells were right in the last swing."""
+    """Return the cues of a standing foot whose cells are reliable."""
     cues = CopCues(touch=Touch())
     cues.set_layout(FOUR)
     cues.touch.trusted, cues.touch.load_unknown = True, False
@@ -46,7 +46,7 @@ def cues_with_load() -> CopCues:
 def watch(
     rows: list[Row], cues: CopCues | None = None, speed: float = 0.0
 ) -> tuple[list[tuple[SeenCue, int]], list[Cue | None]]:
-    """What was seen, each with the number of the sample at which it was told, and the marks; 100 Hz."""
+    """Return the cues, each with the number of the sample at which it was reported, and the marks; 100 Hz."""
     cues = cues or cues_with_load()
     seen: list[tuple[SeenCue, int]] = []
     marks: list[Cue | None] = []
@@ -63,7 +63,7 @@ def watch(
 
 
 def cues_of(rows: list[Row]) -> list[tuple[Cue, int, int]]:
-    """(cue, number of the sample that it names, number of the sample at which it was told)."""
+    """Return (cue, number of the sample that it names, number of the sample at which it was reported)."""
     return [(one.cue, round(one.t / 0.01), k) for one, k in watch(rows)[0]]
 
 
@@ -156,7 +156,7 @@ def test_before_any_load_is_known_the_inertial_cues_speak() -> None:
 
 
 NEAR = dict(zip(StepStage, (Phase.STATIONARY, Phase.PUSH_OFF, Phase.SWING, Phase.LOADING), strict=True))
-"""The phase that a foot is in, or will be said to have been in."""
+"""Phase of a foot, or the one that will be reported for it."""
 
 
 @pytest.mark.parametrize(("stage", "cue"), list(product(StepStage, CellCue)))

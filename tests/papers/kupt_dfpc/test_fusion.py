@@ -206,7 +206,7 @@ WALK = Route().stand(1.5).walk(14.0, 1.25).stop(1.5)
 
 @cache
 def run_walk(silent: bool = False) -> tuple[Session, list[Event]]:
-    """A straight walk of 14 m with two insoles through the recipe; `silent`: the left one says nothing from 8 s on."""
+    """A straight walk of 14 m with two insoles through the recipe; `silent`: the left one sends nothing from 8 s on."""
     session = Session(recipes.by_name("kupt-dfpc"))
     packets = insoles(WALK).packets
     return session, session.feed([p for p in packets if not (silent and p.site is Site.LEFT_FOOT and p.t > 8.0)])
@@ -221,8 +221,8 @@ def test_most_steps_of_a_steady_walk_are_similar_and_calibrated() -> None:
 
 
 def test_the_wearer_stands_at_the_end_of_the_chosen_path_and_within_its_covariance() -> None:
-    session, fused = run_walk()
-    fused = of(StrideFused, fused)
+    session, events = run_walk()
+    fused = of(StrideFused, events)
     here = session.position
     assert here is not None
     assert here.position == pytest.approx(fused[-1].position, abs=0.02)

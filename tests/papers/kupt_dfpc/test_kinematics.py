@@ -17,7 +17,7 @@ from solepath.types.vector import IDENTITY, conjugate, from_rotation_vector, fro
 STRAIGHT = ShoeGeometry(forefoot_radius=(0.070, 0.025), pivot_to_toe=(0.090, -0.025), steepest=1.2)
 """Curves that are lines, for sums on paper."""
 CROOKED: Quat = normalise((0.6, -0.3, 0.5, 0.55))
-"""How a sensor may sit on a foot: sensor to foot."""
+"""Mountings of a sensor: sensor to foot."""
 
 
 def pitched(toe_up: float, yaw: float = 0.0) -> Quat:
@@ -26,7 +26,7 @@ def pitched(toe_up: float, yaw: float = 0.0) -> Quat:
 
 
 def taught(mounting: Quat = IDENTITY) -> Sagittal:
-    """One that has stood and seen one push-off; `mounting` is sensor to foot."""
+    """Return the state after a stance and one push-off; `mounting` is sensor to foot."""
     sagittal = Sagittal()
     sagittal.add_flat_sample(0.01, mounting)
     for heel_up in (0.1, 0.3, 0.6, 0.9):

@@ -86,7 +86,7 @@ def test_all_but_the_first_steps_have_an_error_index(rate: float) -> None:
 
 @pytest.mark.parametrize("rate", [30.0, 100.0])
 def test_events_of_the_foot_are_found_when_they_happen(rate: float) -> None:
-    """Within two samples and what the load takes to show; heel-strike and foot-flat are told together."""
+    """Within two samples and the delay of the load; heel-strike and foot-flat are reported together."""
     near = 2.0 / rate + 0.04
     for foot in Foot:
         events, truth = run("kupt", samples(222, foot, rate)), walker(222).truth().feet[foot]
@@ -183,7 +183,7 @@ def test_a_session_can_be_saved_at_any_sample_of_its_first_steps() -> None:
 
 
 def test_insoles_without_a_layout_make_no_step_longer_than_the_wearers() -> None:
-    """Before the order of loading has told where the cells are there are no areas, and the foot still stands."""
+    """Without areas, before the order of loading has shown where the cells are, the foot still stands."""
     walk = samples(223, Foot.RIGHT, 100.0)
     found, true = steps(run_session(walk, recipes.by_name("kupt"))), walker(223).truth().steps(Foot.RIGHT)
     assert len(found) == len(true)

@@ -161,7 +161,7 @@ def test_a_calibrated_drift_is_taken_off_every_sample() -> None:
 
 def test_a_drift_is_fixed_to_the_world_of_a_device_that_has_one() -> None:
     corrector = drifting((0.02, 0.0))
-    # the device says 0.4 where navigation has 0: its x axis lies at -0.4 rad in navigation
+    # the device reports 0.4 where navigation has 0: its x axis lies at -0.4 rad in navigation
     fed(corrector, MOVES, UP, 100, attitude=from_yaw(0.4))
     assert corrector.position == pytest.approx((-0.02 * cos(-0.4), -0.02 * sin(-0.4), 0.0), abs=1e-9)
 

@@ -1,4 +1,4 @@
-"""Drift from laps of a square: a known slope comes out, and what the laps do not agree on does not."""
+"""Drift from laps of a square: a known slope is found, and one that the laps disagree on is not."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def laps() -> EmulatedWalk:
 
 @cache
 def samples() -> tuple[Packet | Sample, ...]:
-    """The samples, without what the cells say: the gyroscope alone is asked here."""
+    """Return the samples without their pressures, for the gyroscope alone."""
     return tuple(evolve(sample, pressure=None) for sample in decode_recording(laps().packets).samples)
 
 

@@ -59,12 +59,12 @@ def at_once() -> GyroscopeMagnitude:
 def test_a_stance_lasts_until_the_foot_turns_much_faster_than_at_its_lowest_rate() -> None:
     # 0.2 rad/s is less than `below` 0.25: the stance ends at 1.6 times 0.25
     assert rates(at_once(), 0.6, 0.2, 0.39, 0.41, 0.6) == [False, True, True, False, False]
-    # and where 0.45 rad/s was the quietest moment, at 1.6 times that
+    # and where 0.45 rad/s was the lowest rate, at 1.6 times that
     assert rates(at_once(), 0.6, 0.45, 0.71, 0.73) == [False, True, True, False]
 
 
 def strides(lowest_rate: float, count: int = 8) -> list[float]:
-    """Rates of so many strides of 1.1 s, at 100 Hz: half a second of swing, and a stance that is quietest in its
+    """Rates of so many strides of 1.1 s, at 100 Hz: half a second of swing, and a stance with its lowest rate in its
     middle."""
     swing = [3.0, *[5.0] * 48, 3.0]
     stance = [lowest_rate + (3.0 - lowest_rate) * (abs(k - 30) / 30.0) ** 2 for k in range(60)]
@@ -111,7 +111,7 @@ def test_no_motion_of_any_kind_lasts_longer_than_some_seconds(values: list[int])
 
 
 def evidence(detector: ContourVelocity, device: Insole) -> tuple[list[float], list[bool]]:
-    """Times of the samples with a load, and whether the detector's own contours say that the foot stands."""
+    """Times of the samples with a load, and whether the foot stands by the detector's own contours."""
     cells, decoder = Cells(), Decoder(Site.LEFT_FOOT)
     found: list[tuple[float, bool]] = []
     for packet in walked(device).packets:
@@ -172,7 +172,7 @@ AT_REST = heel(0.8, cells=pressed())
 
 
 def worn() -> ContourVelocity:
-    """One that knows where the cells are."""
+    """Return a detector with a layout."""
     detector = ContourVelocity()
     detector.set_layout(CELLS)
     return detector

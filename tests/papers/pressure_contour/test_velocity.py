@@ -15,7 +15,7 @@ from solepath.types import Cell, Foot, Layout
 
 LENGTH = 0.28
 STEP = 0.05
-"""s between two looks."""
+"""Time between two samples, s."""
 PEAK, SLOPE = 2e5, 5e6
 """Of a cone of pressure: Pa, and Pa/m; its foot is 40 mm from its tip."""
 

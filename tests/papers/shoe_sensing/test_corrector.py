@@ -1,4 +1,4 @@
-"""The corrector of shoe sensing: linear removal of what velocity and height gathered (Sensors 16, 1809, 2016, sections
+"""The corrector of shoe sensing: linear removal of velocity and height errors (Sensors 16, 1809, 2016, sections
 3.2 to 3.4), and what ours adds for joggers and landings."""
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ DT = 0.01
 
 
 def started(**changes: float | bool) -> ShoeSensing:
-    """A foot that has stood for a while, with a corrector that does as the paper says and no more."""
+    """A foot that has stood for a while, with a corrector that has only what the paper has."""
     plain: dict[str, float | bool] = {"detector_delay": 0.0, "tilt_share": 0.0}
     one = ShoeSensing(evolve(ShoeSensingSettings(), **{**plain, **changes}))
     one.start(IDENTITY, 0.02)
@@ -43,7 +43,7 @@ def go(one: ShoeSensing, accelerations: Sequence[Vec3], stance: Stance, t: float
 
 
 def stride(one: ShoeSensing, length: float, height: float, drift: Vec3 = ZERO, seconds: float = 0.8) -> None:
-    """There and to a halt: a sine of acceleration that carries the foot so far, and a bias `drift` on top."""
+    """Move the foot by `length` and `height` m with a sine of acceleration, plus a bias `drift`."""
     n = round(seconds / DT)
     # the second integral over T of a sin(2 pi t / T) is a T^2 / 2 pi
     a, u = (2.0 * 3.141592653589793 * way / (n * DT) ** 2 for way in (length, height))
@@ -107,7 +107,7 @@ def test_what_level_steps_have_in_common_is_taken_off_the_stairs_that_follow() -
 
 def test_tilt_is_fed_back_in_stance_and_not_in_swing() -> None:
     tilted = from_rotation_vector((0.0, 0.1, 0.0))
-    # the foot is level, the attitude says that it is pitched by 0.1 rad
+    # the foot is level, by the attitude it is pitched by 0.1 rad
     for stance, expected in ((STILL, 0.1 * 0.3679), (MOVES, 0.1)):
         one = started(kp=1.0)
         one.standing = stance is STILL
@@ -117,7 +117,7 @@ def test_tilt_is_fed_back_in_stance_and_not_in_swing() -> None:
 
 
 def test_the_velocity_left_at_the_end_of_a_motion_turns_the_tilt_that_would_explain_it() -> None:
-    # pitched by 0.05 rad too little: gravity leaks 0.05 g forwards; when the stance is over, half of it is believed
+    # pitched by 0.05 rad too little: gravity leaks 0.05 g forwards; when the stance is over, half of it is corrected
     one = started(tilt_share=0.5, kp=0.0)
     one.attitude = from_rotation_vector((0.0, 0.05, 0.0))
     one.force = None
@@ -153,7 +153,7 @@ def test_an_uncertain_landing_is_corrected_by_the_certain_one_that_follows() -> 
     go(sure, swing, MOVES)
     go(sure, [ZERO] * 10, STILL)
     go(hasty, swing[:-5], MOVES)
-    assert not go(hasty, swing[-5:-4], UNCERTAIN)  # nor is it told: the last stance was certain
+    assert not go(hasty, swing[-5:-4], UNCERTAIN)  # nor is it reported: the last stance was certain
     assert hasty.standing
     assert abs(hasty.position[0] - sure.position[0]) > 0.02
     go(hasty, swing[-4:], UNCERTAIN)

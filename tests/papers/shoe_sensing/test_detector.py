@@ -18,7 +18,7 @@ from solepath.types.vector import GRAVITY, ZERO
 
 
 def last(detector: ShortTimeEnergy | AccelerationMagnitude, magnitudes: list[float], rate: float = 100.0) -> Stance:
-    """What it says of the last of these |acc|, in g."""
+    """Return the evidence of the last of these |acc|, in g."""
     stance = None
     for k, g in enumerate(magnitudes):
         stance = detector.update(k / rate, 1.0 / rate, (0.0, 0.6 * g * GRAVITY, 0.8 * g * GRAVITY), ZERO, None)

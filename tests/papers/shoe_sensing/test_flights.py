@@ -75,7 +75,7 @@ def test_a_kerb_is_no_flight() -> None:
 
 
 def judged(strides: Iterable[tuple[float, int | None]], degraded: bool = False) -> list[FlightClimbed]:
-    """Strides of alternating feet, how high each is, m, and what its judge says of it; and a rest at the end."""
+    """Strides of alternating feet, how high each is, m, and its direction; and a rest at the end."""
     flights, found = Flights(), list[FlightClimbed]()
     for k, (height, way) in enumerate(strides):
         found += flights.add_stride(step(FEET[k % 2], 0.6 * k, height, degraded=degraded), way)
@@ -164,7 +164,7 @@ def test_where_most_strides_are_not_trusted_there_is_no_height() -> None:
 
 
 def unjudged(ways: list[int | None]) -> list[FlightClimbed]:
-    """Strides whose judge says so of them; None: of 5 m, so the judge cannot tell."""
+    """Return the flights of strides with these directions; None: of 5 m, without a direction."""
     return judged([(5.0 if way is None else 0.32 * way, way) for way in ways])
 
 
@@ -205,10 +205,10 @@ strides = st.lists(
 
 
 @given(strides)
-def test_whatever_the_strides_flights_are_in_order_and_high(found: list[tuple[Foot, float, float, int | None]]) -> None:
+def test_whatever_the_strides_flights_are_in_order_and_high(taken: list[tuple[Foot, float, float, int | None]]) -> None:
     flights, t = Flights(), 0.0
     found: list[FlightClimbed] = []
-    for foot, dt, height, way in found:
+    for foot, dt, height, way in taken:
         t += dt
         found += flights.add_stride(step(foot, t, height), way)
         found += flights.advance(t + 1.0, t + 1.0)

@@ -15,11 +15,11 @@ from solepath.types.vector import GRAVITY, IDENTITY, from_rotation_vector, multi
 Vec4 = tuple[float, float, float, float]
 
 PITCHED = 0.4
-"""rad about y."""
+"""Angle about y, rad."""
 
 
 def up_of(q: Quat) -> Vec3:
-    """What an accelerometer of this attitude measures at rest."""
+    """Return the specific force at rest of a sensor with this attitude, m/s^2."""
     return rotate((q[0], -q[1], -q[2], -q[3]), (0.0, 0.0, GRAVITY))
 
 

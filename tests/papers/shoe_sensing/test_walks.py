@@ -61,7 +61,7 @@ def test_every_level_step_is_found_and_ends_as_high_as_it_started(route: Route, 
     for seed in (1, 2):
         for foot in Foot:
             found, true = steps(events_of(route, seed, rate), foot), worn(route, seed, rate)[1].steps(foot)
-            # of a jog the first two may be told as one
+            # the first two of a jog may be reported as one
             assert len(true) - (route is JOG) <= len(found) <= len(true)
             assert all(min(abs(step.t - other.t_end) for other in true) < 0.15 for step in found)
             assert abs(found[-1].position[2]) <= 0.1
@@ -105,7 +105,7 @@ def test_states_are_those_of_the_steps(route: Route, stairs: Activity) -> None:
 def by_the_left_foot(
     part: AnglePerMetre, change: Callable[[Event], Event | None] = lambda one: one, until: float = inf
 ) -> list[Any]:
-    """What it says of the left foot's level walk up to `until` s, hearing of its events as they are changed."""
+    """Return the part's events of the left foot's level walk up to `until` s, with the foot's events changed."""
     foot, found = FootTracker(Foot.LEFT, ShortTimeEnergy(), ShoeSensing()), []
     for sample in worn(LEVEL, 1)[0]:
         if sample.site.foot is Foot.LEFT and sample.t < until:

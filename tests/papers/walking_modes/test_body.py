@@ -54,7 +54,7 @@ def run_walk(heading: float | None = None, north: float = 0.0) -> list[Event]:
 
 
 def off(modes: Modes, samples: Sequence[Sample]) -> tuple[tuple[float, float], Covariance3]:
-    """How far from the end of the way the wearer is said to be in the end, m, and with which covariance."""
+    """Return the distance of the last position from the end of the way, m, and its covariance."""
     session = Session(III.exchanged(TrackPart, modes), calibration=KNOWN)
     session.feed(samples)
     position, end = session.position, walker().route.end
@@ -78,7 +78,7 @@ def test_a_touchdown_is_known_within_three_samples() -> None:
 
 
 def test_the_world_of_the_sensors_may_point_anywhere() -> None:
-    """x is along the first heading, whatever the sensors call north."""
+    """x is along the first heading, for any north of the sensors."""
     here, there = (of(TouchedDown, run_walk(north=north)) for north in (0.0, 2.5))
     for one, other in zip(here, there, strict=True):
         assert one.position[:2] == pytest.approx(other.position[:2], abs=0.1)

@@ -1,4 +1,4 @@
-"""`solepath calibrate newton` and `modes`: what a gauge and marked walks teach."""
+"""`solepath calibrate newton` and `modes`: calibration by a gauge and by marked walks."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def test_noise_of_the_gauge_is_its_residual(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("lines", "error"),
+    ("lines", "message"),
     [
         (("hello,5",), "line 19: counts is 'hello', not a number"),
         (("7,nan",), "line 19: newtons is 'nan', not a finite number"),
@@ -65,9 +65,9 @@ def test_noise_of_the_gauge_is_its_residual(tmp_path: Path) -> None:
         (("7,250",), "line 19: newtons is 250, which is not between 0 and 200 N"),
     ],
 )
-def test_a_bad_line_is_named(tmp_path: Path, lines: tuple[str, ...], error: str) -> None:
+def test_a_bad_line_is_named(tmp_path: Path, lines: tuple[str, ...], message: str) -> None:
     path = gauge(tmp_path / "g.csv", [1000.0 * k for k in range(17)], lines)
-    with pytest.raises(CalibrationError, match=error) as error:
+    with pytest.raises(CalibrationError, match=message) as error:
         fit_gauge(path)
     assert str(path) in str(error.value)
 
@@ -144,7 +144,7 @@ def test_marks_that_belong_to_no_touchdown_are_named() -> None:
 
 
 @pytest.mark.parametrize(
-    ("line", "error"),
+    ("line", "message"),
     [
         ("middle,1,0,0,STRAIGHT", "line 2: foot is 'middle', not one of left, right"),
         ("left,1,0,0,STANDING", "line 2: mode is 'STANDING', not one of STRAIGHT"),
@@ -152,10 +152,10 @@ def test_marks_that_belong_to_no_touchdown_are_named() -> None:
         ("left,1,zero,0,STRAIGHT", "line 2: x is 'zero', not a number"),
     ],
 )
-def test_a_bad_mark_is_named(tmp_path: Path, line: str, error: str) -> None:
+def test_a_bad_mark_is_named(tmp_path: Path, line: str, message: str) -> None:
     path = tmp_path / "marks.csv"
     path.write_text(f"foot,t,x,y,mode\n{line}\n")
-    with pytest.raises(CalibrationError, match=error):
+    with pytest.raises(CalibrationError, match=message):
         read_marks(path)
 
 

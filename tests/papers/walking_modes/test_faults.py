@@ -57,7 +57,7 @@ def without_numbers(samples: Sequence[Sample], since: float) -> list[Sample]:
 def run_walk(
     recipe: str | Recipe, samples: Sequence[Sample], known: Calibration = KNOWN
 ) -> tuple[tuple[float, float], list[Event]]:
-    """Where the walk ends, x and y, and what was said."""
+    """Return the end of the walk, x and y, m, and the events."""
     session = Session(by_name(recipe) if isinstance(recipe, str) else recipe, calibration=known)
     events = [*session.feed(samples), *session.finish()]
     assert session.position is not None
@@ -71,7 +71,7 @@ def sentences(events: Sequence[Event]) -> list[str]:
 
 @cache
 def clean(samples: Callable[[], tuple[Sample, ...]]) -> tuple[float, float]:
-    """Where the walk ends when nothing is wrong."""
+    """Return the end of the walk without a fault, m."""
     return run_walk("walking-modes", samples())[0]
 
 
@@ -135,7 +135,7 @@ SUITS: dict[str, tuple[Callable[[], Sequence[Sample]], str]] = {
 
 @cache
 def by_tracks(how: str) -> float:
-    """How far the feet's own tracks go in that suit, m."""
+    """Return the length of the walk by the feet's own tracks with that suit, m."""
     return run_walk(TRACKS, SUITS[how][0]())[0][0]
 
 

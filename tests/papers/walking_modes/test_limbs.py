@@ -30,7 +30,7 @@ HIP: Vec3 = (0.0, 0.1, 0.0)
 
 
 def pitched(degrees: float) -> Quat:
-    """About the axis to the left: what points up leans forward."""
+    """Return a turn about the axis to the left, which leans up forward."""
     return from_rotation_vector((0.0, radians(degrees), 0.0))
 
 
@@ -166,7 +166,7 @@ def test_a_sensor_without_an_attitude_of_its_own_is_held_upright_by_gravity() ->
 
 
 def lean(attitude: Quat, stood: Quat) -> float:
-    """rad from the vertical, of what stood upright."""
+    """Return the angle from the vertical, rad, of an axis that stood upright."""
     _, _, z = rotate(multiply(attitude, conjugate(stood)), (0.0, 0.0, 1.0))
     return float(np.arccos(min(1.0, z)))
 

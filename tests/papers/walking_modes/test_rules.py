@@ -17,7 +17,7 @@ NOWHERE = dict.fromkeys(POINTS, 0.0)
 
 
 def pressed(**shares: float) -> dict[str, float]:
-    """Nothing on any region but these."""
+    """Return shares that are zero on all regions but these."""
     return {**NOWHERE, **shares}
 
 
@@ -150,7 +150,7 @@ def test_whatever_the_cells_bear_a_contact_ends_in_a_mode_or_in_none(rows: list[
 
 
 def shifted(insole: Layout) -> Layout:
-    """As many cells, in another order."""
+    """Return a layout of as many cells in another order."""
     return evolve(insole, cells=insole.cells[50:] + insole.cells[:50])
 
 

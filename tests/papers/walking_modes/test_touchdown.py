@@ -1,4 +1,4 @@
-"""Which foot carries, and where the other comes down: equations (1) to (6) and (8) of Gong et al. 2023 by hand."""
+"""The reference foot, and the other's touchdown: equations (1) to (6) and (8) of Gong et al. 2023 by hand."""
 
 from __future__ import annotations
 
