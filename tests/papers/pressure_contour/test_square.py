@@ -46,7 +46,7 @@ def laps() -> EmulatedWalk:
 
 @cache
 def samples() -> tuple[Packet | Sample, ...]:
-    """Return the samples without their pressures, for the gyroscope alone."""
+    """The samples, without what the cells say: the gyroscope alone is asked here."""
     return tuple(evolve(sample, pressure=None) for sample in recorded(laps().packets).samples)
 
 
