@@ -8,7 +8,7 @@ from math import exp, isclose, isfinite, log
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.papers.footstep_tracker.activity.hmm import forward, spread, weighed
+from solepath.papers.footstep_tracker.activity.hmm import bayes_update, forward, scaled_likelihoods
 
 FIRST_CHANCES = (0.6, 0.3, 0.1)
 CHAIN = ((0.9, 0.05, 0.05), (0.15, 0.8, 0.05), (0.15, 0.15, 0.7))
@@ -16,9 +16,9 @@ CHAIN = ((0.9, 0.05, 0.05), (0.15, 0.8, 0.05), (0.15, 0.15, 0.7))
 
 def followed(seen: list[tuple[float, ...]]) -> tuple[float, ...]:
     """Return the probabilities after all of these log-likelihoods."""
-    belief = weighed(FIRST_CHANCES, spread(seen[0]))
+    belief = bayes_update(FIRST_CHANCES, scaled_likelihoods(seen[0]))
     for one in seen[1:]:
-        belief = forward(belief, CHAIN, spread(one))
+        belief = forward(belief, CHAIN, scaled_likelihoods(one))
     return belief
 
 
@@ -47,4 +47,4 @@ def test_any_input_gives_finite_probabilities(seen: list[tuple[float, ...]]) -> 
 
 
 def test_nan_gives_no_evidence() -> None:
-    assert spread((float("nan"), log(0.5), 0.0)) == (1.0, 0.5, 1.0)
+    assert scaled_likelihoods((float("nan"), log(0.5), 0.0)) == (1.0, 0.5, 1.0)
