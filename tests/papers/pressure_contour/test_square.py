@@ -46,13 +46,8 @@ def laps() -> EmulatedWalk:
 
 @cache
 def samples() -> tuple[Packet | Sample, ...]:
-<<<<<<< HEAD
     """Return the samples without their pressures, for the gyroscope alone."""
     return tuple(evolve(sample, pressure=None) for sample in decode_recording(laps().packets).samples)
-=======
-    """The samples, without what the cells say: the gyroscope alone is asked here."""
-    return tuple(evolve(sample, pressure=None) for sample in recorded(laps().packets).samples)
->>>>>>> words-3
 
 
 def drifting(x: float, y: float) -> Recipe:
