@@ -255,7 +255,7 @@ def test_on_a_floor_plan_the_track_is_drawn_on_it() -> None:
     report, part, one = Report("indoors", office()), Particles(), Pedestrian(32, "0", (12.0, LOW))
     one.walk((24.0, LOW))
     part.set_out(Start("0", (12.0, LOW), -one.turned))
-    for step in one.report_of:
+    for step in one.received:
         report.take(None, part.follow(OFFICE, step.events, step.here))
     page = shown(report)
     assert "Track on the floor plan" in captions(page)
