@@ -33,4 +33,4 @@ def test_without_recordings_the_chances_are_the_supposed_ones() -> None:
 
 def test_every_activity_may_follow_standing() -> None:
     chain = chain_of(DEFAULT_CHANCES, ())
-    assert all(STAND in [source for source, _ in chain.before[state]] for state in range(UP))
+    assert all(STAND in [source for source, _ in chain.predecessors[state]] for state in range(UP))
