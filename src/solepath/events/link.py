@@ -35,7 +35,7 @@ class PacketRejected(Happening):
     channel: str
     """Channel of the packet."""
     reason: Rejection
-    """Reason in one word."""
+    """Kind of fault."""
     detail: str = ""
     """Reason in words."""
 
