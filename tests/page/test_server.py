@@ -165,7 +165,8 @@ async def test_who_has_no_token_or_nothing_to_play_watches_and_is_shown_out_on_t
     plays: bool, query: str, caplog: pytest.LogCaptureFixture
 ) -> None:
     commands: list[Command] = []
-    async with served(commands=commands.append if plays else None) as (_, client, url), client.ws_connect(f"{url}ws{query}") as watching:
+    on_command = commands.append if plays else None
+    async with served(commands=on_command) as (_, client, url), client.ws_connect(f"{url}ws{query}") as watching:
         assert (await scene_of(watching))["control"] is False
         await watching.send_str('{"do":"pause"}')
         assert await closed(watching) == 1008
