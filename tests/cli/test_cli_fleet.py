@@ -72,7 +72,7 @@ def test_a_killed_fleet_emits_the_same_events_as_one_that_is_not(kept: Kept) -> 
     assert (rows["wearers"], rows["kills"], rows["of them with the same events"]) == ("12", "2", "2")
     figures = json.loads(out.with_suffix(".json").read_text())
     assert figures["ratio"] > 0.0 and len(figures["kills"]) == 2 and figures["runs"][0]["equal"]
-    assert figures["engine"]["events"] == int(rows["events"]) == read_events(out / "told").num_rows > 100
+    assert figures["engine"]["events"] == int(rows["events"]) == read_events(out / "events").num_rows > 100
 
 
 def test_kills_hit_reading_and_wearers_go_on_from_states_that_were_read_back(kept: Kept) -> None:
@@ -90,7 +90,7 @@ def test_missing_rejection_or_loss_events_are_found_out(kept: Kept) -> None:
     missing, late = expected["w00005"]
     assert (missing.event, late.event, late.why) == ("NumbersMissing", "SentRejected", "late")
     assert {remark.run is None for remark in expected["w00003"]} == {True, False}
-    events = read_events(kept[1] / "told")
+    events = read_events(kept[1] / "events")
     assert compare_remarks(expected, events) == []
     for event in ("SentRejected", "NumbersMissing"):
         silent = events.filter(pyarrow.compute.not_equal(events["event"], event))
@@ -112,8 +112,8 @@ def test_one_event_less_in_one_part_is_named_and_the_status_is_1(
 ) -> None:
     parquet = pytest.importorskip("pyarrow.parquet")
     runs = kept[1] / "runs"
-    copied = shutil.copytree(runs / "killed-1" / "told", tmp_path / "told")
-    expected = read_events(runs / "uninterrupted" / "told")
+    copied = shutil.copytree(runs / "killed-1" / "events", tmp_path / "events")
+    expected = read_events(runs / "uninterrupted" / "events")
     assert compared(expected, copied) == []
     part = parquet.read_table(files(copied)[0])
     lost = part.slice(0, 1).to_pylist()[0]
@@ -126,7 +126,7 @@ def test_one_event_less_in_one_part_is_named_and_the_status_is_1(
 
 
 def test_a_part_that_is_damaged_is_named(kept: Kept, tmp_path: Path) -> None:
-    copied = shutil.copytree(kept[1] / "told", tmp_path / "told")
+    copied = shutil.copytree(kept[1] / "events", tmp_path / "events")
     expected, part = read_events(copied), files(copied)[0]
     part.write_bytes(part.read_bytes()[:-40])
     (found,) = compared(expected, copied)

@@ -26,15 +26,15 @@ def test_with_the_lengths_of_a_posture_the_paper_s_equations_give_the_way_of_the
     ahead = (true[:, :2] - (stride.start.x, stride.start.y)) @ yaw + shoe.ankle[0]
     for k, pitch in enumerate((-walker.motions[Foot.LEFT].pitch(t)).tolist()):
         at = posture(pitch, shoe, mounting)
-        back = at.radius * cos(pitch) - height * sin(pitch) + at.to_toe
+        back = at.sensor_to_ground * cos(pitch) - height * sin(pitch) + at.ground_to_tip
         assert shoe.length - back == pytest.approx(ahead[k], abs=1e-9)
-        assert at.radius * sin(pitch) + height * cos(pitch) == pytest.approx(true[k, 2], abs=1e-9)
+        assert at.sensor_to_ground * sin(pitch) + height * cos(pitch) == pytest.approx(true[k, 2], abs=1e-9)
 
 
 def test_a_flat_shoe_has_the_distances_of_its_parts() -> None:
     flat, shoe = posture(0.0), Shoe()
-    assert flat.radius == pytest.approx(shoe.forefoot.x - 0.125)
-    assert flat.to_toe == pytest.approx(shoe.length - shoe.forefoot.x)
+    assert flat.sensor_to_ground == pytest.approx(shoe.forefoot.x - 0.125)
+    assert flat.ground_to_tip == pytest.approx(shoe.length - shoe.forefoot.x)
 
 
 def test_five_postures_are_measured_three_times_to_the_millimetre() -> None:
@@ -43,9 +43,9 @@ def test_five_postures_are_measured_three_times_to_the_millimetre() -> None:
     assert found == postures(seed=3) != postures(seed=4)
     for k, one in enumerate(found):
         assert one.pitch == pytest.approx(PITCHES[k // REPEATED], abs=radians(5))
-        assert one.radius == pytest.approx(posture(one.pitch).radius, abs=0.0025)
-        assert one.to_toe == pytest.approx(posture(one.pitch).to_toe, abs=0.0025)
-        assert round(1000 * one.radius, 6) % 1 == 0.0
+        assert one.sensor_to_ground == pytest.approx(posture(one.pitch).sensor_to_ground, abs=0.0025)
+        assert one.ground_to_tip == pytest.approx(posture(one.pitch).ground_to_tip, abs=0.0025)
+        assert round(1000 * one.sensor_to_ground, 6) % 1 == 0.0
 
 
 def test_the_calibration_of_a_shoe_reads_the_postures_and_finds_the_shoe(tmp_path: Path) -> None:
@@ -58,5 +58,5 @@ def test_the_calibration_of_a_shoe_reads_the_postures_and_finds_the_shoe(tmp_pat
         radius, to_toe = (
             sum(c * pitch**k for k, c in enumerate(curve)) for curve in (shoe.forefoot_radius, shoe.pivot_to_toe)
         )
-        assert radius == pytest.approx(posture(pitch).radius, abs=0.0015)
-        assert to_toe == pytest.approx(posture(pitch).to_toe, abs=0.0015)
+        assert radius == pytest.approx(posture(pitch).sensor_to_ground, abs=0.0015)
+        assert to_toe == pytest.approx(posture(pitch).ground_to_tip, abs=0.0015)

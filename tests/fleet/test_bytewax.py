@@ -38,7 +38,7 @@ def job(
     """From a list to a list. The source keeps its place in the recovery store, the sink keeps none."""
     flow = Dataflow("job")
     sent = operators.input("sent", flow, TestingSource(items, batch_size=50))
-    operators.output("told", gait("gait", sent, Fleet(RECIPES[recipe]), **options), TestingSink(emitted))
+    operators.output("events", gait("gait", sent, Fleet(RECIPES[recipe]), **options), TestingSink(emitted))
     return flow
 
 

@@ -56,21 +56,21 @@ def test_killed_at_any_moments_and_started_again_a_job_leaves_each_event_once(
 ) -> None:
     lines = len(site()[0])
     first, second = sorted(Random(seed).sample(range(lines), 2))
-    job = [*JOB, sent, tmp_path / "told", tmp_path / "store"]
+    job = [*JOB, sent, tmp_path / "events", tmp_path / "store"]
     for line in (first, second - first):
         assert subprocess.run([*job, "--die-at", str(line)], env=ENVIRONMENT).returncode == -9
     assert subprocess.run(job, env=ENVIRONMENT).returncode == 0
-    assert held(tmp_path / "told") == expected()
+    assert held(tmp_path / "events") == expected()
 
 
 FULL = """
 mount -t tmpfs -o size=16m none disk || exit 77
 head -c $((16 * 1024 * 1024 - ROOM)) /dev/zero > disk/ballast
 "$@" 2> said; echo $? > ended
-cp -r "$TOLD" told_then
+cp -r "$EVENTS" events_then
 rm disk/ballast
 "$@" || exit 1
-cp -r "$TOLD" told_in_the_end
+cp -r "$EVENTS" events_in_the_end
 """
 """In a name space of its own: a small disk that is nearly full, the job, and the job again when there is room."""
 
@@ -87,7 +87,7 @@ def place(tmp_path: Path) -> Path:
 
 def until_full(place: Path, sent: Path, parts_directory: str, store: str, room: int) -> str:
     """Return the message of the job that ends because the disk is full."""
-    environment = {**ENVIRONMENT, "TOLD": parts_directory, "ROOM": str(room)}
+    environment = {**ENVIRONMENT, "EVENTS": parts_directory, "ROOM": str(room)}
     apart = ["unshare", "-rm", "sh", "-c", FULL, "sh", *JOB, sent, parts_directory, store]
     subprocess.run(apart, env=environment, cwd=place, check=True)
     assert (place / "ended").read_text() == "1\n"
@@ -97,16 +97,16 @@ def until_full(place: Path, sent: Path, parts_directory: str, store: str, room: 
 def test_a_full_disk_ends_the_job_with_the_name_of_the_file_and_with_room_it_goes_on_as_if_nothing_had_been(
     place: Path, sent: Path
 ) -> None:
-    message = until_full(place, sent, "disk/told", "store", room=60_000)
+    message = until_full(place, sent, "disk/events", "store", room=60_000)
     part = r"part-[01]-\d+-\d{8}\.parquet"
-    assert re.fullmatch(f"error: .*No space left on device: 'disk/told/{part}'", message.splitlines()[-1])
-    assert all(re.fullmatch(part, path.name) for path in (place / "told_then").iterdir())
-    then = held(place / "told_then")
+    assert re.fullmatch(f"error: .*No space left on device: 'disk/events/{part}'", message.splitlines()[-1])
+    assert all(re.fullmatch(part, path.name) for path in (place / "events_then").iterdir())
+    then = held(place / "events_then")
     assert then and all(row in expected() for row in then)
-    assert held(place / "told_in_the_end") == expected()
+    assert held(place / "events_in_the_end") == expected()
 
 
 def test_a_full_disk_of_the_recovery_store_ends_the_job_too_and_with_room_it_goes_on(place: Path, sent: Path) -> None:
-    message = until_full(place, sent, "told", "disk/store", room=400_000)
+    message = until_full(place, sent, "events", "disk/store", room=400_000)
     assert "database or disk is full" in message.splitlines()[-1]
-    assert held(place / "told_in_the_end") == expected()
+    assert held(place / "events_in_the_end") == expected()

@@ -28,7 +28,7 @@ FLEET = Fleet()
 def test_where_only_the_session_cannot_go_on_what_is_held_does(vector: dict[str, Any]) -> None:
     after, (emitted,) = FLEET.step(WEARER, bytes.fromhex(vector["hex"]), [])
     rest, expected = read_rest(after), vector["kept"]
-    assert isinstance(emitted.event, StateRejected) and emitted.number == vector["identity"]["told"]
+    assert isinstance(emitted.event, StateRejected) and emitted.number == vector["identity"]["next_event"]
     assert (rest.ended, rest.session) == (expected["ended"], None)
     assert [[span.run, span.first, span.end] for span in rest.unused.spans] == expected["spans"]
     assert [list(place) for place in rest.held] == expected["held"]

@@ -50,8 +50,8 @@ def run(rows: Any, directory: Path, fleet: Fleet | Callable[[], Fleet] | None = 
 
     events = gait(rows, Fleet() if fleet is None else fleet, states)
     writer = events.writeStream.format("parquet").option("checkpointLocation", str(directory / "checkpoint"))
-    writer.trigger(availableNow=True).start(str(directory / "told")).awaitTermination()
-    return read_output(directory / "told")
+    writer.trigger(availableNow=True).start(str(directory / "events")).awaitTermination()
+    return read_output(directory / "events")
 
 
 def stream(spark: Any, directory: Path, files: int = 1) -> Any:
@@ -73,11 +73,11 @@ def test_other_readers_find_the_files_that_spark_finds(spark, tmp_path):
     """After a few batches Spark folds what it has written of its files into one."""
     deliver(tmp_path / "sent", wearers=2, files=5)
     events = run(stream(spark, tmp_path / "sent"), tmp_path)
-    assert list((tmp_path / "told/_spark_metadata").glob("*.compact"))
-    nobodys = tmp_path / "told" / "part-of-a-killed-task.snappy.parquet"
+    assert list((tmp_path / "events/_spark_metadata").glob("*.compact"))
+    nobodys = tmp_path / "events" / "part-of-a-killed-task.snappy.parquet"
     nobodys.write_bytes(b"PAR1")
-    assert read_output(tmp_path / "told") == events == in_order(
-        row.asDict() for row in spark.read.parquet(str(tmp_path / "told")).collect()
+    assert read_output(tmp_path / "events") == events == in_order(
+        row.asDict() for row in spark.read.parquet(str(tmp_path / "events")).collect()
     )  # fmt: skip
 
 

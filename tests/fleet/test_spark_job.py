@@ -27,7 +27,7 @@ _needed = pytest.fixture(needed, scope="module", autouse=True)
 class Job:
     """examples/spark_gait.py in processes of its own: the driver, its JVM and the Python workers."""
 
-    def __init__(self, directory: Path, output: str = "told", checkpoint: str = "checkpoint") -> None:
+    def __init__(self, directory: Path, output: str = "events", checkpoint: str = "checkpoint") -> None:
         self.output, self.checkpoint, self.log = directory / output, directory / checkpoint, directory / f"{output}.log"
         conf = " ".join(f"--conf {key}={value}" for key, value in CONF.items())
         place = {"PYSPARK_SUBMIT_ARGS": f"--master {MASTER} {conf} pyspark-shell", "SPARK_LOCAL_IP": "127.0.0.1"}
@@ -121,7 +121,7 @@ def test_a_job_that_is_killed_in_mid_stream_emits_the_events_of_one_that_is_not(
 @pytest.fixture
 def small_disk(tmp_path: Path) -> Iterator[Path]:
     """A place with room for almost nothing."""
-    place = tmp_path / "told"
+    place = tmp_path / "events"
     place.mkdir()
     mount = ["mount", "-t", "tmpfs", "-o", "size=32k", "tmpfs", place]
     if shutil.which("mount") is None or subprocess.run(mount, capture_output=True, check=False).returncode:

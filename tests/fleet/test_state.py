@@ -58,16 +58,14 @@ def test_a_state_is_as_in_the_protocol(vector: dict[str, Any]) -> None:
     identity = read_identity(state)
     if vector["result"] == "refused":
         known = vector["identity"]
-        assert identity == (
-            None if known is None else Identity(known["run"], known["next"], known["told"], known["known"])
-        )
+        assert identity == (None if known is None else Identity(**known))
         (first, *_) = FLEET.step(WEARER, state, [shown(300, 7)])[1]
         assert isinstance(first.event, StateRejected)
-        assert first.number == (first_number(7, 300) if known is None else known["told"])
+        assert first.number == (first_number(7, 300) if known is None else known["next_event"])
         return
     fields = vector["fields"]
     rest = read_rest(state)
-    assert identity == Identity(*[fields[name] for name in ("run", "next", "told", "known")])
+    assert identity == Identity(*[fields[name] for name in ("run", "next", "next_event", "known")])
     assert (rest.ended, rest.failure, rest.session) == (fields["ended"], fields["failure"], None)
     assert [[span.run, span.first, span.end] for span in rest.unused.spans] == fields["spans"]
     assert [[*runs] for runs in rest.unused.forgotten] == fields["forgotten"]

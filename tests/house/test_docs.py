@@ -119,7 +119,7 @@ def test_a_wearer_of_a_fleet_goes_through_its_step_and_through_its_job(played, t
     (tmp_path / "sent" / "w-16.jsonl").write_bytes(b"\xff no line of anybody's \xff\n")
     (emitted, _), names = played("docs/fleet.md")
     testing.run_main(names["flow"])
-    nobody, *rows = sorted(parquet.read_table(tmp_path / "told").to_pylist(), key=lambda row: row["wearer"])
+    nobody, *rows = sorted(parquet.read_table(tmp_path / "events").to_pylist(), key=lambda row: row["wearer"])
     assert (nobody["wearer"], nobody["event"]) == ("", "SentRejected")
     assert sorted((row["wearer"], row["number"], row["event"]) for row in rows) == sorted(
         (wearer, int(number), event) for wearer, number, event in map(str.split, emitted.splitlines())

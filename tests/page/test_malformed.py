@@ -136,4 +136,4 @@ def test_errors_that_were_not_logged_are_counted(caplog: pytest.LogCaptureFixtur
     assert len(caplog.records) == client_errors.AT_ONCE
     log._at -= client_errors.EVERY
     log.report("somebody did it")
-    assert caplog.records[-1].getMessage() == "somebody did it (5 more were not told)"
+    assert caplog.records[-1].getMessage() == "somebody did it (5 more were not logged)"

@@ -49,7 +49,7 @@ async def bleak_call(seconds: float) -> AsyncIterator[None]:
     except FAILURES:
         raise
     except Exception as error:
-        LOG.error("an unexpected exception out of bleak: the connection is begun anew", exc_info=True)
+        LOG.error("an unexpected exception out of bleak: the connection restarts", exc_info=True)
         raise UnexpectedError(error) from error
 
 

@@ -15,7 +15,7 @@ class Remedy(Enum):
     """The action against a frozen stream."""
 
     SET_UP = "write the setup again"
-    RECONNECT = "disconnect and begin anew"
+    RECONNECT = "disconnect and connect again"
 
 
 TRIES = 2

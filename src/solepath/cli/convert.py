@@ -28,7 +28,7 @@ def add_to(commands: Any) -> None:
         "convert",
         help="import a phone's btsnoop log, export to MCAP",
         description="Convert a btsnoop log (an Android phone's HCI snoop log, btmon) to a recording of packets, or "
-        "either to MCAP, which opens in Foxglove. What OUT becomes is told by its name: .jsonl or .mcap.",
+        "either to MCAP, which opens in Foxglove. The name of OUT chooses the format: .jsonl or .mcap.",
         epilog="example: solepath convert btsnoop_hci.log walk.jsonl --site F0:5E:00:00:00:01=left_foot",
     )
     command.add_argument("source", metavar="IN", type=Path, help="a btsnoop log, or a recording of packets (.jsonl)")

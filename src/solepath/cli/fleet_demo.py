@@ -56,7 +56,7 @@ def add_to(commands: Any) -> None:
         default=min(2, os.cpu_count() or 1),
         help="processes of the engine (default: 2, where there are two processors)",
     )
-    command.add_argument("--out", metavar="DIR", type=Path, help="leave the events there, as Parquet in DIR/told")
+    command.add_argument("--out", metavar="DIR", type=Path, help="leave the events there, as Parquet in DIR/events")
     command.add_argument("--json", metavar="FILE", type=Path, help="write the figures as JSON too")
     command.add_argument(
         "--keep", action="store_true", help="keep all that the runs wrote: recovery stores, logs, events"
@@ -178,9 +178,9 @@ def _leave(stage: DemoStage, out: Path) -> None:
     """Copy the events of the uninterrupted run, and print how to look at them."""
     from shlex import quote
 
-    events_directory = out / "told"
+    events_directory = out / "events"
     shutil.copytree(stage.events, events_directory)
     files = f"{events_directory}/*.parquet".replace("'", "''")
-    query = f"FROM '{files}' SELECT event, count(*) AS told GROUP BY event ORDER BY told DESC"
+    query = f"FROM '{files}' SELECT event, count(*) AS count GROUP BY event ORDER BY count DESC"
     print(f"\nThe events are in {printable(str(events_directory))}. To look at them (pip install duckdb):")
     print(printable(f"python -c {quote(f'import duckdb; print(duckdb.sql({query!r}))')}", 5000))

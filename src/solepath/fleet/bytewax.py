@@ -3,7 +3,7 @@
     sent = operators.input("phones", flow, source)                      # of Sent and Unreadable, as read_sent gives
     keyed = operators.key_on("wearer", sent, lambda one: one.wearer)
     events = gait("gait", keyed, Fleet(recipe))                         # of NumberedEvent, keyed by wearer
-    operators.output("files", events, ParquetSink("told"))
+    operators.output("files", events, ParquetSink("events"))
 
 A job that is killed at any moment and started again with its recovery store goes on at the last snapshot: the source,
 every wearer and the sink at the same place. So the files hold each event once, if the source can go back."""

@@ -1,7 +1,7 @@
 """Events as Parquet: a directory of numbered part files that DuckDB, pandas, Polars and Spark read as one table.
 
-    SELECT wearer, count(*) FROM 'told/*.parquet' WHERE event = 'StrideTaken' GROUP BY wearer       -- DuckDB
-    pandas.read_parquet("told")        spark.read.parquet("told")
+    SELECT wearer, count(*) FROM 'events/*.parquet' WHERE event = 'StrideTaken' GROUP BY wearer       -- DuckDB
+    pandas.read_parquet("events")        spark.read.parquet("events")
 
 Needs the extra `bytewax`, or pyarrow itself. This module knows no engine: its user writes through `PartFiles`, and
 keeps the number of the next part in a state of its own.
@@ -11,7 +11,7 @@ part comes next; that part and all later ones are removed, since their events co
 once; a reader may see the events of the last seconds before a crash disappear at the restart and come back unchanged.
 
 Every `close` makes a file. With few wearers, close seldom, or join the files of past days in another directory, in
-DuckDB by `COPY (SELECT * FROM 'told/*.parquet' ORDER BY wearer, number) TO 'june.parquet'`."""
+DuckDB by `COPY (SELECT * FROM 'events/*.parquet' ORDER BY wearer, number) TO 'june.parquet'`."""
 
 from __future__ import annotations
 

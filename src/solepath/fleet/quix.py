@@ -2,7 +2,7 @@
 
     app = Application("kafka:9092", consumer_group="gait", auto_offset_reset="earliest")
     sent = app.topic("sent", value_deserializer="bytes")                 # keyed by wearer; lines of `sent_line`
-    events = app.topic("told", key_serializer="str")
+    events = app.topic("events", key_serializer="str")
     gait(app.dataframe(sent), Fleet(recipe)).to_topic(events, key=lambda row: row["wearer"])
     app.run()
 

@@ -1,6 +1,6 @@
 """Selection of the valid files of Spark's file sink. Needs neither Spark nor Java.
 
-    pyarrow.parquet.read_table(committed("told"))               duckdb.read_parquet([*map(str, committed("told"))])
+    pyarrow.parquet.read_table(committed("events"))               duckdb.read_parquet([*map(str, committed("events"))])
 
 Spark lists the files of every batch that it has finished in `_spark_metadata` beside them, from time to time all in one
 list. A task that was killed leaves files that are unfinished, or that hold the same rows as a later file."""

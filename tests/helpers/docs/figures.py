@@ -46,7 +46,7 @@ IN_SHORT = {
     "marpino_heel_toe": ("heel-strikes", "toe-offs"),
     "marpino_pressed": ("heel-strikes", "toe-offs"),
     "gaitpdb_vgrf": ("heel-strikes", "toe-offs"),
-    "hugadb": ("labelled time told right", "lift rides, with their direction"),
+    "hugadb": ("labelled time classified correctly", "lift rides, with their direction"),
     "stairs": ("time on stairs that was called stairs", "time on the level that was called stairs"),
     "emulated_long_way": ("off at the end, horizontal", "stride length error"),
     "emulated_half_hour": ("off at the end, horizontal",),

@@ -86,7 +86,7 @@ class Topics:
         found: list[Message] = []
         try:
             for number in range(self.partitions):
-                consumer.assign([TopicPartition(f"{self.name}-told", number, 0)])
+                consumer.assign([TopicPartition(f"{self.name}-events", number, 0)])
                 while (message := consumer.poll(20)) is not None and message.error() is None:
                     found.append(Message(number, message.key(), message.value()))
                 assert message is not None and message.error().name() == "_PARTITION_EOF"
@@ -125,7 +125,8 @@ class Broker:
     @contextmanager
     def topics(self, name: str, *, partitions: int = 2, recipe: str = "default") -> Iterator[Topics]:
         admin = AdminClient({"bootstrap.servers": self.address})
-        made = [NewTopic(f"{name}-{what}", partitions, 1, config={"retention.ms": A_DAY}) for what in ("sent", "told")]
+        kept = {"retention.ms": A_DAY}
+        made = [NewTopic(f"{name}-{what}", partitions, 1, config=kept) for what in ("sent", "events")]
         for future in admin.create_topics(made).values():
             future.result(20)
         topics = Topics(self.address, name, self.directory, partitions, recipe)

@@ -25,6 +25,6 @@ app = Application(
 )
 kept = TopicConfig(num_partitions=int(partitions), replication_factor=1, extra_config={"retention.ms": "86400000"})
 sent = app.topic(f"{group}-sent", value_deserializer="bytes", config=kept)
-output = app.topic(f"{group}-told", key_serializer="str", config=kept)
+output = app.topic(f"{group}-events", key_serializer="str", config=kept)
 gait(app.dataframe(sent), Fleet(recipes.by_name(recipe))).to_topic(output, key=lambda row: row["wearer"])
 app.run()

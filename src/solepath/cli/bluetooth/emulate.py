@@ -23,7 +23,7 @@ def add_to(commands: Any) -> None:
         help="serve emulated sensors over a true Bluetooth link",
         description="Serve emulated sensors on the feet of an emulated wearer: virtual Bluetooth controllers with the "
         "true services of the devices, spoken to in HCI over TCP. The wearer begins to walk when the first device is "
-        "connected, and anew when none was for ten seconds.",
+        "connected, and again when none was connected for ten seconds.",
         epilog="example: solepath emulate --listen 127.0.0.1:9735, and then in another terminal: "
         "solepath live --via tcp:127.0.0.1:9735",
     )

@@ -1,4 +1,4 @@
-"""Event loops and signals of commands: they stop when they are told to, and in good order."""
+"""Event loops of commands, and the signals that stop them; a stopped command still closes its files and connections."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class StoppedEarly(Exception):
 def run_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> int:
     """Run `main` with asyncio, with an event that a signal of STOP sets; return the exit status.
 
-    No signal ends the program at once, however often it comes: what was started is ended in good order."""
+    No signal ends the program at once, however often it comes: everything that was started is closed first."""
     with asyncio.Runner() as runner:
         loop, stop = runner.get_loop(), asyncio.Event()
 

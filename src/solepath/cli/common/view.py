@@ -173,11 +173,11 @@ def _open(url: str) -> None:
     import webbrowser
 
     if not webbrowser.open(url):
-        note("no browser could be opened: the address is for one of your own")
+        note("no browser could be opened: open the address yourself")
 
 
 def _check_free(view: View) -> None:
-    """Raise Failure now when nothing could be served there after a long recording was read."""
+    """Raise Failure if the address cannot be served. Checked before a long recording is read."""
     from ...show.page.server.access import listen
 
     try:
@@ -187,6 +187,6 @@ def _check_free(view: View) -> None:
 
 
 def _taken(view: View, error: OSError | UnicodeError) -> Failure:
-    """Return the Failure that says why nothing can be served there."""
+    """Return a Failure with the reason why the address cannot be served."""
     why = "there is no such host" if isinstance(error, UnicodeError) else in_words(error)
     return Failure(f"--view {printable(view.host, 80)}:{view.port or 0}: {why}")

@@ -34,7 +34,7 @@ _PAIRING = 30.0
 _PAIRING_ERRORS: dict[tuple[str, int | None], str] = {
     ("smp", int(smp.ErrorCode.PAIRING_NOT_SUPPORTED)): "the device refused to be paired",
     ("hci", int(hci.HCI_ErrorCode.PIN_OR_KEY_MISSING_ERROR)): "the device has forgotten the pairing: unpair it here "
-    "too, and pair anew",
+    "too, and pair again",
 }
 _SERVICE_LISTS = (
     AdvertisingData.INCOMPLETE_LIST_OF_16_BIT_SERVICE_CLASS_UUIDS,

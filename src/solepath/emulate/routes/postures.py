@@ -42,10 +42,10 @@ class Posture:
 
     pitch: float
     """Pitch of the sole, rad; positive when the heel is up."""
-    radius: float
-    """Length L_r, m."""
-    to_toe: float
-    """Length L_p2t, m."""
+    sensor_to_ground: float
+    """Distance along the sole from below the sensor to the ground (L_r), m."""
+    ground_to_tip: float
+    """Distance on the ground from there to the tip of the flat shoe (L_p2t), m."""
 
 
 def posture(pitch: float, shoe: Shoe | None = None, mounting: Mounting = IN_SOLE) -> Posture:
@@ -72,7 +72,8 @@ def postures(
         for _ in range(repeated):
             held, shown = (float(value) for value in rng.standard_normal(2))
             true = posture(pitch + POSTURE_ERROR * held, shoe, mounting)
-            found.append(Posture(true.pitch + PITCH_ERROR * shown, _read(true.radius), _read(true.to_toe)))
+            measured = true.pitch + PITCH_ERROR * shown
+            found.append(Posture(measured, _read(true.sensor_to_ground), _read(true.ground_to_tip)))
     return tuple(found)
 
 
@@ -83,7 +84,7 @@ def write_postures(path: Path | str, found: Iterable[Posture], mounting: Mountin
         rows.writerow(("pitch_deg", "L_r_m", "L_p2t_m", "H_imu_m", "heel_L_r_m"))
         x, _, z = mounting.position
         for one in found:
-            measured = (f"{degrees(one.pitch):.1f}", f"{one.radius:.3f}", f"{one.to_toe:.3f}")
+            measured = (f"{degrees(one.pitch):.1f}", f"{one.sensor_to_ground:.3f}", f"{one.ground_to_tip:.3f}")
             rows.writerow((*measured, f"{_read(z):.3f}", f"{_read(x):.3f}"))
 
 

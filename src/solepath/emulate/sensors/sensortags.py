@@ -157,7 +157,9 @@ class CC2541:
         return sorted(sent, key=attrgetter("t"))
 
     def measure(self, channel: str, worn: WornTag, period: float, delay: float, rng: Rng) -> Series:
-        """Return what a channel's sensor measures every `period` s, from `delay` s after the tag's first sample on."""
+        """Return the series of a channel, one value every `period` s, the first `delay` s after the tag's first sample.
+
+        The barometer has a fixed delay instead (tag_signals.py)."""
         match channel:
             case "cc2541/accelerometer":
                 return worn.moving(period, delay).acc(self.part, rng)

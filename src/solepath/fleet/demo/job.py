@@ -2,7 +2,7 @@
 
     python -m solepath.fleet.demo.job STAGE/RUN SECONDS [NUMBER ADDRESS ADDRESS ...]
 
-STAGE was prepared (wearers.py); events go to STAGE/RUN/told, and beside it reports of the run. This module replaces
+STAGE was prepared (wearers.py); events go to STAGE/RUN/events, and beside it reports of the run. This module replaces
 `python -m bytewax.run`, which takes only whole seconds between two snapshots (-s), too rare for a short run."""
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ from ..step.sent import Sent, Unreadable
 from .child import end_with_parent, freeze_garbage, memory, most_memory
 from .wearers import Wearers
 
-EVENTS, RECOVERY = "told", "recovery"
+EVENTS, RECOVERY = "events", "recovery"
 """Directories of a run."""
 REOPENED = "reopened-"
 """Prefix of files, one for each process, with one byte for each wearer who went on from a state."""

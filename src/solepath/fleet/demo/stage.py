@@ -16,6 +16,7 @@ from typing import Any
 from attrs import define, field, frozen
 
 from .compare import compare_remarks, differences, files, find_number_gaps, read_events, session_events
+from .job import EVENTS
 from .kills import Outcome, draw, play
 from .run import Children, EngineRun, start
 from .wearers import DemoPlan, Wearers, prepare
@@ -112,7 +113,7 @@ class DemoStage:
     @property
     def events(self) -> Path:
         """Directory with the events of the uninterrupted run."""
-        return self.at / "uninterrupted" / "told"
+        return self.at / "uninterrupted" / EVENTS
 
     def uninterrupted(self) -> Engine:
         """Run the job from its start to its end."""
@@ -159,7 +160,7 @@ class DemoStage:
 
     def compare(self) -> list[str]:
         """Return the differences of the uninterrupted run from the sessions and the expected remarks."""
-        engine, sessions = read_events(self.events), read_events(self.at / "sessions" / "told")
+        engine, sessions = read_events(self.events), read_events(self.at / "sessions" / EVENTS)
         expected = {wearer.name: wearer.remarks() for wearer in Wearers.read(self.at).all}
         return [
             *differences(sessions, session_events(engine)),

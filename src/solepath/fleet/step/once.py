@@ -104,8 +104,8 @@ class Once:
     def restore(cls, saved: Any) -> Once:
         """Return one that continues from `saved`; raise SnapshotError for no snapshot of this version."""
         if not isinstance(saved, dict) or saved.get("solepath.once") != ONCE_VERSION or "state" not in saved:
-            raise SnapshotError("not a snapshot of what was heard, of this version")
+            raise SnapshotError("not a snapshot of received events, of this version")
         once = load(cls, saved["state"])
         if once.limit < 1 or any(not received.is_consistent for received in once._received.values()):
-            raise SnapshotError("a snapshot of what cannot have been heard")
+            raise SnapshotError("a snapshot of events that cannot have been received")
         return once

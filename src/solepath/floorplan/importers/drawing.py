@@ -1,8 +1,8 @@
 """Spaces, as building maps draw them, and their conversion to a plan with walls.
 
-Walls are the outlines of spaces, less the parts between two open spaces and less the doors; stairs and lifts are joined
-over the levels where they overlap. The readers of IMDF and OpenStreetMap draw into this; the plan does not depend on
-the order in which they do."""
+Walls are the outlines of closed spaces, and those of open spaces except towards another open or free one, each
+without its doors. Stairs and lifts are joined over the levels where they overlap. The readers of IMDF and
+OpenStreetMap add to a Drawing; the plan does not depend on their order."""
 
 from __future__ import annotations
 
@@ -66,12 +66,12 @@ class ConnectorPart:
 
 @define
 class Storey:
-    """A level before anything is drawn on it."""
+    """The name and order of a level."""
 
     name: str
     ordinal: int
     order: float
-    """Sort key of the levels."""
+    """Position in storeys above level 0, which may be fractional; it sorts the levels and gives their heights."""
 
 
 @define

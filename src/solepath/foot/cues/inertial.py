@@ -22,14 +22,11 @@ from ..phase import Cue
 from .cues import SeenCue
 from .impact import Impact
 
+# Local names, because one look-up in the enum costs as much as five multiplications.
 SWING: Final = Phase.SWING
-"""Local name of `Phase.SWING`, because one look-up in the enum costs as much as five multiplications."""
 STATIONARY: Final = Phase.STATIONARY
-"""Local name of `Phase.STATIONARY`, because one look-up in the enum costs as much as five multiplications."""
 PUSH_OFF: Final = Phase.PUSH_OFF
-"""Local name of `Phase.PUSH_OFF`, because one look-up in the enum costs as much as five multiplications."""
 LOADING: Final = Phase.LOADING
-"""Local name of `Phase.LOADING`, because one look-up in the enum costs as much as five multiplications."""
 
 LEAST_TURN = 0.25
 """Smallest turn of a push-off, rad."""

@@ -12,22 +12,20 @@ from ..phase import Cue
 from ..stance.stance import Load
 from .cues import SeenCue
 
+# Local names, because one look-up in the enum costs as much as five multiplications.
 SWING: Final = Phase.SWING
-"""Local name of `Phase.SWING`, because one look-up in the enum costs as much as five multiplications."""
 STATIONARY: Final = Phase.STATIONARY
-"""Local name of `Phase.STATIONARY`, because one look-up in the enum costs as much as five multiplications."""
 PUSH_OFF: Final = Phase.PUSH_OFF
-"""Local name of `Phase.PUSH_OFF`, because one look-up in the enum costs as much as five multiplications."""
 LOADING: Final = Phase.LOADING
-"""Local name of `Phase.LOADING`, because one look-up in the enum costs as much as five multiplications."""
+
 CONTACT_LOAD, CLEAR_LOAD = 0.05, 0.03
-"""Total loads above which contact is reported, and below which clear is, as shares of the full load."""
+"""Total loads above which the cue CONTACT is seen, and below which CLEAR is, as shares of the wearer's full load."""
 AREA_ON = 0.06
 """Load above which an area, heel or forefoot, is loaded, as a share of the wearer's full load."""
 AREA_OFF = 0.03
 """Load below which an area is unloaded, as a share of the wearer's full load."""
 RECENT = 0.3
-"""Longest time by which the last load of the heel may date a lift back, s."""
+"""Longest time by which a LIFT is moved back, to the last load of the heel, s."""
 
 
 @define
@@ -37,7 +35,7 @@ class PressureCues:
     before: float = field(default=0.0, init=False)
     """Total load of the last sample, as a share of the wearer's full load."""
     heel_loaded: float | None = field(default=None, init=False)
-    """Time at which the heel was last loaded, s; None before any."""
+    """Time at which the heel was last above AREA_OFF, s; None before any."""
 
     def update(self, t: float, dt: float, load: Load, phase: Phase) -> SeenCue | None:
         """Return contact or clear if the total load shows it in this sample, or None."""

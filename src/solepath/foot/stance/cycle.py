@@ -30,10 +30,9 @@ TWO_G = 2.0 * GRAVITY
 SHOE_WINDOW = 0.025
 """Duration of the window of the statistic, s."""
 
+# Local names, because one look-up in the enum costs as much as five multiplications.
 SWING: Final = Phase.SWING
-"""Local name of `Phase.SWING`, because one look-up in the enum costs as much as five multiplications."""
 STATIONARY: Final = Phase.STATIONARY
-"""Local name of `Phase.STATIONARY`, because one look-up in the enum costs as much as five multiplications."""
 
 make_stance = tuple.__new__
 """Constructor of a Stance from its five fields, which takes half the time of the class's own."""

@@ -5,10 +5,10 @@ calibration comes from the laps, for each recipe from its own positions ("the sa
 are applied"); the sessions receive the samples after the halt. A loop-closing error is the horizontal distance between
 a track's start and its end.
 
-Lengths are those of table I. The paper says that the fourth walk was the square and the fifth random; here the shorter
-half of the six are rounds of the square and the longer ones random. The wearer's pace is that of the calibration walks,
-235 m in five minutes, or faster where the half hour requires it; in the rest of the half hour the wearer stands. The
-rate of the samples is not in the paper."""
+Lengths are those of table I. The paper says that the fourth walk was the square and the fifth random; here walks that
+fit into half an hour at PACE are rounds of the square and longer ones random. The wearer's pace is that of the
+calibration walks, 235 m in five minutes, or faster where the half hour requires it; in the rest of the half hour the
+wearer stands. The rate of the samples is not in the paper."""
 
 from __future__ import annotations
 

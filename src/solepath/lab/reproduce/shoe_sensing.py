@@ -156,7 +156,7 @@ def _length_notes(done: Sequence[ShoeWalked]) -> list[str]:
         others = [abs(error) for one in steps for error in one.whole]
         if merged + split and others:
             line += (
-                f"; of {len(lengths)} steps {merged} were told as one with the step before, whose stance was missed, "
+                f"; of {len(lengths)} steps {merged} were joined with the step before, whose stance was missed, "
                 f"and {split} in two pieces; the others are at worst off by {max(others):.2f} m"
             )
         lines.append(f"{line}.")
@@ -192,7 +192,7 @@ def _tour_notes(done: Sequence[ShoeWalked]) -> list[str]:
     turned = [abs(one.heading) for one in tours]
     heights = [abs(one.height) for one in tours]
     return [
-        f"Five minutes: flights told exactly in {sum([one.reported == one.true for one in tours])} of {len(done)} "
+        f"Five minutes: flights reported exactly in {sum([one.reported == one.true for one in tours])} of {len(done)} "
         "walks; "
         f"the end is off by {np.mean(off):.1f} m on average, {share:.1f} % of the way, and by {max(off):.1f} m at "
         f"worst, its height by {np.mean(heights):.2f} m and {max(heights):.2f} m.",

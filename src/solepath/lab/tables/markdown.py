@@ -123,7 +123,7 @@ def _activities(summary: Summary) -> list[tuple[str, str]]:
     """Return the lines about activities."""
     pooled, entries = summary.together, []
     if (accuracy := pooled.get("accuracy")) is not None:
-        entries.append(("labelled time told right", f"{percent(accuracy)} %"))
+        entries.append(("labelled time classified correctly", f"{percent(accuracy)} %"))
         entries.append(
             ("the same by always telling the most frequent activity", f"{percent(pooled['most_frequent'])} %")
         )

@@ -126,7 +126,7 @@ def _confusion(summary: Summary) -> str:
             every = sum(row.values())
             shares = [percent(row.get(other.value, 0) / every) for other in reported]
             rows.append([_short(activity), *shares, number(float(every), 0)])
-    return table(["% of what was, told as", *map(_short, reported), "samples"], rows)
+    return table(["% of the true activity, reported as", *map(_short, reported), "samples"], rows)
 
 
 def _row(name: str, figures: Figures, keys: Sequence[str]) -> list[str]:

@@ -30,16 +30,16 @@ from ...session import Session
 from ...types import SITE_OF_FOOT, Turn
 
 DATA = Path(__file__).with_name("turns.csv")
-FIRST_TO_LEARN_FROM = 101
-EACH = 30
+FIRST_TRAINING_SEED = 101
+TURNS_PER_CLASS = 30
 """Number of turns of each class (section V.E)."""
 WEARERS = 3
 ANGLES = {Turn.LEFT: 90.0, Turn.RIGHT: -90.0, Turn.ABOUT: 180.0}
 SPREAD = 15.0
 """Standard deviation of the turn angle, degrees, because nobody turns by exactly 90 degrees."""
 ROUNDS = 20_000
-SLACK = 1e-3
-"""Weight of the margin against the errors."""
+REGULARISATION = 1e-3
+"""Weight of the squared length of the weights against the mean hinge loss (lambda of Pegasos); chosen by hand."""
 
 
 @frozen
@@ -91,8 +91,8 @@ def emulated_examples(seeds: Iterable[int]) -> list[Example]:
 def train_weights(examples: list[Example]) -> dict[Turn, tuple[float, ...]]:
     """Return one linear function for each class against the others.
 
-    It minimises SLACK |w|^2 / 2 + mean hinge loss by subgradient steps over all examples at once (Shalev-Shwartz et al.
-    2011, Pegasos), and averages the second half of the steps."""
+    It minimises REGULARISATION |w|^2 / 2 + mean hinge loss by subgradient steps over all examples at once
+    (Shalev-Shwartz et al. 2011, Pegasos), and averages the second half of the steps."""
     examples = [*examples, *(_mirrored(one) for one in examples)]
     x = np.array([features(radians(one.left), radians(one.right)) for one in examples])
     found: dict[Turn, tuple[float, ...]] = {}
@@ -102,7 +102,7 @@ def train_weights(examples: list[Example]) -> dict[Turn, tuple[float, ...]]:
         w, mean = np.zeros(x.shape[1]), np.zeros(x.shape[1])
         for k in range(1, ROUNDS + 1):
             wrong = y * (x @ w) < 1.0
-            w = w - (SLACK * w - (share * y * wrong) @ x) / (SLACK * (k + 100.0))
+            w = w - (REGULARISATION * w - (share * y * wrong) @ x) / (REGULARISATION * (k + 100.0))
             if 2 * k > ROUNDS:
                 mean += w / (ROUNDS - ROUNDS // 2)
         found[turn] = tuple(round(float(value), 2) for value in mean)
@@ -132,9 +132,9 @@ def write(examples: list[Example], path: Path = DATA) -> None:
 
 def main() -> None:
     parser = argparse.ArgumentParser(prog="python -m solepath.lab.train.turns", description=__doc__)
-    parser.add_argument("--emulate", action="store_true", help="make turns.csv anew")
+    parser.add_argument("--emulate", action="store_true", help="write turns.csv again")
     if parser.parse_args().emulate:
-        write(emulated_examples(range(FIRST_TO_LEARN_FROM, FIRST_TO_LEARN_FROM + EACH)))
+        write(emulated_examples(range(FIRST_TRAINING_SEED, FIRST_TRAINING_SEED + TURNS_PER_CLASS)))
     for turn, weights in train_weights(read()).items():
         print(f"    Turn.{turn.name}: {weights},")
 

@@ -165,7 +165,7 @@ class Report:
             add(part, "p", "There is no pressure in this recording.")
         part = section(main, "activity", "Activities")
         if not activity_figure(add(part, "div", class_="figures"), self.observer.timeline.spans(clock.end), clock):
-            add(part, "p", "No activity was told.")
+            add(part, "p", "No activity was reported.")
         self._health(section(main, "health", "Sensors and links"))
         return "<!DOCTYPE html>\n" + tostring(html, encoding="unicode", method="html") + "\n"
 

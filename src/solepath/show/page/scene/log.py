@@ -99,7 +99,7 @@ def _link(event: Event) -> tuple[str, str] | None:
         case StreamRestarted(site=site):
             return "link", f"{site.words}: the data had stopped, the sensor was set up again"
         case ClockReset(site=site, restarted=restarted):
-            return "link", f"{site.words}: {'the sensor has started anew' if restarted else 'its clock has jumped'}"
+            return "link", f"{site.words}: {'the sensor has restarted' if restarted else 'its clock has jumped'}"
         case PacketsDropped(site=site, count=count):
             return "link", f"{site.words}: {count} packet{'s' * (count != 1)} came too fast to be used"
         case LinkTrouble(site=site, what=what):
@@ -126,7 +126,7 @@ def _wear(event: Event) -> tuple[str, str] | None:
         case FootSilent(foot=foot):
             return "wear", f"{foot} foot: nothing comes while the other foot walks on"
         case FootResumed(foot=foot, silent_for=seconds):
-            return "wear", f"{foot} foot: heard again after {seconds:.1f} s"
+            return "wear", f"{foot} foot: samples again after {seconds:.1f} s"
         case _:
             return None
 

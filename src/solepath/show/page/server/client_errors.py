@@ -33,6 +33,6 @@ class ClientErrors:
             self._unreported += 1
             return
         self._left -= 1.0
-        more = f" ({self._unreported} more were not told)" if self._unreported else ""
+        more = f" ({self._unreported} more were not logged)" if self._unreported else ""
         self._unreported = 0
         self.logger.warning("%s%s", what, more)
