@@ -100,7 +100,7 @@ def test_a_foot_that_rolls_over_its_toe_has_not_left_the_ground_however_fast_the
 def test_a_jolt_in_the_middle_of_a_long_swing_is_no_heel_strike() -> None:
     cues = InertialCues()
     cues.cleared(0.0)
-    cues.trough = 0.0
+    cues.lowest_rate = 0.0
     for k in range(1, 80):
         acc = (40.0 if k == 30 else 0.0, 0.0, GRAVITY)
         assert cues.update(0.01 * k, 0.01, acc, (0.0, -3.0, 0.0), False, 2.0, Phase.SWING) is None
@@ -149,13 +149,13 @@ def simulate_push(rate: float, mounting: Quat = (1.0, 0.0, 0.0, 0.0)) -> Impact:
 
 @pytest.mark.parametrize("rate", [50.0, 100.0, 200.0, 400.0])
 def test_the_middle_of_an_impact_is_found_at_any_rate(rate: float) -> None:
-    assert simulate_push(rate).middle == pytest.approx(LANDED, abs=0.004 + 0.25 / rate)
+    assert simulate_push(rate).mean_time == pytest.approx(LANDED, abs=0.004 + 0.25 / rate)
 
 
 @given(st.tuples(*[st.floats(-2.0, 2.0)] * 3))
 def test_how_the_sensor_is_mounted_does_not_matter(turn: Vec3) -> None:
-    assert simulate_push(100.0, from_rotation_vector(turn)).middle == pytest.approx(
-        simulate_push(100.0).middle, abs=1e-6
+    assert simulate_push(100.0, from_rotation_vector(turn)).mean_time == pytest.approx(
+        simulate_push(100.0).mean_time, abs=1e-6
     )
 
 
@@ -166,7 +166,7 @@ def test_the_jolt_of_leaving_the_ground_is_not_that_of_landing() -> None:
         pushed, landed = 90.0 if k == 5 else 0.0, 20.0 if k == 50 else 0.0
         impact.add_sample(0.01 * k, 0.01, ZERO, (pushed, 0.0, landed), 1.0, False)
         assert (impact.peak_shock > 0.0) is (k >= 50)
-    assert impact.peak_shock_at == pytest.approx(0.495)
+    assert impact.peak_shock_time == pytest.approx(0.495)
 
 
 @given(st.lists(st.tuples(st.floats(0.0, 1e6), *[st.floats(-1e300, 1e300)] * 3), max_size=20))
@@ -177,4 +177,4 @@ def test_an_impact_stays_finite_for_any_force_and_interval(rows: list[tuple[floa
         t += dt
         impact.add_sample(t, dt, previous_acc, (x, y, z), 1.0, False)
         previous_acc = (x, y, z)
-        assert 0.0 <= impact.middle <= t and 0.0 <= impact.shock < 1e300
+        assert 0.0 <= impact.mean_time <= t and 0.0 <= impact.shock < 1e300

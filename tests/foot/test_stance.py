@@ -18,7 +18,7 @@ from solepath.foot.settings import CycleSettings, StanceThreshold
 from solepath.foot.stance.classic import AngularRate, Graph, MovingVariance
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.stance.pressure import MaximumPressure, TwoArea
-from solepath.foot.stance.sensor_height import GUESS, HIGHEST, LOWEST, SensorHeight
+from solepath.foot.stance.sensor_height import INITIAL_HEIGHT, HIGHEST_HEIGHT, LOWEST_HEIGHT, SensorHeight
 from solepath.foot.stance.shoe import ShoeDetector
 from solepath.foot.stance.stance import Load, Stance, soften
 from solepath.types import Foot, Phase, Vec3
@@ -128,7 +128,7 @@ def test_a_standing_foot_is_certainly_still(detector: Any) -> None:
     assert last.v_ref == (0.0, 0.0, 0.0)
 
 
-TEN = StanceThreshold(base=10.0, gate=100.0)
+TEN = StanceThreshold(rest_statistic=10.0, motion_statistic=100.0)
 
 
 def test_evidence_grows_softer_with_the_statistic_and_ends_at_the_gate() -> None:
@@ -242,7 +242,7 @@ def test_a_foot_that_only_stands_leaves_the_height_as_it_was() -> None:
     for k in range(1000):
         sensor_height.roll(0.01, (0.01 * (k % 3), 0.0, GRAVITY), (1e-4 * (k % 2), 0.0, 0.0), IDENTITY)
     sensor_height.end_stance()
-    assert sensor_height.height == pytest.approx(GUESS, abs=1e-3)
+    assert sensor_height.height == pytest.approx(INITIAL_HEIGHT, abs=1e-3)
 
 
 def test_a_sensor_that_is_moved_is_followed() -> None:
@@ -273,4 +273,4 @@ def test_whatever_is_measured_the_height_stays_that_of_a_sensor_on_a_foot(rows: 
     for dt, ax, ay, az, wx, wy, wz in rows:
         sensor_height.roll(dt, (ax, ay, az), (wx, wy, wz), IDENTITY)
     sensor_height.end_stance()
-    assert LOWEST <= sensor_height.height <= HIGHEST
+    assert LOWEST_HEIGHT <= sensor_height.height <= HIGHEST_HEIGHT

@@ -57,9 +57,9 @@ class StanceThreshold:
 
     Each detector needs its own values."""
 
-    base: float
+    rest_statistic: float
     """Statistic up to which the foot is certainly at rest."""
-    gate: float
+    motion_statistic: float
     """Statistic from which on the foot is not at rest."""
     sigma: float = 0.01
     """Noise of the zero velocity of a foot at rest, m/s."""

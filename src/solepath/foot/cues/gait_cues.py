@@ -14,7 +14,7 @@ from ..stance.stance import Load, Stance
 from .cues import Cues, SeenCue
 from .inertial import InertialCues
 from .pressure import PressureCues
-from .touch import FEW, Touch
+from .touch import MOST_SINGLE_CELLS, Touch
 
 
 @define
@@ -45,19 +45,19 @@ class GaitCues(Cues):
         if load is None and seen is None:
             return ()
         if load is not None:
-            pressed = self.pressure.update(t, dt, load, phase)
-            if len(load.cells) <= FEW:
+            pressure_cue = self.pressure.update(t, dt, load, phase)
+            if len(load.cells) <= MOST_SINGLE_CELLS:
                 airborne = self.touch.update(t, load, still)
                 if not self.touch.trusted:
                     return () if seen is None else (seen,)
-                pressed = None
+                pressure_cue = None
                 if airborne is not (phase is Phase.SWING):
-                    pressed = SeenCue(Cue.CLEAR if airborne else Cue.CONTACT, t)
-            if pressed is not None:
-                if pressed.cue is Cue.CLEAR:
+                    pressure_cue = SeenCue(Cue.CLEAR if airborne else Cue.CONTACT, t)
+            if pressure_cue is not None:
+                if pressure_cue.cue is Cue.CLEAR:
                     inertial.apply_toe_off(phase)
                     self.sagittal = 0.0 if inertial.axis is None else inertial.sagittal
-                return (pressed,)
+                return (pressure_cue,)
             if seen is not None and seen.cue is not Cue.FLAT:
                 seen = self.pressure.date_lift(seen) if seen.cue is Cue.LIFT else None
         return () if seen is None else (seen,)

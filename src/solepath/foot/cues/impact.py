@@ -14,11 +14,11 @@ from __future__ import annotations
 from ...types import Vec3
 from ...types.attrs import define, field
 
-MOST_SHOCK = 1e12
+LARGEST_SHOCK = 1e12
 """Largest squared jerk times interval of one sample, m^2/s^5."""
-SHOCK_MEMORY = 0.02
+SHOCK_MEMORY_TIME = 0.02
 """Duration of the memory of the shock, s."""
-AFTER_TOE_OFF = 0.1
+SHORTEST_LANDING_DELAY = 0.1
 """Shortest time from toe-off to an impact of landing, s; an earlier one is that of leaving the ground."""
 
 
@@ -30,18 +30,18 @@ class Impact:
     """Start of the swing, s; None before any."""
     shock: float = field(default=0.0, init=False)
     """Integral of the recent squared jerk over time, m^2/s^5."""
-    middle: float = field(default=0.0, init=False)
+    mean_time: float = field(default=0.0, init=False)
     """Mean time of the shock, s."""
     peak_speed: float = field(default=0.0, init=False)
     """Largest speed of the swing, m/s."""
     peak_shock: float = field(default=0.0, init=False)
     """Largest shock since the time of the largest speed, m^2/s^5."""
-    peak_shock_at: float = field(default=0.0, init=False)
+    peak_shock_time: float = field(default=0.0, init=False)
     """Mean time of the largest shock, s."""
 
     def start_swing(self, t: float) -> None:
         """Start a swing at toe-off at `t`, s."""
-        self.swing_start = self.middle = t
+        self.swing_start = self.mean_time = t
         self.shock = self.peak_speed = self.peak_shock = 0.0
 
     def add_sample(self, t: float, dt: float, previous_acc: Vec3, acc: Vec3, speed: float, landing: bool) -> None:
@@ -59,15 +59,15 @@ class Impact:
         x -= px
         y -= py
         z -= pz
-        jolt = (x * x + y * y + z * z) / dt
-        if jolt > MOST_SHOCK:
-            jolt = MOST_SHOCK
+        sample_shock = (x * x + y * y + z * z) / dt
+        if sample_shock > LARGEST_SHOCK:
+            sample_shock = LARGEST_SHOCK
         shock = self.shock
         if not landing:
-            shock = shock * (1.0 - dt / SHOCK_MEMORY) if dt < SHOCK_MEMORY else 0.0
-        self.shock = shock = shock + jolt
-        if jolt > 0.0:
-            self.middle += (t - 0.5 * dt - self.middle) * jolt / shock
-        if shock > self.peak_shock and (self.swing_start is None or self.middle - self.swing_start >= AFTER_TOE_OFF):
+            shock = shock * (1.0 - dt / SHOCK_MEMORY_TIME) if dt < SHOCK_MEMORY_TIME else 0.0
+        self.shock = shock = shock + sample_shock
+        if sample_shock > 0.0:
+            self.mean_time += (t - 0.5 * dt - self.mean_time) * sample_shock / shock
+        if shock > self.peak_shock and (self.swing_start is None or self.mean_time - self.swing_start >= SHORTEST_LANDING_DELAY):
             self.peak_shock = shock
-            self.peak_shock_at = self.middle
+            self.peak_shock_time = self.mean_time

@@ -28,51 +28,51 @@ STATIONARY: Final = Phase.STATIONARY
 PUSH_OFF: Final = Phase.PUSH_OFF
 LOADING: Final = Phase.LOADING
 
-LEAST_TURN = 0.25
+LEAST_PUSH_OFF_TURN = 0.25
 """Smallest turn of a push-off, rad."""
-SAME_AXIS = 0.5
+SAME_AXIS_COSINE = 0.5
 """Smallest cosine between two axes that count as the same: 60 degrees."""
-MISFITS = 3
+OTHER_AXIS_PUSH_OFFS = 3
 """Number of push-offs in a row about another axis after which that axis is used."""
 AXIS_GAIN = 0.2
 """Weight of the newest push-off in the axis."""
-GAP_TROUGH = 2.0
-"""Depth of the negative rate of a swing whose start a gap has hidden, as a multiple of LEAST_TROUGH."""
-SETTLE = 0.009
+GAP_TROUGH_RATIO = 2.0
+"""Depth of the negative rate of a swing whose start a gap has hidden, as a multiple of LEAST_TROUGH_DEPTH."""
+STILLNESS_DEBOUNCE = 0.009
 """Shortest duration of stillness, or of its loss, s."""
-LEAST_PUSH = 1.5
+LEAST_PUSH_OFF_RATE = 1.5
 """Smallest peak rate of a push-off, rad/s."""
 PAST_PEAK = 0.5
 """Ratio of the rate at toe-off to its peak."""
-LEAST_TROUGH = 1.0
+LEAST_TROUGH_DEPTH = 1.0
 """Smallest depth of the negative rate of a swing, rad/s."""
 LANDING_RATE = 1.0
 """Rate through which the sagittal rate rises at about the landing of the heel, rad/s.
 
 The ground then turns the sole down."""
-IMPACT_SETTLES = 0.04
+IMPACT_SETTLING_TIME = 0.04
 """Time after the middle of an impact at which it is final, s: heel-strike must be known within 60 ms."""
-LONGEST_IMPACT = 0.1
+LONGEST_IMPACT_TIME = 0.1
 """Longest time for which an impact is observed, s."""
-LEAST_SHOCK = 1e4
+LEAST_LANDING_SHOCK = 1e4
 """Smallest shock that shows that a foot without speed has landed, m^2/s^5.
 
 This is 600 m/s^3 for 30 ms. Muscles that swing a leg reach half of that jerk, the ground some thousands."""
-SHORTEST_SWING = 0.1
+SHORTEST_SWING_TIME = 0.1
 """Shortest time from toe-off to heel-strike, s."""
 SHUFFLE_SPEED = 0.35
 """Smallest speed of a foot in swing without push-off, m/s; it must last for SHUFFLE_TIME."""
-SPEED_PER_RATE = 0.2
+SHUFFLE_SPEED_PER_RATE = 0.2
 """Increase of that speed for each rad/s, m.
 
 No sensor is further from the toes, over which a foot rolls."""
 SHUFFLE_TIME = 0.15
 """Shortest duration of that speed, s."""
-LOADING_TIME = 0.4
+LOADING_SHUFFLE_TIME = 0.4
 """Shortest duration of that speed after heel-strike, s, because the sensor still moves down with the sole."""
-LOOKBACK = 0.02
+STILLNESS_DELAY = 0.02
 """Time by which stillness starts before it is detected, s, because it is judged over a window."""
-ROLLING = 0.12
+HEEL_DOWN_RATE = 0.12
 """Sagittal rate below which the heel has not left the ground, rad/s."""
 
 
@@ -80,7 +80,7 @@ ROLLING = 0.12
 class InertialCues:
     """Detects gait events from the inertial sensor.
 
-    Latency: toe-off one sample; heel-strike IMPACT_SETTLES, or until the foot is still if no impact is found; foot-flat
+    Latency: toe-off one sample; heel-strike IMPACT_SETTLING_TIME, or until the foot is still if no impact is found; foot-flat
     and heel-off SETTLE."""
 
     still_since: float | None = field(default=None, init=False)
@@ -93,13 +93,13 @@ class InertialCues:
     """Time since which the foot is fast, s; None while it is not."""
     axis: Vec3 | None = field(default=None, init=False)
     """Unit vector to the wearer's left, sensor frame, learnt from the turn of the foot at push-off; None at first."""
-    misfits: int = field(default=0, init=False)
+    other_axis_push_offs: int = field(default=0, init=False)
     """Number of push-offs in a row about another axis."""
-    turned: Vec3 = field(default=ZERO, init=False)
+    turn: Vec3 = field(default=ZERO, init=False)
     """Turn since the foot started to move, sensor frame, rad."""
-    peak: float = field(default=0.0, init=False)
+    peak_rate: float = field(default=0.0, init=False)
     """Highest sagittal rate of this push-off, rad/s."""
-    trough: float = field(default=0.0, init=False)
+    lowest_rate: float = field(default=0.0, init=False)
     """Lowest sagittal rate of this swing, rad/s."""
     swing_start: float | None = field(default=None, init=False)
     """Start of the last swing, s; None before any."""
@@ -118,14 +118,14 @@ class InertialCues:
 
         `acc` is in m/s^2, `gyro` in rad/s without bias. `still`: the zero velocity evidence was accepted. `speed` is in
         m/s."""
-        before, axis = self.sagittal, self.axis
+        previous_rate, axis = self.sagittal, self.axis
         gx, gy, gz = gyro
         if axis is None:
-            now = sqrt(gx * gx + gy * gy + gz * gz)
+            rate = sqrt(gx * gx + gy * gy + gz * gz)
         else:
             x, y, z = axis
-            now = x * gx + y * gy + z * gz
-        self.sagittal = now
+            rate = x * gx + y * gy + z * gz
+        self.sagittal = rate
         previous_force, self.force = self.force, acc
         if still:
             self.moving_since = self.fast_since = None
@@ -135,82 +135,82 @@ class InertialCues:
             self.still_since = None
             if self.moving_since is None:
                 self.moving_since = t
-                self.turned = ZERO
-                self.peak = 0.0
-            if speed < SHUFFLE_SPEED + SPEED_PER_RATE * (now if now > 0.0 else -now):
+                self.turn = ZERO
+                self.peak_rate = 0.0
+            if speed < SHUFFLE_SPEED + SHUFFLE_SPEED_PER_RATE * (rate if rate > 0.0 else -rate):
                 self.fast_since = None
             elif self.fast_since is None:
                 self.fast_since = t
         if phase is SWING:
             self.not_turning_at = None
-            return self._in_swing(t, dt, speed, before, now, previous_force)
-        if now < ROLLING and (still or self.not_turning_at is None):
+            return self._in_swing(t, dt, speed, previous_rate, rate, previous_force)
+        if rate < HEEL_DOWN_RATE and (still or self.not_turning_at is None):
             self.not_turning_at = t
         if self.still_since is not None:
-            if phase is not STATIONARY and t - self.still_since >= SETTLE - TIE:
-                return SeenCue(Cue.FLAT, self.still_since - LOOKBACK)
+            if phase is not STATIONARY and t - self.still_since >= STILLNESS_DEBOUNCE - TIE:
+                return SeenCue(Cue.FLAT, self.still_since - STILLNESS_DELAY)
             return None
-        x, y, z = self.turned
-        self.turned = (x + gx * dt, y + gy * dt, z + gz * dt)
+        x, y, z = self.turn
+        self.turn = (x + gx * dt, y + gy * dt, z + gz * dt)
         if phase is STATIONARY:
-            if now > self.peak:
-                self.peak = now
-            if self.moving_since is not None and t - self.moving_since >= SETTLE - TIE:
+            if rate > self.peak_rate:
+                self.peak_rate = rate
+            if self.moving_since is not None and t - self.moving_since >= STILLNESS_DEBOUNCE - TIE:
                 return SeenCue(
                     Cue.LIFT,
                     self.moving_since if self.not_turning_at is None else min(self.not_turning_at, self.moving_since),
                 )
             return None
-        return self._in_push_off(t, dt, before, now, phase)
+        return self._in_push_off(t, dt, previous_rate, rate, phase)
 
-    def _in_push_off(self, t: float, dt: float, before: float, now: float, phase: Phase) -> SeenCue | None:
-        if now > self.peak:
-            self.peak = now
-        limit = PAST_PEAK * self.peak
-        if phase is PUSH_OFF and self.peak > LEAST_PUSH and now < limit and self._learn_axis():
+    def _in_push_off(self, t: float, dt: float, previous_rate: float, rate: float, phase: Phase) -> SeenCue | None:
+        if rate > self.peak_rate:
+            self.peak_rate = rate
+        toe_off_rate = PAST_PEAK * self.peak_rate
+        if phase is PUSH_OFF and self.peak_rate > LEAST_PUSH_OFF_RATE and rate < toe_off_rate and self._learn_axis():
             # time between the last two samples at which a straight line meets the limit
-            share = (before - limit) / (before - now) if before > limit > now else 1.0
+            share = (previous_rate - toe_off_rate) / (previous_rate - rate) if previous_rate > toe_off_rate > rate else 1.0
             return self._report_clear(t - dt * (1.0 - share))
-        patience = LOADING_TIME if phase is LOADING else SHUFFLE_TIME
-        if self.fast_since is not None and t - self.fast_since >= patience - TIE:
+        shuffle_time = LOADING_SHUFFLE_TIME if phase is LOADING else SHUFFLE_TIME
+        if self.fast_since is not None and t - self.fast_since >= shuffle_time - TIE:
             return self._report_clear(self.fast_since)
         return None
 
     def _in_swing(
-        self, t: float, dt: float, speed: float, before: float, now: float, previous_force: Vec3 | None
+        self, t: float, dt: float, speed: float, previous_rate: float, rate: float, previous_force: Vec3 | None
     ) -> SeenCue | None:
-        if now < self.trough:
-            self.trough = now
+        if rate < self.lowest_rate:
+            self.lowest_rate = rate
         impact = self.impact
         landing_at = self.landing_at
         force = self.force
         if previous_force is not None and force is not None:
             impact.add_sample(t, dt, previous_force, force, speed, landing_at is not None)
         if landing_at is not None:
-            middle = max(landing_at, impact.middle)
-            over = t - middle >= IMPACT_SETTLES - TIE or t - landing_at >= LONGEST_IMPACT - TIE
-            return self._report_contact(middle) if over or self.still_since is not None else None
+            mean_time = max(landing_at, impact.mean_time)
+            is_final = t - mean_time >= IMPACT_SETTLING_TIME - TIE or t - landing_at >= LONGEST_IMPACT_TIME - TIE
+            return self._report_contact(mean_time) if is_final or self.still_since is not None else None
         if self.still_since is not None:
-            if t - self.still_since >= SETTLE - TIE:
+            if t - self.still_since >= STILLNESS_DEBOUNCE - TIE:
                 return self._report_contact(
-                    impact.peak_shock_at if impact.peak_shock > 0.0 else self.still_since - LOOKBACK
+                    impact.peak_shock_time if impact.peak_shock > 0.0 else self.still_since - STILLNESS_DELAY
                 )
             return None
-        if self.swing_start is not None and t - self.swing_start < SHORTEST_SWING - TIE:
+        if self.swing_start is not None and t - self.swing_start < SHORTEST_SWING_TIME - TIE:
             return None
-        if before < LANDING_RATE <= now and self.trough < -LEAST_TROUGH and self.axis is not None:
-            self.landing_at = t - dt * (now - LANDING_RATE) / (now - before)
+        if previous_rate < LANDING_RATE <= rate and self.lowest_rate < -LEAST_TROUGH_DEPTH and self.axis is not None:
+            self.landing_at = t - dt * (rate - LANDING_RATE) / (rate - previous_rate)
         elif (
             speed < SHUFFLE_SPEED
-            and impact.peak_shock > LEAST_SHOCK
-            and t - impact.peak_shock_at >= IMPACT_SETTLES - TIE
+            and impact.peak_shock > LEAST_LANDING_SHOCK
+            and t - impact.peak_shock_time >= IMPACT_SETTLING_TIME - TIE
         ):
-            return self._report_contact(impact.peak_shock_at)
+            return self._report_contact(impact.peak_shock_time)
         return None
 
     def _report_contact(self, t: float) -> SeenCue:
-        self.peak = 0.0
-        self.turned = ZERO
+        self.peak_rate = 0.0
+        self.turn = ZERO
         self.landing_at = self.fast_since = None
         return SeenCue(Cue.CONTACT, t)
 
@@ -226,40 +226,40 @@ class InertialCues:
 
     def cleared(self, t: float) -> SeenCue:
         """Return a toe-off at `t`, which a gap has hidden; the swing was not over at the end of the gap."""
-        seen = self._report_clear(t)
-        self.trough = -GAP_TROUGH * LEAST_TROUGH
-        return seen
+        toe_off = self._report_clear(t)
+        self.lowest_rate = -GAP_TROUGH_RATIO * LEAST_TROUGH_DEPTH
+        return toe_off
 
     def _report_clear(self, t: float) -> SeenCue:
         self.swing_start = t
         self.impact.start_swing(t)
         self.landing_at = None
-        self.trough = self.peak = 0.0
+        self.lowest_rate = self.peak_rate = 0.0
         return SeenCue(Cue.CLEAR, t)
 
     def apply_toe_off(self, phase: Phase) -> None:
         """Learn the axis from the turn of the foot at a toe-off that the load has shown, in `phase`."""
-        if phase is PUSH_OFF and self.peak > LEAST_PUSH:
+        if phase is PUSH_OFF and self.peak_rate > LEAST_PUSH_OFF_RATE:
             self._learn_axis()
 
     def _learn_axis(self) -> bool:
         """Learn the axis from the turn as the heel lifts; return whether the turn was a push-off."""
-        x, y, z = self.turned
+        x, y, z = self.turn
         angle = sqrt(x * x + y * y + z * z)
-        if angle < LEAST_TURN:
+        if angle < LEAST_PUSH_OFF_TURN:
             return False
         x, y, z = x / angle, y / angle, z / angle
         if self.axis is None:
             self.axis = (x, y, z)
             return True
         u, v, w = self.axis
-        if u * x + v * y + w * z < SAME_AXIS:
+        if u * x + v * y + w * z < SAME_AXIS_COSINE:
             # a turn about another axis is no push-off of this wearer, unless it occurs again and again
-            self.misfits += 1
-            if self.misfits < MISFITS:
+            self.other_axis_push_offs += 1
+            if self.other_axis_push_offs < OTHER_AXIS_PUSH_OFFS:
                 return False
             u, v, w = x, y, z
-        self.misfits = 0
+        self.other_axis_push_offs = 0
         u, v, w = u + AXIS_GAIN * (x - u), v + AXIS_GAIN * (y - v), w + AXIS_GAIN * (z - w)
         k = 1.0 / sqrt(u * u + v * v + w * w)
         self.axis = (u * k, v * k, w * k)

@@ -20,11 +20,11 @@ LOADING: Final = Phase.LOADING
 
 CONTACT_LOAD, CLEAR_LOAD = 0.05, 0.03
 """Total loads above which the cue CONTACT is seen, and below which CLEAR is, as shares of the wearer's full load."""
-AREA_ON = 0.06
+AREA_LOADED = 0.06
 """Load above which an area, heel or forefoot, is loaded, as a share of the wearer's full load."""
-AREA_OFF = 0.03
+AREA_UNLOADED = 0.03
 """Load below which an area is unloaded, as a share of the wearer's full load."""
-RECENT = 0.3
+LONGEST_DATING_BACK = 0.3
 """Longest time by which a LIFT is moved back, to the last load of the heel, s."""
 
 
@@ -32,44 +32,44 @@ RECENT = 0.3
 class PressureCues:
     """Detects contact and clear from the total load, flat and lift from heel and forefoot. Latency: one sample."""
 
-    before: float = field(default=0.0, init=False)
+    previous_load: float = field(default=0.0, init=False)
     """Total load of the last sample, as a share of the wearer's full load."""
-    heel_loaded: float | None = field(default=None, init=False)
-    """Time at which the heel was last above AREA_OFF, s; None before any."""
+    heel_loaded_at: float | None = field(default=None, init=False)
+    """Time at which the heel was last above AREA_UNLOADED, s; None before any."""
 
     def update(self, t: float, dt: float, load: Load, phase: Phase) -> SeenCue | None:
         """Return contact or clear if the total load shows it in this sample, or None."""
-        before, now = self.before, load.total
-        self.before = now
-        if load.heel is not None and load.heel > AREA_OFF:
-            self.heel_loaded = t
+        previous_load, current_load = self.previous_load, load.total
+        self.previous_load = current_load
+        if load.heel is not None and load.heel > AREA_UNLOADED:
+            self.heel_loaded_at = t
         if phase is SWING:
-            return SeenCue(Cue.CONTACT, _crossing(t, dt, before, now, CONTACT_LOAD)) if now > CONTACT_LOAD else None
-        if now < CLEAR_LOAD:
-            return SeenCue(Cue.CLEAR, _crossing(t, dt, before, now, CLEAR_LOAD))
+            return SeenCue(Cue.CONTACT, _crossing(t, dt, previous_load, current_load, CONTACT_LOAD)) if current_load > CONTACT_LOAD else None
+        if current_load < CLEAR_LOAD:
+            return SeenCue(Cue.CLEAR, _crossing(t, dt, previous_load, current_load, CLEAR_LOAD))
         return None
 
     def date_lift(self, lift: SeenCue) -> SeenCue:
         """Return the lift of the inertial sensor with the time at which the heel was last loaded, if that is known."""
-        if self.heel_loaded is None or not 0.0 <= lift.t - self.heel_loaded < RECENT:
+        if self.heel_loaded_at is None or not 0.0 <= lift.t - self.heel_loaded_at < LONGEST_DATING_BACK:
             return lift
-        return SeenCue(lift.cue, self.heel_loaded)
+        return SeenCue(lift.cue, self.heel_loaded_at)
 
     def update_areas(self, t: float, load: Load, phase: Phase) -> SeenCue | None:
         """Return flat or lift from heel and forefoot, for an insole without inertial sensor, or None."""
         if load.heel is None or load.forefoot is None:
             return None
-        if phase is LOADING and load.heel > AREA_OFF and load.forefoot > AREA_ON:
+        if phase is LOADING and load.heel > AREA_UNLOADED and load.forefoot > AREA_LOADED:
             return SeenCue(Cue.FLAT, t)
-        if phase is STATIONARY and load.heel < AREA_OFF and load.forefoot > AREA_ON:
+        if phase is STATIONARY and load.heel < AREA_UNLOADED and load.forefoot > AREA_LOADED:
             return SeenCue(Cue.LIFT, t)
-        if phase is PUSH_OFF and load.heel > AREA_ON and load.forefoot > AREA_ON:
+        if phase is PUSH_OFF and load.heel > AREA_LOADED and load.forefoot > AREA_LOADED:
             return SeenCue(Cue.FLAT, t)
         return None
 
 
-def _crossing(t: float, dt: float, before: float, now: float, level: float) -> float:
+def _crossing(t: float, dt: float, previous_load: float, current_load: float, level: float) -> float:
     """Return the time at which a straight line between the last two samples crosses the level, s."""
-    if (before - level) * (now - level) >= 0.0:
+    if (previous_load - level) * (current_load - level) >= 0.0:
         return t
-    return t - dt * (now - level) / (now - before)
+    return t - dt * (current_load - level) / (current_load - previous_load)

@@ -20,28 +20,28 @@ from ..pressure.cells import centre
 from ..pressure.insole import Extremes
 from ..stance.stance import Load
 
-FEW = 16
+MOST_SINGLE_CELLS = 16
 """Largest number of cells that are judged one by one."""
-ON, OFF = 0.07, 0.05
+GROUND_LOAD, AIR_LOAD = 0.07, 0.05
 """Loads of an insole of many cells above which it is on the ground, and below which it is in the air.
 
 They are shares of the wearer's full load. A recorded insole of 35 cells shows up to 5 % of the load throughout the
 swing."""
-CELL_ON = 0.20
+CELL_LOADED = 0.20
 """Load above which one of few cells is loaded, as a share of its own range of the last seconds."""
-CELL_OFF = 0.10
+CELLS_UNLOADED = 0.10
 """Load below which all cells are unloaded without a layout, as a share of their ranges.
 
 Without a layout, front and rear are unknown."""
-CONTRAST = 0.5
+LEAST_CELL_RANGE = 0.5
 """Smallest range of a cell that is known, as a share of the cell's highest value."""
 FRONT_LOADED = 0.50
 """Load above which a front cell has pushed off, or landed first, as a share of its range."""
-STANCE = 0.3
+SHORTEST_STANCE = 0.3
 """Shortest stance of a foot without push-off, s."""
-WEAK = 0.10
+WEAK_CELL_RANGE = 0.10
 """Smallest range of a cell that is used, as a share of the widest range."""
-FLIGHT = 0.1
+TRUST_TIME = 0.1
 """Time after which an airborne foot that moves shows that the cells are right, s.
 
 After the same time, an airborne foot that stands still shows that they are wrong."""
@@ -65,7 +65,7 @@ class Touch:
     """Extremes of each cell."""
     in_front: list[bool] = field(factory=list, init=False)
     """Cells in the front half of the foot; empty without a layout."""
-    peak: float = field(default=0.0, init=False)
+    front_peak: float = field(default=0.0, init=False)
     """Highest load of a front cell since the last contact, as a share of its range."""
     landed_at: float = field(default=0.0, init=False)
     """Time of the last contact, s."""
@@ -84,7 +84,7 @@ class Touch:
     def update(self, t: float, load: Load | None, still: bool = False) -> bool:
         """Return whether the foot is in the air; `still` tells that it stands, whatever the cells show."""
         airborne = load is not None and self._is_airborne(t, load)
-        moved = self.moving_since is not None and t - self.moving_since >= FLIGHT - TIE
+        moved = self.moving_since is not None and t - self.moving_since >= TRUST_TIME - TIE
         if load is None:
             self.trusted = False
         elif self.load_unknown:
@@ -101,15 +101,15 @@ class Touch:
             self.still_since = None
         elif self.still_since is None:
             self.still_since = t
-        elif t - self.still_since >= FLIGHT - TIE:
+        elif t - self.still_since >= TRUST_TIME - TIE:
             self.trusted = False
         return airborne
 
     def _is_airborne(self, t: float, load: Load) -> bool:
-        if 0 < len(load.cells) <= FEW:
+        if 0 < len(load.cells) <= MOST_SINGLE_CELLS:
             self.airborne = self._is_airborne_by_cell(t, load.cells)
         else:
-            self.airborne = load.total < (ON if self.airborne else OFF)
+            self.airborne = load.total < (GROUND_LOAD if self.airborne else AIR_LOAD)
         return self.airborne
 
     def _is_airborne_by_cell(self, t: float, values: tuple[float, ...]) -> bool:
@@ -117,34 +117,34 @@ class Touch:
             self.cells = [Extremes() for _ in values]
             if len(self.in_front) != len(values):
                 self.in_front = []
-        widest = 0.0
+        widest_range = 0.0
         for extremes, value in zip(self.cells, values, strict=True):
             extremes.update(t, value)
-            widest = max(widest, extremes.high - extremes.low)
+            widest_range = max(widest_range, extremes.high - extremes.low)
         front = rear = 0.0
-        known = False
+        any_known = False
         for k, (extremes, value) in enumerate(zip(self.cells, values, strict=True)):
-            reach = extremes.high - extremes.low
-            if reach <= 0.0 or reach < CONTRAST * extremes.high or reach < WEAK * widest:
+            cell_range = extremes.high - extremes.low
+            if cell_range <= 0.0 or cell_range < LEAST_CELL_RANGE * extremes.high or cell_range < WEAK_CELL_RANGE * widest_range:
                 continue
-            known = True
-            share = (value - extremes.low) / reach
+            any_known = True
+            share = (value - extremes.low) / cell_range
             if self.in_front and self.in_front[k]:
                 front = max(front, share)
             else:
                 rear = max(rear, share)
-        if not known:
+        if not any_known:
             return False
         if not self.in_front:
-            return rear < (CELL_ON if self.airborne else CELL_OFF)
+            return rear < (CELL_LOADED if self.airborne else CELLS_UNLOADED)
         if self.airborne:
-            if rear > CELL_ON or front > FRONT_LOADED:
-                self.peak = front
+            if rear > CELL_LOADED or front > FRONT_LOADED:
+                self.front_peak = front
                 self.landed_at = t
                 return False
             return True
-        self.peak = max(self.peak, front)
-        if self.peak > FRONT_LOADED:
-            return rear < CELL_ON and front < CELL_ON
+        self.front_peak = max(self.front_peak, front)
+        if self.front_peak > FRONT_LOADED:
+            return rear < CELL_LOADED and front < CELL_LOADED
         # without push-off this is a valley in mid-stance, where the load lies between the cells, and no swing
-        return max(rear, front) < 0.5 * CELL_OFF and t - self.landed_at >= STANCE
+        return max(rear, front) < 0.5 * CELLS_UNLOADED and t - self.landed_at >= SHORTEST_STANCE

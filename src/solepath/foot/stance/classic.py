@@ -27,7 +27,7 @@ from .stance import Detector, Load, Stance, soften
 class AngularRate(Detector):
     """ARE: angular rate energy. T = 1/W sum(|w|^2) / s_w^2."""
 
-    settings: WindowThreshold = WindowThreshold(window=0.025, base=5e3, gate=1e5)
+    settings: WindowThreshold = WindowThreshold(window=0.025, rest_statistic=5e3, motion_statistic=1e5)
     entries: deque[tuple[float, float]] = field(factory=deque, init=False)
     """Time, s, and squared rate, (rad/s)^2, of each sample in the window."""
     total: float = field(default=0.0, init=False)
@@ -51,7 +51,7 @@ class AngularRate(Detector):
 class MovingVariance(Detector):
     """MV: acceleration moving variance. T = 1/W sum(|a - a_mean|^2) / s_a^2."""
 
-    settings: WindowThreshold = WindowThreshold(window=0.05, base=5e3, gate=5e4)
+    settings: WindowThreshold = WindowThreshold(window=0.05, rest_statistic=5e3, motion_statistic=5e4)
     entries: deque[tuple[float, float, float, float]] = field(factory=deque, init=False)
     """Time, s, and acc, m/s^2, of each sample in the window."""
     sums: tuple[float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0), init=False)
@@ -83,7 +83,7 @@ class Graph(Detector):
     to a and the samples from b on are summed and divided by (b - a) (W - b + 1). T is the largest of these, in m/s^2.
     The cost of a sample is O(W^2)."""
 
-    settings: CountThreshold = CountThreshold(count=5, base=2.0, gate=8.0)
+    settings: CountThreshold = CountThreshold(count=5, rest_statistic=2.0, motion_statistic=8.0)
     entries: deque[Vec3] = field(factory=deque, init=False)
     """Acc of each sample in the window, m/s^2."""
 

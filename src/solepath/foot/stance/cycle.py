@@ -37,7 +37,7 @@ STATIONARY: Final = Phase.STATIONARY
 make_stance = tuple.__new__
 """Constructor of a Stance from its five fields, which takes half the time of the class's own."""
 
-NO_LOW = 1e12
+NO_STATISTIC = 1e12
 """Upper bound of any statistic."""
 
 
@@ -52,15 +52,15 @@ class Cycle(Detector):
     shoe: ShoeDetector = field(factory=ShoeDetector, init=False)
     span_end: float | None = field(default=None, init=False)
     """End of the current span, s; None before any."""
-    lows: tuple[float, float, float] = field(default=(NO_LOW, NO_LOW, NO_LOW), init=False)
+    lows: tuple[float, float, float] = field(default=(NO_STATISTIC, NO_STATISTIC, NO_STATISTIC), init=False)
     """Lowest statistic of each of the last three spans."""
     highs: tuple[float, float, float] = field(default=(0.0, 0.0, 0.0), init=False)
     """Highest statistic of each of the last three spans."""
-    low: float = field(default=NO_LOW, init=False)
+    lowest: float = field(default=NO_STATISTIC, init=False)
     """Lowest statistic of the current span."""
-    high: float = field(default=0.0, init=False)
+    highest: float = field(default=0.0, init=False)
     """Highest statistic of the current span."""
-    past_low: float = field(default=NO_LOW, init=False)
+    past_low: float = field(default=NO_STATISTIC, init=False)
     """Lowest statistic of the last three spans together."""
     past_high: float = field(default=0.0, init=False)
     """Highest statistic of the last three spans together."""
@@ -97,10 +97,10 @@ class Cycle(Detector):
         # the extremes of the last cycle
         if self.span_end is None or t >= self.span_end - TIE:
             self._start_span(t, statistic)
-        elif statistic < self.low:
-            self.low = statistic
-        elif statistic > self.high:
-            self.high = statistic
+        elif statistic < self.lowest:
+            self.lowest = statistic
+        elif statistic > self.highest:
+            self.highest = statistic
         if load is not None and load.airborne:
             self.sensor_height.end_stance()
             return make_stance(Stance, (ZERO, inf, statistic, SWING, None))
@@ -125,24 +125,24 @@ class Cycle(Detector):
         return make_stance(Stance, ((vx, vy, 0.0), sqrt(variance), statistic, hint, None))
 
     def _threshold(self) -> float:
-        low, high, least_statistic = self.low, self.high, self.settings.least_statistic
-        if self.past_low < low:
-            low = self.past_low
-        if low < least_statistic:
-            low = least_statistic
-        if self.past_high > high:
-            high = self.past_high
-        if high < least_statistic:
-            high = least_statistic
+        lowest, highest, least_statistic = self.lowest, self.highest, self.settings.least_statistic
+        if self.past_low < lowest:
+            lowest = self.past_low
+        if lowest < least_statistic:
+            lowest = least_statistic
+        if self.past_high > highest:
+            highest = self.past_high
+        if highest < least_statistic:
+            highest = least_statistic
         share = self.settings.share
-        return exp((1.0 - share) * log(low) + share * log(high))
+        return exp((1.0 - share) * log(lowest) + share * log(highest))
 
     def _start_span(self, t: float, statistic: float) -> None:
         """Start the next span."""
         if self.span_end is not None:
-            self.lows = (self.lows[1], self.lows[2], self.low)
-            self.highs = (self.highs[1], self.highs[2], self.high)
+            self.lows = (self.lows[1], self.lows[2], self.lowest)
+            self.highs = (self.highs[1], self.highs[2], self.highest)
             self.past_low = min(self.lows)
             self.past_high = max(self.highs)
         self.span_end = t + self.settings.span_duration
-        self.low = self.high = statistic
+        self.lowest = self.highest = statistic

@@ -23,7 +23,7 @@ class TwoArea(Detector):
     detection, which uses the forces on both sides of the circuit board. The statistic is the smaller of the two loads
     as a share of the wearer's full load."""
 
-    on: float = 0.05
+    area_load: float = 0.05
     """Smallest load of an area that counts as loaded, as a share of the wearer's full load."""
     sigma: float = 0.01
     """Noise of the zero velocity, m/s."""
@@ -34,7 +34,7 @@ class TwoArea(Detector):
         if load is None or load.heel is None or load.forefoot is None:
             return NO_EVIDENCE
         statistic = min(load.heel, load.forefoot)
-        if statistic >= self.on:
+        if statistic >= self.area_load:
             return Stance(ZERO, self.sigma, statistic, Phase.STATIONARY)
         return Stance(ZERO, inf, statistic, Phase.SWING if load.airborne else None)
 

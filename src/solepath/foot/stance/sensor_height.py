@@ -21,17 +21,17 @@ from ...types.vector import TIE
 EMPTY = (0.0,) * 18
 """Sums of a stance without samples."""
 
-GUESS = 0.05
+INITIAL_HEIGHT = 0.05
 """Initial height, between a sensor in the sole and one on the instep, m."""
-TRUST = 0.005
+INITIAL_WEIGHT = 0.005
 """Weight of the initial height as a sum of c c dt, (rad/s)^2 s: half a slow stance."""
-MEMORY = 0.95
+STANCE_MEMORY = 0.95
 """Factor for the weight of earlier stances at each new one."""
-SHORTEST, LONGEST = 0.06, 0.6
+SHORTEST_STANCE, LONGEST_STANCE = 0.06, 0.6
 """Shortest and longest stance that is used, s.
 
 A longer one is cut into pieces, because the integral drifts."""
-LOWEST, HIGHEST = -0.03, 0.2
+LOWEST_HEIGHT, HIGHEST_HEIGHT = -0.03, 0.2
 """Limits of the height of the sensor, m."""
 
 
@@ -39,11 +39,11 @@ LOWEST, HIGHEST = -0.03, 0.2
 class SensorHeight:
     """The height of the sensor above the point over which the foot rolls, m. Latency: the next stance."""
 
-    height: float = field(default=GUESS, init=False)
+    height: float = field(default=INITIAL_HEIGHT, init=False)
     """Current estimate of the height, m."""
-    product: float = field(default=GUESS * TRUST, init=False)
+    product: float = field(default=INITIAL_HEIGHT * INITIAL_WEIGHT, init=False)
     """Sum of u c dt over the stances, m (rad/s)^2 s."""
-    square: float = field(default=TRUST, init=False)
+    square: float = field(default=INITIAL_WEIGHT, init=False)
     """Sum of c c dt over the stances, (rad/s)^2 s."""
     sums: tuple[float, ...] = field(default=EMPTY, init=False)
     """Sums over the current stance. They are: count, time, last acceleration and u on x and y; sums of t, tt, cc and uc
@@ -68,7 +68,7 @@ class SensorHeight:
             n + 1.0, t, ax, ay, ux, uy, st + t, stt + t * t, scc + cx * cx + cy * cy, suc + ux * cx + uy * cy,
             sux + ux, suy + uy, stux + t * ux, stuy + t * uy, scx + cx, scy + cy, stcx + t * cx, stcy + t * cy,
         )  # fmt: skip
-        if t > LONGEST + TIE:
+        if t > LONGEST_STANCE + TIE:
             self.end_stance()
         return self.height * cx, self.height * cy
 
@@ -77,7 +77,7 @@ class SensorHeight:
         n, t, _, _, _, _, st, stt, scc, suc, sux, suy, stux, stuy, scx, scy, stcx, stcy = self.sums
         self.sums = EMPTY
         d = n * stt - st * st
-        if t < SHORTEST - TIE or n < 5.0 or d <= 0.0:
+        if t < SHORTEST_STANCE - TIE or n < 5.0 or d <= 0.0:
             return
         # u c and c c after subtraction of the best a + b t from both, axis by axis
         square = (
@@ -94,9 +94,9 @@ class SensorHeight:
             )
             / d
         )
-        if square <= 0.0 or not 2.0 * LOWEST - HIGHEST < product / square < 2.0 * HIGHEST - LOWEST:
+        if square <= 0.0 or not 2.0 * LOWEST_HEIGHT - HIGHEST_HEIGHT < product / square < 2.0 * HIGHEST_HEIGHT - LOWEST_HEIGHT:
             return  # not a stance
         dt = t / n
-        self.square = MEMORY * self.square + square * dt
-        self.product = MEMORY * self.product + product * dt
-        self.height = min(max(self.product / self.square, LOWEST), HIGHEST)
+        self.square = STANCE_MEMORY * self.square + square * dt
+        self.product = STANCE_MEMORY * self.product + product * dt
+        self.height = min(max(self.product / self.square, LOWEST_HEIGHT), HIGHEST_HEIGHT)

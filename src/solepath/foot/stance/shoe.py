@@ -27,7 +27,7 @@ class ShoeDetector(Detector):
 
     T = 1/W sum(|a - g a_mean/|a_mean||^2/s_a^2 + |w|^2/s_w^2)."""
 
-    settings: WindowThreshold = WindowThreshold(window=0.025, base=1e4, gate=3.5e5)
+    settings: WindowThreshold = WindowThreshold(window=0.025, rest_statistic=1e4, motion_statistic=3.5e5)
     entries: deque[tuple[float, float, float, float, float, float]] = field(factory=deque, init=False)
     """Time, acc, squared norm of acc and squared norm of gyro of each sample in the window."""
     sums: tuple[float, float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0, 0.0), init=False)
@@ -36,11 +36,11 @@ class ShoeDetector(Detector):
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
     ) -> Stance:
-        from_acc, from_gyro = self.parts(t, acc, gyro)
-        statistic = from_acc / SIGMA_ACC**2 + from_gyro / SIGMA_GYRO**2
+        acc_square, gyro_square = self.mean_squares(t, acc, gyro)
+        statistic = acc_square / SIGMA_ACC**2 + gyro_square / SIGMA_GYRO**2
         return soften(statistic, self.settings)
 
-    def parts(self, t: float, acc: Vec3, gyro: Vec3) -> tuple[float, float]:
+    def mean_squares(self, t: float, acc: Vec3, gyro: Vec3) -> tuple[float, float]:
         """Return the two means of the statistic before scaling.
 
         The first is the specific force minus gravity, (m/s^2)^2, the second the rate, (rad/s)^2."""
@@ -67,5 +67,5 @@ class ShoeDetector(Detector):
         self.sums = (sx, sy, sz, s2, sw)
         n = len(entries)
         # sum |a - g u|^2 with u the direction of the mean: sum a^2 - 2 g |sum a| + n g^2
-        off = s2 - 2.0 * GRAVITY * sqrt(sx * sx + sy * sy + sz * sz) + n * GRAVITY * GRAVITY
-        return (off / n if off > 0.0 else 0.0), (sw / n if sw > 0.0 else 0.0)
+        acc_residual = s2 - 2.0 * GRAVITY * sqrt(sx * sx + sy * sy + sz * sz) + n * GRAVITY * GRAVITY
+        return (acc_residual / n if acc_residual > 0.0 else 0.0), (sw / n if sw > 0.0 else 0.0)

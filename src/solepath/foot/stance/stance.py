@@ -102,8 +102,8 @@ def soften(statistic: float, settings: StanceThreshold) -> Stance:
     """Return zero-velocity evidence with sigma sqrt(max(1, T / base)), where T is the statistic.
 
     From the gate on there is no evidence."""
-    base = settings.base
-    if statistic >= settings.gate:
+    rest_statistic = settings.rest_statistic
+    if statistic >= settings.motion_statistic:
         return Stance(ZERO, inf, statistic, None)
-    hint = Phase.STATIONARY if statistic < base else None
-    return Stance(ZERO, settings.sigma * sqrt(max(1.0, statistic / base)), statistic, hint)
+    hint = Phase.STATIONARY if statistic < rest_statistic else None
+    return Stance(ZERO, settings.sigma * sqrt(max(1.0, statistic / rest_statistic)), statistic, hint)
