@@ -18,7 +18,7 @@ from solepath.foot.settings import CycleSettings, StanceThreshold
 from solepath.foot.stance.classic import AngularRate, Graph, MovingVariance
 from solepath.foot.stance.cycle import Cycle
 from solepath.foot.stance.pressure import MaximumPressure, TwoArea
-from solepath.foot.stance.sensor_height import INITIAL_HEIGHT, HIGHEST_HEIGHT, LOWEST_HEIGHT, SensorHeight
+from solepath.foot.stance.sensor_height import HIGHEST_HEIGHT, INITIAL_HEIGHT, LOWEST_HEIGHT, SensorHeight
 from solepath.foot.stance.shoe import ShoeDetector
 from solepath.foot.stance.stance import Load, Stance, soften
 from solepath.types import Foot, Phase, Vec3

@@ -1,6 +1,9 @@
 """Settings of the parts of a foot, which a recipe, a calibration or a researcher chooses.
 
-A number that nobody chooses is a constant in the module that uses it."""
+A number that nobody chooses is a constant in the module that uses it.
+
+Numbers of `CycleSettings` and `ErrorStateSettings` without a source were chosen by hand on the recordings of
+docs/accuracy.md and not swept. The origin of those of `InsoleSettings` and `DedriftSettings` is not recorded."""
 
 from __future__ import annotations
 
@@ -15,8 +18,9 @@ class FootSettings:
     poses: bool = False
     """Emit FootMoved for every navigated sample."""
     needs_pressure: bool = False
-    """The recipe needs pressure cells. A foot without cells reports nothing. If the layout of the cells is unknown, it
-    is learnt."""
+    """The recipe needs pressure cells.
+
+    A foot without cells then reports nothing, and an unknown layout of the cells is learnt."""
 
 
 @frozen
@@ -24,29 +28,31 @@ class CycleSettings:
     """The settings of `Cycle`."""
 
     share: float = 0.45
-    """Position of the threshold between the logarithms of the lowest and the highest statistic, 0 to 1."""
+    """Position of the stance threshold between the lowest (0) and the highest (1) statistic, in logarithms."""
     floor: float = 2e4
-    """Lower limit of the threshold: a statistic that a standing foot shows."""
+    """Smallest stance threshold, no unit: a standing foot shows statistics up to this."""
     least_statistic: float = 3e3
-    """Lower limit of a statistic. After standing, the next stance is not as still as standing was."""
+    """Smallest statistic that enters the threshold, no unit: a stance of walking is less still than standing."""
     ceiling: float = 6e6
-    """Upper limit of the threshold: a statistic that a runner's stance reaches."""
-    certain: float = 2e3
-    """Statistic below which the foot is still, whatever the corrector estimates."""
+    """Largest stance threshold, no unit: the stance of a runner shows statistics up to this."""
+    standing_statistic: float = 2e3
+    """Statistic below which the foot stands for certain, no unit, whatever velocity the corrector estimates."""
     sigma: float = 0.01
-    """Noise of the velocity of a foot that does not move at all, m/s."""
+    """Standard deviation of the velocity of a foot that shows no motion, m/s."""
     arm: float = 0.05
-    """Velocity noise for each rad/s, m: initial uncertainty of the sensor height."""
+    """Standard deviation of the velocity for each rad/s of angular rate, m: uncertainty of the sensor height."""
     arm2: float = 0.5
-    """Velocity noise for each (rad/s)^2, m s: noise of the rolling foot."""
+    """Standard deviation of the velocity for each (rad/s)^2, m s: a foot that turns fast rolls unevenly."""
     off_gravity: float = 0.05
-    """Velocity noise for each m/s^2 of difference from gravity, s."""
+    """Standard deviation of the velocity for each m/s^2 by which the specific force differs from gravity, s."""
     off_gravity2: float = 0.02
-    """Velocity noise for each (m/s^2)^2 of difference from gravity, s^3/m. A foot that brakes before it lands may no
-    longer turn."""
+    """Standard deviation of the velocity for each (m/s^2)^2 of that difference, s^3/m.
+
+    It grows steeply because a foot that brakes before it lands may turn as little as one in stance."""
     span_duration: float = 0.4
-    """Duration of one of the four spans over which the extremes are kept, s. Together the spans cover one stride of any
-    walker except a slow one."""
+    """Duration of each of the four spans over which the extremes of the statistic are kept, s.
+
+    Together they cover one stride of any walker who is not slow."""
     rolls: bool = True
     """The reference velocity is that of a foot that rolls (`sensor_height`); if False, it is zero."""
 
@@ -60,9 +66,9 @@ class StanceThreshold:
     rest_statistic: float
     """Statistic up to which the foot is certainly at rest."""
     motion_statistic: float
-    """Statistic from which on the foot is not at rest."""
+    """Statistic from which on the foot is not at rest, so that there is no evidence."""
     sigma: float = 0.01
-    """Noise of the zero velocity of a foot at rest, m/s."""
+    """Standard deviation of the zero velocity of a foot at rest, m/s."""
 
 
 @frozen(kw_only=True)
@@ -86,30 +92,34 @@ class ErrorStateSettings:
     """The settings of `ErrorStateFilter`."""
 
     acc_noise: float = 0.02
-    """Accelerometer noise, which includes scale and g-sensitivity errors, m/s^2/sqrt(Hz)."""
+    """Noise density of the accelerometer with its scale and g-sensitivity errors, m/s^2/sqrt(Hz)."""
     gyro_noise: float = 0.003
-    """Gyroscope noise, rad/s/sqrt(Hz)."""
-    in_motion: float = 0.001
-    """Additional noise as a share of the motion, for scale and alignment errors, 1/sqrt(Hz)."""
+    """Noise density of the gyroscope, rad/s/sqrt(Hz)."""
+    noise_per_motion: float = 0.001
+    """Noise density for each unit of acceleration or rate, 1/sqrt(Hz): scale and alignment errors."""
     between: float = 0.25
-    """Noise as a share of the difference between two neighbouring samples. It covers what a straight line between them
-    cannot know. It is small at 400 Hz; at 20 Hz, where a heel-strike falls between two samples, it is the largest
-    term."""
+    """Noise of each axis as a share of the difference between two neighbouring samples, 0 to 1.
+
+    It stands for the motion between them, which is taken as a straight line. It is small at 400 Hz. At 20 Hz, where a
+    heel-strike falls between two samples, it is the largest term."""
     recover: bool = True
     """Add the turn that a clipped gyroscope did not show (clipping.py, reintegration.py)."""
-    suspect: float = 8.5
-    """Rate above which clipping is possible although no end of a range is seen, rad/s. A calibration may have rotated
-    the axes since."""
-    suspect_noise: float = 0.2
-    """Noise of a rate that may be clipped, rad/s/sqrt(Hz)."""
+    clipping_rate: float = 8.5
+    """Angular rate above which clipping is possible although no end of a range is seen, rad/s.
+
+    A calibration may have rotated the axes, so that the readings no longer stay at one value."""
+    clipping_noise: float = 0.2
+    """Additional noise density of an angular rate above `clipping_rate`, rad/s/sqrt(Hz)."""
     innovation_gate: float = 12.0
-    """Innovation gate: 99.3 % of chi-square with three degrees of freedom are below."""
+    """Largest squared innovation, weighted by its covariance, with which evidence is used; no unit.
+
+    It is the 99.3 % point of chi-square with three degrees of freedom."""
     patience: float = 2.0
     """Time without accepted evidence after which the filter is lost, s."""
     lasting: float = 0.35
-    """Duration of unbroken evidence after which it is no longer gated, s."""
+    """Duration of unbroken evidence after which the innovation gate no longer rejects it, s."""
     tilt_rate: float = 2.0
-    """Rate at which gravity corrects the tilt while the evidence is certain, 1/s."""
+    """Inverse time constant with which gravity corrects the tilt of a foot that stands for certain, 1/s."""
     level: bool = True
     """Remove height errors of level walking (level.py)."""
 
@@ -119,14 +129,15 @@ class InsoleSettings:
     """The settings of `InsoleLoads`."""
 
     heel_end: float = 0.33
-    """Front end of the heel area, as a share of the length of the insole."""
+    """Front end of the heel area, measured from the heel, as a share of the length of the insole, 0 to 1."""
     forefoot_start: float = 0.55
-    """Rear end of the forefoot area, as a share of the length of the insole."""
+    """Rear end of the forefoot area, measured from the heel, as a share of the length of the insole, 0 to 1."""
     newtons: Newtons | None = None
-    """Conversion of raw values to N; None leaves them in the unit of the samples."""
+    """Conversion of raw cell values to N; None leaves the values in the unit of the samples."""
     noise: tuple[float, ...] = ()
-    """Noise of each cell in the air, in the unit of the samples, or N with `newtons`. It is not used on another number
-    of cells."""
+    """Value of each unloaded cell, to be subtracted: N with `newtons`, otherwise in the unit of the samples.
+
+    It is not used for an insole with another number of cells."""
 
 
 @frozen
@@ -134,10 +145,10 @@ class DedriftSettings:
     """The settings of `LinearDedrift`."""
 
     trusted: float = 0.05
-    """Largest sigma of evidence that counts as stance, m/s."""
+    """Largest standard deviation of evidence that counts as stance, m/s."""
     tilt_rate: float = 2.0
-    """Rate at which gravity corrects the tilt in stance, 1/s."""
-    share: float = 0.01
-    """Standard deviation of a stretch as a share of its length."""
+    """Inverse time constant with which gravity corrects the tilt in stance, 1/s."""
+    path_error: float = 0.01
+    """Standard deviation of the position at the end of a stretch, as a share of the length of its path."""
     turn_drift: float = 0.002
-    """Growth of the heading error, rad/sqrt(s)."""
+    """Growth of the standard deviation of the heading, rad/sqrt(s)."""

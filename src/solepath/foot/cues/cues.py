@@ -27,8 +27,8 @@ class Cues(Protocol):
 
     Cues are an attrs class (`@define`) with fields that can be saved. They report the past, never the future. They read
     no clock and no random numbers, have a constant cost for each sample, use bounded memory, and never raise. Samples
-    are finite, but otherwise have any size (up to 500 m/s^2, 100 rad/s) and any distance in time. The table in phase.py
-    gives the phase that follows from a cue; a cue that changes no phase has no effect."""
+    are finite, at most 500 m/s^2 and 100 rad/s, and come at any interval. The table in phase.py gives the phase that
+    follows from a cue; a cue that changes no phase has no effect."""
 
     __slots__ = ()
 
@@ -38,23 +38,25 @@ class Cues(Protocol):
     ) -> Sequence[SeenCue]:  # fmt: skip
         """Return the cues of one corrected sample, in order.
 
-        `acc` is in m/s^2, `gyro` in rad/s without bias. `still`: the zero velocity evidence was accepted. `speed` is in
-        m/s, `phase` is the phase before this sample."""
+        `acc` is in m/s^2, `gyro` in rad/s without bias, both in the sensor frame. `still` is True when zero-velocity
+        evidence was accepted. `speed` is in m/s, `phase` is the phase before this sample."""
 
     def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
         """Return the cues of one sample of an insole without inertial sensor, in order."""
 
-    # optional: the default does nothing
+    # what follows is optional: the default does nothing
 
     sagittal: float = 0.0
     """Rate of the last sample about the axis to the wearer's left, positive toe down, rad/s. It is 0 while that axis is
     unknown."""
     mark: Cue | None = None
-    """Most likely sample of an event so far (Corrector.mark); None for neither. CONTACT: the last sample is most likely
-    the one of heel-strike. CLEAR: the one before it is most likely the one of toe-off."""
+    """CONTACT or CLEAR when an event most likely happened just now (`Corrector.mark`), otherwise None.
+
+    CONTACT: the last sample is the most likely one of heel-strike so far. CLEAR: the sample before it is the most
+    likely one of toe-off so far."""
 
     def cleared(self, t: float) -> SeenCue:
-        """Return a toe-off at `t`, which a gap has hidden; the swing was not over at the end of the gap."""
+        """Return a toe-off at `t`, s, which a gap has hidden; the swing may go on after the gap."""
         return SeenCue(Cue.CLEAR, t)
 
     def reset(self) -> None:
@@ -70,5 +72,5 @@ class Cues(Protocol):
         return
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> Self:
-        """Return the cues for that foot, with what the calibration contains for it."""
+        """Return the cues with the calibration of `foot`."""
         return self

@@ -1,7 +1,8 @@
 """Cues of most recipes, from the inertial sensor and the pressure cells.
 
-`GaitCues` uses the inertial sensor and, if there are cells, the load. Contact and clear then come from the load, flat
-and lift from the inertial sensor. The load of the heel gives the time of lift."""
+Without cells all four cues come from the inertial sensor. With cells the load gives CONTACT (heel-strike) and CLEAR
+(toe-off); FLAT (foot-flat) and LIFT (heel-off) still come from the inertial sensor. The load of the heel then gives the
+time of LIFT."""
 
 from __future__ import annotations
 
@@ -26,7 +27,7 @@ class GaitCues(Cues):
     inertial: InertialCues = field(factory=InertialCues)
     pressure: PressureCues = field(factory=PressureCues)
     touch: Touch = field(factory=Touch)
-    """Ground contact for insoles of few cells."""
+    """Detector of ground contact for insoles of few cells."""
     sagittal: float = field(default=0.0, init=False)
     """Rate of the last sample about the axis to the wearer's left, positive toe down, rad/s; 0 if unknown."""
 
@@ -63,12 +64,12 @@ class GaitCues(Cues):
         return () if seen is None else (seen,)
 
     def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
-        """Return the cue of an insole without inertial sensor; heel and forefoot replace stillness."""
+        """Return the cue of an insole without inertial sensor, from the loads of heel and forefoot."""
         seen = self.pressure.update(t, dt, load, phase) or self.pressure.update_areas(t, load, phase)
         return () if seen is None else (seen,)
 
     def cleared(self, t: float) -> SeenCue:
-        """Return a toe-off at `t`, which a gap has hidden."""
+        """Return a toe-off at `t`, s, which a gap has hidden."""
         return self.inertial.cleared(t)
 
     def reset(self) -> None:

@@ -1,14 +1,15 @@
 """Cues from the inertial sensor, with hysteresis and debounce.
 
-`InertialCues` uses stillness and the sagittal angular rate, which is the rate about the axis to the wearer's left:
-positive is toe down. During a stride this rate rises as the heel lifts, has a peak of several rad/s at push-off, is
-negative for a long time while the leg swings, and returns through zero as the heel lands. Toe-off is where the rate has
-fallen to half its peak, which is the steepest place of its fall. Such landmarks are common in gait analysis (Sabatini
-et al., IEEE Trans. Biomed. Eng. 52, 2005; Mariani et al., Gait & Posture 37, 2013). The ground may stop the foot later
-than the return through zero, or earlier: heel-strike is the middle of the impact (impact.py).
+`InertialCues` uses stillness and the sagittal rate, which is the angular rate about the axis to the wearer's left:
+positive is toe down. During a stride this rate rises as the heel lifts and has a peak of several rad/s at push-off. It
+is negative for a long time while the leg swings, and returns through zero as the heel lands. Toe-off is the moment at
+which the rate has fallen to half its peak, because there it falls most steeply. Such landmarks are common in gait
+analysis (Sabatini et al., IEEE Trans. Biomed. Eng. 52, 2005; Mariani et al., Gait & Posture 37, 2013). The ground may
+stop the foot earlier or later than the rate returns through zero, so heel-strike is the middle of the impact
+(impact.py).
 
-Numbers without source were chosen by hand on the recordings of docs/accuracy.md and not swept; those of heel-strike and
-toe-off on the recordings that contain such events."""
+Numbers without a source were chosen by hand on the recordings of docs/accuracy.md and not swept. Those of heel-strike
+and toe-off were chosen on the recordings that contain such events."""
 
 from __future__ import annotations
 
@@ -29,49 +30,49 @@ PUSH_OFF: Final = Phase.PUSH_OFF
 LOADING: Final = Phase.LOADING
 
 LEAST_PUSH_OFF_TURN = 0.25
-"""Smallest turn of a push-off, rad."""
+"""Smallest turn of the foot in a push-off, rad."""
 SAME_AXIS_COSINE = 0.5
-"""Smallest cosine between two axes that count as the same: 60 degrees."""
+"""Smallest cosine of the angle between the axes of two push-offs of one wearer: 60 degrees; no unit."""
 OTHER_AXIS_PUSH_OFFS = 3
-"""Number of push-offs in a row about another axis after which that axis is used."""
+"""Number of push-offs in a row about another axis after which that axis replaces the learnt one."""
 AXIS_GAIN = 0.2
-"""Weight of the newest push-off in the axis."""
+"""Weight of the newest push-off in the learnt sagittal axis, 0 to 1."""
 GAP_TROUGH_RATIO = 2.0
-"""Depth of the negative rate of a swing whose start a gap has hidden, as a multiple of LEAST_TROUGH_DEPTH."""
+"""Assumed depth of the negative rate of a swing whose start a gap has hidden, as a multiple of LEAST_TROUGH_DEPTH."""
 STILLNESS_DEBOUNCE = 0.009
-"""Shortest duration of stillness, or of its loss, s."""
+"""Shortest duration of stillness that counts, and of motion that ends it, s."""
 LEAST_PUSH_OFF_RATE = 1.5
-"""Smallest peak rate of a push-off, rad/s."""
+"""Smallest peak of the sagittal rate in a push-off, rad/s."""
 PAST_PEAK = 0.5
-"""Ratio of the rate at toe-off to its peak."""
+"""Ratio of the sagittal rate at toe-off to its peak in push-off; no unit."""
 LEAST_TROUGH_DEPTH = 1.0
-"""Smallest depth of the negative rate of a swing, rad/s."""
+"""Smallest depth below zero of the sagittal rate in a swing, rad/s."""
 LANDING_RATE = 1.0
-"""Rate through which the sagittal rate rises at about the landing of the heel, rad/s.
+"""Rate through which the sagittal rate rises at about the landing of the heel, rad/s, toe down positive.
 
-The ground then turns the sole down."""
+It is positive because the ground then turns the sole down."""
 IMPACT_SETTLING_TIME = 0.04
-"""Time after the middle of an impact at which it is final, s: heel-strike must be known within 60 ms."""
+"""Time after the middle of an impact at which that middle is final, s: heel-strike must be known within 60 ms."""
 LONGEST_IMPACT_TIME = 0.1
 """Longest time for which an impact is observed, s."""
 LEAST_LANDING_SHOCK = 1e4
-"""Smallest shock that shows that a foot without speed has landed, m^2/s^5.
+"""Smallest integral of the squared jerk that shows that a slow foot has landed, m^2/s^5.
 
-This is 600 m/s^3 for 30 ms. Muscles that swing a leg reach half of that jerk, the ground some thousands."""
+This is 600 m/s^3 for 30 ms. Muscles that swing a leg reach half of that jerk, the ground some thousands of m/s^3."""
 SHORTEST_SWING_TIME = 0.1
 """Shortest time from toe-off to heel-strike, s."""
 SHUFFLE_SPEED = 0.35
-"""Smallest speed of a foot in swing without push-off, m/s; it must last for SHUFFLE_TIME."""
+"""Speed above which a foot that does not turn has left the ground without push-off, m/s."""
 SHUFFLE_SPEED_PER_RATE = 0.2
-"""Increase of that speed for each rad/s, m.
+"""Increase of SHUFFLE_SPEED for each rad/s of sagittal rate, m.
 
-No sensor is further from the toes, over which a foot rolls."""
+This is the largest distance of a sensor from the toes, over which the foot rolls."""
 SHUFFLE_TIME = 0.15
-"""Shortest duration of that speed, s."""
+"""Time for which a foot must be faster than SHUFFLE_SPEED to have left the ground, s."""
 LOADING_SHUFFLE_TIME = 0.4
-"""Shortest duration of that speed after heel-strike, s, because the sensor still moves down with the sole."""
+"""Value of SHUFFLE_TIME after heel-strike, s; it is longer because the sensor still moves down with the sole."""
 STILLNESS_DELAY = 0.02
-"""Time by which stillness starts before it is detected, s, because it is judged over a window."""
+"""Time from the start of stillness to its detection, s, because stillness is judged over a window."""
 HEEL_DOWN_RATE = 0.12
 """Sagittal rate below which the heel has not left the ground, rad/s."""
 
@@ -80,8 +81,8 @@ HEEL_DOWN_RATE = 0.12
 class InertialCues:
     """Detects gait events from the inertial sensor.
 
-    Latency: toe-off one sample; heel-strike IMPACT_SETTLING_TIME, or until the foot is still if no impact is found; foot-flat
-    and heel-off SETTLE."""
+    Latency: toe-off one sample; heel-strike IMPACT_SETTLING_TIME, or until the foot is still if no impact is found;
+    foot-flat and heel-off STILLNESS_DEBOUNCE."""
 
     still_since: float | None = field(default=None, init=False)
     """Time since which zero velocity evidence is accepted, s; None while it is not."""
@@ -90,11 +91,11 @@ class InertialCues:
     moving_since: float | None = field(default=None, init=False)
     """Time since which zero velocity evidence is not accepted, s; None while it is."""
     fast_since: float | None = field(default=None, init=False)
-    """Time since which the foot is fast, s; None while it is not."""
+    """Time since which the foot is faster than a shuffle, s; None while it is not."""
     axis: Vec3 | None = field(default=None, init=False)
     """Unit vector to the wearer's left, sensor frame, learnt from the turn of the foot at push-off; None at first."""
     other_axis_push_offs: int = field(default=0, init=False)
-    """Number of push-offs in a row about another axis."""
+    """Number of push-offs in a row about another axis than `axis`."""
     turn: Vec3 = field(default=ZERO, init=False)
     """Turn since the foot started to move, sensor frame, rad."""
     peak_rate: float = field(default=0.0, init=False)
@@ -104,7 +105,7 @@ class InertialCues:
     swing_start: float | None = field(default=None, init=False)
     """Start of the last swing, s; None before any."""
     landing_at: float | None = field(default=None, init=False)
-    """Time at which the rate rose through LANDING_RATE, s; None except until heel-strike is reported."""
+    """Time at which the sagittal rate rose through LANDING_RATE, s; None before that and after heel-strike."""
     force: Vec3 | None = field(default=None, init=False)
     """Specific force of the last sample, sensor frame, m/s^2."""
     impact: Impact = field(factory=Impact, init=False)
@@ -116,8 +117,8 @@ class InertialCues:
     ) -> SeenCue | None:
         """Return the cue of one sample, or None.
 
-        `acc` is in m/s^2, `gyro` in rad/s without bias. `still`: the zero velocity evidence was accepted. `speed` is in
-        m/s."""
+        `acc` is in m/s^2, `gyro` in rad/s without bias. `still` is True when zero-velocity evidence was accepted.
+        `speed` is in m/s."""
         previous_rate, axis = self.sagittal, self.axis
         gx, gy, gz = gyro
         if axis is None:
@@ -168,8 +169,10 @@ class InertialCues:
             self.peak_rate = rate
         toe_off_rate = PAST_PEAK * self.peak_rate
         if phase is PUSH_OFF and self.peak_rate > LEAST_PUSH_OFF_RATE and rate < toe_off_rate and self._learn_axis():
-            # time between the last two samples at which a straight line meets the limit
-            share = (previous_rate - toe_off_rate) / (previous_rate - rate) if previous_rate > toe_off_rate > rate else 1.0
+            # the moment at which a straight line between two samples falls through the rate of toe-off
+            share = (
+                (previous_rate - toe_off_rate) / (previous_rate - rate) if previous_rate > toe_off_rate > rate else 1.0
+            )
             return self._report_clear(t - dt * (1.0 - share))
         shuffle_time = LOADING_SHUFFLE_TIME if phase is LOADING else SHUFFLE_TIME
         if self.fast_since is not None and t - self.fast_since >= shuffle_time - TIE:
@@ -215,7 +218,7 @@ class InertialCues:
         return SeenCue(Cue.CONTACT, t)
 
     def reset(self) -> None:
-        """Discard durations after a gap, because it counts neither as stillness nor as speed."""
+        """Discard the times since which the foot is still or fast, because a gap counts as neither."""
         self.still_since = self.fast_since = None
 
     def restart(self) -> InertialCues:
@@ -225,7 +228,7 @@ class InertialCues:
         return fresh
 
     def cleared(self, t: float) -> SeenCue:
-        """Return a toe-off at `t`, which a gap has hidden; the swing was not over at the end of the gap."""
+        """Return a toe-off at `t`, s, which a gap has hidden; the swing may go on after the gap."""
         toe_off = self._report_clear(t)
         self.lowest_rate = -GAP_TROUGH_RATIO * LEAST_TROUGH_DEPTH
         return toe_off
@@ -238,12 +241,12 @@ class InertialCues:
         return SeenCue(Cue.CLEAR, t)
 
     def apply_toe_off(self, phase: Phase) -> None:
-        """Learn the axis from the turn of the foot at a toe-off that the load has shown, in `phase`."""
+        """Learn the sagittal axis from a toe-off that the load has shown in `phase`."""
         if phase is PUSH_OFF and self.peak_rate > LEAST_PUSH_OFF_RATE:
             self._learn_axis()
 
     def _learn_axis(self) -> bool:
-        """Learn the axis from the turn as the heel lifts; return whether the turn was a push-off."""
+        """Learn the sagittal axis from the turn as the heel lifts; return whether the turn was a push-off."""
         x, y, z = self.turn
         angle = sqrt(x * x + y * y + z * z)
         if angle < LEAST_PUSH_OFF_TURN:
@@ -254,7 +257,7 @@ class InertialCues:
             return True
         u, v, w = self.axis
         if u * x + v * y + w * z < SAME_AXIS_COSINE:
-            # a turn about another axis is no push-off of this wearer, unless it occurs again and again
+            # a single turn about another axis is no push-off; several in a row mean that the sensor was turned
             self.other_axis_push_offs += 1
             if self.other_axis_push_offs < OTHER_AXIS_PUSH_OFFS:
                 return False

@@ -19,44 +19,50 @@ PUSH_OFF: Final = Phase.PUSH_OFF
 LOADING: Final = Phase.LOADING
 
 CONTACT_LOAD, CLEAR_LOAD = 0.05, 0.03
-"""Total loads above which the cue CONTACT is seen, and below which CLEAR is, as shares of the wearer's full load."""
+"""Total loads above which the foot has touched the ground, and below which it has left it (shares of the full load).
+
+The full load is that of all cells when they bear the wearer (pressure/insole.py)."""
 AREA_LOADED = 0.06
-"""Load above which an area, heel or forefoot, is loaded, as a share of the wearer's full load."""
+"""Load above which an area, heel or forefoot, is loaded, as a share of the full load."""
 AREA_UNLOADED = 0.03
-"""Load below which an area is unloaded, as a share of the wearer's full load."""
+"""Load below which an area, heel or forefoot, is unloaded, as a share of the full load."""
 LONGEST_DATING_BACK = 0.3
-"""Longest time by which a LIFT is moved back, to the last load of the heel, s."""
+"""Longest time by which a heel-off is dated back to the last load of the heel, s."""
 
 
 @define
 class PressureCues:
-    """Detects contact and clear from the total load, flat and lift from heel and forefoot. Latency: one sample."""
+    """Detects CONTACT and CLEAR from the total load, FLAT and LIFT from heel and forefoot. Latency: one sample."""
 
     previous_load: float = field(default=0.0, init=False)
-    """Total load of the last sample, as a share of the wearer's full load."""
+    """Total load of the last sample, as a share of the full load."""
     heel_loaded_at: float | None = field(default=None, init=False)
     """Time at which the heel was last above AREA_UNLOADED, s; None before any."""
 
     def update(self, t: float, dt: float, load: Load, phase: Phase) -> SeenCue | None:
-        """Return contact or clear if the total load shows it in this sample, or None."""
+        """Return CONTACT or CLEAR if the total load shows it in this sample, or None."""
         previous_load, current_load = self.previous_load, load.total
         self.previous_load = current_load
         if load.heel is not None and load.heel > AREA_UNLOADED:
             self.heel_loaded_at = t
         if phase is SWING:
-            return SeenCue(Cue.CONTACT, _crossing(t, dt, previous_load, current_load, CONTACT_LOAD)) if current_load > CONTACT_LOAD else None
+            return (
+                SeenCue(Cue.CONTACT, _crossing(t, dt, previous_load, current_load, CONTACT_LOAD))
+                if current_load > CONTACT_LOAD
+                else None
+            )
         if current_load < CLEAR_LOAD:
             return SeenCue(Cue.CLEAR, _crossing(t, dt, previous_load, current_load, CLEAR_LOAD))
         return None
 
     def date_lift(self, lift: SeenCue) -> SeenCue:
-        """Return the lift of the inertial sensor with the time at which the heel was last loaded, if that is known."""
+        """Return `lift`, seen by the inertial sensor, with the time at which the heel was last loaded, if known."""
         if self.heel_loaded_at is None or not 0.0 <= lift.t - self.heel_loaded_at < LONGEST_DATING_BACK:
             return lift
         return SeenCue(lift.cue, self.heel_loaded_at)
 
     def update_areas(self, t: float, load: Load, phase: Phase) -> SeenCue | None:
-        """Return flat or lift from heel and forefoot, for an insole without inertial sensor, or None."""
+        """Return FLAT or LIFT from heel and forefoot, for an insole without inertial sensor, or None."""
         if load.heel is None or load.forefoot is None:
             return None
         if phase is LOADING and load.heel > AREA_UNLOADED and load.forefoot > AREA_LOADED:

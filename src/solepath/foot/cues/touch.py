@@ -1,15 +1,17 @@
 """Ground contact of a foot from its pressure cells.
 
-For an insole of many cells the total load is enough: some cells are always under the foot. For an insole of few cells,
-such as switches under heel and toe or eight sensors, one cell that is weak, or slow to unload, makes the total wrong,
-and in mid-stance the load may lie between the cells. There, each cell is judged by its load as a share of its own
-range. The foot is in the air when the rear cells are unloaded, and the front cells too after they have pushed off. It
-is on the ground again when a rear cell is loaded, or a front cell more than by the pressure of the shoe as the toes
-rise in swing.
+For an insole of many cells the total load is enough, because some cells are always under the foot. An insole of few
+cells has, for example, switches under heel and toe, or eight sensors. There, one cell that is weak or slow to unload
+makes the total wrong, and in mid-stance the load may lie between the cells. So each cell is judged by its load as a
+share of its own range. The foot is in the air when the rear cells are unloaded, and the front cells are unloaded after
+they have pushed off. It is on the ground again when a rear cell is loaded, or when a front cell is loaded by more than
+the pressure of the shoe, which acts on it as the toes rise in swing.
 
-The values in the air are learnt from the lowest ones so far (pressure.py). These are wrong before the first step and
-after standing for long, where half of the wearer's weight is the lowest load. So the cells are `trusted` after a swing,
-and no longer when the foot stands still while the cells say that it is in the air."""
+The values in the air are learnt from the lowest ones so far (pressure/insole.py). These are wrong before the first step
+and after standing for long, when half of the wearer's weight is the lowest load. So the cells are `trusted` only after
+a swing. Trust ends when the foot stands still while the cells show no load.
+
+The numbers were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -21,30 +23,29 @@ from ..pressure.insole import Extremes
 from ..stance.stance import Load
 
 MOST_SINGLE_CELLS = 16
-"""Largest number of cells that are judged one by one."""
+"""Largest number of cells of an insole whose cells are judged one by one."""
 GROUND_LOAD, AIR_LOAD = 0.07, 0.05
-"""Loads of an insole of many cells above which it is on the ground, and below which it is in the air.
+"""Loads of an insole of many cells at which the foot lands and leaves the ground, as shares of the full load.
 
-They are shares of the wearer's full load. A recorded insole of 35 cells shows up to 5 % of the load throughout the
-swing."""
+A recorded insole of 35 cells shows up to 5 % of the load throughout the swing."""
 CELL_LOADED = 0.20
-"""Load above which one of few cells is loaded, as a share of its own range of the last seconds."""
+"""Load above which one of few cells is loaded, as a share of its own range in the last 8 to 10 s."""
 CELLS_UNLOADED = 0.10
-"""Load below which all cells are unloaded without a layout, as a share of their ranges.
+"""Load below which a foot leaves the ground without a layout if all cells are below it, as a share of their ranges.
 
 Without a layout, front and rear are unknown."""
 LEAST_CELL_RANGE = 0.5
-"""Smallest range of a cell that is known, as a share of the cell's highest value."""
+"""Smallest range of a cell that has been both loaded and unloaded, as a share of the cell's highest value."""
 FRONT_LOADED = 0.50
-"""Load above which a front cell has pushed off, or landed first, as a share of its range."""
+"""Load above which a front cell pushes off, or is the first to land, as a share of its range."""
 SHORTEST_STANCE = 0.3
 """Shortest stance of a foot without push-off, s."""
 WEAK_CELL_RANGE = 0.10
 """Smallest range of a cell that is used, as a share of the widest range."""
 TRUST_TIME = 0.1
-"""Time after which an airborne foot that moves shows that the cells are right, s.
+"""Duration of an airborne state that decides whether the cells are trusted, s.
 
-After the same time, an airborne foot that stands still shows that they are wrong."""
+They are right if the foot moves during this time, and wrong if it stands still."""
 
 
 @define
@@ -52,21 +53,21 @@ class Touch:
     """Detects ground contact from the load. Latency: none. At first the foot is on the ground."""
 
     trusted: bool = field(default=False, init=False)
-    """The cells were right in the last swing."""
+    """The cells were right in the last swing, and nothing has contradicted them since."""
     moving_since: float | None = field(default=None, init=False)
-    """Time since which the foot moves without load, or with unknown load, s."""
+    """Time since which the foot moves without load, or with unknown load, s; None while it does not."""
     still_since: float | None = field(default=None, init=False)
-    """Time since which the foot stands still while the cells say that it is in the air, s."""
+    """Time since which the foot stands still although the cells show no load, s; None while it does not."""
     load_unknown: bool = field(default=True, init=False)
     """The load of the last sample is unknown."""
     airborne: bool = field(default=False, init=False)
-    """The cells say that the foot is in the air."""
+    """The foot is in the air according to the cells."""
     cells: list[Extremes] = field(factory=list, init=False)
-    """Extremes of each cell."""
+    """Lowest and highest recent value of each cell."""
     in_front: list[bool] = field(factory=list, init=False)
-    """Cells in the front half of the foot; empty without a layout."""
+    """Flag for each cell, True in the front half of the foot; empty without a layout."""
     front_peak: float = field(default=0.0, init=False)
-    """Highest load of a front cell since the last contact, as a share of its range."""
+    """Highest load of any front cell since the last contact, as a share of its range."""
     landed_at: float = field(default=0.0, init=False)
     """Time of the last contact, s."""
 
@@ -82,13 +83,13 @@ class Touch:
         return fresh
 
     def update(self, t: float, load: Load | None, still: bool = False) -> bool:
-        """Return whether the foot is in the air; `still` tells that it stands, whatever the cells show."""
+        """Return whether the foot is in the air; `still` is True when the inertial sensor shows that it stands."""
         airborne = load is not None and self._is_airborne(t, load)
         moved = self.moving_since is not None and t - self.moving_since >= TRUST_TIME - TIE
         if load is None:
             self.trusted = False
         elif self.load_unknown:
-            # the load is known once it has risen, because the foot came down from a swing or because it stood
+            # the load becomes known when it rises: after a swing, in which the foot moved, or while the wearer stands
             self.trusted = moved
         if moved and airborne:
             self.trusted = True
@@ -125,7 +126,11 @@ class Touch:
         any_known = False
         for k, (extremes, value) in enumerate(zip(self.cells, values, strict=True)):
             cell_range = extremes.high - extremes.low
-            if cell_range <= 0.0 or cell_range < LEAST_CELL_RANGE * extremes.high or cell_range < WEAK_CELL_RANGE * widest_range:
+            if (
+                cell_range <= 0.0
+                or cell_range < LEAST_CELL_RANGE * extremes.high
+                or cell_range < WEAK_CELL_RANGE * widest_range
+            ):
                 continue
             any_known = True
             share = (value - extremes.low) / cell_range

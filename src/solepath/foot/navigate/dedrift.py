@@ -83,7 +83,7 @@ class LinearDedrift(Strapdown):
         return stretch
 
     def covariance(self) -> tuple[float, ...]:
-        variance = (self.settings.share * self.length) ** 2
+        variance = (self.settings.path_error * self.length) ** 2
         drift = self.settings.turn_drift
         yaw = drift * drift * self.lasted
         return (variance, 0.0, 0.0, variance, 0.0, variance, yaw)

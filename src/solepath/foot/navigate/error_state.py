@@ -155,15 +155,15 @@ class ErrorStateFilter(PropagatedCovariance):
         # noise of the sensor, a share of the motion, and a share of the difference of neighbouring samples
         rx, ry, rz = gx - rx, gy - ry, gz - rz
         settings = self.settings
-        share, unknown = settings.in_motion * settings.in_motion, settings.between * settings.between * dt
+        share, unknown = settings.noise_per_motion * settings.noise_per_motion, settings.between * settings.between * dt
         self.acc_variance += (
             settings.acc_noise * settings.acc_noise
             + share * (ax * ax + ay * ay + az * az)
             + unknown * (x * x + y * y + z * z)
         ) * dt
         noise = settings.gyro_noise * settings.gyro_noise + share * turning + unknown * (rx * rx + ry * ry + rz * rz)
-        if turning > settings.suspect * settings.suspect and not (turns.clipping and settings.recover):
-            noise += settings.suspect_noise * settings.suspect_noise
+        if turning > settings.clipping_rate * settings.clipping_rate and not (turns.clipping and settings.recover):
+            noise += settings.clipping_noise * settings.clipping_noise
         self.gyro_variance += noise * dt
         self.since += dt
         self.stretch += dt

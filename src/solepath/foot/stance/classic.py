@@ -1,14 +1,15 @@
 """Stance detectors with fixed thresholds on inertial signals.
 
-ARE and MV are from Skog, Handel, Nilsson, Rantakokko, "Zero-velocity detection: an algorithm evaluation" (IEEE Trans.
-Biomed. Eng. 57, 2010). The memory-based graph-theoretic detector (MBGTD) is the one that Wagstaff, Peretroukhin, Kelly,
-"Robust data-driven zero-velocity detection for foot-mounted inertial navigation" (2019) compare with. All are causal
-and use a window of `window` seconds; at low rates, of as few samples as the statistic needs. Their evidence has no
-other latency. Sums are updated, so the cost of a sample does not depend on the window, except in MBGTD, whose statistic
-needs every pair of samples in the window.
+Angular rate energy (ARE) and acceleration moving variance (MV) are from Skog, Handel, Nilsson, Rantakokko,
+"Zero-velocity detection: an algorithm evaluation" (IEEE Trans. Biomed. Eng. 57, 2010). The memory-based graph-theoretic
+detector (MBGTD) is the one that Wagstaff, Peretroukhin, Kelly, "Robust data-driven zero-velocity detection for
+foot-mounted inertial navigation" (2019) compare with. All are causal and use a window that ends with the current
+sample; it is the only latency. At low sampling rates the window has as many samples as the statistic needs. Sums are
+updated, so the cost of a sample does not depend on the window, except in MBGTD, whose statistic needs every pair of
+samples in the window.
 
-The papers give thresholds for their own sensors. These were chosen by hand on the recordings of docs/accuracy.md, not
-swept."""
+The papers give thresholds for their own sensors. The thresholds here were chosen by hand on the recordings of
+docs/accuracy.md and not swept."""
 
 from __future__ import annotations
 
@@ -25,7 +26,7 @@ from .stance import Detector, Load, Stance, soften
 
 @define
 class AngularRate(Detector):
-    """ARE: angular rate energy. T = 1/W sum(|w|^2) / s_w^2."""
+    """The ARE detector: angular rate energy, T = 1/W sum(|w|^2) / s_w^2, over W samples."""
 
     settings: WindowThreshold = WindowThreshold(window=0.025, rest_statistic=5e3, motion_statistic=1e5)
     entries: deque[tuple[float, float]] = field(factory=deque, init=False)
@@ -49,11 +50,11 @@ class AngularRate(Detector):
 
 @define
 class MovingVariance(Detector):
-    """MV: acceleration moving variance. T = 1/W sum(|a - a_mean|^2) / s_a^2."""
+    """The MV detector: moving variance of the acceleration, T = 1/W sum(|a - a_mean|^2) / s_a^2, over W samples."""
 
     settings: WindowThreshold = WindowThreshold(window=0.05, rest_statistic=5e3, motion_statistic=5e4)
     entries: deque[tuple[float, float, float, float]] = field(factory=deque, init=False)
-    """Time, s, and acc, m/s^2, of each sample in the window."""
+    """Time, s, and acc x, y, z, m/s^2, of each sample in the window."""
     sums: tuple[float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0), init=False)
     """Sums over the window of acc x, y, z, m/s^2, and of the squared norm, (m/s^2)^2."""
 
@@ -77,11 +78,11 @@ class MovingVariance(Detector):
 
 @define
 class Graph(Detector):
-    """MBGTD: how well the window splits into an early and a late part that are far from each other.
+    """The MBGTD detector: T is large if the window splits into an early and a late part that differ much.
 
-    For every pair of cuts a < b, counted from 0 as in published code, the distances |a_i - a_j| between the samples up
-    to a and the samples from b on are summed and divided by (b - a) (W - b + 1). T is the largest of these, in m/s^2.
-    The cost of a sample is O(W^2)."""
+    Indices a < b, counted from 0 as in published code, mark the end of the early part and the start of the late part.
+    For every such pair the distances |a_i - a_j| between the samples of the two parts are summed and divided by
+    (b - a) (W - b + 1). T is the largest of these values, m/s^2. The cost of a sample is O(W^2)."""
 
     settings: CountThreshold = CountThreshold(count=5, rest_statistic=2.0, motion_statistic=8.0)
     entries: deque[Vec3] = field(factory=deque, init=False)

@@ -1,15 +1,17 @@
 """Stance evidence relative to each gait cycle; the default detector.
 
 No single threshold suits a stroll and a run: from stance to swing, the SHOE statistic goes from 10^3 to 10^7 in a
-stroll, and from 10^5 to 10^8 in a run. So stillness is judged relative to the wearer's own last cycle: in logarithms,
-the threshold lies at a fixed share between the lowest and the highest statistic of the last 1.2 to 1.6 s. The noise of
-the evidence follows from the motion: a foot that turns at w about a point of the sole at distance r moves the sensor at
-r w. The known part of this, from the height of the sensor above the sole (sensor_height.py), is the reference velocity.
-The unknown part is noise. Its steeper second term keeps early and late stance from outvoting mid-stance.
+stroll, and from 10^5 to 10^8 in a run. So stillness is judged relative to the wearer's own last gait cycle. The
+threshold lies between the lowest and the highest statistic of the last 1.2 to 1.6 s, at a fixed position in logarithms.
 
-The settings (settings.py) were chosen by hand on the recordings of docs/accuracy.md and not swept. The table of the
-default without one of its parts in that document gives the effect of whole terms: one threshold for all, evidence of
-one noise, zero velocity for a foot that rolls, no extra noise for a foot that brakes."""
+The noise of the evidence follows from the motion: a foot that turns at w rad/s about a point of the sole at distance
+r m moves the sensor at r w. The known part of this velocity follows from the height of the sensor above the sole
+(sensor_height.py); it is the reference velocity. The unknown part is noise. The noise has a second term that grows with
+w^2, so that the many samples of early and late stance do not outweigh those of mid-stance.
+
+The settings (settings.py) were chosen by hand on the recordings of docs/accuracy.md and not swept. A table in that
+document gives the accuracy without whole terms: one threshold for all, evidence of one noise, zero velocity for a foot
+that rolls, no extra noise for a foot that brakes."""
 
 from __future__ import annotations
 
@@ -28,7 +30,7 @@ ACC_SQUARE = SIGMA_ACC**2
 GYRO_SQUARE = SIGMA_GYRO**2
 TWO_G = 2.0 * GRAVITY
 SHOE_WINDOW = 0.025
-"""Duration of the window of the statistic, s."""
+"""Duration of the window of the SHOE statistic, s."""
 
 # Local names, because one look-up in the enum costs as much as five multiplications.
 SWING: Final = Phase.SWING
@@ -38,14 +40,15 @@ make_stance = tuple.__new__
 """Constructor of a Stance from its five fields, which takes half the time of the class's own."""
 
 NO_STATISTIC = 1e12
-"""Upper bound of any statistic."""
+"""Upper bound of any statistic, which stands for the lowest one before any sample."""
 
 
 @define
 class Cycle(Detector):
-    """Compares the SHOE statistic with a threshold from the last cycle, with noise from the motion.
+    """Compares the SHOE statistic with a threshold from the last gait cycle; the noise follows from the motion.
 
-    Latency: 25 ms. The statistic has no unit: SHOE divides each mean square by that of the sensor's noise (shoe.py)."""
+    Latency: 25 ms. The statistic has no unit: SHOE divides each mean square by that of the sensor's noise (shoe.py).
+    Time is divided into spans of equal duration. The extremes are those of the last three spans and the current one."""
 
     settings: CycleSettings = CycleSettings()
     sensor_height: SensorHeight = field(factory=SensorHeight, init=False)
@@ -94,7 +97,7 @@ class Cycle(Detector):
         force = s2 - TWO_G * sqrt(sx * sx + sy * sy + sz * sz) + n * GRAVITY * GRAVITY
         force, rate = (force / n if force > 0.0 else 0.0), (sw / n if sw > 0.0 else 0.0)
         statistic = force / ACC_SQUARE + rate / GYRO_SQUARE
-        # the extremes of the last cycle
+        # lowest and highest statistic of the current span
         if self.span_end is None or t >= self.span_end - TIE:
             self._start_span(t, statistic)
         elif statistic < self.lowest:
@@ -106,7 +109,7 @@ class Cycle(Detector):
             return make_stance(Stance, (ZERO, inf, statistic, SWING, None))
         settings = self.settings
         if statistic < settings.floor:
-            hint = STATIONARY if statistic < settings.certain else None
+            hint = STATIONARY if statistic < settings.standing_statistic else None
         elif statistic > settings.ceiling or statistic > self._threshold():
             if self.sensor_height.sums is not EMPTY:
                 self.sensor_height.end_stance()
@@ -138,7 +141,7 @@ class Cycle(Detector):
         return exp((1.0 - share) * log(lowest) + share * log(highest))
 
     def _start_span(self, t: float, statistic: float) -> None:
-        """Start the next span."""
+        """Start the next span at `t`, s, with its first statistic."""
         if self.span_end is not None:
             self.lows = (self.lows[1], self.lows[2], self.lowest)
             self.highs = (self.highs[1], self.highs[2], self.highest)

@@ -1,6 +1,7 @@
-"""Stance evidence from pressure cells, with the same signature as the inertial detectors in shoe.py and classic.py.
+"""Stance detectors that use pressure cells, with the same signature as the inertial detectors.
 
-Without cells, or while the wearer's full load is unknown, both detectors give no evidence (sigma is infinite)."""
+Without cells, or while the wearer's full load is unknown, both detectors give no evidence (sigma is infinite). The full
+load is that of all cells when they bear the wearer (pressure/insole.py). The origin of the numbers is not recorded."""
 
 from __future__ import annotations
 
@@ -12,21 +13,21 @@ from ...types.vector import IDENTITY, ZERO
 from .stance import Detector, Load, Stance
 
 NO_EVIDENCE = Stance(ZERO, inf, 0.0, None)
-"""Evidence of a sample without load."""
+"""Value for a sample whose load is unknown."""
 
 
 @define
 class TwoArea(Detector):
     """Detects a flat sole: if heel area and forefoot area are both loaded, the sensor between them stands still.
 
-    Source: "Smart insole-based indoor localization system for Internet of Things applications", stationary epoch
-    detection, which uses the forces on both sides of the circuit board. The statistic is the smaller of the two loads
-    as a share of the wearer's full load."""
+    Source: "Smart insole-based indoor localization system for Internet of Things applications", section on stationary
+    epochs, which uses the forces on both sides of the circuit board. The statistic is the smaller of the two loads as a
+    share of the full load; here more is more still."""
 
     area_load: float = 0.05
-    """Smallest load of an area that counts as loaded, as a share of the wearer's full load."""
+    """Smallest load of an area that counts as loaded, as a share of the full load."""
     sigma: float = 0.01
-    """Noise of the zero velocity, m/s."""
+    """Standard deviation of the zero velocity, m/s."""
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY
@@ -44,13 +45,13 @@ class MaximumPressure(Detector):
     """Detects a foot on the ground: the most loaded cell is above a threshold.
 
     Source: equation (6) of "Improving accuracy of real-time positioning and path tracking by using an error
-    compensation algorithm against walking modes", method III. The statistic is that cell as a share of the highest cell
-    value so far. A foot on the ground still rolls, so the noise is larger."""
+    compensation algorithm against walking modes", method III. The statistic is the value of this cell as a share of the
+    highest cell value so far. A foot on the ground may still roll, so the noise is larger than that of `TwoArea`."""
 
     threshold: float = 0.25
-    """Smallest statistic of a foot on the ground."""
+    """Statistic above which the foot is on the ground."""
     sigma: float = 0.05
-    """Noise of the zero velocity, m/s."""
+    """Standard deviation of the zero velocity, m/s."""
 
     def update(
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, load: Load | None, attitude: Quat = IDENTITY

@@ -1,8 +1,8 @@
 """The SHOE detector with fixed thresholds.
 
 Source: Skog, Handel, Nilsson, Rantakokko, "Zero-velocity detection: an algorithm evaluation" (IEEE Trans. Biomed. Eng.
-57, 2010). The thresholds were chosen by hand on the recordings of docs/accuracy.md, not swept. The detector is causal
-and uses a window of `window` seconds; its evidence has no other latency."""
+57, 2010). The thresholds were chosen by hand on the recordings of docs/accuracy.md and not swept. The detector is
+causal and uses a window that ends with the current sample; it is the only latency."""
 
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ from ..settings import WindowThreshold
 from .stance import Detector, Load, Stance, soften
 
 SIGMA_ACC = 0.01
-"""Accelerometer noise that scales the statistic, m/s^2."""
+"""Standard deviation of the accelerometer noise, which scales the statistic, m/s^2 (as Skog et al.)."""
 SIGMA_GYRO = 0.1 * 3.141592653589793 / 180.0
-"""Gyroscope noise that scales the statistic, rad/s."""
+"""Standard deviation of the gyroscope noise, which scales the statistic, rad/s: 0.1 degrees/s (as Skog et al.)."""
 
 
 @define
 class ShoeDetector(Detector):
-    """SHOE: stance hypothesis optimal estimation.
+    """The SHOE detector: stance hypothesis optimal estimation.
 
-    T = 1/W sum(|a - g a_mean/|a_mean||^2/s_a^2 + |w|^2/s_w^2)."""
+    T = 1/W sum(|a - g a_mean/|a_mean||^2/s_a^2 + |w|^2/s_w^2), over the W samples of the window."""
 
     settings: WindowThreshold = WindowThreshold(window=0.025, rest_statistic=1e4, motion_statistic=3.5e5)
     entries: deque[tuple[float, float, float, float, float, float]] = field(factory=deque, init=False)
-    """Time, acc, squared norm of acc and squared norm of gyro of each sample in the window."""
+    """Time (s), acc x, y, z (m/s^2), and squared norms of acc and gyro (rad/s) of each sample in the window."""
     sums: tuple[float, float, float, float, float] = field(default=(0.0, 0.0, 0.0, 0.0, 0.0), init=False)
     """Sums over the window of acc x, y, z and of the squared norms of acc and gyro."""
 
@@ -41,9 +41,9 @@ class ShoeDetector(Detector):
         return soften(statistic, self.settings)
 
     def mean_squares(self, t: float, acc: Vec3, gyro: Vec3) -> tuple[float, float]:
-        """Return the two means of the statistic before scaling.
+        """Add one sample; return the two mean squares of the window that make the statistic.
 
-        The first is the specific force minus gravity, (m/s^2)^2, the second the rate, (rad/s)^2."""
+        The first is that of the specific force minus gravity, (m/s^2)^2, the second that of the rate, (rad/s)^2."""
         ax, ay, az = acc
         wx, wy, wz = gyro
         a2 = ax * ax + ay * ay + az * az

@@ -1,8 +1,8 @@
 """Stance evidence, and the interface of stance detectors.
 
 A stance detector never answers yes or no. For every sample it returns the velocity that the sensor should have now and
-how far to trust it (`Stance`). All detectors have the same signature, so detectors and the correctors that use them can
-be combined freely."""
+the standard deviation of this velocity (`Stance`). All detectors have the same signature, so any detector works with
+any corrector."""
 
 from __future__ import annotations
 
@@ -18,20 +18,22 @@ from ..settings import StanceThreshold
 
 @frozen
 class Load:
-    """The load of the pressure cells in one sample; loads are fractions of the wearer's own full load."""
+    """The load of the pressure cells in one sample, as shares of the full load.
+
+    The full load is that of all cells when they bear the wearer (pressure/insole.py)."""
 
     total: float
-    """Load of all cells."""
+    """Load of all cells, as a share of the full load."""
     heel: float | None
-    """Load of the heel area; None without that area."""
+    """Load of the heel area, as a share of the full load; None if no working cell is in that area."""
     forefoot: float | None
-    """Load of the forefoot area; None without that area."""
+    """Load of the forefoot area, as a share of the full load; None if no working cell is in that area."""
     highest: float
-    """Most loaded single cell, as a fraction of the highest cell value so far."""
+    """Value of the most loaded cell, as a share of the highest recent value of any cell."""
     airborne: bool
-    """No load at all: the foot is in the air."""
+    """The foot is in the air: there is hardly any load."""
     cells: tuple[float, ...] = ()
-    """Value of each cell after conversion to N and subtraction of noise, in the unit of the samples."""
+    """Value of each cell without noise, in N with a calibration, otherwise in the unit of the samples."""
     centre: tuple[float, float] | None = None
     """Centre of pressure (x, y), foot frame, m; None with hardly any load or without a layout."""
 
@@ -44,13 +46,16 @@ class Stance(NamedTuple):
     sigma: float
     """Standard deviation of each axis of `v_ref` for one update every 5 ms, m/s; inf without evidence."""
     statistic: float
-    """Statistic of the detector, in its own unit. If the hint is None, ErrorStateFilter takes a smaller one for more
-    still."""
+    """Statistic of the detector, in the unit of that detector.
+
+    If `hint` is None, ErrorStateFilter takes a sample with a smaller statistic for more still."""
     hint: Phase | None
-    """Phase that the detector is sure of, or None. STATIONARY: the foot certainly stands. SWING: it certainly does not.
-    LOADING or PUSH_OFF: `v_ref` is that of a shoe that rolls over heel or forefoot."""
+    """Phase that the detector is sure of, or None.
+
+    STATIONARY: the foot certainly stands. SWING: it certainly does not. LOADING or PUSH_OFF: `v_ref` is that of a shoe
+    that rolls over heel or forefoot."""
     detail: object = None
-    """Data for the cues and the corrector of the detector's own recipe; no other part uses it."""
+    """Data for cues and corrector of the same recipe; no other part uses it."""
 
 
 class Detector(Protocol):
@@ -62,8 +67,8 @@ class Detector(Protocol):
     A detector is an attrs class (`@define`) with fields that can be saved. When times restart, for example after a
     restart of the device, the session continues with `evolve(detector)`: fields with `init=False` get their initial
     values, settings and other arguments of `__init__` stay. A detector reads no clock and no random numbers, has a
-    constant cost for each sample, uses bounded memory, and never raises. Samples are finite, but otherwise have any
-    size (up to 500 m/s^2, 100 rad/s) and any distance in time."""
+    constant cost for each sample, uses bounded memory, and never raises. Samples are finite, at most 500 m/s^2 and
+    100 rad/s, and come at any interval."""
 
     __slots__ = ()
 
@@ -72,17 +77,17 @@ class Detector(Protocol):
     ) -> Stance:
         """Return the evidence of one sample.
 
-        `t` is its time and `dt` the time since the last sample, s. `acc` (m/s^2) and `gyro` (rad/s) are in the sensor
-        frame, with scale and bias applied. `load` is None without pressure cells. `attitude` is sensor to navigation
-        frame, predicted for this sample; it has no meaning before levelling."""
+        `t` is the time of the sample and `dt` the time since the last one, s. `acc` (m/s^2) and `gyro` (rad/s) are in
+        the sensor frame, with scale and bias applied. `load` is None without pressure cells. `attitude` is sensor to
+        navigation frame, predicted for this sample; it has no meaning before the first attitude is known."""
 
-    # optional: the default does nothing
+    # what follows is optional: the default does nothing
 
     @property
     def lacking(self) -> str | None:
-        """Sentence about data that the detector lacks, for a Limitation; None if it lacks none.
+        """Sentence about missing data, which becomes a Limitation; None if nothing is missing.
 
-        It is read after each `set_layout`."""
+        The session reads it after each `set_layout`."""
         return None
 
     def set_layout(self, layout: Layout) -> None:
@@ -90,18 +95,18 @@ class Detector(Protocol):
         return
 
     def scaled(self, scale: float) -> None:
-        """Set the factor for acc that makes it read 1 g at rest, when it changes."""
+        """Set `scale`, the factor for acc with which it is 1 g at rest; called when it changes."""
         return
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> Self:
-        """Return the detector for that foot, with what the calibration contains for it."""
+        """Return the detector with the calibration of `foot`."""
         return self
 
 
 def soften(statistic: float, settings: StanceThreshold) -> Stance:
-    """Return zero-velocity evidence with sigma sqrt(max(1, T / base)), where T is the statistic.
+    """Return zero-velocity evidence; sigma is multiplied by sqrt(max(1, T / T_rest)), with the statistic T.
 
-    From the gate on there is no evidence."""
+    T_rest is `rest_statistic`. From `motion_statistic` on there is no evidence."""
     rest_statistic = settings.rest_statistic
     if statistic >= settings.motion_statistic:
         return Stance(ZERO, inf, statistic, None)
