@@ -17,7 +17,7 @@ from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.walker import Walker
 from solepath.foot.gaps.gap import NoInfill, find_infill
 from solepath.foot.gaps.moment import correction_distance, moments
-from solepath.foot.gaps.template import MOST_MOMENTS, OLD, StrideTemplate
+from solepath.foot.gaps.template import LARGEST_TEMPLATE_AGE, MOST_MOMENTS, StrideTemplate
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.tracker import FootTracker
 from solepath.saving import codec as machine
@@ -53,7 +53,7 @@ def test_a_gap_in_the_first_stride_is_bridged_by_a_straight_line() -> None:
     k = tracker.rest.scale
     by_line.predict(dt, (x * k, y * k, z * k), (gyro[0] - bx, gyro[1] - by, gyro[2] - bz))
     tracker.feed(after)
-    assert tracker.gait.template.last is None
+    assert tracker.gait.template.last_stride is None
     assert tracker.corrector.position == by_line.position
     assert tracker.corrector.attitude == by_line.attitude
 
@@ -86,9 +86,9 @@ def test_a_toe_off_or_heel_strike_at_a_stored_moment_has_the_time_of_that_moment
         for t in times:
             template.add_moment(t, IDENTITY, ZERO, ZERO, (0.0, 0.0, GRAVITY), ZERO)
         template.end_stride(t_heel_off + 1.0, times[2], times[7], 0.0, ZERO, 0.1)
-        assert template.last is not None
-        kept = moments(template.last.rows)
-        assert (kept[2].since, kept[7].since) == (template.last.toe_off, template.last.heel_strike)
+        assert template.last_stride is not None
+        kept = moments(template.last_stride.rows)
+        assert (kept[2].since, kept[7].since) == (template.last_stride.toe_off, template.last_stride.heel_strike)
 
 
 def test_a_stride_with_a_gap_or_round_a_corner_is_no_template() -> None:
@@ -98,7 +98,7 @@ def test_a_stride_with_a_gap_or_round_a_corner_is_no_template() -> None:
     def stride(template: StrideTemplate, t: float, turn: float, duration: float = 0.7, unseen: float = 0.0) -> None:
         template.start_stride(t)
         for k in range(int(duration / 0.01)):
-            if t + 0.01 * k >= template.due:
+            if t + 0.01 * k >= template.t_next_moment:
                 template.add_moment(t + 0.01 * k, *pose, up, ZERO)
         if unseen:
             template.add_infill(t, unseen)
@@ -106,16 +106,16 @@ def test_a_stride_with_a_gap_or_round_a_corner_is_no_template() -> None:
 
     template = StrideTemplate()
     stride(template, 1.0, 0.0)
-    kept = template.last
+    kept = template.last_stride
     assert kept is not None and kept.duration < 0.7
     assert (kept.toe_off, kept.heel_strike) == pytest.approx((0.2, 0.6))
     stride(template, 2.0, 0.0, unseen=0.2)
-    assert template.last is kept
+    assert template.last_stride is kept
     stride(template, 3.0, 0.5)
-    assert template.last is kept
-    for k in range(OLD):
+    assert template.last_stride is kept
+    for k in range(LARGEST_TEMPLATE_AGE):
         stride(template, 4.0 + k, 0.5)
-    assert template.last is not kept  # after many turns a turn becomes the template
+    assert template.last_stride is not kept  # after many turns a turn becomes the template
     stride(template, 40.0, 0.0, duration=3.0)  # too slow to be stored as a whole, and memory is bounded
     assert len(template.rows) <= MOST_MOMENTS
 
@@ -130,9 +130,9 @@ def test_a_stride_with_a_large_zero_velocity_correction_is_no_template() -> None
         template.end_stride(t + 0.7, t + 0.2, t + 0.6, 0.0, (1.33, 0.0, 0.0), 0.01)
 
     stride(1.0, -5.0)
-    assert template.last is None
+    assert template.last_stride is None
     stride(2.0, 2.0)
-    assert template.last is not None
+    assert template.last_stride is not None
 
 
 @pytest.mark.parametrize("displacement", [(3.3, 0.0, 0.0), (1.3, 0.0, 1.18), (1.3, 0.5, -1.18), (-40.0, 9.0, 7.0)])
@@ -144,10 +144,12 @@ def test_a_stride_with_a_gap_goes_hardly_further_than_those_before_and_no_higher
     for n in range(2):
         template.start_stride(1.2 * n + 0.4)
         for k in range(20):
-            template.add_moment(template.due, IDENTITY, (2.0, 0.0, 0.0), (2.0 * 0.032 * k, 0.0, 0.0), up, ZERO)
+            template.add_moment(
+                template.t_next_moment, IDENTITY, (2.0, 0.0, 0.0), (2.0 * 0.032 * k, 0.0, 0.0), up, ZERO
+            )
         t = 1.2 * (n + 1)
         template.end_stride(t, t - 0.5, t - 0.1, 0.0, (1.3, 0.0, 0.0), 0.01)
-    assert template.last is not None
+    assert template.last_stride is not None
     template.start_stride(2.8)
     if filled:
         template.add_infill(2.8, 0.3)

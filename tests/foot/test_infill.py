@@ -203,9 +203,9 @@ def test_a_turn_on_the_spot_is_no_straight_walk_in_a_short_gap(seed: int) -> Non
 def test_a_turn_without_a_gap_is_not_repaired_with_that_of_a_gap() -> None:
     line = StraightOn()
     for _ in range(3):
-        line.footfall(0.0, 0.0, 0.0, 0.0)
+        line.add_footfall(0.0, 0.0, 0.0, 0.0)
     assert line.repair(0.09, 1.0, 0.0) < -0.05
-    line.footfall(0.09, 0.0, 0.0, 0.0)
+    line.add_footfall(0.09, 0.0, 0.0, 0.0)
     assert line.repair(0.09, 1.0, 0.0) == 0.0
 
 
@@ -220,7 +220,7 @@ def test_the_larger_the_turn_of_a_footfall_the_less_of_it_is_repaired() -> None:
     line = StraightOn()
     for _ in range(3):
         assert line.repair(0.1, 1.0, 0.0) == 0.0  # the heading of this wearer is unknown
-        line.footfall(0.0, 0.0, 0.0, 0.0)
+        line.add_footfall(0.0, 0.0, 0.0, 0.0)
     taken_back = [-line.repair(turn, 1.0, 0.0) / turn for turn in (0.02, 0.1, 0.2, 0.4, 0.8)]
     assert taken_back[0] > 0.8
     assert all(a > b for a, b in pairwise(taken_back))

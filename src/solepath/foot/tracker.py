@@ -17,7 +17,7 @@ from .cues.cues import Cues, SeenCue
 from .cues.gait_cues import GaitCues
 from .gait import Gait
 from .gaps.crossing import cross_gap
-from .gaps.gap import SHORTEST
+from .gaps.gap import SHORTEST_FILLED_GAP
 from .limitations import LACKING_TIME, Limitations
 from .navigate.corrector import LONGEST_BRIDGE, Corrector
 from .pressure.insole import InsoleLoads
@@ -234,7 +234,7 @@ class FootTracker:
         self.gait.stride.mark_degraded(t)
         if not self.levelled:
             return t - last
-        if t - last <= SHORTEST or sample.acc is None or sample.gyro is None:
+        if t - last <= SHORTEST_FILLED_GAP or sample.acc is None or sample.gyro is None:
             return self.corrector.bridge(t - last)
         seen = self.rest.calibrate(sample.acc, sample.gyro)
         return cross_gap(
@@ -277,7 +277,7 @@ class FootTracker:
         if cues.mark is not None:
             corrector.mark(t, cues.mark)
         template, position = gait.template, corrector.position
-        if template.t_heel_off is not None and t >= template.due:
+        if template.t_heel_off is not None and t >= template.t_next_moment:
             template.add_moment(t, corrector.attitude, corrector.velocity, position, acc, gyro)
         gait.stride.add_motion(t, dt, position[2], speed, cues.sagittal)
         if seen:

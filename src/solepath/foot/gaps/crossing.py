@@ -1,4 +1,4 @@
-"""Continuation over a gap in the samples, with the stride template where there is one (gap.py)."""
+"""Continuation over a gap in the samples: by infill if there is a stride template (gap.py), else by a straight line."""
 
 from __future__ import annotations
 
@@ -14,34 +14,34 @@ def cross_gap(
     gait: Gait,
     corrector: Corrector,
     cues: Cues,
-    last: float,
+    t_last: float,
     t: float,
     known_at: float,
-    seen: tuple[Vec3, Vec3],
+    acc_and_gyro: tuple[Vec3, Vec3],
     interval: float,
     events: list[Event],
 ) -> float:
-    """Return how long to integrate over a gap, s, and add the phases that it has hidden to `events`.
+    """Cross a gap; return the time over which to integrate, s, and append the hidden phases to `events`.
 
-    The gap lasts from the last sample at `last` to the one at `t`, s. `seen` is acc and gyro at `t` (m/s^2, rad/s;
-    without bias), `interval` the usual interval between samples, s."""
+    The gap lasts from the last sample at `t_last` to the one at `t`, s. `acc_and_gyro` holds acc and gyro at `t`
+    (m/s^2, rad/s; without bias). `interval` is the usual interval between samples, s."""
     template = gait.template
-    dt = t - last
-    acc, gyro = seen
-    found = find_infill(template, corrector, last, t, acc, gyro)
-    if found is NoInfill.UNKNOWN:
+    dt = t - t_last
+    acc, gyro = acc_and_gyro
+    infill = find_infill(template, corrector, t_last, t, acc, gyro)
+    if infill is NoInfill.UNKNOWN:
         template.mark_bridged()
         if dt > LONGEST_BRIDGE:
             template.reset()
         return corrector.bridge(dt)
     for _ in range(2):  # within a second a foot may land, stand and leave again
-        if isinstance(found, NoInfill):
+        if isinstance(infill, NoInfill):
             break
         cues.reset()
-        corrector.infill(t - last, found.attitude, found.velocity, found.position)
-        events += gait.apply_infill(found, cues, known_at, corrector, interval)
-        if found.t_foot_flat is None:
+        corrector.infill(t - t_last, infill.attitude, infill.velocity, infill.position)
+        events += gait.apply_infill(infill, cues, known_at, corrector, interval)
+        if infill.t_foot_flat is None:
             break
-        last = found.t_foot_flat
-        found = find_infill(template, corrector, last, t, acc, gyro)
+        t_last = infill.t_foot_flat
+        infill = find_infill(template, corrector, t_last, t, acc, gyro)
     return 0.0

@@ -1,7 +1,10 @@
-"""Infill of a gap in the samples: the same part of the last whole stride stands in for it.
+"""Infill of a gap in the samples: the same part of the stride template stands in for it.
 
-The time for which the foot had moved before the gap, and its motion after the gap, tell which part this is. If the foot
-turned differently from the template before and after the gap, it is taken to have done so in the gap."""
+This part starts at the time for which the foot had moved before the gap, and ends where the template is most like the
+motion after the gap. If the foot turned differently from the template before and after the gap, the same difference is
+assumed in the gap. The likeness is a "mismatch": a sum of squared differences, each divided by its standard deviation.
+
+The numbers were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -23,15 +26,15 @@ from ...types.vector import (
     turned,
 )
 from ..navigate.corrector import LONGEST_BRIDGE, Corrector
-from .moment import RecordedStride, StrideMoment, at, length, limit_length, moments
+from .moment import RecordedStride, StrideMoment, interpolate_stride, limit_length, moments, vector_length
 from .template import StrideTemplate
 
-SHORTEST = 0.06
-"""Shortest gap that is filled, s; shorter ones are bridged by a straight line."""
-MOST_SHIFT = 0.12
-"""Largest time by which a stride is ahead of or behind the last one, s."""
-SHIFT_SIGMA = 0.03
-"""Standard deviation of the time by which a stride is ahead of or behind the last one, s."""
+SHORTEST_FILLED_GAP = 0.06
+"""Gap above which infill is used, s; shorter gaps are bridged by a straight line."""
+LARGEST_TIME_SHIFT = 0.12
+"""Largest time by which a stride is ahead of or behind the template, s."""
+TIME_SHIFT_SIGMA = 0.03
+"""Standard deviation of the time by which a stride is ahead of or behind the template, s."""
 RATE_SIGMA = 1.0
 """Standard deviation of the difference in rate between two strides at the same moment, rad/s."""
 FORCE_SIGMA = 4.0
@@ -40,24 +43,24 @@ TILT_SIGMA = 0.1
 """Standard deviation of the difference in the up direction (unit vector, sensor frame) between two strides."""
 SPEED_SIGMA = 0.3
 """Standard deviation of the difference in speed between two strides at the same moment, m/s."""
-PERSISTENCE = 0.5
-"""Share of the velocity difference before a gap that remains after it."""
-MOST_VELOCITY_OFF = 1.0
-"""Largest velocity difference that the wearer can cause, m/s."""
-LEAST_LIKE = 60.0
-"""Largest mismatch between foot and template, as a sum of squares of the standard deviations above.
+VELOCITY_PERSISTENCE = 0.5
+"""Share of the difference in velocity from the template that remains after a gap, 0 to 1."""
+LARGEST_VELOCITY_DIFFERENCE = 1.0
+"""Largest difference in velocity from the template that the wearer can cause, m/s."""
+LARGEST_MISMATCH = 60.0
+"""Largest mismatch between foot and template with which a short gap is filled; no unit.
 
-With a larger mismatch before or after a gap, a straight line is the better estimate if the gap is short enough."""
-LONGEST = 1.5
-"""Longest gap that is filled, s: the template tells one stride, not how many."""
-FASTEST = 4.0
-"""Largest mean speed of a foot in a stride, m/s."""
-UP = (0.0, 0.0, 1.0)
+With a larger mismatch before or after the gap, a straight line is the better estimate."""
+LONGEST_FILLED_GAP = 1.5
+"""Longest gap that is filled, s; a longer one may hide several strides."""
+FASTEST_FOOT = 4.0
+"""Largest mean speed of a foot over a gap, m/s."""
+UP_VECTOR = (0.0, 0.0, 1.0)
 """Up as a unit vector, navigation frame."""
 
 
 class Infill(NamedTuple):
-    """The state of the foot after a gap, and the gait events in it."""
+    """The state of the foot after a gap, and the gait events in the gap."""
 
     attitude: Quat
     """Attitude after the gap, sensor to navigation frame."""
@@ -85,135 +88,141 @@ class NoInfill(Enum):
 
 
 def find_infill(
-    template: StrideTemplate, corrector: Corrector, a: float, b: float, acc: Vec3, gyro: Vec3
+    template: StrideTemplate, corrector: Corrector, t_before: float, t_after: float, acc: Vec3, gyro: Vec3
 ) -> Infill | NoInfill:
-    """Return the infill of a gap from `a` to `b`, s, or the reason why there is none.
+    """Return the infill of a gap from `t_before` to `t_after`, s, or the reason why there is none.
 
-    The state of the corrector is that at `a`; `acc` and `gyro` are those at `b`, without bias. The function changes
-    nothing: `StrideTemplate.add_infill` and `Corrector.infill` apply the result."""
+    The state of the corrector is that at `t_before`; `acc` (m/s^2) and `gyro` (rad/s) are those at `t_after`, without
+    bias. The function changes nothing: `StrideTemplate.add_infill` and `Corrector.infill` apply the result."""
     x, y, z = acc
     force = hypot(x, y, z)
     x, y, z = gyro
     still = (x * x + y * y + z * z) / 0.25 + (force - GRAVITY) ** 2 / 2.0
-    stride = template.last
-    if stride is None or b - a > LONGEST:
+    stride = template.last_stride
+    if stride is None or t_after - t_before > LONGEST_FILLED_GAP:
         return NoInfill.STOOD if template.t_heel_off is None and still < 8.0 else NoInfill.UNKNOWN
-    last = moments(stride.rows)
-    whole = last[-1].since
+    template_moments = moments(stride.rows)
+    template_end = template_moments[-1].since
     if template.t_heel_off is None:
-        unlike = 0.0
-        start, usual, most = 0.0, 2.0 * MOST_SHIFT / 3.0, b - a
-        # duration since the heel-off that the cadence predicts
-        expected = b - a if template.flat_since is None else b - template.flat_since - template.stance
-        if template.flat_since is not None and expected - (b - a) > 3.0 * usual:
-            expected, usual = 0.0, b - a  # after a longer stance the wearer has halted, and may go on at any time
-        best = still + min(12.0, max(0.0, expected / usual) ** 2)
+        mismatch = 0.0
+        start, expected_sigma, latest = 0.0, 2.0 * LARGEST_TIME_SHIFT / 3.0, t_after - t_before
+        # time since the heel-off that the last stance lets expect
+        expected = (
+            t_after - t_before if template.t_flat is None else t_after - template.t_flat - template.stance_duration
+        )
+        if template.t_flat is not None and expected - (t_after - t_before) > 3.0 * expected_sigma:
+            # after a longer stance the wearer has halted, and may go on at any time
+            expected, expected_sigma = 0.0, t_after - t_before
+        least_mismatch = still + min(12.0, max(0.0, expected / expected_sigma) ** 2)
     else:
-        start, unlike = _match_moment(last, corrector, a - template.t_heel_off)
-        usual, expected, best = SHIFT_SIGMA, start + b - a, 1e12
-        most = expected + MOST_SHIFT
+        start, mismatch = _match_moment(template_moments, corrector, t_before - template.t_heel_off)
+        expected_sigma, expected, least_mismatch = TIME_SHIFT_SIGMA, start + t_after - t_before, 1e12
+        latest = expected + LARGEST_TIME_SHIFT
     end: StrideMoment | None = None
-    for moment in last:
-        if moment.since > most:
+    for moment in template_moments:
+        if moment.since > latest:
             break
-        if template.t_heel_off is not None and moment.since < expected - MOST_SHIFT:
+        if template.t_heel_off is not None and moment.since < expected - LARGEST_TIME_SHIFT:
             continue
         x, y, z = sub(gyro, moment.rate)
-        far = (x * x + y * y + z * z) / RATE_SIGMA**2 + ((force - moment.force) / FORCE_SIGMA) ** 2
-        far += ((moment.since - expected) / usual) ** 2
-        if far < best:
-            best, end = far, moment
-    if most >= whole:
-        early = max(0.0, whole - expected)
-        if still + (early / usual) ** 2 < best or (template.t_heel_off is not None and expected > whole + MOST_SHIFT):
-            end = last[-1]
-    if end is not None and end is not last[-1]:
-        unlike = max(unlike, best)
-    if template.t_heel_off is not None and unlike > LEAST_LIKE and b - a <= LONGEST_BRIDGE:
+        moment_mismatch = (x * x + y * y + z * z) / RATE_SIGMA**2 + ((force - moment.force) / FORCE_SIGMA) ** 2
+        moment_mismatch += ((moment.since - expected) / expected_sigma) ** 2
+        if moment_mismatch < least_mismatch:
+            least_mismatch, end = moment_mismatch, moment
+    if latest >= template_end:
+        early = max(0.0, template_end - expected)
+        if still + (early / expected_sigma) ** 2 < least_mismatch or (
+            template.t_heel_off is not None and expected > template_end + LARGEST_TIME_SHIFT
+        ):
+            end = template_moments[-1]
+    if end is not None and end is not template_moments[-1]:
+        mismatch = max(mismatch, least_mismatch)
+    if template.t_heel_off is not None and mismatch > LARGEST_MISMATCH and t_after - t_before <= LONGEST_BRIDGE:
         return NoInfill.UNKNOWN  # another kind of stride, such as a turn on the spot
     if end is None:
-        return NoInfill.STOOD if template.t_heel_off is None and best < 20.0 else NoInfill.UNKNOWN
-    return _build_infill(template, stride, last, corrector, start, end, a, b, gyro)
+        return NoInfill.STOOD if template.t_heel_off is None and least_mismatch < 20.0 else NoInfill.UNKNOWN
+    return _build_infill(template, stride, template_moments, corrector, start, end, t_before, t_after, gyro)
 
 
-def _match_moment(last: list[StrideMoment], corrector: Corrector, since: float) -> tuple[float, float]:
-    """Return the time after heel-off at which the template is most like the foot now, and the mismatch.
+def _match_moment(template_moments: list[StrideMoment], corrector: Corrector, since: float) -> tuple[float, float]:
+    """Return the time after heel-off, s, at which the template is most like the foot now, and the mismatch.
 
-    Only moments near `since` s after heel-off count. The mismatch is a sum of squares of standard deviations."""
+    Only moments near `since` s after heel-off count."""
     rate = corrector.rate
     if rate is None:
         return since, 0.0
-    best, found = 1e12, since
-    up, fast = rotate_back(corrector.attitude, UP), length(corrector.velocity)
-    for moment in last:
-        if abs(moment.since - since) < MOST_SHIFT:
+    least_mismatch, best_since = 1e12, since
+    up, speed = rotate_back(corrector.attitude, UP_VECTOR), vector_length(corrector.velocity)
+    for moment in template_moments:
+        if abs(moment.since - since) < LARGEST_TIME_SHIFT:
             x, y, z = sub(rate, moment.rate)
-            far = (x * x + y * y + z * z) / RATE_SIGMA**2 + ((moment.since - since) / SHIFT_SIGMA) ** 2
-            x, y, z = sub(up, rotate_back(moment.attitude, UP))
-            far += (x * x + y * y + z * z) / TILT_SIGMA**2
-            far += ((fast - length(moment.velocity)) / SPEED_SIGMA) ** 2
-            if far < best:
-                best, found = far, moment.since
-    return found, best
+            moment_mismatch = (x * x + y * y + z * z) / RATE_SIGMA**2 + ((moment.since - since) / TIME_SHIFT_SIGMA) ** 2
+            x, y, z = sub(up, rotate_back(moment.attitude, UP_VECTOR))
+            moment_mismatch += (x * x + y * y + z * z) / TILT_SIGMA**2
+            moment_mismatch += ((speed - vector_length(moment.velocity)) / SPEED_SIGMA) ** 2
+            if moment_mismatch < least_mismatch:
+                least_mismatch, best_since = moment_mismatch, moment.since
+    return best_since, least_mismatch
 
 
 def _build_infill(
     template: StrideTemplate,
     stride: RecordedStride,
-    last: list[StrideMoment],
+    template_moments: list[StrideMoment],
     corrector: Corrector,
     start: float,
     end: StrideMoment,
-    a: float,
-    b: float,
+    t_before: float,
+    t_after: float,
     gyro: Vec3,
 ) -> Infill:
-    """Return the infill from `start`, s after heel-off in the template, to the moment `end`; `last` is all of it."""
+    """Return the infill from `start`, s after heel-off in the template, to the moment `end` of the template."""
     attitude, rate, moving = corrector.attitude, corrector.rate, template.t_heel_off is not None
-    first = at(last, start)
-    t_foot_flat = end is last[-1]
-    dt = max(end.since - first.since, 1e-6)
-    # tilt of the template, because the phase of the stride tells it better than the last sample; current heading
-    yaw = heading_turned(first.attitude, attitude)
-    now = multiply(from_yaw(yaw), end.attitude)
+    start_moment = interpolate_stride(template_moments, start)
+    ends_flat = end is template_moments[-1]
+    dt = max(end.since - start_moment.since, 1e-6)
+    # the tilt comes from the template, because the phase of the stride gives it better than the last sample does; the
+    # heading is the current one
+    yaw = heading_turned(start_moment.attitude, attitude)
+    end_attitude = multiply(from_yaw(yaw), end.attitude)
     if rate is not None:
-        # the difference in rate from the template before and after the gap is taken to last through the gap
-        before = rotate(attitude, sub(rate, first.rate))[2] if moving else 0.0
-        after = 0.0 if t_foot_flat else rotate(now, sub(gyro, end.rate))[2]
-        now = multiply(from_yaw(0.5 * min(dt, b - a) * (before + after)), now)
-    now = normalise(now)
+        # the difference in turning rate from the template, before and after the gap, is assumed in the gap as well
+        rate_before = rotate(attitude, sub(rate, start_moment.rate))[2] if moving else 0.0
+        rate_after = 0.0 if ends_flat else rotate(end_attitude, sub(gyro, end.rate))[2]
+        end_attitude = multiply(from_yaw(0.5 * min(dt, t_after - t_before) * (rate_before + rate_after)), end_attitude)
+    end_attitude = normalise(end_attitude)
     ux, uy, uz = turned(end.velocity, yaw)
-    ex, ey, ez = limit_length(sub(corrector.velocity, turned(first.velocity, yaw)), MOST_VELOCITY_OFF)
-    k = PERSISTENCE
-    speed = ZERO if t_foot_flat else (ux + k * ex, uy + k * ey, uz + k * ez)
+    ex, ey, ez = limit_length(sub(corrector.velocity, turned(start_moment.velocity, yaw)), LARGEST_VELOCITY_DIFFERENCE)
+    k = VELOCITY_PERSISTENCE
+    end_velocity = ZERO if ends_flat else (ux + k * ex, uy + k * ey, uz + k * ez)
     k *= 0.5 * dt
-    px, py, pz = turned(sub(end.position, first.position), yaw)
+    px, py, pz = turned(sub(end.position, start_moment.position), yaw)
     x, y, z = corrector.position
-    wx, wy, wz = limit_length((px + k * ex, py + k * ey, pz + k * ez), FASTEST * (b - a))
-    here = (x + wx, y + wy, z + wz)
-    t_heel_off = _time_of_heel_off(template, t_foot_flat, start, end, a, b)
-    # not before the gap, because samples would have shown it
-    t_toe_off = max(a, t_heel_off + stride.toe_off) if end.since >= stride.toe_off else None
-    t_heel_strike = max(a, t_heel_off + stride.heel_strike) if end.since >= stride.heel_strike else None
+    wx, wy, wz = limit_length((px + k * ex, py + k * ey, pz + k * ez), FASTEST_FOOT * (t_after - t_before))
+    end_position = (x + wx, y + wy, z + wz)
+    t_heel_off = _time_of_heel_off(template, ends_flat, start, end, t_before, t_after)
+    # events do not lie before the gap, because samples would have shown them
+    t_toe_off = max(t_before, t_heel_off + stride.toe_off) if end.since >= stride.toe_off else None
+    t_heel_strike = max(t_before, t_heel_off + stride.heel_strike) if end.since >= stride.heel_strike else None
     return Infill(
-        now,
-        speed,
-        here,
+        end_attitude,
+        end_velocity,
+        end_position,
         dt,
         t_heel_off,
         t_toe_off,
         t_heel_strike,
-        max(a, t_heel_off + end.since) if t_foot_flat else None,
+        max(t_before, t_heel_off + end.since) if ends_flat else None,
     )
 
 
 def _time_of_heel_off(
-    template: StrideTemplate, t_foot_flat: bool, start: float, end: StrideMoment, a: float, b: float
+    template: StrideTemplate, ends_flat: bool, start: float, end: StrideMoment, t_before: float, t_after: float
 ) -> float:
     """Return the time of heel-off, s."""
-    if not t_foot_flat:
-        return b - end.since
+    if not ends_flat:
+        return t_after - end.since
     if template.t_heel_off is not None:
-        return min(a - start, b - end.since)
-    by_cadence = b - end.since if template.flat_since is None else template.flat_since + template.stance
-    return max(a, min(by_cadence, b - end.since))
+        return min(t_before - start, t_after - end.since)
+    by_cadence = t_after - end.since if template.t_flat is None else template.t_flat + template.stance_duration
+    return max(t_before, min(by_cadence, t_after - end.since))

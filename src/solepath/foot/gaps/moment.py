@@ -12,11 +12,11 @@ from ...types.vector import normalise, sub
 MomentRow = tuple[
     float, float, float, float, float, float, float, float, float, float, float, float, float, float, float
 ]  # fmt: skip
-"""One moment as it is stored: all numbers of `StrideMoment` in order, rounded to float32.
+"""Stored form of a moment: all numbers of `StrideMoment` in order, rounded to float32.
 
-This changes a number by less than 1e-6 of itself, where strides differ by some per cent."""
-SINGLES = Struct("<15f")
-"""Packing of a `MomentRow` as float32."""
+The relative rounding error is below 1e-6, whereas strides differ by some per cent."""
+FLOAT32_ROW = Struct("<15f")
+"""Binary format that rounds a `MomentRow` to float32."""
 
 
 @frozen
@@ -64,8 +64,8 @@ def moments(rows: list[MomentRow]) -> list[StrideMoment]:
     ]
 
 
-def at(moments: list[StrideMoment], since: float) -> StrideMoment:
-    """Return the stride at `since` s after heel-off, interpolated and within its first and last moment."""
+def interpolate_stride(moments: list[StrideMoment], since: float) -> StrideMoment:
+    """Return the interpolated moment at `since` s after heel-off; outside the stride the first or the last moment."""
     before = moments[0]
     for moment in moments:
         if moment.since >= since:
@@ -85,9 +85,9 @@ def at(moments: list[StrideMoment], since: float) -> StrideMoment:
 
 
 def correction_distance(rows: list[MomentRow]) -> float:
-    """Return how far the zero velocity updates have moved the foot in a stride, m.
+    """Return the distance by which zero-velocity updates have moved the foot in a stride, m.
 
-    This is the difference between the displacement and the integral of the velocity."""
+    It is the length of the difference between displacement and integral of the velocity."""
     first, last = rows[0], rows[-1]
     before, ax, ay, az = first[0], *first[5:8]
     x, y, z = sub(last[8:11], first[8:11])
@@ -98,15 +98,17 @@ def correction_distance(rows: list[MomentRow]) -> float:
     return hypot(x, y, z)
 
 
-def length(v: Vec3) -> float:
+def vector_length(v: Vec3) -> float:
     """Return the length of a vector."""
     return hypot(v[0], v[1], v[2])
 
 
-def limit_length(v: Vec3, most: float) -> Vec3:
-    """Return a vector of the same direction that is at most `most` long."""
-    far = length(v)
-    return v if far <= most else (v[0] * most / far, v[1] * most / far, v[2] * most / far)
+def limit_length(v: Vec3, longest: float) -> Vec3:
+    """Return a vector of the same direction that is at most `longest` long."""
+    v_length = vector_length(v)
+    return (
+        v if v_length <= longest else (v[0] * longest / v_length, v[1] * longest / v_length, v[2] * longest / v_length)
+    )
 
 
 def _interpolate(a: Vec3, b: Vec3, k: float) -> Vec3:
