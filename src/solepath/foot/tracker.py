@@ -191,7 +191,7 @@ class FootTracker:
         if sample.saturated:
             self.gait.stride.mark_degraded(t)
         sole, load = self.sole, None
-        if sample.pressure or sole.pressed:
+        if sample.pressure or sole.had_cells:
             load = sole.add_sample(sample, known_at, self.gait.phase, self.limitations, events)
             if sole.layout_changed and sole.insole.layout is not None:
                 self._set_layouts(sole.insole.layout)
@@ -199,7 +199,7 @@ class FootTracker:
             gait = self.gait
             if gait.phase is not SWING and gait.stride.t_toe_off is None:
                 gait.stride.add_load(sole.insole.sum, load.centre)
-        elif self.settings.needs_pressure and not sole.pressed:
+        elif self.settings.needs_pressure and not sole.had_cells:
             what = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
             self.limitations.report_lacking(what, t, known_at, events)
             return events

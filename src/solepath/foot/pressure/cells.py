@@ -9,9 +9,11 @@ from ...types import Layout
 from ...types.attrs import define, field
 
 NEIGHBOUR_DISTANCE = 1.7
-"""Largest distance of a neighbour, as a multiple of the usual distance between cells."""
-WIDEST_OPENING = 2.6
-"""Widest angle between neighbours of an enclosed cell, rad; a cell with a wider one is at their rim."""
+"""Largest distance of a neighbour, as a multiple of the usual distance between cells; chosen by hand."""
+WIDEST_NEIGHBOUR_ANGLE = 2.6
+"""Widest angle at a cell between two neighbours next to each other if it lies among them, rad; chosen by hand.
+
+A cell with a wider angle lies at the rim of its neighbours."""
 
 
 @define
@@ -28,7 +30,7 @@ class CellSpan:
     """Highest sum of the cells."""
 
     def add(self, cells: tuple[float, ...], excluded: list[int]) -> None:
-        """Add one sample; the `excluded` cells do not count in the sum."""
+        """Add one sample; cells with an index in `excluded` do not count in the sum."""
         total = sum(cells) - sum([cells[i] for i in excluded])
         if not self.lows:
             self.lows, self.highs = list(cells), list(cells)
@@ -43,44 +45,47 @@ class CellSpan:
 @lru_cache(maxsize=8)
 def spacing(layout: Layout) -> float:
     """Return the usual distance from one cell to the next, m; 0 with fewer than two cells."""
-    places = [(cell.x, cell.y) for cell in layout.cells]
-    nearest = sorted(
-        [min([hypot(x - u, y - v) for j, (u, v) in enumerate(places) if j != i]) for i, (x, y) in enumerate(places)]
-        if len(places) > 1
+    positions = [(cell.x, cell.y) for cell in layout.cells]
+    nearest_distances = sorted(
+        [
+            min([hypot(x - u, y - v) for j, (u, v) in enumerate(positions) if j != i])
+            for i, (x, y) in enumerate(positions)
+        ]
+        if len(positions) > 1
         else [0.0]
     )
-    return nearest[len(nearest) // 2]
+    return nearest_distances[len(nearest_distances) // 2]
 
 
-def enclosed(layout: Layout, between: float, i: int, loading: list[bool]) -> tuple[bool, bool]:
+def enclosed(layout: Layout, cell_distance: float, i: int, loading: list[bool]) -> tuple[bool, bool]:
     """Return whether loading neighbours lie on all sides of cell `i`, and whether at least two neighbours load.
 
-    `between` is the usual distance between cells, m; `loading` tells for each cell whether it loads."""
-    here = layout.cells[i]
-    angles, others = [], 0
+    `cell_distance` is the usual distance between cells, m; `loading` is True for each cell that loads."""
+    cell_i = layout.cells[i]
+    angles, unloaded_neighbours = [], 0
     for j, cell in enumerate(layout.cells):
-        dx, dy = cell.x - here.x, cell.y - here.y
-        if j == i or hypot(dx, dy) > NEIGHBOUR_DISTANCE * between:
+        dx, dy = cell.x - cell_i.x, cell.y - cell_i.y
+        if j == i or hypot(dx, dy) > NEIGHBOUR_DISTANCE * cell_distance:
             continue
         if loading[j]:
             angles.append(atan2(dy, dx))
         else:
-            others += 1
+            unloaded_neighbours += 1
     if len(angles) < 2:
         return False, False
-    if len(angles) < 4 or others > 1:
+    if len(angles) < 4 or unloaded_neighbours > 1:
         return False, True
     angles.sort()
-    gaps = [b - a for a, b in zip(angles, angles[1:], strict=False)]
-    widest = max([*gaps, angles[0] + 2.0 * pi - angles[-1]])
-    return widest < WIDEST_OPENING, True
+    angles_between = [b - a for a, b in zip(angles, angles[1:], strict=False)]
+    widest_angle = max([*angles_between, angles[0] + 2.0 * pi - angles[-1]])
+    return widest_angle < WIDEST_NEIGHBOUR_ANGLE, True
 
 
 def centre(layout: Layout) -> float | None:
-    """Return x of the centre of the foot, half-way between the first and the last cell, m; None without cells.
+    """Return x of the centre of the foot, half-way between first and last cell, foot frame, m; None without cells.
 
-    The frame is that of the foot. Source: "Smart insole-based indoor localization system for Internet of Things
-    applications", IEEE Internet of Things Journal 6, 2019. There, cells from 34 to 166 mm have their centre at 100 mm,
-    and this is taken for the centre of pressure while the foot is in the air."""
+    Source: "Smart insole-based indoor localization system for Internet of Things applications", IEEE Internet of Things
+    Journal 6, 2019. There, cells from 34 to 166 mm have their centre at 100 mm, and this stands for the centre of
+    pressure while the foot is in the air."""
     xs = [cell.x for cell in layout.cells]
     return 0.5 * (min(xs) + max(xs)) if xs else None

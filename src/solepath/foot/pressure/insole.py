@@ -1,10 +1,13 @@
 """Load of one insole: tare, full load, centre of pressure, and load of heel and forefoot.
 
-An insole needs no calibration before walking. The tare is the value of the cells when the foot is in the air, where the
-shoe still presses on them. The full load is their value when they bear the body. Both are learnt from the signal, so
-newtons and counts work alike. There is no `Load` before the load has once fallen to a fraction of itself and risen
-again. Until then a falling load would always be the lowest so far, and a foot that is about to step would seem to be in
-the air."""
+An insole needs no calibration before walking. The tare is the value of each cell when the foot is in the air, where the
+shoe still presses on the cells. The full load is the highest minus the lowest sum of all cells in the last 8 to 10 s,
+between a foot in the air and one that bears the wearer. Both are learnt from the signal, so newtons and counts work
+alike.
+
+There is no `Load` before the sum has once fallen to a small share of its highest value and risen again. Until then a
+falling sum would always be the lowest so far, and a foot that is about to leave the ground would seem to be in the air.
+The numbers were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -19,23 +22,23 @@ from ...types.vector import TIE
 from ..settings import InsoleSettings
 from ..stance.stance import Load
 
-SPAN = 2.0
+SPAN_DURATION = 2.0
 """Duration of one of the five spans over which the lowest and highest load are kept, s."""
-CONTRAST = 0.2
-"""Smallest difference between lowest and highest load that means anything, as a share of the highest."""
-AIRBORNE = 0.02
+LEAST_LOAD_RANGE = 0.2
+"""Smallest difference between lowest and highest load with which the load is known, as a share of the highest."""
+AIRBORNE_LOAD = 0.02
 """Load below which the foot is in the air, as a share of the full load."""
 LEAST_LOAD = 0.05
 """Load below which the centre of pressure is noise, as a share of the full load."""
 LEAST_AREA_RANGE = 0.05
-"""Smallest variation of the load of a working area, as a share of the full load."""
+"""Smallest range of the load of an area with working cells, as a share of the full load."""
 
 
 @define
 class Extremes:
-    """The lowest and highest value of the last 8 to 10 s, from five spans of 2 s. O(1) a sample."""
+    """The lowest and highest value of the last 8 to 10 s, kept for each of five spans of 2 s; O(1) a sample."""
 
-    ends: float | None = field(default=None, init=False)
+    span_end: float | None = field(default=None, init=False)
     """End of the current span, s; None before any."""
     lows: list[float] = field(factory=list, init=False)
     """Lowest value of each span."""
@@ -47,9 +50,9 @@ class Extremes:
     """Highest value of all spans."""
 
     def update(self, t: float, value: float) -> float:
-        """Add one value at `t`, s; return its difference from the lowest one."""
-        if self.ends is None or t >= self.ends - TIE:
-            self.ends = t + SPAN
+        """Add one value at `t`, s; return its difference from the lowest value."""
+        if self.span_end is None or t >= self.span_end - TIE:
+            self.span_end = t + SPAN_DURATION
             self.lows = [*self.lows[-4:], value]
             self.highs = [*self.highs[-4:], value]
             self.low = min(self.lows)
@@ -68,16 +71,16 @@ class Extremes:
 class InsoleLoads:
     """Converts the cell values of one insole to a `Load`.
 
-    With a calibration, raw values become newtons by a cubic (calibration.Newtons). The noise of each cell in the air is
-    subtracted, with 0 as the lower limit (Chen et al. 2019: noise "could be removed through deleting p_noise", equation
-    (1))."""
+    With a calibration, raw values become newtons by a cubic (calibration.Newtons). The calibrated value of each cell in
+    the air (its noise) is subtracted, with 0 as the lower limit (Chen et al. 2019: noise "could be removed through
+    deleting p_noise", equation (1))."""
 
     settings: InsoleSettings = InsoleSettings()
     layout: Layout | None = field(default=None, init=False)
     in_newtons: bool = field(default=False, init=False)
     """The device sends newtons, so `settings.newtons` is not used."""
     cells: tuple[float, ...] = field(default=(), init=False)
-    """Cells of the current sample without noise; () once the sample was used."""
+    """Values of the cells of the current sample without noise, N or unit of the samples; () after their use."""
     sum: float = field(default=0.0, init=False)
     """Sum of `cells`."""
     heel_cells: tuple[int, ...] = field(default=(), init=False)
@@ -95,16 +98,19 @@ class InsoleLoads:
     tare: list[float] = field(factory=list, init=False)
     """Value of each cell in the air, unit of the samples."""
     tare_total: float = field(default=0.0, init=False)
-    """Sum of the cells when the tare was taken."""
+    """Sum of the cells at the sample that gave the tare, unit of the samples."""
     was_airborne: bool = field(default=False, init=False)
     """The foot was in the air in the last sample."""
     load_risen: bool = field(default=False, init=False)
-    """The load has risen again from its lowest value."""
+    """The load has risen again after it had fallen, so that it is known."""
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> InsoleLoads:
         """Return a copy with the calibration of this foot's insole."""
-        known = calibration.insole(foot)
-        newtons, noise = known.newtons or self.settings.newtons, known.noise or self.settings.noise
+        insole_calibration = calibration.insole(foot)
+        newtons, noise = (
+            insole_calibration.newtons or self.settings.newtons,
+            insole_calibration.noise or self.settings.noise,
+        )
         return evolve(self, settings=evolve(self.settings, newtons=newtons, noise=noise))
 
     def set_layout(self, layout: Layout) -> None:
@@ -118,17 +124,17 @@ class InsoleLoads:
         self.forefoot_cells = tuple([i for i, cell in enumerate(layout.cells) if cell.x > forefoot_start])
 
     def reset(self) -> None:
-        """Keep the extremes but end their current spans, because times restart."""
-        self.total.ends = self.heel.ends = self.forefoot.ends = None
+        """End the current spans because times restart; the extremes stay."""
+        self.total.span_end = self.heel.span_end = self.forefoot.span_end = None
 
     def update(self, t: float, cells: tuple[float, ...]) -> Load | None:
-        """Return the load as shares of the wearer's full load; None while that is unknown."""
+        """Return the load of one sample, as shares of the full load; None while that is unknown."""
         settings = self.settings
         if settings.newtons is not None and not self.in_newtons:
             cells = in_newtons(settings.newtons, cells)
         if len(settings.noise) == len(cells):
             pairs = zip(cells, settings.noise, strict=True)
-            cells = tuple([value - zero if value > zero else 0.0 for value, zero in pairs])
+            cells = tuple([value - unloaded if value > unloaded else 0.0 for value, unloaded in pairs])
         self.cells = cells
         total = self.sum = sum(cells)
         self.total.update(t, total)
@@ -137,39 +143,45 @@ class InsoleLoads:
         heel = forefoot = None
         if self.layout is not None and len(cells) == len(self.layout.cells):
             if self.heel_cells:
-                heel = self.heel.update(t, sum(picker(self.heel_cells)(cells)))
+                heel = self.heel.update(t, sum(make_picker(self.heel_cells)(cells)))
             if self.forefoot_cells:
-                forefoot = self.forefoot.update(t, sum(picker(self.forefoot_cells)(cells)))
+                forefoot = self.forefoot.update(t, sum(make_picker(self.forefoot_cells)(cells)))
         low, high = self.total.low, self.total.high
-        reach = high - low
-        if reach <= CONTRAST * high or reach <= 0.0:
+        load_range = high - low
+        if load_range <= LEAST_LOAD_RANGE * high or load_range <= 0.0:
             self.load_risen = False
             return None
         if not self.load_risen:
-            self.load_risen = total - low > CONTRAST * high
+            self.load_risen = total - low > LEAST_LOAD_RANGE * high
             if not self.load_risen:
                 return None
-        share = (total - low) / reach
-        airborne = share < AIRBORNE
-        # at first the toe has hardly left the ground, so a lower total replaces the tare
+        share = (total - low) / load_range
+        airborne = share < AIRBORNE_LOAD
+        # in the first airborne samples the toe has hardly left the ground, so samples with a lower total are better
         if airborne and (not self.was_airborne or total < self.tare_total):
             self.tare = list(cells)
             self.tare_total = total
         self.was_airborne = airborne
         # an area without variation is dead or absent, so it has no load
         if heel is not None:
-            heel = heel / reach if self.heel.high - self.heel.low > LEAST_AREA_RANGE * reach else None
+            heel = heel / load_range if self.heel.high - self.heel.low > LEAST_AREA_RANGE * load_range else None
         if forefoot is not None:
-            forefoot = forefoot / reach if self.forefoot.high - self.forefoot.low > LEAST_AREA_RANGE * reach else None
+            forefoot = (
+                forefoot / load_range
+                if self.forefoot.high - self.forefoot.low > LEAST_AREA_RANGE * load_range
+                else None
+            )
         highest = largest / self.highest if self.highest > 0.0 else 0.0
         centre = None if airborne else self.centre_of_pressure(cells)
         return Load(share, heel, forefoot, highest, airborne, cells, centre)
 
     def above_tare(self, cells: tuple[float, ...]) -> tuple[float, ...]:
-        """Return the cells minus their values in the air, if these are known; unit of the samples."""
+        """Return the cells minus their tare, at least 0, unit of `cells`; without a tare the cells as they are."""
         if len(cells) != len(self.tare):
             return cells
-        return tuple([value - zero if value > zero else 0.0 for value, zero in zip(cells, self.tare, strict=True)])
+        return tuple(
+            [value - unloaded if value > unloaded else 0.0 for value, unloaded in zip(cells, self.tare, strict=True)]
+        )
 
     def centre_of_pressure(self, cells: tuple[float, ...]) -> tuple[float, float] | None:
         """Return the centre of pressure (x, y), foot frame, m; None with hardly any load or without a layout.
@@ -179,7 +191,9 @@ class InsoleLoads:
         layout = self.layout
         if layout is None or not len(cells) == len(layout.cells) == len(self.tare):
             return None
-        loads = [value - zero if value > zero else 0.0 for value, zero in zip(cells, self.tare, strict=True)]
+        loads = [
+            value - unloaded if value > unloaded else 0.0 for value, unloaded in zip(cells, self.tare, strict=True)
+        ]
         load = sum(loads)
         if load <= LEAST_LOAD * (self.total.high - self.total.low):
             return None
@@ -187,15 +201,15 @@ class InsoleLoads:
 
 
 @lru_cache(maxsize=16)
-def picker(indices: tuple[int, ...]) -> Callable[[tuple[float, ...]], tuple[float, ...]]:
-    """Return a function that picks these items of a tuple, in a third of the time of a loop."""
-    few = slice(indices[0], indices[0] + 1)
-    return itemgetter(*indices) if len(indices) > 1 else itemgetter(few)
+def make_picker(indices: tuple[int, ...]) -> Callable[[tuple[float, ...]], tuple[float, ...]]:
+    """Return a function that returns these items of a tuple; it takes a third of the time of a loop."""
+    first_only = slice(indices[0], indices[0] + 1)
+    return itemgetter(*indices) if len(indices) > 1 else itemgetter(first_only)
 
 
 def in_newtons(newtons: Newtons, cells: tuple[float, ...]) -> tuple[float, ...]:
     """Return raw values in N: 0 below the threshold, and at most the largest calibrated force."""
     a, b, c, d = newtons.coefficients
-    least, most = newtons.threshold, newtons.most
+    threshold, most = newtons.threshold, newtons.most
     forces = [a + value * (b + value * (c + value * d)) for value in cells]
-    return tuple([0.0 if force < least else min(force, most) for force in forces])
+    return tuple([0.0 if force < threshold else min(force, most) for force in forces])

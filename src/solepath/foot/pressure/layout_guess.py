@@ -1,7 +1,9 @@
 """Estimation of an unknown layout of pressure cells from the order in which a stance loads them.
 
 The cells of the heel bear the start of each stance and those of the toes its end. So the mean time of a cell's load
-within the stance grows from heel to toe. The signal does not show where a cell lies from left to right."""
+within the stance grows from heel to toe. The signal does not show where a cell lies from left to right.
+
+The full load is that of all cells when they bear the wearer (insole.py). The origin of the numbers is not recorded."""
 
 from __future__ import annotations
 
@@ -10,20 +12,22 @@ from operator import add
 from ...types import Cell, Foot, Layout
 from ...types.attrs import define, field
 
-LENGTH = 0.26
-"""Length of an insole of unknown size, m: size 42."""
-REAR, FRONT = 0.1, 0.9
-"""Positions of the first and the last loaded cell, as shares of the length."""
-UNNAMED = 0
-"""Number of an estimated layout."""
-STANCES = 2
+ASSUMED_LENGTH = 0.26
+"""Length of an insole of unknown size, m: that of size 42."""
+REAR_POSITION, FRONT_POSITION = 0.1, 0.9
+"""Positions of the first and the last loaded cell, measured from the heel, as shares of the length, 0 to 1."""
+ESTIMATED_LAYOUT_ID = 0
+"""Value of `Layout.id` for an estimated layout."""
+STANCES_OF_ESTIMATE = 2
 """Number of complete stances that an estimate needs."""
-ON, OFF = 0.10, 0.05
-"""Loads at which a stance starts and ends, as shares of the full load."""
-SHORTEST, LONGEST = 0.25, 2.0
+STANCE_START_LOAD, STANCE_END_LOAD = 0.10, 0.05
+"""Loads at which a stance starts and ends, as shares of the full load, 0 to 1."""
+SHORTEST_STANCE, LONGEST_STANCE = 0.25, 2.0
 """Shortest and longest stance of walking, s."""
-LEAST_LOAD = 0.02
-"""Smallest load of a cell that is placed, as a share of the most loaded cell's; others stay in the middle."""
+LEAST_CELL_LOAD = 0.02
+"""Smallest load of a cell whose position is estimated, as a share of the most loaded cell's.
+
+Other cells get the middle of the insole."""
 
 
 @define
@@ -38,59 +42,63 @@ class LayoutGuess:
     was_airborne: bool = field(default=False, init=False)
     """The foot was in the air before this stance, so the start of the stance is known."""
     loads: list[float] = field(factory=list, init=False)
-    """Sum of the load of each cell over this stance."""
+    """For each cell, sum of its load over this stance."""
     moments: list[float] = field(factory=list, init=False)
-    """Sum of load times time since contact of each cell over this stance."""
+    """For each cell, sum of its load times the time since the start of this stance, s."""
     weights: list[float] = field(factory=list, init=False)
-    """Sum of the load of each cell over all stances."""
-    middles: list[float] = field(factory=list, init=False)
-    """Sum of load times relative time in the stance (0 to 1) of each cell over all stances."""
+    """For each cell, sum of its load over all stances."""
+    relative_times: list[float] = field(factory=list, init=False)
+    """For each cell, sum over all stances of its load times the relative time in the stance (0 to 1)."""
     stances: int = field(default=0, init=False)
     """Number of complete stances so far."""
 
-    def update(self, t: float, cells: tuple[float, ...], share: float) -> Layout | None:
+    def update(self, t: float, cells: tuple[float, ...], load_share: float) -> Layout | None:
         """Add one sample; return the layout once it is known.
 
-        `cells` are the cells above their values in the air, `share` is their total as a share of the full load."""
+        `cells` holds the values minus those in the air, `load_share` their total as a share of the full load."""
         if self.stance_start is None:
-            if share > ON:
+            if load_share > STANCE_START_LOAD:
                 self.stance_start = t
                 self.loads = list(cells)
                 self.moments = [0.0] * len(cells)
             else:
                 self.was_airborne = True
             return None
-        since = t - self.stance_start
-        if share >= OFF and since < LONGEST and len(cells) == len(self.loads):
+        time_since_start = t - self.stance_start
+        if load_share >= STANCE_END_LOAD and time_since_start < LONGEST_STANCE and len(cells) == len(self.loads):
             self.loads = list(map(add, self.loads, cells))
-            self.moments = [moment + since * cell for moment, cell in zip(self.moments, cells, strict=True)]
+            self.moments = [moment + time_since_start * cell for moment, cell in zip(self.moments, cells, strict=True)]
             return None
-        whole, self.stance_start = self.was_airborne, None
-        self.was_airborne = share < OFF
-        if not whole or not SHORTEST <= since < LONGEST:
+        is_complete, self.stance_start = self.was_airborne, None
+        self.was_airborne = load_share < STANCE_END_LOAD
+        if not is_complete or not SHORTEST_STANCE <= time_since_start < LONGEST_STANCE:
             return None
         if len(self.weights) != len(self.loads):
-            self.weights, self.middles, self.stances = [0.0] * len(self.loads), [0.0] * len(self.loads), 0
+            self.weights, self.relative_times, self.stances = [0.0] * len(self.loads), [0.0] * len(self.loads), 0
         self.weights = list(map(add, self.weights, self.loads))
-        self.middles = [m + moment / since for m, moment in zip(self.middles, self.moments, strict=True)]
+        self.relative_times = [
+            m + moment / time_since_start for m, moment in zip(self.relative_times, self.moments, strict=True)
+        ]
         self.stances += 1
-        return self._layout() if self.stances >= STANCES else None
+        return self._layout() if self.stances >= STANCES_OF_ESTIMATE else None
 
     def _layout(self) -> Layout | None:
-        most = max(self.weights)
-        if most <= 0.0:
+        largest_weight = max(self.weights)
+        if largest_weight <= 0.0:
             return None
-        placed = [w > LEAST_LOAD * most for w in self.weights]
-        at = [m / w if known else 0.0 for m, w, known in zip(self.middles, self.weights, placed, strict=True)]
-        known = [middle for middle, there in zip(at, placed, strict=True) if there]
-        if not known:
-            return None
-        first, last = min(known), max(known)
-        if last <= first:
-            return None
-        stretch = (FRONT - REAR) * LENGTH / (last - first)
-        xs = [
-            REAR * LENGTH + (middle - first) * stretch if there else 0.5 * LENGTH
-            for middle, there in zip(at, placed, strict=True)
+        is_loaded = [w > LEAST_CELL_LOAD * largest_weight for w in self.weights]
+        mean_times = [
+            m / w if loaded else 0.0 for m, w, loaded in zip(self.relative_times, self.weights, is_loaded, strict=True)
         ]
-        return Layout(UNNAMED, self.foot, tuple([Cell(x, 0.0) for x in xs]), LENGTH)
+        known_times = [middle for middle, loaded in zip(mean_times, is_loaded, strict=True) if loaded]
+        if not known_times:
+            return None
+        earliest, latest = min(known_times), max(known_times)
+        if latest <= earliest:
+            return None
+        metres_per_time = (FRONT_POSITION - REAR_POSITION) * ASSUMED_LENGTH / (latest - earliest)
+        xs = [
+            REAR_POSITION * ASSUMED_LENGTH + (middle - earliest) * metres_per_time if loaded else 0.5 * ASSUMED_LENGTH
+            for middle, loaded in zip(mean_times, is_loaded, strict=True)
+        ]
+        return Layout(ESTIMATED_LAYOUT_ID, self.foot, tuple([Cell(x, 0.0) for x in xs]), ASSUMED_LENGTH)

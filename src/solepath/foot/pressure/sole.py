@@ -24,18 +24,18 @@ class Sole:
     foot: Foot
     insole: InsoleLoads
     settings: FootSettings = FootSettings()
-    pressed: bool = field(default=False, init=False)
-    """A sample with usable cells has come."""
+    had_cells: bool = field(default=False, init=False)
+    """At least one sample with usable cells was added."""
     health: CellHealth = field(init=False)
     guess: LayoutGuess = field(init=False)
-    guessed: bool = field(default=False, init=False)
+    layout_estimated: bool = field(default=False, init=False)
     """The layout is an estimate."""
     calibrated_layout: Layout | None = field(default=None, init=False)
     """Layout of the calibration, until a sample has as many cells; None otherwise."""
     count_checked: bool = field(default=False, init=False)
     """The calibration matches the number of cells, or is not used."""
     layout_changed: bool = field(default=False, init=False)
-    """The layout has changed since the other parts of the foot received it."""
+    """The layout has changed, and detector and cues have not received it yet."""
 
     def __attrs_post_init__(self) -> None:
         self.health = CellHealth(SITE_OF_FOOT[self.foot])
@@ -43,7 +43,7 @@ class Sole:
 
     def set_layout(self, layout: Layout, limitations: Limitations) -> None:
         """Set the layout that the device has sent."""
-        self.guessed, self.calibrated_layout = False, None
+        self.layout_estimated, self.calibrated_layout = False, None
         self._apply_layout(layout, limitations)
 
     def set_calibrated_layout(self, layout: Layout) -> None:
@@ -58,25 +58,23 @@ class Sole:
     def add_sample(
         self, sample: Sample, known_at: float, phase: Phase, limitations: Limitations, events: list[Event]
     ) -> Load | None:
-        """Return the load of one sample; None while it is unknown, or if no cell can be used.
-
-        `phase` is the phase of the foot."""
+        """Return the load of one sample of a foot in this phase; None while it is unknown, or without usable cells."""
         t, pressure = sample.t, sample.pressure or ()
         if pressure and not self.count_checked:
             self._check_count(len(pressure), t, known_at, limitations, events)
-        if not pressure and not self.pressed:
+        if not pressure and not self.had_cells:
             return None
-        known_layout = None if self.guessed else self.insole.layout
+        known_layout = None if self.layout_estimated else self.insole.layout
         events += self.health.update(t, known_at, pressure, phase, sample.gyro, known_layout)
         health = self.health
-        odd = health.excluded or health.not_numbers or len(pressure) != health.count
-        cells = health.usable(pressure) if odd else pressure
+        mismatch = health.excluded or health.non_numeric or len(pressure) != health.count
+        cells = health.usable(pressure) if mismatch else pressure
         if not cells:
             return None
-        self.pressed = True
+        self.had_cells = True
         layout = self.insole.layout
-        if self.guessed and layout is not None and len(layout.cells) != len(cells):
-            self._forget_layout()  # the estimate was made for another insole
+        if self.layout_estimated and layout is not None and len(layout.cells) != len(cells):
+            self._forget_layout()  # it was estimated for another insole
         load = self.insole.update(t, cells)
         if self.settings.needs_pressure and self.insole.layout is None and load is not None:
             self._guess_layout(t, known_at, load, limitations, events)
@@ -88,30 +86,30 @@ class Sole:
         if not health.usable(pressure):
             return None
         values = insole.above_tare(insole.cells)
-        if health.excluded or health.not_numbers:  # a cubic may map their 0 to another value
-            silent = {*health.excluded, *[i for i, _ in health.not_numbers]}
-            values = tuple([0.0 if i in silent else value for i, value in enumerate(values)])
+        if health.excluded or health.non_numeric:  # the cubic may have changed the 0 of a failed cell
+            failed_cells = {*health.excluded, *[i for i, _ in health.non_numeric]}
+            values = tuple([0.0 if i in failed_cells else value for i, value in enumerate(values)])
         force = sum(values)
         centre, layout = None, insole.layout
-        if layout is not None and not self.guessed and len(values) == len(layout.cells):
+        if layout is not None and not self.layout_estimated and len(values) == len(layout.cells):
             # after a long time in the air the range of loads is small, so the highest cell value is a limit as well
-            least = LEAST_LOAD * max(insole.total.high - insole.total.low, insole.highest)
-            if force > least:
+            least_force = LEAST_LOAD * max(insole.total.high - insole.total.low, insole.highest)
+            if force > least_force:
                 centre = (sum(map(mul, layout.xs, values)) / force, sum(map(mul, layout.ys, values)) / force)
         return FootPressed(t=t, known_at=known_at, foot=self.foot, values=values, force=force, centre=centre)
 
     def _check_count(
         self, count: int, t: float, known_at: float, limitations: Limitations, events: list[Event]
     ) -> None:
-        """Check whether the calibration matches the `count` cells of a sample."""
+        """Check that the calibration matches the `count` cells of a sample, and use its layout if it does."""
         layout, noise = self.calibrated_layout, self.insole.settings.noise
         if layout is not None and len(layout.cells) == count:
             self.set_layout(layout, limitations)
             events.append(LayoutKnown(t=t, known_at=known_at, site=SITE_OF_FOOT[self.foot], layout=layout))
             layout = None
-        odd = layout is not None or (bool(noise) and len(noise) != count)
-        self.count_checked = not odd or limitations.check_cell_count(layout, noise, count, t, known_at, events)
-        if odd and self.count_checked:
+        mismatch = layout is not None or (bool(noise) and len(noise) != count)
+        self.count_checked = not mismatch or limitations.check_cell_count(layout, noise, count, t, known_at, events)
+        if mismatch and self.count_checked:
             self.calibrated_layout = None
 
     def _apply_layout(self, layout: Layout, limitations: Limitations) -> None:
@@ -121,11 +119,11 @@ class Sole:
             insole.settings.newtons is not None
             and not insole.in_newtons
             and layout.scale is not None
-            and not self.guessed
+            and not self.layout_estimated
         ):
             insole.in_newtons = True
-            what = f"the {self.foot.value} insole tells newtons itself: the calibration's cubic is not used"
-            limitations.queue(what)
+            text = f"the {self.foot.value} insole tells newtons itself: the calibration's cubic is not used"
+            limitations.queue(text)
         self.layout_changed = True
 
     def _guess_layout(
@@ -133,12 +131,12 @@ class Sole:
     ) -> None:
         layout = self.guess.update(t, self.insole.above_tare(load.cells), load.total)
         if layout is not None:
-            what = f"nobody says where the cells of the {self.foot.value} insole are: learnt from how steps load them"
-            limitations.report(what, t, known_at, events)
-            self.guessed = True
+            text = f"nobody says where the cells of the {self.foot.value} insole are: learnt from how steps load them"
+            limitations.report(text, t, known_at, events)
+            self.layout_estimated = True
             self._apply_layout(layout, limitations)
 
     def _forget_layout(self) -> None:
-        self.guessed = False
+        self.layout_estimated = False
         self.guess = LayoutGuess(self.foot)
         self.insole = evolve(self.insole)
