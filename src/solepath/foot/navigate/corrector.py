@@ -10,7 +10,7 @@ from ..phase import Cue
 from ..stance.stance import Stance
 
 LONGEST_BRIDGE = 0.25
-"""Longest gap over which samples are integrated, s; in a longer one a foot turns and turns back."""
+"""Longest gap over which samples are integrated, s; in a longer one a foot may turn and turn back."""
 
 
 class Corrector(Protocol):
@@ -20,8 +20,8 @@ class Corrector(Protocol):
     the rules below, docs/extending.md shows an example.
 
     A corrector is an attrs class (`@define`) with fields that can be saved. It reads no clock and no random numbers,
-    has a constant cost for each sample, uses bounded memory, and never raises. Samples are finite, but otherwise have
-    any size (up to 500 m/s^2, 100 rad/s) and any distance in time. Its results are finite."""
+    has a constant cost for each sample, uses bounded memory, and never raises. Samples are finite, at most 500 m/s^2
+    and 100 rad/s, and come at any interval. The results of a corrector are finite."""
 
     __slots__ = ()
 
@@ -35,37 +35,37 @@ class Corrector(Protocol):
     """Angular rate of the last sample, sensor frame, rad/s; None before any sample and after a gap."""
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
-        """Start at rest at the origin with this attitude, whose tilt has a standard deviation of `tilt_sigma` rad."""
+        """Start at the origin with this attitude, whose tilt has a standard deviation of `tilt_sigma` rad."""
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
         """Integrate one sample that comes `dt` s after the last one.
 
-        `acc` (m/s^2) and `gyro` (rad/s) are in the sensor frame, without bias. `saturated`: the device reports that a
-        sensor was at the end of its range."""
+        `acc` (m/s^2) and `gyro` (rad/s) are in the sensor frame, without bias. `saturated` is True when the device
+        reports that a sensor was at the end of its range."""
 
     def correct(self, t: float, stance: Stance) -> bool:
-        """Use the evidence of the last predicted sample; return whether it agreed with the motion so far."""
+        """Use the evidence of the last predicted sample; return whether it agrees with the motion so far."""
 
     def bridge(self, dt: float) -> float:
-        """Increase the uncertainty for `dt` s without samples before the next one; return how long to integrate, s.
+        """Cross `dt` s without samples and inflate the covariance; return the time over which to integrate, s.
 
-        The result is `dt`, or 0 after more than `LONGEST_BRIDGE`, where the foot continues from its last position."""
+        The result is `dt`. After more than `LONGEST_BRIDGE` it is 0: the foot continues from its last position."""
 
     def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
         """Set the state after `dt` s without samples to that of the infill."""
 
     def repair(self, yaw: float, position: Vec3) -> None:
-        """Repair a stride with a gap at its end: turn the attitude by `yaw` rad and set `position`, m."""
+        """Repair a stride that had a gap, at its end: turn the attitude by `yaw` rad and set `position`, m."""
 
     def anchor(self) -> tuple[float, ...]:
-        """Start a new stretch; return the covariance of the one that ends.
+        """End a stretch of the path and start the next one; return the covariance of the one that ends.
 
         It consists of position xx, xy, xz, yy, yz, zz (m^2) and yaw (rad^2)."""
 
     def covariance(self) -> tuple[float, ...]:
-        """Return the result that `anchor` would have now, without a change."""
+        """Return the covariance of the current stretch, as `anchor` would, without a change."""
 
-    # optional: the default does nothing
+    # what follows is optional: the default does nothing
 
     @property
     def error_index(self) -> float | None:
@@ -79,18 +79,18 @@ class Corrector(Protocol):
         return
 
     def mark(self, t: float, cue: Cue) -> None:
-        """Mark the most likely sample of an event so far.
+        """Receive the cue of an event that most likely happened just now (`Cues.mark`).
 
-        CONTACT: the sample just corrected, at `t` s, is most likely the one of heel-strike. CLEAR: the one before it is
-        most likely the one of toe-off."""
+        CONTACT: the sample just corrected, at `t` s, is the most likely one of heel-strike so far. CLEAR: the sample
+        before it is the most likely one of toe-off so far."""
         return
 
     def flat(self, start: Vec3, turn: float) -> None:
-        """Use a foot-flat, `turn` rad after the last one, which was at `start`, m.
+        """Use a foot-flat that ends a stride; a corrector that knows level strides corrects the height here.
 
-        A corrector that judges whether a stride was level corrects the height here."""
+        The stride started at the position `start`, m, and its heading changed by `turn` rad."""
         return
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> Self:
-        """Return the corrector for that foot, with what the calibration contains for it."""
+        """Return the corrector with the calibration of `foot`."""
         return self

@@ -4,9 +4,9 @@ States: dp (position, m), dv (velocity, m/s), dt (attitude, rad, small turn in t
 `Covariance` is the upper triangle of the symmetric 9x9 matrix, block by block: pp (6), pv (9), pt (9), vv (6), vt (9),
 tt (6). The names contain both states: `vtxz` is the covariance of dv_x and dt_z.
 
-No part needs the covariance between two corrections, so it is propagated over the whole interval T at once. With S =
-integral of f dt and D = double integral of f dt^2 (f: specific force in the world frame), and a constant attitude error
-over T, the error equations dp' = dv, dv' = -[f]x dt (Sola 2017, section 7) integrate exactly to
+No part needs the covariance between two corrections, so it is propagated over the whole interval T in one step. Let f
+be the specific force in the world frame, S the integral and D the double integral of f over time. With a constant
+attitude error over T, the error equations dp' = dv, dv' = -[f]x dt (Sola 2017, section 7) integrate exactly to
 
     dp(T) = dp + T dv + M2 dt,  M2 = -[D]x      dv(T) = dv + M1 dt,  M1 = -[S]x      dt(T) = dt
 
@@ -18,12 +18,12 @@ from __future__ import annotations
 from math import sqrt
 
 Covariance = tuple[float, ...]
-"""Covariance as 45 numbers: pp, pv, pt, vv, vt, tt."""
+"""Upper triangle of the covariance, 45 numbers: blocks pp, pv, pt, vv, vt, tt."""
 
 Correction = tuple[float, float, float, float, float, float, float, float, float]
-"""Values to add to dp, dv and dt: m, m/s, rad."""
+"""Values to add to the nine states: position (m), velocity (m/s) and attitude (rad), each x, y, z."""
 
-PLACE_X, PLACE_Y, HEIGHT = 0, 3, 5
+POSITION_X, POSITION_Y, HEIGHT = 0, 3, 5
 """Indices of the variances of the position in a Covariance."""
 VELOCITY_X, VELOCITY_Y, VELOCITY_Z = 24, 27, 29
 """Indices of the variances of the velocity in a Covariance."""
@@ -122,10 +122,10 @@ def propagate(
 def update(
     covariance: Covariance, zx: float, zy: float, zz: float, r: float, limit: float
 ) -> tuple[Covariance, Correction] | None:
-    """Correct by a velocity error z = measured - estimated (m/s) with variance r (m^2/s^2) on each axis.
+    """Correct by an innovation z = measured - estimated velocity (m/s), with variance r (m^2/s^2) on each axis.
 
-    Returns the new P and the corrections of the nine states, or None when z is so unlikely that its normalised square
-    exceeds `limit` (then the measurement is not of this velocity)."""
+    Returns the new P and the corrections of the nine states. Returns None if the squared innovation, weighted by its
+    covariance, exceeds `limit`, because such a measurement is most likely not of this velocity."""
     (
         ppxx, ppxy, ppxz, ppyy, ppyz, ppzz,
         pvxx, pvxy, pvxz, pvyx, pvyy, pvyz, pvzx, pvzy, pvzz,
@@ -150,7 +150,7 @@ def update(
     wz = ixz * zx + iyz * zy + izz * zz
     if zx * wx + zy * wy + zz * wz > limit:
         return None
-    # gains K = P H' S^-1; of P H' the rows are pv, vv and vt transposed
+    # gains K = P H' S^-1; the rows of P H' are pv, vv and the transpose of vt
     kpxx = pvxx * ixx + pvxy * ixy + pvxz * ixz
     kpxy = pvxx * ixy + pvxy * iyy + pvxz * iyz
     kpxz = pvxx * ixz + pvxy * iyz + pvxz * izz
@@ -261,14 +261,14 @@ def update(
     )
 
 
-def constrain_height(covariance: Covariance, left: float) -> Covariance:
-    """Return the covariance after the height was set from elsewhere, with `left` (0 to 1) of its variance.
+def constrain_height(covariance: Covariance, remaining_share: float) -> Covariance:
+    """Return the covariance after the height was corrected, with `remaining_share` (0 to 1) of its variance.
 
-    P <- D P D, D = diag(1, 1, d, 1, ...) with d^2 = `left`. Other variances stay, and their covariance with the height
-    shrinks."""
-    d = sqrt(left)
+    P <- D P D, D = diag(1, 1, d, 1, ...) with d^2 = `remaining_share`. Other variances stay; the covariances with the
+    height shrink."""
+    d = sqrt(remaining_share)
     p = list(covariance)
-    p[HEIGHT] *= left
+    p[HEIGHT] *= remaining_share
     for i in (2, 4, 12, 13, 14, 21, 22, 23):  # ppxz, ppyz, pvz, ptz
         p[i] *= d
     return tuple(p)

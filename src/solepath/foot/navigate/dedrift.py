@@ -28,7 +28,7 @@ class LinearDedrift(Strapdown):
 
     settings: DedriftSettings = DedriftSettings()
     swing: float = field(default=0.0, init=False)
-    """Time since stance, s."""
+    """Time since the last evidence of stance, s."""
     length: float = field(default=0.0, init=False)
     """Length of the path since the last anchor, m."""
     lasted: float = field(default=0.0, init=False)
@@ -94,7 +94,7 @@ class LinearDedrift(Strapdown):
             self._pull(self.force, self.swing)
 
     def _pull(self, force: Vec3, dt: float) -> None:
-        """Turn the attitude about `force` x z so that `force`, m/s^2, points up, by a share of 1 - exp(-rate dt)."""
+        """Turn the attitude about `force` x z towards `force` (m/s^2) up, by the share 1 - exp(-tilt_rate dt)."""
         fx, fy, _ = force
         share = 0.5 * (1.0 - exp(-self.settings.tilt_rate * min(dt, 0.1))) / GRAVITY
         self.attitude = tipped(self.attitude, share * fy, -share * fx)

@@ -4,9 +4,10 @@ Sources: Foxlin, "Pedestrian tracking with shoe-mounted inertial sensors" (2005)
 the error-state Kalman filter" (arXiv:1711.02508, 2017, section 7 with global angular errors). The gyroscope bias is not
 a state: it is learnt at rest (attitude.py), which costs less and, on short walks, errs less than a 15-state filter.
 
-Between corrections the covariance is propagated at once (propagated.py), so a swing costs no more than its integration.
-An innovation gate rejects evidence that the motion so far makes too unlikely, because a slow swing can look as still as
-a fast stance. A filter that has gated everything for some time is lost and takes the most still moment there is."""
+The covariance is propagated in one step from one correction to the next (propagated.py), so a swing costs no more than
+its integration. An innovation gate rejects evidence that the motion so far makes too unlikely, because a slow swing can
+look as still as a fast stance. A filter whose gate has rejected all evidence for some time is lost. It then accepts the
+stillest moment that comes."""
 
 from __future__ import annotations
 
@@ -21,7 +22,7 @@ from ..stance.stance import Stance
 from .clipping import ClippedPeak
 from .corrector import LONGEST_BRIDGE
 from .covariance import HEIGHT, constrain_height, update
-from .level import UNEVEN, LevelGround
+from .level import FLOOR_SIGMA, LevelGround
 from .propagated import PropagatedCovariance
 from .recovery import Recovery
 from .strapdown import WIDEST_SERIES
@@ -30,27 +31,26 @@ STATIONARY: Final = Phase.STATIONARY
 """Local name of `Phase.STATIONARY`, because one look-up in the enum costs as much as five multiplications."""
 
 REFERENCE_INTERVAL = 0.005
-"""Interval of updates for which the sigma of a Stance is meant, s; other intervals scale its variance."""
+"""Interval between updates to which `Stance.sigma` refers, s; at other intervals the variance is scaled."""
 SHORTEST_INTERVAL = 0.0035
 """Shortest interval between corrections, s, because neighbouring samples give the same evidence.
 
 At 400 Hz every second sample corrects."""
-SETTLED = 0.06
-"""Time after the start of a stance at which the interval between corrections grows, s; chosen by hand."""
-SETTLED_INTERVAL = 0.0385
-"""Interval between corrections from then on, s: every fourth sample at 100 Hz.
+EARLY_STANCE_TIME = 0.06
+"""Time after the start of evidence at which the interval between corrections grows, s; chosen by hand."""
+LATE_STANCE_INTERVAL = 0.0385
+"""Shortest interval between corrections after EARLY_STANCE_TIME, s: every fourth sample at 100 Hz.
 
-The error has hardly grown in between: with 5, 20 and 40 ms the ARMSE2d of `pyshoe_vicon` was 0.0503, 0.0500 and 0.0496
-m."""
+The interval hardly matters: with 5, 20 and 40 ms the ARMSE2d of `pyshoe_vicon` was 0.0503, 0.0500 and 0.0496 m."""
 
-NONE_GATED = 1e12
-"""Upper bound of any statistic."""
+NO_STATISTIC = 1e12
+"""Upper bound of any statistic, which stands for the least rejected one while none was rejected."""
 LOST_STATISTIC_RATIO = 3.0
-"""Largest ratio of a statistic that a lost filter accepts to the least one that it has gated."""
+"""Largest ratio of a statistic that a lost filter accepts to the least statistic that its gate has rejected."""
 LOST_SPEED, LOST_TILT = 0.3, 0.03
 """Standard deviations that inflate the covariance of a lost filter: velocity, m/s, and tilt, rad."""
 LASTING_TILT = 0.1
-"""Standard deviation that inflates the tilt when evidence lasts, rad.
+"""Standard deviation that inflates the tilt when evidence has lasted for `ErrorStateSettings.lasting`, rad.
 
 The velocity is inflated by its whole difference from the evidence."""
 
@@ -59,19 +59,19 @@ The velocity is inflated by its whole difference from the evidence."""
 class ErrorStateFilter(PropagatedCovariance):
     """Strapdown navigation with stance evidence, weighted by the covariance of the motion so far.
 
-    Frame, units and latency as in `Corrector`: live position and velocity with every sample, corrected at the sample
-    with the evidence.
+    Frame and units are those of `Corrector`. Position and velocity are live with every sample, and corrected at the
+    sample with the evidence.
 
-    Numbers in this module without source were chosen by hand on the recordings of docs/accuracy.md and not swept. The
-    table of the default without one of its parts in that document gives the effect of whole terms."""
+    Numbers in this module without a source were chosen by hand on the recordings of docs/accuracy.md and not swept. A
+    table in that document gives the accuracy of the default recipe without whole terms of the filter."""
 
     settings: ErrorStateSettings = ErrorStateSettings()
     level: LevelGround = field(factory=LevelGround, init=False)
     """Height correction of level walking."""
-    accepted: float | None = field(default=None, init=False)
+    accepted_at: float | None = field(default=None, init=False)
     """Time at which evidence was last accepted, s; None before any."""
-    least_gated: float = field(default=NONE_GATED, init=False)
-    """Smallest statistic that was gated since then."""
+    least_gated_statistic: float = field(default=NO_STATISTIC, init=False)
+    """Smallest statistic that the gate has rejected since `accepted_at`."""
     evidence_since: float | None = field(default=None, init=False)
     """Start of the current unbroken evidence, s; None without evidence."""
     recovery: Recovery = field(factory=Recovery, init=False)
@@ -79,30 +79,30 @@ class ErrorStateFilter(PropagatedCovariance):
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
         PropagatedCovariance.start(self, attitude, tilt_sigma)
-        self.accepted = self.evidence_since = None
-        self.least_gated = NONE_GATED
+        self.accepted_at = self.evidence_since = None
+        self.least_gated_statistic = NO_STATISTIC
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
-        """Integrate one sample as in `Corrector`: `Strapdown.integrate` and its noise in one function.
+        """Integrate one sample as in `Corrector`; this is `Strapdown.integrate` with the noise in one function.
 
         A call of `integrate` would cost 5 % of this function (tests/foot/test_alike.py checks that both are equal)."""
         gx, gy, gz = gyro
         fx, fy, fz = acc
         rate, previous_force, attitude = self.rate or gyro, self.force, self.attitude
         rx, ry, rz = rate
-        turning = gx * gx + gy * gy + gz * gz
+        rate_square = gx * gx + gy * gy + gz * gz
         # clipped peaks of the sensors
         recovery = self.recovery
-        turns, impacts = recovery.turns, recovery.impacts
-        peaks = acc_peaks = None
+        gyro_clipping, acc_clipping = recovery.gyro_clipping, recovery.acc_clipping
+        gyro_peaks = acc_peaks = None
         if (
-            turning > turns.watch_square
-            or fx * fx + fy * fy + fz * fz > impacts.watch_square
-            or turns.clipping
-            or impacts.clipping
+            rate_square > gyro_clipping.near_end_square
+            or fx * fx + fy * fy + fz * fz > acc_clipping.near_end_square
+            or gyro_clipping.clipping
+            or acc_clipping.clipping
             or recovery.swing.rows
         ):
-            peaks, acc_peaks = recovery.watch(dt, acc, gyro, rate, attitude, saturated)
+            gyro_peaks, acc_peaks = recovery.watch(dt, acc, gyro, rate, attitude, saturated)
         else:  # far from the ends of the ranges: store only what `watch` would store
             recovery.earlier_acc, recovery.last_acc = recovery.last_acc, acc
             recovery.earlier_rate, recovery.earlier_dt = rate, dt
@@ -131,7 +131,7 @@ class ErrorStateFilter(PropagatedCovariance):
         y = qy * k
         z = qz * k
         self.attitude = (w, x, y, z)
-        # the specific force in this frame, q f q*
+        # the specific force in the navigation frame, q f q*
         tx = 2.0 * (y * fz - z * fy)
         ty = 2.0 * (z * fx - x * fz)
         tz = 2.0 * (x * fy - y * fx)
@@ -139,7 +139,7 @@ class ErrorStateFilter(PropagatedCovariance):
         fy = fy + w * ty + z * tx - x * tz
         fz = fz + w * tz + x * ty - y * tx
         self.rate, self.force = gyro, (fx, fy, fz)
-        # trapezoidal rule: a = (f + f before) / 2 - g, v <- v + a dt, p <- p + (v + v before) dt / 2
+        # trapezoidal rule: a = (f + f_previous) / 2 - g, v <- v + a dt, p <- p + (v + v_previous) dt / 2
         if previous_force is None:
             ax, ay, az, x, y, z = fx, fy, fz - GRAVITY, fx, fy, fz
         else:
@@ -152,30 +152,39 @@ class ErrorStateFilter(PropagatedCovariance):
         k = 0.5 * dt
         self.position = (px + (vx + ux) * k, py + (vy + uy) * k, pz + (vz + uz) * k)
         self.velocity = (ux, uy, uz)
-        # noise of the sensor, a share of the motion, and a share of the difference of neighbouring samples
+        # noise of the sensor, noise that grows with the motion, and noise from the motion between two samples
         rx, ry, rz = gx - rx, gy - ry, gz - rz
         settings = self.settings
-        share, unknown = settings.noise_per_motion * settings.noise_per_motion, settings.between * settings.between * dt
+        motion_factor, difference_factor = (
+            settings.noise_per_motion * settings.noise_per_motion,
+            settings.between * settings.between * dt,
+        )
         self.acc_variance += (
             settings.acc_noise * settings.acc_noise
-            + share * (ax * ax + ay * ay + az * az)
-            + unknown * (x * x + y * y + z * z)
+            + motion_factor * (ax * ax + ay * ay + az * az)
+            + difference_factor * (x * x + y * y + z * z)
         ) * dt
-        noise = settings.gyro_noise * settings.gyro_noise + share * turning + unknown * (rx * rx + ry * ry + rz * rz)
-        if turning > settings.clipping_rate * settings.clipping_rate and not (turns.clipping and settings.recover):
+        noise = (
+            settings.gyro_noise * settings.gyro_noise
+            + motion_factor * rate_square
+            + difference_factor * (rx * rx + ry * ry + rz * rz)
+        )
+        if rate_square > settings.clipping_rate * settings.clipping_rate and not (
+            gyro_clipping.clipping and settings.recover
+        ):
             noise += settings.clipping_noise * settings.clipping_noise
         self.gyro_variance += noise * dt
-        self.since += dt
-        self.stretch += dt
-        if (peaks or acc_peaks) and settings.recover:
-            self._add_peaks(peaks, acc_peaks)
+        self.elapsed += dt
+        self.time_since_anchor += dt
+        if (gyro_peaks or acc_peaks) and settings.recover:
+            self._add_peaks(gyro_peaks, acc_peaks)
 
-    def _add_peaks(self, peaks: tuple[ClippedPeak, ...] | None, acc_peaks: tuple[ClippedPeak, ...] | None) -> None:
+    def _add_peaks(self, gyro_peaks: tuple[ClippedPeak, ...] | None, acc_peaks: tuple[ClippedPeak, ...] | None) -> None:
         """Correct the state by the clipped peaks of gyroscope and accelerometer."""
         self._propagate()
         state = (self.attitude, self.velocity, self.position, self.uncertainty)
-        if peaks:
-            state = self.recovery.add_turns(peaks, state)
+        if gyro_peaks:
+            state = self.recovery.add_turns(gyro_peaks, state)
         if acc_peaks:
             state = self.recovery.add_velocities(acc_peaks, state)
         self.attitude, self.velocity, self.position, self.uncertainty = state
@@ -188,42 +197,46 @@ class ErrorStateFilter(PropagatedCovariance):
             return False
         if self.evidence_since is None:
             self.evidence_since = t
-        if self.since < (SHORTEST_INTERVAL if t - self.evidence_since < SETTLED - TIE else SETTLED_INTERVAL):
-            return self.accepted is not None and self.least_gated >= NONE_GATED  # same result as for the last sample
+        if self.elapsed < (
+            SHORTEST_INTERVAL if t - self.evidence_since < EARLY_STANCE_TIME - TIE else LATE_STANCE_INTERVAL
+        ):
+            return (
+                self.accepted_at is not None and self.least_gated_statistic >= NO_STATISTIC
+            )  # same result as for the last sample
         settings = self.settings
-        share = settings.tilt_rate * min(self.since, SETTLED_INTERVAL)
-        r = sigma * sigma * REFERENCE_INTERVAL / self.since
+        share = settings.tilt_rate * min(self.elapsed, LATE_STANCE_INTERVAL)
+        r = sigma * sigma * REFERENCE_INTERVAL / self.elapsed
         self._propagate()
-        certain = stance.hint is STATIONARY
-        if self.accepted is None:
-            self.accepted = t
+        stands = stance.hint is STATIONARY
+        if self.accepted_at is None:
+            self.accepted_at = t
         rx, ry, rz = stance.v_ref
         vx, vy, vz = self.velocity
         if (
-            not certain
-            and t - self.accepted > settings.patience - TIE
-            and stance.statistic <= LOST_STATISTIC_RATIO * self.least_gated
+            not stands
+            and t - self.accepted_at > settings.patience - TIE
+            and stance.statistic <= LOST_STATISTIC_RATIO * self.least_gated_statistic
         ):
             self._inflate(velocity=LOST_SPEED, tilt=LOST_TILT)
-        elif min(t - self.evidence_since, t - self.accepted) > settings.lasting - TIE:
-            # not even a foot that is lifted is still for so long: it stands, so the velocity is wrong
+        elif min(t - self.evidence_since, t - self.accepted_at) > settings.lasting - TIE:
+            # a foot in the air is never still for so long, so the foot stands and the velocity is wrong
             self._inflate(velocity=abs(vx - rx) + abs(vy - ry) + abs(vz - rz), tilt=LASTING_TILT)
-        outcome = update(self.uncertainty, rx - vx, ry - vy, rz - vz, r, inf if certain else settings.innovation_gate)
+        outcome = update(self.uncertainty, rx - vx, ry - vy, rz - vz, r, inf if stands else settings.innovation_gate)
         if outcome is None:
-            self.least_gated = min(self.least_gated, stance.statistic)
+            self.least_gated_statistic = min(self.least_gated_statistic, stance.statistic)
             return False
         self.uncertainty, error = outcome
-        tx, ty = self._tilt_correction(share) if certain else (0.0, 0.0)
+        tx, ty = self._tilt_correction(share) if stands else (0.0, 0.0)
         self._inject(error, tx, ty)
-        self.accepted = t
-        self.least_gated = NONE_GATED
+        self.accepted_at = t
+        self.least_gated_statistic = NO_STATISTIC
         return True
 
     def bridge(self, dt: float) -> float:
         if dt > LONGEST_BRIDGE:
             self.recovery.reset()
         if dt == inf:  # times restart
-            self.accepted = self.evidence_since = None
+            self.accepted_at = self.evidence_since = None
         return PropagatedCovariance.bridge(self, dt)
 
     def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
@@ -237,9 +250,9 @@ class ErrorStateFilter(PropagatedCovariance):
         (x, y, z), (sx, sy, sz) = self.position, start
         variance = self.uncertainty[HEIGHT]
         height, level = self.level.judge((x - sx, y - sy, z - sz), turn, variance, self.attitude)
-        # tilt and velocity stay, because the common part of the heights is not their random error
+        # tilt and velocity stay, because the removed height is a systematic error and not caused by theirs
         self.position = self.start_position = (x, y, sz + height)
-        least = UNEVEN * UNEVEN
+        least = FLOOR_SIGMA * FLOOR_SIGMA
         if variance > least:
             self.uncertainty = constrain_height(self.uncertainty, 1.0 - level * (1.0 - least / variance))
 
@@ -248,11 +261,11 @@ class ErrorStateFilter(PropagatedCovariance):
         return PropagatedCovariance.anchor(self)
 
     def _tilt_correction(self, share: float) -> tuple[float, float]:
-        """Return `share` of the turn, f x up / g, that would make the measured force point up, rad.
+        """Return `share` (0 to 1) of the turn about x and y, f x up / g, rad, that makes the force f point up.
 
-        This tilt aiding is outside the covariance on purpose. A foot that stands is loaded and trembles. The lag of
-        this correction, half a second, averages the trembling, which a Kalman update would take for independent
-        measurements."""
+        This correction of the tilt is outside the covariance on purpose: a standing foot trembles. The correction has a
+        time constant of half a second, so it averages the trembling. A Kalman update would take the trembling for
+        independent measurements."""
         if self.force is None:
             return 0.0, 0.0
         fx, fy, _ = self.force

@@ -1,6 +1,6 @@
-"""Recovery of the clipped peaks of both sensors of a foot, for the state of a filter.
+"""Correction of the state of a filter for the clipped peaks of gyroscope and accelerometer.
 
-clipping.py detects clipped peaks, reintegration.py gives their effect; this module stores the samples that both need.
+clipping.py detects clipped peaks, reintegration.py gives their effect. This module stores the samples that both need.
 """
 
 from __future__ import annotations
@@ -10,19 +10,19 @@ from ...types.attrs import define, field
 from ...types.vector import ZERO, from_rotation_vector, multiply, normalise, rotate
 from .clipping import ACCELEROMETER, ClippedPeak, Clipping
 from .covariance import Covariance
-from .reintegration import NUDGE, SwingSamples, add_error, difference
+from .reintegration import INTEGRAL_STEP, SwingSamples, add_error, difference
 
 State = tuple[Quat, Vec3, Vec3, Covariance]
-"""Attitude, velocity (m/s), position (m) and their covariance."""
+"""Attitude (sensor to navigation frame), velocity (m/s), position (m) and their covariance."""
 
 
 @define
 class Recovery:
     """The clipping of both sensors of one foot. Call `watch` for every sample before it is integrated."""
 
-    turns: Clipping = field(factory=Clipping, init=False)
+    gyro_clipping: Clipping = field(factory=Clipping, init=False)
     """Clipping of the gyroscope."""
-    impacts: Clipping = field(factory=lambda: Clipping(ACCELEROMETER), init=False)
+    acc_clipping: Clipping = field(factory=lambda: Clipping(ACCELEROMETER), init=False)
     """Clipping of the accelerometer."""
     last_acc: Vec3 = field(default=ZERO, init=False)
     """Last acc, sensor frame, m/s^2."""
@@ -35,60 +35,62 @@ class Recovery:
     """Time between the last two samples, s."""
 
     def watch(
-        self, dt: float, acc: Vec3, gyro: Vec3, before: Vec3, attitude: Quat, saturated: bool
+        self, dt: float, acc: Vec3, gyro: Vec3, previous_rate: Vec3, attitude: Quat, saturated: bool
     ) -> tuple[tuple[ClippedPeak, ...] | None, tuple[ClippedPeak, ...] | None]:
-        """Return the clipped peaks of gyroscope and accelerometer that one sample completes.
+        """Return the clipped peaks of gyroscope and accelerometer that end with this sample.
 
-        `before` and `attitude` are the rate and the attitude before the sample."""
+        `acc` is in m/s^2, `gyro` in rad/s. `previous_rate` and `attitude` are those of the last sample. `saturated` is
+        True when the device reports that a sensor is at the end of its range."""
         x, y, z = gyro
-        turns, peaks = self.turns, None
-        if turns.clipping or x * x + y * y + z * z > turns.watch_square:
-            peaks = turns.update(dt, gyro, before, self.earlier_rate, self.earlier_dt, saturated)
-            self.swing.add_sample(dt, gyro, before, acc, attitude)
+        gyro_clipping, gyro_peaks = self.gyro_clipping, None
+        if gyro_clipping.clipping or x * x + y * y + z * z > gyro_clipping.near_end_square:
+            gyro_peaks = gyro_clipping.update(dt, gyro, previous_rate, self.earlier_rate, self.earlier_dt, saturated)
+            self.swing.add_sample(dt, gyro, previous_rate, acc, attitude)
         elif self.swing.rows:
             self.swing.rows = []
         x, y, z = acc
-        impacts, acc_peaks = self.impacts, None
-        if impacts.clipping or x * x + y * y + z * z > impacts.watch_square:
-            acc_peaks = impacts.update(dt, acc, self.last_acc, self.earlier_acc, self.earlier_dt, saturated)
+        acc_clipping, acc_peaks = self.acc_clipping, None
+        if acc_clipping.clipping or x * x + y * y + z * z > acc_clipping.near_end_square:
+            acc_peaks = acc_clipping.update(dt, acc, self.last_acc, self.earlier_acc, self.earlier_dt, saturated)
         self.earlier_acc, self.last_acc = self.last_acc, acc
-        self.earlier_rate, self.earlier_dt = before, dt
-        return peaks, acc_peaks
+        self.earlier_rate, self.earlier_dt = previous_rate, dt
+        return gyro_peaks, acc_peaks
 
     def reset(self) -> None:
-        """Discard clipped peaks after a gap."""
-        self.turns.reset()
-        self.impacts.reset()
+        """Discard clipped peaks that are not complete, after a gap."""
+        self.gyro_clipping.reset()
+        self.acc_clipping.reset()
         self.swing.rows = []
 
     def end_stride(self) -> None:
         """Let the largest readings decay at the end of a stride."""
-        self.turns.end_stride()
-        self.impacts.end_stride()
+        self.gyro_clipping.end_stride()
+        self.acc_clipping.end_stride()
 
-    def add_turns(self, peaks: tuple[ClippedPeak, ...], state: State) -> State:
-        """Return the state with the clipped peaks of the gyroscope, and with their covariance."""
+    def add_turns(self, gyro_peaks: tuple[ClippedPeak, ...], state: State) -> State:
+        """Return the state corrected for clipped peaks of the gyroscope, with their uncertainty."""
         attitude, (vx, vy, vz), (x, y, z), covariance = state
-        for one in peaks:
-            seen, likely, more = (
-                self.swing.reintegrate(one, integral) for integral in (0.0, one.integral, one.integral + NUDGE)
+        for peak in gyro_peaks:
+            measured, corrected, perturbed = (
+                self.swing.reintegrate(peak, integral)
+                for integral in (0.0, peak.integral, peak.integral + INTEGRAL_STEP)
             )
-            (px, py, pz), (ux, uy, uz), turn = difference(seen, likely)
+            (px, py, pz), (ux, uy, uz), turn = difference(measured, corrected)
             x, y, z = x + px, y + py, z + pz
             vx, vy, vz = vx + ux, vy + uy, vz + uz
             attitude = normalise(multiply(from_rotation_vector(turn), attitude))
-            covariance = add_error(covariance, *difference(likely, more), one.sigma / NUDGE)
+            covariance = add_error(covariance, *difference(corrected, perturbed), peak.sigma / INTEGRAL_STEP)
         return attitude, (vx, vy, vz), (x, y, z), covariance
 
     @staticmethod
     def add_velocities(acc_peaks: tuple[ClippedPeak, ...], state: State) -> State:
-        """Return the state with the clipped peaks of the accelerometer, and with their covariance."""
+        """Return the state corrected for clipped peaks of the accelerometer, with their uncertainty."""
         attitude, (vx, vy, vz), (x, y, z), covariance = state
-        for one in acc_peaks:
-            i, j, k = (1.0 if axis == one.axis else 0.0 for axis in (0, 1, 2))
+        for peak in acc_peaks:
+            i, j, k = (1.0 if axis == peak.axis else 0.0 for axis in (0, 1, 2))
             ux, uy, uz = rotate(attitude, (i, j, k))
-            v, since = one.integral, one.ago + 0.5 * one.duration
+            v, since = peak.integral, peak.age + 0.5 * peak.duration
             x, y, z = x + v * since * ux, y + v * since * uy, z + v * since * uz
             vx, vy, vz = vx + v * ux, vy + v * uy, vz + v * uz
-            covariance = add_error(covariance, (since * ux, since * uy, since * uz), (ux, uy, uz), ZERO, one.sigma)
+            covariance = add_error(covariance, (since * ux, since * uy, since * uz), (ux, uy, uz), ZERO, peak.sigma)
         return attitude, (vx, vy, vz), (x, y, z), covariance

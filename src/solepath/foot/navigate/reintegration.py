@@ -1,12 +1,13 @@
 """Correction of the state by a clipped peak of the gyroscope (clipping.py), with its covariance.
 
-A clipped turn of tenths of a radian tilts all that follows. Its axis is that of the sensor, so the samples since are
-integrated again, with the rate raised by the cubic with integral m. A third integration with a slightly larger m gives
-the effect of an error of m on attitude, velocity and position. This is one unknown in a known direction b,
+A clipped turn of tenths of a radian gives a wrong tilt to all samples after it. Its axis is an axis of the sensor. So
+the samples are integrated a second time, with the rate raised by a cubic whose integral is m (clipping.py). A third
+integration with a slightly larger m gives the effect of an error of m on attitude, velocity and position. The error of
+m is one unknown number in a known direction b,
 
     P <- P + sigma^2 b b',  b = d(p, v, theta) / dm
 
-and the zero velocity of the next stance tells its size."""
+and the zero velocity of the next stance shows its size."""
 
 from __future__ import annotations
 
@@ -19,13 +20,13 @@ from ...types.vector import GRAVITY, IDENTITY, conjugate, from_rotation_vector, 
 from .clipping import ClippedPeak
 from .covariance import Covariance
 
-ROWS = 64
+MOST_ROWS = 64
 """Largest number of stored samples; when there are more, pairs are joined."""
-NUDGE = 0.05
+INTEGRAL_STEP = 0.05
 """Change of m for the numerical derivative, rad."""
 
 Row = tuple[float, Vec3, Vec3]
-"""Duration, s, and the mean rate (rad/s) and specific force (m/s^2) during it, sensor frame."""
+"""Duration (s), mean angular rate (rad/s) and mean specific force (m/s^2) of one or more samples, sensor frame."""
 
 
 class IntegratedMotion(NamedTuple):
@@ -48,44 +49,48 @@ class SwingSamples:
     start_attitude: Quat = field(default=IDENTITY, init=False)
     """Attitude before the first row, sensor to navigation frame."""
 
-    def add_sample(self, dt: float, gyro: Vec3, before: Vec3, acc: Vec3, attitude: Quat) -> None:
-        """Add one sample; `before` and `attitude` are the rate and the attitude before it."""
+    def add_sample(self, dt: float, gyro: Vec3, previous_rate: Vec3, acc: Vec3, attitude: Quat) -> None:
+        """Add one sample; `previous_rate` and `attitude` are the rate and the attitude before it."""
         if not self.rows:
             self.start_attitude = attitude
-        elif len(self.rows) >= ROWS:
+        elif len(self.rows) >= MOST_ROWS:
             self.rows = [_join(a, b) for a, b in zip(self.rows[::2], self.rows[1::2], strict=True)]
-        (x, y, z), (u, v, w) = gyro, before
+        (x, y, z), (u, v, w) = gyro, previous_rate
         self.rows.append((dt, (0.5 * (x + u), 0.5 * (y + v), 0.5 * (z + w)), acc))
 
     def reintegrate(self, peak: ClippedPeak, angle: float) -> IntegratedMotion:
-        """Return the end state of the rows with `angle` rad more about the axis that was clipped."""
-        end = sum([row[0] for row in self.rows]) - peak.ago
-        t, shape, total = peak.duration - end, [], 0.0
+        """Return the end state of the stored samples with `angle` rad more about the clipped axis."""
+        end = sum([row[0] for row in self.rows]) - peak.age
+        t, extra_rates, total = peak.duration - end, [], 0.0
         for dt, _, _ in self.rows:
-            share = (t + 0.5 * dt) / peak.duration if peak.duration > 0.0 else 0.5
+            relative_time = (t + 0.5 * dt) / peak.duration if peak.duration > 0.0 else 0.5
             t += dt
-            more = 0.0
-            if 0.0 < share < 1.0:
-                more = share * (1.0 - share) * (peak.rise * (1.0 - share) + peak.fall * share)
-            shape.append(more)
-            total += more * dt
+            extra_rate = 0.0
+            if 0.0 < relative_time < 1.0:
+                extra_rate = (
+                    relative_time
+                    * (1.0 - relative_time)
+                    * (peak.rise * (1.0 - relative_time) + peak.fall * relative_time)
+                )
+            extra_rates.append(extra_rate)
+            total += extra_rate * dt
         if not total > 0.0:
-            shape = [1.0] * len(self.rows)
+            extra_rates = [1.0] * len(self.rows)
             total = sum([row[0] for row in self.rows])
         k = angle / total if total > 0.0 else 0.0
         q = self.start_attitude
         vx = vy = vz = x = y = z = 0.0
-        for (dt, (gx, gy, gz), acc), more in zip(self.rows, shape, strict=True):
+        for (dt, (gx, gy, gz), acc), extra_rate in zip(self.rows, extra_rates, strict=True):
             if peak.axis == 0:
-                gx += k * more
+                gx += k * extra_rate
             elif peak.axis == 1:
-                gy += k * more
+                gy += k * extra_rate
             else:
-                gz += k * more
-            half = from_rotation_vector((0.5 * dt * gx, 0.5 * dt * gy, 0.5 * dt * gz))
-            q = multiply(q, half)
+                gz += k * extra_rate
+            half_turn = from_rotation_vector((0.5 * dt * gx, 0.5 * dt * gy, 0.5 * dt * gz))
+            q = multiply(q, half_turn)
             ax, ay, az = rotate(q, acc)
-            q = multiply(q, half)
+            q = multiply(q, half_turn)
             az -= GRAVITY
             x, y, z = x + (vx + 0.5 * ax * dt) * dt, y + (vy + 0.5 * ay * dt) * dt, z + (vz + 0.5 * az * dt) * dt
             vx, vy, vz = vx + ax * dt, vy + ay * dt, vz + az * dt
@@ -94,18 +99,18 @@ class SwingSamples:
 
 def _join(a: Row, b: Row) -> Row:
     (t, (gx, gy, gz), (ax, ay, az)), (u, (hx, hy, hz), (bx, by, bz)) = a, b
-    both = t + u
-    k = t / both if both > 0.0 else 0.5
+    duration = t + u
+    k = t / duration if duration > 0.0 else 0.5
     m = 1.0 - k
     return (
-        both,
+        duration,
         (k * gx + m * hx, k * gy + m * hy, k * gz + m * hz),
         (k * ax + m * bx, k * ay + m * by, k * az + m * bz),
     )
 
 
 def difference(a: IntegratedMotion, b: IntegratedMotion) -> tuple[Vec3, Vec3, Vec3]:
-    """Return position (m), velocity (m/s) and turn (world frame, rad) by which `b` differs from `a`."""
+    """Return position (m), velocity (m/s) and turn (rad) by which `b` differs from `a`, navigation frame."""
     (ax, ay, az), (bx, by, bz) = a.position, b.position
     (ux, uy, uz), (vx, vy, vz) = a.velocity, b.velocity
     w, x, y, z = multiply(b.attitude, conjugate(a.attitude))
@@ -117,13 +122,13 @@ def difference(a: IntegratedMotion, b: IntegratedMotion) -> tuple[Vec3, Vec3, Ve
 
 
 def add_error(covariance: Covariance, p: Vec3, v: Vec3, turn: Vec3, sigma: float) -> Covariance:
-    """Return P + sigma^2 b b' with b = (p, v, turn), for an error in a known direction."""
+    """Return P + sigma^2 b b' with b = (p, v, turn), for an error of standard deviation sigma in the direction b."""
     k = sigma * sigma
-    grown: list[float] = []
+    enlarged: list[float] = []
     i = 0
     for a, b in ((p, p), (p, v), (p, turn), (v, v), (v, turn), (turn, turn)):
         for row in (0, 1, 2):
             for column in range(row, 3) if a is b else (0, 1, 2):
-                grown.append(covariance[i] + k * a[row] * b[column])
+                enlarged.append(covariance[i] + k * a[row] * b[column])
                 i += 1
-    return tuple(grown)
+    return tuple(enlarged)

@@ -1,8 +1,8 @@
 """Strapdown navigation of one foot: attitude, velocity and position from specific force and angular rate.
 
-The navigation frame is z up, with the heading of the sensor at levelling; the tracker turns it into the world frame. A
-corrector (`ErrorStateFilter`, `LinearDedrift`) extends this strapdown with the use of stance evidence, which keeps the
-integration from drifting."""
+The navigation frame is z up, with the heading that the sensor had when its first attitude was found. The tracker turns
+it into the world frame. A corrector (`ErrorStateFilter`, `LinearDedrift`) extends this class with the use of stance
+evidence, which keeps the integration from drifting."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, multiply, normali
 from .corrector import Corrector
 
 WIDEST_SERIES = 0.06
-"""Square of the half angle up to which the series below are accurate to 1e-12, rad^2."""
+"""Square of the half angle up to which the series for sin and cos are accurate to 1e-12, rad^2."""
 
 
 @define
 class Strapdown(Corrector):
     """Integrates attitude by the rotation vector, velocity and position by the trapezoidal rule.
 
-    Each sample has its own dt."""
+    The interval between samples may vary."""
 
     attitude: Quat = field(default=IDENTITY, init=False)
     velocity: Vec3 = field(default=ZERO, init=False)
