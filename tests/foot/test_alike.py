@@ -80,7 +80,7 @@ def test_pitches_are_kept_as_singles(rates: list[float]) -> None:
     for k, rate in enumerate(rates):
         stride.add_motion(0.01 * k, 0.01, 0.0, 0.0, rate)
         pitch += rate * 0.01
-        assert stride.pitches[stride.slot - 1] == single(pitch)
+        assert stride.pitches[stride.next_pitch - 1] == single(pitch)
 
 
 @given(st.floats(0.8, 1.25), vectors(0.1), vectors(499.0), vectors(99.0))

@@ -17,18 +17,18 @@ from .world import Covariance3, World
 
 @define
 class Gait:
-    """The phases of one foot and its strides; each becomes an event as soon as its cue is seen."""
+    """The phases and strides of one foot, each of which becomes an event as soon as its cue is seen."""
 
     foot: Foot
     phase: Phase = field(default=Phase.STATIONARY, init=False)
     phase_start: float | None = field(default=None, init=False)
-    """Start of the current phase, s; None before the first change of phase or after a restart of times."""
+    """Start of the current phase, s; None before the first change of phase and after times restarted."""
     template: StrideTemplate = field(factory=StrideTemplate, init=False)
     stride: StrideBuilder = field(init=False)
     path: PathCovariance = field(factory=PathCovariance, init=False)
-    """Covariance of the path up to the last anchor, navigation frame."""
+    """Covariance of the path up to the last anchor, navigation frame; an anchor is the heel-off that ends a stretch."""
     anchor_position: Vec3 = field(default=ZERO, init=False)
-    """Position of the last anchor, navigation frame, m."""
+    """Position at the last anchor, navigation frame, m."""
     world: World = field(factory=World, init=False)
     heading_settled: bool = field(default=False, init=False)
     """The heading of the world frame is final."""
@@ -38,8 +38,8 @@ class Gait:
 
     def covariance(self, corrector: Corrector) -> Covariance3:
         """Return the covariance of the live position, world frame, m^2."""
-        path = self.path.extended(sub(corrector.position, self.anchor_position), corrector.covariance())
-        return self.world.covariance(path.position)
+        path = self.path.extend(sub(corrector.position, self.anchor_position), corrector.covariance())
+        return self.world.rotate_covariance(path.position)
 
     def reset(self) -> None:
         """Discard what depends on unbroken samples, because times restart."""
@@ -48,9 +48,7 @@ class Gait:
         self.template.reset()
 
     def shift(self, yaw: float, by: Vec3) -> Vec3:
-        """Turn the foot, which is flat, by `yaw` rad and move it by `by` m, world frame.
-
-        Returns the same move in the navigation frame, m, for the corrector."""
+        """Turn a flat foot by `yaw` rad and move it by `by` m, world frame; return `by` in the navigation frame."""
         x, y, z = by
         if self.world.north is not None:
             c, s = self.world.north  # inverse of the rotation from navigation to world frame
@@ -64,18 +62,18 @@ class Gait:
         return (x, y, z)
 
     def apply_cue(
-        self, seen: SeenCue, known_at: float, corrector: Corrector | None, interval: float, inferred: bool = False
+        self, timed_cue: SeenCue, known_at: float, corrector: Corrector | None, interval: float, inferred: bool = False
     ) -> list[Event]:
         """Return the events that follow from a cue.
 
         `corrector` is None as long as the foot is not levelled. `interval` is the usual interval between samples, s.
         `inferred` marks a cue that no sample showed."""
-        phase = PHASES[self.phase][seen.cue]
+        phase = PHASES[self.phase][timed_cue.cue]
         if phase is self.phase:
             return []
         self.phase = phase
-        # cues look back by different times, but phases must not go back in time
-        t = seen.t if self.phase_start is None else max(seen.t, self.phase_start)
+        # cues are dated back by different times, but phases must not go back in time
+        t = timed_cue.t if self.phase_start is None else max(timed_cue.t, self.phase_start)
         self.phase_start = t
         known_at = max(known_at, t)
         events: list[Event] = [EVENT_OF_PHASE[phase](t=t, known_at=known_at, foot=self.foot, inferred=inferred)]
@@ -87,7 +85,7 @@ class Gait:
             self.template.start_stride(t)
             self._anchor(corrector)
         elif phase is Phase.STATIONARY and corrector is not None:
-            events += self._flat(t, known_at, corrector, interval)
+            events += self._end_stride(t, known_at, corrector, interval)
         return events
 
     def apply_infill(
@@ -95,24 +93,26 @@ class Gait:
     ) -> list[Event]:
         """Return the events of the phases that a gap has hidden."""
         self.template.add_infill(infill.t_heel_off, infill.duration)
-        hidden: list[SeenCue] = []
+        hidden_cues: list[SeenCue] = []
         phase = self.phase
         if phase is Phase.STATIONARY:
-            hidden.append(SeenCue(Cue.LIFT, infill.t_heel_off))
+            hidden_cues.append(SeenCue(Cue.LIFT, infill.t_heel_off))
             phase = Phase.PUSH_OFF
         if infill.t_toe_off is not None and phase is not Phase.SWING and self.stride.t_toe_off is None:
-            hidden.append(cues.cleared(infill.t_toe_off))
+            hidden_cues.append(cues.cleared(infill.t_toe_off))
             phase = Phase.SWING
         if infill.t_heel_strike is not None and phase is Phase.SWING:
-            hidden.append(SeenCue(Cue.CONTACT, infill.t_heel_strike))
+            hidden_cues.append(SeenCue(Cue.CONTACT, infill.t_heel_strike))
         if infill.t_foot_flat is not None:
-            hidden.append(SeenCue(Cue.FLAT, infill.t_foot_flat))
+            hidden_cues.append(SeenCue(Cue.FLAT, infill.t_foot_flat))
         return [
-            event for seen in hidden for event in self.apply_cue(seen, known_at, corrector, interval, inferred=True)
+            event
+            for timed_cue in hidden_cues
+            for event in self.apply_cue(timed_cue, known_at, corrector, interval, inferred=True)
         ]
 
-    def _flat(self, t: float, known_at: float, corrector: Corrector, interval: float) -> list[Event]:
-        """End the stride at foot-flat and start the next one."""
+    def _end_stride(self, t: float, known_at: float, corrector: Corrector, interval: float) -> list[Event]:
+        """End the stride at a foot-flat and start the next one; return its event, if there was a stride."""
         stride, world = self.stride, self.world
         turn = heading_turned(stride.attitude, corrector.attitude)
         path = sub(corrector.position, stride.start)
@@ -124,21 +124,21 @@ class Gait:
         corrector.flat(stride.start, turn)
         position, attitude = corrector.position, corrector.attitude
         if not self.heading_settled and stride.t_toe_off is not None:
-            # the first stride fixes the heading; before it, the heading is the direction from the origin to the foot
+            # the first stride gives the final heading; until then it is the direction from the origin to the foot
             self.heading_settled = world.find_heading(position, SHORTEST_STRIDE)
-        taken = stride.finish(
+        stride_event = stride.finish(
             t, known_at, position, attitude, corrector.covariance(), world, error_index=corrector.error_index, rise=rise
         )
-        if taken is not None:
+        if stride_event is not None:
             # a reported stride is final, so its frame must not change, even if it was too short to give a direction
             self.heading_settled = True
             world.settle()
         stride.start_stride(t, position, attitude)
-        return [] if taken is None else [taken]
+        return [] if stride_event is None else [stride_event]
 
     def _anchor(self, corrector: Corrector) -> None:
         """Add the stretch since the last anchor to the path."""
         position = corrector.position
         stretch = corrector.anchor()
-        self.path = self.path.extended(sub(position, self.anchor_position), stretch)
+        self.path = self.path.extend(sub(position, self.anchor_position), stretch)
         self.anchor_position = position

@@ -1,6 +1,6 @@
 """Tables of the phases of a foot and of the support of the body.
 
-All transitions are in these tables. The tables contain no numbers: cues/ turns numbers into cues, with hysteresis and
+The tables contain all transitions and no numbers. The modules in cues/ turn samples into cues, with hysteresis and
 debounce."""
 
 from __future__ import annotations
@@ -13,12 +13,16 @@ from ..types import Phase, Support
 
 
 class Cue(Enum):
-    """Signs of gait events in the samples of one foot."""
+    """A sign of a gait event in the samples of one foot."""
 
-    CONTACT = "contact"  # the foot touched the ground
-    FLAT = "flat"  # the whole sole is down and still
-    LIFT = "lift"  # the heel left the ground
-    CLEAR = "clear"  # the toe left the ground
+    CONTACT = "contact"
+    """Sign of heel-strike: the foot touched the ground."""
+    FLAT = "flat"
+    """Sign of foot-flat: the whole sole is down and still."""
+    LIFT = "lift"
+    """Sign of heel-off: the heel left the ground."""
+    CLEAR = "clear"
+    """Sign of toe-off: the toe left the ground."""
 
 
 PHASES: dict[Phase, dict[Cue, Phase]] = {
@@ -55,7 +59,7 @@ TO_COME: dict[Phase, tuple[Cue, ...]] = {
     Phase.SWING: (Cue.CONTACT, Cue.FLAT),
     Phase.LOADING: (Cue.FLAT,),
 }
-"""Cues of a stride that are still to come in each phase."""
+"""Cues that a stride still needs in each phase, in order."""
 
 EVENT_OF_PHASE: dict[Phase, type[HeelStrike] | type[FootFlat] | type[HeelOff] | type[ToeOff]] = {
     Phase.LOADING: HeelStrike,

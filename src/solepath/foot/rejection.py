@@ -10,28 +10,28 @@ from ..types.attrs import evolve
 from ..types.vector import normalise
 
 ABSURD_ACC = 500.0
-"""Limit of an acceleration, m/s^2; no foot sensor measures more."""
+"""Limit of each axis of a specific force, m/s^2; no foot sensor measures more."""
 ABSURD_GYRO = 100.0
-"""Limit of an angular rate, rad/s; no foot sensor measures more."""
+"""Limit of each axis of an angular rate, rad/s; no foot sensor measures more."""
 ABSURD_TOTAL = 1e7
-"""Limit of the sum over all cells, in newtons or counts; no insole measures more."""
+"""Limit of the sum over all cells, N or counts, positive or negative; no insole measures more."""
 ABSURD_TIME = 1e11
-"""Limit of a time, s; its negative is the lower limit."""
+"""Limit of a time, s, positive or negative."""
 
 LEAST_TOTAL, LEAST_TIME = -ABSURD_TOTAL, -ABSURD_TIME
 """Lower limits of the sum over all cells and of a time, s."""
-SOUND_ACC_SQUARE, SOUND_GYRO_SQUARE = ABSURD_ACC**2, ABSURD_GYRO**2
-"""Squares of vectors, (m/s^2)^2 and (rad/s)^2, below which each axis is within its limit."""
+VALID_ACC_SQUARE, VALID_GYRO_SQUARE = ABSURD_ACC**2, ABSURD_GYRO**2
+"""Squared norms, (m/s^2)^2 and (rad/s)^2, below which each axis is certainly within its limit."""
 
 SHORTEST_QUAT = 1e-12
-"""Square of the least length of an attitude quaternion."""
+"""Square of the smallest norm of an attitude quaternion that can be normalised."""
 
 RejectionReason = tuple[Rejection, str]
 """Kind of the rejection, and a text for people."""
 
 
 def rejection_reason(sample: Sample, newest: float | None) -> RejectionReason | None:
-    """Return why `sample` cannot be used after one at `newest`, s; None when it can."""
+    """Return the reason why `sample` cannot be used after one at `newest`, s; None when it can be used."""
     t, known_at = sample.t, sample.known_at
     if (
         not LEAST_TIME <= t <= ABSURD_TIME
@@ -40,18 +40,20 @@ def rejection_reason(sample: Sample, newest: float | None) -> RejectionReason | 
     ):
         return wrong_time(sample) or _wrong_order(t, t if newest is None else newest)
     acc, gyro = sample.acc, sample.gyro
-    sound = True
+    vectors_valid = True
     try:
         if acc is not None:
             x, y, z = acc
-            sound = x * x + y * y + z * z < SOUND_ACC_SQUARE
-        if gyro is not None and sound:
+            vectors_valid = x * x + y * y + z * z < VALID_ACC_SQUARE
+        if gyro is not None and vectors_valid:
             x, y, z = gyro
-            sound = x * x + y * y + z * z < SOUND_GYRO_SQUARE
+            vectors_valid = x * x + y * y + z * z < VALID_GYRO_SQUARE
     except OverflowError:  # an int may be too large for a float
-        sound = False
-    if not sound and (wrong := _wrong_vector("acc", acc, ABSURD_ACC) or _wrong_vector("gyro", gyro, ABSURD_GYRO)):
-        return wrong
+        vectors_valid = False
+    if not vectors_valid and (
+        reason := _wrong_vector("acc", acc, ABSURD_ACC) or _wrong_vector("gyro", gyro, ABSURD_GYRO)
+    ):
+        return reason
     if sample.pressure:
         try:
             total: float = sum(sample.pressure)
@@ -60,8 +62,8 @@ def rejection_reason(sample: Sample, newest: float | None) -> RejectionReason | 
         if not LEAST_TOTAL < total < ABSURD_TOTAL:
             total = _total_of_numbers(sample.pressure)
             if not LEAST_TOTAL < total < ABSURD_TOTAL:
-                much = "hundreds of digits" if abs(total) == inf else f"{_format_number(total)} in all"
-                return Rejection.ABSURD, f"pressure of {much}"
+                amount = "hundreds of digits" if abs(total) == inf else f"{_format_number(total)} in all"
+                return Rejection.ABSURD, f"pressure of {amount}"
     return None
 
 
@@ -72,12 +74,12 @@ def _wrong_order(t: float, newest: float) -> RejectionReason:
 
 
 def _wrong_vector(name: str, vector: Vec3 | None, limit: float) -> RejectionReason | None:
-    worst = next((value for value in vector or () if not -limit < value < limit), None)
-    if worst is None:
+    invalid = next((value for value in vector or () if not -limit < value < limit), None)
+    if invalid is None:
         return None
-    if worst != worst or abs(worst) == inf:
+    if invalid != invalid or abs(invalid) == inf:
         return Rejection.NOT_FINITE, f"{name} is not a number"
-    return Rejection.ABSURD, f"{name} of {_format_number(worst)}"
+    return Rejection.ABSURD, f"{name} of {_format_number(invalid)}"
 
 
 def _total_of_numbers(cells: tuple[float, ...]) -> float:
@@ -89,7 +91,7 @@ def _total_of_numbers(cells: tuple[float, ...]) -> float:
 
 
 def with_sound_attitude(sample: Sample) -> Sample:
-    """Return the sample with a unit quaternion, or without attitude if its quaternion has no valid length."""
+    """Return the sample with a unit quaternion, or without attitude if its quaternion has no valid norm."""
     if sample.quat is None:
         return sample
     w, x, y, z = sample.quat
@@ -102,7 +104,7 @@ def with_sound_attitude(sample: Sample) -> Sample:
 
 
 def wrong_time(sample: Sample) -> RejectionReason | None:
-    """Return why the times of a sample are invalid by themselves; None when they are valid."""
+    """Return the reason why a time of `sample` is invalid, whatever came before; None when both are valid."""
     for t in (sample.t, sample.known_at):
         if t is not None and not -ABSURD_TIME <= t <= ABSURD_TIME:
             if t != t or abs(t) == inf:
@@ -111,9 +113,9 @@ def wrong_time(sample: Sample) -> RejectionReason | None:
     return None
 
 
-def rejected(sample: Sample, why: RejectionReason, newest: float | None) -> SampleRejected:
-    """Return the event for a rejected sample, with valid times; `newest` as in `rejection_reason`."""
-    reason, detail = why
+def rejected(sample: Sample, rejection: RejectionReason, newest: float | None) -> SampleRejected:
+    """Return the event for a rejected sample; `newest`, s, replaces an invalid time."""
+    reason, detail = rejection
     t, known_at = sample.t, sample.known_at
     if not -ABSURD_TIME <= t <= ABSURD_TIME:
         t = 0.0 if newest is None else newest

@@ -10,24 +10,25 @@ from ..types.attrs import define, field
 from ..types.vector import IDENTITY, SPLIT, ZERO, heading_turned, single, sub
 from .world import World
 
-COP_POINTS = 32
-"""Largest number of centre-of-pressure points that a stride keeps."""
-PITCHES_KEPT = 32
-"""Number of samples of which the pitch is kept; a toe-off or heel-strike is dated back by less."""
+MOST_COP_POINTS = 32
+"""Largest number of centre-of-pressure points that are stored of a stride."""
+MOST_PITCHES = 32
+"""Number of samples whose pitch is stored; a toe-off or heel-strike is dated back by fewer samples."""
 
 
 LONGEST_SWING = 3.0
 """Longest swing of a single stride, s."""
-FASTEST = 10.0
-"""Largest mean speed of a stride, m/s; nobody runs faster."""
+FASTEST_STRIDE = 10.0
+"""Largest mean speed of a stride that is possible, m/s; nobody runs faster."""
 
 
 @define
 class PathCovariance:
-    """The covariance of position and heading along a chain of stretches, by the rule of dead reckoning.
+    """The covariance of position and heading at the end of a chain of stretches, by the rule of dead reckoning.
 
-    A stretch d (m) with covariance C starts with a heading uncertainty s (rad). Its end then errs by C, and by s times
-    d turned by 90 degrees. Memory is O(1) however long the path is."""
+    Let a stretch have the displacement d (m) and the covariance C, and let its heading at the start have the standard
+    deviation s (rad). Its end then has the error of C, and that of s times d turned by 90 degrees. Memory is O(1)
+    however long the path is."""
 
     position: tuple[float, float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     """Covariance of the position: xx, xy, xz, yy, yz, zz, m^2."""
@@ -36,8 +37,8 @@ class PathCovariance:
     position_yaw: tuple[float, float] = (0.0, 0.0)
     """Covariance of position x and y with yaw, m rad."""
 
-    def extended(self, displacement: Vec3, stretch: tuple[float, ...]) -> PathCovariance:
-        """Return the path with one more stretch (`Corrector.anchor`), both in the same frame."""
+    def extend(self, displacement: Vec3, stretch: tuple[float, ...]) -> PathCovariance:
+        """Return the path with one more stretch, given by displacement (m) and covariance (`Corrector.anchor`)."""
         dx, dy, _ = displacement
         px, py = -dy, dx
         sxx, sxy, sxz, syy, syz, szz, yaw = stretch
@@ -58,7 +59,7 @@ class PathCovariance:
         )
 
 
-SHORTEST_STRIDE, LEAST_TURN = 0.06, 0.35
+SHORTEST_STRIDE, LEAST_STRIDE_TURN = 0.06, 0.35
 """Smallest displacement, m, and smallest turn, rad, of a stride; one of the two is enough."""
 
 
@@ -93,11 +94,11 @@ class StrideBuilder:
     """Smallest pitch of the stride, rad."""
     pitch_high: float = field(default=0.0, init=False)
     """Largest pitch of the stride, rad."""
-    pitches: list[float] = field(factory=lambda: [0.0] * PITCHES_KEPT, init=False)
-    """Ring buffer of the newest pitches, rad, rounded by `single`; the next goes to `slot`."""
-    slot: int = field(default=0, init=False)
-    """Index of the oldest pitch."""
-    pitch_at: float = field(default=0.0, init=False)
+    pitches: list[float] = field(factory=lambda: [0.0] * MOST_PITCHES, init=False)
+    """Ring buffer of the newest pitches, rad, rounded by `single`."""
+    next_pitch: int = field(default=0, init=False)
+    """Index of the oldest pitch in `pitches`, which the next one replaces."""
+    t_pitch: float = field(default=0.0, init=False)
     """Time of the newest pitch, s."""
     toe_off_pitch: float | None = field(default=None, init=False)
     """Pitch at toe-off, toe down positive, rad; None if unknown."""
@@ -110,9 +111,9 @@ class StrideBuilder:
     cop: list[tuple[float, float]] = field(factory=list, init=False)
     """Points of the centre of pressure, foot frame, m."""
     cop_interval: int = field(default=1, init=False)
-    """Number of samples for each kept point of the centre of pressure."""
+    """Number of samples for each stored point of the centre of pressure."""
     cop_skipped: int = field(default=0, init=False)
-    """Number of samples since the last kept point."""
+    """Number of samples since the last stored point of the centre of pressure."""
 
     def start_stride(self, t: float, position: Vec3, attitude: Quat) -> None:
         """Start a stride at a foot-flat; position (m) and attitude are in the navigation frame."""
@@ -121,7 +122,7 @@ class StrideBuilder:
         self.attitude = attitude
         self.t_toe_off = self.t_heel_strike = None
         self.toe_off_pitch = self.heel_strike_pitch = None
-        # foot-flat is dated back, possibly into a gap: the rest of the gap then degrades the new stride
+        # the foot-flat may be dated back into a gap; the rest of the gap then degrades the new stride
         self.degraded = self.degraded_until is not None and t < self.degraded_until
         self.peak_height = position[2]
         self.peak_speed = self.pitch = self.pitch_low = self.pitch_high = 0.0
@@ -132,9 +133,7 @@ class StrideBuilder:
         self.cop_skipped = 0
 
     def mark_degraded(self, until: float | None) -> None:
-        """Mark that samples up to `until`, s, are missing or saturated.
-
-        None means that times restart and the end is unknown."""
+        """Mark that samples up to `until`, s, are missing or saturated; None if times restart."""
         self.degraded = True
         self.degraded_until = until
 
@@ -145,10 +144,10 @@ class StrideBuilder:
         if speed > self.peak_speed:
             self.peak_speed = speed
         pitch = self.pitch = self.pitch + sagittal * dt
-        self.pitch_at = t
+        self.t_pitch = t
         high = SPLIT * pitch  # rounded as by `single`
-        self.pitches[self.slot] = high - (high - pitch)
-        self.slot = (self.slot + 1) % PITCHES_KEPT
+        self.pitches[self.next_pitch] = high - (high - pitch)
+        self.next_pitch = (self.next_pitch + 1) % MOST_PITCHES
         if pitch < self.pitch_low:
             self.pitch_low = pitch
         elif pitch > self.pitch_high:
@@ -167,20 +166,20 @@ class StrideBuilder:
     def _pitch_at(self, t: float, interval: float) -> float | None:
         """Return the pitch at `t`, interpolated between two samples, rad.
 
-        Returns None when a gap hides these samples, and before the sagittal axis is known, because the pitch is then
-        0."""
-        if t > self.pitch_at or self.pitches[self.slot - 2] == 0.0:
+        The result is None if a gap hides these samples, or if the sagittal axis is not yet known."""
+        if t > self.t_pitch or self.pitches[self.next_pitch - 2] == 0.0:
             return None
-        back = (self.pitch_at - t) / interval if interval > 0.0 else 0.0
-        back = min(max(back, 0.0), PITCHES_KEPT - 2.0)
-        k = int(back)
-        later, earlier = self.pitches[self.slot - 1 - k], self.pitches[self.slot - 2 - k]
-        return later + (back - k) * (earlier - later)
+        samples_back = (self.t_pitch - t) / interval if interval > 0.0 else 0.0
+        samples_back = min(max(samples_back, 0.0), MOST_PITCHES - 2.0)
+        k = int(samples_back)
+        later, earlier = self.pitches[self.next_pitch - 1 - k], self.pitches[self.next_pitch - 2 - k]
+        return later + (samples_back - k) * (earlier - later)
 
     def add_load(self, total: float, cop: tuple[float, float] | None) -> None:
-        """Add one sample of a foot on the ground.
+        """Add one sample of a foot on the ground: total load, and centre of pressure, foot frame, m.
 
-        At most COP_POINTS points stay, evenly spaced: when there are more, every second one is dropped."""
+        At most MOST_COP_POINTS points are stored, at equal intervals. When there are more, every second one is dropped.
+        """
         self.load_sum += total
         self.load_count += 1
         if cop is None:
@@ -191,7 +190,7 @@ class StrideBuilder:
         self.cop_skipped = 0
         x, y = cop
         self.cop.append((single(x), single(y)))
-        if len(self.cop) > COP_POINTS:
+        if len(self.cop) > MOST_COP_POINTS:
             self.cop = self.cop[::2]
             self.cop_interval *= 2
 
@@ -207,15 +206,15 @@ class StrideBuilder:
         error_index: float | None = None,
         rise: float | None = None,
     ) -> StrideTaken | None:
-        """Return the stride that ends at this foot-flat; None if the foot made none.
+        """Return the stride that ends at this foot-flat; None if the foot has made none.
 
-        `position`, `attitude` and `stretch` are in the same frame as the arguments of `start_stride`."""
+        `position` (m), `attitude` and `stretch` (`Corrector.anchor`) are in the navigation frame."""
         if self.t_start is None or self.t_toe_off is None or max(self.t_start, self.t_toe_off) > t:
             return None  # no stride, or a restart of times has cut it in two
-        displacement = world.vector(sub(position, self.start))
+        displacement = world.rotate_vector(sub(position, self.start))
         length, dz = hypot(displacement[0], displacement[1]), displacement[2]
         turn = heading_turned(self.attitude, attitude)
-        if hypot(length, dz) < SHORTEST_STRIDE and abs(turn) < LEAST_TURN:
+        if hypot(length, dz) < SHORTEST_STRIDE and abs(turn) < LEAST_STRIDE_TURN:
             return None
         self.number += 1
         return StrideTaken(
@@ -226,14 +225,16 @@ class StrideBuilder:
             t_start=self.t_start,
             t_end=t,
             displacement=displacement,
-            position=world.vector(position),
+            position=world.rotate_vector(position),
             length=length,
             heading_change=turn,
             height_change=dz,
-            covariance=world.covariance(stretch[:6]),
+            covariance=world.rotate_covariance(stretch[:6]),
             t_toe_off=self.t_toe_off,
             t_heel_strike=self.t_heel_strike,
-            degraded=self.degraded or t - self.t_toe_off > LONGEST_SWING or length > FASTEST * (t - self.t_start),
+            degraded=self.degraded
+            or t - self.t_toe_off > LONGEST_SWING
+            or length > FASTEST_STRIDE * (t - self.t_start),
             features=StrideFeatures(
                 clearance=self.peak_height - max(position[2], self.start[2]),
                 peak_speed=self.peak_speed,

@@ -1,7 +1,7 @@
 """Tracker of one foot: stance evidence, navigation and cues, one sample at a time.
 
-Order within a sample: gap, calibration, prediction, evidence, correction, cues, phases and strides (gait.py). The
-results are events; `position` is the live position after each sample."""
+The order within a sample is: gap, calibration, prediction, evidence, correction, cues, phases and strides (gait.py).
+The results are events; `position` is the live position after each sample."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ from .world import Covariance3
 SWING: Final = Phase.SWING
 """Local name of `Phase.SWING`, because one look-up in the enum costs as much as five multiplications."""
 
-STILL = 0.35
-"""Speed after the correction above which a foot is not flat, however noisy the evidence is, m/s."""
+LARGEST_FLAT_SPEED = 0.35
+"""Speed after a correction above which a foot is not flat, even if the evidence was accepted, m/s; chosen by hand."""
 
 
 @define
@@ -54,9 +54,9 @@ class FootTracker:
     partial_at: float | None = field(default=None, init=False)
     """Time of the newest sample without acc or gyro, s; None before any."""
     seen_at: float | None = field(default=None, init=False)
-    """Time of the newest sample after which the body had a view, s; None before any."""
+    """Time of the newest sample whose view the parts of the body received, s; None before any."""
     load: Load | None = field(default=None, init=False)
-    """Newest load, when it came with a sample without acc or gyro."""
+    """Newest load that came without acc or gyro and waits for the next inertial sample; None otherwise."""
     rhythm: Rhythm = field(factory=Rhythm, init=False)
     levelling: Levelling = field(factory=Levelling, init=False)
     levelled: bool = field(default=False, init=False)
@@ -83,17 +83,17 @@ class FootTracker:
     @property
     def position(self) -> Vec3:
         """Live position of the sensor, world frame, m; the origin is its first position."""
-        return self.gait.world.vector(self.corrector.position)
+        return self.gait.world.rotate_vector(self.corrector.position)
 
     @property
     def velocity(self) -> Vec3:
         """Live velocity of the sensor, world frame, m/s."""
-        return self.gait.world.vector(self.corrector.velocity)
+        return self.gait.world.rotate_vector(self.corrector.velocity)
 
     @property
     def attitude(self) -> Quat:
         """Live attitude, sensor to world frame."""
-        return self.gait.world.attitude(self.corrector.attitude)
+        return self.gait.world.rotate_attitude(self.corrector.attitude)
 
     @property
     def covariance(self) -> Covariance3:
@@ -106,24 +106,24 @@ class FootTracker:
         return None if self.t is None else FootPose(self.foot, self.t, self.moved_at, self.position, self.covariance)
 
     def view(
-        self, sample: Sample, known_at: float, events: tuple[Event, ...], spread: bool, other: float | None
+        self, sample: Sample, known_at: float, events: tuple[Event, ...], with_covariance: bool, other_t: float | None
     ) -> FootView:
         """Return the view of the foot after `sample`, which caused `events`.
 
-        The view contains the covariance if `spread` is True. `other` is `seen_at` of the other foot, s."""
+        The view contains the covariance if `with_covariance` is True. `other_t` is `seen_at` of the other foot, s."""
         corrector, gait, cells, rest = self.corrector, self.gait, self.sole.insole.cells, self.rest
         after, pressed = NOTHING_HAPPENED, None
         if events:
             takes_shifts, covariance = (
-                (hasattr(corrector, "shift"), gait.covariance(corrector)) if spread else (False, None)
+                (hasattr(corrector, "shift"), gait.covariance(corrector)) if with_covariance else (False, None)
             )
-            after = AfterEvents(gait.stride.attitude, self.sole.insole.layout, other, takes_shifts, covariance)
+            after = AfterEvents(gait.stride.attitude, self.sole.insole.layout, other_t, takes_shifts, covariance)
         if cells:
             insole = self.sole.insole
             layout = insole.layout
             newtons = insole.settings.newtons is not None or (layout is not None and layout.scale is not None)
-            alone = self.moved_at is None and sample.gyro is None
-            centre = insole.centre_of_pressure(cells) if alone else None
+            without_inertial = self.moved_at is None and sample.gyro is None
+            centre = insole.centre_of_pressure(cells) if without_inertial else None
             pressed = PressedCells(cells, layout, newtons, insole.highest, centre)
         return FootView(
             self.foot, sample, sample.t, known_at, events, self.moved_at, self.levelled, gait.phase,
@@ -134,11 +134,11 @@ class FootTracker:
     def shift(self, yaw: float, by: Vec3) -> None:
         """Turn the foot by `yaw` rad and move it by `by` m, world frame, from now on.
 
-        The live track and the next strides change; strides that were reported stay, and no stride gets longer. Call it
-        between a foot-flat and the next sample. A corrector without `shift` is not changed."""
-        move = getattr(self.corrector, "shift", None)
-        if move is not None:
-            move(yaw, self.gait.shift(yaw, by))
+        The live track and the next strides change. Reported strides stay, and no stride gets longer. Call it between a
+        foot-flat and the next sample. A corrector without a method `shift` is not changed."""
+        apply_shift = getattr(self.corrector, "shift", None)
+        if apply_shift is not None:
+            apply_shift(yaw, self.gait.shift(yaw, by))
 
     def set_layout(self, layout: Layout) -> None:
         """Set the layout of the pressure cells that the device has sent."""
@@ -160,7 +160,7 @@ class FootTracker:
         self.t = self.moved_at = self.partial_at = self.seen_at = self.limitations.lacking_since = self.load = None
         self.limitations.mismatch_since = None
         self.gait.reset()
-        # Windows that hold old times would wait for the new times to reach them. What was learnt stays.
+        # Windows that hold old times would wait until the new times reach them. What was learnt stays.
         detector: Any = self.detector
         self.detector = evolve(detector)
         self.cues.restart()
@@ -173,13 +173,13 @@ class FootTracker:
     def feed(self, sample: Sample) -> list[Event]:
         """Return the events of one sample of this foot.
 
-        A sample that cannot be used changes nothing except that an event names it."""
+        A sample that cannot be used changes no state; an event reports it."""
         t, acc, gyro = sample.t, sample.acc, sample.gyro
-        whole = acc is not None and gyro is not None
-        last = self.moved_at if whole else self.partial_at
-        why_not = rejection_reason(sample, last)
-        if why_not is not None:
-            return [rejected(sample, why_not, last)]
+        has_inertial = acc is not None and gyro is not None
+        t_last = self.moved_at if has_inertial else self.partial_at
+        rejection = rejection_reason(sample, t_last)
+        if rejection is not None:
+            return [rejected(sample, rejection, t_last)]
         known_at = t if sample.known_at is None else max(t, sample.known_at)
         if acc is None and gyro is None and not sample.pressure:
             return []  # from a barometer or magnetometer, which a foot does not use
@@ -200,17 +200,17 @@ class FootTracker:
             if gait.phase is not SWING and gait.stride.t_toe_off is None:
                 gait.stride.add_load(sole.insole.sum, load.centre)
         elif self.settings.needs_pressure and not sole.had_cells:
-            what = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
-            self.limitations.report_lacking(what, t, known_at, events)
+            text = f"no pressure cells on the {self.foot.value} foot: this recipe has nothing to say of it"
+            self.limitations.report_lacking(text, t, known_at, events)
             return events
-        if not whole:
+        if not has_inertial:
             self.partial_at = t
             if self.moved_at is not None and t - self.moved_at < LACKING_TIME:
                 self.load = load  # cells and inertial sensor send separately: the next inertial sample uses this load
                 return events
-        dt = 0.0 if last is None else t - last
-        if last is not None and (self.rhythm.update(dt) or dt > LONGEST_BRIDGE):
-            dt = self._gap(last, t, known_at, sample, events)
+        dt = 0.0 if t_last is None else t - t_last
+        if t_last is not None and (self.rhythm.update(dt) or dt > LONGEST_BRIDGE):
+            dt = self._cross_gap(t_last, t, known_at, sample, events)
         if acc is not None and gyro is not None:
             self.moved_at = t
             self.limitations.lacking_since = None
@@ -218,39 +218,49 @@ class FootTracker:
                 load, self.load = self.load, None
             if sample.quat is not None:
                 self.corrector.use_attitude(sample.quat)
-            self._inertial(t, dt, known_at, acc, gyro, sample.saturated, load, events)
+            self._add_inertial(t, dt, known_at, acc, gyro, sample.saturated, load, events)
             return events
         lacking = "accelerometer" if acc is None else "gyroscope"
-        what = f"no {lacking} on the {self.foot.value} foot: no steps and no track from it"
-        self.limitations.report_lacking(what, t, known_at, events)
+        text = f"no {lacking} on the {self.foot.value} foot: no steps and no track from it"
+        self.limitations.report_lacking(text, t, known_at, events)
         if load is not None:
-            for seen in self.cues.alone(t, dt, load, self.phase):
-                self._apply_cue(seen, known_at, events)
+            for timed_cue in self.cues.alone(t, dt, load, self.phase):
+                self._apply_cue(timed_cue, known_at, events)
         return events
 
-    def _gap(self, last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
+    def _cross_gap(self, t_last: float, t: float, known_at: float, sample: Sample, events: list[Event]) -> float:
         """Report a gap between two samples; return the time to integrate over, s."""
-        events.append(SampleGap(t=last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=t - last))
+        events.append(SampleGap(t=t_last, known_at=known_at, site=SITE_OF_FOOT[self.foot], duration=t - t_last))
         self.gait.stride.mark_degraded(t)
         if not self.levelled:
-            return t - last
-        if t - last <= SHORTEST_FILLED_GAP or sample.acc is None or sample.gyro is None:
-            return self.corrector.bridge(t - last)
-        seen = self.rest.calibrate(sample.acc, sample.gyro)
+            return t - t_last
+        if t - t_last <= SHORTEST_FILLED_GAP or sample.acc is None or sample.gyro is None:
+            return self.corrector.bridge(t - t_last)
+        acc_and_gyro = self.rest.calibrate(sample.acc, sample.gyro)
         return cross_gap(
-            self.gait, self.corrector, self.cues, last, t, known_at, seen, self.rhythm.usual or 0.0, events
+            self.gait,
+            self.corrector,
+            self.cues,
+            t_last,
+            t,
+            known_at,
+            acc_and_gyro,
+            self.rhythm.usual_interval or 0.0,
+            events,
         )
 
-    def _inertial(
+    def _add_inertial(
         self, t: float, dt: float, known_at: float, acc: Vec3, gyro: Vec3, saturated: bool,
         load: Load | None, events: list[Event],
     ) -> None:  # fmt: skip
         rest, corrector, gait = self.rest, self.corrector, self.gait
         if rest.update(t, acc, gyro):
-            suspect = None if self.scale_reported else check_scale(t, known_at, SITE_OF_FOOT[self.foot], rest.magnitude)
-            if suspect is not None:
+            scale_event = (
+                None if self.scale_reported else check_scale(t, known_at, SITE_OF_FOOT[self.foot], rest.magnitude)
+            )
+            if scale_event is not None:
                 self.scale_reported = True
-                events.append(suspect)
+                events.append(scale_event)
             self.detector.scaled(rest.scale)
         k, (bx, by, bz) = rest.scale, rest.bias
         x, y, z = acc
@@ -261,9 +271,9 @@ class FootTracker:
             corrector.predict(dt, acc, gyro, saturated)
         stance = self.detector.update(t, dt, acc, gyro, load, corrector.attitude)
         if not self.levelled:
-            first = self.levelling.update(t, acc, gyro)
-            if first is not None:
-                corrector.start(*first)
+            first_attitude = self.levelling.update(t, acc, gyro)
+            if first_attitude is not None:
+                corrector.start(*first_attitude)
                 self.levelled = True
                 gait.stride.start_stride(t, ZERO, corrector.attitude)
             if self.settings.poses:
@@ -273,16 +283,18 @@ class FootTracker:
         vx, vy, vz = corrector.velocity
         speed = sqrt(vx * vx + vy * vy + vz * vz)
         cues = self.cues
-        seen = cues.update(t, dt, acc, gyro, accepted and speed < STILL, speed, gait.phase, load, stance)
+        timed_cues = cues.update(
+            t, dt, acc, gyro, accepted and speed < LARGEST_FLAT_SPEED, speed, gait.phase, load, stance
+        )
         if cues.mark is not None:
             corrector.mark(t, cues.mark)
         template, position = gait.template, corrector.position
         if template.t_heel_off is not None and t >= template.t_next_moment:
             template.add_moment(t, corrector.attitude, corrector.velocity, position, acc, gyro)
         gait.stride.add_motion(t, dt, position[2], speed, cues.sagittal)
-        if seen:
-            for one in seen:
-                self._apply_cue(one, known_at, events)
+        if timed_cues:
+            for timed_cue in timed_cues:
+                self._apply_cue(timed_cue, known_at, events)
         elif not gait.heading_settled:
             gait.world.find_heading(position)
         if self.settings.poses:
@@ -292,6 +304,6 @@ class FootTracker:
         p, v = self.position, self.velocity
         events.append(FootMoved(t=t, known_at=known_at, foot=self.foot, position=p, velocity=v, phase=self.phase))
 
-    def _apply_cue(self, seen: SeenCue, known_at: float, events: list[Event]) -> None:
+    def _apply_cue(self, timed_cue: SeenCue, known_at: float, events: list[Event]) -> None:
         corrector = self.corrector if self.levelled else None
-        events += self.gait.apply_cue(seen, known_at, corrector, self.rhythm.usual or 0.0)
+        events += self.gait.apply_cue(timed_cue, known_at, corrector, self.rhythm.usual_interval or 0.0)

@@ -27,10 +27,10 @@ class PressedCells(NamedTuple):
 
 
 class AfterEvents(NamedTuple):
-    """Additional data of a foot whose sample caused events."""
+    """The data that a view has in addition if its sample caused events."""
 
     stood: Quat
-    """Attitude at the last foot-flat, sensor to navigation frame."""
+    """Attitude at the start of the current stride, its foot-flat, sensor to navigation frame."""
     layout: Layout | None
     """Layout of the pressure cells; None when it is unknown."""
     other_t: float | None
@@ -49,13 +49,14 @@ NOTHING_HAPPENED: Final = AfterEvents(IDENTITY, None, None, False, None)
 class FootView:
     """The state of one foot right after one of its samples.
 
-    Vectors are in the navigation frame of this foot: z up, heading as at levelling. `north` turns them into the world
-    frame. The view is read only: type checkers reject assignments, and the foot never sees a changed field."""
+    Vectors are in the navigation frame of this foot: z up, with the heading that the sensor had when its first attitude
+    was found. `north` turns them into the world frame. The view is read only: type checkers reject assignments, and an
+    assignment has no effect on the foot."""
 
     foot: Final[Foot]
     """Foot of the sample."""
     sample: Final[Sample]
-    """Sample as the link or the app gave it, without calibration."""
+    """Sample as it came from the link or the app, without calibration."""
     t: Final[float]
     """Time of the sample, s."""
     known_at: Final[float]

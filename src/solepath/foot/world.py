@@ -1,9 +1,10 @@
 """Turn from the navigation frame of one foot to the world frame.
 
-World frame: z up, x along the first heading, y left, origin at the first position of the sensor. Navigation starts
-before the first heading is known, in a frame with an arbitrary heading. The first heading is that of the first stride.
-From when the foot has moved `FIRST_HEADING_DISTANCE` until that stride ends, the heading is the direction from the
-origin to the foot. Positions that were reported earlier lie within this distance of the origin and were not final."""
+The world frame is z up, x along the first heading, y left, with its origin at the first position of the sensor.
+Navigation starts before the first heading is known, in a frame with an arbitrary heading. The first heading is that of
+the first stride. Once the foot has moved by `FIRST_HEADING_DISTANCE` and until that stride ends, the heading is the
+direction from the origin to the foot. Earlier reported positions lie within this distance of the origin and were not
+final."""
 
 from __future__ import annotations
 
@@ -14,7 +15,7 @@ from ..types.attrs import define, field
 from ..types.vector import from_yaw, multiply
 
 FIRST_HEADING_DISTANCE = 0.15
-"""Distance from its first position at which a foot defines a heading, m."""
+"""Distance of a foot from its first position from which on its direction gives a heading, m; chosen by hand."""
 
 Covariance3 = tuple[float, float, float, float, float, float]
 """Covariance of a 3D vector: xx, xy, xz, yy, yz, zz."""
@@ -28,7 +29,7 @@ class World:
     """Cosine and sine of the angle from navigation to world frame; None until the first heading is known."""
 
     def find_heading(self, position: Vec3, least: float = FIRST_HEADING_DISTANCE) -> bool:
-        """Return whether `position` was far enough from the origin to set the first heading.
+        """Set the heading to the direction of `position`; return False if that is too close to the origin.
 
         `position` is in the navigation frame, m; `least` is the smallest horizontal distance, m."""
         x, y, _ = position
@@ -39,11 +40,11 @@ class World:
         return True
 
     def settle(self) -> None:
-        """Keep the heading of the navigation frame if no other heading is set."""
+        """Use the heading of the navigation frame if no other heading is set."""
         if self.north is None:
             self.north = (1.0, 0.0)
 
-    def vector(self, v: Vec3) -> Vec3:
+    def rotate_vector(self, v: Vec3) -> Vec3:
         """Return a vector of the navigation frame in the world frame."""
         if self.north is None:
             return v
@@ -51,14 +52,14 @@ class World:
         x, y, z = v
         return (c * x - s * y, s * x + c * y, z)
 
-    def attitude(self, q: Quat) -> Quat:
-        """Return the attitude from sensor to world frame for one from sensor to navigation frame."""
+    def rotate_attitude(self, q: Quat) -> Quat:
+        """Return the attitude from sensor to world frame for `q`, sensor to navigation frame."""
         if self.north is None:
             return q
         return multiply(from_yaw(atan2(self.north[1], self.north[0])), q)
 
-    def covariance(self, covariance: tuple[float, ...]) -> Covariance3:
-        """Return the covariance of a vector in the world frame for one in the navigation frame."""
+    def rotate_covariance(self, covariance: tuple[float, ...]) -> Covariance3:
+        """Return the covariance of a vector in the world frame for `covariance`, that in the navigation frame."""
         xx, xy, xz, yy, yz, zz = covariance
         if self.north is None:
             return (xx, xy, xz, yy, yz, zz)
