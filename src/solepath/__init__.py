@@ -1,4 +1,4 @@
-"""solepath: bytes of foot-worn sensors in; gait events, strides and a track out."""
+"""solepath turns the bytes of foot-worn sensors into gait events, strides and a track."""
 
 from importlib import import_module
 from typing import TYPE_CHECKING
@@ -66,7 +66,7 @@ if TYPE_CHECKING:
     from .floorplan.plan import FloorPlan, FloorPlanError, Start
     from .saving.codec import SnapshotError
 
-_LATER = {
+_LAZY_NAMES = {
     "FloorPlan": "floorplan.plan",
     "FloorPlanError": "floorplan.plan",
     "IndexedPlan": "floorplan.index",
@@ -80,8 +80,8 @@ _LATER = {
 
 
 def __getattr__(name: str) -> object:
-    if name in _LATER:
-        return getattr(import_module(f"{__name__}.{_LATER[name]}"), name)
+    if name in _LAZY_NAMES:
+        return getattr(import_module(f"{__name__}.{_LAZY_NAMES[name]}"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

@@ -1,10 +1,10 @@
-"""Recipes: the parts that a session is made of. Parts and recipes are found here by their names.
+"""Recipes, which are the parts that a session is made of, and tables of recipes and parts by their names.
 
     Session(recipes.DEFAULT)        Session(recipes.by_name("kupt-dfpc"))
 
-A part in a recipe has never received a sample; a session starts with copies. The published systems (papers/) are loaded
-when their recipe is requested. A name from a state or a command line is looked up in the tables here and nowhere else.
-"""
+A part in a recipe has never received a sample, because a session uses copies. The published systems (papers/) are
+imported when their recipe is requested. A name from a saved state or a command line is looked up only in the tables of
+this module."""
 
 from __future__ import annotations
 
@@ -34,13 +34,13 @@ from .types.attrs import evolve, field, frozen
 def usual(
     track: TrackPart | None = None, activity: ActivityPart | None = None, altitude: Altitude | None = None
 ) -> tuple[Part, ...]:
-    """Return the body's parts in the order that most recipes use.
+    """Return the parts of the body in the order that most recipes use.
 
-    They are: how the sensors are worn, where the wearer is (`track`; MeanOfFeet when it is None), what the wearer does
-    (`activity`; Activities when it is None), turns, lifts and air pressure (`altitude`; heights are the feet's own when
-    it is None), and gait cycles."""
-    known = (Wear(), track or MeanOfFeet(), activity or Activities(), Turns(), altitude, GaitCycles())
-    return tuple([part for part in known if part is not None])
+    They are: Wear, the position of the wearer (`track`; MeanOfFeet when it is None), the activity (`activity`;
+    Activities when it is None), Turns, the height from elevators and air pressure (`altitude`; when it is None, heights
+    are those of the feet), and GaitCycles."""
+    parts = (Wear(), track or MeanOfFeet(), activity or Activities(), Turns(), altitude, GaitCycles())
+    return tuple([part for part in parts if part is not None])
 
 
 @frozen(repr=False)
@@ -49,33 +49,34 @@ class Recipe:
 
     name: str
     detector: Detector
-    """Stance detector: estimates whether a foot stands still, or how fast it rolls."""
+    """Stance detector, which estimates the velocity that a sensor should have now."""
     corrector: Corrector
-    """Corrector: navigates one foot and uses stance evidence to limit drift."""
+    """Corrector, which navigates one foot and limits the drift by stance evidence."""
     cues: Cues = field(factory=GaitCues)
-    """Cues: find the signs of heel-strike, foot-flat, heel-off and toe-off."""
+    """Cues, which detect the signs of heel-strike, foot-flat, heel-off and toe-off."""
     insole: InsoleLoads = field(factory=InsoleLoads)
-    """Converts the readings of pressure cells to load."""
+    """Part that converts the readings of pressure cells to load."""
     parts: tuple[Part, ...] = field(factory=usual)
     """Parts of the body, in the order in which they receive events (body/part.py)."""
     place: Part | None = None
-    """Part that finds the wearer on a floor plan, the last part of a session that has a plan. None stands for
-    Particles, which is loaded for such a session only."""
+    """Part that finds the wearer on a floor plan, the last part of a session that has a plan.
+
+    None stands for Particles, which is imported for such a session only."""
     needs_pressure: bool = False
-    """True when the recipe reports nothing without pressure cells."""
+    """The recipe reports nothing without pressure cells."""
 
     def exchanged(self, kind: type, by: Part | None, name: str | None = None) -> Recipe:
-        """Return the recipe with `by` in the place of the part of this kind; None for `by` removes the part.
+        """Return the recipe with its part of this kind replaced by `by`, or removed if `by` is None.
 
-        `name` renames the recipe. LookupError is raised when the recipe has no part of this kind."""
+        `name` is the name of the new recipe. LookupError is raised when the recipe has no part of this kind."""
         if not any([isinstance(part, kind) for part in self.parts]):
             raise LookupError(f"recipe {self.name} has no {kind.__name__}")
-        known = [by if isinstance(part, kind) else part for part in self.parts]
-        parts = tuple([part for part in known if part is not None])
+        replaced = [by if isinstance(part, kind) else part for part in self.parts]
+        parts = tuple([part for part in replaced if part is not None])
         return evolve(self, name=self.name if name is None else name, parts=parts)
 
     def order(self) -> str:
-        """Return the names of the body's parts, one a line, in the order in which they receive events."""
+        """Return the names of the parts of the body, one a line, in the order in which they receive events."""
         place = "Particles" if self.place is None else type(self.place).__name__
         names = [type(part).__name__ for part in self.parts]
         return "\n".join([*names, f"{place} (with a floor plan)"])
@@ -85,12 +86,12 @@ class Recipe:
 
 
 DEFAULT = Recipe("default", Cycle(), ErrorStateFilter(), parts=usual(BothFeet(), altitude=Altitude()))
-"""Stance threshold adapted within each gait cycle, nine-state error-state filter, both feet in one frame."""
+"""Recipe with a stance threshold from each gait cycle, a nine-state error-state filter, and both feet in one frame."""
 
 STRAIGHT_CORRIDORS = DEFAULT.exchanged(
     TrackPart, BothFeet(BothFeetSettings(straight_corridors=True)), "straight-corridors"
 )
-"""The default recipe for a wearer who walks straight corridors: the heading is aligned with them."""
+"""Default recipe for a wearer who walks straight corridors, with which the heading is aligned."""
 
 RECIPES: dict[str, str] = {
     "default": "recipes:DEFAULT",
@@ -108,7 +109,7 @@ RECIPES: dict[str, str] = {
     "shoe-sensing": "papers.shoe_sensing.recipe:SHOE_SENSING",
     "acceleration-magnitude": "papers.shoe_sensing.recipe:SHOE_MAGNITUDE",
 }
-"""Recipe name -> module below solepath and, after the colon, name of the constant in it."""
+"""Module below solepath of each recipe by its name and, after the colon, the constant in that module."""
 
 NAMES = tuple(RECIPES)
 """Names of all recipes, the default first."""
@@ -122,7 +123,7 @@ LINKS: dict[str, str] = {
     "Cc2541Link": "link.devices.cc2541",
     "StreamLink": "link.stream",
 }
-"""Class name of a device's link -> module below solepath that defines it."""
+"""Module below solepath of each class of links by its name."""
 
 PARTS: dict[str, str] = {
     "Cycle": _FOOT + "stance.cycle",
@@ -162,62 +163,62 @@ PARTS: dict[str, str] = {
     "ShoeSensing": _SHOE + "gated_tilt",
     "AnglePerMetre": _SHOE + "walking_state",
 }
-"""Class name of a part -> module below solepath that defines it. A saved state names only these and an app's own."""
+"""Module below solepath of each class of parts by its name; a saved state names only these and those of an app."""
 
 
 def by_name(name: str) -> Recipe:
-    """Return the recipe of this name, one of NAMES. Raise ValueError, which lists NAMES, for another."""
-    where = RECIPES.get(name)
-    if where is None:
+    """Return the recipe of this name. Raise ValueError, which lists NAMES, for any other name."""
+    location = RECIPES.get(name)
+    if location is None:
         raise ValueError(f"there is no recipe {name!r}; there are: {', '.join(NAMES)}")
-    module, _, constant = where.partition(":")
+    module, _, constant = location.partition(":")
     recipe: Recipe = getattr(import_module(f"{__package__}.{module}"), constant)
     return recipe
 
 
 def part_class(name: str) -> type[Any]:
-    """Return the class of the part or link of this name, one of PARTS or LINKS. Raise SnapshotError for another."""
+    """Return the class of this name from PARTS or LINKS. Raise SnapshotError for any other name."""
     module = PARTS.get(name) or LINKS.get(name)
     if module is None:
         from .saving.codec import SnapshotError
 
         raise SnapshotError(f"a snapshot of a part {name!r:.80} that is not known here")
-    found: type[Any] = getattr(import_module(f"{__package__}.{module}"), name)
-    return found
+    cls: type[Any] = getattr(import_module(f"{__package__}.{module}"), name)
+    return cls
 
 
 def own(recipe: Recipe) -> Recipe:
-    """Return a copy of the recipe that nobody changes; sessions make their parts from it.
+    """Return a copy of the recipe that nobody changes, from which sessions copy their parts.
 
-    Sessions whose recipes are equal bit for bit share one copy. The function is thread-safe. TypeError is raised when
+    Sessions whose recipes are equal bit for bit share this copy. The function is thread-safe. TypeError is raised when
     `recipe` is not a Recipe."""
     global _copies
     if not isinstance(recipe, Recipe):
         raise TypeError(f"recipe must be a Recipe, not {type(recipe).__name__}")
-    known = _copies
-    if any([recipe is one.recipe for one in known]):
+    copies = _copies
+    if any([recipe is copy.recipe for copy in copies]):
         return recipe
     parts = (recipe.detector, recipe.corrector, recipe.cues)
     extra_state = repr([vars(part) for part in parts if hasattr(part, "__dict__")])
-    if known:
-        known = tuple([one for one in known if one.text is not None])
-        given = _Copy(recipe, extra_state).text
-        if given is None:
+    if copies:
+        copies = tuple([copy for copy in copies if copy.text is not None])
+        text = _Copy(recipe, extra_state).text
+        if text is None:
             return deepcopy(recipe)
-        for one in known:
-            if one.text == given:
-                return one.recipe
-    copy = _Copy(deepcopy(recipe), extra_state)
-    _copies = (copy, *known[: _COPIES_KEPT - 1])
-    return copy.recipe
+        for copy in copies:
+            if copy.text == text:
+                return copy.recipe
+    new_copy = _Copy(deepcopy(recipe), extra_state)
+    _copies = (new_copy, *copies[: _MOST_COPIES - 1])
+    return new_copy.recipe
 
 
 class _Copy:
-    """A copied recipe with the text by which it is compared with others.
+    """A copy of a recipe, with the text by which it is compared with other recipes.
 
-    `extra_state` holds the attributes of its parts that are not fields. The text is made at the first comparison,
-    because that takes longer than creating a session. It is None when the recipe cannot be saved; such a recipe equals
-    no other."""
+    `extra_state` holds the attributes of its parts that are not fields. The text is created at the first comparison,
+    because this takes longer than creating a session. It is None when the recipe cannot be saved; such a recipe equals
+    no other one."""
 
     def __init__(self, recipe: Recipe, extra_state: str) -> None:
         self.recipe, self.extra_state = recipe, extra_state
@@ -232,7 +233,7 @@ class _Copy:
             return None
 
 
-_COPIES_KEPT = 16
-"""Number of copies that are kept."""
+_MOST_COPIES = 16
+"""Number of copies that are stored."""
 _copies: tuple[_Copy, ...] = ()
-"""The newest copies. A change replaces the whole tuple, so that other threads go on with the tuple that they have."""
+"""The newest copies; a change replaces the whole tuple, so that other threads can continue with the old one."""

@@ -1,4 +1,4 @@
-"""Records of what is known of wearer, shoes and insoles; limits.py has their limits, file.py their file."""
+"""Calibration of wearer, shoes and insoles: records.py has the records, limits.py their limits, file.py their file."""
 
 from .records import Calibration, CalibrationError, InsoleCalibration, Limbs, Newtons, ShoeGeometry, merged
 

@@ -15,7 +15,7 @@ from .records import CalibrationError
 
 @frozen
 class TableRow:
-    """One line of a table; `where` is the file and line as messages name them."""
+    """One line of a table, with its cells by column; `where` names file and line in messages."""
 
     where: str
     cells: dict[str, str]
@@ -31,7 +31,7 @@ class TableRow:
         return self.cells[column]
 
     def number(self, column: str, low: float = -inf, high: float = inf, unit: str = "") -> float:
-        """Return a finite number from `low` to `high`. Raise CalibrationError when the cell holds none."""
+        """Return the number of this column. Raise CalibrationError if it is not a number from `low` to `high`."""
         text = self.cells.get(column, "")
         try:
             value = float(text)
@@ -45,7 +45,7 @@ class TableRow:
         return value
 
     def one_of(self, column: str, allowed: Collection[str]) -> str:
-        """Return the cell's text, which is one of `allowed`. Raise CalibrationError when it is not."""
+        """Return the text of this column. Raise CalibrationError if it is not one of `allowed`."""
         text = self.cells.get(column, "")
         if text not in allowed:
             raise CalibrationError(f"{self.where}: {column} is {text!r}, not one of {', '.join(allowed)}")

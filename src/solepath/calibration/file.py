@@ -11,8 +11,8 @@ from .records import Calibration, CalibrationError
 
 FORMAT = "solepath-calibration"
 VERSION = 1
-LARGEST = 8_000_000
-"""Largest accepted size of a file, bytes. Two insoles of a thousand cells need a hundredth of that."""
+LARGEST_FILE = 8_000_000
+"""Largest accepted size of a file, bytes: a hundred times that of two insoles of a thousand cells."""
 
 
 def write_calibration(path: Path | str, calibration: Calibration) -> None:
@@ -46,23 +46,25 @@ def read_calibration(path: Path | str) -> Calibration:
     if isinstance(content, dict):
         content.setdefault("toe_out", {})  # older files have no toe_out and stay valid
     try:
-        found = load(Calibration, content)
+        calibration = load(Calibration, content)
     except SnapshotError as error:
         content = str(error).removeprefix("not a snapshot of Calibration: ")
         raise CalibrationError(f"{path}: is not a calibration ({content})") from None
-    why_not = unusable(found)
-    if why_not is not None:
-        raise CalibrationError(f"{path}: {why_not}")
-    return found
+    reason = unusable(calibration)
+    if reason is not None:
+        raise CalibrationError(f"{path}: {reason}")
+    return calibration
 
 
 def bounded_text(path: Path, encoding: str = "utf-8") -> str:
-    """Return the text of a file of at most LARGEST bytes.
+    """Return the text of a file of at most LARGEST_FILE bytes.
 
-    CalibrationError is raised when the file is larger or never ends, OSError or ValueError when it cannot be read or is
-    not text."""
+    CalibrationError is raised when the file is larger or has no end, OSError when it cannot be read, ValueError when it
+    is not text."""
     with path.open("rb") as file:
-        data = file.read(LARGEST + 1)
-    if len(data) > LARGEST:
-        raise CalibrationError(f"{path}: is larger than {LARGEST // 1_000_000} MB, too large for what it should be")
+        data = file.read(LARGEST_FILE + 1)
+    if len(data) > LARGEST_FILE:
+        raise CalibrationError(
+            f"{path}: is larger than {LARGEST_FILE // 1_000_000} MB, too large for what it should be"
+        )
     return data.decode(encoding)

@@ -1,4 +1,4 @@
-"""Checks calibration records: the type and the range of every value, because a program may put anything into them."""
+"""Checks of the type and the range of every value of a calibration, because a program may put anything into it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _Limit = tuple[str, object, float, float, str]
 
 
 def unusable(calibration: Calibration) -> str | None:
-    """Return why a calibration cannot be used, or None when it can.
+    """Return the reason why a calibration cannot be used, or None when it can be used.
 
     The sentence names the first key whose value is impossible for a wearer, a shoe or an insole. The limits are those
     of protocol/calibration.md."""
@@ -32,7 +32,7 @@ def unusable(calibration: Calibration) -> str | None:
 
 
 def _type_problems(calibration: Calibration) -> Iterator[str]:
-    """Yield a sentence for every value whose type is not the declared one. `_limits` checks the numbers."""
+    """Yield a sentence for every value of a wrong type, except for the numbers, which `_limits` yields."""
     yield from _check_dict("insoles", calibration.insoles, Foot)
     for foot, insole in calibration.insoles.items():
         key = f"insoles.{foot.value}"
@@ -126,7 +126,7 @@ def _limits_of_insole(key: str, insole: InsoleCalibration) -> Iterator[_Limit]:
 
 
 def _unusable_shoe(shoe: ShoeGeometry) -> str | None:
-    """Return why the shoe's polynomials are unusable, or None. Each gives -1 to 1 m at five pitches to `steepest`."""
+    """Return a sentence if a polynomial gives a length above 1 m at one of five pitches to `steepest`, or None."""
     for key, polynomial in (("forefoot_radius", shoe.forefoot_radius), ("pivot_to_toe", shoe.pivot_to_toe)):
         for k in range(5):
             pitch, length = 0.25 * k * shoe.steepest, 0.0

@@ -1,6 +1,6 @@
-"""Records of what is known of a wearer, a pair of shoes and a pair of insoles beyond what the devices send.
+"""Calibration records: data on a wearer, a pair of shoes and a pair of insoles that the devices do not send.
 
-Everything here is optional: a session without a calibration runs on defaults and on what it learns."""
+All of it is optional: a session without a calibration uses defaults and what it learns."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ class CalibrationError(ValueError):
 class Newtons:
     """Cubic that turns a cell's raw value c into newtons: N = a + b c + c2 c^2 + c3 c^3.
 
-    It is fitted to gauge data (Gong et al. 2023, Sensors 23, 5417, fig. 6). Below `threshold` (N) a cell reads 0, above
-    `most` (N) it reads `most`."""
+    It is fitted to measurements with a force gauge (Gong et al. 2023, Sensors 23, 5417, fig. 6). `coefficients` are a,
+    b, c2 and c3. A force below `threshold` (N) becomes 0, one above `most` (N) becomes `most`."""
 
     coefficients: tuple[float, float, float, float]
     threshold: float = 5.0
@@ -30,9 +30,9 @@ class Newtons:
 class InsoleCalibration:
     """Calibration of one insole.
 
-    `layout` has the positions of the cells, for devices and files that do not send them. `noise` has the reading of
-    each unloaded cell, in the unit of the samples, or in N where there are `newtons` (Chen et al. 2019, equation (1)).
-    """
+    `layout` has the positions of the cells, for devices and files that do not send them. `newtons` converts raw values
+    to N. `noise` has the value of each unloaded cell, in N if there are `newtons`, otherwise in the unit of the samples
+    (Chen et al. 2019, equation (1))."""
 
     layout: Layout | None = None
     newtons: Newtons | None = None
@@ -43,14 +43,15 @@ class InsoleCalibration:
 class ShoeGeometry:
     """Geometry of a shoe, m, as in figs. 5 to 7 of Chen et al. 2019. The defaults are their shoe (10.5 US).
 
-    `heel_radius`: L_r from the heel's end to the point below the sensor. `height`: H_imu, from there to the sensor.
-    `forefoot_radius` and `pivot_to_toe`: L_r and L_p2t as polynomials of the heel-up pitch (rad), constant first, valid
-    from flat to `steepest` (rad).
+    `heel_radius` is L_r, from the heel's rear end to the point of the sole below the sensor. `height` is H_imu, from
+    that point up to the sensor. `forefoot_radius` and `pivot_to_toe` are L_r and L_p2t as polynomials of the pitch
+    (rad, heel up positive), constant first. They hold from 0 to `steepest` (rad).
 
     The paper gives no coefficients for the forefoot. The defaults come from geometry: a shoe of 28.5 cm with the sensor
-    12.5 cm before the heel's end. The sole is rigid, and from 19.5 cm on it is a rocker of radius R = 5 cm, tangent to
-    the sole, that rolls without slip. At pitch p a ruler along the flat bottom meets the ground R tan(p/2) behind the
-    point of contact, and that point has moved R p ahead on the ground. With the pivot where ruler and ground meet
+    12.5 cm in front of the heel's rear end. The sole is flat and rigid up to 19.5 cm. In front of that it is a rocker:
+    a cylinder of radius R = 5 cm, tangent to the flat part, that rolls without slip. At pitch p the plane of the flat
+    part meets the ground R tan(p/2) behind the point of contact, which has moved R p forward on the ground. The pivot
+    is the line where plane and ground meet, so that
 
         L_r = 0.070 + R tan(p/2)            L_p2t = 0.090 - R p + R tan(p/2)
 
@@ -73,9 +74,9 @@ class Limbs:
 
     The defaults are those of a wearer of 1.75 m. Thigh 0.245, shank 0.246, foot 0.152 and ankle 0.039 of the height are
     the proportions of Drillis and Contini (1966), as in Winter, Biomechanics and Motor Control of Human Movement; three
-    quarters of the foot lie before the ankle. Their 0.191 is the breadth of the hips. The joints lie inward of the
-    spines, which are 0.24 m apart, by 14 % of that distance on each side (Bell, Brand and Pedersen 1989, Human Movement
-    Science 8)."""
+    quarters of the foot lie in front of the ankle. Their 0.191 is the breadth of the hips, not the distance of the hip
+    joints. The anterior iliac spines are 0.24 m apart, and each joint lies inward of its spine by 14 % of that distance
+    (Bell, Brand and Pedersen 1989, Human Movement Science 8)."""
 
     hip_width: float = 0.173
     thigh: float = 0.429
@@ -86,13 +87,13 @@ class Limbs:
 
 @frozen
 class Calibration:
-    """The whole calibration; what was not calibrated is None or absent.
+    """The calibration of one wearer; a value that was not calibrated is None or absent.
 
-    `drift` is the slope of a foot's position, m/s (x, y). It is in the world frame of the device where the device sends
-    its attitude. Otherwise it is in the navigation frame, whose heading is that of the sensor at the start, so it holds
-    for walks that start as the calibration did. `weight` is the wearer's, N. `modes` is the compensation of a touchdown
-    by foot and walking mode, (forward, left), m. `toe_out` is the angle from the direction of walking to the foot's
-    long axis, outwards positive, rad (Liu et al. 2015, equation (1))."""
+    `drift` is the rate at which the position of a foot drifts, m/s (x, y). If the device sends its attitude, `drift` is
+    in the world frame of the device. Otherwise it is in the navigation frame, whose heading is that of the sensor at
+    the start, so it holds for walks that start with the same heading as the calibration. `weight` is the wearer's, N.
+    `modes` is the compensation of a touchdown by foot and walking mode, (forward, left), m. `toe_out` is the angle from
+    the direction of walking to the foot's long axis, outwards positive, rad (Liu et al. 2015, equation (1))."""
 
     insoles: dict[Foot, InsoleCalibration] = field(factory=dict)
     shoe: ShoeGeometry | None = None
@@ -103,24 +104,24 @@ class Calibration:
     toe_out: dict[Foot, float] = field(factory=dict)
 
     def insole(self, foot: Foot) -> InsoleCalibration:
-        """Return the calibration of this foot's insole; an empty one where none is known."""
+        """Return the calibration of this foot's insole, or an empty one."""
         return self.insoles.get(foot, InsoleCalibration())
 
 
 def merged(known: Calibration, newer: Calibration) -> Calibration:
-    """Return `known` with every value that `newer` holds in its place, insole by insole and part by part.
+    """Return `known` with its values replaced by those that `newer` has, field by field and insole by insole.
 
-    Noise that was learnt in one unit is dropped when `newer` changes the conversion to newtons."""
+    Known noise is discarded when `newer` changes the conversion to newtons, because its unit was another one."""
     insoles = dict(known.insoles)
     for foot, insole in newer.insoles.items():
-        before = insoles.get(foot, InsoleCalibration())
-        if insole.newtons is not None and insole.newtons != before.newtons:
-            before = evolve(before, noise=())  # the noise was measured in another unit
-        insoles[foot] = _over(before, insole)
+        old_insole = insoles.get(foot, InsoleCalibration())
+        if insole.newtons is not None and insole.newtons != old_insole.newtons:
+            old_insole = evolve(old_insole, noise=())  # the noise was measured in another unit
+        insoles[foot] = _replace_values(old_insole, insole)
     drift = {**known.drift, **newer.drift}
     toe_out = {**known.toe_out, **newer.toe_out}
     return evolve(
-        _over(known, newer),
+        _replace_values(known, newer),
         insoles={foot: insoles[foot] for foot in Foot if foot in insoles},
         drift={foot: drift[foot] for foot in Foot if foot in drift},
         toe_out={foot: toe_out[foot] for foot in Foot if foot in toe_out},
@@ -130,6 +131,6 @@ def merged(known: Calibration, newer: Calibration) -> Calibration:
 _Known = TypeVar("_Known", Calibration, InsoleCalibration)
 
 
-def _over(known: _Known, newer: _Known) -> _Known:
+def _replace_values(known: _Known, newer: _Known) -> _Known:
     replaced = {f.name: getattr(newer, f.name) for f in fields(type(newer)) if getattr(newer, f.name)}
     return evolve(known, **replaced)

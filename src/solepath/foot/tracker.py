@@ -32,7 +32,7 @@ from .world import Covariance3
 SWING: Final = Phase.SWING
 """Local name of `Phase.SWING`, because one look-up in the enum costs as much as five multiplications."""
 
-LARGEST_FLAT_SPEED = 0.35
+FLAT_SPEED = 0.35
 """Speed after a correction above which a foot is not flat, even if the evidence was accepted, m/s; chosen by hand."""
 
 
@@ -108,9 +108,7 @@ class FootTracker:
     def view(
         self, sample: Sample, known_at: float, events: tuple[Event, ...], with_covariance: bool, other_t: float | None
     ) -> FootView:
-        """Return the view of the foot after `sample`, which caused `events`.
-
-        The view contains the covariance if `with_covariance` is True. `other_t` is `seen_at` of the other foot, s."""
+        """Return the view after `sample`, which caused `events`; `other_t` is `seen_at` of the other foot, s."""
         corrector, gait, cells, rest = self.corrector, self.gait, self.sole.insole.cells, self.rest
         after, pressed = NOTHING_HAPPENED, None
         if events:
@@ -152,9 +150,7 @@ class FootTracker:
         self.limitations.queue(self.detector.lacking)
 
     def reset(self) -> None:
-        """Discard what depends on unbroken samples, because the clock of the samples restarts.
-
-        The new times may be before or after the old ones; the motion in between is unknown."""
+        """Discard what depends on unbroken samples, because times restart, earlier or later, after unknown motion."""
         if self.t is not None and self.levelled:
             self.corrector.bridge(inf)
         self.t = self.moved_at = self.partial_at = self.seen_at = self.limitations.lacking_since = self.load = None
@@ -171,9 +167,7 @@ class FootTracker:
         self.rest.reset()
 
     def feed(self, sample: Sample) -> list[Event]:
-        """Return the events of one sample of this foot.
-
-        A sample that cannot be used changes no state; an event reports it."""
+        """Return the events of one sample of this foot; one that cannot be used is reported and changes no state."""
         t, acc, gyro = sample.t, sample.acc, sample.gyro
         has_inertial = acc is not None and gyro is not None
         t_last = self.moved_at if has_inertial else self.partial_at
@@ -255,12 +249,10 @@ class FootTracker:
     ) -> None:  # fmt: skip
         rest, corrector, gait = self.rest, self.corrector, self.gait
         if rest.update(t, acc, gyro):
-            scale_event = (
-                None if self.scale_reported else check_scale(t, known_at, SITE_OF_FOOT[self.foot], rest.magnitude)
-            )
-            if scale_event is not None:
+            warning = None if self.scale_reported else check_scale(t, known_at, SITE_OF_FOOT[self.foot], rest.magnitude)
+            if warning is not None:
                 self.scale_reported = True
-                events.append(scale_event)
+                events.append(warning)
             self.detector.scaled(rest.scale)
         k, (bx, by, bz) = rest.scale, rest.bias
         x, y, z = acc
@@ -283,9 +275,7 @@ class FootTracker:
         vx, vy, vz = corrector.velocity
         speed = sqrt(vx * vx + vy * vy + vz * vz)
         cues = self.cues
-        timed_cues = cues.update(
-            t, dt, acc, gyro, accepted and speed < LARGEST_FLAT_SPEED, speed, gait.phase, load, stance
-        )
+        timed_cues = cues.update(t, dt, acc, gyro, accepted and speed < FLAT_SPEED, speed, gait.phase, load, stance)
         if cues.mark is not None:
             corrector.mark(t, cues.mark)
         template, position = gait.template, corrector.position

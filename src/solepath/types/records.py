@@ -12,17 +12,17 @@ from typing import Any, SupportsIndex
 from .attrs import field, frozen
 
 Vec3 = tuple[float, float, float]
-"""Vector (x, y, z) in the frame that the docstring of its user names."""
+"""Vector (x, y, z), in the frame that the docstring of the field or argument names."""
 
 Quat = tuple[float, float, float, float]
 """Unit quaternion (w, x, y, z) that turns sensor coordinates into world coordinates."""
 
 
 class Word(Enum):
-    """A closed set of words.
+    """An enum whose members are printed as their values and hashed by identity.
 
-    Each member is one object, and its identity is its hash: Enum's own hash is a call of Python code at every look-up,
-    and the code that runs per sample looks up feet, sites and phases all the time."""
+    The hash of Enum is a call of Python code at every look-up, and code that runs per sample looks up feet, sites and
+    phases all the time."""
 
     __hash__ = object.__hash__
 
@@ -42,14 +42,14 @@ OTHER = {Foot.LEFT: Foot.RIGHT, Foot.RIGHT: Foot.LEFT}
 
 
 class OnBody(Word):
-    """A place on the body."""
+    """A place on the body; the base class of `Site`."""
 
     foot: Foot | None
-    """Foot that this site is, or None for the sites above the ankle."""
+    """Foot at which this site is; None for the sites above the ankle."""
 
 
 class Site(OnBody):
-    """Place on the body at which a sensor sits."""
+    """A place on the body at which a sensor sits."""
 
     LEFT_FOOT = "left_foot"
     RIGHT_FOOT = "right_foot"
@@ -61,7 +61,7 @@ class Site(OnBody):
 
     @property
     def words(self) -> str:
-        """The site as in a sentence: "left foot"."""
+        """Name of the site in a sentence: "left foot"."""
         return self.value.replace("_", " ")
 
 
@@ -73,16 +73,20 @@ SITE_OF_FOOT = {Foot.LEFT: Site.LEFT_FOOT, Foot.RIGHT: Site.RIGHT_FOOT}
 
 
 class Phase(Word):
-    """Phase of one foot; each phase starts with the event in brackets."""
+    """A phase of one foot."""
 
-    LOADING = "LOADING"  # HeelStrike
-    STATIONARY = "STATIONARY"  # FootFlat
-    PUSH_OFF = "PUSH_OFF"  # HeelOff
-    SWING = "SWING"  # ToeOff
+    LOADING = "LOADING"
+    """From HeelStrike to FootFlat."""
+    STATIONARY = "STATIONARY"
+    """From FootFlat to HeelOff."""
+    PUSH_OFF = "PUSH_OFF"
+    """From HeelOff to ToeOff."""
+    SWING = "SWING"
+    """From ToeOff to HeelStrike."""
 
 
 class Support(Word):
-    """Feet that are on the ground: both, left, right, or none (flight)."""
+    """The feet that are on the ground: both, left, right, or none (flight)."""
 
     DOUBLE = "DOUBLE"
     LEFT = "LEFT"
@@ -91,7 +95,7 @@ class Support(Word):
 
 
 class WalkingMode(Word):
-    """Mode of walking: straight on, round a wide (4 m) or a tight (2 m) bend, or standing."""
+    """A mode of walking: straight on, round a bend of wide (4 m) or tight (2 m) radius, or standing."""
 
     STRAIGHT = "STRAIGHT"
     LEFT_WIDE = "LEFT_WIDE"
@@ -102,7 +106,7 @@ class WalkingMode(Word):
 
 
 class Activity(Word):
-    """Activity of the wearer."""
+    """An activity of the wearer."""
 
     STANDING = "STANDING"
     """Standing, or sitting: sensors on a foot cannot distinguish them."""
@@ -116,7 +120,7 @@ class Activity(Word):
 
 
 class Turn(Word):
-    """Direction in which the wearer turned."""
+    """A direction in which the wearer turned."""
 
     LEFT = "LEFT"
     RIGHT = "RIGHT"
@@ -125,11 +129,11 @@ class Turn(Word):
 
 @frozen
 class Packet:
-    """One notification (or one value read from a device) as it came in.
+    """A notification of a device, or a value read from it, as it was received.
 
-    `t` is the arrival time in s on the receiver's clock; `channel` names the format of `data` ("insole/frame",
-    "cc2650/movement", ...), so that a recording describes itself. `device`: the address of the device that it came
-    from, "" when it is unknown."""
+    `t` is the arrival time on the receiver's clock, s. `channel` names the format of `data` ("insole/frame",
+    "cc2650/movement", ...), so that a recording describes itself. `device` is the address of the device, "" when it is
+    unknown."""
 
     t: float
     site: Site
@@ -148,11 +152,12 @@ class Packet:
 class Sample:
     """The measurements of the sensors of one site at one instant; a value that was not measured is None.
 
-    `t`: time of the measurement, s. `known_at`: time at which it was known, s; `t` when it is not given. `acc`:
-    specific force in m/s^2, sensor frame (+9.81 upwards at rest). `gyro`: rad/s, sensor frame. `pressure`: one value
-    per cell in the layout's order and unit (N when the device declares a scale, otherwise counts; more is more load).
-    `quat`: the device's own attitude, where it sends one. `mag`: T, sensor frame. `air_pressure`: Pa. `saturated`: the
-    device reports that a sensor was at the end of its range."""
+    `t` is the time of the measurement, s; `known_at` is the time at which it was known, s, by default `t`. `acc` is the
+    specific force, m/s^2, sensor frame (+9.81 upwards at rest). `gyro` is the angular rate, rad/s, sensor frame.
+    `pressure` has one value per cell in the order of the layout: N when the device declares a scale, otherwise counts;
+    more is more load. `quat` is the attitude that the device itself estimates. `mag` is the magnetic flux density, T,
+    sensor frame. `air_pressure` is in Pa. `saturated` is True when the device reports that a sensor was at the end of
+    its range."""
 
     t: float
     site: Site
@@ -172,7 +177,7 @@ class Sample:
 
 @frozen
 class Cell:
-    """One pressure cell: its centre in the foot frame, m, and its area, m^2.
+    """A pressure cell: its centre (x, y) in the foot frame, m, and its area, m^2.
 
     The foot frame has x to the toe, y to the left, and its origin at the heel's rear end on the insole's midline."""
 
@@ -185,9 +190,9 @@ class Cell:
 class Layout:
     """The pressure cells of one insole, in the order in which samples have them.
 
-    `length`: heel to toe in m. `scale`: N per count of the wire (1.0 when the values are newtons already, None when it
-    is unknown: then loads are in counts). `full_scale`: the largest value that a cell can report, in the unit of the
-    samples."""
+    `length` is the distance from heel to toe, m. `scale` is the force of one transmitted count, N: 1.0 when the device
+    sends newtons, None when it is unknown, so that loads are in counts. `full_scale` is the largest value that a cell
+    can report, in the unit of the samples."""
 
     id: int
     foot: Foot
@@ -198,19 +203,19 @@ class Layout:
 
     @cached_property
     def xs(self) -> tuple[float, ...]:
-        """Place of each cell along the foot's x axis, to the toe, m."""
+        """Position of each cell along the foot's x axis, to the toe, m."""
         return tuple([cell.x for cell in self.cells])
 
     @cached_property
     def ys(self) -> tuple[float, ...]:
-        """Place of each cell along the foot's y axis, to the left, m."""
+        """Position of each cell along the foot's y axis, to the left, m."""
         return tuple([cell.y for cell in self.cells])
 
 
 def shared(layout: Layout) -> Layout:
-    """Return the one object for all layouts that are the same to the bit.
+    """Return one object for all layouts that are equal bit for bit.
 
-    All wearers of one kind of insole share it, and hold it for hours."""
+    It saves memory, because all wearers of one kind of insole then share it for hours."""
     numbers = [layout.length, layout.full_scale, 0.0 if layout.scale is None else layout.scale]
     for cell in layout.cells:
         numbers += (cell.x, cell.y, cell.area)

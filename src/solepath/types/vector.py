@@ -1,4 +1,4 @@
-"""3-vectors and quaternions as plain tuples: at this size a numpy call costs more than the arithmetic."""
+"""Vectors and quaternions as plain tuples, because at this size a numpy call costs more than the arithmetic."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ GRAVITY = 9.80665
 """Standard gravity, m/s^2 (ISO 80000-3)."""
 
 TIE = 1e-6
-"""Tolerance of a time span, s: a span is long enough when it is shorter by no more than this.
+"""Tolerance with which durations are compared, s: one that is shorter by less than this counts as long enough.
 
-Samples are often taken at round times. Rounding must not decide which of them ends a span, or the same walk at another
-hour would give other results."""
+Samples are often taken at round times. Rounding must not decide which of them ends a duration, otherwise the same walk
+at another time of day would give other results."""
 
 IDENTITY: Quat = (1.0, 0.0, 0.0, 0.0)
 """Quaternion of no rotation."""
@@ -28,8 +28,8 @@ SPLIT = 2.0**29 + 1.0
 def single(x: float) -> float:
     """Return `x` rounded to the 24 bits of a float32, which a packed state writes in half the bytes.
 
-    Use it for values that are remembered, not for values that are propagated (a covariance, a position). 60 ns. Below
-    1e-38 nothing is gained; `x` must be below 1e290 (T. J. Dekker, "A floating-point technique for extending the
+    Use it for values that are stored, not for values that are propagated (a covariance, a position). It takes 60 ns.
+    Below 1e-38 it saves no bytes; `x` must be below 1e290 (T. J. Dekker, "A floating-point technique for extending the
     available precision", 1971)."""
     high = SPLIT * x
     return high - (high - x)
@@ -113,7 +113,7 @@ def from_yaw(yaw: float) -> Quat:
 
 
 def tipped(q: Quat, tx: float, ty: float) -> Quat:
-    """Return q after a small rotation in the world about the horizontal (2 tx, 2 ty, 0), rad."""
+    """Return q after a small rotation by (2 tx, 2 ty, 0) rad, about horizontal axes of the world frame."""
     w, x, y, z = q
     return normalise((w - tx * x - ty * y, x + tx * w + ty * z, y + ty * w - tx * z, z + tx * y - ty * x))
 
