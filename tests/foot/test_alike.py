@@ -37,14 +37,14 @@ ATTITUDES: st.SearchStrategy[Quat] = vectors(1.0).map(lambda v: normalise((1.0, 
 
 @given(ATTITUDES, SAMPLES)
 def test_the_filter_integrates_as_the_strapdown_does(attitude: Quat, samples: list[tuple[float, Vec3, Vec3]]) -> None:
-    filter_, plain = ErrorStateFilter(ErrorStateSettings(recover=False)), Strapdown()  # type: ignore[abstract]
-    filter_.start(attitude, 0.02)
+    error_state_filter, plain = ErrorStateFilter(ErrorStateSettings(recover=False)), Strapdown()  # type: ignore[abstract]
+    error_state_filter.start(attitude, 0.02)
     plain.attitude = attitude
     for dt, acc, gyro in samples:
-        filter_.predict(dt, acc, gyro)
+        error_state_filter.predict(dt, acc, gyro)
         plain.integrate(dt, acc, gyro)
         for name in ("attitude", "velocity", "position", "force", "rate"):
-            assert repr(getattr(filter_, name)) == repr(getattr(plain, name)), name
+            assert repr(getattr(error_state_filter, name)) == repr(getattr(plain, name)), name
 
 
 @given(SAMPLES)
@@ -53,8 +53,8 @@ def test_the_default_detector_sums_as_shoe_does(samples: list[tuple[float, Vec3,
     t = 0.0
     for dt, acc, gyro in samples:
         t += dt
-        ours, textbook = cycle.update(t, dt, acc, gyro, None), shoe.update(t, dt, acc, gyro, None)
-        assert repr(ours.statistic) == repr(textbook.statistic)
+        of_cycle, of_shoe = cycle.update(t, dt, acc, gyro, None), shoe.update(t, dt, acc, gyro, None)
+        assert repr(of_cycle.statistic) == repr(of_shoe.statistic)
         assert cycle.shoe == shoe
 
 
@@ -87,15 +87,15 @@ def test_pitches_are_kept_as_singles(rates: list[float]) -> None:
 def test_a_gap_is_crossed_with_the_scale_and_bias_of_any_other_sample(
     scale: float, bias: Vec3, acc: Vec3, gyro: Vec3
 ) -> None:
-    seen: list[tuple[Vec3, Vec3]] = []
+    received: list[tuple[Vec3, Vec3]] = []
 
     @define
     class Sees(StillDetector):
         def update(self, t: float, dt: float, acc: Vec3, gyro: Vec3, *rest: Any) -> Stance:
-            seen.append((acc, gyro))
+            received.append((acc, gyro))
             return StillDetector.update(self, t, dt, acc, gyro, *rest)
 
     tracker = FootTracker(Foot.LEFT, Sees(), ErrorStateFilter())
     tracker.rest.scale, tracker.rest.bias = scale, bias
     tracker.feed(Sample(0.0, Site.LEFT_FOOT, acc, gyro))
-    assert seen == [tracker.rest.calibrate(acc, gyro)]
+    assert received == [tracker.rest.calibrate(acc, gyro)]

@@ -35,27 +35,27 @@ def walk(cells: int = 96) -> tuple[Sample, ...]:
     )
 
 
-def known(cells: int = 96) -> Calibration:
+def calibration_of(cells: int = 96) -> Calibration:
     return Calibration({foot: InsoleCalibration(layout(cells, foot)) for foot in Foot})
 
 
 def among_loading_cells(cells: int) -> int:
     """Return a cell of the forefoot with loading cells on all its sides."""
-    there = layout(cells, Foot.LEFT)
+    foot_layout = layout(cells, Foot.LEFT)
     pressed = [s.pressure for s in walk(cells) if s.site is LEFT and s.pressure is not None]
-    most = [max(values) for values in zip(*pressed, strict=True)]
-    loading = [value > 0.2 * max(most) for value in most]
-    around = [i for i in range(cells) if loading[i] and enclosed(there, spacing(there), i, loading)[0]]
-    return max(around, key=lambda i: (there.cells[i].x < 0.7 * there.length, most[i]))
+    highest = [max(values) for values in zip(*pressed, strict=True)]
+    loading = [value > 0.2 * max(highest) for value in highest]
+    around = [i for i in range(cells) if loading[i] and enclosed(foot_layout, spacing(foot_layout), i, loading)[0]]
+    return max(around, key=lambda i: (foot_layout.cells[i].x < 0.7 * foot_layout.length, highest[i]))
 
 
 def run_walk(cells: int, fault: Fault | None = None, since: float = -inf) -> tuple[list[Event], list[Event]]:
     """Return the events about cells, and all others, of a walk in which a cell of the left insole fails."""
-    session, which = Session(calibration=known(cells)), among_loading_cells(cells)
+    session, cell_index = Session(calibration=calibration_of(cells)), among_loading_cells(cells)
     cell_events: list[Event] = []
     for sample in walk(cells):
         if fault is not None and sample.site is LEFT and sample.t >= since and sample.pressure is not None:
-            sample = evolve(sample, pressure=fault(sample.t, sample.pressure, which) or None)
+            sample = evolve(sample, pressure=fault(sample.t, sample.pressure, cell_index) or None)
         cell_events += session.feed(sample)
     kinds = CellsFailed | InsoleNeverUnloads
     return of(kinds, cell_events), [event for event in cell_events if not isinstance(event, kinds)]
@@ -69,23 +69,23 @@ def clean(cells: int = 96) -> list[StrideTaken]:
     return of(StrideTaken, rest)
 
 
-def put(value: float | None) -> Fault:
-    def fault(t: float, cells: tuple[float, ...], which: int) -> tuple[float | None, ...]:
-        return tuple([value if i == which else cell for i, cell in enumerate(cells)])
+def fault_with_value(value: float | None) -> Fault:
+    def fault(t: float, cells: tuple[float, ...], cell_index: int) -> tuple[float | None, ...]:
+        return tuple([value if i == cell_index else cell for i, cell in enumerate(cells)])
 
     return fault
 
 
-def shaky(t: float, cells: tuple[float, ...], which: int) -> tuple[float | None, ...]:
+def flickering(t: float, cells: tuple[float, ...], cell_index: int) -> tuple[float | None, ...]:
     """Return a constant value and, now and then, the neighbouring count."""
-    return put(60.0 + (0.05 if int(t * 1000) % 3 else 0.0))(t, cells, which)
+    return fault_with_value(60.0 + (0.05 if int(t * 1000) % 3 else 0.0))(t, cells, cell_index)
 
 
 @pytest.mark.parametrize("cells", [8, *COUNTS])
 def test_working_cells_cause_no_events(cells: int) -> None:
-    for there in (True, False):
+    for foot_layout in (True, False):
         health = CellHealth(LEFT)
-        shape = layout(cells, Foot.LEFT) if there else None
+        shape = layout(cells, Foot.LEFT) if foot_layout else None
         for sample in walk(cells):
             if sample.site is LEFT and sample.pressure is not None:
                 assert health.update(sample.t, sample.t, sample.pressure, Phase.SWING, sample.gyro, shape) == []
@@ -96,12 +96,12 @@ def test_working_cells_cause_no_events(cells: int) -> None:
 @pytest.mark.parametrize(
     ("kind", "fault"),
     [
-        (CellFault.DEAD, put(0.0)),
-        (CellFault.STUCK, put(60.0)),
-        (CellFault.STUCK, shaky),
-        (CellFault.SATURATED, put(FULL_SCALE)),
-        (CellFault.MISSING, put(nan)),
-        (CellFault.MISSING, put(None)),
+        (CellFault.DEAD, fault_with_value(0.0)),
+        (CellFault.STUCK, fault_with_value(60.0)),
+        (CellFault.STUCK, flickering),
+        (CellFault.SATURATED, fault_with_value(FULL_SCALE)),
+        (CellFault.MISSING, fault_with_value(nan)),
+        (CellFault.MISSING, fault_with_value(None)),
     ],
 )
 def test_a_failed_cell_is_reported_once_and_the_walk_goes_on(cells: int, kind: CellFault, fault: Fault) -> None:
@@ -110,15 +110,15 @@ def test_a_failed_cell_is_reported_once_and_the_walk_goes_on(cells: int, kind: C
     assert isinstance(failed, CellsFailed)
     assert (failed.site, failed.fault, failed.cells) == (LEFT, kind, (among_loading_cells(cells),))
     assert failed.t < (1.1 if kind is CellFault.MISSING else 15.0)
-    steps, whole = of(StrideTaken, rest), clean(cells)
-    assert len(steps) == len(whole)
-    assert sum(s.length for s in steps) == pytest.approx(sum(s.length for s in whole), rel=0.01)
+    strides, clean_strides = of(StrideTaken, rest), clean(cells)
+    assert len(strides) == len(clean_strides)
+    assert sum(s.length for s in strides) == pytest.approx(sum(s.length for s in clean_strides), rel=0.01)
     assert of(SampleRejected, rest) == []
 
 
 @pytest.mark.parametrize("cells", COUNTS)
 def test_a_cell_that_fails_during_a_walk_is_reported_within_three_windows(cells: int) -> None:
-    cell_events, _ = run_walk(cells, put(0.0), since=13.0)
+    cell_events, _ = run_walk(cells, fault_with_value(0.0), since=13.0)
     assert [(event.fault, event.cells) for event in cell_events if isinstance(event, CellsFailed)] == [
         (CellFault.DEAD, (among_loading_cells(cells),))
     ]
@@ -126,24 +126,24 @@ def test_a_cell_that_fails_during_a_walk_is_reported_within_three_windows(cells:
 
 
 def test_several_cells_that_fail_together_are_reported_together() -> None:
-    def two(t: float, cells: tuple[float, ...], which: int) -> tuple[float | None, ...]:
-        return put(60.0)(t, cells, which)[:-1] + (60.0,)
+    def two(t: float, cells: tuple[float, ...], cell_index: int) -> tuple[float | None, ...]:
+        return fault_with_value(60.0)(t, cells, cell_index)[:-1] + (60.0,)
 
     cell_events, _ = run_walk(96, two)
     assert [event.cells for event in cell_events if isinstance(event, CellsFailed)] == [(among_loading_cells(96), 95)]
 
 
 def test_a_cell_that_loads_again_is_used_again() -> None:
-    which = among_loading_cells(96)
+    cell_index = among_loading_cells(96)
     health = CellHealth(LEFT)
     shape = layout(96, Foot.LEFT)
     used = {}
     for sample in walk():
         if sample.site is not LEFT or sample.pressure is None:
             continue
-        cells = sample.pressure if sample.t > 13.0 else put(60.0)(sample.t, sample.pressure, which)
+        cells = sample.pressure if sample.t > 13.0 else fault_with_value(60.0)(sample.t, sample.pressure, cell_index)
         health.update(sample.t, sample.t, cells, Phase.SWING, sample.gyro, shape)
-        used[sample.t] = which not in health.excluded
+        used[sample.t] = cell_index not in health.excluded
     assert used[min(used)]
     assert not used[12.5]
     assert used[max(used)]
@@ -151,7 +151,7 @@ def test_a_cell_that_loads_again_is_used_again() -> None:
 
 @pytest.mark.parametrize("count", [0, 50, 95, 97])
 def test_another_number_of_cells_is_reported_and_the_inertial_part_is_used(count: int) -> None:
-    cell_events, rest = run_walk(96, lambda t, cells, which: (*cells, 1.0)[:count], since=10.0)
+    cell_events, rest = run_walk(96, lambda t, cells, cell_index: (*cells, 1.0)[:count], since=10.0)
     (failed,) = cell_events
     assert isinstance(failed, CellsFailed)
     assert failed.fault is CellFault.MISSING
@@ -161,7 +161,7 @@ def test_another_number_of_cells_is_reported_and_the_inertial_part_is_used(count
 
 
 def test_one_sample_of_another_length_is_neither_used_nor_reported() -> None:
-    cell_events, _ = run_walk(96, lambda t, cells, which: cells[:9] if 10.0 <= t < 10.02 else cells)
+    cell_events, _ = run_walk(96, lambda t, cells, cell_index: cells[:9] if 10.0 <= t < 10.02 else cells)
     assert cell_events == []
     health = CellHealth(LEFT)
     health.update(0.0, 0.0, (1.0,) * 8, Phase.STATIONARY)
@@ -183,7 +183,7 @@ def test_without_a_layout_another_number_of_cells_is_another_insole_after_a_seco
 
 
 def test_an_insole_that_never_unloads_is_reported_and_strides_come_from_the_inertial_sensor() -> None:
-    (cell_events,), rest = run_walk(96, lambda t, cells, which: tuple([value + 40.0 for value in cells]))
+    (cell_events,), rest = run_walk(96, lambda t, cells, cell_index: tuple([value + 40.0 for value in cells]))
     assert isinstance(cell_events, InsoleNeverUnloads) and cell_events.site is LEFT
     assert 6.0 < cell_events.seconds < 16.0
     assert abs(len(of(StrideTaken, rest)) - len(clean())) <= 1
@@ -191,7 +191,7 @@ def test_an_insole_that_never_unloads_is_reported_and_strides_come_from_the_iner
 
 @pytest.mark.parametrize("value", [30.0, 0.0])
 def test_an_insole_that_shows_one_value_for_ever_never_unloads_and_one_that_shows_nothing_is_dead(value: float) -> None:
-    (cell_events,), rest = run_walk(24, lambda t, cells, which: (value,) * 24)
+    (cell_events,), rest = run_walk(24, lambda t, cells, cell_index: (value,) * 24)
     if value:
         assert isinstance(cell_events, InsoleNeverUnloads)
     else:
@@ -215,13 +215,13 @@ def grid(side: int) -> Layout:
 
 
 def test_a_cell_is_enclosed_when_cells_on_all_its_sides_load() -> None:
-    there = grid(3)
-    assert spacing(there) == pytest.approx(0.01)
+    foot_layout = grid(3)
+    assert spacing(foot_layout) == pytest.approx(0.01)
     loading = [True] * 9
-    assert enclosed(there, 0.01, 4, loading) == (True, True)
-    assert enclosed(there, 0.01, 3, loading) == (False, True)  # at the rim
-    assert enclosed(there, 0.01, 4, [False] * 9) == (False, False)
-    assert enclosed(there, 0.01, 4, [True] * 3 + [False] * 6) == (False, True)
+    assert enclosed(foot_layout, 0.01, 4, loading) == (True, True)
+    assert enclosed(foot_layout, 0.01, 3, loading) == (False, True)  # at the rim
+    assert enclosed(foot_layout, 0.01, 4, [False] * 9) == (False, False)
+    assert enclosed(foot_layout, 0.01, 4, [True] * 3 + [False] * 6) == (False, True)
     assert spacing(Layout(1, Foot.LEFT, (Cell(0.0, 0.0),), 0.3)) == 0.0
 
 

@@ -12,20 +12,20 @@ from solepath.foot.navigate.covariance import HEIGHT, Covariance, constrain_heig
 BLOCKS = [(0, 0), (0, 3), (0, 6), (3, 3), (3, 6), (6, 6)]
 
 
-def places() -> list[tuple[int, int]]:
+def matrix_indices() -> list[tuple[int, int]]:
     """Return the matrix indices of the numbers of a Covariance, in order."""
     return [
         (row + i, column + j) for row, column in BLOCKS for i in range(3) for j in range(3) if row != column or j >= i
     ]
 
 
-def flat(matrix: np.ndarray) -> Covariance:
-    return tuple(float(matrix[i, j]) for i, j in places())
+def to_covariance(matrix: np.ndarray) -> Covariance:
+    return tuple(float(matrix[i, j]) for i, j in matrix_indices())
 
 
-def square(covariance: Covariance) -> np.ndarray:
+def to_matrix(covariance: Covariance) -> np.ndarray:
     matrix = np.zeros((9, 9))
-    for value, (i, j) in zip(covariance, places(), strict=True):
+    for value, (i, j) in zip(covariance, matrix_indices(), strict=True):
         matrix[i, j] = matrix[j, i] = value
     return matrix
 
@@ -45,8 +45,8 @@ def test_propagation_is_f_p_ft_plus_q(seed: int) -> None:
     f[3:6, 6:] = -cross_matrix(s)
     q = np.diag([0.1] * 3 + [0.3] * 3 + [0.4] * 3)
     q[:3, 3:6] = q[3:6, :3] = 0.2 * np.eye(3)
-    found = propagate(flat(p), dt, tuple(s.tolist()), tuple(d.tolist()), 0.1, 0.2, 0.3, 0.4)
-    np.testing.assert_allclose(square(found), f @ p @ f.T + q, rtol=1e-9, atol=1e-9)
+    result = propagate(to_covariance(p), dt, tuple(s.tolist()), tuple(d.tolist()), 0.1, 0.2, 0.3, 0.4)
+    np.testing.assert_allclose(to_matrix(result), f @ p @ f.T + q, rtol=1e-9, atol=1e-9)
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -58,14 +58,14 @@ def test_the_velocity_update_is_the_kalman_update(seed: int) -> None:
     h[:, 3:6] = np.eye(3)
     innovation = h @ p @ h.T + r * np.eye(3)
     gain = p @ h.T @ np.linalg.inv(innovation)
-    outcome = update(flat(p), *z.tolist(), r, 1e9)
+    outcome = update(to_covariance(p), *z.tolist(), r, 1e9)
     assert outcome is not None
-    np.testing.assert_allclose(square(outcome[0]), (np.eye(9) - gain @ h) @ p, rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(to_matrix(outcome[0]), (np.eye(9) - gain @ h) @ p, rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(outcome[1], gain @ z, rtol=1e-9, atol=1e-9)
 
     likelihood = float(z @ np.linalg.inv(innovation) @ z)
-    assert update(flat(p), *z.tolist(), r, likelihood * 0.999) is None
-    assert update(flat(p), *z.tolist(), r, likelihood * 1.001) is not None
+    assert update(to_covariance(p), *z.tolist(), r, likelihood * 0.999) is None
+    assert update(to_covariance(p), *z.tolist(), r, likelihood * 1.001) is not None
 
 
 @given(st.integers(0, 2**32 - 1), st.floats(0.0, 1.0))
@@ -73,6 +73,6 @@ def test_the_velocity_update_is_the_kalman_update(seed: int) -> None:
 def test_a_height_known_from_elsewhere_leaves_a_covariance(seed: int, left: float) -> None:
     root = np.random.default_rng(seed).normal(size=(9, 9))
     p, d = root @ root.T, np.diag([1.0, 1.0, left**0.5, *[1.0] * 6])
-    found = constrain_height(flat(p), left)
-    np.testing.assert_allclose(square(found), d @ p @ d, rtol=1e-9, atol=1e-12)
-    assert found[HEIGHT] == pytest.approx(left * p[2, 2])
+    result = constrain_height(to_covariance(p), left)
+    np.testing.assert_allclose(to_matrix(result), d @ p @ d, rtol=1e-9, atol=1e-12)
+    assert result[HEIGHT] == pytest.approx(left * p[2, 2])

@@ -33,10 +33,10 @@ def test_without_cells_toe_off_and_heel_strike_are_seen_by_how_the_foot_turns(sp
     walker, samples = walked(speed)
     events = Session().feed(samples)
     truth = walker.truth().feet[Foot.LEFT]
-    for kind, true in ((ToeOff, truth.toe_offs), (HeelStrike, truth.heel_strikes)):
-        seen = [event.t for event in events if isinstance(event, kind)]
-        assert len(seen) == len(true)
-        offsets = [a - b for a, b in zip(seen, true, strict=True)]
+    for kind, true_times in ((ToeOff, truth.toe_offs), (HeelStrike, truth.heel_strikes)):
+        detected = [event.t for event in events if isinstance(event, kind)]
+        assert len(detected) == len(true_times)
+        offsets = [a - b for a, b in zip(detected, true_times, strict=True)]
         assert abs(median(offsets)) < 0.045, kind.__name__
         assert max(offsets) - min(offsets[1:]) < 0.2, kind.__name__
 
@@ -44,19 +44,19 @@ def test_without_cells_toe_off_and_heel_strike_are_seen_by_how_the_foot_turns(sp
 @pytest.mark.parametrize("rate", [20.0, 50.0, 200.0, 400.0])
 def test_heel_strike_is_where_the_ground_stops_the_foot_at_any_rate(rate: float) -> None:
     walker, samples = walked(1.2, rate, 8.0)
-    seen = [event.t for event in of(HeelStrike, Session().feed(samples))]
-    true = walker.truth().feet[Foot.LEFT].heel_strikes
-    assert len(seen) == len(true)
+    detected = [event.t for event in of(HeelStrike, Session().feed(samples))]
+    true_times = walker.truth().feet[Foot.LEFT].heel_strikes
+    assert len(detected) == len(true_times)
     # the time between two samples is the limit
-    assert abs(median(a - b for a, b in zip(seen, true, strict=True))) < 0.015 + 0.5 / rate
+    assert abs(median(a - b for a, b in zip(detected, true_times, strict=True))) < 0.015 + 0.5 / rate
 
 
 @pytest.mark.parametrize("speed", [0.7, 1.3, 1.8])
 def test_heel_strike_and_toe_off_are_known_within_60_ms(speed: float) -> None:
     _, samples = walked(speed)
     events = Session().feed(samples)
-    late = [event.known_at - event.t for kind in (HeelStrike, ToeOff) for event in of(kind, events)[1:-1]]
-    assert len(late) > 10 and max(late) < 0.0605
+    latencies = [event.known_at - event.t for kind in (HeelStrike, ToeOff) for event in of(kind, events)[1:-1]]
+    assert len(latencies) > 10 and max(latencies) < 0.0605
 
 
 def test_heel_strike_stays_where_it_is_when_the_accelerometer_clips_at_2_g() -> None:
@@ -78,15 +78,15 @@ def after_standing(speed: float, rate: float) -> list[Cue]:
 
     `speed` is that of the sensor, m/s, `rate` that of the foot, rad/s."""
     cues = InertialCues()
-    phase, seen = Phase.STATIONARY, []
+    phase, detected = Phase.STATIONARY, []
     for k in range(160):
         still = k < 100
         gyro = ZERO if still else (0.0, rate, 0.0)
-        one = cues.update(0.01 * k, 0.01, (0.0, 0.0, GRAVITY), gyro, still, 0.0 if still else speed, phase)
-        if one is not None and PHASES[phase][one.cue] is not phase:
-            phase = PHASES[phase][one.cue]
-            seen.append(one.cue)
-    return seen
+        timed_cue = cues.update(0.01 * k, 0.01, (0.0, 0.0, GRAVITY), gyro, still, 0.0 if still else speed, phase)
+        if timed_cue is not None and PHASES[phase][timed_cue.cue] is not phase:
+            phase = PHASES[phase][timed_cue.cue]
+            detected.append(timed_cue.cue)
+    return detected
 
 
 def test_a_foot_that_slides_away_without_turning_has_left_its_place() -> None:

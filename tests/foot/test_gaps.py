@@ -20,7 +20,7 @@ from solepath.foot.gaps.moment import correction_distance, moments
 from solepath.foot.gaps.template import LARGEST_TEMPLATE_AGE, MOST_MOMENTS, StrideTemplate
 from solepath.foot.navigate.error_state import ErrorStateFilter
 from solepath.foot.tracker import FootTracker
-from solepath.saving import codec as machine
+from solepath.saving import codec
 from solepath.types import Quat, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO
 
@@ -36,34 +36,34 @@ def test_without_a_template_a_moving_foot_gets_no_infill_and_a_still_one_has_sto
 
 
 def test_a_gap_in_the_first_stride_is_bridged_by_a_straight_line() -> None:
-    samples, steps = walked()
-    a = steps[0].t_toe_off + 0.1
+    samples, strides = walked()
+    a = strides[0].t_toe_off + 0.1
     tracker = FootTracker(Foot.LEFT, Session().recipe.detector, ErrorStateFilter())
     before = [sample for sample in samples if sample.t <= a]
     after = next(sample for sample in samples if sample.t >= a + 0.1)
     for sample in before:
         tracker.feed(sample)
-    by_line = machine.load(ErrorStateFilter, machine.save(tracker.corrector))
+    bridged_corrector = codec.load(ErrorStateFilter, codec.save(tracker.corrector))
     dt = after.t - before[-1].t
-    assert by_line.bridge(dt) == dt
+    assert bridged_corrector.bridge(dt) == dt
     acc, gyro = after.acc, after.gyro
     assert acc is not None and gyro is not None
     x, y, z = acc
     bx, by, bz = tracker.rest.bias
     k = tracker.rest.scale
-    by_line.predict(dt, (x * k, y * k, z * k), (gyro[0] - bx, gyro[1] - by, gyro[2] - bz))
+    bridged_corrector.predict(dt, (x * k, y * k, z * k), (gyro[0] - bx, gyro[1] - by, gyro[2] - bz))
     tracker.feed(after)
     assert tracker.gait.template.last_stride is None
-    assert tracker.corrector.position == by_line.position
-    assert tracker.corrector.attitude == by_line.attitude
+    assert tracker.corrector.position == bridged_corrector.position
+    assert tracker.corrector.attitude == bridged_corrector.attitude
 
 
 def test_a_stride_is_stored_exactly_at_any_time_and_position() -> None:
-    template, far = StrideTemplate(), 1e7
+    template, distance = StrideTemplate(), 1e7
     template.start_stride(1e9)
     for k in range(8):
         t = 0.032 * k
-        velocity, position = (1.0, 0.1 * k, 0.0), (far + t, -far, 0.0)
+        velocity, position = (1.0, 0.1 * k, 0.0), (distance + t, -distance, 0.0)
         template.add_moment(1e9 + t, IDENTITY, velocity, position, (0.0, 3.0, 4.0), (0.0, -5.0, 0.25))
     rows = moments(template.rows)
     assert [one.since for one in rows] == pytest.approx([0.032 * k for k in range(8)], abs=1e-6)
@@ -73,7 +73,7 @@ def test_a_stride_is_stored_exactly_at_any_time_and_position() -> None:
     assert correction_distance(template.rows) == pytest.approx(
         0.35 * 0.224, abs=1e-6
     )  # the velocity to the left did not move the foot
-    template.add_moment(1e9 + 1.0, IDENTITY, (1e300, 0.0, 0.0), (far, far, 0.0), (0.0, 3.0, 4.0), ZERO)
+    template.add_moment(1e9 + 1.0, IDENTITY, (1e300, 0.0, 0.0), (distance, distance, 0.0), (0.0, 3.0, 4.0), ZERO)
     assert template.rows == [] and template.t_heel_off is None
 
 
@@ -87,35 +87,35 @@ def test_a_toe_off_or_heel_strike_at_a_stored_moment_has_the_time_of_that_moment
             template.add_moment(t, IDENTITY, ZERO, ZERO, (0.0, 0.0, GRAVITY), ZERO)
         template.end_stride(t_heel_off + 1.0, times[2], times[7], 0.0, ZERO, 0.1)
         assert template.last_stride is not None
-        kept = moments(template.last_stride.rows)
-        assert (kept[2].since, kept[7].since) == (template.last_stride.toe_off, template.last_stride.heel_strike)
+        stored = moments(template.last_stride.rows)
+        assert (stored[2].since, stored[7].since) == (template.last_stride.toe_off, template.last_stride.heel_strike)
 
 
 def test_a_stride_with_a_gap_or_round_a_corner_is_no_template() -> None:
-    pose: tuple[Quat, Vec3, Vec3] = (IDENTITY, ZERO, ZERO)
+    motion: tuple[Quat, Vec3, Vec3] = (IDENTITY, ZERO, ZERO)
     up: Vec3 = (0.0, 0.0, GRAVITY)
 
     def stride(template: StrideTemplate, t: float, turn: float, duration: float = 0.7, unseen: float = 0.0) -> None:
         template.start_stride(t)
         for k in range(int(duration / 0.01)):
             if t + 0.01 * k >= template.t_next_moment:
-                template.add_moment(t + 0.01 * k, *pose, up, ZERO)
+                template.add_moment(t + 0.01 * k, *motion, up, ZERO)
         if unseen:
             template.add_infill(t, unseen)
         template.end_stride(t + duration, t + 0.2, t + 0.6, turn, (1.3, 0.0, 0.0), 0.01)
 
     template = StrideTemplate()
     stride(template, 1.0, 0.0)
-    kept = template.last_stride
-    assert kept is not None and kept.duration < 0.7
-    assert (kept.toe_off, kept.heel_strike) == pytest.approx((0.2, 0.6))
+    stored = template.last_stride
+    assert stored is not None and stored.duration < 0.7
+    assert (stored.toe_off, stored.heel_strike) == pytest.approx((0.2, 0.6))
     stride(template, 2.0, 0.0, unseen=0.2)
-    assert template.last_stride is kept
+    assert template.last_stride is stored
     stride(template, 3.0, 0.5)
-    assert template.last_stride is kept
+    assert template.last_stride is stored
     for k in range(LARGEST_TEMPLATE_AGE):
         stride(template, 4.0 + k, 0.5)
-    assert template.last_stride is not kept  # after many turns a turn becomes the template
+    assert template.last_stride is not stored  # after many turns a turn becomes the template
     stride(template, 40.0, 0.0, duration=3.0)  # too slow to be stored as a whole, and memory is bounded
     assert len(template.rows) <= MOST_MOMENTS
 
@@ -163,9 +163,9 @@ def test_a_stride_with_a_gap_goes_hardly_further_than_those_before_and_no_higher
 
 @pytest.mark.parametrize("duration", [0.15, 0.3, 0.6, 1.2, 2.0])
 def test_infill_limits_the_speed_of_a_foot_and_long_gaps_get_none(duration: float) -> None:
-    samples, steps = walked()
+    samples, strides = walked()
     tracker = FootTracker(Foot.LEFT, Session().recipe.detector, ErrorStateFilter())
-    a = steps[4].t_toe_off + 0.1
+    a = strides[4].t_toe_off + 0.1
     before = [sample for sample in samples if sample.t <= a]
     for sample in before:
         tracker.feed(sample)
@@ -175,12 +175,12 @@ def test_infill_limits_the_speed_of_a_foot_and_long_gaps_get_none(duration: floa
         x, y, z = tracker.corrector.position
         tracker.corrector.velocity = (speed, 0.0, -speed)
         dt = after.t - before[-1].t
-        found = find_infill(tracker.gait.template, tracker.corrector, before[-1].t, after.t, after.acc, after.gyro)
-        assert (duration > 1.5) == (found is NoInfill.UNKNOWN) or speed == 60.0
-        if not isinstance(found, NoInfill):
-            u, v, w = found.position
+        infill = find_infill(tracker.gait.template, tracker.corrector, before[-1].t, after.t, after.acc, after.gyro)
+        assert (duration > 1.5) == (infill is NoInfill.UNKNOWN) or speed == 60.0
+        if not isinstance(infill, NoInfill):
+            u, v, w = infill.position
             assert hypot(u - x, v - y, w - z) <= 4.0 * dt + 1e-9
-            assert hypot(*found.velocity) < 9.0
+            assert hypot(*infill.velocity) < 9.0
 
 
 @pytest.mark.parametrize("rate", [20.0, 100.0])
@@ -192,11 +192,11 @@ def test_however_many_gaps_there_are_no_stride_is_longer_or_higher_than_a_stride
         holes.append((t, t + random.choice([0.1, 0.2, 0.4, 0.7, 1.0])))
         t += random.uniform(0.3, 4.0)
     events, _ = feed_new_session(without(tuple(walker.samples(Foot.LEFT, rate)), *holes))
-    longest = max(step.length for step in walker.truth().steps(Foot.LEFT))
-    for step in of(StrideTaken, events):
-        if step.degraded:
-            assert step.length < 2.5 * longest
-            assert abs(step.height_change) < 0.85
+    longest = max(stride_taken.length for stride_taken in walker.truth().steps(Foot.LEFT))
+    for stride_taken in of(StrideTaken, events):
+        if stride_taken.degraded:
+            assert stride_taken.length < 2.5 * longest
+            assert abs(stride_taken.height_change) < 0.85
 
 
 holes = st.lists(st.tuples(st.floats(1.0, 13.0), st.floats(0.02, 1.5)), min_size=1, max_size=8)
@@ -208,10 +208,10 @@ def test_whatever_the_gaps_phases_follow_each_other_in_time_and_none_is_known_be
     holes: list[tuple[float, float]],
 ) -> None:
     samples, _ = walked()
-    left = without(samples, *((a, a + duration) for a, duration in holes))
+    remaining = without(samples, *((a, a + duration) for a, duration in holes))
     session = Session()
     events: list[Event] = []
-    for sample in left:
+    for sample in remaining:
         new = session.feed(sample)
         assert all(event.known_at >= event.t and event.known_at >= sample.t for event in new)
         events += new
@@ -220,6 +220,9 @@ def test_whatever_the_gaps_phases_follow_each_other_in_time_and_none_is_known_be
     assert all(type(a) is not type(b) for a, b in pairwise(phases))
     taken = of(StrideTaken, events)
     assert all(a.t_end <= b.t_start for a, b in pairwise(taken))
-    for step in taken:
-        assert step.t_start <= step.t_toe_off <= step.t_end
-        assert step.t_heel_strike is None or step.t_toe_off <= step.t_heel_strike <= step.t_end
+    for stride_taken in taken:
+        assert stride_taken.t_start <= stride_taken.t_toe_off <= stride_taken.t_end
+        assert (
+            stride_taken.t_heel_strike is None
+            or stride_taken.t_toe_off <= stride_taken.t_heel_strike <= stride_taken.t_end
+        )

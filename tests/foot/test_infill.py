@@ -25,10 +25,10 @@ SHARP = {
 }
 
 
-def around(steps: tuple[StrideTaken, ...] | list[StrideTaken], t: float) -> StrideTaken:
+def stride_at(strides: tuple[StrideTaken, ...] | list[StrideTaken], t: float) -> StrideTaken:
     """Return the stride that includes `t`, s."""
-    (found,) = (step for step in steps if step.t_start < t <= step.t_end)
-    return found
+    (stride,) = (stride for stride in strides if stride.t_start < t <= stride.t_end)
+    return stride
 
 
 GAPS = [
@@ -47,100 +47,100 @@ GAPS = [
 def test_events_that_a_gap_has_hidden_are_reported_in_order_with_times_in_the_gap(
     number: int, after: float, duration: float, hidden: tuple[type[Event], ...]
 ) -> None:
-    samples, steps = walked()
-    a = steps[number].t_toe_off + after
+    samples, strides = walked()
+    a = strides[number].t_toe_off + after
     events, _ = feed_new_session(without(samples, (a, a + duration)))
     (gap,) = of(SampleGap, events)
     end = gap.t + gap.duration
-    seen = [event for event in of(ToeOff | HeelStrike, events) if gap.t <= event.t <= end]
-    assert tuple(type(event) for event in seen) == hidden
-    assert all(event.known_at >= end for event in seen)
-    step = steps[number]
-    for event in seen:
-        true = step.t_toe_off if isinstance(event, ToeOff) else step.t_heel_strike
+    hidden_events = [event for event in of(ToeOff | HeelStrike, events) if gap.t <= event.t <= end]
+    assert tuple(type(event) for event in hidden_events) == hidden
+    assert all(event.known_at >= end for event in hidden_events)
+    stride = strides[number]
+    for event in hidden_events:
+        true = stride.t_toe_off if isinstance(event, ToeOff) else stride.t_heel_strike
         assert event.t == pytest.approx(true, abs=0.07)
 
 
 @pytest.mark.parametrize(("after", "duration", "hidden"), GAPS)
 def test_only_the_stride_with_a_gap_is_degraded(after: float, duration: float, hidden: tuple[type[Event], ...]) -> None:
-    samples, steps = walked()
-    a = steps[4].t_toe_off + after
+    samples, strides = walked()
+    a = strides[4].t_toe_off + after
     events, _ = feed_new_session(without(samples, (a, a + duration)))
     taken = of(StrideTaken, events)
-    assert len(taken) == len(steps)
-    assert [step for step in taken if step.degraded] == [around(taken, a + 0.5 * duration)]
-    assert around(taken, a + 0.5 * duration).length == pytest.approx(steps[4].length, rel=0.08)
+    assert len(taken) == len(strides)
+    assert [stride for stride in taken if stride.degraded] == [stride_at(taken, a + 0.5 * duration)]
+    assert stride_at(taken, a + 0.5 * duration).length == pytest.approx(strides[4].length, rel=0.08)
 
 
 @pytest.mark.parametrize("duration", [0.05, 0.12, 0.3, 0.5, 0.7, 0.9, 1.2, 2.0])
 def test_every_stride_that_a_gap_touches_is_degraded(duration: float) -> None:
-    samples, steps = walked()
-    seen = set[float]()
+    samples, strides = walked()
+    hidden_events = set[float]()
     for k in range(27):  # all of a stride
-        a = steps[4].t_start - 0.02 + 0.04 * k
+        a = strides[4].t_start - 0.02 + 0.04 * k
         events, _ = feed_new_session(without(samples, (a, a + duration)))
         (gap,) = of(SampleGap, events)
-        for step in of(StrideTaken, events):
-            within = min(gap.t + gap.duration, step.t_end) - max(gap.t, step.t_start)
-            assert step.degraded or within <= 0.0101
-            assert not step.degraded or within > -0.1  # the longest time by which a cue looks back
-            seen.add(step.degraded)
-    assert seen == {False, True}
+        for stride in of(StrideTaken, events):
+            within = min(gap.t + gap.duration, stride.t_end) - max(gap.t, stride.t_start)
+            assert stride.degraded or within <= 0.0101
+            assert not stride.degraded or within > -0.1  # the longest time by which a cue looks back
+            hidden_events.add(stride.degraded)
+    assert hidden_events == {False, True}
 
 
 def test_a_saturated_sample_degrades_its_stride_even_when_foot_flat_is_dated_back() -> None:
-    samples, steps = walked()
-    uncut = of(StrideTaken, feed_new_session(samples)[0])
+    samples, strides = walked()
+    strides_without_gap = of(StrideTaken, feed_new_session(samples)[0])
     for k in range(12):
-        t = steps[4].t_end - 0.03 + 0.01 * k
+        t = strides[4].t_end - 0.03 + 0.01 * k
         events, _ = feed_new_session([evolve(sample, saturated=abs(sample.t - t) < 0.005) for sample in samples])
         taken = of(StrideTaken, events)
-        assert len(taken) == len(uncut)
+        assert len(taken) == len(strides_without_gap)
         (hit,) = (sample.t for sample in samples if abs(sample.t - t) < 0.005)
-        assert all(step.degraded for step in taken if step.t_start < hit < step.t_end)
+        assert all(stride.degraded for stride in taken if stride.t_start < hit < stride.t_end)
 
 
 def test_a_foot_that_stands_through_a_gap_goes_nowhere() -> None:
-    samples, steps = walked()
-    last = steps[-1].t_end
-    straight, uncut = feed_new_session(samples)
+    samples, strides = walked()
+    last = strides[-1].t_end
+    straight, strides_without_gap = feed_new_session(samples)
     # who has stood for longer than between two strides has halted, and takes none in a long gap either
     for a, b in ((0.8, 1.4), (last + 0.2, last + 0.5), (last + 0.8, last + 1.8)):
         events, session = feed_new_session(without(samples, (a, b)))
         assert of(SampleGap, events)
-        assert len(of(StrideTaken, events)) == len(of(StrideTaken, straight)) == len(steps)
+        assert len(of(StrideTaken, events)) == len(of(StrideTaken, straight)) == len(strides)
         swings = [type(event) for event in of(ToeOff | HeelStrike, straight)]
         assert [type(event) for event in of(ToeOff | HeelStrike, events)] == swings
-        here, there = session.feet[Foot.LEFT].position, uncut.feet[Foot.LEFT].position
+        here, there = session.feet[Foot.LEFT].position, strides_without_gap.feet[Foot.LEFT].position
         assert hypot(here[0] - there[0], here[1] - there[1]) < 0.02
 
 
 @pytest.mark.parametrize("duration", [1.1, 2.0, 3.0])
 def test_a_gap_over_whole_strides_adds_no_strides(duration: float) -> None:
-    samples, steps = walked()
-    a = steps[3].t_toe_off
+    samples, strides = walked()
+    a = strides[3].t_toe_off
     events, _ = feed_new_session(without(samples, (a, a + duration)))
-    assert len(steps) - 3 <= len(of(StrideTaken, events)) <= len(steps)
+    assert len(strides) - 3 <= len(of(StrideTaken, events)) <= len(strides)
     (gap,) = of(SampleGap, events)
-    assert len([step for step in of(StrideTaken, events) if gap.t < step.t < gap.t + gap.duration]) <= 2
+    assert len([stride for stride in of(StrideTaken, events) if gap.t < stride.t < gap.t + gap.duration]) <= 2
 
 
 def test_a_gap_is_neither_stillness_nor_speed() -> None:
     """Both must last for some time, and a gap does not count for it."""
-    samples, steps = walked()
-    for number in range(2, len(steps) - 1):
+    samples, strides = walked()
+    for number in range(2, len(strides) - 1):
         for share in (0.05, 0.3, 0.5, 0.7, 0.9):
-            a = steps[number].t_start + share * (steps[number].t_end - steps[number].t_start)
+            a = strides[number].t_start + share * (strides[number].t_end - strides[number].t_start)
             events, _ = feed_new_session(without(samples, (a, a + 0.12)))
-            assert len(of(ToeOff, events)) == len(of(HeelStrike, events)) == len(steps)
-            assert len(of(HeelOff, events)) == len(of(FootFlat, events)) == len(steps)
+            assert len(of(ToeOff, events)) == len(of(HeelStrike, events)) == len(strides)
+            assert len(of(HeelOff, events)) == len(of(FootFlat, events)) == len(strides)
 
 
 def test_only_phases_without_samples_are_inferred() -> None:
-    samples, steps = walked()
+    samples, strides = walked()
     hidden = set[type[Event]]()
     for k in range(27):
-        a = steps[4].t_start - 0.02 + 0.04 * k
+        a = strides[4].t_start - 0.02 + 0.04 * k
         for duration in (0.3, 0.8):
             events, _ = feed_new_session(without(samples, (a, a + duration)))
             (gap,) = of(SampleGap, events)
@@ -157,15 +157,15 @@ def test_only_phases_without_samples_are_inferred() -> None:
 
 def turned(events: list[Event]) -> float:
     """Return the sum of the heading changes of all strides, rad."""
-    return float(sum(step.heading_change for step in of(StrideTaken, events)))
+    return float(sum(stride.heading_change for stride in of(StrideTaken, events)))
 
 
-def gapped(samples: tuple[Sample, ...], steps: tuple[TrueStride, ...], duration: float, every: int) -> list[Sample]:
+def gapped(samples: tuple[Sample, ...], strides: tuple[TrueStride, ...], duration: float, every: int) -> list[Sample]:
     """Return the samples with a gap in each `every`-th swing from the fourth on, each in another part of it."""
     gaps = []
-    for k, step in enumerate(steps):
+    for k, stride in enumerate(strides):
         if k >= 3 and k % every == 0:
-            a = step.t_toe_off + 0.08 * (k // every % 4)
+            a = stride.t_toe_off + 0.08 * (k // every % 4)
             gaps.append((a, a + duration))
     return without(samples, *gaps)
 
@@ -175,8 +175,8 @@ def gapped(samples: tuple[Sample, ...], steps: tuple[TrueStride, ...], duration:
 def test_a_gentle_turn_stays_a_turn_through_a_gap_in_every_other_stride(
     name: str, duration: float, within: float
 ) -> None:
-    samples, steps = walked(GENTLE[name])
-    events, _ = feed_new_session(gapped(samples, steps, duration, 2))
+    samples, strides = walked(GENTLE[name])
+    events, _ = feed_new_session(gapped(samples, strides, duration, 2))
     assert len(of(SampleGap, events)) >= 7
     assert turned(events) == pytest.approx(radians(120), abs=radians(within))
 
@@ -184,45 +184,47 @@ def test_a_gentle_turn_stays_a_turn_through_a_gap_in_every_other_stride(
 @pytest.mark.parametrize("name", SHARP)
 @pytest.mark.parametrize(("duration", "within"), [(0.08, 10.0), (0.12, 10.0), (0.3, 20.0)])
 def test_a_sharp_turn_is_hardly_straightened_by_gaps(name: str, duration: float, within: float) -> None:
-    samples, steps = walked(SHARP[name])
-    events, _ = feed_new_session(gapped(samples, steps, duration, 2))
+    samples, strides = walked(SHARP[name])
+    events, _ = feed_new_session(gapped(samples, strides, duration, 2))
     assert of(SampleGap, events)
-    assert abs(turned(events)) == pytest.approx(abs(sum(step.heading_change for step in steps)), abs=radians(within))
+    assert abs(turned(events)) == pytest.approx(
+        abs(sum(stride.heading_change for stride in strides)), abs=radians(within)
+    )
 
 
 @pytest.mark.parametrize("seed", [6, 7])
 def test_a_turn_on_the_spot_is_no_straight_walk_in_a_short_gap(seed: int) -> None:
     """No part of the last stride is like it, so a straight line is the better estimate."""
     route = Route().stand(2.0).walk(5.0, 1.2).stop(1.0).turn(radians(180)).walk(5.0).stop()
-    samples, steps = walked(route, seed)
-    events, _ = feed_new_session(gapped(samples, steps, 0.12, 2))
+    samples, strides = walked(route, seed)
+    events, _ = feed_new_session(gapped(samples, strides, 0.12, 2))
     assert of(SampleGap, events)
-    assert turned(events) == pytest.approx(sum(step.heading_change for step in steps), abs=radians(8))
+    assert turned(events) == pytest.approx(sum(stride.heading_change for stride in strides), abs=radians(8))
 
 
 def test_a_turn_without_a_gap_is_not_repaired_with_that_of_a_gap() -> None:
-    line = StraightOn()
+    straight_on = StraightOn()
     for _ in range(3):
-        line.add_footfall(0.0, 0.0, 0.0, 0.0)
-    assert line.repair(0.09, 1.0, 0.0) < -0.05
-    line.add_footfall(0.09, 0.0, 0.0, 0.0)
-    assert line.repair(0.09, 1.0, 0.0) == 0.0
+        straight_on.add_footfall(0.0, 0.0, 0.0, 0.0)
+    assert straight_on.repair(0.09, 1.0, 0.0) < -0.05
+    straight_on.add_footfall(0.09, 0.0, 0.0, 0.0)
+    assert straight_on.repair(0.09, 1.0, 0.0) == 0.0
 
 
 def test_a_straight_walk_keeps_its_heading_with_a_gap_in_every_stride() -> None:
-    samples, steps = walked()
-    events, _ = feed_new_session(gapped(samples, steps, 0.3, 1))
+    samples, strides = walked()
+    events, _ = feed_new_session(gapped(samples, strides, 0.3, 1))
     assert len(of(SampleGap, events)) > 4
     assert turned(events) == pytest.approx(0.0, abs=radians(4))
 
 
 def test_the_larger_the_turn_of_a_footfall_the_less_of_it_is_repaired() -> None:
-    line = StraightOn()
+    straight_on = StraightOn()
     for _ in range(3):
-        assert line.repair(0.1, 1.0, 0.0) == 0.0  # the heading of this wearer is unknown
-        line.add_footfall(0.0, 0.0, 0.0, 0.0)
-    taken_back = [-line.repair(turn, 1.0, 0.0) / turn for turn in (0.02, 0.1, 0.2, 0.4, 0.8)]
-    assert taken_back[0] > 0.8
-    assert all(a > b for a, b in pairwise(taken_back))
-    assert taken_back[-1] < 0.01
-    assert line.repair(0.1, 0.0, 0.0) == 0.0
+        assert straight_on.repair(0.1, 1.0, 0.0) == 0.0  # the heading of this wearer is unknown
+        straight_on.add_footfall(0.0, 0.0, 0.0, 0.0)
+    repaired_shares = [-straight_on.repair(turn, 1.0, 0.0) / turn for turn in (0.02, 0.1, 0.2, 0.4, 0.8)]
+    assert repaired_shares[0] > 0.8
+    assert all(a > b for a, b in pairwise(repaired_shares))
+    assert repaired_shares[-1] < 0.01
+    assert straight_on.repair(0.1, 0.0, 0.0) == 0.0

@@ -75,11 +75,11 @@ def test_a_snapshot_does_not_depend_on_the_first_site() -> None:
 def test_final_strides_are_all_in_one_frame(first: Route, seed: int) -> None:
     walk = emulate(first.walk(6, 1.2).stop(2), seed=seed)
     session = Session(recipes.DEFAULT.exchanged(TrackPart, MeanOfFeet()))  # no foot is moved by the other
-    steps = [event for event in session.feed(walk.packets) if isinstance(event, StrideTaken)]
+    strides_of = [event for event in session.feed(walk.packets) if isinstance(event, StrideTaken)]
     for foot in Foot:
-        own = [step for step in steps if step.foot is foot]
-        assert len(own) >= 5
-        for before, after in zip(own, own[1:], strict=False):
+        strides = [stride for stride in strides_of if stride.foot is foot]
+        assert len(strides) >= 5
+        for before, after in zip(strides, strides[1:], strict=False):
             (x, y, _), (u, v, _), (dx, dy, _) = after.position, before.position, after.displacement
             assert hypot(x - u - dx, y - v - dy) < 0.06  # shift of a standing foot
 
@@ -113,7 +113,7 @@ QUATS = [
 ]
 
 
-def steps(events: list[Event], foot: Foot) -> list[StrideTaken]:
+def strides_of(events: list[Event], foot: Foot) -> list[StrideTaken]:
     return [event for event in events if isinstance(event, StrideTaken) and event.foot is foot]
 
 
@@ -188,8 +188,8 @@ def test_a_walk_whose_left_heel_is_dead_goes_on_with_what_is_left() -> None:
             return sample
         return evolve(sample, pressure=tuple(0.0 if k in dead else v for k, v in enumerate(sample.pressure)))
 
-    clean = steps(Session(recipes.by_name("zupt")).feed(samples()), Foot.LEFT)
+    clean = strides_of(Session(recipes.by_name("zupt")).feed(samples()), Foot.LEFT)
     events = Session(recipes.by_name("zupt")).feed([broken(sample) for sample in samples()])
-    assert len(steps(events, Foot.LEFT)) >= len(clean) - 1
-    assert all(step.length < 2.5 for step in steps(events, Foot.LEFT))
+    assert len(strides_of(events, Foot.LEFT)) >= len(clean) - 1
+    assert all(stride.length < 2.5 for stride in strides_of(events, Foot.LEFT))
     assert any(isinstance(event, FootFlat) and event.foot is Foot.LEFT for event in events)

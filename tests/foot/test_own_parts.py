@@ -19,49 +19,49 @@ from solepath.saving.codec import load, save
 from solepath.testing.promises import broken
 from solepath.types import Vec3
 
-OWN = evolve(recipes.DEFAULT, name="mine", detector=StillDetector(), corrector=Resets(), cues=ByMotion())
+OWN_RECIPE = evolve(recipes.DEFAULT, name="mine", detector=StillDetector(), corrector=Resets(), cues=ByMotion())
 PARTS = [StillDetector, Resets, ByMotion]
 
 
 def test_a_walk_with_parts_of_ones_own_is_saved_and_goes_on_when_their_classes_are_named() -> None:
-    walked = samples(cells=0)
-    whole, half = Session(OWN), len(walked) // 2
-    events = [whole.feed(sample) for sample in walked]
+    walk_samples = samples(cells=0)
+    uninterrupted, half = Session(OWN_RECIPE), len(walk_samples) // 2
+    events = [uninterrupted.feed(sample) for sample in walk_samples]
     all_events = sum(events, [])
     assert len(of(StrideTaken, all_events)) >= 6 and len(of(HeelStrike, all_events)) >= 6
-    assert all(foot.corrector.resets > 100 for foot in whole.feet.values())
-    assert {foot.cues.for_foot for foot in whole.feet.values()} == {"left", "right"}
-    first = Session(OWN)
-    first.feed(walked[:half])
+    assert all(foot.corrector.resets > 100 for foot in uninterrupted.feet.values())
+    assert {foot.cues.for_foot for foot in uninterrupted.feet.values()} == {"left", "right"}
+    first = Session(OWN_RECIPE)
+    first.feed(walk_samples[:half])
     saved = json.loads(json.dumps(first.snapshot()))
     for missing in PARTS:
         with pytest.raises(SnapshotError, match=f"'{missing.__name__}'"):
             Session.restore(saved, parts=[part for part in PARTS if part is not missing])
-    ended = whole.finish()
-    for second in (Session.restore(saved, parts=PARTS), Session.unpack(first.pack(), OWN)):
-        assert [second.feed(sample) for sample in walked[half:]] == events[half:]
-        assert second.finish() == ended and second.recipe == OWN
-        assert json.dumps(second.snapshot()) == json.dumps(whole.snapshot())
+    last_events = uninterrupted.finish()
+    for second in (Session.restore(saved, parts=PARTS), Session.unpack(first.pack(), OWN_RECIPE)):
+        assert [second.feed(sample) for sample in walk_samples[half:]] == events[half:]
+        assert second.finish() == last_events and second.recipe == OWN_RECIPE
+        assert json.dumps(second.snapshot()) == json.dumps(uninterrupted.snapshot())
 
 
 def test_a_clock_reset_leaves_the_settings_of_an_own_detector_alone() -> None:
-    session = Session(evolve(OWN, detector=StillDetector(limit=0.7)))
+    session = Session(evolve(OWN_RECIPE, detector=StillDetector(limit=0.7)))
     session.feed(WALKED[:50])
     tracker = session.feet[Foot.LEFT]
-    assert tracker.detector != evolve(OWN.detector, limit=0.7)
+    assert tracker.detector != evolve(OWN_RECIPE.detector, limit=0.7)
     tracker.reset()
-    assert tracker.detector == evolve(OWN.detector, limit=0.7)
+    assert tracker.detector == evolve(OWN_RECIPE.detector, limit=0.7)
 
 
 def test_own_cues_get_the_layout_and_work_for_an_insole_alone() -> None:
-    session = Session(OWN, calibration=Calibration(insoles={Foot.LEFT: InsoleCalibration(CELLS)}))
+    session = Session(OWN_RECIPE, calibration=Calibration(insoles={Foot.LEFT: InsoleCalibration(CELLS)}))
     events = session.feed([evolve(sample, acc=None, gyro=None) for sample in WALKED])
     assert session.feet[Foot.LEFT].cues.cells == 24
     assert len(of(HeelStrike, events)) >= 3
 
 
 def test_classes_that_are_no_parts_or_share_a_name_are_rejected() -> None:
-    saved = Session(OWN).snapshot()
+    saved = Session(OWN_RECIPE).snapshot()
     other = define(type("StillDetector", (), {"__annotations__": {}}))
     with pytest.raises(TypeError, match="attrs class"):
         Session.restore(saved, parts=[int])
@@ -72,7 +72,7 @@ def test_classes_that_are_no_parts_or_share_a_name_are_rejected() -> None:
 
 
 @define
-class Usual(StillDetector):
+class RecentRates(StillDetector):
     """Beside what was usual lately, by windows that forget by themselves."""
 
     rates: deque[float] = field(factory=lambda: deque(maxlen=8), init=False)
@@ -87,18 +87,18 @@ class Usual(StillDetector):
 
 
 def test_a_bounded_window_stays_bounded_after_it_was_saved() -> None:
-    assert broken(Usual(), WALKED) == []
-    one = Usual()
+    assert broken(RecentRates(), WALKED) == []
+    one = RecentRates()
     for sample in WALKED[:20]:
         assert sample.acc is not None and sample.gyro is not None
         one.update(sample.t, 0.01, sample.acc, sample.gyro, None)
     saved: Any = json.loads(json.dumps(save(one)))
-    again = load(Usual, saved)
-    assert again == one and again.rates.maxlen == 8 and again.by_kind["all"].maxlen == 5
-    assert save(again) == saved
+    loaded = load(RecentRates, saved)
+    assert loaded == one and loaded.rates.maxlen == 8 and loaded.by_kind["all"].maxlen == 5
+    assert save(loaded) == saved
     for most, items in ((8, None), (2, [1.0, 2.0, 3.0]), (-1, []), (True, [1.0]), ("8", [])):
         with pytest.raises(SnapshotError):
-            load(Usual, saved | {"rates": {"maxlen": most, "is": items}})
+            load(RecentRates, saved | {"rates": {"maxlen": most, "is": items}})
 
 
 @define
@@ -130,9 +130,9 @@ def test_saving_a_part_that_cannot_be_saved_raises() -> None:
         update = StillDetector.update
 
     Same = define(type("ShoeDetector", (), {"__annotations__": {}, "update": StillDetector.update}))
-    for detector, what in ((Bare(), "no attrs class"), (Same(), "give it another name")):
+    for detector, message in ((Bare(), "no attrs class"), (Same(), "give it another name")):
         session = Session(evolve(recipes.DEFAULT, detector=detector))
         session._state.wearer._add_tracker(session._state.wearer._tracker(Foot.LEFT))
         for save_it in (session.snapshot, session.pack):
-            with pytest.raises(TypeError, match=what):
+            with pytest.raises(TypeError, match=message):
                 save_it()

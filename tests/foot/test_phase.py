@@ -17,18 +17,18 @@ def test_every_phase_knows_what_to_make_of_every_cue_and_of_nothing_else() -> No
 
 
 def test_a_step_goes_through_the_four_phases_in_order() -> None:
-    phase, way = Phase.STATIONARY, []
+    phase, phases = Phase.STATIONARY, []
     for cue in (Cue.LIFT, Cue.CLEAR, Cue.CONTACT, Cue.FLAT):
         phase = PHASES[phase][cue]
-        way.append(phase)
-    assert way == [Phase.PUSH_OFF, Phase.SWING, Phase.LOADING, Phase.STATIONARY]
+        phases.append(phase)
+    assert phases == [Phase.PUSH_OFF, Phase.SWING, Phase.LOADING, Phase.STATIONARY]
 
 
 @pytest.mark.parametrize("cue", [Cue.CONTACT, Cue.FLAT, Cue.LIFT, Cue.CLEAR])
 def test_a_cue_that_comes_twice_changes_nothing_the_second_time(cue: Cue) -> None:
     for phase in Phase:
-        once = PHASES[phase][cue]
-        assert PHASES[once][cue] is once
+        next_phase = PHASES[phase][cue]
+        assert PHASES[next_phase][cue] is next_phase
 
 
 @pytest.mark.parametrize("phase", Phase)
@@ -52,14 +52,14 @@ def test_each_phase_starts_with_its_event() -> None:
 
 @pytest.mark.parametrize(("left", "right"), list(product(Phase, Phase)))
 def test_a_body_stands_on_the_feet_that_do_not_swing(left: Phase, right: Phase) -> None:
-    down = (left is not Phase.SWING, right is not Phase.SWING)
+    on_ground = (left is not Phase.SWING, right is not Phase.SWING)
     expected = {
         (True, True): Support.DOUBLE,
         (True, False): Support.LEFT,
         (False, True): Support.RIGHT,
         (False, False): Support.FLIGHT,
     }
-    assert SUPPORT[left][right] is expected[down]
+    assert SUPPORT[left][right] is expected[on_ground]
 
 
 def test_the_tables_can_be_printed() -> None:
@@ -73,13 +73,13 @@ def test_the_tables_can_be_printed() -> None:
 
 
 def test_walking_is_single_and_double_support_in_turn_and_never_flight() -> None:
-    session, seen = Session(), []
+    session, supports = Session(), []
     for packet in insoles(SHORT).packets:
         session.feed(packet)
-        if packet.t > 2.0 and (not seen or session.support is not seen[-1]):
-            seen.append(session.support)
-    assert Support.FLIGHT not in seen
-    assert seen.count(Support.LEFT) >= 4 and seen.count(Support.RIGHT) >= 4
-    singles = [support for support in seen if support is not Support.DOUBLE]
+        if packet.t > 2.0 and (not supports or session.support is not supports[-1]):
+            supports.append(session.support)
+    assert Support.FLIGHT not in supports
+    assert supports.count(Support.LEFT) >= 4 and supports.count(Support.RIGHT) >= 4
+    singles = [support for support in supports if support is not Support.DOUBLE]
     assert all(a is not b for a, b in zip(singles, singles[1:], strict=False))
     assert session.phase(Foot.LEFT) is session.phase(Foot.RIGHT) is Phase.STATIONARY

@@ -23,7 +23,7 @@ from solepath.foot.stance.stance import Load, Stance
 from solepath.types import Phase
 
 
-def worn(*frames: tuple[float, ...]) -> InsoleLoads:
+def used_insole(*frames: tuple[float, ...]) -> InsoleLoads:
     """Return an insole after some frames at 100 Hz."""
     insole = InsoleLoads()
     insole.set_layout(SOLE)
@@ -32,26 +32,26 @@ def worn(*frames: tuple[float, ...]) -> InsoleLoads:
     return insole
 
 
-STEP = (above(100, 100, 50, 150), above(0, 0, 0, 200), TARE, above(30, 30, 0, 0), above(100, 100, 50, 150))
+STRIDE_LOADS = (above(100, 100, 50, 150), above(0, 0, 0, 200), TARE, above(30, 30, 0, 0), above(100, 100, 50, 150))
 """Loads on the whole sole (400), on the forefoot, in the air, on the heel, on the whole sole again."""
 
 
 def test_nothing_is_known_until_the_load_has_fallen_and_risen_again() -> None:
-    insole = worn()
-    loads = [insole.update(0.01 * k, cells) for k, cells in enumerate(STEP)]
+    insole = used_insole()
+    loads = [insole.update(0.01 * k, cells) for k, cells in enumerate(STRIDE_LOADS)]
     assert [load is None for load in loads] == [True, True, True, True, False]
 
 
 def test_a_load_that_only_falls_is_not_a_foot_in_the_air() -> None:
     """The weight moves to the other foot before the first step: the lowest load is then still a load."""
-    insole = worn()
+    insole = used_insole()
     for k in range(60):
         share = 1.0 - 0.01 * k
         assert insole.update(0.01 * k, above(*(share * part for part in (100, 100, 50, 150)))) is None
 
 
 def test_the_load_is_a_share_of_the_wearers_own() -> None:
-    insole = worn(*STEP)
+    insole = used_insole(*STRIDE_LOADS)
     full = insole.update(0.05, above(100, 100, 50, 150))
     half = insole.update(0.06, above(50, 50, 25, 75))
     air = insole.update(0.07, TARE)
@@ -62,8 +62,14 @@ def test_the_load_is_a_share_of_the_wearers_own() -> None:
 
 
 def test_newtons_and_counts_serve_alike() -> None:
-    one, other = worn(*STEP), worn(*(tuple(4.7 * value for value in cells) for cells in STEP))
-    a, b = one.update(0.05, above(40, 10, 5, 60)), other.update(0.05, tuple(4.7 * v for v in above(40, 10, 5, 60)))
+    insole_in_newtons, other = (
+        used_insole(*STRIDE_LOADS),
+        used_insole(*(tuple(4.7 * value for value in cells) for cells in STRIDE_LOADS)),
+    )
+    a, b = (
+        insole_in_newtons.update(0.05, above(40, 10, 5, 60)),
+        other.update(0.05, tuple(4.7 * v for v in above(40, 10, 5, 60))),
+    )
     assert a is not None and b is not None
     assert b.cells == pytest.approx([4.7 * value for value in a.cells])
     assert (b.total, b.heel, b.forefoot, b.highest) == pytest.approx((a.total, a.heel, a.forefoot, a.highest))
@@ -71,13 +77,13 @@ def test_newtons_and_counts_serve_alike() -> None:
 
 
 def test_the_tare_is_what_the_cells_show_in_the_air() -> None:
-    insole = worn(*STEP, above(0, 0, 0, 60), TARE, above(90, 90, 20, 100))
+    insole = used_insole(*STRIDE_LOADS, above(0, 0, 0, 60), TARE, above(90, 90, 20, 100))
     assert insole.centre_of_pressure(above(0, 0, 50, 0)) == pytest.approx((0.13, 0.0))
     assert insole.centre_of_pressure(TARE) is None
 
 
 def test_the_centre_of_pressure_is_the_mean_place_of_the_load_above_tare() -> None:
-    insole = worn(*STEP, above(0, 0, 0, 60), TARE, above(90, 90, 20, 100))
+    insole = used_insole(*STRIDE_LOADS, above(0, 0, 0, 60), TARE, above(90, 90, 20, 100))
     assert insole.centre_of_pressure(above(100, 0, 0, 0)) == pytest.approx((0.05, 0.01))
     assert insole.centre_of_pressure(above(50, 50, 0, 100)) == pytest.approx((0.125, 0.01))
     assert insole.centre_of_pressure(above(10, 10, 20, 40)) == pytest.approx(
@@ -88,7 +94,7 @@ def test_the_centre_of_pressure_is_the_mean_place_of_the_load_above_tare() -> No
 
 def test_without_a_layout_there_is_a_load_but_no_place() -> None:
     insole = InsoleLoads()
-    for k, cells in enumerate(STEP):
+    for k, cells in enumerate(STRIDE_LOADS):
         insole.update(0.01 * k, cells)
     load = insole.update(0.05, above(50, 50, 25, 75))
     assert load.total == pytest.approx(0.5) and load.heel is None and load.forefoot is None
@@ -96,7 +102,7 @@ def test_without_a_layout_there_is_a_load_but_no_place() -> None:
 
 
 def test_cells_that_do_not_match_the_layout_have_no_place_either() -> None:
-    insole = worn(*STEP)
+    insole = used_insole(*STRIDE_LOADS)
     assert insole.update(0.05, (100.0, 200.0)).heel is None
     assert insole.centre_of_pressure((100.0, 200.0)) is None
 
@@ -127,10 +133,10 @@ def test_an_insole_without_an_inertial_sensor_still_gives_the_phases() -> None:
         (FootFlat, truth.foot_flats, 1),
         (HeelOff, truth.heel_offs, 1),
     ):
-        found = [event.t for event in of(kind, events)]
+        estimate = [event.t for event in of(kind, events)]
         for t in true[first:]:
-            assert min(abs(t - other) for other in found) < 0.12, kind
-        assert len(found) <= len(true) + 1
+            assert min(abs(t - other) for other in estimate) < 0.12, kind
+        assert len(estimate) <= len(true) + 1
 
 
 def test_the_first_toe_off_of_a_walk_is_when_the_toe_leaves_the_ground() -> None:
@@ -146,41 +152,41 @@ def test_the_first_toe_off_of_a_walk_is_when_the_toe_leaves_the_ground() -> None
 
 def test_the_path_of_the_centre_of_pressure_runs_from_heel_to_toe() -> None:
     events = of(StrideTaken, Session().feed(insoles(SHORT).packets))
-    paths = [step.features.cop for step in events[2:-2]]
+    paths = [stride.features.cop for stride in events[2:-2]]
     assert all(8 <= len(path) <= 32 for path in paths)
     for path in paths:
         assert path[0][0] < 0.09 and max(x for x, _ in path) > 0.20
         rising = [b[0] > a[0] - 0.003 for a, b in pairwise(path[:-3])]  # hardly any load is left at the very end
         assert all(rising)
         assert all(0.0 < x < 0.285 and abs(y) < 0.05 for x, y in path)
-    assert all(step.features.contact_load > 200.0 for step in events[2:-2])
+    assert all(stride.features.contact_load > 200.0 for stride in events[2:-2])
 
 
 @cache
-def guessed(cells: int) -> Layout | None:
+def estimate_layout(cells: int) -> Layout | None:
     """Return the estimated layout of the left insole of a short walk whose layout is unknown."""
     insole, guess = InsoleLoads(), LayoutGuess(Foot.LEFT)
     for sample in samples(cells=cells):
         if sample.site.foot is Foot.LEFT and sample.pressure:
             load = insole.update(sample.t, sample.pressure)
-            found = None if load is None else guess.update(sample.t, insole.above_tare(load.cells), load.total)
-            if found is not None:
-                return found
+            estimate = None if load is None else guess.update(sample.t, insole.above_tare(load.cells), load.total)
+            if estimate is not None:
+                return estimate
     return None
 
 
 def test_heel_and_forefoot_are_distinguished_after_two_stances() -> None:
     for cells in (24, 96):
-        true, found = layout(cells, Foot.LEFT), guessed(cells)
-        assert found is not None
+        true, estimate = layout(cells, Foot.LEFT), estimate_layout(cells)
+        assert estimate is not None
         placed = 0
-        for cell, learnt in zip(true.cells, found.cells, strict=True):
-            if learnt.x == 0.5 * found.length:
+        for cell, learnt in zip(true.cells, estimate.cells, strict=True):
+            if learnt.x == 0.5 * estimate.length:
                 continue  # it never bears load
             if cell.x < 0.25 * true.length:
-                assert learnt.x < 0.45 * found.length, cell
+                assert learnt.x < 0.45 * estimate.length, cell
             if cell.x > 0.75 * true.length:
-                assert learnt.x > 0.55 * found.length, cell
+                assert learnt.x > 0.55 * estimate.length, cell
             placed += 1
         assert placed > 0.7 * cells
 
@@ -204,9 +210,9 @@ def test_any_loads_of_any_number_of_cells_are_borne(rows: list[tuple[float, list
     guess, t = LayoutGuess(Foot.LEFT), 0.0
     for dt, cells, share in rows:
         t += dt
-        found = guess.update(t, tuple(cells), share)
-        if found is not None:
-            assert all(0.0 <= cell.x <= found.length for cell in found.cells)
+        estimate = guess.update(t, tuple(cells), share)
+        if estimate is not None:
+            assert all(0.0 <= cell.x <= estimate.length for cell in estimate.cells)
 
 
 ACC_REST, GYRO_REST = (0.0, 0.0, 9.81), (0.0, 0.0, 0.0)

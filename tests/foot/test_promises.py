@@ -23,8 +23,8 @@ from solepath.testing.promises import broken
 from solepath.types import Vec3
 from solepath.types.vector import ZERO
 
-OURS = [part for one in map(by_name, NAMES) for part in (one.detector, one.corrector, one.cues)]
-PARTS: dict[str, Any] = {type(part).__name__: part for part in (*OURS, StillDetector(), Resets(), ByMotion())}
+RECIPE_PARTS = [part for one in map(by_name, NAMES) for part in (one.detector, one.corrector, one.cues)]
+PARTS: dict[str, Any] = {type(part).__name__: part for part in (*RECIPE_PARTS, StillDetector(), Resets(), ByMotion())}
 
 
 @pytest.mark.parametrize("name", PARTS)

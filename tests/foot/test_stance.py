@@ -34,8 +34,8 @@ def shoe(acc: Rows, gyro: Rows) -> float:
     """T = 1/W sum(|a - g m/|m||^2 / s_a^2 + |w|^2 / s_w^2), m the mean of a."""
     a, w = np.array(acc), np.array(gyro)
     mean = a.mean(axis=0)
-    off = ((a - GRAVITY * mean / np.linalg.norm(mean)) ** 2).sum() / SIGMA_ACC**2
-    return float((off + (w**2).sum() / SIGMA_GYRO**2) / len(a))
+    residual = ((a - GRAVITY * mean / np.linalg.norm(mean)) ** 2).sum() / SIGMA_ACC**2
+    return float((residual + (w**2).sum() / SIGMA_GYRO**2) / len(a))
 
 
 def are(acc: Rows, gyro: Rows) -> float:
@@ -82,8 +82,8 @@ def run(detector: Any, acc: Rows, gyro: Rows, dt: float = 0.01) -> list[Stance]:
     ids=lambda value: type(value).__name__ if hasattr(value, "update") else None,
 )
 def test_the_statistic_follows_its_formula(detector: Any, formula: Any, length: int) -> None:
-    found = run(detector, ACC, GYRO)[-1].statistic
-    assert found == pytest.approx(formula(ACC[-length:], GYRO[-length:]), rel=1e-9)
+    evidences = run(detector, ACC, GYRO)[-1].statistic
+    assert evidences == pytest.approx(formula(ACC[-length:], GYRO[-length:]), rel=1e-9)
 
 
 @pytest.mark.parametrize(
@@ -108,10 +108,10 @@ def test_running_sums_are_the_direct_computation_after_ten_thousand_samples(
     at_rest = rng.normal(0.0, 0.01, (20, 6))
     acc += [tuple(row) for row in (at_rest[:, :3] + [0.0, 0.0, GRAVITY]).tolist()]
     gyro += [tuple(row) for row in at_rest[:, 3:].tolist()]
-    found = [stance.statistic for stance in run(detector, acc, gyro)]
+    evidences = [stance.statistic for stance in run(detector, acc, gyro)]
     for k in [*range(100, 10_000, 501), *range(10_006, 10_020)]:
         exact = formula(acc[k - length + 1 : k + 1], gyro[k - length + 1 : k + 1])
-        assert found[k] == pytest.approx(exact, rel=1e-6, abs=1.0 if length != 5 or formula is mv else 1e-9)
+        assert evidences[k] == pytest.approx(exact, rel=1e-6, abs=1.0 if length != 5 or formula is mv else 1e-9)
 
 
 def test_a_window_is_so_many_seconds_whatever_the_rate() -> None:
@@ -128,14 +128,14 @@ def test_a_standing_foot_is_certainly_still(detector: Any) -> None:
     assert last.v_ref == (0.0, 0.0, 0.0)
 
 
-TEN = StanceThreshold(rest_statistic=10.0, motion_statistic=100.0)
+TEN_TO_HUNDRED = StanceThreshold(rest_statistic=10.0, motion_statistic=100.0)
 
 
 def test_evidence_grows_softer_with_the_statistic_and_ends_at_the_gate() -> None:
-    assert soften(5.0, TEN) == Stance((0.0, 0.0, 0.0), 0.01, 5.0, Phase.STATIONARY)
-    assert soften(40.0, TEN) == Stance((0.0, 0.0, 0.0), 0.02, 40.0, None)
-    assert soften(100.0, TEN) == Stance((0.0, 0.0, 0.0), inf, 100.0, None)
-    sigmas = [soften(t, TEN).sigma for t in np.linspace(0.0, 120.0, 50)]
+    assert soften(5.0, TEN_TO_HUNDRED) == Stance((0.0, 0.0, 0.0), 0.01, 5.0, Phase.STATIONARY)
+    assert soften(40.0, TEN_TO_HUNDRED) == Stance((0.0, 0.0, 0.0), 0.02, 40.0, None)
+    assert soften(100.0, TEN_TO_HUNDRED) == Stance((0.0, 0.0, 0.0), inf, 100.0, None)
+    sigmas = [soften(t, TEN_TO_HUNDRED).sigma for t in np.linspace(0.0, 120.0, 50)]
     assert sigmas == sorted(sigmas)
 
 
@@ -146,19 +146,21 @@ def shares(detector: Any) -> tuple[float, float]:
     """Return the shares of samples with evidence of stillness in mid-stance, and in mid-swing."""
     fed = WALKER.samples(Foot.LEFT, 100.0, layout=layout(96, Foot.LEFT))
     truth = WALKER.truth().feet[Foot.LEFT]
-    stance = [(flat + 0.02, off - 0.02) for flat, off in zip(truth.foot_flats, truth.heel_offs[1:], strict=False)]
+    stance = [
+        (flat + 0.02, residual - 0.02) for flat, residual in zip(truth.foot_flats, truth.heel_offs[1:], strict=False)
+    ]
     swing = [(a + 0.15, b - 0.10) for a, b in zip(truth.toe_offs, truth.heel_strikes, strict=True)]
     from solepath.foot.pressure.insole import InsoleLoads
 
-    insole, found = InsoleLoads(), []
+    insole, evidences = InsoleLoads(), []
     insole.set_layout(layout(96, Foot.LEFT))
     for sample in fed:
         load = insole.update(sample.t, sample.pressure)
         evidence = detector.update(sample.t, 0.01, sample.acc, sample.gyro, load)
-        found.append((sample.t, evidence.sigma < inf))
+        evidences.append((sample.t, evidence.sigma < inf))
 
     def share(spans: list[tuple[float, float]]) -> float:
-        inside = [still for t, still in found for a, b in spans[1:] if a <= t <= b]
+        inside = [still for t, still in evidences for a, b in spans[1:] if a <= t <= b]
         assert len(inside) > 30
         return sum(inside) / len(inside)
 
@@ -212,13 +214,13 @@ def roll(sensor_height: SensorHeight, height: float, tilt: float = 0.0, amount: 
     estimated attitude is `tilt` rad off."""
     for k in range(60):
         t = k * DT
-        pitch, rate, faster = amount * (t / 0.3) ** 3, amount * 3 * t**2 / 0.3**3, amount * 6 * t / 0.3**3
+        pitch, rate, rate_change = amount * (t / 0.3) ** 3, amount * 3 * t**2 / 0.3**3, amount * 6 * t / 0.3**3
         attitude = (cos(pitch / 2), 0.0, sin(pitch / 2), 0.0)
-        acc_world: Vec3 = (height * faster, 0.0, GRAVITY)
+        acc_world: Vec3 = (height * rate_change, 0.0, GRAVITY)
         sensor = rotate(SKEWED, rotate(conjugate(attitude), acc_world))
         gyro = rotate(SKEWED, (0.0, rate, 0.0))
-        off = (cos((pitch + tilt) / 2), 0.0, sin((pitch + tilt) / 2), 0.0)
-        w, x, y, z = off
+        residual = (cos((pitch + tilt) / 2), 0.0, sin((pitch + tilt) / 2), 0.0)
+        w, x, y, z = residual
         a, b, c, d = conjugate(SKEWED)
         estimated = (
             w * a - x * b - y * c - z * d, w * b + x * a + y * d - z * c,
@@ -260,8 +262,8 @@ def test_the_evidence_of_a_rolling_foot_moves_forward() -> None:
     rolling = cycle.update(0.03, 0.03, (0.0, 0.0, GRAVITY), (0.0, 0.1, 0.0), None)
     assert still.v_ref == (0.0, 0.0, 0.0)
     assert rolling.v_ref == pytest.approx((0.1 * cycle.sensor_height.height, 0.0, 0.0))
-    without = Cycle(CycleSettings(rolls=False))
-    assert without.update(0.0, 0.0, (0.0, 0.0, GRAVITY), (0.0, 0.1, 0.0), None).v_ref == (0.0, 0.0, 0.0)
+    not_rolling = Cycle(CycleSettings(rolls=False))
+    assert not_rolling.update(0.0, 0.0, (0.0, 0.0, GRAVITY), (0.0, 0.1, 0.0), None).v_ref == (0.0, 0.0, 0.0)
 
 
 numbers = st.floats(-20.0, 20.0)

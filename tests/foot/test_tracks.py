@@ -51,7 +51,7 @@ def walker(seed: int = 5) -> Walker:
 
 
 @cache
-def fed(seed: int = 5) -> tuple[Sample, ...]:
+def samples_of_walk(seed: int = 5) -> tuple[Sample, ...]:
     return tuple(walker(seed).samples(Foot.LEFT, 100.0, LSM6DSOX))
 
 
@@ -63,14 +63,14 @@ def run_session(samples: Any, recipe: Recipe = DEFAULT, **options: Any) -> list[
 @pytest.mark.parametrize("seed", [1, 2])
 @pytest.mark.parametrize("recipe", [EXACT, LINEAR], ids=lambda recipe: recipe.name)
 def test_both_correctors_track_a_walk_of_20_m(recipe: Recipe, seed: int) -> None:
-    events = run_session(fed(seed), recipe, poses=True)
-    true, steps = walker(seed).truth().feet[Foot.LEFT].steps, of(StrideTaken, events)
-    assert len(steps) == len(true)
-    for step, truth in zip(steps, true, strict=True):
-        assert step.t_end == pytest.approx(truth.t_end, abs=0.08)
-        assert step.length == pytest.approx(truth.length, abs=0.05)
-        assert step.height_change == pytest.approx(0.0, abs=0.05)
-        assert step.heading_change == pytest.approx(truth.heading_change, abs=0.05)
+    events = run_session(samples_of_walk(seed), recipe, poses=True)
+    true, strides = walker(seed).truth().feet[Foot.LEFT].steps, of(StrideTaken, events)
+    assert len(strides) == len(true)
+    for stride, truth in zip(strides, true, strict=True):
+        assert stride.t_end == pytest.approx(truth.t_end, abs=0.08)
+        assert stride.length == pytest.approx(truth.length, abs=0.05)
+        assert stride.height_change == pytest.approx(0.0, abs=0.05)
+        assert stride.heading_change == pytest.approx(truth.heading_change, abs=0.05)
     x, y, z = of(FootMoved, events)[-1].position
     assert (x**2 + y**2) ** 0.5 == pytest.approx(20.0, rel=0.03)
     assert abs(z) < 0.5
@@ -79,7 +79,7 @@ def test_both_correctors_track_a_walk_of_20_m(recipe: Recipe, seed: int) -> None
 @pytest.mark.parametrize("recipe", [EXACT, LINEAR], ids=lambda recipe: recipe.name)
 def test_a_stride_has_a_covariance_and_that_of_the_path_grows(recipe: Recipe) -> None:
     session, spread = Session(recipe), []
-    for sample in fed():
+    for sample in samples_of_walk():
         for event in session.feed(sample):
             if isinstance(event, StrideTaken):
                 xx, xy, xz, yy, yz, zz = event.covariance
@@ -92,12 +92,12 @@ def test_a_stride_has_a_covariance_and_that_of_the_path_grows(recipe: Recipe) ->
 
 
 def test_features_of_a_stride_are_those_of_a_walk() -> None:
-    for step in of(StrideTaken, run_session(fed()))[1:-1]:
-        assert 0.01 < step.features.clearance < 0.25
-        assert 2.5 < step.features.peak_speed < 7.0
-        assert radians(40) < step.features.swing_pitch < radians(130)
-        assert step.features.contact_load is None and step.features.cop == ()
-        assert step.t_start < step.t_toe_off < step.t_heel_strike <= step.t_end
+    for stride in of(StrideTaken, run_session(samples_of_walk()))[1:-1]:
+        assert 0.01 < stride.features.clearance < 0.25
+        assert 2.5 < stride.features.peak_speed < 7.0
+        assert radians(40) < stride.features.swing_pitch < radians(130)
+        assert stride.features.contact_load is None and stride.features.cop == ()
+        assert stride.t_start < stride.t_toe_off < stride.t_heel_strike <= stride.t_end
 
 
 _QUATS = (
@@ -117,8 +117,8 @@ def turned(sample: Sample, mounting: tuple[float, float, float, float]) -> Sampl
 @example(normalise((1.0, 1.0, 0.0, 0.0)))
 @settings(max_examples=8)
 def test_strides_do_not_depend_on_the_mounting(mounting: tuple[float, float, float, float]) -> None:
-    plain = of(StrideTaken, run_session(fed()))
-    other = of(StrideTaken, run_session(turned(sample, mounting) for sample in fed()))
+    plain = of(StrideTaken, run_session(samples_of_walk()))
+    other = of(StrideTaken, run_session(turned(sample, mounting) for sample in samples_of_walk()))
     assert len(other) == len(plain)
     for a, b in zip(plain, other, strict=True):
         assert b.t_end == pytest.approx(a.t_end, abs=0.015)
@@ -131,17 +131,17 @@ def test_a_sensor_on_the_laces_finds_the_same_strides_as_one_in_the_sole() -> No
     mounting = Mounting(ON_INSTEP.position, normalise((0.7, 0.1, -0.4, 0.2)))
     events = run_session(walker().samples(Foot.LEFT, 100.0, LSM6DSOX, mounting=mounting))
     true = walker().truth({Foot.LEFT: mounting}).feet[Foot.LEFT].steps
-    steps = of(StrideTaken, events)
-    assert len(steps) == len(true)
-    for step, truth in zip(steps, true, strict=True):
-        assert step.length == pytest.approx(truth.length, rel=0.03, abs=0.02)
+    strides = of(StrideTaken, events)
+    assert len(strides) == len(true)
+    for stride, truth in zip(strides, true, strict=True):
+        assert stride.length == pytest.approx(truth.length, rel=0.03, abs=0.02)
     assert len(of(HeelStrike, events)) == len(of(ToeOff, events)) == len(true)
 
 
 def test_attitude_is_level_once_the_foot_has_rested() -> None:
     mounting = normalise((0.3, -0.5, 0.7, 0.2))
     session = Session()
-    session.feed([turned(sample, mounting) for sample in fed() if sample.t < 2.0])
+    session.feed([turned(sample, mounting) for sample in samples_of_walk() if sample.t < 2.0])
     up = rotate(session.feet[Foot.LEFT].attitude, rotate(conjugate(mounting), (0.0, 0.0, 1.0)))
     assert up == pytest.approx((0.0, 0.0, 1.0), abs=0.02)
     flat = multiply(session.feet[Foot.LEFT].attitude, conjugate(mounting))
@@ -165,19 +165,20 @@ def test_the_bias_of_the_gyroscope_is_learnt_while_the_wearer_stands() -> None:
 @pytest.mark.parametrize("recipe", [EXACT, LINEAR], ids=lambda recipe: recipe.name)
 def test_after_a_rest_a_bias_does_not_bend_the_path(recipe: Recipe) -> None:
     plain, other = (
-        of(StrideTaken, run_session(items, recipe)) for items in (fed(), [biased(sample) for sample in fed()])
+        of(StrideTaken, run_session(items, recipe))
+        for items in (samples_of_walk(), [biased(sample) for sample in samples_of_walk()])
     )
     assert len(other) == len(plain)
     assert other[-1].position == pytest.approx(plain[-1].position, abs=0.1)
-    assert sum(step.heading_change for step in other) == pytest.approx(
-        sum(step.heading_change for step in plain), abs=0.02
+    assert sum(stride.heading_change for stride in other) == pytest.approx(
+        sum(stride.heading_change for stride in plain), abs=0.02
     )
 
 
 def test_a_turn_that_is_walked_is_not_taken_for_a_bias() -> None:
     route = Route().stand(2.0).walk(3.0, 1.2).turn(pi / 2, radius=2.0).walk(3.0).stop(1.0)
-    steps = of(StrideTaken, run_session(Walker(route, seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)))
-    assert sum(step.heading_change for step in steps) == pytest.approx(pi / 2, abs=0.06)
+    strides = of(StrideTaken, run_session(Walker(route, seed=1).samples(Foot.LEFT, 100.0, LSM6DSOX)))
+    assert sum(stride.heading_change for stride in strides) == pytest.approx(pi / 2, abs=0.06)
 
 
 def test_a_wrong_scale_is_reported_once_by_the_link_that_knows_the_range() -> None:
@@ -196,14 +197,14 @@ def test_a_wrong_scale_is_reported_once_by_the_link_that_knows_the_range() -> No
 
 def test_an_accelerometer_of_the_wrong_range_is_named_and_one_a_little_off_is_put_right() -> None:
     def scaled(k: float) -> list[Sample]:
-        return [evolve(s, acc=(k * s.acc[0], k * s.acc[1], k * s.acc[2])) for s in fed()]
+        return [evolve(s, acc=(k * s.acc[0], k * s.acc[1], k * s.acc[2])) for s in samples_of_walk()]
 
     (reported,) = of(ScaleSuspect, run_session(scaled(0.5)))
     assert reported.magnitude == pytest.approx(0.5 * GRAVITY, rel=0.02) and "2" in reported.suggestion
     off = run_session(scaled(1.03))
     assert of(ScaleSuspect, off) == []
     assert [s.length for s in of(StrideTaken, off)] == pytest.approx(
-        [s.length for s in of(StrideTaken, run_session(fed()))], abs=0.02
+        [s.length for s in of(StrideTaken, run_session(samples_of_walk()))], abs=0.02
     )
 
 
@@ -211,47 +212,47 @@ def test_an_accelerometer_of_the_wrong_range_is_named_and_one_a_little_off_is_pu
 @pytest.mark.parametrize("length", [0.06, 0.3, 3.0])
 def test_after_a_gap_the_walk_goes_on(recipe: Recipe, length: float) -> None:
     start = walker().truth().feet[Foot.LEFT].toe_offs[4] + 0.1
-    events = run_session([s for s in fed() if not start < s.t < start + length], recipe)
+    events = run_session([s for s in samples_of_walk() if not start < s.t < start + length], recipe)
     (gap,) = of(SampleGap, events)
     assert gap.duration == pytest.approx(length, abs=0.02) and gap.site is LEFT
-    steps = of(StrideTaken, events)
-    spoilt = [step.t_start < gap.t + gap.duration and step.t_end > gap.t for step in steps]
-    assert [step.degraded for step in steps] == spoilt and True in spoilt
+    strides = of(StrideTaken, events)
+    has_gap = [stride.t_start < gap.t + gap.duration and stride.t_end > gap.t for stride in strides]
+    assert [stride.degraded for stride in strides] == has_gap and True in has_gap
     true = walker().truth().feet[Foot.LEFT].steps
-    after = [(s, t) for s in steps for t in true if abs(s.t_end - t.t_end) < 0.1 and t.t_start > start + length + 0.1]
+    after = [(s, t) for s in strides for t in true if abs(s.t_end - t.t_end) < 0.1 and t.t_start > start + length + 0.1]
     assert len(after) >= 4
-    for step, truth in after[1:]:
-        assert not step.degraded
+    for stride, truth in after[1:]:
+        assert not stride.degraded
         # linear dedrift corrects the tilt error of the gap only by gravity
-        assert step.length == pytest.approx(truth.length, abs=0.06 if recipe is EXACT else 0.10)
+        assert stride.length == pytest.approx(truth.length, abs=0.06 if recipe is EXACT else 0.10)
 
 
 @pytest.mark.parametrize("first", [1e-6, 0.1, 5.0])
 def test_an_unusual_first_interval_has_no_lasting_effect(first: float) -> None:
-    second, *others = fed()[2:]
+    second, *others = samples_of_walk()[2:]
     start = evolve(second, t=others[0].t - first)
     events = run_session([start, *others])
     assert len(of(SampleGap, events)) <= 10
-    assert not any(step.degraded for step in of(StrideTaken, events)[1:])
+    assert not any(stride.degraded for stride in of(StrideTaken, events)[1:])
     with_gap = run_session([start, *(s for s in others if not 8.0 < s.t < 8.1)])
     assert len(of(SampleGap, with_gap)) == len(of(SampleGap, events)) + 1
 
 
 def test_another_rate_causes_only_a_few_gaps() -> None:
-    events = run_session([s for k, s in enumerate(fed()) if s.t < 5.0 or k % 3 == 0])
+    events = run_session([s for k, s in enumerate(samples_of_walk()) if s.t < 5.0 or k % 3 == 0])
     assert 1 <= len(of(SampleGap, events)) <= 12
-    assert sum(step.degraded for step in of(StrideTaken, events)) <= 2
+    assert sum(stride.degraded for stride in of(StrideTaken, events)) <= 2
 
 
 def test_a_saturated_sample_degrades_only_its_stride() -> None:
     swing = walker().truth().feet[Foot.LEFT].toe_offs[3] + 0.1
-    steps = of(StrideTaken, run_session(evolve(s, saturated=swing < s.t < swing + 0.03) for s in fed()))
-    assert [k for k, step in enumerate(steps) if step.degraded] == [3]
+    strides = of(StrideTaken, run_session(evolve(s, saturated=swing < s.t < swing + 0.03) for s in samples_of_walk()))
+    assert [k for k, stride in enumerate(strides) if stride.degraded] == [3]
 
 
 @pytest.mark.parametrize("lacking", ["acc", "gyro"])
 def test_a_foot_without_one_of_its_sensors_has_no_track_and_one_limitation(lacking: str) -> None:
-    events = run_session(evolve(sample, **{lacking: None}) for sample in fed()[:500])
+    events = run_session(evolve(sample, **{lacking: None}) for sample in samples_of_walk()[:500])
     (reported,) = of(Limitation, events)
     assert {"acc": "accelerometer", "gyro": "gyroscope"}[lacking] in reported.what
     # an accelerometer alone gives the activity
@@ -260,20 +261,20 @@ def test_a_foot_without_one_of_its_sensors_has_no_track_and_one_limitation(lacki
 
 @pytest.mark.parametrize("site", [site for site in Site if site.foot is None])
 def test_a_site_that_is_no_foot_is_one_limitation_and_changes_nothing_else(site: Site) -> None:
-    others = (evolve(sample, t=sample.t + 0.004, site=site) for sample in fed()[:-1])
-    both = sorted([*fed(), *others], key=lambda s: s.t)
+    others = (evolve(sample, t=sample.t + 0.004, site=site) for sample in samples_of_walk()[:-1])
+    both = sorted([*samples_of_walk(), *others], key=lambda s: s.t)
     events = run_session(both)
     (reported,) = of(Limitation, events)
     assert reported.site is site and site.value in reported.what
-    assert [event for event in events if event is not reported] == run_session(fed())
+    assert [event for event in events if event is not reported] == run_session(samples_of_walk())
 
 
 def test_the_first_heading_is_the_worlds_x() -> None:
     for yaw in (0.0, 2.0, -1.0):
-        steps = of(StrideTaken, run_session(turned(sample, from_yaw(yaw)) for sample in fed()))
-        x, y, _ = steps[0].displacement
+        strides = of(StrideTaken, run_session(turned(sample, from_yaw(yaw)) for sample in samples_of_walk()))
+        x, y, _ = strides[0].displacement
         assert x > 0.5 and abs(y) < 0.05
-        assert steps[-1].position[0] == pytest.approx(20.0, rel=0.05)
+        assert strides[-1].position[0] == pytest.approx(20.0, rel=0.05)
 
 
 def test_a_standing_foot_takes_no_stride() -> None:
