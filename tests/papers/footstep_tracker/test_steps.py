@@ -15,9 +15,9 @@ from solepath.foot.stance.stance import Stance
 from solepath.papers.footstep_tracker.critical_cues import CriticalCues
 from solepath.papers.footstep_tracker.critical_times import CriticalTimes, Row, critical_times
 from solepath.papers.footstep_tracker.projection import Projection
-from solepath.papers.footstep_tracker.segment import StepSegment
+from solepath.papers.footstep_tracker.segment import StrideSegment
 from solepath.papers.footstep_tracker.static_zones import StaticZones
-from solepath.papers.footstep_tracker.step_length import closed_step_length, step_length, vertical_turn
+from solepath.papers.footstep_tracker.stride_length import closed_stride_length, stride_length, vertical_turn
 from solepath.saving import codec as machine
 from solepath.types import Phase, Vec3
 from solepath.types.vector import GRAVITY, ZERO
@@ -64,8 +64,8 @@ def test_whatever_a_foot_does_its_critical_times_follow_each_other(values: list[
     times = critical_times(drawn)
     if times is not None:
         assert times.uplift <= times.liftoff <= times.landing <= times.rest
-        step_length(drawn, times)
-        closed_step_length(drawn, times)
+        stride_length(drawn, times)
+        closed_stride_length(drawn, times)
 
 
 def test_gravity_alone_moves_no_step_however_the_foot_is_tilted() -> None:
@@ -76,18 +76,18 @@ def test_gravity_alone_moves_no_step_however_the_foot_is_tilted() -> None:
         theta = -t if t <= 1.0 else t - 2.0
         drawn.append((t, 0.0, G * sin(theta), -G * cos(theta), -1.0 if t < 1.0 else 1.0 if t > 1.0 else 0.0, 0.0, 0.0))
     times = CriticalTimes(0.0, 0.0, 2.0, 2.0)
-    assert sum(step_length(drawn, times)) == pytest.approx(0.0, abs=1e-3)
-    assert sum(closed_step_length(drawn, times)) == pytest.approx(0.0, abs=1e-3)
+    assert sum(stride_length(drawn, times)) == pytest.approx(0.0, abs=1e-3)
+    assert sum(closed_stride_length(drawn, times)) == pytest.approx(0.0, abs=1e-3)
 
 
 def test_a_step_of_constant_push_and_brake_is_as_long_as_its_double_integral() -> None:
     # 4 m/s^2 for half a second, then -4 for as long: 0.5 + 0.5 m by (5), all of it S_y of (6)
     drawn = [(0.01 * k, 0.0, 4.0 if k < 50 else -4.0 if k > 50 else 0.0, -G, 0.0, 0.0, 0.0) for k in range(101)]
     times = CriticalTimes(0.0, 0.0, 1.0, 1.0)
-    s_x, s_y, s_z = step_length(drawn, times)
+    s_x, s_y, s_z = stride_length(drawn, times)
     assert (s_x, s_z) == (0.0, 0.0)
     assert s_y == pytest.approx(1.0, abs=1e-3)
-    assert sum(closed_step_length(drawn, times)) == pytest.approx(1.0, abs=1e-3)
+    assert sum(closed_stride_length(drawn, times)) == pytest.approx(1.0, abs=1e-3)
 
 
 def test_the_toe_out_angle_turns_the_acceleration_from_the_foot_s_direction_to_the_way() -> None:
@@ -95,17 +95,17 @@ def test_the_toe_out_angle_turns_the_acceleration_from_the_foot_s_direction_to_t
     phi = radians(30.0)
     drawn = [(0.1 * k, sin(phi), cos(phi), -G, 0.0, 0.0, 0.0) for k in range(11)]
     times = CriticalTimes(0.0, 0.0, 1.0, 1.0)
-    s_x, s_y, _ = step_length(drawn, times, phi)
+    s_x, s_y, _ = stride_length(drawn, times, phi)
     assert s_x == pytest.approx(0.5 * sin(phi) ** 2) and s_y == pytest.approx(0.5 * cos(phi) ** 2)
-    assert sum(step_length(drawn, times)) == pytest.approx(0.5 * cos(phi))
+    assert sum(stride_length(drawn, times)) == pytest.approx(0.5 * cos(phi))
 
 
 def test_what_is_left_of_velocity_and_tilt_at_rest_is_taken_out() -> None:
     # an accelerometer that is off by 0.5 m/s^2 and a gyroscope by 0.1 rad/s, on a foot that goes nowhere
     drawn = [(0.01 * k, 0.0, 0.5, -G, 0.1, 0.0, 0.0) for k in range(101)]
     times = CriticalTimes(0.0, 0.0, 1.0, 1.0)
-    assert abs(sum(step_length(drawn, times))) > 0.05
-    assert sum(closed_step_length(drawn, times)) == pytest.approx(0.0, abs=1e-6)
+    assert abs(sum(stride_length(drawn, times))) > 0.05
+    assert sum(closed_stride_length(drawn, times)) == pytest.approx(0.0, abs=1e-6)
 
 
 def clipped(drawn: list[Row], most: float) -> list[Row]:
@@ -130,11 +130,11 @@ def swing() -> list[Row]:
 
 def test_the_clipped_angle_is_found_from_tilt_and_velocity_at_rest() -> None:
     drawn, times = swing(), CriticalTimes(0.0, 0.0, 1.0, 1.0)
-    assert sum(closed_step_length(drawn, times)) == pytest.approx(1.0, abs=0.01)
+    assert sum(closed_stride_length(drawn, times)) == pytest.approx(1.0, abs=0.01)
     seen = clipped(drawn, 4.0)  # its toe rises at up to 7.5 rad/s and sinks at up to 4.2
-    off = abs(sum(closed_step_length(seen, times)) - 1.0)
+    off = abs(sum(closed_stride_length(seen, times)) - 1.0)
     assert off > 0.05
-    assert abs(sum(closed_step_length(seen, times, end=3.99)) - 1.0) < 0.5 * off
+    assert abs(sum(closed_stride_length(seen, times, end=3.99)) - 1.0) < 0.5 * off
 
 
 @pytest.mark.parametrize("side", [1.0, -1.0])
@@ -197,7 +197,7 @@ def stride(rate: float, *, lasts: float = 0.6, rest: float = 0.4, strides: int =
 
 @pytest.mark.parametrize("rate", [20.0, 60.0, 100.0, 400.0])
 def test_every_stride_is_a_segment_at_any_rate(rate: float) -> None:
-    found = [one.detail for one in feed(StaticZones(), stride(rate)) if isinstance(one.detail, StepSegment)]
+    found = [one.detail for one in feed(StaticZones(), stride(rate)) if isinstance(one.detail, StrideSegment)]
     times = [segment.times for segment in found if segment.times is not None]
     assert len(times) == 3
     for k, one in enumerate(times):
@@ -234,13 +234,13 @@ def test_the_foot_s_axes_are_learnt_from_how_the_heel_rises() -> None:
     assert forward == pytest.approx((1.0, 0.0, 0.0), abs=0.1)
 
 
-def swung(turn: float = 0.0) -> StepSegment:
+def swung(turn: float = 0.0) -> StrideSegment:
     """1 m in 1 s, turning left by `turn` rad, x of the sensor forward."""
     drawn = tuple([(0.01 * k, 0.0, 4.0 if k < 50 else -4.0 if k > 50 else 0.0, -G, 0.0, 0.0, turn) for k in range(101)])
-    return StepSegment(drawn, CriticalTimes(0.0, 0.0, 1.0, 1.0), (1.0, 0.0, 0.0), 0.01)
+    return StrideSegment(drawn, CriticalTimes(0.0, 0.0, 1.0, 1.0), (1.0, 0.0, 0.0), 0.01)
 
 
-def stepped(projection: Projection, segment: StepSegment) -> None:
+def stepped(projection: Projection, segment: StrideSegment) -> None:
     projection.predict(0.01, (0.0, 0.0, G), ZERO)
     projection.correct(1.0, Stance(ZERO, 0.01, 0.0, Phase.STATIONARY, segment))
 
@@ -259,7 +259,7 @@ def test_a_step_moves_the_foot_by_its_length_and_a_turn_by_its_chord() -> None:
 
 def test_the_cues_of_a_step_come_all_at_once_with_their_own_times() -> None:
     cues = CriticalCues()
-    segment = StepSegment((), CriticalTimes(1.0, 1.2, 1.6, 1.7), (1.0, 0.0, 0.0), 0.01)
+    segment = StrideSegment((), CriticalTimes(1.0, 1.2, 1.6, 1.7), (1.0, 0.0, 0.0), 0.01)
     stance = Stance(ZERO, 0.01, 0.0, Phase.STATIONARY, segment)
     seen = cues.update(1.8, 0.01, ZERO, ZERO, True, 0.0, Phase.STATIONARY, None, stance)
     assert [one.cue for one in seen] == [Cue.LIFT, Cue.CLEAR, Cue.CONTACT, Cue.FLAT]

@@ -16,7 +16,7 @@ from solepath.foot.phase import PHASES, Cue
 from solepath.foot.pressure.insole import InsoleLoads
 from solepath.foot.stance.stance import Load, Stance
 from solepath.papers.kupt_dfpc.cop_cues import CopCues
-from solepath.papers.kupt_dfpc.stages import STAGES, CellCue, StepStage, describe
+from solepath.papers.kupt_dfpc.stages import STAGES, CellCue, StrideStage, describe
 from solepath.types import Cell, Foot, Layout, Phase, Vec3
 from solepath.types.vector import GRAVITY, ZERO
 
@@ -39,7 +39,7 @@ def cues_with_load() -> CopCues:
     cues = CopCues(touch=Touch())
     cues.set_layout(FOUR)
     cues.touch.trusted, cues.touch.load_unknown = True, False
-    cues.stage = StepStage.STANDING
+    cues.stage = StrideStage.STANDING
     return cues
 
 
@@ -155,14 +155,14 @@ def test_before_any_load_is_known_the_inertial_cues_speak() -> None:
     assert seen == [Cue.LIFT, Cue.CLEAR]
 
 
-NEAR = dict(zip(StepStage, (Phase.STATIONARY, Phase.PUSH_OFF, Phase.SWING, Phase.LOADING), strict=True))
+NEAR = dict(zip(StrideStage, (Phase.STATIONARY, Phase.PUSH_OFF, Phase.SWING, Phase.LOADING), strict=True))
 """Phase of a foot, or the one that will be reported for it."""
 
 
-@pytest.mark.parametrize(("stage", "cue"), list(product(StepStage, CellCue)))
-def test_every_stage_knows_what_to_make_of_every_cue_of_the_cells(stage: StepStage, cue: CellCue) -> None:
+@pytest.mark.parametrize(("stage", "cue"), list(product(StrideStage, CellCue)))
+def test_every_stage_knows_what_to_make_of_every_cue_of_the_cells(stage: StrideStage, cue: CellCue) -> None:
     after, reported = STAGES[stage][cue]
-    assert isinstance(after, StepStage)
+    assert isinstance(after, StrideStage)
     assert after is not stage or set(reported) <= {Cue.CONTACT}, "what is reported goes with another stage"
     # one after the other they end in the phase that the next stage stands for
     phase = NEAR[stage]
@@ -172,11 +172,11 @@ def test_every_stage_knows_what_to_make_of_every_cue_of_the_cells(stage: StepSta
 
 
 def test_the_table_of_stages_has_none_too_many_and_can_be_printed() -> None:
-    assert set(STAGES) == set(StepStage)
+    assert set(STAGES) == set(StrideStage)
     assert all(set(row) == set(CellCue) for row in STAGES.values())
     head, *rows = describe().splitlines()
     assert head.split() == ["stage", *(cue.value for cue in CellCue)]
-    assert [row.split()[0] for row in rows] == [stage.name for stage in StepStage]
+    assert [row.split()[0] for row in rows] == [stage.name for stage in StrideStage]
     landing = "LANDING STANDING contact flat LANDING FLYING contact clear LANDING LANDING LANDING contact"
     assert rows[3].split() == landing.split()
 

@@ -28,7 +28,7 @@ from ...foot.stance.stance import Load, Stance
 from ...types import Layout, Phase, Vec3
 from ...types.attrs import define, field
 from ...types.vector import TIE
-from .stages import STAGES, CellCue, StepStage
+from .stages import STAGES, CellCue, StrideStage
 
 LARGEST_JUMP = 1e3
 """Jump that no centre of pressure exceeds, m."""
@@ -60,27 +60,27 @@ class CopCues(Cues):
     toe-off. CONTACT: the last sample is the best candidate for heel-strike."""
     foot_centre: float | None = field(default=None, init=False)
     """Coordinate x of the foot's centre, m; None without a layout."""
-    stage: StepStage = field(default=StepStage.LEAVING, init=False)
+    stage: StrideStage = field(default=StrideStage.LEAVING, init=False)
     """Stage of the stride by the cells."""
     cop: float | None = field(default=None, init=False)
     """Coordinate x of the centre of pressure in the last sample, m."""
-    load_at: float | None = field(default=None, init=False)
+    load_t: float | None = field(default=None, init=False)
     """Time of the last sample with a load, s."""
     largest_jump: float = field(default=-1.0, init=False)
     """Largest jump of the CoP so far in this stage, m."""
-    candidate_at: float | None = field(default=None, init=False)
+    candidate_t: float | None = field(default=None, init=False)
     """Time of the best candidate for toe-off or heel-strike, s."""
-    ground_at: float | None = field(default=None, init=False)
+    ground_t: float | None = field(default=None, init=False)
     """Time of the last sample on the ground, s."""
-    stage_since: float = field(default=0.0, init=False)
+    stage_t_start: float = field(default=0.0, init=False)
     """Start of the stage, s."""
-    airborne_since: float | None = field(default=None, init=False)
+    airborne_t_start: float | None = field(default=None, init=False)
     """Start of the time in the air, s; None on the ground."""
     contact_reported: bool = field(default=False, init=False)
     """Flag: the heel-strike of this landing was reported."""
-    fast_since: float | None = field(default=None, init=False)
+    fast_t_start: float | None = field(default=None, init=False)
     """Time since which the foot has been fast, s; None while it is not."""
-    flat: bool = field(default=False, init=False)
+    areas_loaded: bool = field(default=False, init=False)
     """Flag, for an insole alone: both areas are loaded."""
 
     def set_layout(self, layout: Layout) -> None:
@@ -94,22 +94,22 @@ class CopCues(Cues):
         self.mark = None
         seen = self.inertial.update(t, dt, acc, gyro, still, speed, phase)
         self.sagittal = 0.0 if self.inertial.axis is None else self.inertial.sagittal
-        if load is None and self.load_at is not None and t - self.load_at < LOAD_VALID_TIME:
+        if load is None and self.load_t is not None and t - self.load_t < LOAD_VALID_TIME:
             return ()
         stationary = still and stance.hint is Phase.STATIONARY
         airborne = self.touch.update(t, load, stationary)
         if load is None or not self.touch.trusted:
             self._discard_load(t)
             return () if seen is None else (seen,)
-        found = self._start(t, airborne, phase) if self.load_at is None else []
+        found = self._start(t, airborne, phase) if self.load_t is None else []
         found += self._add_load(t, stationary, airborne, load)
-        if self.stage is StepStage.LEAVING and phase is not Phase.SWING and speed >= SHUFFLE_SPEED:
-            if self.fast_since is None:
-                self.fast_since = t
-            elif t - self.fast_since >= SHUFFLE_TIME - TIE:
-                found.append(SeenCue(Cue.CLEAR, self.fast_since))
+        if self.stage is StrideStage.LEAVING and phase is not Phase.SWING and speed >= SHUFFLE_SPEED:
+            if self.fast_t_start is None:
+                self.fast_t_start = t
+            elif t - self.fast_t_start >= SHUFFLE_TIME - TIE:
+                found.append(SeenCue(Cue.CLEAR, self.fast_t_start))
         else:
-            self.fast_since = None
+            self.fast_t_start = None
         return found
 
     def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
@@ -117,30 +117,30 @@ class CopCues(Cues):
 
         Without a layout there are no areas; then a heel-strike is reported at once, and foot-flat never."""
         if load.heel is None or load.forefoot is None:
-            self.flat = False
+            self.areas_loaded = False
             found = self._add_load(t, False, self.touch.update(t, load), load)
-            if self.stage is StepStage.LANDING:
+            if self.stage is StrideStage.LANDING:
                 found += self._with_times((Cue.CONTACT,), t)
             return found
-        self.flat = min(load.heel, load.forefoot) >= (AREA_OFF if self.flat else AREA_ON)
-        return self._add_load(t, self.flat, self.touch.update(t, load), load)
+        self.areas_loaded = min(load.heel, load.forefoot) >= (AREA_OFF if self.areas_loaded else AREA_ON)
+        return self._add_load(t, self.areas_loaded, self.touch.update(t, load), load)
 
     def _start(self, t: float, airborne: bool, phase: Phase) -> list[SeenCue]:
         """Return the cues at the first sample with a known load, in a swing or at its end."""
         if airborne:
             left = self.touch.moving_since
-            self.stage = StepStage.FLYING
-            self.airborne_since = t - REST_TIME
+            self.stage = StrideStage.FLYING
+            self.airborne_t_start = t - REST_TIME
             return [] if phase is Phase.SWING else [SeenCue(Cue.CLEAR, t if left is None else left)]
         if phase is Phase.SWING:
-            self._enter(StepStage.LANDING, t)
-            self.largest_jump, self.candidate_at = LARGEST_JUMP, t  # its first load: reported, but no mark
+            self._enter(StrideStage.LANDING, t)
+            self.largest_jump, self.candidate_t = LARGEST_JUMP, t  # its first load: reported, but no mark
         return []
 
     def _add_load(self, t: float, stationary: bool, airborne: bool, load: Load) -> list[SeenCue]:
         """Return the cues of one sample with a load."""
-        last_cop, before = self.cop, self.load_at
-        self.load_at = t
+        last_cop, before = self.cop, self.load_t
+        self.load_t = t
         on_ground = last_cop if load.centre is None else load.centre[0]
         new_cop = self.foot_centre if airborne else on_ground
         self.cop = new_cop
@@ -156,35 +156,35 @@ class CopCues(Cues):
             if cue is CellCue.MOVES or cue is CellCue.LANDS:
                 self._update_candidate(jump, before, t)
         if not airborne:
-            self.ground_at, self.airborne_since = t, None
-        elif self.airborne_since is None:
-            self.airborne_since = t
+            self.ground_t, self.airborne_t_start = t, None
+        elif self.airborne_t_start is None:
+            self.airborne_t_start = t
         return found
 
     def _cell_cues(self, t: float, stationary: bool, airborne: bool) -> list[CellCue]:
         """Return the cues of the cells in this sample, in order."""
-        rested = self.airborne_since is not None and t - self.airborne_since >= REST_TIME - TIE
-        landing = self.stage is StepStage.LANDING
+        rested = self.airborne_t_start is not None and t - self.airborne_t_start >= REST_TIME - TIE
+        landing = self.stage is StrideStage.LANDING
         if airborne:
             if landing:
                 return [CellCue.LEAVES] if rested else []
             return [CellCue.MOVES, CellCue.LEAVES]
-        if self.stage is StepStage.FLYING:
+        if self.stage is StrideStage.FLYING:
             touched = CellCue.LANDS if rested else CellCue.BRUSHES
             return [touched, CellCue.STANDS] if stationary else [touched]
         if stationary:
             return [CellCue.STANDS]
-        lingers = landing and t - self.stage_since >= LONGEST_LANDING - TIE
+        lingers = landing and t - self.stage_t_start >= LONGEST_LANDING - TIE
         return [CellCue.MOVES, CellCue.LINGERS] if lingers else [CellCue.MOVES]
 
     def _update_candidate(self, jump: float, before: float | None, t: float) -> None:
         """Make the sample the best candidate if the CoP jumped by more m since `before`, s, than ever in this stage."""
         if jump <= self.largest_jump:
             return
-        if self.stage is StepStage.LEAVING and before is not None:
-            self.largest_jump, self.candidate_at, self.mark = jump, before, Cue.CLEAR
-        elif self.stage is StepStage.LANDING and not self.contact_reported:
-            self.largest_jump, self.candidate_at, self.mark = jump, t, Cue.CONTACT
+        if self.stage is StrideStage.LEAVING and before is not None:
+            self.largest_jump, self.candidate_t, self.mark = jump, before, Cue.CLEAR
+        elif self.stage is StrideStage.LANDING and not self.contact_reported:
+            self.largest_jump, self.candidate_t, self.mark = jump, t, Cue.CONTACT
 
     def _with_times(self, cues: Sequence[Cue], t: float) -> list[SeenCue]:
         """Return the cues with their times."""
@@ -193,43 +193,43 @@ class CopCues(Cues):
             cue_at: float | None = t
             if cue is Cue.CONTACT:
                 cue_at, self.contact_reported = (
-                    None if self.contact_reported else self.candidate_at,
-                    self.contact_reported or self.candidate_at is not None,
+                    None if self.contact_reported else self.candidate_t,
+                    self.contact_reported or self.candidate_t is not None,
                 )
             elif cue is Cue.CLEAR:
-                landing = self.stage is StepStage.LANDING  # the candidate is one for heel-strike
-                cue_at = self.candidate_at if self.candidate_at is not None and not landing else self.ground_at
+                landing = self.stage is StrideStage.LANDING  # the candidate is one for heel-strike
+                cue_at = self.candidate_t if self.candidate_t is not None and not landing else self.ground_t
                 if cue_at is None:
-                    cue_at = self.airborne_since if landing else t
+                    cue_at = self.airborne_t_start if landing else t
             if cue_at is not None:
                 found.append(SeenCue(cue, cue_at))
         return found
 
-    def _enter(self, stage: StepStage, t: float) -> None:
+    def _enter(self, stage: StrideStage, t: float) -> None:
         self.stage = stage
-        self.stage_since = t
+        self.stage_t_start = t
         self.largest_jump = -1.0
-        self.candidate_at = self.airborne_since = None
+        self.candidate_t = self.airborne_t_start = None
         self.contact_reported = False
 
     def _discard_load(self, t: float) -> None:
         """Discard the load, which is unknown now: the stride under way is not a normal one."""
-        if self.load_at is not None or self.stage is not StepStage.LEAVING:
-            self._enter(StepStage.LEAVING, t)
-        self.load_at = self.cop = self.ground_at = None
+        if self.load_t is not None or self.stage is not StrideStage.LEAVING:
+            self._enter(StrideStage.LEAVING, t)
+        self.load_t = self.cop = self.ground_t = None
 
     def cleared(self, t: float) -> SeenCue:
         return self.inertial.cleared(t)
 
     def reset(self) -> None:
         self.inertial.reset()
-        self.fast_since = None
-        if self.load_at is not None:
-            self._discard_load(self.load_at)
+        self.fast_t_start = None
+        if self.load_t is not None:
+            self._discard_load(self.load_t)
 
     def restart(self) -> None:
         self.inertial = self.inertial.restart()
         self.touch = self.touch.restart()
-        self._enter(StepStage.LEAVING, 0.0)
-        self.cop = self.load_at = self.ground_at = self.fast_since = self.mark = None
-        self.flat = False
+        self._enter(StrideStage.LEAVING, 0.0)
+        self.cop = self.load_t = self.ground_t = self.fast_t_start = self.mark = None
+        self.areas_loaded = False

@@ -29,13 +29,13 @@ from ...types.vector import ZERO
 
 DEFAULT_LENGTH = 0.285
 """Length of the shoe whose geometry is the default, m."""
-SHORTEST, LONGEST = 0.15, 0.40
+SHORTEST_INSOLE, LONGEST_INSOLE = 0.15, 0.40
 """Lengths of the shortest and the longest insole, m."""
 FLAT_TIME = 0.05
 """Time constant with which "up" on the flat foot follows the measured direction, s."""
-LEAST_LIFT_ANGLE = 0.35
+LEAST_HEEL_RISE = 0.35
 """Least lift of the heel from which a push-off shows the direction of the toes, rad."""
-MISFITS, FOLLOW_SHARE = 3, 0.2
+MOST_MISFITS, FOLLOW_SHARE = 3, 0.2
 """Number of push-offs in a row after which another direction replaces the known one, and share of each push-off.
 
 Another direction differs by more than 60 degrees. Each push-off moves the direction of the toes by the share."""
@@ -46,7 +46,7 @@ def shoe_for(length: float) -> ShoeGeometry:
 
     Lengths along the sole grow with the insole, the height of the sensor does not."""
     shoe = ShoeGeometry()
-    if not SHORTEST <= length <= LONGEST:
+    if not SHORTEST_INSOLE <= length <= LONGEST_INSOLE:
         return shoe
     k = length / DEFAULT_LENGTH
     return evolve(
@@ -156,7 +156,7 @@ class Sagittal:
         self.tilt_sum = ZERO
         self.largest_tilt = 0.0
         size = sqrt(x * x + y * y + z * z)
-        if largest_tilt < sin(LEAST_LIFT_ANGLE) ** 2 or size < 1e-9:
+        if largest_tilt < sin(LEAST_HEEL_RISE) ** 2 or size < 1e-9:
             return
         x, y, z = -x / size, -y / size, -z / size  # "up" tilts to the heel
         if self.toe is None:
@@ -166,7 +166,7 @@ class Sagittal:
         share = FOLLOW_SHARE
         if u * x + v * y + w * z < 0.5:
             self.misfits += 1
-            if self.misfits < MISFITS:
+            if self.misfits < MOST_MISFITS:
                 return
             share = 1.0
         self.misfits = 0

@@ -74,7 +74,7 @@ class KnownVelocity(Detector):
     """Position of the sensor in the last sample, from the heel's end or the toe, navigation frame, m."""
     last_load: Load | None = field(default=None, init=False)
     """Last load; None when it is too old."""
-    last_load_at: float = field(default=0.0, init=False)
+    last_load_t: float = field(default=0.0, init=False)
     """Time of the last load, s."""
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> KnownVelocity:
@@ -99,8 +99,8 @@ class KnownVelocity(Detector):
         self.moving_time += dt
         overdue = self.moving_time > LONGEST_STRIDE and inertial.sigma <= UNCERTAIN_SIGMA
         if load is not None:
-            self.last_load, self.last_load_at = load, t
-        elif self.last_load is not None and t - self.last_load_at < LOAD_VALID_TIME:
+            self.last_load, self.last_load_t = load, t
+        elif self.last_load is not None and t - self.last_load_t < LOAD_VALID_TIME:
             load = self.last_load
         else:
             self.last_load = None

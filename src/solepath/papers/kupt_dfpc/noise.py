@@ -13,13 +13,15 @@ from ...calibration import Calibration, CalibrationError, InsoleCalibration
 from ...foot.pressure.insole import in_newtons
 from ...types import Foot, Sample
 
-SHARE = 0.15
+SWING_SHARE = 0.15
 """Share of the samples, those with the least total pressure, that are taken for swing."""
 FEWEST_SAMPLES = 20
 """Fewest samples in swing that show a spread (5 s of walking at 30 Hz have 22)."""
 
 
-def pressure_noise(samples: Iterable[Sample], share: float = SHARE, known: Calibration | None = None) -> Calibration:
+def pressure_noise(
+    samples: Iterable[Sample], share: float = SWING_SHARE, known: Calibration | None = None
+) -> Calibration:
     """Return the noise of every cell of every insole in `samples`, and nothing else.
 
     `share`: share of the samples, those with the least total pressure, that are taken for swing. `known`: where it

@@ -12,7 +12,7 @@ from .fusion import DoubleFoot
 from .known_velocity import KnownVelocity
 from .swing_dedrift import SwingDedrift
 
-BOARD = 0.44
+BOARD_SHARE = 0.44
 """Place of the circuit board that parts an insole into two areas, as a share of its length: 12.5 of 28.5 cm."""
 
 KUPT = Recipe(
@@ -20,7 +20,7 @@ KUPT = Recipe(
     KnownVelocity(),
     SwingDedrift(),
     CopCues(),
-    InsoleLoads(InsoleSettings(heel_end=BOARD, forefoot_start=BOARD)),
+    InsoleLoads(InsoleSettings(heel_end=BOARD_SHARE, forefoot_start=BOARD_SHARE)),
     needs_pressure=True,
 )
 """Velocity known from heel-strike to toe-off, without the fusion of both feet."""

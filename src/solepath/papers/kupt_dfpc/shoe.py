@@ -29,13 +29,13 @@ COLUMNS = ("pitch_deg", "L_r_m", "L_p2t_m")
 """Names of the columns that a file must have."""
 CONSTANT_COLUMNS = ("H_imu_m", "heel_L_r_m")
 """Names of the columns that a file may have, with one value in all lines."""
-DEGREE = 2
+POLYNOMIAL_DEGREE = 2
 """Degree of the polynomials; 1 with three postures.
 
 For the round sole of kinematics.py, five postures to 60 degrees, three times each, rulers off by 2 mm: the sensor's way
 per pitch, which is what velocity needs, errs at 50 degrees by 5 mm/rad with a straight line, by 4 with degree 2, by 6
 with 3 and with 4."""
-STEEPEST = 80.0
+LARGEST_PITCH = 80.0
 """Steepest posture, degrees."""
 LONGEST_SHOE = 0.5
 """Length of the longest shoe, m."""
@@ -71,7 +71,7 @@ def fit_shoe(path: Path | str) -> ShoeFit:
         raise CalibrationError(f"{path}: {postures} postures; three different ones at least make a curve")
     if (steepest := float(pitch.max())) < radians(30.0):
         raise CalibrationError(f"{path}: the steepest posture is {rows[:, 0].max():g} degrees; a toe-off is 50 or more")
-    degree = min(DEGREE, postures - 2)
+    degree = min(POLYNOMIAL_DEGREE, postures - 2)
     radius, residual_r = _fit(pitch, rows[:, 1], degree)
     to_toe, residual_t = _fit(pitch, rows[:, 2], degree)
     shoe = ShoeGeometry(
@@ -102,7 +102,7 @@ def _read(path: Path | str) -> tuple[Column, dict[str, float]]:
     rows: list[list[float]] = []
     single: dict[str, float] = {}
     for row in read_rows(path, COLUMNS):
-        pitch = row.number(COLUMNS[0], -5.0, STEEPEST, "degrees")
+        pitch = row.number(COLUMNS[0], -5.0, LARGEST_PITCH, "degrees")
         rows.append([pitch, *(row.number(name, 0.0, LONGEST_SHOE, "m") for name in COLUMNS[1:])])
         for name in [name for name in CONSTANT_COLUMNS if name in row.cells]:
             value = row.number(name, 0.0, LONGEST_SHOE, "m")

@@ -9,7 +9,7 @@ from ...foot.phase import Cue, in_columns
 from ...types import Word
 
 
-class StepStage(Word):
+class StrideStage(Word):
     """Stage of a stride, as far as the cells show it."""
 
     STANDING = "standing"  # stationary
@@ -29,8 +29,8 @@ class CellCue(Word):
     LINGERS = "lingers"  # the foot landed long ago and does not lie still
 
 
-_STANDING, _LEAVING, _FLYING, _LANDING = StepStage
-_CHANGES: dict[tuple[StepStage, CellCue], tuple[StepStage, tuple[Cue, ...]]] = {
+_STANDING, _LEAVING, _FLYING, _LANDING = StrideStage
+_CHANGES: dict[tuple[StrideStage, CellCue], tuple[StrideStage, tuple[Cue, ...]]] = {
     (_STANDING, CellCue.MOVES): (_LEAVING, (Cue.LIFT,)),
     (_STANDING, CellCue.LEAVES): (_FLYING, (Cue.LIFT, Cue.CLEAR)),
     (_LEAVING, CellCue.STANDS): (_STANDING, (Cue.FLAT,)),
@@ -44,7 +44,7 @@ _CHANGES: dict[tuple[StepStage, CellCue], tuple[StepStage, tuple[Cue, ...]]] = {
 }
 """Next stage and reported cues, where a cue changes the stage or reports something; any other cue does neither."""
 
-STAGES = {stage: {cue: _CHANGES.get((stage, cue), (stage, ())) for cue in CellCue} for stage in StepStage}
+STAGES = {stage: {cue: _CHANGES.get((stage, cue), (stage, ())) for cue in CellCue} for stage in StrideStage}
 """Next stage and reported cues by stage and cue: one contact a landing."""
 
 

@@ -89,11 +89,11 @@ class SwingDedrift(LinearDedrift):
     current: MotionMoment | None = field(default=None, init=False)
     previous: MotionMoment | None = field(default=None, init=False)
     toe_off: MotionMoment | None = field(default=None, init=False)
-    toe_off_error_at: float = field(default=0.0, init=False)
+    toe_off_error_time: float = field(default=0.0, init=False)
     """Time of the error at toe-off, s since motion start."""
-    strike: MotionMoment | None = field(default=None, init=False)
-    strike_error: Vec3 | None = field(default=None, init=False)
-    strike_error_at: float = field(default=0.0, init=False)
+    heel_strike: MotionMoment | None = field(default=None, init=False)
+    heel_strike_error: Vec3 | None = field(default=None, init=False)
+    heel_strike_error_time: float = field(default=0.0, init=False)
     previous_interval: float = field(default=0.0, init=False)
     standing: bool = field(default=True, init=False)
     """Flag: the last sample was one of stance, and a motion starts with the next."""
@@ -174,16 +174,16 @@ class SwingDedrift(LinearDedrift):
             z + (rz - (pz - change[2])) * dt,
         )
         self.velocity = (ux - error[0], uy - error[1], uz - error[2])
-        previous, strike = self.previous, self.strike
+        previous, heel_strike = self.previous, self.heel_strike
         settled = (
             previous is not None
-            and strike is not None
-            and previous.elapsed - strike.elapsed >= self.settings.slide_time - TIE
+            and heel_strike is not None
+            and previous.elapsed - heel_strike.elapsed >= self.settings.slide_time - TIE
         )
-        if settled and self.strike_error is None:
-            self.strike = previous
-            self.strike_error = error
-            self.strike_error_at = self.swing - 0.5 * dt
+        if settled and self.heel_strike_error is None:
+            self.heel_strike = previous
+            self.heel_strike_error = error
+            self.heel_strike_error_time = self.swing - 0.5 * dt
         return error
 
     def _add_known(self, v: Vec3) -> None:
@@ -196,10 +196,10 @@ class SwingDedrift(LinearDedrift):
         if cue is Cue.CLEAR:
             self.toe_off = self.previous
             if self.previous is not None:
-                self.toe_off_error_at = self.previous.elapsed - 0.5 * self.previous_interval
+                self.toe_off_error_time = self.previous.elapsed - 0.5 * self.previous_interval
         elif cue is Cue.CONTACT:
-            self.strike = self.current
-            self.strike_error = None
+            self.heel_strike = self.current
+            self.heel_strike_error = None
 
     def _end_motion(self) -> None:
         """End the motion, or add one more sample of stance."""
@@ -222,38 +222,43 @@ class SwingDedrift(LinearDedrift):
 
     def _calibrated_displacement(self, duration: float) -> Vec3 | None:
         """Return the displacement of a normal motion that ends here, m, and set the error index; None for any other."""
-        toe_off, strike = self.toe_off, self.strike
-        if self.has_gap or toe_off is None or toe_off.error is None or strike is None:
+        toe_off, heel_strike = self.toe_off, self.heel_strike
+        if self.has_gap or toe_off is None or toe_off.error is None or heel_strike is None:
             return None
-        error, error_at = self.strike_error, self.strike_error_at
+        error, error_at = self.heel_strike_error, self.heel_strike_error_time
         if error is None:  # the heel never rolled: the velocity is known where the foot stands
             error, error_at = self.raw_velocity, duration
-            strike = MotionMoment(duration, self.raw_velocity, self.raw_displacement, self.known_displacement, error)
+            heel_strike = MotionMoment(
+                duration, self.raw_velocity, self.raw_displacement, self.known_displacement, error
+            )
         else:
             # the last interval, in which the foot came to rest, with the error as it was
             vx, vy, vz = self.interval_velocity
             self._add_known((vx - error[0], vy - error[1], vz - error[2]))
-        drift_start = self.toe_off_error_at
+        drift_start = self.toe_off_error_time
         if error_at <= drift_start:
             return None
-        swing = strike.elapsed - toe_off.elapsed
+        swing = heel_strike.elapsed - toe_off.elapsed
         # of V_raw - V_errt - driftrate (k - kt), from k_t to k_h
         drift_time = (
             0.5
-            * ((strike.elapsed - drift_start) ** 2 - (toe_off.elapsed - drift_start) ** 2)
+            * ((heel_strike.elapsed - drift_start) ** 2 - (toe_off.elapsed - drift_start) ** 2)
             / (error_at - drift_start)
         )
         displacement = [0.0, 0.0, 0.0]
         for k in range(3):
             first, last = toe_off.error[k], error[k]
             swing_displacement = (
-                strike.raw_displacement[k] - toe_off.raw_displacement[k] - first * swing - (last - first) * drift_time
+                heel_strike.raw_displacement[k]
+                - toe_off.raw_displacement[k]
+                - first * swing
+                - (last - first) * drift_time
             )
             displacement[k] = (
                 toe_off.known_displacement[k]
                 + swing_displacement
                 + self.known_displacement[k]
-                - strike.known_displacement[k]
+                - heel_strike.known_displacement[k]
             )
         self.last_error_index = hypot(toe_off.error[0] + error[0], toe_off.error[1] + error[1])
         return (displacement[0], displacement[1], displacement[2])
@@ -263,8 +268,8 @@ class SwingDedrift(LinearDedrift):
         self.motion_start = self.position
         self.raw_velocity = self.velocity
         self.raw_displacement = self.known_displacement = ZERO
-        self.current = self.previous = self.toe_off = self.strike = None
-        self.strike_error = None
+        self.current = self.previous = self.toe_off = self.heel_strike = None
+        self.heel_strike_error = None
         self.standing = self.moved = self.has_gap = False
 
     def bridge(self, dt: float) -> float:
