@@ -262,7 +262,7 @@ def test_no_wearer_that_is_scored_was_learnt_from():
     first, last = emulated.FIRST_TO_LEARN_FROM, emulated.LAST_TO_LEARN_FROM
     for seeds in (
         range(first, first + footstep_training.WALKS),
-        range(turns_training.FIRST_TO_LEARN_FROM, turns_training.FIRST_TO_LEARN_FROM + turns_training.EACH),
+        range(turns_training.FIRST_TRAINING_SEED, turns_training.FIRST_TRAINING_SEED + turns_training.TURNS_PER_CLASS),
         activities.EMULATED,
     ):
         assert first <= min(seeds) and max(seeds) <= last

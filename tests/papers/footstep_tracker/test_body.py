@@ -40,7 +40,7 @@ def step(foot: Foot, t: float, turn: float = 0.0, way: tuple[float, float] = (1.
 def new_track() -> Footsteps:
     """Return the track of a wearer with sensors on both feet."""
     body = Footsteps()
-    for way in body.paths.values():
+    for path in body.paths.values():
         way.has_samples = True
     return body
 
@@ -55,7 +55,7 @@ def walked(count: int, left: float, right: float) -> Footsteps:
 
 
 def base(body: Footsteps) -> tuple[float, float]:
-    (lx, ly), (rx, ry), (x, y) = (*(way.here for way in body.paths.values()), body.restart_position)
+    (lx, ly), (rx, ry), (x, y) = (*(path.displacement for path in body.paths.values()), body.restart_position)
     return (x + 0.5 * (lx + rx), y + 0.5 * (ly + ry))
 
 
