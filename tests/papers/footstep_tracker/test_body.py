@@ -41,7 +41,7 @@ def new_track() -> Footsteps:
     """Return the track of a wearer with sensors on both feet."""
     body = Footsteps()
     for path in body.paths.values():
-        way.has_samples = True
+        path.has_samples = True
     return body
 
 
@@ -67,7 +67,7 @@ def test_feet_that_are_more_than_a_metre_apart_restart_at_their_mean() -> None:
     body = walked(6, 1.4, 1.0)
     assert body.restarts > 0
     assert base(body) == pytest.approx((0.5 * 6 * 2.4, 0.0))
-    assert hypot(body.paths[Foot.LEFT].here[0] - body.paths[Foot.RIGHT].here[0], 0.0) < 2.0
+    assert hypot(body.paths[Foot.LEFT].displacement[0] - body.paths[Foot.RIGHT].displacement[0], 0.0) < 2.0
 
 
 def test_half_a_stride_between_healthy_feet_is_no_difference() -> None:
