@@ -95,7 +95,7 @@ def test_levels_that_follow_the_load_need_no_scale() -> None:
 def test_fixed_pressures_need_newtons() -> None:
     contours = Contours(ContourSettings(pascals=PAPER_LEVELS))
     contours.set_layout(grid(scale=None))
-    assert not contours.absolute and contours.levels == contours.settings.shares
+    assert not contours.levels_in_pascals and contours.levels == contours.settings.shares
 
 
 def test_half_a_contour_is_followed_where_the_other_half_lies_beyond_the_cells() -> None:

@@ -100,7 +100,7 @@ def test_what_level_steps_have_in_common_is_taken_off_the_stairs_that_follow() -
     for _ in range(10):
         stride(one, 1.2, 0.06)
     assert one.position[2] == 0.0
-    assert one.lean == pytest.approx(0.05, rel=0.05)
+    assert one.level_slope == pytest.approx(0.05, rel=0.05)
     stride(one, 0.6, 0.32 + 0.05 * 0.6)
     assert one.position[2] == pytest.approx(0.32, abs=0.01)
 

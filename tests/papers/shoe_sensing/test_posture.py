@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.papers.shoe_sensing.posture import GAIN, POINT_INTERVAL, POINTS, gravity_error, posture, turn
+from solepath.papers.shoe_sensing.posture import GAIN, ITERATION_INTERVAL, ITERATIONS, gravity_error, posture, turn
 from solepath.types import Quat, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, from_rotation_vector, multiply, normalise, rotate
 
@@ -39,7 +39,7 @@ def test_feedback_with_the_papers_sign_turns_towards_gravity() -> None:
 
 
 def test_posture_converges_within_the_four_seconds_of_figure_7() -> None:
-    assert pytest.approx(4.0) == POINTS * POINT_INTERVAL
+    assert pytest.approx(4.0) == ITERATIONS * ITERATION_INTERVAL
     force = up_of(from_rotation_vector((0.3, PITCHED, 0.0)))
     ex, ey, ez = gravity_error(posture(force), force)
     assert sqrt(ex * ex + ey * ey + ez * ez) < 1e-3
@@ -51,7 +51,7 @@ def test_the_error_falls_as_its_half_tangent_does() -> None:
     for _ in range(100):
         ex, ey, ez = gravity_error(q, force)
         rate = (-GAIN * ex, -GAIN * ey, -GAIN * ez)
-        q = turn(q, rate, rate, POINT_INTERVAL)
+        q = turn(q, rate, rate, ITERATION_INTERVAL)
     left = gravity_error(q, force)[0]
     assert abs(left) == pytest.approx(0.1472, rel=0.02)  # 2 atan(tan(0.5) exp(-2)) = 0.1477 rad, its sine 0.1472
 

@@ -128,7 +128,7 @@ def test_who_has_stood_for_long_and_sets_out_is_not_unknown() -> None:
 
 def test_after_a_restart_events_are_on_the_new_clock() -> None:
     part = AnglePerMetre()
-    part.changed_at, part.moved_at, part.stride_at = 1000.0, 1000.0, 1000.0
+    part.reported_t, part.moved_at, part.stride_t = 1000.0, 1000.0, 1000.0
     part.reset(worn(LEVEL, 1)[0][0].site)
     found = by_the_left_foot(part, until=4.0)
     assert found[0].activity is Activity.STANDING and found[0].t < 3.0

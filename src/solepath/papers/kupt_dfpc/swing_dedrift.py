@@ -113,7 +113,7 @@ class SwingDedrift(LinearDedrift):
     def error_index(self) -> float | None:
         """Error index (10), m/s: horizontal length of V_errt + V_errh, the errors at toe-off and heel-strike.
 
-        It is None for an abnormal motion. (10) does not define a number for three components; horizontal errors matter."""
+        It is None for an abnormal motion. (10) leaves open how three components make one number."""
         return self.last_error_index
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
@@ -160,7 +160,7 @@ class SwingDedrift(LinearDedrift):
         return False
 
     def _use_velocity(self, v_ref: Vec3, push_off: bool) -> Vec3 | None:
-        """Use the known velocity over the last interval; return the raw velocity's error, or None if it is too large."""
+        """Use the known velocity over the last interval; return the raw velocity's error, None if it is too large."""
         (vx, vy, vz), (rx, ry, rz) = self.interval_velocity, v_ref
         error = (vx - rx, vy - ry, vz - rz)
         if push_off and hypot(error[0], error[1]) > LARGEST_ROLLING_ERROR:

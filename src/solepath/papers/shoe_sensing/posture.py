@@ -12,15 +12,15 @@ from math import sqrt
 from ...types import Quat, Vec3
 from ...types.vector import IDENTITY, from_rotation_vector, levelling, multiply, normalise
 
-POINTS = 400
+ITERATIONS = 400
 """Number of points of the initialisation, which "will converge in about 4 s (i.e., 400 points)" (fig. 7)."""
-POINT_INTERVAL = 0.01
+ITERATION_INTERVAL = 0.01
 """Time between two points of the initialisation, s."""
 GAIN = 2.0
 """Kp of the initialisation, 1/s: tan of half the error falls by exp(-Kp t), to a thousandth within fig. 7's 4 s."""
 LARGEST_ERROR = 2e-3
 """Error of the posture after all points above which it did not converge, rad."""
-WIDEST_TURN = 1.0
+LARGEST_SQUARED_TURN = 1.0
 """Square of the turn within one sample, rad^2, that Runge and Kutta's polynomial follows to 1e-3 rad.
 
 A wider turn, which samples at a low rate have, is computed exactly."""
@@ -47,29 +47,29 @@ def posture(acc: Vec3) -> Quat:
     `acc` is the mean specific force of a rest. Each of 400 points turns Q as the feedback of stance would with a
     gyroscope that reads zero; the paper does not describe its P, "the solution process of the quaternion", any further.
     For an upside-down sensor the vector product gives no direction of turn, so the iteration starts upside down."""
-    direct = levelling(acc)
-    q = IDENTITY if abs(direct[0]) > 0.1 else direct
-    for _ in range(POINTS):
+    closed_form = levelling(acc)
+    q = IDENTITY if abs(closed_form[0]) > 0.1 else closed_form
+    for _ in range(ITERATIONS):
         ex, ey, ez = gravity_error(q, acc)
         rate = (-GAIN * ex, -GAIN * ey, -GAIN * ez)
-        q = turn(q, rate, rate, POINT_INTERVAL)
+        q = turn(q, rate, rate, ITERATION_INTERVAL)
     ex, ey, ez = gravity_error(q, acc)
-    return q if ex * ex + ey * ey + ez * ez < LARGEST_ERROR * LARGEST_ERROR else direct
+    return q if ex * ex + ey * ey + ez * ez < LARGEST_ERROR * LARGEST_ERROR else closed_form
 
 
-def turn(q: Quat, before: Vec3, after: Vec3, h: float) -> Quat:
+def turn(q: Quat, rate_before: Vec3, rate_after: Vec3, dt: float) -> Quat:
     """Return Q after `h` s in which the rate went from `before` to `after`, sensor frame, rad/s.
 
     Q' = 1/2 Q w, of which the paper prints the matrix, is integrated by Q_n+1 = Q_n + h/6 (k1 + 2 k2 + 2 k3 + k4) and
     normalised. The paper has 3 k3, a misprint: the weights of the classical method add up to 6; with 3 they add up to
     7, and every turn comes out a sixth too wide. Its f(w_n + h/2, ...) is the rate half an interval later: the mean of
     both."""
-    ax, ay, az = before
-    cx, cy, cz = after
-    half = 0.5 * h
+    ax, ay, az = rate_before
+    cx, cy, cz = rate_after
+    half = 0.5 * dt
     ax, ay, az, cx, cy, cz = ax * half, ay * half, az * half, cx * half, cy * half, cz * half
     bx, by, bz = 0.5 * (ax + cx), 0.5 * (ay + cy), 0.5 * (az + cz)
-    if 4.0 * (bx * bx + by * by + bz * bz) > WIDEST_TURN:
+    if 4.0 * (bx * bx + by * by + bz * bz) > LARGEST_SQUARED_TURN:
         return normalise(multiply(q, from_rotation_vector((2.0 * bx, 2.0 * by, 2.0 * bz))))
     # the k are of whole intervals: h k1 and so on
     w, x, y, z = q

@@ -13,7 +13,7 @@ from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY, IDENTITY, TIE, ZERO
 
-RATE = 100.0
+PAPER_RATE = 100.0
 """Sampling rate of the paper, Hz."""
 LARGEST_SQUARE = 1e4
 """Limit of one sample's squared magnitude, g^2: the running sum stays exact to far below the threshold."""
@@ -78,7 +78,7 @@ class ShortTimeEnergy(Detector):
             square = LARGEST_SQUARE
         if dt > LONGEST_SAMPLE:
             dt = LONGEST_SAMPLE
-        energy = square * dt * RATE
+        energy = square * dt * PAPER_RATE
         entries = self.entries
         entries.append((dt, energy))
         self.total_time += dt
@@ -107,9 +107,9 @@ class ShortTimeEnergy(Detector):
             self.total_time = self.still_time
             if self.total_time >= settings.window - TIE:
                 return Stance(ZERO, settings.sigma, self.total_energy, Phase.STATIONARY)
-        total_time = self.still_time
-        if total_time >= settings.shortest_stance - TIE:
-            return Stance(ZERO, settings.sigma * settings.window / total_time, self.total_energy, None)
+        time = self.still_time
+        if time >= settings.shortest_stance - TIE:
+            return Stance(ZERO, settings.sigma * settings.window / time, self.total_energy, None)
         return Stance(ZERO, inf, self.total_energy, None)
 
 
