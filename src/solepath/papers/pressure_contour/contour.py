@@ -51,12 +51,13 @@ POINTS_PER_RAY = 8
 NEAREST_CELLS = 10
 """Number of a point's nearest cells among which the triangle around it is searched."""
 COMPARISON_TIME = 0.05
-"""Delta t of (1), s: long enough for the cells' noise.
+"""Delta t of (1), s, long enough that the cells' noise stays below the paper's threshold.
 
-With `RAY_PAIRS` pairs of rays sigma_v = sqrt(2 / AXES) sigma_r / interval an axis and a level, and a radius is as uncertain
-as the pressure over its slope. A cell of 12-bit resistive insoles has 0.12 N rms (emulate/sensors/parts.py), 0.8 kPa on
-1.6 cm^2, half a kPa once three are weighted; a heel that bears 200 N has slopes of 2 kPa/mm: 0.25 mm, and 0.14 mm over
-all rays. To stay below the paper's 4 mm/s that takes 36 ms; 50 ms are taken."""
+The noise of the velocity is sigma_v = sqrt(2 / RAY_PAIRS) sigma_r / Delta t, per axis and level. The noise of a radius,
+sigma_r, is that of the pressure divided by its slope. A cell of 12-bit resistive insoles has 0.12 N rms
+(emulate/sensors/parts.py). This is 0.8 kPa on 1.6 cm^2, and half a kPa as weighted mean of three cells. A heel that
+bears 200 N has a slope of 2 kPa/mm, so sigma_r is 0.25 mm. Over all rays that makes 0.14 mm. sigma_v is below the
+paper's 4 mm/s from 36 ms on; 50 ms are used."""
 NO_RADIUS = -1.0
 """Value in the place of a radius when the contour does not cross the ray."""
 

@@ -1,7 +1,7 @@
 """Walking state by the angle per metre of each stride.
 
 Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), section 3.4.1. The angle and its
-thresholds are in body/activity/steepness.py."""
+thresholds are in body/activity/steepness.py. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -22,36 +22,38 @@ STANDING_DELAY = 1.2
 UNKNOWN_DELAY = 5.0
 """Time of motion without a stride after which the activity is UNKNOWN, s."""
 LARGEST_CLOCK_DIFFERENCE, LONGEST_SILENCE = 5.0, 10.0
-"""Time between two feet above which their clocks differ, s, and silence that ends the wait for a foot, s."""
+"""Difference of the feet's times from which their clocks differ, s; longest time without samples of a foot, s."""
 _ACTIVITY_OF = {0: Activity.WALKING, 1: Activity.STAIRS_UP, -1: Activity.STAIRS_DOWN}
+"""Activity by the direction of a stride (`steepness`)."""
 
 
 @define
 class AnglePerMetre(ActivityPart):
-    """Classifies each stride as level, upstairs or downstairs by its own angle per metre, and counts flights of stairs.
+    """Classifies each stride as level, upstairs or downstairs by its angle per metre, and detects flights of stairs.
 
-    The paper has three states and takes walking and jogging for one: a level stride is WALKING, however fast. It has no
-    state for a wearer who does not walk: feet that stand for `STANDING_DELAY` s are STANDING from the start of that
-    stance, and feet that move without a stride for `UNKNOWN_DELAY` s are UNKNOWN. Every event is final and has no
-    probabilities. Latency: the stride's end, for a state that started with its toe-off; `STANDING_DELAY` for standing.
+    The paper has three states: level, up and down. Walking and jogging are one state, so a level stride is WALKING at
+    any speed. Two states are added: feet that stand for `STANDING_DELAY` are STANDING from the start of that stance,
+    and feet that move without a stride for `UNKNOWN_DELAY` are UNKNOWN. Every event is final and has no probability.
+    Latency: a state that starts with a toe-off is known at the end of that stride; standing, after `STANDING_DELAY`.
 
-    A stride that gains more height than stairs have (steepness.py) is an error of the track, and its angle means
-    nothing: the activity of a wearer who walked or climbed stays, that of one who stood becomes UNKNOWN. When the clock
-    of one foot restarts, events have the times of the other foot. A foot more than `LARGEST_CLOCK_DIFFERENCE` s away from the other
-    is left out until it is nearer, the other foot's clock restarts too, or the other foot has no samples for
-    `LONGEST_SILENCE` s."""
+    A stride with a larger height change than stairs have (steepness.py) is an error of the track, so its angle is not
+    used. The activity of a wearer who walked or climbed stays; STANDING becomes UNKNOWN. When the clock of one foot
+    restarts, events have the times of the other foot. A foot whose time differs by more than `LARGEST_CLOCK_DIFFERENCE`
+    is not used until the difference is smaller, the other foot's clock restarts, too, or the other foot has sent no
+    samples for `LONGEST_SILENCE`."""
 
     needs_samples: ClassVar[bool] = True
 
     activity: Activity = field(default=Activity.UNKNOWN, init=False)
+    """Activity of the last event."""
     flights: Flights = field(factory=Flights, init=False)
     reported_t: float | None = field(default=None, init=False)
     """Time `t` of the last event, s; None when that event is on a clock that is no longer used."""
     clocks: dict[Foot, float] = field(factory=dict, init=False)
-    """Newest time of each foot whose clock dates events, s."""
+    """Newest time of each foot whose clock is used for the times of events, s."""
     waiting_since: dict[Foot, float | None] = field(factory=dict, init=False)
-    """Start of the wait for the other foot, s, own clock, by foot whose clock restarted and does not date events. None
-    when the other foot sent a sample just now."""
+    """Feet that are not used since their clocks restarted, each with the time, s, of its own clock since which the
+    other foot has been silent; None if the other foot is not silent."""
     moved_at: float | None = field(default=None, init=False)
     """Last time at which a foot was off the ground or about to leave it, s; at first, the time of the first sample."""
     stride_t: float | None = field(default=None, init=False)
@@ -103,7 +105,7 @@ class AnglePerMetre(ActivityPart):
         return events
 
     def _use_clock(self, foot: Foot, t: float) -> bool:
-        """Return whether the clock of `foot`, whose newest time is `t`, dates events."""
+        """Return whether events may have times of the clock of `foot`, whose newest time is `t` s."""
         waiting_since, clocks = self.waiting_since, self.clocks
         if foot not in waiting_since and clocks:
             for other in waiting_since:
