@@ -3,7 +3,7 @@
 After Gong et al. 2023 (Sensors 23, 5417), section 3.3, fig. 13 and table 2: fourteen of the 99 cells in seven regions,
 F1 and F2 across the sole, L1 to L3 and R1, R2 along it, against a threshold `th`. Open in the paper, and settled here:
 
-- Fig. 13 as a picture is not available. A region is two points, given as shares of the insole (`POINTS`), and each
+- Fig. 13 as a picture is not available. A region is two points, given as shares of the insole (`REGION_POINTS`), and each
   point is the cell that lies nearest: so the regions exist on any insole of enough cells, not on 99 alone.
 - Left and right. The text's example takes FL_PR1 > th for a right turn, table 2 for a left one. Tables 1 and 2 are
   mirror images of each other if L and R name the same anatomical side in both shoes, R the inner (medial) and L the
@@ -13,8 +13,8 @@ F1 and F2 across the sole, L1 to L3 and R1, R2 along it, against a threshold `th
   cells of the insole; so no unit and no weight enters.
 - Speed. The load moves outward in a bend by a share of h v^2 / (r g), h the height of the centre of mass, and under
   it the pressure grows about exponentially from the inner to the outer edge. So the same bend has less effect at a
-  slower pace, and `th` belongs to one speed (`PACE`): the load of a region beyond that on a straight way
-  (`STRAIGHT_ON`) is converted to that speed, its logarithm by the square (`at_pace`). The paper has one pace.
+  slower pace, and `th` belongs to one speed (`REFERENCE_SPEED`): the load of a region beyond that on a straight way
+  (`STRAIGHT_SHARES`) is converted to that speed, its logarithm by the square (`at_reference_speed`). The paper has one pace.
 - "Total pressure at the relevant positions" of standing still, 0.7 body weights, cannot stand on eight cells of two
   feet: it is taken over both insoles."""
 
@@ -23,7 +23,7 @@ from __future__ import annotations
 from ...types import Foot, Layout, WalkingMode
 from ...types.attrs import define, field
 
-POINTS: dict[str, tuple[tuple[float, float], tuple[float, float]]] = {
+REGION_POINTS: dict[str, tuple[tuple[float, float], tuple[float, float]]] = {
     "F1": ((0.66, 0.30), (0.71, -0.30)),
     "F2": ((0.40, -0.30), (0.40, 0.30)),
     "L1": ((0.66, 1.00), (0.71, 1.00)),
@@ -35,24 +35,24 @@ POINTS: dict[str, tuple[tuple[float, float], tuple[float, float]]] = {
 """Fourteen points, two for each region: share of the insole's length from the heel, and share across the sole.
 
 The share across goes from the middle of the sole there to its edge, outer (lateral) positive."""
-TH = 2.1
+MODE_THRESHOLD = 2.1
 """Threshold `th`, as a multiple of the mean cell's load.
 
 On the emulator's feet, whose load moves outward in a bend as physics has it, the regions' shares in contacts of another
 mode end below and those of their own start above it, at 1.1 m/s."""
 LEAST_MEAN = 1e-9
 """Mean load of a cell below which there is no load, any unit."""
-PACE = 1.1
-"""Walking speed that `TH` belongs to, m/s."""
-STRAIGHT_ON = {"L1": 0.58, "L2": 1.55, "L3": 0.87, "R1": 1.52, "R2": 0.68}
+REFERENCE_SPEED = 1.1
+"""Walking speed that `MODE_THRESHOLD` belongs to, m/s."""
+STRAIGHT_SHARES = {"L1": 0.58, "L2": 1.55, "L3": 0.87, "R1": 1.52, "R2": 0.68}
 """Shares of the regions on a straight way, as multiples of the mean cell's load, from the emulator's feet."""
 SWING_SHARE = 0.38
-"""Share of a stride in which the foot is in the air, at `PACE`."""
-SLOWEST, FASTEST = 0.7, 1.7
-"""Speeds between which shares are converted to `PACE`, m/s.
+"""Share of a stride in which the foot is in the air, at `REFERENCE_SPEED`."""
+SLOWEST_SPEED, FASTEST_SPEED = 0.7, 1.7
+"""Speeds between which shares are converted to `REFERENCE_SPEED`, m/s.
 
 Beyond them the nearer one is taken, or the noise of a slow step would make a bend."""
-LEAST_STEP = 0.15
+LEAST_STEP_LENGTH = 0.15
 """Length L_w below which a step is dragging, not walking, m (table 2)."""
 STANDING_WEIGHT = 0.7
 """Share of the body's weight on both feet together that makes standing (table 2)."""
@@ -64,7 +64,7 @@ LARGEST_SHARE = 1e3
 SHORTEST_SOLE, LONGEST_SOLE = 0.05, 1.0
 """Lengths of the shortest and the longest insole, m; a layout outside is not an insole's."""
 
-TURNS = {
+TURN_MODES = {
     (Foot.LEFT, "inner", "wide"): WalkingMode.LEFT_WIDE,
     (Foot.LEFT, "inner", "tight"): WalkingMode.LEFT_TIGHT,
     (Foot.LEFT, "outer", "wide"): WalkingMode.RIGHT_WIDE,
@@ -83,32 +83,34 @@ def regions(layout: Layout) -> dict[str, tuple[int, ...]]:
     Empty where the cells do not show left and right: fewer cells than regions, a layout that was guessed
     (foot/pressure/layout_guess.py), or places that are no insole's. Then only standing can be recognised. A touchdown
     is then treated as one of straight walking, as most are."""
-    if len(layout.cells) < len(POINTS) or not SHORTEST_SOLE <= layout.length <= LONGEST_SOLE:
+    if len(layout.cells) < len(REGION_POINTS) or not SHORTEST_SOLE <= layout.length <= LONGEST_SOLE:
         return {}
     if not all([abs(cell.x) <= LONGEST_SOLE and abs(cell.y) <= LONGEST_SOLE for cell in layout.cells]):
         return {}
     lateral = 1.0 if layout.foot is Foot.LEFT else -1.0
     cells = [(cell.x / layout.length, lateral * cell.y) for cell in layout.cells]
-    found: dict[str, tuple[int, ...]] = {}
-    for name, points in POINTS.items():
-        chosen: list[int] = []
+    cells_of: dict[str, tuple[int, ...]] = {}
+    for name, points in REGION_POINTS.items():
+        region_indices: list[int] = []
         for along, across in points:
             nearest = sorted([(abs(x - along), y) for x, y in cells])[: max(4, len(cells) // 10)]
             low, high = min([y for _, y in nearest]), max([y for _, y in nearest])
             y = 0.5 * (low + high) + 0.5 * across * (high - low)
             rank = [((x - along) ** 2 * layout.length**2 + (cy - y) ** 2, k) for k, (x, cy) in enumerate(cells)]
-            chosen.append(min(rank)[1])
-        found[name] = tuple(sorted(set(chosen)))
-    inner = max([cells[k][1] for name in ("R1", "R2") for k in found[name]])
-    outer = min([cells[k][1] for name in ("L1", "L2", "L3") for k in found[name]])
-    return found if outer > inner else {}
+            region_indices.append(min(rank)[1])
+        cells_of[name] = tuple(sorted(set(region_indices)))
+    inner = max([cells[k][1] for name in ("R1", "R2") for k in cells_of[name]])
+    outer = min([cells[k][1] for name in ("L1", "L2", "L3") for k in cells_of[name]])
+    return cells_of if outer > inner else {}
 
 
-def at_pace(shares: dict[str, float], speed: float) -> dict[str, float]:
-    """Return the shares of the edges converted from `speed` m/s to `PACE`; F1 and F2 stay."""
-    k = (PACE / min(max(speed, SLOWEST), FASTEST)) ** 2
+def at_reference_speed(shares: dict[str, float], speed: float) -> dict[str, float]:
+    """Return the shares of the edges converted from `speed` m/s to `REFERENCE_SPEED`; F1 and F2 stay."""
+    k = (REFERENCE_SPEED / min(max(speed, SLOWEST_SPEED), FASTEST_SPEED)) ** 2
     return {
-        name: STRAIGHT_ON[name] * (min(share, LARGEST_SHARE) / STRAIGHT_ON[name]) ** k if name in STRAIGHT_ON else share
+        name: STRAIGHT_SHARES[name] * (min(share, LARGEST_SHARE) / STRAIGHT_SHARES[name]) ** k
+        if name in STRAIGHT_SHARES
+        else share
         for name, share in shares.items()
     }
 
@@ -116,7 +118,7 @@ def at_pace(shares: dict[str, float], speed: float) -> dict[str, float]:
 def decide(foot: Foot, step: float, shares: dict[str, float], forward: float, th: float) -> WalkingMode | None:
     """Return the mode by table 2, from a contact of `foot` that a step of `step` m ended in; None: no rule applies.
 
-    `shares`: those of this foot's regions, as multiples of the mean cell's, at `PACE`. `forward`: F1 of both feet less
+    `shares`: those of this foot's regions, as multiples of the mean cell's, at `REFERENCE_SPEED`. `forward`: F1 of both feet less
     F2 of both. A tight bend goes before a wide one, and of two edges the one that is further beyond the threshold."""
     edges = (
         ("inner", "tight", shares["R2"]),
@@ -125,10 +127,10 @@ def decide(foot: Foot, step: float, shares: dict[str, float], forward: float, th
         ("outer", "wide", max(shares["L2"], shares["L3"])),
     )
     for radius in ("tight", "wide"):
-        beyond = [(share, edge) for edge, of, share in edges if of == radius and share > th]
-        if beyond and step > LEAST_STEP:
-            return TURNS[foot, max(beyond)[1], radius]
-    if step > LEAST_STEP and forward > th:
+        candidates = [(share, edge) for edge, edge_radius, share in edges if edge_radius == radius and share > th]
+        if candidates and step > LEAST_STEP_LENGTH:
+            return TURN_MODES[foot, max(candidates)[1], radius]
+    if step > LEAST_STEP_LENGTH and forward > th:
         return WalkingMode.STRAIGHT
     return None
 
@@ -189,8 +191,12 @@ class Contact:
         return 0.0 if self.t_start is None else t - self.t_start
 
     def speed(self, step: float) -> float:
-        """Return the walking speed, m/s, from the length of the stride before, m; `PACE` if it is unknown."""
-        return PACE if self.swing_time is None or self.swing_time <= 0.0 else SWING_SHARE * step / self.swing_time
+        """Return the walking speed, m/s, from the length of the stride before, m; `REFERENCE_SPEED` if it is unknown."""
+        return (
+            REFERENCE_SPEED
+            if self.swing_time is None or self.swing_time <= 0.0
+            else SWING_SHARE * step / self.swing_time
+        )
 
     def shares(self) -> dict[str, float] | None:
         """Return the mean cell of each region as a multiple of the insole's; None without load or layout."""

@@ -16,7 +16,7 @@ from ...types import OTHER, Foot, Vec3
 from ...types.attrs import define, field
 from ...types.vector import ZERO, sub
 from .limbs.limbs import LowerLimbs
-from .mode import LEAST_STEP
+from .mode import LEAST_STEP_LENGTH
 from .settings import ModesSettings
 from .touchdown import displace, v_change
 
@@ -75,26 +75,26 @@ class FootPlaces:
     def add_view(self, view: FootView) -> None:
         """Add a sample of a foot: the position of its own track."""
         left, right = self.tracks.left, self.tracks.right
-        was_left, was_right, waited = left.offset, right.offset, (left.unplaced, right.unplaced)
+        left_offset, right_offset, were_unplaced = left.offset, right.offset, (left.unplaced, right.unplaced)
         self.tracks.feed(view)
-        if left.offset is not was_left:
-            self._move_track(Foot.LEFT, left, was_left, waited[0])
-        if right.offset is not was_right:
-            self._move_track(Foot.RIGHT, right, was_right, waited[1])
+        if left.offset is not left_offset:
+            self._move_track(Foot.LEFT, left, left_offset, were_unplaced[0])
+        if right.offset is not right_offset:
+            self._move_track(Foot.RIGHT, right, right_offset, were_unplaced[1])
         if view.levelled:
             placed = left if view.foot is Foot.LEFT else right
             self.sides[view.foot].track = placed.place(placed.newest_place)
 
-    def _move_track(self, foot: Foot, placed: PlacedTrack, offset: Vec3, waited: bool) -> None:
+    def _move_track(self, foot: Foot, placed_track: PlacedTrack, offset: Vec3, was_unplaced: bool) -> None:
         """Move the track of a foot that now lies elsewhere among both than with `offset` before."""
         side, other = self.sides[foot], self.sides[OTHER[foot]]
-        if waited and not placed.unplaced:  # known there again: as far apart as they stood
-            side.track = placed.place(placed.newest_place)
+        if was_unplaced and not placed_track.unplaced:  # known there again: as far apart as they stood
+            side.track = placed_track.place(placed_track.newest_place)
             x, y = self._side_offset(foot, other)
             side.offset = displace(other.offset, (x, y, 0.0))
             side.place = side.own_position
         else:  # the foot itself has not moved
-            shift = sub(placed.offset, offset)
+            shift = sub(placed_track.offset, offset)
             side.offset, side.track = sub(side.offset, shift), displace(side.track, shift)
 
     def _side_offset(self, foot: Foot, other: FootPlace) -> tuple[float, float]:
@@ -122,7 +122,7 @@ class FootPlaces:
 
         The own track is used where the other foot, by its track, has moved since it came down, and is no reference."""
         chained, reference = self.chain.is_current(t), self.sides[OTHER[foot]]
-        if not chained and reference.moved_distance > LEAST_STEP:
+        if not chained and reference.moved_distance > LEAST_STEP_LENGTH:
             x, y, _ = self.sides[foot].own_position
             return (x, y, self.sides[foot].track[2]), False
         left, right = (self.chain.end(one, t) if chained else side.own_position for one, side in self.sides.items())
@@ -138,13 +138,13 @@ class FootPlaces:
         (lx, ly), (rx, ry) = self.chain.forward(Foot.LEFT, t), self.chain.forward(Foot.RIGHT, t)
         x, y = lx + rx, ly + ry
         length = hypot(x, y)
-        return (x / length, y / length) if length > LEAST_STEP else (lx, ly)
+        return (x / length, y / length) if length > LEAST_STEP_LENGTH else (lx, ly)
 
     def swing_foot(self, foot: Foot) -> Foot:
         """Return the foot whose own track has gone further: a method may take the wrong foot for it."""
         other = OTHER[foot]
         (x, y, _), (u, v, _) = self.sides[foot].track, self.sides[other].track
-        return other if hypot(u, v) > hypot(x, y) + LEAST_STEP else foot
+        return other if hypot(u, v) > hypot(x, y) + LEAST_STEP_LENGTH else foot
 
     def set_down(self, foot: Foot, place: Vec3, chained: bool, t: float) -> None:
         """Set the touchdown of the foot at `place`, by the chain or not, at `t` s."""
@@ -168,7 +168,7 @@ class FootPlaces:
             return
         left, right = self.sides.values()
         x, y = left.place[0] + right.place[0], left.place[1] + right.place[1]
-        if hypot(x, y) < LEAST_STEP:
+        if hypot(x, y) < LEAST_STEP_LENGTH:
             return
         self.heading_settled = hypot(x, y) > 2.0 * FIRST_DISTANCE
         if not chained or self.chain.facing is None:

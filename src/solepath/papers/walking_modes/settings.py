@@ -6,7 +6,7 @@ from ...calibration import Limbs
 from ...types import Foot, WalkingMode
 from ...types.attrs import frozen
 from .compensation import Compensation, compensation_of
-from .mode import TH
+from .mode import MODE_THRESHOLD
 
 
 @frozen
@@ -21,14 +21,14 @@ class ModesSettings:
     heading: float | None = None
     """Wearer's heading in the N-pose, in the world that the devices share, rad; None: the direction of the first step.
     It is known beforehand on a floor that was surveyed."""
-    th: float = TH
+    th: float = MODE_THRESHOLD
     """Threshold TH of mode.py."""
 
     @property
     def feet_distance(self) -> float:
-        """Distance between the feet at the start, m: the hips' width, as in the chain's N-pose.
+        """Distance between the feet at the start, m: the hips' width, corrected by the compensation of straight walking.
 
-        If feet are known to come down nearer to each other than the chain has them, they stood so as well."""
+        If the feet come down nearer to each other than the chain computes, they stand nearer to each other, too."""
         distance = self.limbs.hip_width
         if self.compensation is None:
             return distance

@@ -16,7 +16,7 @@ from ....types.vector import GRAVITY, ZERO, from_rotation_vector, multiply, norm
 
 LONGEST_GAP = 0.25
 """Longest gap that is integrated over, s."""
-SETTLING = 4.0
+LEVELLING_TIME = 4.0
 """Time constant of the pull towards the measured up, s: several strides."""
 LEAST_DISTANCE = 0.4
 """Distance from its standing place after which a sensor shows the wearer's direction, m."""
@@ -43,24 +43,24 @@ class Inclination:
         """Add one sample, m/s^2 and rad/s in the sensor frame, and return the attitude after it."""
         dt = 0.0 if self.t is None else t - self.t
         self.t = t
-        rested = self.rest.update(t, acc, gyro)
+        is_at_rest = self.rest.update(t, acc, gyro)
         rate = sub(gyro, self.rest.bias)
-        before, self.rate = self.rate, rate
+        old_rate, self.rate = self.rate, rate
         attitude = self.attitude
         if attitude is None:
-            first = self.levelling.update(t, acc, gyro)
-            self.attitude = None if first is None else first[0]
+            levelled_attitude = self.levelling.update(t, acc, gyro)
+            self.attitude = None if levelled_attitude is None else levelled_attitude[0]
             return self.attitude
         if not 0.0 < dt <= LONGEST_GAP:
             return attitude
         half = 0.5 * dt
-        x, y, z = rate[0] + before[0], rate[1] + before[1], rate[2] + before[2]
+        x, y, z = rate[0] + old_rate[0], rate[1] + old_rate[1], rate[2] + old_rate[2]
         attitude = multiply(attitude, from_rotation_vector((x * half, y * half, z * half)))
         up_x, up_y, up_z = rotate(attitude, acc)
-        self._track_direction(dt, up_x, up_y, rested)
+        self._track_direction(dt, up_x, up_y, is_at_rest)
         length = sqrt(up_x * up_x + up_y * up_y + up_z * up_z)
         if length > 0.1 * GRAVITY:
-            k = min(dt / SETTLING, 1.0) / length
+            k = min(dt / LEVELLING_TIME, 1.0) / length
             # the small turn that takes the measured up towards z: up x z
             attitude = multiply(from_rotation_vector((up_y * k, -up_x * k, 0.0)), attitude)
         self.attitude = attitude = normalise(attitude)

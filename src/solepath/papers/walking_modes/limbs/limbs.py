@@ -23,7 +23,7 @@ from .segment import LimbSegment
 
 LIMB_SITES = (Site.PELVIS, Site.LEFT_THIGH, Site.RIGHT_THIGH, Site.LEFT_SHANK, Site.RIGHT_SHANK)
 """The sites above the ankles."""
-LEGS = {
+LEG_SITES = {
     Foot.LEFT: (Site.LEFT_THIGH, Site.LEFT_SHANK, Site.LEFT_FOOT),
     Foot.RIGHT: (Site.RIGHT_THIGH, Site.RIGHT_SHANK, Site.RIGHT_FOOT),
 }
@@ -37,7 +37,7 @@ ATTITUDE_VALID_TIME = 0.25
 LEAST_FIRST_STEP = 0.15
 """Length above which a step gives the first heading, m (as in foot/world.py)."""
 
-LARGEST_PART = 1e6
+LARGEST_COMPONENT = 1e6
 """Largest component of a valid quaternion; its inverse is the least length."""
 
 
@@ -90,10 +90,10 @@ class LowerLimbs:
 
     def set_attitude(self, site: Site, t: float, quat: Quat) -> None:
         """Set a new attitude of a sensor, of any length but 0."""
-        if not all([-LARGEST_PART < part < LARGEST_PART for part in quat]):
+        if not all([-LARGEST_COMPONENT < part < LARGEST_COMPONENT for part in quat]):
             return
         length = sqrt(sum([part * part for part in quat]))
-        if length < 1.0 / LARGEST_PART:
+        if length < 1.0 / LARGEST_COMPONENT:
             return
         k = 1.0 / length
         segment = self.segments[site]
@@ -127,9 +127,11 @@ class LowerLimbs:
         It is turned as the other known segments are. The difference of its attitude from that is the turn from its old
         world to its new one."""
         standing = segment.standing
-        known = [s for s in self.segments.values() if s is not segment and s.standing is not None and not s.own_world]
+        references = [
+            s for s in self.segments.values() if s is not segment and s.standing is not None and not s.own_world
+        ]
         x = y = 0.0
-        for other in known:
+        for other in references:
             if other.standing is not None and other.t is not None and not other.world_changed:
                 w, _, _, z = multiply(other.sensor, conjugate(other.standing))
                 yaw = 2.0 * atan2(z, w)
@@ -182,15 +184,15 @@ class LowerLimbs:
             return f"the sensor at the {_names(world_changed)} began anew, and its world with it"
         if not self.aligned:
             return "the wearer did not stand still before the first step"
-        old = [
+        ages = [
             (site, t - s.t)
             for site, s in self.segments.items()
             if s.t is not None and abs(t - s.t) >= ATTITUDE_VALID_TIME
         ]
-        if old:
-            most = max([age for _, age in old], key=abs)
-            names = _names([site for site, _ in old])
-            return f"the newest attitude of the {names} is {abs(most):.2g} s {'old' if most > 0.0 else 'ahead'}"
+        if ages:
+            largest_age = max([age for _, age in ages], key=abs)
+            names = _names([site for site, _ in ages])
+            return f"the newest attitude of the {names} is {abs(largest_age):.2g} s {'old' if largest_age > 0.0 else 'ahead'}"
         names = _names([site for site, s in self.segments.items() if s.own_world and s.heading is None])
         return f"the sensor at the {names} does not know yet which way the wearer goes"
 
@@ -204,11 +206,11 @@ class LowerLimbs:
 
     def end(self, foot: Foot, t: float) -> Vec3:
         """Return P_L or P_R at `t` s: the end of the foot seen from the middle of the hips, world frame, m."""
-        thigh, shank, end = [self._attitude(site, t) for site in LEGS[foot]]
+        thigh, shank, foot_attitude = [self._attitude(site, t) for site in LEG_SITES[foot]]
         side = 0.5 if foot is Foot.LEFT else -0.5
         limbs = self.settings.limbs
         hip = (0.0, side * limbs.hip_width, 0.0)
-        return foot_end(self._attitude(Site.PELVIS, t), thigh, shank, end, hip, limbs)
+        return foot_end(self._attitude(Site.PELVIS, t), thigh, shank, foot_attitude, hip, limbs)
 
     def height(self, foot: Foot, t: float) -> float:
         """Return the height of the sole below the ankle at `t` s, seen from the middle of the hips, m.
@@ -216,14 +218,16 @@ class LowerLimbs:
         It is not that of the foot's end, P_Lz and P_Rz of (4): in a chain without toes the end dips below the floor
         when the heel comes up, and the foot that pushes off would be the lower one."""
         segments, limbs = self.segments, self.settings.limbs
-        thigh, shank, end = [segments[site].upright(t) for site in LEGS[foot]]
+        thigh_upright, shank_upright, foot_upright = [segments[site].upright(t) for site in LEG_SITES[foot]]
         side = 0.5 if foot is Foot.LEFT else -0.5
-        _, _, hip = rotate(self._attitude(Site.PELVIS, t), (0.0, side * limbs.hip_width, 0.0))
-        return hip - limbs.thigh * thigh - limbs.shank * shank - limbs.ankle_height * end
+        _, _, hip_height = rotate(self._attitude(Site.PELVIS, t), (0.0, side * limbs.hip_width, 0.0))
+        return (
+            hip_height - limbs.thigh * thigh_upright - limbs.shank * shank_upright - limbs.ankle_height * foot_upright
+        )
 
     def forward(self, foot: Foot, t: float) -> tuple[float, float]:
         """Return the direction of a foot, horizontal, world frame, of length 1; (1, 0) when it points up."""
-        x, y, _ = rotate(self._attitude(LEGS[foot][2], t), (1.0, 0.0, 0.0))
+        x, y, _ = rotate(self._attitude(LEG_SITES[foot][2], t), (1.0, 0.0, 0.0))
         length = hypot(x, y)
         return (x / length, y / length) if length > 1e-6 else (1.0, 0.0)
 
@@ -238,7 +242,7 @@ class LowerLimbs:
         limbs = self.settings.limbs
         x = y = 0.0
         for leg, sign in ((foot, 1.0), (OTHER[foot], -1.0)):
-            for site, length in zip(LEGS[leg], (limbs.thigh, limbs.shank), strict=False):
+            for site, length in zip(LEG_SITES[leg], (limbs.thigh, limbs.shank), strict=False):
                 dx, dy, _ = rotate(self.segments[site].attitude(0.0, 0.0, t), (0.0, 0.0, -length))
                 x += sign * dx
                 y += sign * dy

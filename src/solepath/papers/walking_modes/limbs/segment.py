@@ -82,10 +82,10 @@ class LimbSegment:
         if self.standing is None:
             return IDENTITY
         wearer_heading = (self.heading or 0.0) if self.own_world else facing
-        turned = multiply(self.sensor_at(t), conjugate(self.standing))
+        rotation = multiply(self.sensor_at(t), conjugate(self.standing))
         if wearer_heading == turn == 0.0:
-            return turned
-        return multiply(multiply(from_yaw(-wearer_heading - turn), turned), from_yaw(wearer_heading))
+            return rotation
+        return multiply(multiply(from_yaw(-wearer_heading - turn), rotation), from_yaw(wearer_heading))
 
     def upright(self, t: float) -> float:
         """Return the cosine of the segment's angle from the vertical at `t` s."""
