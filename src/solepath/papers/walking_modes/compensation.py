@@ -46,7 +46,7 @@ def compensation_of(table: Compensation, foot: Foot, mode: WalkingMode) -> tuple
 
 
 def epsilon_p(table: Compensation, foot: Foot, mode: WalkingMode, direction: tuple[float, float]) -> Vec3:
-    """Return epsilon_P of (8), world frame, m; `direction` is a unit vector in the direction of walking, world frame."""
+    """Return epsilon_P of (8), world frame, m; `direction` is the unit vector of walking, world frame."""
     (c, s), (forward, left) = direction, compensation_of(table, foot, mode)
     return (forward * c - left * s, forward * s + left * c, 0.0)
 

@@ -47,7 +47,7 @@ class SignEvidence:
     def is_down(self, flag: bool, swings: bool, none: bool = False) -> bool:
         """Return whether the foot is down.
 
-        `flag` is true if it is down by the sign, `swings` if it is in swing by its phase, `none` if there is no sign."""
+        `flag`: the foot is down by its sign. `swings`: it is in swing by its phase. `none`: there is no sign."""
         if flag is not self.last_flag:
             self.last_flag, self.strides_since_change = flag, 0
         uses_strides = none or self.silent or self.strides_since_change >= MOST_STRIDES_WITHOUT_SIGN

@@ -1,25 +1,27 @@
 """Track of both feet by touchdowns: each is measured from the other, and compensated by walking mode (walking-modes).
 
-After Gong et al. 2023 (Sensors 23, 5417). One foot is the reference (touchdown.py), the other is V_change away from it,
-(1)-(3); when that comes down it becomes the reference there, with a compensation, P_s = P_t + V_change + epsilon_P (8).
-Methods I, II and III are this part with `Height`, `NetAcceleration`, `PressureTouchdown` and no compensation; IV is III
-with it.
+After Gong et al. 2023 (Sensors 23, 5417). One foot is the reference (touchdown.py); the other foot is V_change away
+from it, (1)-(3). When the other foot comes down, it becomes the reference at P_s = P_t + V_change + epsilon_P (8), with
+epsilon_P the compensation. Methods I, II and III are this part with `Height`, `NetAcceleration` and `PressureTouchdown`
+without a compensation. Method IV is III with it.
 
-places.py has P_L, P_R and V_change, compensation.py epsilon_P, and recognition.py the mode that it is for. P_L and P_R
-come from the chain of seven attitudes (limbs.py). Without sensors above the ankles they are the feet's own inertial
-tracks, set apart by the width of the hips at the start; a Limitation reports that once.
+places.py has P_L, P_R and V_change, compensation.py has epsilon_P, recognition.py the walking mode. P_L and P_R come
+from the chain of seven attitudes (limbs.py). Without sensors above the ankles they come from the feet's own inertial
+tracks, which start at a distance of the hips' width; a Limitation reports that once.
 
-Open in the paper, and settled here:
+The paper leaves these points open:
 
-- Direction of walking, which table 1 is along. It is the common direction of both feet when one has come down, which
-  in a bend is the tangent half a step back; with the feet's own tracks it is that of the foot's stride, from its last
-  touchdown to this one.
-- The first heading is final when the wearer has gone 1.5 m; touchdowns before that are not final.
-- Height. The method is planar; heights of touchdowns are those of the feet's own tracks. Those drift apart, so without
-  the chain method I compares how far each foot is above its own last foot-flat.
-- A touchdown that was not found. A foot that becomes the reference after it moved on since its last touchdown came down
-  meanwhile: it is a touchdown. So is one of a reference foot elsewhere. A foot whose sign fails (evidence.py) comes
-  down with its own strides; without the other foot it is the only reference, along its own track."""
+- Direction of walking, in which table 1 is given. With the chain it is the mean direction of both feet at a touchdown;
+  in a bend this is the tangent half a step before. With the feet's own tracks it is the direction from the foot's
+  previous touchdown to this one.
+- The first heading is final when the wearer is 1.5 m from the start; earlier touchdowns are not final.
+- Height. The method is planar, so heights of touchdowns are those of the feet's own tracks. These drift apart. So
+  without the chain method I compares the height of each foot above its own last foot-flat.
+- Undetected touchdowns. If a foot becomes the reference after it has moved, a touchdown is reported. The same holds if
+  the reference foot comes down at another place. A foot whose sign fails (evidence.py) comes down with its own strides.
+  If the other foot is absent, it is the only reference and follows its own track.
+
+Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -49,17 +51,17 @@ from .signs import Signs
 from .touchdown import AnyTouchdown, Height, PressureTouchdown, ReferenceFoot, displace
 
 LEAST_MOVED_DISTANCE = 0.03
-"""Distance below which a foot that comes down had not moved, m: the flags of standing feet flicker."""
+"""Least distance between two touchdowns of a foot, m. The flags of standing feet flicker, which is no touchdown."""
 LEAST_OWN_STEP_LENGTH = 0.3
-"""Distance from which on a reference foot that comes down has moved by itself, m.
+"""Least distance that the reference foot has moved when it takes a step, m.
 
 The heel of a foot that rolls over its toes moves less."""
 LONGEST_WAIT = 0.06
-"""Longest wait of a touchdown for attitudes of its instant, s: three samples of the paper's 50 Hz."""
+"""Longest wait at a touchdown for the attitudes of that instant, s: three samples at the paper's 50 Hz."""
 STEP_SIGMA = 0.02
-"""Error of one touchdown, m an axis."""
+"""Error of one touchdown on each axis, m."""
 SCALE_SIGMA, HEADING_SIGMA = 0.02, 0.03
-"""Error of scale common to all touchdowns, as a share of the way, and error of the first heading, rad."""
+"""Scale error of all touchdowns, as a share of the distance from the start, and error of the first heading, rad."""
 
 
 @define
@@ -70,6 +72,7 @@ class Modes(TrackPart):
     sites: ClassVar[tuple[Site, ...]] = LIMB_SITES
 
     touchdown: AnyTouchdown = field(factory=PressureTouchdown)
+    """Method that detects touchdowns."""
     settings: ModesSettings = ModesSettings()
     places: FootPlaces = field(init=False)
     limb_sensors: LimbSensors = field(factory=LimbSensors, init=False)
@@ -77,14 +80,15 @@ class Modes(TrackPart):
     recognition: Recognition = field(init=False)
     reference: ReferenceFoot = field(factory=ReferenceFoot, init=False)
     pending: tuple[Foot, float] | None = field(default=None, init=False)
-    """Foot that came down and time, s, while the chain does not know that instant yet."""
+    """Foot and time, s, of a touchdown at which the chain is not known yet; None without one."""
     heights_t: float | None = field(default=None, init=False)
-    """Instant of the chain's heights, s."""
+    """Instant of the heights from the chain, s."""
     touchdowns: int = field(default=0, init=False)
+    """Number of touchdowns so far."""
     limitation_reported: bool = field(default=False, init=False)
     """Flag: the reason why the chain is not used was reported."""
     feet_reported_alone: list[Foot] = field(factory=list, init=False)
-    """Feet reported to continue without the other."""
+    """Feet that were reported to continue without the other foot."""
     feet_reported_blind: list[Foot] = field(factory=list, init=False)
     """Feet whose cells were reported to show no mode."""
 
@@ -116,7 +120,7 @@ class Modes(TrackPart):
         self.limb_sensors.reset(site)
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """Add a sample of a foot: update the reference foot, touchdowns and the mode of the contact that ended."""
+        """Add a sample of a foot; update the reference foot, touchdowns and walking mode."""
         foot, t, known_at, sample = view.foot, view.t, view.known_at, view.sample
         self.limb_sensors.add_time(t)
         self.places.add_view(view)
@@ -158,20 +162,20 @@ class Modes(TrackPart):
                 events += self._add_touchdown(reference_foot, t, known_at, by_own_track=True)
             return events
         if not change[1] and self.places.sides[change[0]].moved_distance < LEAST_STEP_LENGTH:
-            return events  # a foot that was down all the time becomes the reference where it is
+            return events  # the foot was down all the time, so this is no touchdown
         events += self._flush_pending(known_at)
         self.pending = (change[0], sign_t)
         return events + self._resolve_pending(t, known_at)
 
     def _is_alone(self, foot: Foot, t: float) -> bool:
-        """Return whether the other foot is silent while this one takes strides, or is at an unknown place."""
+        """Return whether the other foot is silent while this one takes strides, or the other's place is unknown."""
         other = OTHER[foot]
         if other not in self.signs.states:
             return self.signs.evidence[foot].stride_count >= MOST_STRIDES_WITHOUT_SIGN
         return self.places.is_lost(other, t)
 
     def _measure_heights(self, t: float) -> float:
-        """Set both feet's heights, by the chain at the latest instant that it knows, and return that instant, s."""
+        """Set the heights of both feet at the latest instant at which the chain is known; return that instant, s."""
         chain = self.places.chain
         complete = chain.complete() if chain.is_current(t) else None
         if complete is not None and complete == self.heights_t:
@@ -183,14 +187,14 @@ class Modes(TrackPart):
         return t if complete is None else min(t, complete)
 
     def _flush_pending(self, known_at: float) -> list[Event]:
-        """Compute the pending touchdown with the attitudes at hand."""
+        """Compute the pending touchdown with the newest attitudes."""
         if self.pending is None:
             return []
         (foot, touchdown_t), self.pending = self.pending, None
         return self._add_touchdown(foot, touchdown_t, known_at)
 
     def _resolve_pending(self, t: float, known_at: float) -> list[Event]:
-        """Compute a touchdown once every attitude of that instant is there, or has not come for `LONGEST_WAIT`."""
+        """Compute the pending touchdown once all attitudes of its instant are known, or after `LONGEST_WAIT`."""
         if self.pending is None:
             return []
         _, touchdown_t = self.pending
@@ -202,7 +206,7 @@ class Modes(TrackPart):
         return self._flush_pending(known_at)
 
     def _add_pressure(self, view: FootView, cells: PressedCells) -> list[Event]:
-        """Add the cells of a foot, and report another mode if they show it."""
+        """Add the cells of a foot, and report the walking mode if it has changed."""
         foot, t, known_at, state = view.foot, view.t, view.known_at, self.signs.add_pressure(view.foot, cells)
         both_feet = OTHER[foot] in self.signs.states
         mode = self.recognition.add_pressure(foot, state, cells.values, cells.layout, t, both_feet)
@@ -216,7 +220,7 @@ class Modes(TrackPart):
         return events
 
     def _add_touchdown(self, foot: Foot, t: float, known_at: float, by_own_track: bool = False) -> list[Event]:
-        """Add a touchdown; `by_own_track`: only the foot's own track shows its place, as it was the reference."""
+        """Add a touchdown; `by_own_track` if the foot was itself the reference, so only its own track has its place."""
         places = self.places
         side, chain = places.sides[foot], places.chain
         if chain.is_current(t):
@@ -255,7 +259,7 @@ class Modes(TrackPart):
         return [*events, touchdown]
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
-        """Return the mean of both feet: the reference foot's touchdown, and the other foot's present place."""
+        """Return the mean of the reference foot's touchdown and the other foot's present place."""
         poses = list(feet.values())
         if not poses:
             return None
@@ -273,7 +277,7 @@ class Modes(TrackPart):
         return Position(t, (x, y, z), self._covariance(x, y, poses))
 
     def _covariance(self, x: float, y: float, poses: list[FootPose]) -> Covariance3:
-        """Return the covariance from single and common errors of touchdowns and the first heading; z is the tracks'."""
+        """Return the covariance from the errors of single touchdowns, scale and first heading, m^2; z is the tracks'."""
         variance = STEP_SIGMA**2 * (1 + self.touchdowns)
         scale, turn = SCALE_SIGMA**2, HEADING_SIGMA**2
         xx, yy = variance + scale * x * x + turn * y * y, variance + scale * y * y + turn * x * x

@@ -1,4 +1,4 @@
-"""Samples of the sensors above the ankles: rejection, and the attitudes that they give to the chain."""
+"""Samples of the sensors above the ankles: rejection, and attitudes for the chain."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .inclination import Inclination
 from .limbs import LowerLimbs
 
 FARTHEST_AHEAD = 60.0
-"""Time ahead of all others at which a sample is rejected, s, unless the last one of its site was ahead too."""
+"""Largest time ahead of all earlier samples, s. A later sample is rejected, unless the last one of its site was, too."""
 
 
 @define
@@ -22,9 +22,9 @@ class LimbSensors:
     times: dict[Site, float] = field(factory=dict, init=False)
     """Time of the newest used sample by site, s."""
     newest: float | None = field(default=None, init=False)
-    """Time of the newest sample of any site, feet too, s."""
+    """Time of the newest sample of any site, including the feet, s."""
     ahead_t: dict[Site, float] = field(factory=dict, init=False)
-    """Time of a site's last sample, s, if it was too far ahead."""
+    """Time of a site's last sample, s, if it was rejected for being too far ahead."""
 
     def add_time(self, t: float) -> None:
         """Add the time of a sample of a foot, s."""
@@ -32,7 +32,7 @@ class LimbSensors:
             self.newest = t
 
     def add_sample(self, sample: Sample, chain: LowerLimbs) -> RejectionReason | None:
-        """Add one sample, and return why it is rejected, None if it is not."""
+        """Add one sample; return the reason for its rejection, or None if it is used."""
         site, t = sample.site, sample.t
         reason = rejection_reason(sample, self.times.get(site))
         if reason is None and self.newest is not None and t - self.newest > FARTHEST_AHEAD:
