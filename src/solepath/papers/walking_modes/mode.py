@@ -47,21 +47,21 @@ contacts of its own mode from those in contacts of all other modes."""
 LEAST_MEAN = 1e-9
 """Mean load of a cell below which the insole counts as unloaded, in any unit."""
 REFERENCE_SPEED = 1.1
-"""Walking speed that `MODE_THRESHOLD` belongs to, m/s."""
+"""Walking speed for which `MODE_THRESHOLD` holds, m/s."""
 STRAIGHT_SHARES = {"L1": 0.58, "L2": 1.55, "L3": 0.87, "R1": 1.52, "R2": 0.68}
-"""Shares of the regions on a straight way, as multiples of the mean cell's load, from the emulator's feet."""
+"""Loads of the regions in straight walking, as multiples of the mean cell's load, from the emulator's feet."""
 SWING_SHARE = 0.38
 """Share of a stride in which the foot is in the air, at `REFERENCE_SPEED`."""
 SLOWEST_SPEED, FASTEST_SPEED = 0.7, 1.7
-"""Speeds between which shares are converted to `REFERENCE_SPEED`, m/s.
+"""Limits of the speed that is used for the conversion to `REFERENCE_SPEED`, m/s.
 
-Beyond them the nearer one is taken, or the noise of a slow step would make a bend."""
+Without the lower limit the noise of a slow step would look like a bend."""
 LEAST_STEP_LENGTH = 0.15
-"""Length L_w below which a step is dragging, not walking, m (table 2)."""
+"""Length L_w below which a step is not walking but dragging, m (table 2)."""
 STANDING_WEIGHT = 0.7
-"""Share of the body's weight on both feet together that makes standing (table 2)."""
+"""Load of both feet in standing, as a share of the body's weight (table 2)."""
 LONGEST_CONTACT = 1.5
-"""Longest contact of walking, s: even at 0.5 m/s a stance is shorter."""
+"""Longest contact in walking, s: even at 0.5 m/s a stance is shorter."""
 
 LARGEST_SHARE = 1e3
 """Largest share of a region, as a multiple of the mean cell's load: the number of cells of the largest insole."""
@@ -109,7 +109,7 @@ def regions(layout: Layout) -> dict[str, tuple[int, ...]]:
 
 
 def at_reference_speed(shares: dict[str, float], speed: float) -> dict[str, float]:
-    """Return the shares of the edges converted from `speed` m/s to `REFERENCE_SPEED`; F1 and F2 stay."""
+    """Return the loads of the regions converted from `speed`, m/s, to `REFERENCE_SPEED`; F1 and F2 stay as they are."""
     k = (REFERENCE_SPEED / min(max(speed, SLOWEST_SPEED), FASTEST_SPEED)) ** 2
     return {
         name: STRAIGHT_SHARES[name] * (min(share, LARGEST_SHARE) / STRAIGHT_SHARES[name]) ** k
@@ -200,7 +200,7 @@ class Contact:
         return 0.0 if self.t_start is None else t - self.t_start
 
     def speed(self, step: float) -> float:
-        """Return the walking speed, m/s, from the length of the stride before, m; `REFERENCE_SPEED` if it is unknown."""
+        """Return the walking speed, m/s, from the last stride's length `step`, m; `REFERENCE_SPEED` if unknown."""
         return (
             REFERENCE_SPEED
             if self.swing_time is None or self.swing_time <= 0.0

@@ -277,7 +277,7 @@ class Modes(TrackPart):
         return Position(t, (x, y, z), self._covariance(x, y, poses))
 
     def _covariance(self, x: float, y: float, poses: list[FootPose]) -> Covariance3:
-        """Return the covariance from the errors of single touchdowns, scale and first heading, m^2; z is the tracks'."""
+        """Return the covariance from errors of single touchdowns, scale and first heading, m^2; z is the tracks'."""
         variance = STEP_SIGMA**2 * (1 + self.touchdowns)
         scale, turn = SCALE_SIGMA**2, HEADING_SIGMA**2
         xx, yy = variance + scale * x * x + turn * y * y, variance + scale * y * y + turn * x * x

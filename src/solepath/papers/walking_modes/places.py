@@ -92,7 +92,7 @@ class FootPlaces:
     def _move_track(self, foot: Foot, placed_track: PlacedTrack, offset: Vec3, was_unplaced: bool) -> None:
         """Move the track of a foot that now lies elsewhere among both than with `offset` before."""
         side, other = self.sides[foot], self.sides[OTHER[foot]]
-        if was_unplaced and not placed_track.unplaced:  # known there again: as far apart as they stood
+        if was_unplaced and not placed_track.unplaced:  # back after a silence: the feet stand side by side
             side.track = placed_track.place(placed_track.newest_place)
             x, y = self._side_offset(foot, other)
             side.offset = displace(other.offset, (x, y, 0.0))
@@ -122,7 +122,7 @@ class FootPlaces:
         return (x + 0.5 * dx, y + 0.5 * dy, side.track[2])
 
     def locate(self, foot: Foot, t: float) -> tuple[Vec3, bool]:
-        """Return the place of `foot` relative to the other by (1) to (3), world frame, m, and whether the chain is used.
+        """Return the place of `foot`, world frame, m, from the other foot by (1) to (3), and whether the chain is used.
 
         If the chain is unknown and the other foot has moved since it came down, it is no reference. Then the place is
         that of this foot's own track."""
@@ -146,7 +146,7 @@ class FootPlaces:
         return (x / length, y / length) if length > LEAST_STEP_LENGTH else (lx, ly)
 
     def swing_foot(self, foot: Foot) -> Foot:
-        """Return the foot whose own track is clearly further from the start, because the method may confuse the feet."""
+        """Return the foot whose own track is clearly further from the start; the method may confuse the feet."""
         other = OTHER[foot]
         (x, y, _), (u, v, _) = self.sides[foot].track, self.sides[other].track
         return other if hypot(u, v) > hypot(x, y) + LEAST_STEP_LENGTH else foot

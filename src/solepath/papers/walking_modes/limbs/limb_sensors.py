@@ -10,7 +10,7 @@ from .inclination import Inclination
 from .limbs import LowerLimbs
 
 FARTHEST_AHEAD = 60.0
-"""Largest time ahead of all earlier samples, s. A later sample is rejected, unless the last one of its site was, too."""
+"""Largest time ahead of all earlier samples, s. Later ones are rejected, unless the site's last one was, too."""
 
 
 @define

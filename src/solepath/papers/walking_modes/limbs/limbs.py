@@ -190,9 +190,9 @@ class LowerLimbs:
             if s.t is not None and abs(t - s.t) >= ATTITUDE_VALID_TIME
         ]
         if ages:
-            largest_age = max([age for _, age in ages], key=abs)
+            oldest = max([age for _, age in ages], key=abs)
             names = _names([site for site, _ in ages])
-            return f"the newest attitude of the {names} is {abs(largest_age):.2g} s {'old' if largest_age > 0.0 else 'ahead'}"
+            return f"the newest attitude of the {names} is {abs(oldest):.2g} s {'old' if oldest > 0.0 else 'ahead'}"
         names = _names([site for site, s in self.segments.items() if s.own_world and s.heading is None])
         return f"the sensor at the {names} does not know yet which way the wearer goes"
 
