@@ -1,1 +1,1 @@
-"""The five published systems: each folder has its parts, calibration and recipes, loaded when they are requested."""
+"""Five published systems: a folder contains the parts, calibration and recipes of one, and is loaded on request."""

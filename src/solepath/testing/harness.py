@@ -1,4 +1,6 @@
-"""Test harnesses for parts: a detector alone, a corrector or cues within a foot, a part of the body within a wearer."""
+"""Test harnesses for parts: a detector runs alone, a corrector or cues in a foot, a part of the body in a wearer.
+
+Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -24,11 +26,11 @@ from ..session.wearer import WearerParts, WearerSettings
 from ..types import SITE_OF_FOOT, Foot, Layout, Phase, Sample
 from ..types.vector import IDENTITY, ZERO
 
-GAPS = ((2.5, 2.6), (5.0, 5.4))
-"""Spans that are removed from every `EVERY` seconds for a corrector or cues, s: a short gap and a long one."""
-EVERY = 6.0
-"""Period of the gaps, s."""
-UNIT = 1e-6
+GAP_SPANS = ((2.5, 2.6), (5.0, 5.4))
+"""Start and end of a short and of a long gap, s, that are cut from every `GAP_PERIOD` of the samples."""
+GAP_PERIOD = 6.0
+"""Period with which the gaps repeat, s."""
+LENGTH_TOLERANCE = 1e-6
 """Largest deviation of the length of a unit quaternion from 1."""
 
 
@@ -39,24 +41,25 @@ class DetectorHarness:
     part: Detector
     insole: InsoleLoads
     t: float | None = field(default=None, init=False)
+    """Time of the newest sample, s."""
 
     def with_gaps(self, samples: list[Sample]) -> list[Sample]:
-        """Return all samples; a detector is tried without gaps."""
+        """Return all samples, because a detector is tested without gaps."""
         return samples
 
     def pressure_only(self, samples: list[Sample]) -> list[Sample]:
-        """Return no samples, because a detector needs inertial ones."""
+        """Return no samples, because a detector needs inertial values."""
         return []
 
     def restart(self) -> None:
-        kept: Any = self.part
-        self.part = evolve(kept)
+        part: Any = self.part
+        self.part = evolve(part)
 
     def feed(self, sample: Sample) -> Any:
-        t, last, self.t = sample.t, self.t, sample.t
-        pressed = self.insole.update(t, sample.pressure) if sample.pressure else None
+        t, last_t, self.t = sample.t, self.t, sample.t
+        load = self.insole.update(t, sample.pressure) if sample.pressure else None
         acc, gyro = sample.acc or ZERO, sample.gyro or ZERO
-        return self.part.update(t, 0.0 if last is None else t - last, acc, gyro, pressed, IDENTITY)
+        return self.part.update(t, 0.0 if last_t is None else t - last_t, acc, gyro, load, IDENTITY)
 
     def finish(self) -> list[Any]:
         return []
@@ -66,7 +69,7 @@ class DetectorHarness:
         if not isinstance(stance, Stance):
             yield f"update returns a Stance, not a {type(stance).__name__}"
             return
-        if len(stance.v_ref) != 3 or not _finite(stance.v_ref):
+        if len(stance.v_ref) != 3 or not _all_finite(stance.v_ref):
             yield f"v_ref is three finite numbers, not {stance.v_ref}"
         if not 0.0 < stance.sigma <= inf:
             yield f"sigma is above 0, and infinite where there is nothing to say, not {stance.sigma}"
@@ -78,18 +81,18 @@ class DetectorHarness:
 
 @define
 class WalkHarness:
-    """Runs a part on a walk with gaps, and after that on cells without an inertial sensor."""
+    """Runs a part on a walk with gaps, and then on pressure samples without inertial values."""
 
     t: float = field(default=0.0, init=False)
     """Time of the newest sample, s."""
 
     def with_gaps(self, samples: list[Sample]) -> list[Sample]:
-        """Return the samples without those in GAPS."""
+        """Return the samples without those in a gap (`GAP_SPANS`)."""
         t_start = samples[0].t if samples else 0.0
-        return [s for s in samples if not any([a < (s.t - t_start) % EVERY < b for a, b in GAPS])]
+        return [s for s in samples if not any([a < (s.t - t_start) % GAP_PERIOD < b for a, b in GAP_SPANS])]
 
     def pressure_only(self, samples: list[Sample]) -> list[Sample]:
-        """Return later samples with pressure and without inertial values."""
+        """Return the pressures of `samples` as samples without inertial values, from 1 s after the newest one on."""
         return [Sample(self.t + 1.0 + s.t - samples[0].t, s.site, pressure=s.pressure) for s in samples if s.pressure]
 
     def finish(self) -> list[Any]:
@@ -102,7 +105,7 @@ class WalkHarness:
 
 @define
 class FootHarness(WalkHarness):
-    """Runs a corrector or cues in the place that a session has for it."""
+    """Runs a corrector or cues within a foot, as a session does."""
 
     tracker: FootTracker
     name: str
@@ -122,9 +125,15 @@ class FootHarness(WalkHarness):
     def feed(self, sample: Sample) -> Any:
         tracker, self.t = self.tracker, sample.t
         events = tracker.feed(sample)
-        one = tracker.corrector
-        found = (one.position, one.velocity, one.attitude, one.covariance(), one.error_index)
-        return sample.t, events, found if tracker.levelled else None, tracker.cues.sagittal
+        corrector = tracker.corrector
+        state = (
+            corrector.position,
+            corrector.velocity,
+            corrector.attitude,
+            corrector.covariance(),
+            corrector.error_index,
+        )
+        return sample.t, events, state if tracker.levelled else None, tracker.cues.sagittal
 
 
 @define
@@ -132,18 +141,22 @@ class CorrectorHarness(FootHarness):
     """Runs a corrector within a foot."""
 
     def problems(self, output: Any) -> Iterator[str]:
-        """Yield a sentence for every value of the corrector from which no event can be made."""
-        _, _, found, _ = output
-        if found is None:
+        """Yield a sentence for every value of the corrector that an event cannot have."""
+        _, _, state, _ = output
+        if state is None:
             return
-        position, velocity, (w, x, y, z), spread, error_index = found
+        position, velocity, (w, x, y, z), covariance, error_index = state
         for name, value in (("position", position), ("velocity", velocity)):
-            if len(value) != 3 or not _finite(value):
+            if len(value) != 3 or not _all_finite(value):
                 yield f"{name} is three finite numbers, not {value}"
-        if not abs(w * w + x * x + y * y + z * z - 1.0) < 2.0 * UNIT:
+        if not abs(w * w + x * x + y * y + z * z - 1.0) < 2.0 * LENGTH_TOLERANCE:
             yield f"attitude is a unit quaternion, not {(w, x, y, z)}"
-        if len(spread) != 7 or not _finite(spread) or min(spread[0], spread[3], spread[5], spread[6]) < 0.0:
-            yield f"a covariance is seven finite numbers with variances of 0 or more, not {spread}"
+        if (
+            len(covariance) != 7
+            or not _all_finite(covariance)
+            or min(covariance[0], covariance[3], covariance[5], covariance[6]) < 0.0
+        ):
+            yield f"a covariance is seven finite numbers with variances of 0 or more, not {covariance}"
         if error_index is not None and not 0.0 <= error_index < inf:
             yield f"error_index is None, or finite and not below 0, not {error_index}"
 
@@ -189,7 +202,7 @@ class WearerHarness(WalkHarness):
         return [self.wearer.finish(self.t)]
 
     def problems(self, events: Any) -> Iterator[str]:
-        """Yield a sentence for every output that is not an event, or whose time is after it was known."""
+        """Yield a sentence for every output that is no event, or that has `t` after `known_at`."""
         for event in events:
             if not isinstance(event, Happening):
                 yield f"a part returns events, a Shift, a HeightShift or a Replacement, not a {type(event).__name__}"
@@ -198,7 +211,7 @@ class WearerHarness(WalkHarness):
 
 
 def harness_for(part: Any, foot: Foot, layout: Layout | None) -> DetectorHarness | FootHarness | WearerHarness:
-    """Return the harness for a part of this kind. Raise TypeError when it extends none of the four kinds."""
+    """Return the harness for a part of this kind; raise TypeError when it extends none of the four kinds."""
     kinds = type(part).__mro__
     if Detector in kinds:
         insole = InsoleLoads()
@@ -225,5 +238,5 @@ def harness_for(part: Any, foot: Foot, layout: Layout | None) -> DetectorHarness
     return harness
 
 
-def _finite(values: Iterable[float]) -> bool:
+def _all_finite(values: Iterable[float]) -> bool:
     return all([isfinite(value) for value in values])

@@ -1,8 +1,8 @@
 """Tests whether a part meets the contract of a session: call `broken` in a test of your own part.
 
 It is meant for authors of a stance detector, a corrector, cues or a part of the body. It runs the part on the given
-samples: a detector alone, the others where a session has them, within the default recipe. It does not find what samples
-cannot show: whether each sample costs the same time, and whether the results are any good."""
+samples: a detector alone, any other part within the default recipe. It tests neither the time that a sample takes nor
+the accuracy of the results."""
 
 from __future__ import annotations
 
@@ -24,62 +24,66 @@ from ..types import Foot, Layout, Sample, Site
 from ..types.vector import IDENTITY
 from .harness import harness_for
 
-GROWTH = 1.5
-"""A state grows without bounds when the second half of the samples makes it this many times larger than the first."""
+LARGEST_STATE_GROWTH = 1.5
+"""Ratio of the largest state in the second half of the samples to that in the first half, above which it grows forever.
+
+Chosen by hand."""
 
 
 def broken(
     part: Detector | Corrector | Cues | Part, samples: Iterable[Sample], layout: Layout | None = None
 ) -> list[str]:
-    """Return a sentence for every rule that `part` breaks; an empty list is good. `part` itself is never fed.
+    """Return a sentence for every rule that `part` breaks; the list is empty if it breaks none.
 
-    `samples` are of one foot in the order of their time, ten seconds of walking or more; those without acc or gyro are
-    skipped. `layout` has the positions of the cells. A detector receives the attitude of a level sensor throughout; a
-    part of the body may be tested on samples of both feet. TypeError is raised when `part` extends none of the four
-    kinds, is no attrs class, or has a field of a kind that cannot be saved. Exceptions of its methods are not caught.
-    """
-    whole = [sample for sample in samples if sample.acc is not None and sample.gyro is not None]
-    fresh = save(part)
-    harness = harness_for(deepcopy(part), whole[0].site.foot or Foot.LEFT if whole else Foot.LEFT, layout)
-    walked = harness.with_gaps(whole)
-    half = len(walked) // 2
-    found = []
-    one = deepcopy(harness)
+    Copies of `part` are tested. `samples` are at least ten seconds of walking of one foot, in the order of time; for a
+    part of the body they may be of both feet. Samples without acc or gyro are skipped. `layout` has the positions of
+    the cells. A detector always receives the attitude of a level sensor. Raises TypeError when `part` extends none of
+    the four kinds, is no attrs class, or has a field of a kind that cannot be saved. Exceptions of the part's methods
+    are not caught."""
+    inertial_samples = [sample for sample in samples if sample.acc is not None and sample.gyro is not None]
+    saved_part = save(part)
+    harness = harness_for(
+        deepcopy(part), inertial_samples[0].site.foot or Foot.LEFT if inertial_samples else Foot.LEFT, layout
+    )
+    tested_samples = harness.with_gaps(inertial_samples)
+    middle = len(tested_samples) // 2
+    sentences = []
+    copy = deepcopy(harness)
     try:
-        outputs, early = _run_measured(one, walked[:half])
-        other = deepcopy(one)
-        restored = load(type(part), json.loads(json.dumps(save(one.part))))
-        altered = list(_changed_fields(one.part, restored))
-        other.part = restored
-        after, late = _run_measured(one, walked[half:])
+        outputs, size_before = _run_measured(copy, tested_samples[:middle])
+        restored_harness = deepcopy(copy)
+        restored = load(type(part), json.loads(json.dumps(save(copy.part))))
+        altered_fields = list(_changed_fields(copy.part, restored))
+        restored_harness.part = restored
+        late_outputs, size_after = _run_measured(copy, tested_samples[middle:])
     except SnapshotError as error:
         return [f"its state cannot be saved and restored: {error}"]
-    outputs += after
-    if save(part) != fresh:
-        found.append("two copies of it share something: feeding one changes the other")
-    if repr(_run(deepcopy(harness), walked)) != repr(outputs):
-        found.append("the same samples do not say the same twice")
-    found += [f"saved and restored, {what}" for what in altered]
-    if not altered and repr(_run(other, walked[half:])) != repr(after):
-        found.append("saved and restored, it does not go on as before: it remembers what is in no field")
-    changed = _changed_settings(part, one.part)
-    found += [f"its setting {name} changes: what does is state, a field with init=False" for name in changed]
-    if late > GROWTH * early:
-        found.append("it remembers more and more")
-    outputs += _run(one, _extreme_samples(walked))
-    outputs += _run(one, one.pressure_only(walked))
-    one.restart()
-    outputs += _run(one, walked)
-    outputs += one.finish()
+    outputs += late_outputs
+    if save(part) != saved_part:
+        sentences.append("two copies of it share something: feeding one changes the other")
+    if repr(_run(deepcopy(harness), tested_samples)) != repr(outputs):
+        sentences.append("the same samples do not say the same twice")
+    sentences += [f"saved and restored, {what}" for what in altered_fields]
+    if not altered_fields and repr(_run(restored_harness, tested_samples[middle:])) != repr(late_outputs):
+        sentences.append("saved and restored, it does not go on as before: it remembers what is in no field")
+    changed_names = _changed_settings(part, copy.part)
+    sentences += [f"its setting {name} changes: what does is state, a field with init=False" for name in changed_names]
+    if size_after > LARGEST_STATE_GROWTH * size_before:
+        sentences.append("it remembers more and more")
+    outputs += _run(copy, _extreme_samples(tested_samples))
+    outputs += _run(copy, copy.pressure_only(tested_samples))
+    copy.restart()
+    outputs += _run(copy, tested_samples)
+    outputs += copy.finish()
     problems: dict[str, str] = {}
     for what in outputs:
         for sentence in harness.problems(what):
-            problems.setdefault(sentence.partition(",")[0], sentence)  # the first of its kind
-    return [*found, *problems.values()]
+            problems.setdefault(sentence.partition(",")[0], sentence)  # only the first sentence of each kind
+    return [*sentences, *problems.values()]
 
 
 def _changed_settings(before: Any, after: Any) -> list[str]:
-    """Return the names of the settings that have changed. A packed session would lose such a change."""
+    """Return the names of the settings that have changed, which a packed session would lose."""
     cls = type(before)
     settings = record_of(cls, made=True).defaults if has_state(cls) else {}
     return [name for name in settings if getattr(before, name) != getattr(after, name)]
@@ -90,33 +94,33 @@ def _run(harness: Any, samples: Iterable[Sample]) -> list[Any]:
 
 
 def _changed_fields(part: Any, restored: Any) -> Iterator[str]:
-    """Yield a sentence for every field that restores differently; its type annotation decides how it is restored."""
+    """Yield a sentence for every field whose restored value differs; the type annotation decides how it is restored."""
     for name in attrs.fields_dict(type(part)):
-        was, comes = getattr(part, name), getattr(restored, name)
-        if type(was) is not type(comes) and not isinstance(was, int | float):
-            yield f"its field {name} comes back as a {type(comes).__name__} and was a {type(was).__name__}"
-        elif save(was) != save(comes) if attrs.has(type(was)) else was != comes:
-            yield f"its field {name} comes back as {comes!r:.60} and was {was!r:.60}"
+        old, new = getattr(part, name), getattr(restored, name)
+        if type(old) is not type(new) and not isinstance(old, int | float):
+            yield f"its field {name} comes back as a {type(new).__name__} and was a {type(old).__name__}"
+        elif save(old) != save(new) if attrs.has(type(old)) else old != new:
+            yield f"its field {name} comes back as {new!r:.60} and was {old!r:.60}"
 
 
 def _run_measured(harness: Any, samples: Sequence[Sample]) -> tuple[list[Any], int]:
-    """Return the outputs, and the largest number of values in the state, measured about a hundred times."""
-    outputs, most, every = [], 1, max(1, len(samples) // 100)
+    """Return the outputs and the largest number of values in the state, which is counted about a hundred times."""
+    outputs, largest_size, interval = [], 1, max(1, len(samples) // 100)
     for k, sample in enumerate(samples):
         outputs.append(harness.feed(sample))
-        if k % every == 0:
-            most = max(most, _values(save(harness.part)))
-    return outputs, most
+        if k % interval == 0:
+            largest_size = max(largest_size, _value_count(save(harness.part)))
+    return outputs, largest_size
 
 
-def _values(saved: Json) -> int:
+def _value_count(saved: Json) -> int:
     if isinstance(saved, dict):
-        return sum(map(_values, saved.values()))
-    return sum(map(_values, saved)) if isinstance(saved, list) else 1
+        return sum(map(_value_count, saved.values()))
+    return sum(map(_value_count, saved)) if isinstance(saved, list) else 1
 
 
 def _extreme_samples(samples: Sequence[Sample]) -> Iterator[Sample]:
-    """Yield samples that follow `samples` and are no walk: very large readings, free fall, very short and long gaps."""
+    """Yield extreme samples to follow `samples`: very large readings, free fall, very short and very long intervals."""
     t, site = (samples[-1].t, samples[-1].site) if samples else (0.0, Site.LEFT_FOOT)
     for dt in (1e-6, 0.01, 0.1, 1.0, 1e5, 0.01):
         for size in (0.0, 1.0, -1.0, 1e-9):

@@ -1,4 +1,4 @@
-"""Checks a declared device against its test vectors (protocol/README.md, "Vectors")."""
+"""Check of a device's driver against its test vectors (protocol/README.md, "Vectors")."""
 
 from __future__ import annotations
 
@@ -13,37 +13,37 @@ from ..link.reading_check import check_reading
 from ..wire.error import WireError
 
 SCHEMA = "solepath vectors 1"
-_NOT_FIELDS = ("tolerance", "known")
-"""Keys of `physical` that are not fields of a Reading."""
+_OTHER_KEYS = ("tolerance", "known")
+"""Keys of `physical` in a vector that are not fields of a Reading."""
 
 
 def disagreements(driver: Driver, file: Mapping[str, Any]) -> list[str]:
-    """Return a sentence for every disagreement of a vector file and a driver, and for every mistake in the file itself.
+    """Return a sentence for every disagreement between a vector file and a driver, and for every mistake in the file.
 
-    `file` is what json.load returns; an empty list is good. `fields` of a valid vector are what the channel's construct
-    parses, and they build the same bytes again. `physical` may name fields of the Reading, which agree to `tolerance`
-    and are read with `known`. An invalid vector is rejected for its `reason`: by the construct, by the reader, or
-    because no device can send it (reading_check.py)."""
+    `file` is the result of json.load. The bytes of a valid vector must parse to its `fields`, by the construct of the
+    channel, and `fields` must build the same bytes. `physical` may contain expected fields of the Reading; they must
+    agree within `tolerance`, and `known` is passed to the driver's `read`. An invalid vector must be rejected for its
+    `reason`: by the construct, by the reader, or because no device can send it (reading_check.py)."""
     if not isinstance(file, Mapping):
         return ["a vector file is an object"]
-    found = [] if file.get("schema") == SCHEMA else [f"the schema is {SCHEMA!r}, not {file.get('schema')!r}"]
+    sentences = [] if file.get("schema") == SCHEMA else [f"the schema is {SCHEMA!r}, not {file.get('schema')!r}"]
     channel, vectors = file.get("channel"), file.get("vectors")
     if not isinstance(channel, str) or channel not in driver.formats:
-        return [*found, f"no channel {channel!r}"]
+        return [*sentences, f"no channel {channel!r}"]
     if not isinstance(vectors, list):
-        return [*found, "'vectors' is no list"]
+        return [*sentences, "'vectors' is no list"]
     if file.get("count") != len(vectors):
-        found.append(f"{len(vectors)} vectors, not {file.get('count')}")
-    seen = set[str]()
+        sentences.append(f"{len(vectors)} vectors, not {file.get('count')}")
+    ids = set[str]()
     for k, vector in enumerate(vectors):
         if not isinstance(vector, Mapping) or not isinstance(vector.get("id"), str):
-            found.append(f"vector {k} is no object with an id")
+            sentences.append(f"vector {k} is no object with an id")
             continue
-        if vector["id"] in seen:
-            found.append(f"{vector['id']}: it is there twice")
-        seen.add(vector["id"])
-        found += [f"{vector['id']}: {what}" for what in _check_vector(driver, channel, vector)]
-    return found
+        if vector["id"] in ids:
+            sentences.append(f"{vector['id']}: it is there twice")
+        ids.add(vector["id"])
+        sentences += [f"{vector['id']}: {sentence}" for sentence in _check_vector(driver, channel, vector)]
+    return sentences
 
 
 def _check_vector(driver: Driver, channel: str, vector: Mapping[str, Any]) -> Iterator[str]:
@@ -59,7 +59,7 @@ def _check_vector(driver: Driver, channel: str, vector: Mapping[str, Any]) -> It
     if result == "invalid" and not isinstance(vector.get("reason"), str):
         yield "no 'reason' that it is refused for"
         return
-    if not isinstance(physical, Mapping) or not _numbers(physical.get("known", {})):
+    if not isinstance(physical, Mapping) or not _has_numbers(physical.get("known", {})):
         yield "'physical' is no object of values, with numbers in its 'known'"
         return
     try:
@@ -93,11 +93,11 @@ def _check_build(driver: Driver, channel: str, vector: Mapping[str, Any], parsed
 
 def _check_physical(reading: Reading, physical: Mapping[str, Any]) -> Iterator[str]:
     tolerance = physical.get("tolerance")
-    if physical and not _numbers({"tolerance": tolerance}):
+    if physical and not _has_numbers({"tolerance": tolerance}):
         yield f"'physical' has a 'tolerance' that is a number, not {tolerance!r}"
         return
     for name, value in physical.items():
-        if name in _NOT_FIELDS:
+        if name in _OTHER_KEYS:
             continue
         if name not in attrs.fields_dict(Reading):
             yield f"a Reading has no {name!r}"
@@ -105,12 +105,12 @@ def _check_physical(reading: Reading, physical: Mapping[str, Any]) -> Iterator[s
             yield f"{name} is {plain(getattr(reading, name))}"
 
 
-def _numbers(named: Any) -> bool:
+def _has_numbers(named: Any) -> bool:
     return isinstance(named, Mapping) and all([isinstance(value, int | float) for value in named.values()])
 
 
 def plain(value: Any) -> Any:
-    """Convert a value to JSON's types: records and construct's Containers to dicts, enums to their values."""
+    """Convert a value to JSON's types: records and construct's Containers become dicts, enums their values."""
     if attrs.has(type(value)):
         return plain(attrs.asdict(value, recurse=False))
     if isinstance(value, Mapping):
@@ -120,18 +120,18 @@ def plain(value: Any) -> Any:
     return getattr(value, "value", value)
 
 
-def _close(found: Any, expected: Any, tolerance: float) -> bool:
-    """Return whether `found` has all that `expected` names, numbers to `tolerance`."""
+def _close(actual: Any, expected: Any, tolerance: float) -> bool:
+    """Return whether `actual` has all entries of `expected`, with numbers equal within `tolerance`."""
     if isinstance(expected, Mapping):
-        return isinstance(found, dict) and all(
-            [name in found and _close(found[name], item, tolerance) for name, item in expected.items()]
+        return isinstance(actual, dict) and all(
+            [name in actual and _close(actual[name], item, tolerance) for name, item in expected.items()]
         )
     if isinstance(expected, list):
         return (
-            isinstance(found, list)
-            and len(found) == len(expected)
-            and all([_close(a, b, tolerance) for a, b in zip(found, expected, strict=True)])
+            isinstance(actual, list)
+            and len(actual) == len(expected)
+            and all([_close(a, b, tolerance) for a, b in zip(actual, expected, strict=True)])
         )
     if isinstance(expected, int | float) and not isinstance(expected, bool):
-        return isinstance(found, int | float) and isclose(found, expected, rel_tol=0.0, abs_tol=tolerance)
-    return bool(found == expected)
+        return isinstance(actual, int | float) and isclose(actual, expected, rel_tol=0.0, abs_tol=tolerance)
+    return bool(actual == expected)

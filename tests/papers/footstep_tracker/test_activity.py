@@ -1,4 +1,4 @@
-"""Two-second windows: their features, the tree, the order of a lift's pulses, the hidden Markov model; by hand."""
+"""Two-second windows: features, decision tree, pulses of an elevator, hidden Markov model; expected values by hand."""
 
 import json
 from math import log, pi, sin
@@ -30,12 +30,12 @@ from solepath.show.timeline import Timeline
 from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample
 from solepath.types.vector import GRAVITY, normalise
 
-RATE = 20.0
-FEET = {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in Foot}
+SAMPLE_RATE = 20.0
+TRACKERS = {foot: FootTracker(foot, Cycle(), ErrorStateFilter()) for foot in Foot}
 STILL, UP, DOWN = Activity.STANDING, Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN
 
 
-def windows(accs, gyros=None, rate=RATE):
+def windows(accs, gyros=None, rate=SAMPLE_RATE):
     """Return the windows of one foot."""
     foot = FootWindows()
     for k, acc in enumerate(accs):
@@ -101,12 +101,12 @@ def test_no_window_goes_over_a_gap():
     assert [window.index for window in foot.ready] == [8, 9, 10]
 
 
-PULSE = 0.8
-"""m/s^2."""
+PULSE_ACCELERATION = 0.8
+"""Acceleration of an elevator, m/s^2."""
 
 
-def samples(acc, seconds, feet=tuple(Foot), rate=RATE, start=0.0):
-    """`acc`: of the time in s, m/s^2 along the axis beyond gravity."""
+def samples(acc, seconds, feet=tuple(Foot), rate=SAMPLE_RATE, start=0.0):
+    """Return samples whose specific force exceeds gravity by `acc(t)` m/s^2, with `t` in s."""
     found = []
     for k in range(round(seconds * rate)):
         t = start + k / rate
@@ -116,7 +116,7 @@ def samples(acc, seconds, feet=tuple(Foot), rate=RATE, start=0.0):
 
 def events_of(items, part=None):
     part = TwoSecondWindows() if part is None else part
-    return [event for item in items for event in fed(part, FEET[item.site.foot], item, [])]
+    return [event for item in items for event in fed(part, TRACKERS[item.site.foot], item, [])]
 
 
 def timeline(events):
@@ -127,21 +127,21 @@ def timeline(events):
     return found
 
 
-def ride(t, start, end, up=1.0):
-    """A lift that sets off at `start` and stands again at `end`, each for 1.25 s of pulse."""
+def ride_acceleration(t, start, end, up=1.0):
+    """Return the acceleration, m/s^2, of an elevator that departs at `start` s and stops at `end` s."""
     if start <= t < start + 1.25:
-        return up * PULSE
-    return -up * PULSE if end - 1.25 <= t < end else 0.0
+        return up * PULSE_ACCELERATION
+    return -up * PULSE_ACCELERATION if end - 1.25 <= t < end else 0.0
 
 
-def stride(t):
-    """Two bumps a second, as of a foot that walks."""
+def walking_acceleration(t):
+    """Return the acceleration at `t` s of a walking foot, m/s^2: two peaks a second."""
     return 8.0 * sin(4.0 * pi * t)
 
 
 @pytest.mark.parametrize(("up", "activity"), [(1.0, UP), (-1.0, DOWN)])
 def test_hypergravity_then_weightlessness_is_a_lift_up_and_the_other_order_one_down(up, activity):
-    events = events_of(samples(lambda t: ride(t, 6.0, 16.0, up), 24.0))
+    events = events_of(samples(lambda t: ride_acceleration(t, 6.0, 16.0, up), 24.0))
     (arrived,) = [event for event in events if isinstance(event, LiftRidden)]
     assert arrived.up is (up > 0.0) and arrived.height is None
     assert arrived.t_start == pytest.approx(6.0, abs=0.5) and arrived.t == pytest.approx(16.0, abs=0.5)
@@ -150,7 +150,9 @@ def test_hypergravity_then_weightlessness_is_a_lift_up_and_the_other_order_one_d
 
 
 def test_a_lift_that_has_set_off_is_reported_at_once_and_is_final_with_its_second_pulse():
-    events = [e for e in events_of(samples(lambda t: ride(t, 6.0, 16.0), 24.0)) if isinstance(e, ActivityChanged)]
+    events = [
+        e for e in events_of(samples(lambda t: ride_acceleration(t, 6.0, 16.0), 24.0)) if isinstance(e, ActivityChanged)
+    ]
     assert [(e.activity, e.final) for e in events] == [(STILL, True), (UP, False), (UP, True), (STILL, True)]
     first, again = events[1:3]
     assert again.revises == first.t == again.t
@@ -159,27 +161,29 @@ def test_a_lift_that_has_set_off_is_reported_at_once_and_is_final_with_its_secon
 
 
 def test_who_walks_off_before_the_second_pulse_rode_no_lift():
-    events = events_of(samples(lambda t: ride(t, 6.0, 99.0) if t < 12.0 else stride(t), 20.0))
+    events = events_of(
+        samples(lambda t: ride_acceleration(t, 6.0, 99.0) if t < 12.0 else walking_acceleration(t), 20.0)
+    )
     assert not [event for event in events if isinstance(event, LiftRidden)]
     found = timeline(events)
     assert found.at(8.0) is STILL and found.at(14.0) in MOVING
 
 
 def test_no_second_pulse_for_a_minute_means_that_there_was_no_ride():
-    events = events_of(samples(lambda t: ride(t, 6.0, 999.0), 12.0 + 0.5 * LONGEST_RIDE))
+    events = events_of(samples(lambda t: ride_acceleration(t, 6.0, 999.0), 12.0 + 0.5 * LONGEST_RIDE))
     assert timeline(events).at(30.0) is STILL
     assert all(event.final for event in events[-1:])
 
 
 def test_a_foot_that_falls_silent_is_not_waited_for():
     both = samples(lambda t: 0.0, 6.0)
-    one = samples(lambda t: ride(t, 6.0, 16.0), 24.0, feet=(Foot.LEFT,))
+    one = samples(lambda t: ride_acceleration(t, 6.0, 16.0), 24.0, feet=(Foot.LEFT,))
     events = events_of(both + [item for item in one if item.t >= 6.0])
     assert [event.up for event in events if isinstance(event, LiftRidden)] == [True]
 
 
-def model():
-    """Three states of the same width whose means differ by 1 in the log variance."""
+def width_one_model():
+    """Return a model of three states with equal covariances, whose means of the log variance differ by 1."""
 
     def at(middle):
         width = tuple(tuple(1.0 if k == row else 0.0 for k in range(row + 1)) for row in range(len(FEATURES)))
@@ -203,13 +207,13 @@ def test_the_forward_filter_by_hand():
     # a_z swings by +-v: its log variance is 2 log v, and each state is off by its own distance. With one foot the
     # likelihoods are exp(-d^2 / 2) to the power of 1/4, for each window is seen four times.
     swing = np.exp(0.5 * 3.6)
-    part = TwoSecondWindows(two_second_windows.TwoSecondSettings(model()))
-    items = samples(lambda t: swing * (-1.0) ** round(t * RATE), 4.55, feet=(Foot.LEFT,))
+    part = TwoSecondWindows(two_second_windows.TwoSecondSettings(width_one_model()))
+    items = samples(lambda t: swing * (-1.0) ** round(t * SAMPLE_RATE), 4.55, feet=(Foot.LEFT,))
     # windows end at 2.5, 3.0, 3.5, 4.0 and 4.5 s; the first without any standing is the fourth of a movement
     events_of(items, part)
     likely = np.exp(-0.5 * (3.6 - np.array([3.0, 4.0, 2.0])) ** 2 / BLOCKS)
     belief = likely / likely.sum()
-    belief = belief @ np.array(model().transitions) * likely
+    belief = belief @ np.array(width_one_model().transitions) * likely
     assert part.belief == pytest.approx((belief / belief.sum()).tolist(), rel=1e-6)
     assert part.belief[0] > part.belief[1] and part.activity is Activity.WALKING
 
@@ -217,8 +221,8 @@ def test_the_forward_filter_by_hand():
 def test_the_variance_tree_comes_first():
     # variance 0.81 is below the threshold of 1, 1.21 above it, for any state of the hidden Markov model
     for swing, moves in ((0.9, False), (1.1, True)):
-        part = TwoSecondWindows(two_second_windows.TwoSecondSettings(model()))
-        events_of(samples(lambda t, v=swing: v * (-1.0) ** round(t * RATE), 6.0), part)
+        part = TwoSecondWindows(two_second_windows.TwoSecondSettings(width_one_model()))
+        events_of(samples(lambda t, v=swing: v * (-1.0) ** round(t * SAMPLE_RATE), 6.0), part)
         assert (part.activity in MOVING) is moves
 
 
@@ -232,7 +236,7 @@ def test_any_numbers_give_events_in_order_of_being_known(items):
     for dt, left, acc in items:
         t += 0.05 * dt**4 + 1e-3
         foot = Foot.LEFT if left else Foot.RIGHT
-        found += fed(part, FEET[foot], Sample(t=t, site=SITE_OF_FOOT[foot], acc=acc), [])
+        found += fed(part, TRACKERS[foot], Sample(t=t, site=SITE_OF_FOOT[foot], acc=acc), [])
     assert all(a.known_at <= b.known_at for a, b in zip(found, found[1:], strict=False))
     assert all(event.t <= event.known_at for event in found)
     json.dumps(save(part), allow_nan=False)
@@ -262,7 +266,7 @@ def test_no_wearer_that_is_scored_was_learnt_from():
     first, last = emulated.FIRST_TO_LEARN_FROM, emulated.LAST_TO_LEARN_FROM
     for seeds in (
         range(first, first + footstep_training.WALKS),
-        range(turns_training.FIRST_TO_LEARN_FROM, turns_training.FIRST_TO_LEARN_FROM + turns_training.EACH),
+        range(turns_training.FIRST_TRAINING_SEED, turns_training.FIRST_TRAINING_SEED + turns_training.TURNS_PER_CLASS),
         activities.EMULATED,
     ):
         assert first <= min(seeds) and max(seeds) <= last

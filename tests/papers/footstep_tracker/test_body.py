@@ -32,68 +32,68 @@ from solepath.recipes import DEFAULT, Recipe
 from solepath.types import Foot, Turn
 
 
-def step(foot: Foot, t: float, turn: float = 0.0, way: tuple[float, float] = (1.0, 0.0)) -> StrideTaken:
-    """A step that ends at `t` s and turns by `turn` rad."""
+def stride_of(foot: Foot, t: float, turn: float = 0.0, way: tuple[float, float] = (1.0, 0.0)) -> StrideTaken:
+    """Return a stride that ends at `t` s and turns by `turn` rad, left positive."""
     return stride(foot, t, (*way, 0.0), heading_change=turn)
 
 
 def new_track() -> Footsteps:
     """Return the track of a wearer with sensors on both feet."""
     body = Footsteps()
-    for way in body.paths.values():
-        way.has_samples = True
+    for path in body.paths.values():
+        path.has_samples = True
     return body
 
 
 def walked(count: int, left: float, right: float) -> Footsteps:
-    """Return the track after `count` steps of both feet, each `left` or `right` m ahead."""
+    """Return the track after `count` strides of each foot, `left` and `right` m long."""
     body = new_track()
     for k in range(count):
-        body.add_stride(step(Foot.LEFT, k + 0.5, way=(left, 0.0)))
-        body.add_stride(step(Foot.RIGHT, k + 1.0, way=(right, 0.0)))
+        body.add_stride(stride_of(Foot.LEFT, k + 0.5, way=(left, 0.0)))
+        body.add_stride(stride_of(Foot.RIGHT, k + 1.0, way=(right, 0.0)))
     return body
 
 
-def base(body: Footsteps) -> tuple[float, float]:
-    (lx, ly), (rx, ry), (x, y) = (*(way.here for way in body.paths.values()), body.restart_position)
+def mean_position(body: Footsteps) -> tuple[float, float]:
+    (lx, ly), (rx, ry), (x, y) = (*(path.displacement for path in body.paths.values()), body.restart_position)
     return (x + 0.5 * (lx + rx), y + 0.5 * (ly + ry))
 
 
 def test_the_wearer_is_at_the_mean_of_what_both_feet_went() -> None:
-    assert base(walked(4, 1.2, 1.0)) == pytest.approx((4.4, 0.0))
+    assert mean_position(walked(4, 1.2, 1.0)) == pytest.approx((4.4, 0.0))
 
 
 def test_feet_that_are_more_than_a_metre_apart_restart_at_their_mean() -> None:
     body = walked(6, 1.4, 1.0)
     assert body.restarts > 0
-    assert base(body) == pytest.approx((0.5 * 6 * 2.4, 0.0))
-    assert hypot(body.paths[Foot.LEFT].here[0] - body.paths[Foot.RIGHT].here[0], 0.0) < 2.0
+    assert mean_position(body) == pytest.approx((0.5 * 6 * 2.4, 0.0))
+    assert hypot(body.paths[Foot.LEFT].displacement[0] - body.paths[Foot.RIGHT].displacement[0], 0.0) < 2.0
 
 
 def test_half_a_stride_between_healthy_feet_is_no_difference() -> None:
     body = new_track()
     for k in range(40):
-        body.add_stride(step(Foot.LEFT, k + 0.5, way=(0.75 if k == 0 else 1.5, 0.0)))
-        body.add_stride(step(Foot.RIGHT, k + 1.0, way=(1.5, 0.0)))
+        body.add_stride(stride_of(Foot.LEFT, k + 0.5, way=(0.75 if k == 0 else 1.5, 0.0)))
+        body.add_stride(stride_of(Foot.RIGHT, k + 1.0, way=(1.5, 0.0)))
     assert body.restarts == 0
 
 
 def test_a_foot_that_falls_silent_does_not_hold_the_wearer_back() -> None:
     body = walked(5, 1.0, 1.0)
     for k in range(5, 15):
-        body.add_stride(step(Foot.LEFT, k + 0.5))
-    assert base(body) == pytest.approx((15.0, 0.0))
+        body.add_stride(stride_of(Foot.LEFT, k + 0.5))
+    assert mean_position(body) == pytest.approx((15.0, 0.0))
 
 
 def test_both_feet_go_on_in_the_direction_of_the_mean_of_their_turns() -> None:
     body = new_track()
     # the left foot measures 80 degrees and the right one 100; each then goes straight by its own track
     for foot, turn in ((Foot.LEFT, radians(80.0)), (Foot.RIGHT, radians(100.0))):
-        body.add_stride(step(foot, 1.0, turn, way=(0.0, 0.0)))
-    before = base(body)
+        body.add_stride(stride_of(foot, 1.0, turn, way=(0.0, 0.0)))
+    before = mean_position(body)
     for foot, own in ((Foot.LEFT, radians(80.0)), (Foot.RIGHT, radians(100.0))):
-        body.add_stride(step(foot, 2.0, way=(cos(own), sin(own))))
-    x, y = base(body)
+        body.add_stride(stride_of(foot, 2.0, way=(cos(own), sin(own))))
+    x, y = mean_position(body)
     assert (x - before[0], y - before[1]) == pytest.approx((0.0, 1.0))
 
 
@@ -101,17 +101,17 @@ def turns_of(direction: TurnDetector, steps: list[StrideTaken]) -> list[TurnProc
     return [found for one in steps if (found := direction.add_stride(one)) is not None]
 
 
-def both(turns: list[tuple[float, float]], first: float = 1.0) -> list[StrideTaken]:
-    """Return alternate steps of both feet that turn by (left, right) degrees."""
+def alternate_strides(turns: list[tuple[float, float]], first: float = 1.0) -> list[StrideTaken]:
+    """Return alternate strides of both feet that turn by (left, right) degrees."""
     steps = []
     for k, (left, right) in enumerate(turns):
-        steps.append(step(Foot.LEFT, first + k, radians(left)))
-        steps.append(step(Foot.RIGHT, first + k + 0.5, radians(right)))
+        steps.append(stride_of(Foot.LEFT, first + k, radians(left)))
+        steps.append(stride_of(Foot.RIGHT, first + k + 0.5, radians(right)))
     return steps
 
 
 def test_a_turn_over_several_steps_is_their_sum_and_the_mean_of_both_feet() -> None:
-    (found,) = turns_of(TurnDetector(), both([(0, 0), (30, 50), (40, 50), (0, 0), (0, 0)]))
+    (found,) = turns_of(TurnDetector(), alternate_strides([(0, 0), (30, 50), (40, 50), (0, 0), (0, 0)]))
     assert found.left is not None and found.right is not None
     assert degrees(found.left) == pytest.approx(70.0) and degrees(found.right) == pytest.approx(100.0)
     assert degrees(found.angle) == pytest.approx(85.0)
@@ -119,12 +119,12 @@ def test_a_turn_over_several_steps_is_their_sum_and_the_mean_of_both_feet() -> N
 
 
 def test_who_walks_straight_on_makes_no_turn() -> None:
-    assert turns_of(TurnDetector(), both([(3, -4), (-2, 5), (6, -3)] * 10)) == []
+    assert turns_of(TurnDetector(), alternate_strides([(3, -4), (-2, 5), (6, -3)] * 10)) == []
 
 
 def test_a_turn_ends_when_the_wearer_stands() -> None:
     direction = TurnDetector()
-    assert turns_of(direction, both([(0, 0), (90, 90)])) == []
+    assert turns_of(direction, alternate_strides([(0, 0), (90, 90)])) == []
     assert direction.advance(3.0) is None
     found = direction.advance(6.0)
     assert found is not None and degrees(found.angle) == pytest.approx(90.0)
@@ -132,17 +132,17 @@ def test_a_turn_ends_when_the_wearer_stands() -> None:
 
 
 def test_one_foot_stepping_on_the_spot_does_not_end_the_other_s_turn() -> None:
-    found = turns_of(TurnDetector(), both([(0, 0), (100, 0), (0, 90), (70, 80), (0, 0), (0, 0)]))
+    found = turns_of(TurnDetector(), alternate_strides([(0, 0), (100, 0), (0, 90), (70, 80), (0, 0), (0, 0)]))
     assert len(found) == 1 and degrees(found[0].angle) == pytest.approx(170.0)
 
 
 def test_a_foot_that_pivots_without_a_step_has_turned_all_the_same() -> None:
     direction = TurnDetector()
-    turns_of(direction, both([(0, 0), (0, 0)]))
+    turns_of(direction, alternate_strides([(0, 0), (0, 0)]))
     for k in range(3):
         assert direction.add_pivot(Foot.LEFT, 3.0 + k, 3.5 + k, radians(30.0)) is None
         assert direction.add_pivot(Foot.RIGHT, 3.5 + k, 4.0 + k, radians(32.0)) is None
-    (found,) = turns_of(direction, both([(0, 0), (0, 0)], first=7.0))
+    (found,) = turns_of(direction, alternate_strides([(0, 0), (0, 0)], first=7.0))
     assert degrees(found.angle) == pytest.approx(93.0)
     assert (found.t_start, found.t_end) == (3.0, 6.0)
 
@@ -181,7 +181,7 @@ def test_the_turn_of_a_wearer_is_reported() -> None:
 
 
 @cache
-def corridor(metres: float, seed: int = 1) -> EmulatedWalk:
+def corridor_walk(metres: float, seed: int = 1) -> EmulatedWalk:
     device = CC2541(rate=20.0, mounting=IN_SOLE)
     return emulate(
         Route().stand(3.0).walk(metres, 1.3).stop(2.0), devices={LEFT: device, RIGHT: evolve(device)}, seed=seed
@@ -189,7 +189,7 @@ def corridor(metres: float, seed: int = 1) -> EmulatedWalk:
 
 
 def test_without_the_conditions_at_rest_a_clipping_gyroscope_makes_steps_too_short() -> None:
-    walked = corridor(15.0)
+    walked = corridor_walk(15.0)
 
     def length(recipe: Recipe) -> float:
         session = Session(recipe)
@@ -214,7 +214,7 @@ def test_who_turns_on_the_spot_has_turned_though_the_feet_hardly_leave_the_groun
 
 
 def test_the_toe_out_angle_is_the_arc_cosine_of_the_walk_over_the_steps() -> None:
-    packets = corridor(15.0).packets
+    packets = corridor_walk(15.0).packets
     found = toe_out(packets, 12.0)
     for one in found:
         assert one.angle == pytest.approx(acos(12.0 / one.along))
@@ -222,13 +222,13 @@ def test_the_toe_out_angle_is_the_arc_cosine_of_the_walk_over_the_steps() -> Non
 
 
 def test_steps_that_come_to_less_than_the_walk_have_no_angle() -> None:
-    found = toe_out(corridor(15.0).packets, 20.0)
+    found = toe_out(corridor_walk(15.0).packets, 20.0)
     assert [one.angle for one in found] == [None, None]
     assert toe_out_calibration(found) == Calibration()
 
 
 def test_a_walk_of_another_length_or_of_no_steps_is_rejected() -> None:
-    packets = corridor(15.0).packets
+    packets = corridor_walk(15.0).packets
     with pytest.raises(CalibrationError, match="length of the walk"):
         toe_out(packets, 5.0)
     with pytest.raises(CalibrationError, match="steps of a foot"):
@@ -245,7 +245,11 @@ def test_the_angle_of_a_calibration_is_the_one_that_the_foot_uses() -> None:
 
 
 def test_calibrate_toe_out_writes_the_angles_of_a_walk_and_nothing_where_it_has_none(tmp_path: Path) -> None:
-    file, out, other = recorded(tmp_path / "walk.jsonl", corridor(15.0).packets), tmp_path / "me.json", tmp_path / "no"
+    file, out, other = (
+        recorded(tmp_path / "walk.jsonl", corridor_walk(15.0).packets),
+        tmp_path / "me.json",
+        tmp_path / "no",
+    )
     done = run("calibrate", "toe-out", file, "--distance", "12", "--out", out)
     assert done.returncode == 0 and "toe-out degrees" in done.stdout
     assert set(read_calibration(out).toe_out) == set(Foot)

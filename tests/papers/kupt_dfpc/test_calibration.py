@@ -20,14 +20,14 @@ from solepath.papers.kupt_dfpc.shoe import fit_shoe
 from solepath.types import Foot, Sample, Site
 
 
-def worn(rows: list[tuple[float, ...]], site: Site = Site.LEFT_FOOT) -> list[Sample]:
+def samples_of(rows: list[tuple[float, ...]], site: Site = Site.LEFT_FOOT) -> list[Sample]:
     return [Sample(t=0.05 * k, site=site, pressure=row) for k, row in enumerate(rows)]
 
 
 def test_noise_is_the_mean_of_the_least_loaded_samples_and_three_deviations() -> None:
     # 20 of 100 samples are in the air, half of them (1, 4), half (3, 4): means 2 and 4, deviations 1 and 0
     rows = [(1.0, 4.0), (3.0, 4.0)] * 10 + [(80.0, 90.0)] * 80
-    noise = pressure_noise(worn(rows), share=0.20).insoles[Foot.LEFT].noise
+    noise = pressure_noise(samples_of(rows), share=0.20).insoles[Foot.LEFT].noise
     assert noise == pytest.approx((2.0 + 3.0, 4.0 + 0.0))
 
 
@@ -36,19 +36,19 @@ def test_only_the_requested_share_counts() -> None:
     rows = [(1.0, 4.0), (3.0, 4.0)] * 10 + [(10.0, 4.0)] * 10 + [(80.0, 90.0)] * 70
     mean = (10 * 1.0 + 10 * 3.0 + 10 * 10.0) / 30
     deviation = sqrt((10 * (1 - mean) ** 2 + 10 * (3 - mean) ** 2 + 10 * (10 - mean) ** 2) / 30)
-    noise = pressure_noise(worn(rows), share=0.30).insoles[Foot.LEFT].noise
+    noise = pressure_noise(samples_of(rows), share=0.30).insoles[Foot.LEFT].noise
     assert noise == pytest.approx((mean + 3.0 * deviation, 4.0))
 
 
 def test_noise_is_in_newtons_where_the_calibration_makes_newtons() -> None:
     known = Calibration(insoles={Foot.LEFT: InsoleCalibration(newtons=Newtons((0.0, 2.0, 0.0, 0.0), threshold=1.0))})
     rows = [(1.0, 4.0)] * 20 + [(40.0, 45.0)] * 80
-    assert pressure_noise(worn(rows), 0.20, known).insoles[Foot.LEFT].noise == pytest.approx((2.0, 8.0))
+    assert pressure_noise(samples_of(rows), 0.20, known).insoles[Foot.LEFT].noise == pytest.approx((2.0, 8.0))
 
 
 def test_each_foot_has_its_own_noise_and_nothing_else_is_calibrated() -> None:
     rows = [(1.0, 4.0)] * 40 + [(80.0, 90.0)] * 110
-    found = pressure_noise([*worn(rows), *worn([(2.0 * a, b) for a, b in rows], Site.RIGHT_FOOT)])
+    found = pressure_noise([*samples_of(rows), *samples_of([(2.0 * a, b) for a, b in rows], Site.RIGHT_FOOT)])
     assert {foot: insole.noise for foot, insole in found.insoles.items()} == {
         Foot.LEFT: pytest.approx((1.0, 4.0)),
         Foot.RIGHT: pytest.approx((2.0, 4.0)),
@@ -66,7 +66,7 @@ def test_each_foot_has_its_own_noise_and_nothing_else_is_calibrated() -> None:
 )
 def test_a_walk_that_shows_no_noise_is_rejected(rows: list[tuple[float, ...]], complaint: str) -> None:
     with pytest.raises(CalibrationError, match=complaint):
-        pressure_noise(worn(rows))
+        pressure_noise(samples_of(rows))
 
 
 def test_with_its_noise_removed_a_foot_in_the_air_has_no_load() -> None:
@@ -91,7 +91,7 @@ def test_with_its_noise_removed_a_foot_in_the_air_has_no_load() -> None:
 HEADER = "pitch_deg,L_r_m,L_p2t_m\n"
 
 
-def measured(path: Path, noise: float = 0.0) -> Path:
+def write_postures(path: Path, noise: float = 0.0) -> Path:
     """Five postures of the round sole, three times each, by rulers that are off by `noise` m."""
     rng = np.random.default_rng(7)
     lines = [HEADER]
@@ -106,7 +106,7 @@ def measured(path: Path, noise: float = 0.0) -> Path:
 
 
 def test_postures_of_a_shoe_give_its_curves(tmp_path: Path) -> None:
-    fitted = fit_shoe(measured(tmp_path / "postures.csv"))
+    fitted = fit_shoe(write_postures(tmp_path / "postures.csv"))
     shoe = fitted.calibration.shoe
     assert shoe is not None and fitted.calibration == Calibration(shoe=shoe)
     for p in (0.0, 0.3, 0.7, 1.0):

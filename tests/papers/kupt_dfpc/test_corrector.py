@@ -1,4 +1,4 @@
-"""Known velocity as evidence and as correction: two areas, equations (8) and (10) against arithmetic on paper."""
+"""Known velocity as evidence and as correction: two areas, equations (8) and (10); expected values by hand."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ from solepath.types import Cell, Foot, Layout, Phase, Quat, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector
 
 CELLS = (0.0,) * 96
-BOTH = Load(1.0, 0.5, 0.5, 1.0, False, CELLS, (0.13, 0.0))
-FOREFOOT = Load(0.6, 0.0, 0.6, 1.0, False, CELLS, (0.20, 0.0))
-HEEL = Load(0.5, 0.5, 0.0, 1.0, False, CELLS, (0.03, 0.0))
-AIR = Load(0.0, 0.0, 0.0, 0.0, True, CELLS)
+BOTH_LOADED = Load(1.0, 0.5, 0.5, 1.0, False, CELLS, (0.13, 0.0))
+FOREFOOT_LOADED = Load(0.6, 0.0, 0.6, 1.0, False, CELLS, (0.20, 0.0))
+HEEL_LOADED = Load(0.5, 0.5, 0.0, 1.0, False, CELLS, (0.03, 0.0))
+UNLOADED = Load(0.0, 0.0, 0.0, 0.0, True, CELLS)
 STILL: Vec3 = (0.0, 0.0, GRAVITY)
 
 
@@ -30,7 +30,7 @@ def heel_up(pitch: float) -> Quat:
     return from_rotation_vector((0.0, pitch, 0.0))
 
 
-def detector() -> KnownVelocity:
+def ready_detector() -> KnownVelocity:
     """Return a detector that knows that the sensor's axes are the foot's, and whose cells are reliable."""
     known = KnownVelocity(sagittal=Sagittal())
     known.sagittal.up, known.sagittal.toe = (0.0, 0.0, 1.0), (1.0, 0.0, 0.0)
@@ -48,12 +48,12 @@ def stances_of(known: KnownVelocity, *samples: tuple[Load | None, float]) -> lis
 
 
 def test_both_areas_loaded_is_a_zero_velocity() -> None:
-    stance = stances_of(detector(), (BOTH, 0.0))[0]
+    stance = stances_of(ready_detector(), (BOTH_LOADED, 0.0))[0]
     assert stance.hint is Phase.STATIONARY and stance.v_ref == ZERO and stance.statistic == 0.5
 
 
 def test_then_the_forefoot_alone_is_a_rolling_shoe_with_the_velocity_of_its_pitch() -> None:
-    stances = stances_of(detector(), (BOTH, 0.0), (FOREFOOT, 0.02), (FOREFOOT, 0.06))
+    stances = stances_of(ready_detector(), (BOTH_LOADED, 0.0), (FOREFOOT_LOADED, 0.02), (FOREFOOT_LOADED, 0.06))
     assert [stance.hint for stance in stances] == [Phase.STATIONARY, Phase.PUSH_OFF, Phase.PUSH_OFF]
     # a height of 0.029 to 0.033 m above a pivot times 4 rad/s
     assert stances[2].v_ref[0] == pytest.approx(4.0 * 0.0315, rel=0.03)
@@ -62,12 +62,12 @@ def test_then_the_forefoot_alone_is_a_rolling_shoe_with_the_velocity_of_its_pitc
 
 
 def test_no_load_is_swing_without_velocity_evidence() -> None:
-    stance = stances_of(detector(), (BOTH, 0.0), (FOREFOOT, 0.5), (AIR, 0.9))[2]
+    stance = stances_of(ready_detector(), (BOTH_LOADED, 0.0), (FOREFOOT_LOADED, 0.5), (UNLOADED, 0.9))[2]
     assert stance.hint is Phase.SWING and isinf(stance.sigma)
 
 
 def test_the_heel_after_a_swing_is_a_foot_that_rolls_down_over_its_heel() -> None:
-    stances = stances_of(detector(), (AIR, -0.35), (HEEL, -0.33), (HEEL, -0.30))
+    stances = stances_of(ready_detector(), (UNLOADED, -0.35), (HEEL_LOADED, -0.33), (HEEL_LOADED, -0.30))
     assert [stance.hint for stance in stances] == [Phase.SWING, Phase.LOADING, Phase.LOADING]
     assert isinf(stances[1].sigma)  # the sample before was in the air
     # (4): P_z at 0.315 rad = 0.125 x 0.310 + 0.029 x 0.951 = 0.0663, times 3 rad/s
@@ -76,35 +76,42 @@ def test_the_heel_after_a_swing_is_a_foot_that_rolls_down_over_its_heel() -> Non
 
 
 def test_weight_that_goes_back_to_the_heel_is_no_push_off() -> None:
-    stance = stances_of(detector(), (BOTH, 0.0), (HEEL, 0.0))[1]
+    stance = stances_of(ready_detector(), (BOTH_LOADED, 0.0), (HEEL_LOADED, 0.0))[1]
     assert stance.hint is None and isinf(stance.sigma)
 
 
 def test_a_foot_that_lands_on_its_toes_has_no_known_velocity() -> None:
-    stances = stances_of(detector(), (AIR, 0.4), (HEEL, 0.4), (HEEL, 0.3))
+    stances = stances_of(ready_detector(), (UNLOADED, 0.4), (HEEL_LOADED, 0.4), (HEEL_LOADED, 0.3))
     assert all(isinf(stance.sigma) for stance in stances)
 
 
 def test_before_the_first_push_off_there_is_no_rolling_velocity() -> None:
-    known = detector()
+    known = ready_detector()
     known.sagittal = Sagittal()
-    stances = stances_of(known, (BOTH, 0.0), (FOREFOOT, 0.2), (FOREFOOT, 0.5))
+    stances = stances_of(known, (BOTH_LOADED, 0.0), (FOREFOOT_LOADED, 0.2), (FOREFOOT_LOADED, 0.5))
     assert [stance.hint for stance in stances[1:]] == [Phase.PUSH_OFF] * 2
     assert all(isinf(stance.sigma) for stance in stances[1:])
 
 
 def test_that_push_off_teaches_the_next_one() -> None:
-    known = detector()
+    known = ready_detector()
     known.sagittal = Sagittal()
-    first = ((BOTH, 0.0), (FOREFOOT, 0.3), (FOREFOOT, 0.8), (AIR, 1.0), (HEEL, -0.2), (BOTH, 0.0))
-    stances = stances_of(known, *first, (FOREFOOT, 0.1), (FOREFOOT, 0.2))
+    first = (
+        (BOTH_LOADED, 0.0),
+        (FOREFOOT_LOADED, 0.3),
+        (FOREFOOT_LOADED, 0.8),
+        (UNLOADED, 1.0),
+        (HEEL_LOADED, -0.2),
+        (BOTH_LOADED, 0.0),
+    )
+    stances = stances_of(known, *first, (FOREFOOT_LOADED, 0.1), (FOREFOOT_LOADED, 0.2))
     assert stances[-1].sigma < inf and stances[-1].v_ref[0] > 0.0
 
 
 def test_a_foot_that_the_cells_have_in_the_air_and_that_stands_still_stands() -> None:
     """After minutes of standing the least load is half of the wearer's weight."""
-    known = detector()
-    stances = [known.update(0.01 * k, 0.01, STILL, ZERO, AIR, IDENTITY) for k in range(20)]
+    known = ready_detector()
+    stances = [known.update(0.01 * k, 0.01, STILL, ZERO, UNLOADED, IDENTITY) for k in range(20)]
     assert stances[0].hint is Phase.SWING and stances[-1].hint is Phase.STATIONARY
 
 
@@ -115,37 +122,37 @@ def test_the_wearers_own_shoe_is_taken_from_the_calibration() -> None:
     assert KnownVelocity().calibrated(Foot.LEFT, Calibration()).settings == KnownVelocity().settings
 
 
-NO_AREAS = evolve(BOTH, heel=None, forefoot=None, centre=None)
+NO_AREAS = evolve(BOTH_LOADED, heel=None, forefoot=None, centre=None)
 """A load without a layout."""
 
 
 def test_without_a_layout_a_foot_at_rest_stands() -> None:
-    known = detector()
+    known = ready_detector()
     moves = known.update(0.0, 0.01, STILL, (0.0, 3.0, 0.0), NO_AREAS, IDENTITY)
     standing = [known.update(0.01 * k, 0.01, STILL, ZERO, NO_AREAS, IDENTITY) for k in range(10, 20)][-1]
     assert moves.hint is None and isinf(moves.sigma)
     assert standing.hint is Phase.STATIONARY and standing.v_ref == ZERO and standing.sigma < 0.05
-    assert known.update(0.2, 0.01, STILL, (0.0, 3.0, 0.0), evolve(AIR, heel=None), IDENTITY).hint is Phase.SWING
+    assert known.update(0.2, 0.01, STILL, (0.0, 3.0, 0.0), evolve(UNLOADED, heel=None), IDENTITY).hint is Phase.SWING
 
 
 def test_a_motion_longer_than_any_stride_ends_where_the_foot_is_still() -> None:
     """One area measures nothing, so both are never loaded."""
-    known = detector()
-    hints = [known.update(0.01 * k, 0.01, STILL, ZERO, HEEL, IDENTITY).hint for k in range(600)]
+    known = ready_detector()
+    hints = [known.update(0.01 * k, 0.01, STILL, ZERO, HEEL_LOADED, IDENTITY).hint for k in range(600)]
     first = hints.index(Phase.STATIONARY)
     assert 2.0 < 0.01 * first < 4.0
     assert set(hints[first:]) == {Phase.STATIONARY}
     # once it is overdue a higher rate is allowed: half a radian per second
-    slow = [known.update(6.0 + 0.01 * k, 0.01, STILL, (0.0, 0.5, 0.0), HEEL, IDENTITY).hint for k in range(10)]
+    slow = [known.update(6.0 + 0.01 * k, 0.01, STILL, (0.0, 0.5, 0.0), HEEL_LOADED, IDENTITY).hint for k in range(10)]
     assert slow[5:] == [Phase.STATIONARY] * 5
-    turns = [known.update(6.1 + 0.01 * k, 0.01, STILL, (0.0, 3.0, 0.0), HEEL, IDENTITY).hint for k in range(10)]
+    turns = [known.update(6.1 + 0.01 * k, 0.01, STILL, (0.0, 3.0, 0.0), HEEL_LOADED, IDENTITY).hint for k in range(10)]
     assert Phase.STATIONARY not in turns[5:]
 
 
 def test_a_shoe_that_nobody_measured_is_as_long_as_its_insole() -> None:
-    known = detector()
+    known = ready_detector()
     known.set_layout(Layout(2, Foot.LEFT, (Cell(0.03, 0.0), Cell(0.2, 0.0)), 0.228))
-    stances = stances_of(known, (AIR, -0.35), (HEEL, -0.33), (HEEL, -0.30))
+    stances = stances_of(known, (UNLOADED, -0.35), (HEEL_LOADED, -0.33), (HEEL_LOADED, -0.30))
     # 22.8 cm are four fifths of 28.5: (4) with L_r = 0.100: P_z at 0.315 rad = 0.0310 + 0.0276, times 3 rad/s
     assert stances[2].v_ref[0] == pytest.approx(3.0 * 0.0586, rel=0.01)
     known = KnownVelocity().calibrated(Foot.LEFT, Calibration(shoe=ShoeGeometry(height=0.04)))
@@ -154,39 +161,39 @@ def test_a_shoe_that_nobody_measured_is_as_long_as_its_insole() -> None:
 
 
 def test_cells_that_have_both_loaded_again_end_a_long_motion_and_speak_as_before() -> None:
-    known = detector()
+    known = ready_detector()
     for k in range(400):
-        known.update(0.01 * k, 0.01, STILL, ZERO, HEEL, IDENTITY)
-    stances = [known.update(4.0 + 0.01 * k, 0.01, STILL, ZERO, BOTH, IDENTITY) for k in range(5)]
+        known.update(0.01 * k, 0.01, STILL, ZERO, HEEL_LOADED, IDENTITY)
+    stances = [known.update(4.0 + 0.01 * k, 0.01, STILL, ZERO, BOTH_LOADED, IDENTITY) for k in range(5)]
     assert {(stance.hint, stance.statistic) for stance in stances} == {(Phase.STATIONARY, 0.5)}
-    assert known.update(4.05, 0.01, STILL, ZERO, HEEL, IDENTITY).hint is None
+    assert known.update(4.05, 0.01, STILL, ZERO, HEEL_LOADED, IDENTITY).hint is None
 
 
 ZERO_VELOCITY = Stance(ZERO, 0.01, 0.5, Phase.STATIONARY)
 SWING = Stance(ZERO, inf, 0.0, Phase.SWING)
 LANDED = Stance(ZERO, inf, 0.0, Phase.LOADING)
 DRIFTING: Vec3 = (1.0, 0.0, GRAVITY)
-"""1 m/s^2 ahead all the time, so that the raw velocity is the time since motion start and sums are easy."""
+"""The acceleration is 1 m/s^2 forward, so the raw velocity in m/s equals the time since motion start in s."""
 
 
-def rolling(v: float, phase: Phase) -> Stance:
+def rolling_stance(v: float, phase: Phase) -> Stance:
     return Stance((v, 0.0, 0.0), 0.1, 0.0, phase)
 
 
 STEP: tuple[tuple[Stance, Cue | None], ...] = (
-    (rolling(0.01, Phase.PUSH_OFF), None),  # raw mean 0.05: error 0.04
-    (rolling(0.11, Phase.PUSH_OFF), None),  # raw mean 0.15: error 0.04, belongs to 0.15 s
+    (rolling_stance(0.01, Phase.PUSH_OFF), None),  # raw mean 0.05: error 0.04
+    (rolling_stance(0.11, Phase.PUSH_OFF), None),  # raw mean 0.15: error 0.04, belongs to 0.15 s
     (SWING, Cue.CLEAR),  # toe-off is the sample before, at 0.2 s
     (SWING, None),
     (LANDED, Cue.CONTACT),  # heel-strike, at 0.5 s
-    (rolling(0.40, Phase.LOADING), None),  # raw mean 0.55: error 0.15, belongs to 0.55 s
-    (rolling(0.50, Phase.LOADING), None),
+    (rolling_stance(0.40, Phase.LOADING), None),  # raw mean 0.55: error 0.15, belongs to 0.55 s
+    (rolling_stance(0.50, Phase.LOADING), None),
     (ZERO_VELOCITY, None),  # at 0.8 s; raw mean of this interval 0.75
 )
 
 
-def moved(corrector: LinearDedrift, step: tuple[tuple[Stance, Cue | None], ...] = STEP) -> LinearDedrift:
-    """After standing and one step in samples of 0.1 s."""
+def corrector_after(corrector: LinearDedrift, step: tuple[tuple[Stance, Cue | None], ...] = STEP) -> LinearDedrift:
+    """Return the corrector after standing and one stride, in samples of 0.1 s."""
     corrector.start(IDENTITY, 0.02)
     for k, (stance, cue) in enumerate(((ZERO_VELOCITY, None), *step)):
         corrector.predict(0.1, DRIFTING, ZERO)
@@ -196,7 +203,7 @@ def moved(corrector: LinearDedrift, step: tuple[tuple[Stance, Cue | None], ...] 
     return corrector
 
 
-def fresh(slide: float = 0.0) -> SwingDedrift:
+def new_corrector(slide: float = 0.0) -> SwingDedrift:
     return SwingDedrift(SwingSettings(slide_time=slide, tilt_rate=0.0))
 
 
@@ -205,7 +212,7 @@ def test_only_the_swing_loses_a_line_as_in_equation_8_and_the_error_index_is_tha
     # up to toe-off     (0.01 + 0.11) x 0.1 = 0.012
     # swing 0.2 to 0.5  raw 0.35 x 0.3 = 0.105, less 0.04 x 0.3 + 0.275 (0.35^2 - 0.05^2) / 2 = 0.012 + 0.0165
     # from heel-strike  0.40 x 0.1 + 0.50 x 0.1, and the last 0.1 s with the same error: (0.75 - 0.15) x 0.1 = 0.06
-    corrector = moved(fresh())
+    corrector = corrector_after(new_corrector())
     assert corrector.position[0] == pytest.approx(0.012 + 0.0765 + 0.15)
     assert corrector.velocity == ZERO
     assert corrector.error_index == pytest.approx(0.04 + 0.15)
@@ -215,7 +222,7 @@ def test_a_heel_that_never_rolls_leaves_the_line_to_run_to_motion_end() -> None:
     step = tuple((LANDED if stance.hint is Phase.LOADING else stance, cue) for stance, cue in STEP)
     # error 0.8 at 0.8 s; drift rate (0.8 - 0.04) / (0.8 - 0.15) = 1.1692; swing 0.2 to 0.8:
     # raw 0.32 - 0.02 = 0.30, less 0.04 x 0.6 + 1.1692 (0.65^2 - 0.05^2) / 2 = 0.024 + 0.2455
-    corrector = moved(fresh(), step)
+    corrector = corrector_after(new_corrector(), step)
     assert corrector.position[0] == pytest.approx(0.012 + 0.0305, abs=1e-4)
     assert corrector.error_index == pytest.approx(0.84)
 
@@ -224,23 +231,26 @@ def test_a_heel_that_never_rolls_leaves_the_line_to_run_to_motion_end() -> None:
 def test_a_rolling_velocity_far_from_one_that_was_zero_a_moment_ago_is_not_used(v: float) -> None:
     """Raw means are 0.05 and 0.15 m/s: no integration goes wrong by half a metre per second within 0.2 s, but a foot
     that has left the ground, or slides, does not roll."""
-    step = ((rolling(v, Phase.PUSH_OFF), None), (rolling(v, Phase.PUSH_OFF), None), *STEP[2:])
-    corrector, plain = moved(fresh(), step), moved(LinearDedrift(DedriftSettings(tilt_rate=0.0)), step)
+    step = ((rolling_stance(v, Phase.PUSH_OFF), None), (rolling_stance(v, Phase.PUSH_OFF), None), *STEP[2:])
+    corrector, plain = (
+        corrector_after(new_corrector(), step),
+        corrector_after(LinearDedrift(DedriftSettings(tilt_rate=0.0)), step),
+    )
     assert corrector.error_index is None
     assert corrector.position == pytest.approx(plain.position, abs=1e-12)
-    live = moved(fresh(), step[:2])
+    live = corrector_after(new_corrector(), step[:2])
     assert live.velocity[0] == pytest.approx(0.2) and live.position[0] == pytest.approx(0.02)
 
 
 def test_a_roll_that_is_used_up_to_a_good_toe_off_stays_used() -> None:
     """The foot that goes on to contradict it had left the ground."""
-    early = (STEP[0], STEP[1], (rolling(0.9, Phase.PUSH_OFF), Cue.CLEAR), *STEP[3:])
-    assert moved(fresh(), early).error_index == pytest.approx(0.19)
+    early = (STEP[0], STEP[1], (rolling_stance(0.9, Phase.PUSH_OFF), Cue.CLEAR), *STEP[3:])
+    assert corrector_after(new_corrector(), early).error_index == pytest.approx(0.19)
 
 
 def test_a_heel_that_slides_first_is_compared_once_it_rolls() -> None:
     # with slide 0.1 s the first interval that counts is the second: k_h at 0.6 s, error 0.65 - 0.50 = 0.15 there too
-    corrector = moved(fresh(slide=0.1))
+    corrector = corrector_after(new_corrector(slide=0.1))
     assert corrector.error_index == pytest.approx(0.19)
     # rate 0.11 / 0.5; swing 0.2 to 0.6: 0.40 x 0.4 - 0.04 x 0.4 - 0.22 (0.45^2 - 0.05^2) / 2 = 0.16 - 0.016 - 0.022
     assert corrector.position[0] == pytest.approx(0.012 + 0.122 + 0.05 + 0.06)
@@ -249,7 +259,10 @@ def test_a_heel_that_slides_first_is_compared_once_it_rolls() -> None:
 @pytest.mark.parametrize("left_out", [Cue.CLEAR, Cue.CONTACT])
 def test_a_step_without_both_marks_loses_a_line_over_its_whole_time(left_out: Cue) -> None:
     step = tuple((stance, None if cue is left_out else cue) for stance, cue in STEP)
-    corrector, plain = moved(fresh(), step), moved(LinearDedrift(DedriftSettings(tilt_rate=0.0)), step)
+    corrector, plain = (
+        corrector_after(new_corrector(), step),
+        corrector_after(LinearDedrift(DedriftSettings(tilt_rate=0.0)), step),
+    )
     # raw way 0.32, velocity 0.8 gathered evenly over 0.8 s: 0.32 - 0.8 x 0.4 = 0
     assert corrector.position == pytest.approx(plain.position, abs=1e-12)
     assert corrector.position[0] == pytest.approx(0.0, abs=1e-12)
@@ -258,17 +271,17 @@ def test_a_step_without_both_marks_loses_a_line_over_its_whole_time(left_out: Cu
 
 def test_a_later_and_better_mark_replaces_an_earlier_one() -> None:
     early = ((STEP[0][0], None), (STEP[1][0], Cue.CLEAR), *STEP[2:])
-    assert moved(fresh(), early).position == moved(fresh()).position
+    assert corrector_after(new_corrector(), early).position == corrector_after(new_corrector()).position
 
 
 def test_one_sample_lost_at_30_hz_leaves_a_step_as_good_as_it_was() -> None:
-    corrector = moved(fresh(), STEP[:3])
+    corrector = corrector_after(new_corrector(), STEP[:3])
     assert corrector.bridge(0.067) == 0.067
     assert not corrector.has_gap
 
 
 def test_after_a_long_gap_the_foot_is_taken_up_where_it_was() -> None:
-    corrector = moved(fresh(), STEP[:4])
+    corrector = corrector_after(new_corrector(), STEP[:4])
     before = corrector.position
     assert corrector.bridge(1.0) == 0.0
     assert corrector.position == before and corrector.velocity == ZERO
@@ -284,8 +297,8 @@ def test_heights_lose_a_line_over_the_whole_motion_unless_vertical_is_set() -> N
         (Stance((0.1, 0.0, 0.3), 0.1, 0.0, stance.hint) if stance.sigma == 0.1 else stance, cue) for stance, cue in STEP
     )
     plain, known = (
-        moved(fresh(), up),
-        moved(SwingDedrift(SwingSettings(slide_time=0.0, tilt_rate=0.0, vertical=True)), up),
+        corrector_after(new_corrector(), up),
+        corrector_after(SwingDedrift(SwingSettings(slide_time=0.0, tilt_rate=0.0, vertical=True)), up),
     )
     assert plain.position[2] == pytest.approx(0.0, abs=1e-12)
     assert known.position[2] > 0.05

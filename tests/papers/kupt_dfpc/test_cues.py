@@ -16,11 +16,11 @@ from solepath.foot.phase import PHASES, Cue
 from solepath.foot.pressure.insole import InsoleLoads
 from solepath.foot.stance.stance import Load, Stance
 from solepath.papers.kupt_dfpc.cop_cues import CopCues
-from solepath.papers.kupt_dfpc.stages import STAGES, CellCue, StepStage, describe
+from solepath.papers.kupt_dfpc.stages import STAGES, CellCue, StrideStage, describe
 from solepath.types import Cell, Foot, Layout, Phase, Vec3
 from solepath.types.vector import GRAVITY, ZERO
 
-FOUR = Layout(4, Foot.LEFT, (Cell(0.034, 0.0), Cell(0.07, 0.0), Cell(0.12, 0.0), Cell(0.166, 0.0)), 0.2)
+FOUR_CELLS = Layout(4, Foot.LEFT, (Cell(0.034, 0.0), Cell(0.07, 0.0), Cell(0.12, 0.0), Cell(0.166, 0.0)), 0.2)
 """The paper's cells lie from 34 to 166 mm: its foot centre is 100 mm."""
 CELLS = (0.0,) * 96
 UP: Vec3 = (0.0, 0.0, GRAVITY)
@@ -37,9 +37,9 @@ LANDING: list[Row] = [(0.05, False), (0.06, False), (0.08, False)]
 def cues_with_load() -> CopCues:
     """Return the cues of a standing foot whose cells are reliable."""
     cues = CopCues(touch=Touch())
-    cues.set_layout(FOUR)
+    cues.set_layout(FOUR_CELLS)
     cues.touch.trusted, cues.touch.load_unknown = True, False
-    cues.stage = StepStage.STANDING
+    cues.stage = StrideStage.STANDING
     return cues
 
 
@@ -155,28 +155,28 @@ def test_before_any_load_is_known_the_inertial_cues_speak() -> None:
     assert seen == [Cue.LIFT, Cue.CLEAR]
 
 
-NEAR = dict(zip(StepStage, (Phase.STATIONARY, Phase.PUSH_OFF, Phase.SWING, Phase.LOADING), strict=True))
-"""Phase of a foot, or the one that will be reported for it."""
+PHASE_OF_STAGE = dict(zip(StrideStage, (Phase.STATIONARY, Phase.PUSH_OFF, Phase.SWING, Phase.LOADING), strict=True))
+"""Phase of a foot that corresponds to a stage of its stride."""
 
 
-@pytest.mark.parametrize(("stage", "cue"), list(product(StepStage, CellCue)))
-def test_every_stage_knows_what_to_make_of_every_cue_of_the_cells(stage: StepStage, cue: CellCue) -> None:
+@pytest.mark.parametrize(("stage", "cue"), list(product(StrideStage, CellCue)))
+def test_every_stage_knows_what_to_make_of_every_cue_of_the_cells(stage: StrideStage, cue: CellCue) -> None:
     after, reported = STAGES[stage][cue]
-    assert isinstance(after, StepStage)
+    assert isinstance(after, StrideStage)
     assert after is not stage or set(reported) <= {Cue.CONTACT}, "what is reported goes with another stage"
     # one after the other they end in the phase that the next stage stands for
-    phase = NEAR[stage]
+    phase = PHASE_OF_STAGE[stage]
     for one in reported:
         phase = PHASES[phase][one]
-    assert not reported or cue is CellCue.LINGERS or phase is NEAR[after]
+    assert not reported or cue is CellCue.LINGERS or phase is PHASE_OF_STAGE[after]
 
 
 def test_the_table_of_stages_has_none_too_many_and_can_be_printed() -> None:
-    assert set(STAGES) == set(StepStage)
+    assert set(STAGES) == set(StrideStage)
     assert all(set(row) == set(CellCue) for row in STAGES.values())
     head, *rows = describe().splitlines()
     assert head.split() == ["stage", *(cue.value for cue in CellCue)]
-    assert [row.split()[0] for row in rows] == [stage.name for stage in StepStage]
+    assert [row.split()[0] for row in rows] == [stage.name for stage in StrideStage]
     landing = "LANDING STANDING contact flat LANDING FLYING contact clear LANDING LANDING LANDING contact"
     assert rows[3].split() == landing.split()
 
@@ -184,8 +184,8 @@ def test_the_table_of_stages_has_none_too_many_and_can_be_printed() -> None:
 WALK = Route().stand(2.0).walk(12.0, 1.2).stop(1.5)
 
 
-def alone(cells: Layout, walker: Walker) -> list[SeenCue]:
-    """The cues of an insole without an inertial sensor."""
+def cues_without_imu(cells: Layout, walker: Walker) -> list[SeenCue]:
+    """Return the cues of an insole without an inertial sensor."""
     foot = cells.foot
     insole, cues = InsoleLoads(), CopCues()
     insole.set_layout(cells)
@@ -202,8 +202,8 @@ def alone(cells: Layout, walker: Walker) -> list[SeenCue]:
     return seen
 
 
-def few(count: int, foot: Foot) -> Layout:
-    """A switch at heel and toe, or the eight of a research insole."""
+def sparse_layout(count: int, foot: Foot) -> Layout:
+    """Return a layout of two cells, at heel and toe, or of the eight of a research insole."""
     if count > 2:
         return layout(count, foot)
     return Layout(2, foot, (Cell(0.22, 0.0), Cell(0.04, 0.0)), 0.285)
@@ -213,7 +213,7 @@ def few(count: int, foot: Foot) -> Layout:
 def test_insoles_alone_show_heel_strike_and_toe_off_with_few_cells_as_with_many(count: int) -> None:
     walker = Walker(WALK, seed=211)
     for foot in Foot:
-        seen, truth = alone(few(count, foot), walker), walker.truth().feet[foot]
+        seen, truth = cues_without_imu(sparse_layout(count, foot), walker), walker.truth().feet[foot]
         strikes = [one.t for one in seen if one.cue is Cue.CONTACT]
         leaves = [one.t for one in seen if one.cue is Cue.CLEAR]
         # nothing is known of the load before it has fallen and risen once
@@ -227,7 +227,7 @@ def test_insoles_alone_show_heel_strike_and_toe_off_with_few_cells_as_with_many(
 def test_a_valley_in_mid_stance_is_no_swing_on_an_insole_of_two_cells() -> None:
     """Between heel and forefoot the load lies on neither cell."""
     touch = Touch()
-    touch.set_layout(few(2, Foot.LEFT))
+    touch.set_layout(sparse_layout(2, Foot.LEFT))
     stride = [(0.0, 1.0)] * 20 + [(0.02, 0.02)] * 8 + [(1.0, 0.0)] * 20 + [(0.0, 0.0)] * 40
     airborne = []
     for k, cells in enumerate(stride * 3):

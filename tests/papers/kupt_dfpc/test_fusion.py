@@ -25,22 +25,22 @@ from solepath.types import Cell, Foot, Layout, Sample, Site
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
 CENTRE = 0.14
-ROLLED = tuple((0.09 + 0.13 * k / 15, 0.0) for k in range(16))
+COP_PATH = tuple((0.09 + 0.13 * k / 15, 0.0) for k in range(16))
 """A centre of pressure that rolls evenly from the arch to the toes."""
 
 
-def step(
+def stride_of(
     foot: Foot,
     end: float,
     length: float = 1.3,
     *,
     index: float | None = 0.1,
-    cop: tuple[tuple[float, float], ...] = ROLLED,
+    cop: tuple[tuple[float, float], ...] = COP_PATH,
     lasts: float = 1.1,
     direction: tuple[float, float] = (1.0, 0.0),
     number: int = 1,
 ) -> StrideTaken:
-    """A step that ends at `end` s, of which the last 40 % are swing."""
+    """Return a stride that ends at `end` s, with toe-off 50 % and heel-strike 10 % of its duration before the end."""
     features = StrideFeatures(0.1, 4.0, 1.0, 400.0, cop, index)
     way, off, strike = (length * direction[0], length * direction[1], 0.0), end - 0.5 * lasts, end - 0.1 * lasts
     made = stride(foot, end, way, number=number, t_start=end - lasts, t_toe_off=off, t_heel_strike=strike)
@@ -63,8 +63,8 @@ def test_a_step_that_rolls_the_other_way_is_as_similar_since_9_takes_the_absolut
 
 
 def test_steps_of_unequal_sample_counts_are_compared_over_their_own_time() -> None:
-    slow = step(LEFT, 10.0, lasts=2.0, cop=tuple((0.09 + 0.13 * k / 31, 0.0) for k in range(32)))
-    quick = step(RIGHT, 10.0, lasts=0.8, cop=tuple((0.09 + 0.13 * k / 9, 0.0) for k in range(10)))
+    slow = stride_of(LEFT, 10.0, lasts=2.0, cop=tuple((0.09 + 0.13 * k / 31, 0.0) for k in range(32)))
+    quick = stride_of(RIGHT, 10.0, lasts=0.8, cop=tuple((0.09 + 0.13 * k / 9, 0.0) for k in range(10)))
     one, other = resample_cop(slow, CENTRE), resample_cop(quick, CENTRE)
     assert len(one) == len(other) == POINTS
     assert one == pytest.approx(other)
@@ -72,7 +72,7 @@ def test_steps_of_unequal_sample_counts_are_compared_over_their_own_time() -> No
 
 
 def test_the_centre_of_pressure_stays_at_the_foot_centre_while_the_foot_is_in_the_air() -> None:
-    found = resample_cop(step(LEFT, 10.0), CENTRE)  # 50 % on the ground, 40 % in the air, 10 % loading, left out
+    found = resample_cop(stride_of(LEFT, 10.0), CENTRE)  # 50 % on the ground, 40 % in the air, 10 % loading, left out
     ground = round(POINTS * 5 / 9)
     assert set(found[ground + 1 :]) == {CENTRE}
     assert list(found[:ground]) == sorted(found[:ground])
@@ -103,7 +103,7 @@ def test_two_steps_without_error_share_as_two_of_equal_error_do() -> None:
 
 
 def test_the_calibrated_stride_is_equation_12_worked_by_hand() -> None:
-    _, fused = walked(step(LEFT, 2.0, 1.2, index=0.3), step(RIGHT, 2.55, 1.4, index=0.1))
+    _, fused = walked(stride_of(LEFT, 2.0, 1.2, index=0.3), stride_of(RIGHT, 2.55, 1.4, index=0.1))
     r = fused[1].similarity
     assert r == pytest.approx(1.0)
     # Calicoef_R = 0.3 / (0.3 + 0.1) = 0.75; D = 1.4 * 0.75 + 1.2 * 0.25
@@ -115,26 +115,32 @@ def test_the_calibrated_stride_is_equation_12_worked_by_hand() -> None:
 def test_each_step_is_calibrated_by_the_step_before_it_as_the_other_foot_measured_it() -> None:
     # fig. 9: L1 calibrates R1, R1 calibrates L2, with d and not with D
     _, fused = walked(
-        step(LEFT, 2.0, 1.2, index=0.1), step(RIGHT, 2.55, 1.4, index=0.1), step(LEFT, 3.1, 1.2, index=0.1, number=2)
+        stride_of(LEFT, 2.0, 1.2, index=0.1),
+        stride_of(RIGHT, 2.55, 1.4, index=0.1),
+        stride_of(LEFT, 3.1, 1.2, index=0.1, number=2),
     )
     assert [one.stride_length for one in fused] == pytest.approx([1.2, 1.3, 1.3])
 
 
 def test_the_first_step_has_nothing_to_be_compared_with_and_keeps_its_length() -> None:
-    _, (fused,) = walked(step(LEFT, 2.0, 1.2))
+    _, (fused,) = walked(stride_of(LEFT, 2.0, 1.2))
     assert (fused.stride_length, fused.coefficient, fused.similarity, fused.chosen) == (1.2, 1.0, None, LEFT)
     assert (fused.distance, fused.position) == (1.2, (1.2, 0.0, 0.0))
 
 
 def test_a_wearer_who_stood_starts_again_without_the_other_foot() -> None:
-    _, fused = walked(step(LEFT, 2.0), step(RIGHT, 2.55, 1.0), step(LEFT, 22.0, 1.2, lasts=20.0, number=2))
+    _, fused = walked(
+        stride_of(LEFT, 2.0), stride_of(RIGHT, 2.55, 1.0), stride_of(LEFT, 22.0, 1.2, lasts=20.0, number=2)
+    )
     assert fused[1].similarity is not None
     assert fused[2].similarity is None
     assert fused[2].stride_length == 1.2
 
 
 def test_an_abnormal_step_neither_is_calibrated_nor_calibrates() -> None:
-    _, fused = walked(step(LEFT, 2.0, 1.2), step(RIGHT, 2.55, 2.0, index=None), step(LEFT, 3.1, 1.3, number=2))
+    _, fused = walked(
+        stride_of(LEFT, 2.0, 1.2), stride_of(RIGHT, 2.55, 2.0, index=None), stride_of(LEFT, 3.1, 1.3, number=2)
+    )
     assert [one.stride_length for one in fused] == [1.2, 2.0, 1.3]
     assert [one.error_index for one in fused] == [0.1, None, 0.1]
     assert fused[2].similarity is None
@@ -145,8 +151,8 @@ def test_the_choice_of_the_foot_is_the_sign_of_equation_13_worked_by_hand() -> N
     body, expected, chosen = DoubleFoot(), 0.0, set[Foot]()
     for k, (left, right, d_left, d_right) in enumerate(pairs):
         t = 2.0 + 1.1 * k
-        a = body.add_stride(step(LEFT, t, d_left, index=left, number=k + 1), CENTRE)
-        b = body.add_stride(step(RIGHT, t + 0.55, d_right, index=right, number=k + 1), CENTRE)
+        a = body.add_stride(stride_of(LEFT, t, d_left, index=left, number=k + 1), CENTRE)
+        b = body.add_stride(stride_of(RIGHT, t + 0.55, d_right, index=right, number=k + 1), CENTRE)
         expected += (left - right) * 0.5 * (a.stride_length + b.stride_length)
         assert body.error_balance == pytest.approx(expected)
         assert b.chosen is (RIGHT if expected > 0.0 else LEFT)
@@ -155,18 +161,18 @@ def test_the_choice_of_the_foot_is_the_sign_of_equation_13_worked_by_hand() -> N
 
 
 def test_a_foot_whose_step_is_abnormal_beside_a_normal_one_is_not_chosen_for_having_no_error() -> None:
-    steps = [step(LEFT, 2.0, 1.2, index=0.3), step(RIGHT, 2.55, 1.2, index=0.1)]
+    steps = [stride_of(LEFT, 2.0, 1.2, index=0.3), stride_of(RIGHT, 2.55, 1.2, index=0.1)]
     body, fused = walked(*steps)
     assert fused[-1].chosen is RIGHT
-    body.add_stride(step(LEFT, 3.1, 1.2, index=0.3, number=2), CENTRE)
+    body.add_stride(stride_of(LEFT, 3.1, 1.2, index=0.3, number=2), CENTRE)
     before = body.paths[Foot.RIGHT].distance
-    last = body.add_stride(step(RIGHT, 3.65, 20.1, index=None, number=2), CENTRE)
+    last = body.add_stride(stride_of(RIGHT, 3.65, 20.1, index=None, number=2), CENTRE)
     # it counts as 1 m/s worse than the other, by the mean of both lengths
     assert body.error_balance == pytest.approx(0.2 * 1.2 - 1.0 * 0.5 * (20.1 + 1.2), abs=0.02)
     assert last.chosen is LEFT
     assert last.distance == pytest.approx(before + 1.2, abs=0.3)
     # the other way round, with the normal step after the abnormal one
-    body, fused = walked(step(LEFT, 2.0, 9.0, index=None), step(RIGHT, 2.55, 1.2, index=0.1))
+    body, fused = walked(stride_of(LEFT, 2.0, 9.0, index=None), stride_of(RIGHT, 2.55, 1.2, index=0.1))
     assert [one.chosen for one in fused] == [LEFT, RIGHT]
 
 
@@ -177,7 +183,7 @@ def test_the_centre_of_the_foot_is_half_way_between_the_first_and_the_last_cell(
     flat = Sample(0.0, Site.LEFT_FOOT, acc=(0.0, 0.0, 9.8), gyro=(0.0, 0.0, 0.0), pressure=(1.0, 2.0, 3.0))
     session.feed(flat)
     body = DoubleFoot()
-    fed(body, session.feet[LEFT], flat, [step(LEFT, 2.0)])
+    fed(body, session.feet[LEFT], flat, [stride_of(LEFT, 2.0)])
     assert body.paths[Foot.LEFT].strides[-1].cop_path[-1] == pytest.approx(0.1)
     assert centre_of(insole) == pytest.approx(0.1)
     assert centre_of(Layout(0, LEFT, (), 0.26)) is None
@@ -185,7 +191,8 @@ def test_the_centre_of_the_foot_is_half_way_between_the_first_and_the_last_cell(
 
 def test_the_chosen_path_is_the_calibrated_one_in_the_foots_own_direction() -> None:
     body, fused = walked(
-        step(LEFT, 2.0, 1.2, index=0.3, direction=(0.6, 0.8)), step(RIGHT, 2.55, 1.4, index=0.1, direction=(0.0, 1.0))
+        stride_of(LEFT, 2.0, 1.2, index=0.3, direction=(0.6, 0.8)),
+        stride_of(RIGHT, 2.55, 1.4, index=0.1, direction=(0.0, 1.0)),
     )
     assert fused[1].chosen is RIGHT
     assert fused[1].position == pytest.approx((0.0, 1.35, 0.0))
@@ -194,7 +201,7 @@ def test_the_chosen_path_is_the_calibrated_one_in_the_foots_own_direction() -> N
 
 
 def test_a_walk_of_equal_steps_ends_where_it_ended_without_calibration() -> None:
-    steps = [step(foot, 2.0 + 0.55 * k, number=k // 2 + 1) for k, foot in enumerate((LEFT, RIGHT) * 10)]
+    steps = [stride_of(foot, 2.0 + 0.55 * k, number=k // 2 + 1) for k, foot in enumerate((LEFT, RIGHT) * 10)]
     body, fused = walked(*steps)
     assert fused[-1].distance == pytest.approx(13.0)
     assert body.error_balance == 0.0
@@ -236,21 +243,21 @@ def test_the_wearer_stands_at_the_end_of_the_chosen_path_and_within_its_covarian
 INDICES = st.one_of(st.none(), st.floats(0.0, 50.0), st.sampled_from([0.0, float("nan"), float("inf"), -1.0]))
 COPS = st.lists(st.tuples(st.floats(-0.1, 0.4), st.floats(-0.1, 0.1)), max_size=32)
 STEPS = st.builds(
-    step,
+    stride_of,
     st.sampled_from(Foot),
     st.floats(0.0, 60.0),
     st.floats(0.0, 5.0),
     index=INDICES,
-    cop=st.one_of(COPS.map(tuple), st.just(ROLLED), st.just(((0.1, 0.0),) * 9)),
+    cop=st.one_of(COPS.map(tuple), st.just(COP_PATH), st.just(((0.1, 0.0),) * 9)),
     lasts=st.floats(0.0, 5.0),
 )
 
 
-def numbers(value: Any) -> list[float]:
+def numbers_in(value: Any) -> list[float]:
     if isinstance(value, dict):
         value = list(value.values())
     if isinstance(value, list):
-        return [number for item in value for number in numbers(item)]
+        return [number for item in value for number in numbers_in(item)]
     return [float(value)] if isinstance(value, int | float) else []
 
 
@@ -267,6 +274,6 @@ def test_any_sequence_of_steps_gives_numbers_and_shares_between_zero_and_one(
         assert fused.similarity is None or 0.0 <= fused.similarity <= 1.0
         assert all(isfinite(x) for x in (fused.stride_length, fused.distance, *fused.position))
         assert fused.stride_length >= 0.0
-        assert all(isfinite(number) for number in numbers(machine.save(body)))
+        assert all(isfinite(number) for number in numbers_in(machine.save(body)))
         size = max(size, len(body.paths[Foot.LEFT].strides), len(body.paths[Foot.RIGHT].strides))
     assert size <= 3

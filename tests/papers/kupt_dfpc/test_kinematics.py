@@ -1,4 +1,4 @@
-"""The shoe as rockers: equations (4) to (7) against arithmetic on paper, and how a sensor is mounted."""
+"""The rolling shoe: equations (4) to (7) with expected values by hand, and mountings of the sensor."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from solepath.papers.kupt_dfpc.kinematics import Sagittal, forefoot_position, he
 from solepath.types import Quat, Vec3
 from solepath.types.vector import IDENTITY, conjugate, from_rotation_vector, from_yaw, multiply, normalise, rotate
 
-STRAIGHT = ShoeGeometry(forefoot_radius=(0.070, 0.025), pivot_to_toe=(0.090, -0.025), steepest=1.2)
-"""Curves that are lines, for sums on paper."""
+LINEAR_SHOE = ShoeGeometry(forefoot_radius=(0.070, 0.025), pivot_to_toe=(0.090, -0.025), steepest=1.2)
+"""Shoe whose curves are straight lines, so that expected values are easy to compute."""
 CROOKED: Quat = normalise((0.6, -0.3, 0.5, 0.55))
 """Mountings of a sensor: sensor to foot."""
 
 
-def pitched(toe_up: float, yaw: float = 0.0) -> Quat:
-    """Foot to world: x to the toe, y left, z up; toes up by a turn about -y."""
+def attitude_of(toe_up: float, yaw: float = 0.0) -> Quat:
+    """Return the attitude, foot to world frame, of a foot whose pitch is `toe_up` rad."""
     return multiply(from_yaw(yaw), from_rotation_vector((0.0, -toe_up, 0.0)))
 
 
@@ -30,7 +30,7 @@ def taught(mounting: Quat = IDENTITY) -> Sagittal:
     sagittal = Sagittal()
     sagittal.add_flat_sample(0.01, mounting)
     for heel_up in (0.1, 0.3, 0.6, 0.9):
-        sagittal.add_lift_sample(multiply(pitched(-heel_up), mounting))
+        sagittal.add_lift_sample(multiply(attitude_of(-heel_up), mounting))
     sagittal.end_lift()
     return sagittal
 
@@ -38,44 +38,46 @@ def taught(mounting: Quat = IDENTITY) -> Sagittal:
 def test_on_its_heel_the_sensor_is_where_equation_4_has_it() -> None:
     # 30 degrees: P_h = 0.125 x 0.8660254 - 0.029 x 0.5 = 0.1082532 - 0.0145
     #             P_z = 0.125 x 0.5 + 0.029 x 0.8660254 = 0.0625 + 0.0251147
-    assert heel_position(STRAIGHT, pi / 6) == pytest.approx((0.0937532, 0.0876147), abs=1e-7)
-    assert heel_position(STRAIGHT, 0.0) == pytest.approx((0.125, 0.029))
+    assert heel_position(LINEAR_SHOE, pi / 6) == pytest.approx((0.0937532, 0.0876147), abs=1e-7)
+    assert heel_position(LINEAR_SHOE, 0.0) == pytest.approx((0.125, 0.029))
 
 
 def test_on_its_forefoot_the_sensor_is_where_equation_6_has_it() -> None:
     # 0.4 rad: L_r = 0.070 + 0.025 x 0.4 = 0.080, L_p2t = 0.090 - 0.010 = 0.080
     # P_h = 0.080 x 0.9210610 - 0.029 x 0.3894183 = 0.0736849 - 0.0112931 = 0.0623918, and 0.080 more to the toe
     # P_z = 0.080 x 0.3894183 + 0.029 x 0.9210610 = 0.0311535 + 0.0267108
-    assert forefoot_position(STRAIGHT, 0.4) == pytest.approx((0.1423918, 0.0578643), abs=1e-7)
+    assert forefoot_position(LINEAR_SHOE, 0.4) == pytest.approx((0.1423918, 0.0578643), abs=1e-7)
 
 
-def rolled(place: Callable[[Sagittal, ShoeGeometry], Vec3], *pitches: float, dt: float, yaw: float = 0.0) -> Vec3:
-    """The velocity of a sensor whose foot pitches from one to the other within `dt` s."""
+def rolling_velocity(
+    place: Callable[[Sagittal, ShoeGeometry], Vec3], *pitches: float, dt: float, yaw: float = 0.0
+) -> Vec3:
+    """Return the velocity, m/s, of a sensor whose foot goes from one pitch to the next within `dt` s."""
     sagittal, places = taught(), []
     for pitch in pitches:
-        sagittal.update(pitched(pitch, yaw))
-        places.append(place(sagittal, STRAIGHT))
+        sagittal.update(attitude_of(pitch, yaw))
+        places.append(place(sagittal, LINEAR_SHOE))
     return mean_velocity(*places, dt)
 
 
 def test_on_its_heel_it_moves_as_equation_5_has_it() -> None:
     # 20 degrees: P_h = 0.125 x 0.9396926 - 0.029 x 0.3420201 = 0.1075430; P_z = 0.0427525 + 0.0272511 = 0.0700036
     # in 0.02 s: (0.1075430 - 0.0937532) / 0.02 = 0.689 ahead, (0.0700036 - 0.0876147) / 0.02 = -0.881 down
-    found = rolled(Sagittal.heel_position, pi / 6, pi / 9, dt=0.02)
+    found = rolling_velocity(Sagittal.heel_position, pi / 6, pi / 9, dt=0.02)
     assert found == pytest.approx((0.68949, 0.0, -0.88056), abs=1e-4)
 
 
 def test_on_its_forefoot_it_moves_as_equation_7_has_it_where_the_foot_points() -> None:
     # 0.5 rad: L_r = 0.0825, L_p2t = 0.0775; P_h = 0.0724006 - 0.0139033 = 0.0584973; P_z = 0.0395526 + 0.0254499
     # in 0.01 s: -(0.1359973 - 0.1423918) / 0.01 = 0.639 ahead, (0.0650025 - 0.0578643) / 0.01 = 0.714 up
-    ahead, aside = (rolled(Sagittal.forefoot_position, -0.4, -0.5, dt=0.01, yaw=yaw) for yaw in (0.0, pi / 2))
+    ahead, aside = (rolling_velocity(Sagittal.forefoot_position, -0.4, -0.5, dt=0.01, yaw=yaw) for yaw in (0.0, pi / 2))
     assert ahead == pytest.approx((0.63945, 0.0, 0.71382), abs=1e-4)
     assert aside == pytest.approx((0.0, 0.63945, 0.71382), abs=1e-4)
 
 
 def test_beyond_the_steepest_posture_the_curves_stay_as_they_are() -> None:
     # at 1.4 rad the curves are those of 1.2 rad: L_r = 0.100, L_p2t = 0.060
-    behind, above = forefoot_position(STRAIGHT, 1.4)
+    behind, above = forefoot_position(LINEAR_SHOE, 1.4)
     assert behind == pytest.approx(0.100 * cos(1.4) - 0.029 * sin(1.4) + 0.060)
     assert above == pytest.approx(0.100 * sin(1.4) + 0.029 * cos(1.4))
 
@@ -111,7 +113,7 @@ def test_a_push_off_teaches_where_the_toes_are_however_the_sensor_is_mounted(mou
 @pytest.mark.parametrize("toe_up", [0.35, 0.0, -0.9])
 def test_toes_up_is_a_positive_pitch_and_heel_up_a_negative_one(mounting: Quat, toe_up: float) -> None:
     sagittal = taught(mounting)
-    sagittal.update(multiply(pitched(toe_up, yaw=2.0), mounting))
+    sagittal.update(multiply(attitude_of(toe_up, yaw=2.0), mounting))
     assert sagittal.pitch == pytest.approx(toe_up, abs=1e-9)
     assert sagittal.forward == pytest.approx((cos(2.0), sin(2.0)), abs=1e-9)
 
@@ -120,7 +122,7 @@ def test_a_frame_whose_vertical_is_off_gives_the_same_pitch() -> None:
     """An accelerometer that is off by 20 mg tilts the frame by a degree, always the same way."""
     tilted = from_rotation_vector((0.012, -0.017, 0.0))
     sagittal = taught(multiply(tilted, CROOKED))
-    sagittal.update(multiply(tilted, multiply(pitched(0.4), CROOKED)))
+    sagittal.update(multiply(tilted, multiply(attitude_of(0.4), CROOKED)))
     assert sagittal.pitch == pytest.approx(0.4, abs=0.01)
 
 
@@ -128,7 +130,7 @@ def test_a_foot_that_hardly_lifts_teaches_nothing() -> None:
     sagittal = Sagittal()
     sagittal.add_flat_sample(0.01, IDENTITY)
     for heel_up in (0.1, 0.2, 0.3):
-        sagittal.add_lift_sample(pitched(-heel_up))
+        sagittal.add_lift_sample(attitude_of(-heel_up))
     sagittal.end_lift()
     assert sagittal.toe is None
 
@@ -139,7 +141,7 @@ def test_one_odd_push_off_changes_nothing_and_three_in_a_row_are_learnt() -> Non
     toes = []
     for _ in range(3):
         for heel_up in (0.3, 0.6, 0.9):
-            sagittal.add_lift_sample(multiply(pitched(-heel_up), aside))
+            sagittal.add_lift_sample(multiply(attitude_of(-heel_up), aside))
         sagittal.end_lift()
         toes.append(sagittal.toe)
     assert toes[:2] == [toes[0]] * 2 and toes[0] == pytest.approx((1.0, 0.0, 0.0), abs=1e-9)

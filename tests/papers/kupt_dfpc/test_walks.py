@@ -29,31 +29,31 @@ CROOKED: Quat = normalise((0.6, -0.3, 0.5, 0.55))
 
 
 @cache
-def walker(seed: int) -> Walker:
+def walker_of(seed: int) -> Walker:
     return Walker(ROUTE, seed=seed)
 
 
 @cache
 def samples(seed: int, foot: Foot, rate: float) -> tuple[Sample, ...]:
-    """With the errors of a named part."""
-    return tuple(walker(seed).samples(foot, rate, LSM6DSOX, layout=layout(96, foot)))
+    """Return the samples of a foot from a sensor with the errors of a real chip."""
+    return tuple(walker_of(seed).samples(foot, rate, LSM6DSOX, layout=layout(96, foot)))
 
 
 def run(recipe: str, walk: tuple[Sample, ...]) -> list[Event]:
     return run_session(walk, recipes.by_name(recipe), calibration=LAYOUTS)
 
 
-def steps(events: list[Event]) -> list[StrideTaken]:
+def strides_in(events: list[Event]) -> list[StrideTaken]:
     return [event for event in events if isinstance(event, StrideTaken)]
 
 
 @cache
-def strides(recipe: str, rate: float) -> tuple[list[float], list[float]]:
-    """(found less true length of every stride but the first two, found less true distance of every walk and foot)."""
+def stride_errors(recipe: str, rate: float) -> tuple[list[float], list[float]]:
+    """Return the errors, m, of all stride lengths but the first two, and of the distance of each walk and foot."""
     errors, distances = [], []
     for seed in SEEDS:
         for foot in Foot:
-            found, true = steps(run(recipe, samples(seed, foot, rate))), walker(seed).truth().steps(foot)
+            found, true = strides_in(run(recipe, samples(seed, foot, rate))), walker_of(seed).truth().steps(foot)
             assert len(found) == len(true)
             errors += [a.length - b.length for a, b in zip(found[2:], true[2:], strict=True)]
             distances.append(sum(a.length for a in found) - sum(b.length for b in true))
@@ -62,7 +62,7 @@ def strides(recipe: str, rate: float) -> tuple[list[float], list[float]]:
 
 @pytest.mark.parametrize("rate", [30.0, 100.0])
 def test_strides_with_known_velocity_are_nearer_to_the_truth_than_with_zero_velocity_alone(rate: float) -> None:
-    known, zero = (np.array(strides(recipe, rate)[0]) for recipe in ("kupt", "zupt"))
+    known, zero = (np.array(stride_errors(recipe, rate)[0]) for recipe in ("kupt", "zupt"))
     assert np.sqrt(np.mean(known**2)) < np.sqrt(np.mean(zero**2))
     assert known.std() < 0.85 * zero.std()
     assert abs(known.mean()) < 0.015
@@ -70,7 +70,7 @@ def test_strides_with_known_velocity_are_nearer_to_the_truth_than_with_zero_velo
 
 @pytest.mark.parametrize("rate", [30.0, 100.0])
 def test_a_walk_of_20_m_is_20_m_long(rate: float) -> None:
-    _, distances = strides("kupt", rate)
+    _, distances = stride_errors("kupt", rate)
     assert np.abs(distances).max() < 0.6
     assert abs(np.mean(distances)) < 0.25
 
@@ -78,10 +78,10 @@ def test_a_walk_of_20_m_is_20_m_long(rate: float) -> None:
 @pytest.mark.parametrize("rate", [30.0, 100.0])
 def test_all_but_the_first_steps_have_an_error_index(rate: float) -> None:
     for foot in Foot:
-        found = steps(run("kupt", samples(221, foot, rate)))
+        found = strides_in(run("kupt", samples(221, foot, rate)))
         assert all(step.features.error_index is not None for step in found[2:])
         assert found[0].features.error_index is None
-        assert all(step.features.error_index is None for step in steps(run("zupt", samples(221, foot, rate))))
+        assert all(step.features.error_index is None for step in strides_in(run("zupt", samples(221, foot, rate))))
 
 
 @pytest.mark.parametrize("rate", [30.0, 100.0])
@@ -89,7 +89,7 @@ def test_events_of_the_foot_are_found_when_they_happen(rate: float) -> None:
     """Within two samples and the delay of the load; heel-strike and foot-flat are reported together."""
     near = 2.0 / rate + 0.04
     for foot in Foot:
-        events, truth = run("kupt", samples(222, foot, rate)), walker(222).truth().feet[foot]
+        events, truth = run("kupt", samples(222, foot, rate)), walker_of(222).truth().feet[foot]
         for kind, true in (
             (HeelStrike, truth.heel_strikes),
             (ToeOff, truth.toe_offs),
@@ -110,8 +110,8 @@ def test_how_the_sensor_is_mounted_makes_no_difference() -> None:
     turned = tuple(
         [evolve(s, acc=rotate(CROOKED, s.acc), gyro=rotate(CROOKED, s.gyro)) for s in plain if s.acc and s.gyro]
     )
-    lengths = [[step.length for step in steps(run("kupt", walk))] for walk in (plain, turned)]
-    indices = [[step.features.error_index for step in steps(run("kupt", walk))][2:] for walk in (plain, turned)]
+    lengths = [[step.length for step in strides_in(run("kupt", walk))] for walk in (plain, turned)]
+    indices = [[step.features.error_index for step in strides_in(run("kupt", walk))][2:] for walk in (plain, turned)]
     assert lengths[0] == pytest.approx(lengths[1], abs=1e-6)
     assert indices[0] == pytest.approx(indices[1], abs=1e-6)
 
@@ -138,7 +138,7 @@ def test_a_session_saved_in_mid_step_goes_on_to_the_same_bits(t: float) -> None:
 def test_pressure_that_comes_at_half_the_rate_makes_the_same_steps() -> None:
     walk = samples(221, Foot.LEFT, 100.0)
     thinned = tuple([s if k % 2 == 0 else evolve(s, pressure=None) for k, s in enumerate(walk)])
-    whole, half = steps(run("kupt", walk)), steps(run("kupt", thinned))
+    whole, half = strides_in(run("kupt", walk)), strides_in(run("kupt", thinned))
     assert len(whole) == len(half)
     assert [s.length for s in whole] == pytest.approx([s.length for s in half], abs=0.08)
 
@@ -149,7 +149,7 @@ def test_after_a_long_stand_on_both_feet_the_next_steps_are_found() -> None:
     two = Walker(route, seed=224)
     for foot in Foot:
         walk = two.samples(foot, 50.0, LSM6DSOX, layout=layout(96, foot))
-        found, true = steps(run("kupt", tuple(walk))), two.truth().steps(foot)
+        found, true = strides_in(run("kupt", tuple(walk))), two.truth().steps(foot)
         assert len(found) == len(true)
         assert sum(step.length for step in found) == pytest.approx(sum(s.length for s in true), abs=0.5)
 
@@ -157,7 +157,7 @@ def test_after_a_long_stand_on_both_feet_the_next_steps_are_found() -> None:
 def test_a_foot_without_pressure_has_no_use_for_this_recipe() -> None:
     bare = [evolve(sample, pressure=None) for sample in samples(221, Foot.LEFT, 30.0)]
     assert all(sample.site is SITE_OF_FOOT[Foot.LEFT] for sample in bare)
-    assert not steps(run("kupt", tuple(bare)))
+    assert not strides_in(run("kupt", tuple(bare)))
 
 
 def test_when_the_clock_restarts_the_next_steps_are_found() -> None:
@@ -165,9 +165,9 @@ def test_when_the_clock_restarts_the_next_steps_are_found() -> None:
     walk = samples(221, Foot.LEFT, 100.0)
     late = [evolve(sample, t=sample.t + 1000.0) for sample in walk]
     session = Session(recipes.by_name("kupt"), calibration=LAYOUTS)
-    first = steps(session.feed(late))
+    first = strides_in(session.feed(late))
     session.feet[Foot.LEFT].reset()
-    again = steps(session.feed(walk))
+    again = strides_in(session.feed(walk))
     # where the first step began is a matter of the old clock
     assert [step.length for step in again] == pytest.approx([step.length for step in first[1:]], abs=0.05)
     # the direction of the toes is still known
@@ -185,7 +185,7 @@ def test_a_session_can_be_saved_at_any_sample_of_its_first_steps() -> None:
 def test_insoles_without_a_layout_make_no_step_longer_than_the_wearers() -> None:
     """Without areas, before the order of loading has shown where the cells are, the foot still stands."""
     walk = samples(223, Foot.RIGHT, 100.0)
-    found, true = steps(run_session(walk, recipes.by_name("kupt"))), walker(223).truth().steps(Foot.RIGHT)
+    found, true = strides_in(run_session(walk, recipes.by_name("kupt"))), walker_of(223).truth().steps(Foot.RIGHT)
     assert len(found) == len(true)
     assert sum(step.length for step in found) == pytest.approx(sum(step.length for step in true), abs=0.6)
     assert max(step.length for step in found) < 1.2 * max(step.length for step in true)

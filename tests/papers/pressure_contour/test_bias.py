@@ -15,11 +15,11 @@ from solepath.types import Foot, Phase, Quat, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector, from_yaw, multiply, rotate
 
 STANDING = Stance(ZERO, 0.01, 0.0, Phase.STATIONARY)
-MOVES = Stance(ZERO, inf, 0.0, None)
+MOVING = Stance(ZERO, inf, 0.0, None)
 UP: Vec3 = (0.0, 0.0, GRAVITY)
 
 
-def started(corrector: BiasZupt, attitude: Quat = IDENTITY) -> BiasZupt:
+def start(corrector: BiasZupt, attitude: Quat = IDENTITY) -> BiasZupt:
     corrector.start(attitude, 0.02)
     return corrector
 
@@ -77,7 +77,7 @@ def test_between_stances_only_the_variance_grows() -> None:
 
 @pytest.mark.parametrize("attitude", [IDENTITY, from_rotation_vector((0.3, -0.2, 1.0))])
 def test_the_bias_is_the_reading_beside_gravity_in_the_sensor_frame(attitude: Quat) -> None:
-    corrector = started(BiasZupt())
+    corrector = start(BiasZupt())
     w, x, y, z = attitude
     gravity = rotate((w, -x, -y, -z), UP)
     off = (0.08, -0.05, 0.03)
@@ -88,25 +88,25 @@ def test_the_bias_is_the_reading_beside_gravity_in_the_sensor_frame(attitude: Qu
 
 def test_a_known_bias_no_longer_moves_the_foot_whichever_way_it_turns() -> None:
     # (10) with the sign of (6): as printed, the error of 0.1 m/s^2 would double
-    corrector = started(BiasZupt())
+    corrector = start(BiasZupt())
     fed(corrector, STANDING, (0.1, 0.0, GRAVITY), 1000, attitude=IDENTITY)
     turned = from_yaw(0.5 * pi)
-    fed(corrector, MOVES, (0.1, 0.0, GRAVITY), 1)
+    fed(corrector, MOVING, (0.1, 0.0, GRAVITY), 1)
     corrector.velocity, corrector.position = ZERO, ZERO
-    fed(corrector, MOVES, (0.1, 0.0, GRAVITY), 100, attitude=turned)
+    fed(corrector, MOVING, (0.1, 0.0, GRAVITY), 100, attitude=turned)
     assert abs(corrector.velocity[0]) < 0.003 and abs(corrector.velocity[1]) < 0.003
 
 
 def test_a_standing_foot_has_no_velocity() -> None:
-    corrector = started(BiasZupt())
-    fed(corrector, MOVES, (1.0, 0.0, GRAVITY), 50)
+    corrector = start(BiasZupt())
+    fed(corrector, MOVING, (1.0, 0.0, GRAVITY), 50)
     assert corrector.velocity[0] == pytest.approx(0.5, abs=0.02)
     corrector.predict(0.01, (1.0, 0.0, GRAVITY), ZERO)
     assert corrector.correct(1.0, STANDING) and corrector.velocity == ZERO
 
 
 def test_evidence_that_is_too_poor_is_no_stance() -> None:
-    corrector = started(BiasZupt())
+    corrector = start(BiasZupt())
     corrector.predict(0.01, UP, ZERO)
     assert not corrector.correct(0.0, Stance(ZERO, 0.2, 0.0, None))
     assert not corrector.correct(0.0, Stance(ZERO, 0.01, 0.0, Phase.SWING))
@@ -115,30 +115,30 @@ def test_evidence_that_is_too_poor_is_no_stance() -> None:
 def test_a_steady_error_of_a_swing_costs_no_way_when_it_is_spread_and_half_a_t_squared_when_not() -> None:
     # an error of 0.2 m/s^2 for a second: a t^2 / 2 = 0.1 m
     for remove_swing_drift, way in ((True, 0.0), (False, 0.1)):
-        corrector = started(BiasZupt(BiasZuptSettings(remove_swing_drift=remove_swing_drift)))
+        corrector = start(BiasZupt(BiasZuptSettings(remove_swing_drift=remove_swing_drift)))
         corrector.predict(0.0, UP, ZERO)
         corrector.correct(0.0, STANDING)
-        fed(corrector, MOVES, (0.2, 0.0, GRAVITY), 99)
+        fed(corrector, MOVING, (0.2, 0.0, GRAVITY), 99)
         fed(corrector, STANDING, (0.2, 0.0, GRAVITY), 1)
         assert corrector.position[0] == pytest.approx(way, abs=0.002)
 
 
 def test_a_gravity_that_leans_pulls_an_attitude_of_our_own_upright() -> None:
-    corrector = started(BiasZupt(), from_rotation_vector((0.02, 0.0, 0.0)))
+    corrector = start(BiasZupt(), from_rotation_vector((0.02, 0.0, 0.0)))
     fed(corrector, STANDING, UP, 300)
     x, y, _ = rotate(corrector.attitude, (0.0, 0.0, 1.0))
     assert abs(x) < 1e-3 and abs(y) < 1e-3
 
 
 def test_the_device_knows_its_attitude_better_than_we_do() -> None:
-    corrector = started(BiasZupt())
+    corrector = start(BiasZupt())
     tilted = from_rotation_vector((0.02, 0.0, 0.0))
     fed(corrector, STANDING, UP, 300, attitude=tilted)
     assert corrector.attitude == pytest.approx(tilted, abs=1e-9)
 
 
 def test_the_heading_continues_when_a_device_reports_its_own() -> None:
-    corrector = started(BiasZupt(), from_yaw(0.3))
+    corrector = start(BiasZupt(), from_yaw(0.3))
     north = from_yaw(2.0)  # the device's world is turned against ours
     corrector.use_attitude(multiply(north, from_yaw(0.3)))
     corrector.predict(0.01, UP, ZERO)
@@ -148,52 +148,52 @@ def test_the_heading_continues_when_a_device_reports_its_own() -> None:
     assert corrector.attitude == pytest.approx(from_yaw(0.8), abs=1e-9)
 
 
-def drifting(drift: tuple[float, float] | None) -> BiasZupt:
+def corrector_with(drift: tuple[float, float] | None) -> BiasZupt:
     part = BiasZupt().calibrated(Foot.LEFT, Calibration(drift={} if drift is None else {Foot.LEFT: drift}))
-    return started(part)
+    return start(part)
 
 
 def test_a_calibrated_drift_is_taken_off_every_sample() -> None:
-    corrector = drifting((0.02, -0.01))
-    fed(corrector, MOVES, UP, 250)
+    corrector = corrector_with((0.02, -0.01))
+    fed(corrector, MOVING, UP, 250)
     assert corrector.position == pytest.approx((-0.05, 0.025, 0.0), abs=1e-9)
 
 
 def test_a_drift_is_fixed_to_the_world_of_a_device_that_has_one() -> None:
-    corrector = drifting((0.02, 0.0))
+    corrector = corrector_with((0.02, 0.0))
     # the device reports 0.4 where navigation has 0: its x axis lies at -0.4 rad in navigation
-    fed(corrector, MOVES, UP, 100, attitude=from_yaw(0.4))
+    fed(corrector, MOVING, UP, 100, attitude=from_yaw(0.4))
     assert corrector.position == pytest.approx((-0.02 * cos(-0.4), -0.02 * sin(-0.4), 0.0), abs=1e-9)
 
 
 def test_who_stands_for_long_does_not_drift() -> None:
-    corrector = drifting((0.02, 0.0))
+    corrector = corrector_with((0.02, 0.0))
     fed(corrector, STANDING, UP, 1000)
     assert -0.0205 < corrector.position[0] < -0.0195
 
 
 def test_without_a_calibration_nothing_is_taken_off() -> None:
-    corrector = drifting(None)
-    fed(corrector, MOVES, UP, 100)
+    corrector = corrector_with(None)
+    fed(corrector, MOVING, UP, 100)
     assert corrector.position == pytest.approx(ZERO, abs=1e-9)
 
 
 @pytest.mark.parametrize("turn", [0.0, 0.5 * pi, -2.0])
 def test_after_a_clock_reset_the_way_goes_on_whatever_the_heading_of_the_devices_new_world(turn: float) -> None:
-    corrector = started(BiasZupt())
+    corrector = start(BiasZupt())
     for world in (from_yaw(0.3), from_yaw(0.3 + turn)):
         fed(corrector, STANDING, UP, 10, attitude=world)
         corrector.velocity = (1.0, 0.0, 0.0)
-        fed(corrector, MOVES, UP, 100, attitude=world)
+        fed(corrector, MOVING, UP, 100, attitude=world)
         corrector.bridge(inf)
     assert corrector.position == pytest.approx((2.0, 0.0, 0.0), abs=0.03)
     assert rotate(corrector.attitude, (1.0, 0.0, 0.0)) == pytest.approx((1.0, 0.0, 0.0), abs=1e-6)
 
 
 def test_covariance_grows_with_the_way_and_an_anchor_resets_it() -> None:
-    corrector = started(BiasZupt())
+    corrector = start(BiasZupt())
     corrector.velocity = (1.0, 0.0, 0.0)
-    fed(corrector, MOVES, UP, 100)
+    fed(corrector, MOVING, UP, 100)
     stretch = corrector.covariance()
     assert stretch[0] == pytest.approx(0.01**2, rel=0.05) and stretch[6] > 0.0
     assert corrector.anchor() == stretch
@@ -201,26 +201,26 @@ def test_covariance_grows_with_the_way_and_an_anchor_resets_it() -> None:
 
 
 def test_a_devices_heading_error_is_in_every_stretch_and_does_not_add_up() -> None:
-    corrector = started(BiasZupt())
+    corrector = start(BiasZupt())
     corrector.velocity = (1.0, 0.0, 0.0)
-    fed(corrector, MOVES, UP, 100, attitude=IDENTITY)
+    fed(corrector, MOVING, UP, 100, attitude=IDENTITY)
     stretch = corrector.covariance()
     assert stretch[0] == pytest.approx(0.01**2 + 0.0175**2, rel=0.05) and stretch[6] == 0.0
 
 
 def test_a_long_gap_stops_the_foot_where_it_was() -> None:
-    corrector = started(BiasZupt())
+    corrector = start(BiasZupt())
     corrector.velocity = (1.0, 0.0, 0.0)
     assert corrector.bridge(0.2) == 0.2 and corrector.velocity == (1.0, 0.0, 0.0)
     assert corrector.bridge(inf) == 0.0 and corrector.velocity == ZERO
 
 
 def test_it_goes_on_from_a_snapshot() -> None:
-    ours = drifting((0.01, 0.0))
+    ours = corrector_with((0.01, 0.0))
     fed(ours, STANDING, (0.1, 0.0, GRAVITY), 20, attitude=from_yaw(0.4))
-    fed(ours, MOVES, (0.5, 0.2, GRAVITY), 20, attitude=from_yaw(0.5))
+    fed(ours, MOVING, (0.5, 0.2, GRAVITY), 20, attitude=from_yaw(0.5))
     theirs = machine.load(BiasZupt, machine.save(ours))
     for one in (ours, theirs):
-        fed(one, MOVES, (0.1, 0.1, GRAVITY), 5, attitude=from_yaw(0.6))
+        fed(one, MOVING, (0.1, 0.1, GRAVITY), 5, attitude=from_yaw(0.6))
         fed(one, STANDING, UP, 5)
     assert ours == theirs

@@ -14,11 +14,11 @@ from solepath.papers.pressure_contour.recipe import GYROSCOPE, PRESSURE_CONTOUR
 from solepath.recipes import DEFAULT, Recipe
 from solepath.recording.samples import load_samples
 
-LONGEST = 2.0
-"""No stride of these walks is longer, m; two in one would be."""
+LONGEST_STRIDE = 2.0
+"""Length, m, that no stride of these walks has, but two strides taken for one would have."""
 
 
-def steps(recipe: Recipe, file: Path, calibration: Calibration) -> list[StrideTaken]:
+def strides_of(recipe: Recipe, file: Path, calibration: Calibration) -> list[StrideTaken]:
     return of(StrideTaken, run_session(load_samples(file), recipe, calibration=calibration))
 
 
@@ -30,6 +30,6 @@ def test_hardly_a_stride_is_lost_in_feet_that_never_quite_rest(
 ) -> None:
     file = data_dir / "smart_insole_35" / f"{name}.npz"
     known = in_dataset(file) if with_layout else Calibration()
-    usual, found = steps(DEFAULT, file, known), steps(recipe, file, known)
+    usual, found = strides_of(DEFAULT, file, known), strides_of(recipe, file, known)
     assert abs(len(found) - len(usual)) <= len(usual) // 10
-    assert max(one.length for one in found) < LONGEST
+    assert max(one.length for one in found) < LONGEST_STRIDE

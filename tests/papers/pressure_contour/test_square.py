@@ -25,47 +25,49 @@ from solepath.recording.decoded import decode_recording
 from solepath.types import Foot, Packet, Sample, Site, Vec3
 
 LEFT = Foot.LEFT
-EXACT = AttitudePart("exact", tilt=0.0, heading=0.0)
-PER_LAP = 8
+EXACT_ATTITUDE = AttitudePart("exact", tilt=0.0, heading=0.0)
+MARKS_PER_LAP = 8
 
 
 @cache
-def laps() -> EmulatedWalk:
+def walk_laps() -> EmulatedWalk:
     """Four rounds of a small square, each foot on eight marks, in a device that knows its attitude."""
-    spacing_of_40 = square(4, edge=11.7 * PER_LAP / 40.0, corner=0.5)
+    spacing_of_40 = square(4, edge=11.7 * MARKS_PER_LAP / 40.0, corner=0.5)
     route = evolve(
         spacing_of_40,
         actions=tuple(
-            evolve(action, spacing=action.spacing * 40.0 / PER_LAP) if getattr(action, "spacing", None) else action
+            evolve(action, spacing=action.spacing * 40.0 / MARKS_PER_LAP)
+            if getattr(action, "spacing", None)
+            else action
             for action in spacing_of_40.actions
         ),
     )
-    device = Insole(rate=50.0, quaternion=True, attitude=EXACT, north=0.7)
+    device = Insole(rate=50.0, quaternion=True, attitude=EXACT_ATTITUDE, north=0.7)
     return emulate(route, devices={Site.LEFT_FOOT: device}, seed=109)
 
 
 @cache
 def samples() -> tuple[Packet | Sample, ...]:
     """Return the samples without their pressures, for the gyroscope alone."""
-    return tuple(evolve(sample, pressure=None) for sample in decode_recording(laps().packets).samples)
+    return tuple(evolve(sample, pressure=None) for sample in decode_recording(walk_laps().packets).samples)
 
 
-def drifting(x: float, y: float) -> Recipe:
-    """A recipe whose positions drift by (x, y) m/s in the device's own world."""
+def drifting_recipe(x: float, y: float) -> Recipe:
+    """Return a recipe whose positions drift by (x, y) m/s in the device's own world."""
     return evolve(GYROSCOPE, corrector=BiasZupt(BiasZuptSettings(drift=(-x, -y))))
 
 
 def test_a_known_slope_comes_out_in_the_frame_of_the_device() -> None:
-    without = square_drift(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE)
-    with_it = square_drift(samples(), steps_per_lap=PER_LAP, recipe=drifting(0.03, -0.02))
+    without = square_drift(samples(), steps_per_lap=MARKS_PER_LAP, recipe=GYROSCOPE)
+    with_it = square_drift(samples(), steps_per_lap=MARKS_PER_LAP, recipe=drifting_recipe(0.03, -0.02))
     assert with_it.slope[0] - without.slope[0] == pytest.approx(0.03, abs=2e-4)
     assert with_it.slope[1] - without.slope[1] == pytest.approx(-0.02, abs=2e-4)
-    assert with_it.marks == PER_LAP and with_it.foot is LEFT
+    assert with_it.marks == MARKS_PER_LAP and with_it.foot is LEFT
 
 
 def test_a_drift_that_all_laps_agree_on_is_kept_and_then_taken_off() -> None:
     fast = (0.04, -0.025)
-    found = square_drift(samples(), steps_per_lap=PER_LAP, recipe=drifting(*fast))
+    found = square_drift(samples(), steps_per_lap=MARKS_PER_LAP, recipe=drifting_recipe(*fast))
     assert found.agreed and found.kept == found.slope
 
     def end(recipe: Recipe, calibration: Calibration) -> StrideTaken:
@@ -79,7 +81,7 @@ def test_a_drift_that_all_laps_agree_on_is_kept_and_then_taken_off() -> None:
 
 
 def test_a_drift_that_laps_disagree_on_is_removed_only_on_request() -> None:
-    found = square_drift(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE)
+    found = square_drift(samples(), steps_per_lap=MARKS_PER_LAP, recipe=GYROSCOPE)
     assert not found.agreed and found.kept == (0.0, 0.0)
 
 
@@ -107,20 +109,20 @@ def test_the_slope_is_the_mean_of_the_marks_lines() -> None:
 
 def test_marks_by_time_give_the_same_as_counted_steps() -> None:
     steps = of(StrideTaken, run_session(samples(), GYROSCOPE))
-    marks = [CornerMark(str(k % PER_LAP), step.t + 0.1) for k, step in enumerate(steps)]
-    counted = square_drift(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE)
+    marks = [CornerMark(str(k % MARKS_PER_LAP), step.t + 0.1) for k, step in enumerate(steps)]
+    counted = square_drift(samples(), steps_per_lap=MARKS_PER_LAP, recipe=GYROSCOPE)
     assert square_drift(samples(), marks=marks, recipe=GYROSCOPE) == counted
 
 
 def test_a_drift_known_before_is_not_taken_off_while_calibrating() -> None:
     known = Calibration(drift=(0.5, 0.5))
-    assert square_drift(samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE, calibration=known) == square_drift(
-        samples(), steps_per_lap=PER_LAP, recipe=GYROSCOPE
+    assert square_drift(samples(), steps_per_lap=MARKS_PER_LAP, recipe=GYROSCOPE, calibration=known) == square_drift(
+        samples(), steps_per_lap=MARKS_PER_LAP, recipe=GYROSCOPE
     )
 
 
-def steps_at(*places: tuple[float, float, float]) -> dict[str, list[tuple[float, Vec3]]]:
-    """Visits of four marks, from rows of t, x, y."""
+def visits_at(*places: tuple[float, float, float]) -> dict[str, list[tuple[float, Vec3]]]:
+    """Return visits of four marks, from rows of t (s), x and y (m)."""
     visits: dict[str, list[tuple[float, Vec3]]] = {}
     for number, (t, x, y) in enumerate(places):
         visits.setdefault(str(number % 4), []).append((t, (x, y, 0.0)))
@@ -131,7 +133,7 @@ def laps_of_four(drift: float, turn: float = 0.0) -> dict[str, list[tuple[float,
     """Four laps of a square of 12 m, a corner every 15 s, that moves by `drift` m/s along y, and by `turn` m along x
     after two laps."""
     corners = ((0.0, 0.0), (12.0, 0.0), (12.0, 12.0), (0.0, 12.0))
-    return steps_at(
+    return visits_at(
         *[
             (15.0 * k, corners[k % 4][0] + (turn if k >= 8 else 0.0), corners[k % 4][1] + drift * 15.0 * k)
             for k in range(16)
@@ -155,7 +157,7 @@ def test_laps_that_do_not_close_are_rejected_though_their_slope_is_small() -> No
 
 
 def test_a_straight_walk_is_no_laps() -> None:
-    straight = steps_at(*[(1.1 * k, 1.3 * k, 0.0) for k in range(20)])
+    straight = visits_at(*[(1.1 * k, 1.3 * k, 0.0) for k in range(20)])
     with pytest.raises(CalibrationError, match="laps do not close: a mark lies 5.2 m from"):
         check_laps(fit_drift(LEFT, straight, 0.0), straight)
     walk = emulate(Route().stand(2.0).walk(25.0, 1.2).stop(1.0), devices={Site.LEFT_FOOT: Insole(rate=50.0)}, seed=3)
@@ -164,7 +166,7 @@ def test_a_straight_walk_is_no_laps() -> None:
 
 def failure_of(**changes: object) -> str:
     with pytest.raises(CalibrationError) as error:
-        square_drift(**{"items": samples(), "recipe": GYROSCOPE, "steps_per_lap": PER_LAP, **changes})  # type: ignore[arg-type]
+        square_drift(**{"items": samples(), "recipe": GYROSCOPE, "steps_per_lap": MARKS_PER_LAP, **changes})  # type: ignore[arg-type]
     assert "\n" not in str(error.value)
     return str(error.value)
 

@@ -32,14 +32,14 @@ LAP = Route().stand(2.0).walk(9.0, 1.2).turn(radians(90), radius=1.5).walk(6.0).
 
 
 @cache
-def walked(device: Insole) -> EmulatedWalk:
+def walk_with(device: Insole) -> EmulatedWalk:
     return emulate(LAP, devices={Site.LEFT_FOOT: device}, seed=107)
 
 
 DEVICES = {"96 cells": Insole(), "35 cells": Insole(cells=35), "24 cells under the heel": boot(LEFT)}
 
 
-def rates(detector: GyroscopeMagnitude, *values: float) -> list[bool]:
+def standing_flags(detector: GyroscopeMagnitude, *values: float) -> list[bool]:
     stances = [
         detector.update(0.01 * k, 0.01, (0.0, 0.0, GRAVITY), (0.0, value, 0.0), None) for k, value in enumerate(values)
     ]
@@ -49,18 +49,18 @@ def rates(detector: GyroscopeMagnitude, *values: float) -> list[bool]:
 
 
 def test_a_rate_that_stays_low_is_a_standing_foot() -> None:
-    assert rates(GyroscopeMagnitude(), 3.0, 0.1, 0.1, 0.1, 0.1) == [False, False, False, False, True]
+    assert standing_flags(GyroscopeMagnitude(), 3.0, 0.1, 0.1, 0.1, 0.1) == [False, False, False, False, True]
 
 
-def at_once() -> GyroscopeMagnitude:
+def immediate_detector() -> GyroscopeMagnitude:
     return GyroscopeMagnitude(GyroscopeSettings(lasting=0.0))
 
 
 def test_a_stance_lasts_until_the_foot_turns_much_faster_than_at_its_lowest_rate() -> None:
     # 0.2 rad/s is less than `below` 0.25: the stance ends at 1.6 times 0.25
-    assert rates(at_once(), 0.6, 0.2, 0.39, 0.41, 0.6) == [False, True, True, False, False]
+    assert standing_flags(immediate_detector(), 0.6, 0.2, 0.39, 0.41, 0.6) == [False, True, True, False, False]
     # and where 0.45 rad/s was the lowest rate, at 1.6 times that
-    assert rates(at_once(), 0.6, 0.45, 0.71, 0.73) == [False, True, True, False]
+    assert standing_flags(immediate_detector(), 0.6, 0.45, 0.71, 0.73) == [False, True, True, False]
 
 
 def strides(lowest_rate: float, count: int = 8) -> list[float]:
@@ -73,7 +73,7 @@ def strides(lowest_rate: float, count: int = 8) -> list[float]:
 
 @pytest.mark.parametrize("lowest_rate", [0.03, 0.3, 0.6, 0.9, 1.2])
 def test_a_wobbling_foot_stands_in_each_of_its_stances_once_its_lowest_rates_are_known(lowest_rate: float) -> None:
-    still = rates(GyroscopeMagnitude(), *strides(lowest_rate))
+    still = standing_flags(GyroscopeMagnitude(), *strides(lowest_rate))
     stands = [any(still[k : k + 110]) for k in range(0, len(still), 110)]
     assert all(stands[2:])
     swings = [still[k + 10 : k + 50] for k in range(0, len(still), 110)]
@@ -82,23 +82,23 @@ def test_a_wobbling_foot_stands_in_each_of_its_stances_once_its_lowest_rates_are
 
 def test_the_threshold_of_a_foot_that_wobbles_little_is_no_higher_for_that() -> None:
     detector = GyroscopeMagnitude()
-    rates(detector, *strides(0.03))
+    standing_flags(detector, *strides(0.03))
     assert detector.levels == pytest.approx((0.03,) * 5, abs=0.02)
-    assert rates(detector, 3.0, *[0.3] * 50) == [False] * 51
+    assert standing_flags(detector, 3.0, *[0.3] * 50) == [False] * 51
 
 
 def test_standing_sets_no_threshold_for_walking() -> None:
     detector = GyroscopeMagnitude()
-    rates(detector, *strides(0.6))
+    standing_flags(detector, *strides(0.6))
     walking = detector.levels
-    rates(detector, *[5.0] * 50, *[0.0] * 200, 5.0)
+    standing_flags(detector, *[5.0] * 50, *[0.0] * 200, 5.0)
     assert detector.levels == walking
 
 
 @pytest.mark.parametrize("slowest", [0.5, 2.0, 6.0])
 def test_a_motion_without_any_rest_ends_at_its_lowest_rate(slowest: float) -> None:
     turning = [slowest + (8.0 - slowest) * abs(k % 100 - 50) / 50.0 for k in range(500)]
-    still = rates(GyroscopeMagnitude(), *turning)
+    still = standing_flags(GyroscopeMagnitude(), *turning)
     assert still.index(True) <= 350, "the first quietest moment after 2.5 s"
     assert turning[still.index(True)] <= 1.8 * 1.4 * slowest
 
@@ -107,14 +107,14 @@ def test_a_motion_without_any_rest_ends_at_its_lowest_rate(slowest: float) -> No
 def test_no_motion_of_any_kind_lasts_longer_than_some_seconds(values: list[int]) -> None:
     cycle = [0.1 * value for value in values + values[::-1]]
     repeated = (cycle * (1000 // len(cycle) + 1))[:1000]
-    assert any(rates(GyroscopeMagnitude(), *repeated))
+    assert any(standing_flags(GyroscopeMagnitude(), *repeated))
 
 
 def evidence(detector: ContourVelocity, device: Insole) -> tuple[list[float], list[bool]]:
-    """Times of the samples with a load, and whether the foot stands by the detector's own contours."""
+    """Return the times of the samples with a load, and flags: the foot stands by the contours."""
     cells, decoder = Cells(), Decoder(Site.LEFT_FOOT)
     found: list[tuple[float, bool]] = []
-    for packet in walked(device).packets:
+    for packet in walk_with(device).packets:
         for item in decoder.feed(packet):
             if isinstance(item, LayoutKnown):
                 cells.set_layout(item.layout)
@@ -129,7 +129,7 @@ def evidence(detector: ContourVelocity, device: Insole) -> tuple[list[float], li
 
 @pytest.mark.parametrize("name", list(DEVICES))
 def test_contours_rest_only_while_the_foot_truly_stands(name: str) -> None:
-    walk = walked(DEVICES[name])
+    walk = walk_with(DEVICES[name])
     t, still = evidence(ContourVelocity(), DEVICES[name])
     stands = np.array([phase is Phase.STATIONARY for phase in walk.truth.feet[LEFT].phases(np.array(t))])
     assert np.mean(~stands[np.array(still)]) <= 0.01
@@ -137,7 +137,7 @@ def test_contours_rest_only_while_the_foot_truly_stands(name: str) -> None:
 
 @pytest.mark.parametrize("name", list(DEVICES))
 def test_they_rest_in_nearly_every_stance(name: str) -> None:
-    walk = walked(DEVICES[name])
+    walk = walk_with(DEVICES[name])
     t, still = (np.array(found) for found in evidence(ContourVelocity(), DEVICES[name]))
     strides = walk.walker.plan.strides[LEFT]
     stances = [(one.foot_flat, after.heel_off) for one, after in zip(strides[1:], strides[2:], strict=False)]
@@ -145,7 +145,7 @@ def test_they_rest_in_nearly_every_stance(name: str) -> None:
     assert len(stances) >= 8 and sum(rested) >= len(rested) - 1
 
 
-def heel(share: float, *, airborne: bool = False, cells: tuple[float, ...] = ()) -> Load:
+def heel_load(share: float, *, airborne: bool = False, cells: tuple[float, ...] = ()) -> Load:
     return Load(share, share, 0.0, share, airborne, cells)
 
 
@@ -161,17 +161,17 @@ def fed(
 CELLS = layout(96, LEFT)
 
 
-def pressed(x: float = 0.045) -> tuple[float, ...]:
-    """A round patch of pressure about (x, 0), 400 N in all, on a background that a laced shoe makes."""
+def loads_at(x: float = 0.045) -> tuple[float, ...]:
+    """Return the loads of a round area of pressure around (x, 0), 400 N in all, plus those of a laced shoe."""
     raw = [cell.area * max(0.0, 1.0 - ((cell.x - x) ** 2 + cell.y**2) / 0.04**2) for cell in CELLS.cells]
     return tuple([0.5 + 400.0 * value / sum(raw) for value in raw])
 
 
-AIR = heel(0.0, airborne=True, cells=(0.5,) * 96)
-AT_REST = heel(0.8, cells=pressed())
+IN_AIR = heel_load(0.0, airborne=True, cells=(0.5,) * 96)
+AT_REST = heel_load(0.8, cells=loads_at())
 
 
-def worn() -> ContourVelocity:
+def detector_with_layout() -> ContourVelocity:
     """Return a detector with a layout."""
     detector = ContourVelocity()
     detector.set_layout(CELLS)
@@ -179,7 +179,7 @@ def worn() -> ContourVelocity:
 
 
 def test_a_heel_at_rest_is_a_standing_foot_until_it_is_unloaded() -> None:
-    hints = fed(worn(), [*[AIR] * 10, *[AT_REST] * 10, AIR])
+    hints = fed(detector_with_layout(), [*[IN_AIR] * 10, *[AT_REST] * 10, IN_AIR])
     assert hints[:10] == [Phase.SWING] * 10
     assert hints[10:15] == [None] * 5, "contours are compared over 50 ms"
     assert hints[15:20] == [Phase.STATIONARY] * 5
@@ -187,47 +187,47 @@ def test_a_heel_at_rest_is_a_standing_foot_until_it_is_unloaded() -> None:
 
 
 def test_a_heel_that_rolls_at_a_few_centimetres_a_second_does_not_stand() -> None:
-    rolling = [heel(0.8, cells=pressed(0.040 + 0.0005 * k)) for k in range(15)]  # 5 cm/s
-    assert Phase.STATIONARY not in fed(worn(), [*[AIR] * 10, *rolling])
+    rolling = [heel_load(0.8, cells=loads_at(0.040 + 0.0005 * k)) for k in range(15)]  # 5 cm/s
+    assert Phase.STATIONARY not in fed(detector_with_layout(), [*[IN_AIR] * 10, *rolling])
 
 
 def test_a_heel_without_contours_is_left_to_the_gyroscope_after_a_while() -> None:
-    on_edge = heel(0.8, cells=tuple([100.0 if cell.y > 0.02 else 0.0 for cell in CELLS.cells]))
-    hints = fed(worn(), [on_edge] * 30, rate=0.0)
+    on_edge = heel_load(0.8, cells=tuple([100.0 if cell.y > 0.02 else 0.0 for cell in CELLS.cells]))
+    hints = fed(detector_with_layout(), [on_edge] * 30, rate=0.0)
     assert hints[:10] == [None] * 10 and hints[11:] == [Phase.STATIONARY] * 19
 
 
 @pytest.mark.parametrize("pace", [2, 4])
 def test_between_loads_that_come_more_slowly_than_samples_the_contours_keep_their_word(pace: int) -> None:
-    loads = [load if k % pace == 0 else None for k, load in enumerate([*[AIR] * 12, *[AT_REST] * 28])]
-    hints = fed(worn(), loads, rate=2.0)  # a gyroscope that never rests
+    loads = [load if k % pace == 0 else None for k, load in enumerate([*[IN_AIR] * 12, *[AT_REST] * 28])]
+    hints = fed(detector_with_layout(), loads, rate=2.0)  # a gyroscope that never rests
     assert hints[:12] == [Phase.SWING] * 12 and hints[20:] == [Phase.STATIONARY] * 20
-    hints = fed(worn(), loads, rate=0.0)  # and one that rests in the air
+    hints = fed(detector_with_layout(), loads, rate=0.0)  # and one that rests in the air
     assert hints[:12] == [Phase.SWING] * 12
 
 
 def test_without_a_recent_load_the_gyroscope_decides() -> None:
-    hints = fed(worn(), [*[AT_REST] * 10, *[None] * 10], rate=2.0)
+    hints = fed(detector_with_layout(), [*[AT_REST] * 10, *[None] * 10], rate=2.0)
     assert hints[9:14] == [Phase.STATIONARY] * 5 and hints[15:] == [None] * 5
 
 
 def test_the_contours_of_a_loose_insole_rest_at_the_wearers_own_slowest() -> None:
-    detector = worn()
-    creeping = [heel(0.8, cells=pressed(0.040 + 0.00008 * k)) for k in range(40)]  # 8 mm/s
-    rolling = [heel(0.8, cells=pressed(0.035 + 0.0005 * k)) for k in range(40)]  # 5 cm/s
-    stride = [*[AIR] * 50, *creeping]
+    detector = detector_with_layout()
+    creeping = [heel_load(0.8, cells=loads_at(0.040 + 0.00008 * k)) for k in range(40)]  # 8 mm/s
+    rolling = [heel_load(0.8, cells=loads_at(0.035 + 0.0005 * k)) for k in range(40)]  # 5 cm/s
+    stride = [*[IN_AIR] * 50, *creeping]
     assert Phase.STATIONARY not in fed(detector, stride)
     for k in range(3):
         hints = fed(detector, stride, start=1.0 + k)
     assert hints[60:] == [Phase.STATIONARY] * 30
-    for n, load in enumerate([*[AIR] * 50, *rolling]):
+    for n, load in enumerate([*[IN_AIR] * 50, *rolling]):
         fed(detector, [load], start=4.0 + 0.01 * n)
         assert not detector.standing
 
 
 @pytest.mark.parametrize("share", [0.0, 0.08])
 def test_a_heel_that_never_comes_down_leaves_no_motion_without_an_end(share: float) -> None:
-    detector, on_toes = worn(), heel(share, airborne=share == 0.0, cells=pressed())
+    detector, on_toes = detector_with_layout(), heel_load(share, airborne=share == 0.0, cells=loads_at())
     stances = [
         detector.update(0.01 * k, 0.01, (0.0, 0.0, GRAVITY), (0.0, 2.0 + 3.0 * abs(k % 100 - 50) / 50.0, 0.0), on_toes)
         for k in range(400)
@@ -236,7 +236,7 @@ def test_a_heel_that_never_comes_down_leaves_no_motion_without_an_end(share: flo
 
 
 def test_as_long_as_the_load_is_not_known_the_gyroscope_speaks() -> None:
-    detector = worn()
+    detector = detector_with_layout()
     assert fed(detector, [None] * 6, rate=0.0)[-1] is Phase.STATIONARY
     assert fed(detector, [None] * 6, rate=1.0)[-1] is None
 

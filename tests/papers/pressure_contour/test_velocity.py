@@ -14,48 +14,50 @@ from solepath.papers.pressure_contour.contour import PAPER_LEVELS, Contours, Con
 from solepath.types import Cell, Foot, Layout
 
 LENGTH = 0.28
-STEP = 0.05
+INTERVAL = 0.05
 """Time between two samples, s."""
 PEAK, SLOPE = 2e5, 5e6
-"""Of a cone of pressure: Pa, and Pa/m; its foot is 40 mm from its tip."""
+"""Height, Pa, and slope, Pa/m, of a cone of pressure with a base radius of 40 mm."""
 
 
 def grid(spacing: float = 0.006, scale: float | None = 1.0) -> Layout:
-    """A fine square grid of cells about (0.046, 0), 84 mm each way, all of it under the heel."""
+    """Return a layout with a square grid of cells, 84 mm wide, around (0.046, 0), all under the heel."""
     half = round(0.042 / spacing)
     places = [(0.046 + spacing * i, spacing * j) for i in range(-half, half + 1) for j in range(-half, half + 1)]
     cells = tuple(Cell(x, y, spacing * spacing) for x, y in places)
     return Layout(len(cells), Foot.LEFT, cells, LENGTH, scale)
 
 
-def cone(where: Layout, x: float, y: float, part: float = 1.0) -> list[float]:
-    """Loads under a cone of pressure with its tip at (x, y), times `part`, N."""
+def cone_loads(where: Layout, x: float, y: float, part: float = 1.0) -> list[float]:
+    """Return the loads, N, under a cone of pressure with its tip at (x, y) m, multiplied by `part`."""
     return [part * cell.area * max(0.0, PEAK - SLOPE * hypot(cell.x - x, cell.y - y)) for cell in where.cells]
 
 
-def moved(contours: Contours, where: Layout, first: list[float], second: list[float]) -> tuple[float, float]:
+def measured_velocity(
+    contours: Contours, where: Layout, first: list[float], second: list[float]
+) -> tuple[float, float]:
     assert contours.set_layout(where) is None
     assert contours.cells == list(range(len(where.cells)))
     assert contours.velocity(1.0, first) is None, "one look shows no movement"
-    velocity = contours.velocity(1.0 + STEP, second)
+    velocity = contours.velocity(1.0 + INTERVAL, second)
     assert velocity is not None
     return velocity
 
 
-def integral(x: float, y: float, radius: float) -> tuple[float, float]:
+def circle_integral(x: float, y: float, radius: float) -> tuple[float, float]:
     """1/pi times the integral of dr/dt r_hat over theta for a circle that moves from the centre of the rays to (x, y)
     within STEP: r = d cos(theta - phi) + sqrt(R^2 - d^2 sin^2(theta - phi)), by hand."""
     theta = np.linspace(0.0, 2.0 * pi, 3600, endpoint=False)
     d, phi = hypot(x, y), np.arctan2(y, x)
     r = d * np.cos(theta - phi) + np.sqrt(radius**2 - (d * np.sin(theta - phi)) ** 2)
-    rate = (r - radius) / STEP
+    rate = (r - radius) / INTERVAL
     per = 2.0 * pi / len(theta) / pi
     return float((rate * np.cos(theta)).sum() * per), float((rate * np.sin(theta)).sum() * per)
 
 
 def test_the_integral_over_all_directions_divided_by_pi_is_how_fast_the_contour_moves() -> None:
-    x, y = integral(0.003, -0.001, 0.02)
-    assert x == pytest.approx(0.003 / STEP, rel=1e-6) and y == pytest.approx(-0.001 / STEP, rel=1e-6)
+    x, y = circle_integral(0.003, -0.001, 0.02)
+    assert x == pytest.approx(0.003 / INTERVAL, rel=1e-6) and y == pytest.approx(-0.001 / INTERVAL, rel=1e-6)
 
 
 @pytest.mark.parametrize("pascals", [None, PAPER_LEVELS])
@@ -63,9 +65,9 @@ def test_a_cone_of_pressure_that_moves_is_seen_to_move_as_fast(pascals: tuple[fl
     where = grid()
     centre = (0.046, 0.0)
     for dx, dy in ((0.002, 0.0), (0.0, 0.002), (-0.0015, 0.001)):
-        contours, after = Contours(ContourSettings(pascals=pascals)), cone(where, centre[0] + dx, centre[1] + dy)
-        seen = moved(contours, where, cone(where, *centre), after)
-        true = integral(dx, dy, 0.02)
+        contours, after = Contours(ContourSettings(pascals=pascals)), cone_loads(where, centre[0] + dx, centre[1] + dy)
+        seen = measured_velocity(contours, where, cone_loads(where, *centre), after)
+        true = circle_integral(dx, dy, 0.02)
         assert hypot(seen[0] - true[0], seen[1] - true[1]) < 0.06 * hypot(*true)
 
 
@@ -73,45 +75,47 @@ def test_a_contour_that_only_shrinks_does_not_move_wherever_the_rays_start() -> 
     where = grid()
     for tip in ((0.046, 0.0), (0.051, 0.003)):
         contours = Contours(ContourSettings(pascals=(60e3, 100e3)))
-        seen = moved(contours, where, cone(where, *tip), cone(where, *tip, part=0.9))
+        seen = measured_velocity(contours, where, cone_loads(where, *tip), cone_loads(where, *tip, part=0.9))
         # the level at 100 kPa comes in by 2.2 mm within 50 ms, 44 mm/s
         assert hypot(*seen) < 0.0025
 
 
 def test_levels_that_follow_the_load_see_nothing_of_a_heel_that_is_unloaded() -> None:
     where = grid()
-    seen = moved(Contours(), where, cone(where, 0.051, 0.003), cone(where, 0.051, 0.003, part=0.3))
+    seen = measured_velocity(
+        Contours(), where, cone_loads(where, 0.051, 0.003), cone_loads(where, 0.051, 0.003, part=0.3)
+    )
     assert hypot(*seen) < 1e-9
 
 
 def test_levels_that_follow_the_load_need_no_scale() -> None:
     counts = grid(scale=None)
-    first, second = cone(counts, 0.046, 0.0), cone(counts, 0.048, 0.0)
-    newtons = moved(Contours(), grid(), first, second)
-    raw = moved(Contours(), counts, [4095.0 * load for load in first], [4095.0 * load for load in second])
+    first, second = cone_loads(counts, 0.046, 0.0), cone_loads(counts, 0.048, 0.0)
+    newtons = measured_velocity(Contours(), grid(), first, second)
+    raw = measured_velocity(Contours(), counts, [4095.0 * load for load in first], [4095.0 * load for load in second])
     assert raw == pytest.approx(newtons)
 
 
 def test_fixed_pressures_need_newtons() -> None:
     contours = Contours(ContourSettings(pascals=PAPER_LEVELS))
     contours.set_layout(grid(scale=None))
-    assert not contours.absolute and contours.levels == contours.settings.shares
+    assert not contours.levels_in_pascals and contours.levels == contours.settings.shares
 
 
 def test_half_a_contour_is_followed_where_the_other_half_lies_beyond_the_cells() -> None:
     where = grid()
     edge = 0.030  # towards the side, where the cells end at 42 mm
-    seen = moved(Contours(), where, cone(where, 0.046, edge), cone(where, 0.048, edge))
-    assert seen[0] == pytest.approx(0.002 / STEP, rel=0.3)
+    seen = measured_velocity(Contours(), where, cone_loads(where, 0.046, edge), cone_loads(where, 0.048, edge))
+    assert seen[0] == pytest.approx(0.002 / INTERVAL, rel=0.3)
 
 
 @pytest.mark.parametrize("again", [1.2, -98.0], ids=["too long after", "of a clock that begins anew"])
 def test_looks_that_are_not_to_be_compared_are_not_and_the_next_one_is(again: float) -> None:
     where, contours = grid(), Contours()
     contours.set_layout(where)
-    contours.velocity(1.0, cone(where, 0.046, 0.0))
-    assert contours.velocity(again, cone(where, 0.046, 0.0)) is None
-    assert contours.velocity(again + STEP, cone(where, 0.046, 0.0)) == pytest.approx((0.0, 0.0))
+    contours.velocity(1.0, cone_loads(where, 0.046, 0.0))
+    assert contours.velocity(again, cone_loads(where, 0.046, 0.0)) is None
+    assert contours.velocity(again + INTERVAL, cone_loads(where, 0.046, 0.0)) == pytest.approx((0.0, 0.0))
 
 
 @pytest.mark.parametrize("foot", list(Foot))

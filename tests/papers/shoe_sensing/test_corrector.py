@@ -19,22 +19,22 @@ from solepath.types import Phase, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, ZERO, from_rotation_vector
 
 STILL = Stance(ZERO, 0.01, 0.0, Phase.STATIONARY)
-MOVES = Stance(ZERO, inf, 9.0, None)
+MOVING = Stance(ZERO, inf, 9.0, None)
 UNCERTAIN = Stance(ZERO, 0.03, 9.0, None)
 DT = 0.01
 
 
-def started(**changes: float | bool) -> ShoeSensing:
-    """A foot that has stood for a while, with a corrector that has only what the paper has."""
+def standing_corrector(**changes: float | bool) -> ShoeSensing:
+    """Return the corrector of a foot that has stood for a while, by default without additions to the paper."""
     plain: dict[str, float | bool] = {"detector_delay": 0.0, "tilt_share": 0.0}
     one = ShoeSensing(evolve(ShoeSensingSettings(), **{**plain, **changes}))
     one.start(IDENTITY, 0.02)
-    go(one, [ZERO] * 20, STILL)
+    feed_accelerations(one, [ZERO] * 20, STILL)
     return one
 
 
-def go(one: ShoeSensing, accelerations: Sequence[Vec3], stance: Stance, t: float = 0.0) -> bool:
-    """Samples of these accelerations without gravity, m/s^2, all with this evidence."""
+def feed_accelerations(one: ShoeSensing, accelerations: Sequence[Vec3], stance: Stance, t: float = 0.0) -> bool:
+    """Feed samples with these accelerations without gravity, m/s^2, and with the same evidence."""
     corrected = False
     for k, (x, y, z) in enumerate(accelerations):
         one.predict(DT, (x, y, z + GRAVITY), ZERO)
@@ -42,154 +42,156 @@ def go(one: ShoeSensing, accelerations: Sequence[Vec3], stance: Stance, t: float
     return corrected
 
 
-def stride(one: ShoeSensing, length: float, height: float, drift: Vec3 = ZERO, seconds: float = 0.8) -> None:
+def feed_stride(one: ShoeSensing, length: float, height: float, drift: Vec3 = ZERO, seconds: float = 0.8) -> None:
     """Move the foot by `length` and `height` m with a sine of acceleration, plus a bias `drift`."""
     n = round(seconds / DT)
     # the second integral over T of a sin(2 pi t / T) is a T^2 / 2 pi
     a, u = (2.0 * 3.141592653589793 * way / (n * DT) ** 2 for way in (length, height))
     wave = [sin(2.0 * 3.141592653589793 * (k + 0.5) / n) for k in range(n)]
     dx, dy, dz = drift
-    go(one, [(a * w + dx, dy, u * w + dz) for w in wave], MOVES)
-    go(one, [ZERO] * 20, STILL)
+    feed_accelerations(one, [(a * w + dx, dy, u * w + dz) for w in wave], MOVING)
+    feed_accelerations(one, [ZERO] * 20, STILL)
 
 
 def test_a_constant_error_of_the_acceleration_leaves_the_foot_where_it_stood() -> None:
     # e~ = b: V = b t - e~ t = 0, so S = 0; without the removal 0.3 m/s^2 over 0.8 s makes 0.096 m
-    one = started(eliminate=False)
-    go(one, [(0.3, -0.2, 0.1)] * 80, MOVES)
+    one = standing_corrector(eliminate=False)
+    feed_accelerations(one, [(0.3, -0.2, 0.1)] * 80, MOVING)
     assert one.velocity[0] == pytest.approx(0.24, rel=0.01)
     assert one.position[0] == pytest.approx(0.096, rel=0.02)
-    assert go(one, [(0.3, -0.2, 0.1)], STILL)
+    assert feed_accelerations(one, [(0.3, -0.2, 0.1)], STILL)
     assert one.velocity == ZERO
     assert one.position == pytest.approx((0.0, 0.0, 0.0), abs=1e-3)
 
 
 def test_a_stride_with_a_linear_drift_of_velocity_is_as_long_as_it_was() -> None:
-    one = started(eliminate=False)
-    stride(one, 1.2, 0.32, (0.3, 0.2, -0.2))
+    one = standing_corrector(eliminate=False)
+    feed_stride(one, 1.2, 0.32, (0.3, 0.2, -0.2))
     assert one.position == pytest.approx((1.2, 0.0, 0.32), abs=5e-3)
 
 
 def test_the_height_of_a_level_step_is_taken_out_and_that_of_a_stair_is_kept() -> None:
-    one = started()
-    stride(one, 1.2, 0.05)
+    one = standing_corrector()
+    feed_stride(one, 1.2, 0.05)
     assert one.position[2] == 0.0
     assert one.position[0] == pytest.approx(1.2, abs=5e-3)
-    up, down = started(), started()
-    stride(up, 0.6, 0.32)
-    stride(down, 0.6, -0.32)
+    up, down = standing_corrector(), standing_corrector()
+    feed_stride(up, 0.6, 0.32)
+    feed_stride(down, 0.6, -0.32)
     assert up.position[2] == pytest.approx(0.32, abs=5e-3)
     assert down.position[2] == pytest.approx(-0.32, abs=5e-3)
 
 
 def test_without_elimination_heights_add_up() -> None:
-    one = started(eliminate=False)
+    one = standing_corrector(eliminate=False)
     for _ in range(3):
-        stride(one, 1.2, 0.05)
+        feed_stride(one, 1.2, 0.05)
     assert one.position[2] == pytest.approx(0.15, abs=5e-3)
 
 
 def test_the_first_riser_of_a_long_stride_is_kept() -> None:
-    one = started()
-    stride(one, 1.1, 0.16)
+    one = standing_corrector()
+    feed_stride(one, 1.1, 0.16)
     assert one.position[2] == pytest.approx(0.16, abs=5e-3)
 
 
 def test_what_level_steps_have_in_common_is_taken_off_the_stairs_that_follow() -> None:
-    one = started()
+    one = standing_corrector()
     for _ in range(10):
-        stride(one, 1.2, 0.06)
+        feed_stride(one, 1.2, 0.06)
     assert one.position[2] == 0.0
-    assert one.lean == pytest.approx(0.05, rel=0.05)
-    stride(one, 0.6, 0.32 + 0.05 * 0.6)
+    assert one.level_slope == pytest.approx(0.05, rel=0.05)
+    feed_stride(one, 0.6, 0.32 + 0.05 * 0.6)
     assert one.position[2] == pytest.approx(0.32, abs=0.01)
 
 
 def test_tilt_is_fed_back_in_stance_and_not_in_swing() -> None:
     tilted = from_rotation_vector((0.0, 0.1, 0.0))
     # the foot is level, by the attitude it is pitched by 0.1 rad
-    for stance, expected in ((STILL, 0.1 * 0.3679), (MOVES, 0.1)):
-        one = started(kp=1.0)
+    for stance, expected in ((STILL, 0.1 * 0.3679), (MOVING, 0.1)):
+        one = standing_corrector(kp=1.0)
         one.standing = stance is STILL
         one.attitude = tilted
-        go(one, [ZERO] * 100, stance)
+        feed_accelerations(one, [ZERO] * 100, stance)
         assert 2.0 * one.attitude[2] == pytest.approx(expected, rel=0.03)  # exp(-Kp t) after 1 s
 
 
 def test_the_velocity_left_at_the_end_of_a_motion_turns_the_tilt_that_would_explain_it() -> None:
     # pitched by 0.05 rad too little: gravity leaks 0.05 g forwards; when the stance is over, half of it is corrected
-    one = started(tilt_share=0.5, kp=0.0)
+    one = standing_corrector(tilt_share=0.5, kp=0.0)
     one.attitude = from_rotation_vector((0.0, 0.05, 0.0))
     one.force = None
-    go(one, [ZERO] * 59, MOVES)
-    go(one, [ZERO] * 10, STILL)
+    feed_accelerations(one, [ZERO] * 59, MOVING)
+    feed_accelerations(one, [ZERO] * 10, STILL)
     assert 2.0 * one.attitude[2] == pytest.approx(0.05, rel=1e-3)
-    go(one, [ZERO], MOVES)
+    feed_accelerations(one, [ZERO], MOVING)
     assert 2.0 * one.attitude[2] == pytest.approx(0.025, rel=0.05)
 
 
 def test_in_mid_swing_a_moment_without_acceleration_is_no_stance() -> None:
-    one = started()
-    go(one, [(8.0, 0.0, 0.0)] * 40, MOVES)  # 3.2 m/s
-    assert not go(one, [ZERO], STILL)
+    one = standing_corrector()
+    feed_accelerations(one, [(8.0, 0.0, 0.0)] * 40, MOVING)  # 3.2 m/s
+    assert not feed_accelerations(one, [ZERO], STILL)
     assert one.velocity[0] == pytest.approx(3.2, rel=0.02)
 
 
 def test_a_jogger_stands_with_uncertain_evidence_but_not_right_after_a_stance() -> None:
-    one = started()
-    go(one, [ZERO] * 20, MOVES)
-    assert not go(one, [ZERO], UNCERTAIN) and not one.standing
-    go(one, [ZERO] * 20, MOVES)
-    assert not go(one, [ZERO] * 5, UNCERTAIN) and one.standing  # until now it stood certainly every time
-    go(one, [ZERO] * 40, MOVES)
-    assert go(one, [ZERO], UNCERTAIN)
+    one = standing_corrector()
+    feed_accelerations(one, [ZERO] * 20, MOVING)
+    assert not feed_accelerations(one, [ZERO], UNCERTAIN) and not one.standing
+    feed_accelerations(one, [ZERO] * 20, MOVING)
+    assert (
+        not feed_accelerations(one, [ZERO] * 5, UNCERTAIN) and one.standing
+    )  # until now it stood certainly every time
+    feed_accelerations(one, [ZERO] * 40, MOVING)
+    assert feed_accelerations(one, [ZERO], UNCERTAIN)
 
 
 def test_an_uncertain_landing_is_corrected_by_the_certain_one_that_follows() -> None:
-    sure, hasty = started(), started()
+    sure, hasty = standing_corrector(), standing_corrector()
     n = 80
     wave = [9.0 * sin(2.0 * 3.141592653589793 * (k + 0.5) / n) for k in range(n)]
     swing: list[Vec3] = [(w, 0.0, 0.0) for w in wave]
-    go(sure, swing, MOVES)
-    go(sure, [ZERO] * 10, STILL)
-    go(hasty, swing[:-5], MOVES)
-    assert not go(hasty, swing[-5:-4], UNCERTAIN)  # nor is it reported: the last stance was certain
+    feed_accelerations(sure, swing, MOVING)
+    feed_accelerations(sure, [ZERO] * 10, STILL)
+    feed_accelerations(hasty, swing[:-5], MOVING)
+    assert not feed_accelerations(hasty, swing[-5:-4], UNCERTAIN)  # nor is it reported: the last stance was certain
     assert hasty.standing
     assert abs(hasty.position[0] - sure.position[0]) > 0.02
-    go(hasty, swing[-4:], UNCERTAIN)
-    go(hasty, [ZERO] * 10, STILL)
+    feed_accelerations(hasty, swing[-4:], UNCERTAIN)
+    feed_accelerations(hasty, [ZERO] * 10, STILL)
     assert hasty.position == pytest.approx(sure.position, abs=2e-3)
 
 
 def test_however_fast_a_spoilt_integration_runs_the_foot_stands_again() -> None:
-    one = started()
-    go(one, [(9.0, 0.0, 3.0)] * 300, MOVES)
-    assert go(one, [ZERO], STILL)
+    one = standing_corrector()
+    feed_accelerations(one, [(9.0, 0.0, 3.0)] * 300, MOVING)
+    assert feed_accelerations(one, [ZERO], STILL)
     assert one.velocity == ZERO
 
 
 def test_the_motion_that_the_detector_saw_late_is_not_lost() -> None:
-    quick, late = started(eliminate=False), started(eliminate=False, detector_delay=0.075)
+    quick, late = standing_corrector(eliminate=False), standing_corrector(eliminate=False, detector_delay=0.075)
     for one in (quick, late):
-        go(one, [(2.0, 0.0, 0.0)] * 7, STILL)
-        go(one, [(2.0, 0.0, 0.0)], MOVES)
+        feed_accelerations(one, [(2.0, 0.0, 0.0)] * 7, STILL)
+        feed_accelerations(one, [(2.0, 0.0, 0.0)], MOVING)
     assert quick.velocity[0] == pytest.approx(0.02, rel=0.1)
     assert late.velocity[0] == pytest.approx(0.16, rel=0.1)
 
 
 def test_a_gap_discards_the_motion_and_the_stance_position_is_repaired() -> None:
-    one = started()
-    go(one, [(5.0, 0.0, 0.0)] * 30, MOVES)
+    one = standing_corrector()
+    feed_accelerations(one, [(5.0, 0.0, 0.0)] * 30, MOVING)
     assert one.bridge(3.0) == 0.0
     assert one.velocity == ZERO
     one.repair(0.0, (2.0, 0.0, 0.5))
-    stride(one, 1.0, 0.02)
+    feed_stride(one, 1.0, 0.02)
     assert one.position == pytest.approx((3.0, 0.0, 0.5), abs=0.01)
 
 
 numbers = st.floats(-500.0, 500.0)
 evidence = st.sampled_from(
-    (STILL, MOVES, UNCERTAIN, Stance(ZERO, 0.06, 1.0, None), Stance(ZERO, inf, 1.0, Phase.SWING))
+    (STILL, MOVING, UNCERTAIN, Stance(ZERO, 0.06, 1.0, None), Stance(ZERO, inf, 1.0, Phase.SWING))
 )
 
 

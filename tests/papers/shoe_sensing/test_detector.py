@@ -17,7 +17,9 @@ from solepath.types import Phase
 from solepath.types.vector import GRAVITY, ZERO
 
 
-def last(detector: ShortTimeEnergy | AccelerationMagnitude, magnitudes: list[float], rate: float = 100.0) -> Stance:
+def last_evidence(
+    detector: ShortTimeEnergy | AccelerationMagnitude, magnitudes: list[float], rate: float = 100.0
+) -> Stance:
     """Return the evidence of the last of these |acc|, in g."""
     stance = None
     for k, g in enumerate(magnitudes):
@@ -27,40 +29,40 @@ def last(detector: ShortTimeEnergy | AccelerationMagnitude, magnitudes: list[flo
 
 
 def test_fifteen_samples_that_are_off_by_a_twentieth_of_g_have_an_energy_of_0_0375() -> None:
-    stance = last(ShortTimeEnergy(), [1.05] * 40)
+    stance = last_evidence(ShortTimeEnergy(), [1.05] * 40)
     assert stance.statistic == pytest.approx(15 * 0.05**2)
     assert stance == Stance(ZERO, 0.01, stance.statistic, Phase.STATIONARY)
 
 
 def test_beyond_the_threshold_the_foot_moves_though_it_was_still_for_a_while() -> None:
     # 0.06 g: 15 samples make 0.054; the last 13 of them 0.0468
-    stance = last(ShortTimeEnergy(), [1.06] * 40)
+    stance = last_evidence(ShortTimeEnergy(), [1.06] * 40)
     assert stance.statistic == pytest.approx(0.054)
     assert stance.hint is None
     assert stance.sigma == pytest.approx(0.01 * 15 / 13)
 
 
 def test_a_jogger_that_is_still_for_five_samples_may_stand() -> None:
-    stance = last(ShortTimeEnergy(), [4.0] * 30 + [1.01] * 5)
+    stance = last_evidence(ShortTimeEnergy(), [4.0] * 30 + [1.01] * 5)
     assert stance.hint is None
     assert stance.sigma == pytest.approx(0.03)
-    assert last(ShortTimeEnergy(), [4.0] * 30).sigma == inf
+    assert last_evidence(ShortTimeEnergy(), [4.0] * 30).sigma == inf
 
 
 @pytest.mark.parametrize("rate", [20.0, 40.0, 100.0, 200.0, 400.0])
 def test_the_energy_of_the_same_motion_is_the_same_at_every_rate(rate: float) -> None:
-    stance = last(ShortTimeEnergy(EnergySettings(window=0.2)), [1.04] * 100, rate)
+    stance = last_evidence(ShortTimeEnergy(EnergySettings(window=0.2)), [1.04] * 100, rate)
     assert stance.statistic == pytest.approx(20 * 0.04**2)
 
 
 def test_at_ten_hertz_two_still_samples_are_a_stance() -> None:
-    assert last(ShortTimeEnergy(), [3.0, 3.0, 1.0], 10.0).hint is None
-    assert last(ShortTimeEnergy(), [3.0, 3.0, 1.0, 1.0], 10.0).hint is Phase.STATIONARY
+    assert last_evidence(ShortTimeEnergy(), [3.0, 3.0, 1.0], 10.0).hint is None
+    assert last_evidence(ShortTimeEnergy(), [3.0, 3.0, 1.0, 1.0], 10.0).hint is Phase.STATIONARY
 
 
 def test_the_magnitude_is_that_of_a_foot_at_rest_between_9_and_11() -> None:
     for magnitude, still in ((8.99, False), (9.01, True), (10.99, True), (11.01, False)):
-        stance = last(AccelerationMagnitude(), [magnitude / GRAVITY])
+        stance = last_evidence(AccelerationMagnitude(), [magnitude / GRAVITY])
         assert (stance.hint is Phase.STATIONARY) is still
         assert stance.statistic == pytest.approx(magnitude - GRAVITY)
 

@@ -20,7 +20,7 @@ RISER = 0.16
 FEET = (Foot.LEFT, Foot.RIGHT)
 
 
-def step(foot: Foot, t: float, height: float, degraded: bool = False) -> StrideTaken:
+def stride_of(foot: Foot, t: float, height: float, degraded: bool = False) -> StrideTaken:
     return stride(foot, t, (0.6, 0.0, height), degraded=degraded)
 
 
@@ -35,7 +35,7 @@ def flights_of(risers: list[int], *, feet: tuple[Foot, ...] = FEET, last: bool =
         rise, stood[foot] = riser - stood[foot], riser
         if foot in feet:
             way = 0 if abs(rise) < 2 else (1 if rise > 0 else -1)
-            found += flights.add_stride(step(foot, 0.6 * k, RISER * rise), way)
+            found += flights.add_stride(stride_of(foot, 0.6 * k, RISER * rise), way)
     if last:
         found += flights.advance(0.6 * len(risers) + 5.0, 0.6 * len(risers) + 5.0)
     return found
@@ -74,16 +74,16 @@ def test_a_kerb_is_no_flight() -> None:
     assert flights_of([0, 0, 1, 1, 1, 1, 0, 0, 0]) == []
 
 
-def judged(strides: Iterable[tuple[float, int | None]], degraded: bool = False) -> list[FlightClimbed]:
-    """Strides of alternating feet, how high each is, m, and its direction; and a rest at the end."""
+def flights_of_strides(strides: Iterable[tuple[float, int | None]], degraded: bool = False) -> list[FlightClimbed]:
+    """Return the flights of alternate strides, each with its height, m, and direction, and of a rest at the end."""
     flights, found = Flights(), list[FlightClimbed]()
     for k, (height, way) in enumerate(strides):
-        found += flights.add_stride(step(FEET[k % 2], 0.6 * k, height, degraded=degraded), way)
+        found += flights.add_stride(stride_of(FEET[k % 2], 0.6 * k, height, degraded=degraded), way)
     return found + flights.finish(60.0)
 
 
 def test_one_misjudged_stride_of_two_feet_does_not_part_a_flight() -> None:
-    (flight,) = judged((2 * RISER, 0 if k == 5 else 1) for k in range(12))
+    (flight,) = flights_of_strides((2 * RISER, 0 if k == 5 else 1) for k in range(12))
     # the misjudged stride's rise is the flight's all the same
     assert flight.height == pytest.approx(6 * 2 * RISER)
 
@@ -98,7 +98,7 @@ def test_a_long_level_stride_before_a_flight_is_its_first_riser_if_it_can_be_one
 ) -> None:
     flights = Flights()
     found = flights.add_stride(stride(Foot.LEFT, 1.0, first), 0)
-    found += [event for k in range(4) for event in flights.add_stride(step(Foot.LEFT, 2.0 + k, 2 * RISER), 1)]
+    found += [event for k in range(4) for event in flights.add_stride(stride_of(Foot.LEFT, 2.0 + k, 2 * RISER), 1)]
     found += flights.add_stride(stride(Foot.LEFT, 7.0, last), 0)
     assert found[0].height == pytest.approx(risers * RISER)
 
@@ -111,9 +111,9 @@ def test_a_wearer_who_stops_with_a_foot_on_each_tread_has_not_arrived() -> None:
     for k, riser in enumerate(paused):
         foot = FEET[k % 2]
         rise, stood[foot] = riser - stood[foot], riser
-        found += flights.add_stride(step(foot, 0.6 * k, RISER * rise), int(rise > 0))
+        found += flights.add_stride(stride_of(foot, 0.6 * k, RISER * rise), int(rise > 0))
     assert found + flights.advance(60.0, 60.0) == []
-    found += flights.add_stride(step(Foot.LEFT, 60.0, RISER), 1)  # joins the other foot
+    found += flights.add_stride(stride_of(Foot.LEFT, 60.0, RISER), 1)  # joins the other foot
     assert found == []
     (flight,) = flights.advance(64.0, 64.0)
     assert flight.t == 60.0
@@ -123,61 +123,61 @@ def test_a_wearer_who_stops_with_a_foot_on_each_tread_has_not_arrived() -> None:
 def test_a_restarted_clock_gives_up_the_flight() -> None:
     flights = Flights()
     for k in range(6):
-        flights.add_stride(step(FEET[k % 2], 1000.0 + k, 2 * RISER), 1)
+        flights.add_stride(stride_of(FEET[k % 2], 1000.0 + k, 2 * RISER), 1)
     flights.reset()
     assert flights.advance(2.0, 2.0) == []
-    assert flights.add_stride(step(Foot.LEFT, 3.0, 0.0), 0) == []
+    assert flights.add_stride(stride_of(Foot.LEFT, 3.0, 0.0), 0) == []
 
 
-def climbed(heights: list[float], *, degraded: bool = False) -> list[FlightClimbed]:
-    """Strides upstairs."""
-    return judged([(height, 1) for height in heights], degraded)
+def flights_upstairs(heights: list[float], *, degraded: bool = False) -> list[FlightClimbed]:
+    """Return the flights of strides upstairs with these heights, m."""
+    return flights_of_strides([(height, 1) for height in heights], degraded)
 
 
 def test_a_stride_higher_than_any_stairs_rises_by_what_the_others_do() -> None:
-    (flight,) = climbed([0.32, 0.32, 11.5, 0.32, 0.32, 0.32])
+    (flight,) = flights_upstairs([0.32, 0.32, 11.5, 0.32, 0.32, 0.32])
     assert flight.steps == 6
     assert flight.height == pytest.approx(6 * 0.16)
     # also when it is the first one, before anybody knows what the others will do
-    assert climbed([2.3, 0.32, 0.32, 0.32])[0].height == pytest.approx(4 * 0.16)
+    assert flights_upstairs([2.3, 0.32, 0.32, 0.32])[0].height == pytest.approx(4 * 0.16)
 
 
 def test_strides_none_of_which_can_be_of_stairs_are_no_flight() -> None:
     # with the heights of strides that a clipped gyroscope at 20 Hz has made
-    assert climbed([2.31, 1.53, 1.69], degraded=True) == []
-    assert climbed([1.19, 2.81, 0.91, 3.88]) == []
+    assert flights_upstairs([2.31, 1.53, 1.69], degraded=True) == []
+    assert flights_upstairs([1.19, 2.81, 0.91, 3.88]) == []
 
 
 def test_two_treads_at_a_time_are_climbed_too_when_nothing_is_missing() -> None:
-    assert climbed([0.68] * 4)[0].height == pytest.approx(4 * 0.34)
-    assert climbed([0.68] * 4, degraded=True) == []
+    assert flights_upstairs([0.68] * 4)[0].height == pytest.approx(4 * 0.34)
+    assert flights_upstairs([0.68] * 4, degraded=True) == []
 
 
 def test_a_stride_that_rises_where_the_stairs_go_down_rises_by_what_the_others_do() -> None:
-    (flight,) = climbed([0.32, 0.32, -0.58, 0.32, 0.32, 0.32])
+    (flight,) = flights_upstairs([0.32, 0.32, -0.58, 0.32, 0.32, 0.32])
     assert flight.height == pytest.approx(6 * 0.16)
 
 
 def test_where_most_strides_are_not_trusted_there_is_no_height() -> None:
-    assert climbed([0.32, 0.32, 5.0, 5.0, 5.0]) == []
-    assert len(climbed([0.32, 0.32, 5.0, 5.0])) == 1
+    assert flights_upstairs([0.32, 0.32, 5.0, 5.0, 5.0]) == []
+    assert len(flights_upstairs([0.32, 0.32, 5.0, 5.0])) == 1
 
 
-def unjudged(ways: list[int | None]) -> list[FlightClimbed]:
+def flights_by_directions(ways: list[int | None]) -> list[FlightClimbed]:
     """Return the flights of strides with these directions; None: of 5 m, without a direction."""
-    return judged([(5.0 if way is None else 0.32 * way, way) for way in ways])
+    return flights_of_strides([(5.0 if way is None else 0.32 * way, way) for way in ways])
 
 
 def test_a_stride_that_nobody_can_judge_is_of_the_flight_when_the_next_one_is() -> None:
-    (flight,) = unjudged([1, 1, 1, None, 1, 1])
+    (flight,) = flights_by_directions([1, 1, 1, None, 1, 1])
     assert flight.steps == 6
     assert flight.height == pytest.approx(6 * 0.16)
-    assert unjudged([1, 1, 1, 1, None])[0].steps == 4
-    assert unjudged([None, 1, 1, 1])[0].steps == 3
+    assert flights_by_directions([1, 1, 1, 1, None])[0].steps == 4
+    assert flights_by_directions([None, 1, 1, 1])[0].steps == 3
 
 
 def test_strides_that_nobody_can_judge_end_a_flight_as_level_ones_do() -> None:
-    first, second = unjudged([1, 1, 1, 1, None, None, 1, 1, 1, 1])
+    first, second = flights_by_directions([1, 1, 1, 1, None, None, 1, 1, 1, 1])
     assert (first.steps, second.steps) == (4, 4)
     assert first.known_at == pytest.approx(0.6 * 5)
 
@@ -185,12 +185,12 @@ def test_strides_that_nobody_can_judge_end_a_flight_as_level_ones_do() -> None:
 def test_a_wearer_who_stops_after_a_stride_of_unknown_height_has_arrived() -> None:
     flights = Flights()
     for k, height in enumerate((0.32, 0.32, 7.0, 0.32)):
-        assert flights.add_stride(step(FEET[k % 2], 0.6 * k, height), 1) == []
+        assert flights.add_stride(stride_of(FEET[k % 2], 0.6 * k, height), 1) == []
     assert [flight.steps for flight in flights.advance(6.0, 6.0)] == [4]
 
 
 def test_strides_that_sink_are_no_flight_upwards() -> None:
-    assert climbed([-0.32] * 6) == []
+    assert flights_upstairs([-0.32] * 6) == []
 
 
 strides = st.lists(
@@ -210,7 +210,7 @@ def test_whatever_the_strides_flights_are_in_order_and_high(taken: list[tuple[Fo
     found: list[FlightClimbed] = []
     for foot, dt, height, way in taken:
         t += dt
-        found += flights.add_stride(step(foot, t, height), way)
+        found += flights.add_stride(stride_of(foot, t, height), way)
         found += flights.advance(t + 1.0, t + 1.0)
         flights = machine.load(Flights, json.loads(json.dumps(machine.save(flights), allow_nan=False)))
     for flight in found:

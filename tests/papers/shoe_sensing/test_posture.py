@@ -8,13 +8,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.papers.shoe_sensing.posture import GAIN, POINT_INTERVAL, POINTS, gravity_error, posture, turn
+from solepath.papers.shoe_sensing.posture import GAIN, ITERATION_INTERVAL, ITERATIONS, gravity_error, posture, turn
 from solepath.types import Quat, Vec3
 from solepath.types.vector import GRAVITY, IDENTITY, from_rotation_vector, multiply, normalise, rotate
 
 Vec4 = tuple[float, float, float, float]
 
-PITCHED = 0.4
+PITCH = 0.4
 """Angle about y, rad."""
 
 
@@ -25,13 +25,13 @@ def up_of(q: Quat) -> Vec3:
 
 def test_the_vector_product_is_the_axis_and_the_sine_of_the_error() -> None:
     # the sensor is pitched, Q does not know it: gb = z, g'R = (-sin, 0, cos), gb x g'R = (0, -sin, 0)
-    force = up_of(from_rotation_vector((0.0, PITCHED, 0.0)))
-    assert gravity_error(IDENTITY, force) == pytest.approx((0.0, -sin(PITCHED), 0.0))
+    force = up_of(from_rotation_vector((0.0, PITCH, 0.0)))
+    assert gravity_error(IDENTITY, force) == pytest.approx((0.0, -sin(PITCH), 0.0))
     assert gravity_error(IDENTITY, (0.0, 0.0, 0.0)) == (0.0, 0.0, 0.0)
 
 
 def test_feedback_with_the_papers_sign_turns_towards_gravity() -> None:
-    force = up_of(from_rotation_vector((0.0, PITCHED, 0.0)))
+    force = up_of(from_rotation_vector((0.0, PITCH, 0.0)))
     ex, ey, ez = gravity_error(IDENTITY, force)
     rate = (-ex, -ey, -ez)  # gyro' = gyro - Kp e, of a gyroscope that reads nothing, Kp = 1
     after = gravity_error(turn(IDENTITY, rate, rate, 0.1), force)
@@ -39,8 +39,8 @@ def test_feedback_with_the_papers_sign_turns_towards_gravity() -> None:
 
 
 def test_posture_converges_within_the_four_seconds_of_figure_7() -> None:
-    assert pytest.approx(4.0) == POINTS * POINT_INTERVAL
-    force = up_of(from_rotation_vector((0.3, PITCHED, 0.0)))
+    assert pytest.approx(4.0) == ITERATIONS * ITERATION_INTERVAL
+    force = up_of(from_rotation_vector((0.3, PITCH, 0.0)))
     ex, ey, ez = gravity_error(posture(force), force)
     assert sqrt(ex * ex + ey * ey + ez * ez) < 1e-3
 
@@ -51,7 +51,7 @@ def test_the_error_falls_as_its_half_tangent_does() -> None:
     for _ in range(100):
         ex, ey, ez = gravity_error(q, force)
         rate = (-GAIN * ex, -GAIN * ey, -GAIN * ez)
-        q = turn(q, rate, rate, POINT_INTERVAL)
+        q = turn(q, rate, rate, ITERATION_INTERVAL)
     left = gravity_error(q, force)[0]
     assert abs(left) == pytest.approx(0.1472, rel=0.02)  # 2 atan(tan(0.5) exp(-2)) = 0.1477 rad, its sine 0.1472
 
@@ -80,7 +80,7 @@ def test_one_step_of_a_constant_rate_has_four_terms_of_the_series() -> None:
 
 
 def runge_kutta(rate: Vec3, h: float, weights: tuple[float, float, float, float]) -> Quat:
-    """Q after `h` s at a constant rate from no turn at all: 1 + h/6 of the weighted k, each k = 1/2 Q w."""
+    """Return Q after `h` s at a constant rate, from the identity: 1 + h/6 of the weighted k, each k = 1/2 Q w."""
 
     def derivative(q: Quat) -> Vec4:
         w, x, y, z = multiply(q, (0.0, *rate))

@@ -16,7 +16,7 @@ from solepath.lab.reproduce.walks import run_session
 from solepath.papers.shoe_sensing.recipe import SHOE_SENSING
 
 
-def step(t: float) -> StrideTaken:
+def stride_of(t: float) -> StrideTaken:
     return stride(FOOT, t)
 
 
@@ -25,12 +25,12 @@ def true(t: float) -> TrueStride:
 
 
 def test_steps_are_matched_one_to_one_and_in_order() -> None:
-    found, so = [step(1.1), step(1.9), step(2.05), step(4.0)], [true(1.0), true(2.0), true(3.0)]
+    found, so = [stride_of(1.1), stride_of(1.9), stride_of(2.05), stride_of(4.0)], [true(1.0), true(2.0), true(3.0)]
     assert [(one.t, other.t_end) for one, other in matched(found, so)] == [(1.1, 1.0), (2.05, 2.0)]
 
 
 def test_the_nearest_is_matched_though_an_earlier_one_is_near_too() -> None:
-    assert [one.t for one, _ in matched([step(1.75), step(2.2)], [true(2.0)])] == [2.2]
+    assert [one.t for one, _ in matched([stride_of(1.75), stride_of(2.2)], [true(2.0)])] == [2.2]
 
 
 def test_two_steps_found_as_one_are_a_merged_one_that_is_off_by_a_whole_step(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -36,17 +36,17 @@ DOWN = Route().stand(3.0).walk(5.0, 1.2).stairs(9, up=False).walk(1.3).stairs(9,
 
 
 @cache
-def worn(route: Route, seed: int, rate: float = 100.0) -> tuple[tuple[Sample, ...], Truth]:
+def samples_and_truth(route: Route, seed: int, rate: float = 100.0) -> tuple[tuple[Sample, ...], Truth]:
     walker = Walker(route, seed=seed)
     return both_feet(walker, rate, MPU6050, mounting=ON_INSTEP), walker.truth(dict.fromkeys(Foot, ON_INSTEP))
 
 
 @cache
 def events_of(route: Route, seed: int, rate: float = 100.0, energy: bool = True) -> tuple[Event, ...]:
-    return tuple(run_session(worn(route, seed, rate)[0], SHOE_SENSING if energy else SHOE_MAGNITUDE))
+    return tuple(run_session(samples_and_truth(route, seed, rate)[0], SHOE_SENSING if energy else SHOE_MAGNITUDE))
 
 
-def steps(events: tuple[Event, ...], foot: Foot) -> list[StrideTaken]:
+def strides_of(events: tuple[Event, ...], foot: Foot) -> list[StrideTaken]:
     return [event for event in events if isinstance(event, StrideTaken) and event.foot is foot]
 
 
@@ -60,7 +60,10 @@ def changes(events: Iterable[Event]) -> list[tuple[float, Activity]]:
 def test_every_level_step_is_found_and_ends_as_high_as_it_started(route: Route, rate: float) -> None:
     for seed in (1, 2):
         for foot in Foot:
-            found, true = steps(events_of(route, seed, rate), foot), worn(route, seed, rate)[1].steps(foot)
+            found, true = (
+                strides_of(events_of(route, seed, rate), foot),
+                samples_and_truth(route, seed, rate)[1].steps(foot),
+            )
             # the first two of a jog may be reported as one
             assert len(true) - (route is JOG) <= len(found) <= len(true)
             assert all(min(abs(step.t - other.t_end) for other in true) < 0.15 for step in found)
@@ -70,7 +73,7 @@ def test_every_level_step_is_found_and_ends_as_high_as_it_started(route: Route, 
 
 def test_the_magnitude_alone_gets_the_way_wrong_where_the_energy_does_not() -> None:
     energy, magnitude = (
-        sum(step.length for step in steps(events_of(LEVEL, 1, energy=one), Foot.LEFT)) for one in (True, False)
+        sum(step.length for step in strides_of(events_of(LEVEL, 1, energy=one), Foot.LEFT)) for one in (True, False)
     )
     assert abs(energy - 30.0) < 0.06 * 30.0
     assert abs(magnitude - 30.0) > 0.2 * 30.0
@@ -80,7 +83,7 @@ def test_the_magnitude_alone_gets_the_way_wrong_where_the_energy_does_not() -> N
 def test_flights_on_both_sides_of_a_landing_are_two(route: Route, up: bool) -> None:
     for seed in (1, 2):
         found = [event for event in events_of(route, seed) if isinstance(event, FlightClimbed)]
-        true = worn(route, seed)[1].flights
+        true = samples_and_truth(route, seed)[1].flights
         assert [flight.up for flight in found] == [up, up]
         for flight, other in zip(found, true, strict=True):
             assert flight.height == pytest.approx(other.height, abs=0.35)
@@ -97,17 +100,17 @@ def test_states_are_those_of_the_steps(route: Route, stairs: Activity) -> None:
     kinds = [event.activity for event in found]
     assert kinds[0] is Activity.STANDING and kinds[1] is Activity.WALKING and kinds[-1] is Activity.STANDING
     assert set(kinds) == {Activity.STANDING, Activity.WALKING, stairs}
-    truth = worn(route, 1)[1]
+    truth = samples_and_truth(route, 1)[1]
     starts = [start for start, _, what in truth.activities if what is stairs]
     assert any(abs(event.t - starts[0]) < 1.5 for event in found if event.activity is stairs)
 
 
-def by_the_left_foot(
+def left_foot_events(
     part: AnglePerMetre, change: Callable[[Event], Event | None] = lambda one: one, until: float = inf
 ) -> list[Any]:
     """Return the part's events of the left foot's level walk up to `until` s, with the foot's events changed."""
     foot, found = FootTracker(Foot.LEFT, ShortTimeEnergy(), ShoeSensing()), []
-    for sample in worn(LEVEL, 1)[0]:
+    for sample in samples_and_truth(LEVEL, 1)[0]:
         if sample.site.foot is Foot.LEFT and sample.t < until:
             events = [one for event in foot.feed(sample) if (one := change(event)) is not None]
             found += fed(part, foot, sample, events)
@@ -116,29 +119,29 @@ def by_the_left_foot(
 
 def test_a_foot_that_only_fidgets_is_in_the_end_unknown() -> None:
     # the steps are kept from it, as if the foot had come down where it stood
-    found = by_the_left_foot(AnglePerMetre(), lambda one: None if isinstance(one, StrideTaken) else one, until=12.0)
+    found = left_foot_events(AnglePerMetre(), lambda one: None if isinstance(one, StrideTaken) else one, until=12.0)
     assert [what for _, what in changes(found)] == [Activity.STANDING, Activity.UNKNOWN]
 
 
 def test_who_has_stood_for_long_and_sets_out_is_not_unknown() -> None:
-    samples, _ = worn(Route().stand(12.0).walk(6.0, 1.3).stop(2.0), 1)
+    samples, _ = samples_and_truth(Route().stand(12.0).walk(6.0, 1.3).stop(2.0), 1)
     found = changes(run_session(samples, SHOE_SENSING))
     assert [what for _, what in found] == [Activity.STANDING, Activity.WALKING, Activity.STANDING]
 
 
 def test_after_a_restart_events_are_on_the_new_clock() -> None:
     part = AnglePerMetre()
-    part.changed_at, part.moved_at, part.stride_at = 1000.0, 1000.0, 1000.0
-    part.reset(worn(LEVEL, 1)[0][0].site)
-    found = by_the_left_foot(part, until=4.0)
+    part.reported_t, part.moved_at, part.stride_t = 1000.0, 1000.0, 1000.0
+    part.reset(samples_and_truth(LEVEL, 1)[0][0].site)
+    found = left_foot_events(part, until=4.0)
     assert found[0].activity is Activity.STANDING and found[0].t < 3.0
     assert load(AnglePerMetre, save(part)) == part
 
 
-def rebound(shifts: dict[Foot, float], *, silent: Foot | None = None) -> tuple[list[Event], list[Event]]:
+def events_after_exchange(shifts: dict[Foot, float], *, silent: Foot | None = None) -> tuple[list[Event], list[Event]]:
     """Level, twice, with a rest between, in which each foot in `shifts` gets another device whose clock is that far
     ahead of the first one's; `silent` says nothing any more. What is told before the rest and from there on."""
-    first = worn(LEVEL, 1)[0]
+    first = samples_and_truth(LEVEL, 1)[0]
     over = first[-1].t + 0.01
     session = Session(SHOE_SENSING)
     for foot in Foot:
@@ -156,17 +159,17 @@ def rebound(shifts: dict[Foot, float], *, silent: Foot | None = None) -> tuple[l
 
 @pytest.mark.parametrize("shift", [-1e9, -40.0, 0.0, 1e9])
 def test_a_foot_whose_clock_restarts_dates_nothing_while_the_other_goes_on(shift: float) -> None:
-    before, after = rebound({Foot.LEFT: shift})
+    before, after = events_after_exchange({Foot.LEFT: shift})
     found = changes([*before, *after])
     assert [t for t, _ in found] == sorted(t for t, _ in found)
     # the other foot's clock dates the second walk, as if nothing had happened
     expected = [what for _, what in changes(events_of(LEVEL, 1))]
     assert [what for _, what in found] == expected + expected[1:]
-    assert found[-1][0] == pytest.approx(found[len(expected) - 1][0] + worn(LEVEL, 1)[0][-1].t, abs=1.0)
+    assert found[-1][0] == pytest.approx(found[len(expected) - 1][0] + samples_and_truth(LEVEL, 1)[0][-1].t, abs=1.0)
 
 
 def test_a_restarted_clock_dates_events_once_the_other_foot_has_fallen_silent() -> None:
-    _, after = rebound({Foot.LEFT: -1e9}, silent=Foot.RIGHT)
+    _, after = events_after_exchange({Foot.LEFT: -1e9}, silent=Foot.RIGHT)
     found = changes(after)
     assert [what for _, what in found][-2:] == [Activity.WALKING, Activity.STANDING]
     assert all(t < -9e8 for t, _ in found)
@@ -177,7 +180,7 @@ def test_a_step_higher_than_stairs_have_is_neither_upstairs_nor_downstairs(heigh
     def raised(one: Event) -> Event:
         return evolve(one, height_change=height) if isinstance(one, StrideTaken) and one.number % 3 == 0 else one
 
-    found = by_the_left_foot(AnglePerMetre(), raised)
+    found = left_foot_events(AnglePerMetre(), raised)
     assert [what for _, what in changes(found)] == [Activity.STANDING, Activity.WALKING, Activity.STANDING]
     assert not any(isinstance(event, FlightClimbed) for event in found)
 

@@ -31,33 +31,35 @@ from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
 
 LAYOUTS = {SITE_OF_FOOT[foot]: layout(99, foot) for foot in Foot}
 KNOWN = Calibration(insoles={foot: InsoleCalibration(layout=layout(99, foot)) for foot in Foot})
-AROUND = Route().stand(2.0).walk(4.0, MARK_SPEED).turn(pi / 2, 2.0).walk(3.0).stop(1.0)
-III = WALKING_MODES.exchanged(TrackPart, Modes())
-LOOKS_AHEAD = ModesSettings(heading=0.0)
+BEND_ROUTE = Route().stand(2.0).walk(4.0, MARK_SPEED).turn(pi / 2, 2.0).walk(3.0).stop(1.0)
+METHOD_III = WALKING_MODES.exchanged(TrackPart, Modes())
+KNOWN_HEADING = ModesSettings(heading=0.0)
 
 
 @cache
-def walker(route: Route = AROUND, seed: int = 101) -> Walker:
+def walker_on(route: Route = BEND_ROUTE, seed: int = 101) -> Walker:
     return Walker(route, seed=seed)
 
 
 @cache
-def suit(route: Route = AROUND, north: float = 0.0, seed: int = 101) -> tuple[Sample, ...]:
-    """Seven sensors at 50 Hz, with the errors of a data sheet."""
-    return tuple(limb_samples(walker(route, seed), 50.0, seed=seed, layouts=LAYOUTS, north=north))
+def suit_samples(route: Route = BEND_ROUTE, north: float = 0.0, seed: int = 101) -> tuple[Sample, ...]:
+    """Return samples of seven sensors at 50 Hz with the errors of a data sheet."""
+    return tuple(limb_samples(walker_on(route, seed), 50.0, seed=seed, layouts=LAYOUTS, north=north))
 
 
 @cache
 def run_walk(heading: float | None = None, north: float = 0.0) -> list[Event]:
-    session = Session(III.exchanged(TrackPart, Modes(settings=ModesSettings(heading=heading))), calibration=KNOWN)
-    return [*session.feed(suit(north=north)), *session.finish()]
+    session = Session(
+        METHOD_III.exchanged(TrackPart, Modes(settings=ModesSettings(heading=heading))), calibration=KNOWN
+    )
+    return [*session.feed(suit_samples(north=north)), *session.finish()]
 
 
-def off(modes: Modes, samples: Sequence[Sample]) -> tuple[tuple[float, float], Covariance3]:
-    """Return the distance of the last position from the end of the way, m, and its covariance."""
-    session = Session(III.exchanged(TrackPart, modes), calibration=KNOWN)
+def end_error(modes: Modes, samples: Sequence[Sample]) -> tuple[tuple[float, float], Covariance3]:
+    """Return the distance of the last position from the end of the route, m, and its covariance."""
+    session = Session(METHOD_III.exchanged(TrackPart, modes), calibration=KNOWN)
     session.feed(samples)
-    position, end = session.position, walker().route.end
+    position, end = session.position, walker_on().route.end
     assert position is not None
     return (position.position[0] - end.x, position.position[1] - end.y), position.covariance
 
@@ -65,7 +67,7 @@ def off(modes: Modes, samples: Sequence[Sample]) -> tuple[tuple[float, float], C
 def test_every_step_is_a_touchdown_where_the_foot_came_down() -> None:
     downs = of(TouchedDown, run_walk(0.0))
     for foot in Foot:
-        mine, true = [down for down in downs if down.foot is foot], walker().plan.strides[foot]
+        mine, true = [down for down in downs if down.foot is foot], walker_on().plan.strides[foot]
         assert len(mine) == len(true)
         for down, stride in zip(mine, true, strict=True):
             assert down.t == pytest.approx(stride.heel_strike, abs=0.06)
@@ -92,11 +94,11 @@ def test_touchdowns_are_final_once_the_first_heading_is() -> None:
 
 @pytest.mark.parametrize("method", [Height(), NetAcceleration()])
 def test_the_other_methods_go_the_same_way_less_well(method: Height | NetAcceleration) -> None:
-    assert hypot(*off(Modes(method, LOOKS_AHEAD), suit())[0]) < 0.1 * walker().route.length
+    assert hypot(*end_error(Modes(method, KNOWN_HEADING), suit_samples())[0]) < 0.1 * walker_on().route.length
 
 
 def test_the_position_is_midway_between_the_feet_and_has_a_covariance() -> None:
-    (dx, dy), (xx, xy, _, yy, _, _) = off(Modes(settings=LOOKS_AHEAD), suit())
+    (dx, dy), (xx, xy, _, yy, _, _) = end_error(Modes(settings=KNOWN_HEADING), suit_samples())
     assert hypot(dx, dy) < 0.15
     assert (yy * dx * dx - 2.0 * xy * dx * dy + xx * dy * dy) / (xx * yy - xy * xy) < 9.2  # 99 % of a normal pair
 
@@ -104,11 +106,11 @@ def test_the_position_is_midway_between_the_feet_and_has_a_covariance() -> None:
 @pytest.mark.parametrize("mode", [mode for mode in WalkingMode if mode is not WalkingMode.STANDING])
 def test_modes_are_recognised_from_the_insoles(mode: WalkingMode) -> None:
     route = marked(mode, steps=20)
-    session = Session(III, calibration=KNOWN)
-    changes = of(WalkingModeChanged, session.feed(suit(route)))
+    session = Session(METHOD_III, calibration=KNOWN)
+    changes = of(WalkingModeChanged, session.feed(suit_samples(route)))
     right = whole = 0
     for foot in Foot:
-        strides = walker(route).plan.strides[foot]
+        strides = walker_on(route).plan.strides[foot]
         for landed, left in zip(strides[1:-1], strides[2:], strict=True):
             then = [change.mode for change in changes if change.foot is foot and change.t < left.toe_off + 0.1]
             right += bool(then) and then[-1] is mode
@@ -118,17 +120,17 @@ def test_modes_are_recognised_from_the_insoles(mode: WalkingMode) -> None:
 
 
 def test_a_wearer_who_stands_is_in_mode_standing() -> None:
-    session = Session(III, calibration=KNOWN)
-    changes = of(WalkingModeChanged, session.feed([s for s in suit() if s.t < 1.9]))
+    session = Session(METHOD_III, calibration=KNOWN)
+    changes = of(WalkingModeChanged, session.feed([s for s in suit_samples() if s.t < 1.9]))
     assert {change.foot for change in changes} == set(Foot)
     assert all(change.mode is WalkingMode.STANDING for change in changes)
 
 
 def test_the_compensation_of_the_mode_is_added_along_the_way() -> None:
     straight = {foot: {WalkingMode.STRAIGHT: (0.02, 0.0)} for foot in Foot}
-    compensated = Modes(settings=evolve(LOOKS_AHEAD, compensation=straight))
-    session = Session(III.exchanged(TrackPart, compensated), calibration=KNOWN)
-    downs = of(TouchedDown, session.feed(suit()))
+    compensated = Modes(settings=evolve(KNOWN_HEADING, compensation=straight))
+    session = Session(METHOD_III.exchanged(TrackPart, compensated), calibration=KNOWN)
+    downs = of(TouchedDown, session.feed(suit_samples()))
     ahead = [down for down in downs if down.mode is WalkingMode.STRAIGHT and down.t < 6.0]
     assert ahead and all(down.compensation[0] == pytest.approx(0.02, abs=0.002) for down in ahead[:-1])
     bare = of(TouchedDown, run_walk(0.0))
@@ -146,14 +148,14 @@ def test_a_wearers_own_compensation_takes_the_place_of_table_1_mode_by_mode() ->
 
 
 def test_sensors_without_attitudes_are_taken_upright_by_gravity() -> None:
-    bare = [evolve(sample, quat=None) for sample in suit()]
-    assert hypot(*off(Modes(), bare)[0]) < 0.15 * walker().route.length
+    bare = [evolve(sample, quat=None) for sample in suit_samples()]
+    assert hypot(*end_error(Modes(), bare)[0]) < 0.15 * walker_on().route.length
 
 
 def test_a_sensor_that_falls_silent_leaves_the_feet_to_their_own_tracks() -> None:
-    session = Session(III.exchanged(TrackPart, Modes(settings=LOOKS_AHEAD)), calibration=KNOWN)
-    events = session.feed([s for s in suit() if s.site is not Site.LEFT_SHANK or s.t < 5.0])
-    assert len(of(TouchedDown, events)) == sum(len(strides) for strides in walker().plan.strides.values())
+    session = Session(METHOD_III.exchanged(TrackPart, Modes(settings=KNOWN_HEADING)), calibration=KNOWN)
+    events = session.feed([s for s in suit_samples() if s.site is not Site.LEFT_SHANK or s.t < 5.0])
+    assert len(of(TouchedDown, events)) == sum(len(strides) for strides in walker_on().plan.strides.values())
 
 
 SITES = st.sampled_from(list(Site))
@@ -178,7 +180,7 @@ NUMBERS = st.floats() | st.sampled_from((0.0, 1.0, -9.8, 1e300))
 def test_whatever_is_fed_in_whatever_order_the_session_goes_on(rows: list[tuple[object, ...]], walked: bool) -> None:
     session = Session(WALKING_MODES, calibration=KNOWN)
     if walked:
-        session.feed(suit()[:1500])
+        session.feed(suit_samples()[:1500])
     for site, t, acc, gyro, quat, pressure in rows:
         session.feed(Sample(t, site, acc, gyro, pressure, quat))  # type: ignore[arg-type]
     position = session.position

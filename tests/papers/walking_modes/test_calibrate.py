@@ -28,30 +28,30 @@ from solepath.recording.decoded import DecodedRecording
 from solepath.types import SITE_OF_FOOT, Foot, WalkingMode
 
 
-def cubic(counts: float) -> float:
-    """A cell of 14 bits that gets stiffer: 0 N at 0, 200 N at 16000 counts."""
+def force_of(counts: float) -> float:
+    """Return the force on a cell of 14 bits, N: a cubic with 0 N at 0 and 200 N at 16000 counts."""
     u = counts / 16000.0
     return 60.0 * u + 40.0 * u**2 + 100.0 * u**3
 
 
-def gauge(path: Path, counts: list[float], lines: tuple[str, ...] = ()) -> Path:
-    rows = [f"{count},{cubic(count)}" for count in counts]
+def write_gauge(path: Path, counts: list[float], lines: tuple[str, ...] = ()) -> Path:
+    rows = [f"{count},{force_of(count)}" for count in counts]
     path.write_text("\n".join(["counts,newtons", *rows, *lines]) + "\n")
     return path
 
 
 def test_a_cubic_is_found_again_below_5_newtons_is_nothing_and_more_than_200_is_200(tmp_path: Path) -> None:
-    found = fit_gauge(gauge(tmp_path / "g.csv", [1000.0 * k for k in range(17)]))
+    found = fit_gauge(write_gauge(tmp_path / "g.csv", [1000.0 * k for k in range(17)]))
     assert found.points == 17 and found.residual < 1e-6 and found.worst < 1e-6
     for count in (2500.0, 9000.0, 15500.0):
-        assert in_newtons(found.newtons, (count,))[0] == pytest.approx(cubic(count))
+        assert in_newtons(found.newtons, (count,))[0] == pytest.approx(force_of(count))
     low, high = in_newtons(found.newtons, (1000.0, 20000.0))
-    assert cubic(1000.0) < 5.0 and low == 0.0 and high == 200.0
+    assert force_of(1000.0) < 5.0 and low == 0.0 and high == 200.0
 
 
 def test_noise_of_the_gauge_is_its_residual(tmp_path: Path) -> None:
     path = tmp_path / "g.csv"
-    rows = [f"{500 * k},{cubic(500 * k) + (0.5 if k % 2 else -0.5)}" for k in range(1, 32)]
+    rows = [f"{500 * k},{force_of(500 * k) + (0.5 if k % 2 else -0.5)}" for k in range(1, 32)]
     path.write_text("\n".join(["counts,newtons", *rows]))
     assert fit_gauge(path).residual == pytest.approx(0.5, rel=0.1)
 
@@ -66,7 +66,7 @@ def test_noise_of_the_gauge_is_its_residual(tmp_path: Path) -> None:
     ],
 )
 def test_a_bad_line_is_named(tmp_path: Path, lines: tuple[str, ...], message: str) -> None:
-    path = gauge(tmp_path / "g.csv", [1000.0 * k for k in range(17)], lines)
+    path = write_gauge(tmp_path / "g.csv", [1000.0 * k for k in range(17)], lines)
     with pytest.raises(CalibrationError, match=message) as error:
         fit_gauge(path)
     assert str(path) in str(error.value)
@@ -78,7 +78,7 @@ def test_a_table_that_is_none_is_rejected(tmp_path: Path) -> None:
     with pytest.raises(CalibrationError, match="line 1: wants one column counts"):
         fit_gauge(empty)
     with pytest.raises(CalibrationError, match="4 different counts"):
-        fit_gauge(gauge(short, [0.0, 1000.0, 2000.0, 3000.0]))
+        fit_gauge(write_gauge(short, [0.0, 1000.0, 2000.0, 3000.0]))
     falling.write_text("counts,newtons\n" + "\n".join(f"{k},{200 - 20 * k}" for k in range(9)))
     with pytest.raises(CalibrationError, match="does not rise"):
         fit_gauge(falling)
@@ -86,34 +86,34 @@ def test_a_table_that_is_none_is_rejected(tmp_path: Path) -> None:
         fit_gauge(tmp_path / "nowhere.csv")
 
 
-def down(foot: Foot, t: float, x: float, y: float) -> TouchedDown:
+def touchdown(foot: Foot, t: float, x: float, y: float) -> TouchedDown:
     return TouchedDown(
         t=t, known_at=t, foot=foot, position=(x, y, 0.0), mode=WalkingMode.STRAIGHT, compensation=(0.0, 0.0, 0.0)
     )
 
 
-def straight(short: float, turned: float = 0.0) -> tuple[list[ModeMark], list[TouchedDown]]:
-    """Nine steps of 0.6 m on marks, every one measured `short` m too short, on a floor turned by `turned` rad."""
+def straight_walk(short: float, turned: float = 0.0) -> tuple[list[ModeMark], list[TouchedDown]]:
+    """Return marks and touchdowns of nine steps of 0.6 m, measured `short` m short, in a frame turned by `turned`."""
     found, downs = [], []
     for k in range(9):
         foot, y = (Foot.LEFT, 0.1) if k % 2 == 0 else (Foot.RIGHT, -0.1)
         x = 0.6 * k
         c, s = cos(turned), sin(turned)
         found.append(ModeMark(f"line {k}", foot, c * x - s * y, s * x + c * y, WalkingMode.STRAIGHT, t=float(k)))
-        downs.append(down(foot, k + 0.02, (0.6 - short) * k, y))
+        downs.append(touchdown(foot, k + 0.02, (0.6 - short) * k, y))
     return found, downs
 
 
 @pytest.mark.parametrize("turned", [0.0, 2.0])
 def test_steps_that_are_measured_too_short_have_that_error_wherever_the_marks_x_points(turned: float) -> None:
-    errors = step_errors(*straight(0.02, turned))
+    errors = step_errors(*straight_walk(0.02, turned))
     assert len(errors) == 6
     assert [(error.forward, error.left) for error in errors] == [pytest.approx((0.02, 0.0), abs=1e-9)] * 6
 
 
 def test_errors_do_not_accumulate_and_are_separated_by_foot() -> None:
-    marked_points, downs = straight(0.0)
-    moved = [down(one.foot, one.t, one.position[0] + (0.03 if k >= 5 else 0.0), one.position[1])
+    marked_points, downs = straight_walk(0.0)
+    moved = [touchdown(one.foot, one.t, one.position[0] + (0.03 if k >= 5 else 0.0), one.position[1])
              for k, one in enumerate(downs)]  # fmt: skip
     errors = step_errors(marked_points, moved)
     assert sorted(round(error.forward, 6) for error in errors)[:2] == pytest.approx([-0.03, 0.0], abs=0.002)
@@ -132,7 +132,7 @@ def test_what_both_feet_are_off_to_one_side_is_a_heading_and_no_compensation() -
 
 
 def test_marks_that_belong_to_no_touchdown_are_named() -> None:
-    marked_points, downs = straight(0.0)
+    marked_points, downs = straight_walk(0.0)
     with pytest.raises(CalibrationError, match=r"line 7: the right foot did not come down at 7 s"):
         step_errors(marked_points, downs[:7])
     twice = [*marked_points, marked_points[0]]
@@ -170,7 +170,7 @@ def test_marks_may_name_the_number_of_the_step(tmp_path: Path) -> None:
 
 
 @cache
-def walked(mode: WalkingMode) -> tuple[DecodedRecording, Walker]:
+def marked_walk(mode: WalkingMode) -> tuple[DecodedRecording, Walker]:
     walker = Walker(marked(mode, steps=24), seed=103)
     layouts = {SITE_OF_FOOT[foot]: layout(99, foot) for foot in Foot}
     samples = limb_samples(walker, 50.0, seed=103, layouts=layouts)
@@ -180,7 +180,7 @@ def walked(mode: WalkingMode) -> tuple[DecodedRecording, Walker]:
 def test_a_marked_walk_teaches_both_feet_some_centimetres(tmp_path: Path) -> None:
     walks = []
     for mode in (WalkingMode.STRAIGHT, WalkingMode.LEFT_TIGHT):
-        recording, walker = walked(mode)
+        recording, walker = marked_walk(mode)
         write_marks(tmp_path / f"{mode.name}.csv", marks(walker))
         walks.append((recording, tmp_path / f"{mode.name}.csv"))
     found = fit_modes(walks, Calibration(limbs=walker.wearer.limbs), heading=0.0).modes

@@ -27,27 +27,27 @@ from solepath.types import SITE_OF_FOOT, Foot, Sample, Site, WalkingMode
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 LAYOUTS = {SITE_OF_FOOT[foot]: layout(96, foot) for foot in Foot}
 KNOWN = Calibration(insoles={foot: InsoleCalibration(layout=layout(96, foot)) for foot in Foot})
-FAR = 25.0
-TRACKS = DEFAULT.exchanged(TrackPart, MeanOfFeet())
+WALK_LENGTH = 25.0
+TRACKS_RECIPE = DEFAULT.exchanged(TrackPart, MeanOfFeet())
 """The feet's own tracks, and their mean."""
 RECIPES = ("walking-modes", "touchdown-height", "touchdown-acceleration", "touchdown-pressure")
 
 
 @cache
-def walker() -> Walker:
-    return Walker(Route().stand(2.0).walk(FAR, 1.2).stop(2.0), seed=1)
+def emulated_walker() -> Walker:
+    return Walker(Route().stand(2.0).walk(WALK_LENGTH, 1.2).stop(2.0), seed=1)
 
 
 @cache
-def feet() -> tuple[Sample, ...]:
-    """Both insoles of a straight walk, 50 Hz."""
-    return both_feet(walker(), 50.0, LSM6DSOX, 96)
+def insole_samples() -> tuple[Sample, ...]:
+    """Return the samples of both insoles of a straight walk, 50 Hz."""
+    return both_feet(emulated_walker(), 50.0, LSM6DSOX, 96)
 
 
 @cache
 def seven() -> tuple[Sample, ...]:
-    """Seven sensors with attitudes of the same walk."""
-    return tuple(limb_samples(walker(), 50.0, seed=1, layouts=LAYOUTS))
+    """Return samples of seven sensors with attitudes, of the same walk."""
+    return tuple(limb_samples(emulated_walker(), 50.0, seed=1, layouts=LAYOUTS))
 
 
 def without_numbers(samples: Sequence[Sample], since: float) -> list[Sample]:
@@ -70,28 +70,30 @@ def sentences(events: Sequence[Event]) -> list[str]:
 
 
 @cache
-def clean(samples: Callable[[], tuple[Sample, ...]]) -> tuple[float, float]:
+def end_without_fault(samples: Callable[[], tuple[Sample, ...]]) -> tuple[float, float]:
     """Return the end of the walk without a fault, m."""
     return run_walk("walking-modes", samples())[0]
 
 
 BROKEN: dict[str, Callable[[], Sequence[Sample]]] = {
-    "no pressure from the middle on": lambda: spoiled.cut_off(feet(), LEFT, 0, 10.0),
-    "no pressure since it was in the air": lambda: spoiled.cut_off(feet(), LEFT, 0, 10.45),
-    "never unloads": lambda: spoiled.never_unloads(feet(), LEFT, 30.0),
-    "never unloads from the middle on": lambda: spoiled.never_unloads(feet(), LEFT, 30.0, 10.0),
-    "no numbers": lambda: without_numbers(feet(), 10.0),
-    "both never unload": lambda: spoiled.never_unloads(spoiled.never_unloads(feet(), LEFT, 30.0), RIGHT, 30.0),
+    "no pressure from the middle on": lambda: spoiled.cut_off(insole_samples(), LEFT, 0, 10.0),
+    "no pressure since it was in the air": lambda: spoiled.cut_off(insole_samples(), LEFT, 0, 10.45),
+    "never unloads": lambda: spoiled.never_unloads(insole_samples(), LEFT, 30.0),
+    "never unloads from the middle on": lambda: spoiled.never_unloads(insole_samples(), LEFT, 30.0, 10.0),
+    "no numbers": lambda: without_numbers(insole_samples(), 10.0),
+    "both never unload": lambda: spoiled.never_unloads(
+        spoiled.never_unloads(insole_samples(), LEFT, 30.0), RIGHT, 30.0
+    ),
 }
 
 
 @pytest.mark.parametrize("how", BROKEN)
 def test_an_insole_without_usable_pressure_does_not_lead_astray(how: str) -> None:
     (x, y), events = run_walk("walking-modes", BROKEN[how]())
-    clean_x, clean_y = clean(feet)
+    clean_x, clean_y = end_without_fault(insole_samples)
     assert hypot(x - clean_x, y - clean_y) < 1.0
     assert len([what for what in sentences(events) if "left insole" in what and "steps" in what]) == 1
-    strides = sum(len(strides) for strides in walker().plan.strides.values())
+    strides = sum(len(strides) for strides in emulated_walker().plan.strides.values())
     assert strides - 4 <= len(of(TouchedDown, events)) <= strides + 1
 
 
@@ -101,22 +103,22 @@ def test_nor_does_it_with_seven_sites(since: float | None) -> None:
     sites = seven()
     worn = spoiled.never_unloads(sites, LEFT, 30.0) if since is None else spoiled.cut_off(sites, LEFT, 0, since)
     (x, y), _ = run_walk("walking-modes", worn)
-    clean_x, clean_y = clean(seven)
+    clean_x, clean_y = end_without_fault(seven)
     assert hypot(x - clean_x, y - clean_y) < 1.3
 
 
 @pytest.mark.parametrize("recipe", RECIPES)
 def test_the_feet_alone_go_all_the_way_by_any_method(recipe: str) -> None:
-    (x, y), events = run_walk(recipe, feet())
-    assert hypot(x - FAR, y) < 2.0
-    strides = sum(len(strides) for strides in walker().plan.strides.values())
+    (x, y), events = run_walk(recipe, insole_samples())
+    assert hypot(x - WALK_LENGTH, y) < 2.0
+    strides = sum(len(strides) for strides in emulated_walker().plan.strides.values())
     assert strides - 2 <= len(of(TouchedDown, events)) <= strides + 1
     (limitation,) = [what for what in sentences(events) if "own inertial tracks" in what]
     assert "pelvis" in limitation
 
 
-def lagging(samples: Sequence[Sample]) -> list[Sample]:
-    """Sensors above the ankles whose samples are 0.3 s behind the feet's."""
+def with_late_limbs(samples: Sequence[Sample]) -> list[Sample]:
+    """Return the samples, with those above the ankles 0.3 s later than those of the feet."""
     late = [evolve(s, known_at=s.t + 0.3) if s.site.foot is None else s for s in samples]
     return sorted(late, key=_known_at)
 
@@ -128,7 +130,7 @@ def _known_at(sample: Sample) -> float:
 SUITS: dict[str, tuple[Callable[[], Sequence[Sample]], str]] = {
     "the pelvis falls silent": (lambda: spoiled.silent(seven(), Site.PELVIS, 10.0), "pelvis"),
     "a shank falls silent": (lambda: spoiled.silent(seven(), Site.LEFT_SHANK, 10.0), "left shank"),
-    "the sensors above the ankles are late": (lambda: lagging(seven()), "old"),
+    "the sensors above the ankles are late": (lambda: with_late_limbs(seven()), "old"),
     "the wearer never stood still": (lambda: [s for s in seven() if s.t > 2.6], "stand still"),
 }
 
@@ -136,7 +138,7 @@ SUITS: dict[str, tuple[Callable[[], Sequence[Sample]], str]] = {
 @cache
 def by_tracks(how: str) -> float:
     """Return the length of the walk by the feet's own tracks with that suit, m."""
-    return run_walk(TRACKS, SUITS[how][0]())[0][0]
+    return run_walk(TRACKS_RECIPE, SUITS[how][0]())[0][0]
 
 
 @pytest.mark.parametrize("how", SUITS)
@@ -154,19 +156,19 @@ def test_a_lost_chain_is_replaced_by_the_tracks_and_reported_once(recipe: str, h
 def test_a_foot_that_falls_silent_neither_freezes_nor_halves_the_wearer(
     recipe: str, silence: tuple[float, float]
 ) -> None:
-    (x, y), events = run_walk(recipe, spoiled.silent(feet(), LEFT, *silence))
-    assert hypot(x - FAR, y) < 1.7
+    (x, y), events = run_walk(recipe, spoiled.silent(insole_samples(), LEFT, *silence))
+    assert hypot(x - WALK_LENGTH, y) < 1.7
     assert len([what for what in sentences(events) if "not heard" in what]) == 1
 
 
 def test_with_the_chain_too() -> None:
     for silence in ((8.0, 100.0), (8.4, 13.3)):
         (x, y), _ = run_walk("walking-modes", spoiled.silent(seven(), LEFT, *silence))
-        assert hypot(x - FAR, y) < 2.0
+        assert hypot(x - WALK_LENGTH, y) < 2.0
 
 
 @cache
-def round_a_bend() -> tuple[Walker, tuple[Sample, ...], tuple[Sample, ...]]:
+def walk_round_bend() -> tuple[Walker, tuple[Sample, ...], tuple[Sample, ...]]:
     """Ten metres, a quarter to the left, fifteen metres: by two insoles, and by seven sensors."""
     walked = Walker(Route().stand(2.0).walk(10.0, 1.2).turn(pi / 2, 3.0).walk(15.0).stop(2.0), seed=2)
     seven = limb_samples(walked, 50.0, seed=2, layouts=LAYOUTS)
@@ -175,7 +177,7 @@ def round_a_bend() -> tuple[Walker, tuple[Sample, ...], tuple[Sample, ...]]:
 
 @pytest.mark.parametrize(("site", "end"), [(LEFT, 13.3), (RIGHT, 15.3), (RIGHT, 100.0)])
 def test_a_foot_that_comes_back_after_a_bend_goes_on_beside_the_other(site: Site, end: float) -> None:
-    walked, two, _ = round_a_bend()
+    walked, two, _ = walk_round_bend()
     (x, y), events = run_walk("walking-modes", spoiled.silent(two, site, 8.4, end))
     assert hypot(x - walked.route.end.x, y - walked.route.end.y) < 1.0
     downs = [down.t for down in of(TouchedDown, events) if SITE_OF_FOOT[down.foot] is site]
@@ -186,7 +188,7 @@ def test_a_foot_that_comes_back_after_a_bend_goes_on_beside_the_other(site: Site
 
 def test_a_chain_that_is_known_only_after_a_bend_lies_in_the_world_as_the_tracks_do() -> None:
     """The sensors above the ankles are 0.3 s behind until 14 s, when the wearer is round the bend."""
-    walked, _, sensors = round_a_bend()
+    walked, _, sensors = walk_round_bend()
     late = [evolve(s, known_at=s.t + 0.3) if s.site.foot is None and s.t < 14.0 else s for s in sensors]
     (x, y), events = run_walk("walking-modes", sorted(late, key=_known_at))
     assert hypot(x - walked.route.end.x, y - walked.route.end.y) < 2.5
@@ -194,7 +196,7 @@ def test_a_chain_that_is_known_only_after_a_bend_lies_in_the_world_as_the_tracks
 
 
 def test_insoles_without_a_layout_give_no_walking_modes() -> None:
-    _, events = run_walk("walking-modes", feet(), Calibration())
+    _, events = run_walk("walking-modes", insole_samples(), Calibration())
     assert {change.mode for change in of(WalkingModeChanged, events)} <= {WalkingMode.STANDING}
     assert {down.mode for down in of(TouchedDown, events)} == {WalkingMode.STRAIGHT}
     assert len([what for what in sentences(events) if "no walking modes" in what]) == 2

@@ -25,12 +25,12 @@ from solepath.types import Foot, Quat, Site, Vec3
 from solepath.types.vector import IDENTITY, conjugate, from_rotation_vector, from_yaw, multiply, normalise, rotate
 
 LIMBS = Limbs(hip_width=0.2, thigh=0.4, shank=0.45, foot=0.2, ankle_height=0.1)
-WORN = ModesSettings(limbs=LIMBS)
+SETTINGS = ModesSettings(limbs=LIMBS)
 HIP: Vec3 = (0.0, 0.1, 0.0)
 
 
-def pitched(degrees: float) -> Quat:
-    """Return a turn about the axis to the left, which leans up forward."""
+def pitch(degrees: float) -> Quat:
+    """Return a rotation about the axis to the left, which tilts the upward axis forward."""
     return from_rotation_vector((0.0, radians(degrees), 0.0))
 
 
@@ -40,12 +40,12 @@ def test_who_stands_straight_has_the_ends_of_the_feet_below_and_before_the_hips(
 
 def test_a_thigh_lifted_to_the_front_moves_the_shank_and_the_foot_along() -> None:
     # thigh horizontal, pointing ahead; shank down, foot level
-    end = foot_end(IDENTITY, pitched(-90), IDENTITY, IDENTITY, HIP, LIMBS)
+    end = foot_end(IDENTITY, pitch(-90), IDENTITY, IDENTITY, HIP, LIMBS)
     assert end == pytest.approx((0.4 + 0.2, 0.1, -0.55))
 
 
 def test_a_leg_swung_back_by_30_degrees_with_the_foot_on_it() -> None:
-    end = foot_end(IDENTITY, pitched(30), pitched(30), pitched(30), HIP, LIMBS)
+    end = foot_end(IDENTITY, pitch(30), pitch(30), pitch(30), HIP, LIMBS)
     c, s = cos(pi / 6), sin(pi / 6)
     assert end == pytest.approx((-0.95 * s + 0.2 * c, 0.1, -0.95 * c - 0.2 * s))
 
@@ -80,50 +80,50 @@ def test_the_end_is_the_last_column_of_the_product_of_homogeneous_matrices(
 
 
 def stood(chain: LowerLimbs, mounted: dict[Site, Quat], segments: dict[Site, Quat] | None = None) -> None:
-    """0.6 s of attitudes at 50 Hz of sensors that are turned by `mounted` against their segments."""
+    """Feed 0.6 s of attitudes at 50 Hz from sensors whose mountings in their segments are `mounted`."""
     for k in range(31):
         for site in SEGMENTS:
             turned = IDENTITY if segments is None else segments.get(site, IDENTITY)
             chain.set_attitude(site, 0.02 * k, multiply(turned, mounted[site]))
 
 
-MOUNTED = {site: normalise((1.0, 0.1 * k, -0.2 * k, 0.3)) for k, site in enumerate(SEGMENTS)}
+MOUNTINGS = {site: normalise((1.0, 0.1 * k, -0.2 * k, 0.3)) for k, site in enumerate(SEGMENTS)}
 
 
-def swing_back(chain: LowerLimbs, t: float, world: Quat = IDENTITY) -> None:
+def swing_left_leg(chain: LowerLimbs, t: float, world: Quat = IDENTITY) -> None:
     """The left leg as one, by 30 degrees, which the chain knows; `world`: how that of the thigh's sensor is turned."""
     for site in (Site.LEFT_THIGH, Site.LEFT_SHANK, Site.LEFT_FOOT):
-        attitude = multiply(pitched(30), MOUNTED[site])
+        attitude = multiply(pitch(30), MOUNTINGS[site])
         chain.set_attitude(site, t, multiply(world, attitude) if site is Site.LEFT_THIGH else attitude)
-    end = foot_end(IDENTITY, pitched(30), pitched(30), pitched(30), HIP, LIMBS)
+    end = foot_end(IDENTITY, pitch(30), pitch(30), pitch(30), HIP, LIMBS)
     assert chain.end(Foot.LEFT, t) == pytest.approx(end)
 
 
 def test_standing_shows_how_every_sensor_sits_on_its_segment() -> None:
-    chain = LowerLimbs(WORN)
-    stood(chain, MOUNTED)
+    chain = LowerLimbs(SETTINGS)
+    stood(chain, MOUNTINGS)
     assert chain.aligned
     assert chain.end(Foot.LEFT, 0.6) == pytest.approx((0.2, 0.1, -0.95))
     assert chain.end(Foot.RIGHT, 0.6) == pytest.approx((0.2, -0.1, -0.95))
-    swing_back(chain, 0.62)
+    swing_left_leg(chain, 0.62)
     assert chain.height(Foot.LEFT, 0.62) == pytest.approx(-0.95 * cos(pi / 6))
 
 
 def test_who_does_not_stand_still_is_not_aligned() -> None:
-    chain = LowerLimbs(WORN)
+    chain = LowerLimbs(SETTINGS)
     for k in range(100):
         for site in SEGMENTS:
-            chain.set_attitude(site, 0.02 * k, pitched(3.0 * k) if site is Site.LEFT_SHANK else IDENTITY)
+            chain.set_attitude(site, 0.02 * k, pitch(3.0 * k) if site is Site.LEFT_SHANK else IDENTITY)
     assert not chain.aligned
 
 
 def test_the_first_step_shows_the_wearers_heading_in_the_world_of_the_sensors() -> None:
     north = 2.0
-    chain = LowerLimbs(WORN)
-    away = {site: multiply(from_yaw(north), q) for site, q in MOUNTED.items()}
+    chain = LowerLimbs(SETTINGS)
+    away = {site: multiply(from_yaw(north), q) for site, q in MOUNTINGS.items()}
     stood(chain, away)
     for site, lean in ((Site.LEFT_THIGH, -20), (Site.LEFT_SHANK, -20), (Site.RIGHT_THIGH, 15), (Site.RIGHT_SHANK, 15)):
-        chain.set_attitude(site, 0.62, multiply(multiply(from_yaw(north), pitched(lean)), MOUNTED[site]))
+        chain.set_attitude(site, 0.62, multiply(multiply(from_yaw(north), pitch(lean)), MOUNTINGS[site]))
     chain.add_touchdown(Foot.LEFT, 0.62)
     assert chain.facing == pytest.approx(north)
     step = np.subtract(chain.end(Foot.LEFT, 0.62), chain.end(Foot.RIGHT, 0.62))
@@ -133,8 +133,8 @@ def test_the_first_step_shows_the_wearers_heading_in_the_world_of_the_sensors() 
 
 @given(st.lists(st.tuples(st.sampled_from(SEGMENTS), st.floats(-5, 5), st.tuples(*[st.floats()] * 4)), max_size=40))
 def test_for_any_attitudes_the_chain_is_finite(attitudes: list[tuple[Site, float, Quat]]) -> None:
-    chain = LowerLimbs(WORN)
-    stood(chain, MOUNTED)
+    chain = LowerLimbs(SETTINGS)
+    stood(chain, MOUNTINGS)
     for site, t, quat in attitudes:
         chain.set_attitude(site, t, quat)
     chain.add_touchdown(Foot.LEFT, 0.7)
@@ -171,35 +171,35 @@ def lean(attitude: Quat, stood: Quat) -> float:
     return float(np.arccos(min(1.0, z)))
 
 
-def again(chain: LowerLimbs, site: Site, world: Quat, start: float) -> None:
+def stand_again(chain: LowerLimbs, site: Site, world: Quat, start: float) -> None:
     """The wearer stands for 0.6 s more, with a sensor whose world is turned by `world` from the one before."""
     for k in range(31):
         for other in SEGMENTS:
-            attitude = multiply(world, MOUNTED[other]) if other is site else MOUNTED[other]
+            attitude = multiply(world, MOUNTINGS[other]) if other is site else MOUNTINGS[other]
             chain.set_attitude(other, start + 0.02 * k, attitude)
 
 
 def test_a_restarted_sensor_is_used_again_in_its_new_world_once_it_stood_still() -> None:
-    chain = LowerLimbs(WORN)
-    stood(chain, MOUNTED)
+    chain = LowerLimbs(SETTINGS)
+    stood(chain, MOUNTINGS)
     world = from_yaw(2.0)
     chain.reset(Site.LEFT_THIGH)
-    chain.set_attitude(Site.LEFT_THIGH, 0.62, multiply(world, MOUNTED[Site.LEFT_THIGH]))
+    chain.set_attitude(Site.LEFT_THIGH, 0.62, multiply(world, MOUNTINGS[Site.LEFT_THIGH]))
     assert not chain.is_current(0.62)
     assert "left thigh began anew" in chain.why_unusable(0.62, SEGMENTS)
-    again(chain, Site.LEFT_THIGH, world, 0.64)
+    stand_again(chain, Site.LEFT_THIGH, world, 0.64)
     assert chain.is_current(1.24)
     assert chain.end(Foot.LEFT, 1.24) == pytest.approx((0.2, 0.1, -0.95))
-    swing_back(chain, 1.26, world)
+    swing_left_leg(chain, 1.26, world)
 
 
 def test_why_the_chain_is_not_known_names_the_site() -> None:
-    chain = LowerLimbs(WORN)
+    chain = LowerLimbs(SETTINGS)
     assert chain.why_unusable(0.0, ()).startswith("no sensor heard at the pelvis, left thigh")
     assert chain.why_unusable(0.0, LIMB_SITES).startswith("no attitude, and no acceleration")
-    stood(chain, MOUNTED)
+    stood(chain, MOUNTINGS)
     for site in SEGMENTS:
         if site is not Site.RIGHT_SHANK:
-            chain.set_attitude(site, 1.0, MOUNTED[site])
+            chain.set_attitude(site, 1.0, MOUNTINGS[site])
     assert not chain.is_current(1.0)
     assert chain.why_unusable(1.0, LIMB_SITES) == "the newest attitude of the right shank is 0.4 s old"

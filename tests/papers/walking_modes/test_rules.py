@@ -9,16 +9,25 @@ from hypothesis import strategies as st
 
 from solepath.emulate.sensors.insoles import layout
 from solepath.papers.walking_modes.compensation import TABLE_1
-from solepath.papers.walking_modes.mode import PACE, POINTS, STRAIGHT_ON, TH, Contact, at_pace, decide, regions
+from solepath.papers.walking_modes.mode import (
+    MODE_THRESHOLD,
+    REFERENCE_SPEED,
+    REGION_POINTS,
+    STRAIGHT_SHARES,
+    Contact,
+    at_reference_speed,
+    decide,
+    regions,
+)
 from solepath.types import Cell, Foot, Layout, WalkingMode
 
 LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
-NOWHERE = dict.fromkeys(POINTS, 0.0)
+NO_LOAD = dict.fromkeys(REGION_POINTS, 0.0)
 
 
-def pressed(**shares: float) -> dict[str, float]:
+def shares_of(**shares: float) -> dict[str, float]:
     """Return shares that are zero on all regions but these."""
-    return {**NOWHERE, **shares}
+    return {**NO_LOAD, **shares}
 
 
 TABLE_2 = [
@@ -37,27 +46,36 @@ TABLE_2 = [
 
 @pytest.mark.parametrize(("foot", "region", "mode"), TABLE_2)
 def test_a_region_beyond_the_threshold_is_the_bend_of_table_2(foot: Foot, region: str, mode: WalkingMode) -> None:
-    assert decide(foot, 1.0, pressed(**{region: 1.1 * TH}), 0.0, TH) is mode
-    assert decide(foot, 1.0, pressed(**{region: 0.9 * TH}), 0.0, TH) is None
+    assert decide(foot, 1.0, shares_of(**{region: 1.1 * MODE_THRESHOLD}), 0.0, MODE_THRESHOLD) is mode
+    assert decide(foot, 1.0, shares_of(**{region: 0.9 * MODE_THRESHOLD}), 0.0, MODE_THRESHOLD) is None
 
 
 def test_a_tight_bend_goes_before_a_wide_one() -> None:
-    assert decide(LEFT, 1.0, pressed(R1=3.0 * TH, R2=1.1 * TH), 0.0, TH) is WalkingMode.LEFT_TIGHT
+    assert (
+        decide(LEFT, 1.0, shares_of(R1=3.0 * MODE_THRESHOLD, R2=1.1 * MODE_THRESHOLD), 0.0, MODE_THRESHOLD)
+        is WalkingMode.LEFT_TIGHT
+    )
 
 
 def test_of_two_edges_the_one_that_bears_more_counts() -> None:
-    assert decide(LEFT, 1.0, pressed(R1=1.2 * TH, L2=1.1 * TH), 0.0, TH) is WalkingMode.LEFT_WIDE
-    assert decide(LEFT, 1.0, pressed(R1=1.1 * TH, L3=1.2 * TH), 0.0, TH) is WalkingMode.RIGHT_WIDE
+    assert (
+        decide(LEFT, 1.0, shares_of(R1=1.2 * MODE_THRESHOLD, L2=1.1 * MODE_THRESHOLD), 0.0, MODE_THRESHOLD)
+        is WalkingMode.LEFT_WIDE
+    )
+    assert (
+        decide(LEFT, 1.0, shares_of(R1=1.1 * MODE_THRESHOLD, L3=1.2 * MODE_THRESHOLD), 0.0, MODE_THRESHOLD)
+        is WalkingMode.RIGHT_WIDE
+    )
 
 
 def test_straight_on_is_a_long_step_over_the_front_of_the_foot_with_nothing_else() -> None:
-    assert decide(LEFT, 0.16, NOWHERE, 1.1 * TH, TH) is WalkingMode.STRAIGHT
-    assert decide(LEFT, 0.14, NOWHERE, 1.1 * TH, TH) is None
-    assert decide(LEFT, 0.16, NOWHERE, 0.9 * TH, TH) is None
+    assert decide(LEFT, 0.16, NO_LOAD, 1.1 * MODE_THRESHOLD, MODE_THRESHOLD) is WalkingMode.STRAIGHT
+    assert decide(LEFT, 0.14, NO_LOAD, 1.1 * MODE_THRESHOLD, MODE_THRESHOLD) is None
+    assert decide(LEFT, 0.16, NO_LOAD, 0.9 * MODE_THRESHOLD, MODE_THRESHOLD) is None
 
 
 def test_whoever_drags_a_foot_round_is_in_no_bend() -> None:
-    assert decide(LEFT, 0.14, pressed(R2=3.0 * TH), 0.0, TH) is None
+    assert decide(LEFT, 0.14, shares_of(R2=3.0 * MODE_THRESHOLD), 0.0, MODE_THRESHOLD) is None
 
 
 def test_the_same_edge_of_both_feet_bears_the_same_turn() -> None:
@@ -68,7 +86,7 @@ def test_the_same_edge_of_both_feet_bears_the_same_turn() -> None:
 
 
 def pressed_mode(foot: Foot, region: str) -> WalkingMode | None:
-    return decide(foot, 1.0, pressed(**{region: 2.0 * TH}), 0.0, TH)
+    return decide(foot, 1.0, shares_of(**{region: 2.0 * MODE_THRESHOLD}), 0.0, MODE_THRESHOLD)
 
 
 def test_table_1_is_taken_in_centimetres_with_x_to_the_right_and_y_ahead() -> None:
@@ -84,7 +102,7 @@ def test_table_1_is_taken_in_centimetres_with_x_to_the_right_and_y_ahead() -> No
 def test_seven_regions_of_two_points_each_are_on_any_fine_insole(cells: int, foot: Foot) -> None:
     insole = layout(cells, foot)
     found = regions(insole)
-    assert {name: len(where) for name, where in found.items()} == dict.fromkeys(POINTS, 2)
+    assert {name: len(where) for name, where in found.items()} == dict.fromkeys(REGION_POINTS, 2)
     outward = 1.0 if foot is LEFT else -1.0
     for name, where in found.items():
         across = [outward * insole.cells[k].y for k in where]
@@ -95,7 +113,7 @@ def test_seven_regions_of_two_points_each_are_on_any_fine_insole(cells: int, foo
 
 
 def test_the_regions_of_both_feet_are_mirror_images() -> None:
-    for name in POINTS:
+    for name in REGION_POINTS:
         (left, right) = (
             sorted([(insole.cells[k].x, abs(insole.cells[k].y)) for k in regions(insole)[name]])
             for insole in (layout(99, LEFT), layout(99, RIGHT))
@@ -104,7 +122,7 @@ def test_the_regions_of_both_feet_are_mirror_images() -> None:
 
 
 def test_coarse_insoles_have_every_region_though_some_share_cells() -> None:
-    assert all(regions(layout(cells, LEFT))[name] for cells in (8, 24, 35) for name in POINTS)
+    assert all(regions(layout(cells, LEFT))[name] for cells in (8, 24, 35) for name in REGION_POINTS)
 
 
 def test_a_contact_gives_each_region_as_a_multiple_of_the_mean_cell() -> None:
@@ -123,16 +141,16 @@ def test_a_contact_gives_each_region_as_a_multiple_of_the_mean_cell() -> None:
 
 
 def test_at_its_own_pace_a_share_is_what_it_is_and_a_straight_way_is_straight_at_any() -> None:
-    shares = pressed(R1=2.5, R2=1.0, F1=2.0)
-    assert at_pace(shares, PACE) == pytest.approx(shares)
+    shares = shares_of(R1=2.5, R2=1.0, F1=2.0)
+    assert at_reference_speed(shares, REFERENCE_SPEED) == pytest.approx(shares)
     for speed in (0.0, 0.8, 1.4, 9.0):
-        assert at_pace({**STRAIGHT_ON, "F1": 1.0, "F2": 0.0}, speed) == pytest.approx(
-            {**STRAIGHT_ON, "F1": 1.0, "F2": 0.0}
+        assert at_reference_speed({**STRAIGHT_SHARES, "F1": 1.0, "F2": 0.0}, speed) == pytest.approx(
+            {**STRAIGHT_SHARES, "F1": 1.0, "F2": 0.0}
         )
 
 
 def test_a_slow_bend_leaves_less_of_a_mark_and_counts_for_more() -> None:
-    assert at_pace(pressed(R1=2.0), 0.8)["R1"] > 2.0 > at_pace(pressed(R1=2.0), 1.4)["R1"]
+    assert at_reference_speed(shares_of(R1=2.0), 0.8)["R1"] > 2.0 > at_reference_speed(shares_of(R1=2.0), 1.4)["R1"]
 
 
 @given(st.lists(st.lists(st.floats(-1e3, 1e5), min_size=99, max_size=99), max_size=4), st.floats(0.0, 5.0))
@@ -144,17 +162,17 @@ def test_whatever_the_cells_bear_a_contact_ends_in_a_mode_or_in_none(rows: list[
         contact.add(tuple(row), sum(row))
     shares = contact.shares()
     if shares is not None:
-        paced = at_pace(shares, contact.speed(step))
+        paced = at_reference_speed(shares, contact.speed(step))
         assert all(0.0 <= share < float("inf") for share in paced.values())
-        assert decide(LEFT, step, paced, shares["F1"] - shares["F2"], TH) in (None, *WalkingMode)
+        assert decide(LEFT, step, paced, shares["F1"] - shares["F2"], MODE_THRESHOLD) in (None, *WalkingMode)
 
 
-def shifted(insole: Layout) -> Layout:
-    """Return a layout of as many cells in another order."""
+def reorder(insole: Layout) -> Layout:
+    """Return the layout with its cells in another order."""
     return evolve(insole, cells=insole.cells[50:] + insole.cells[:50])
 
 
-BLIND = {
+UNUSABLE_LAYOUTS = {
     "guessed": evolve(layout(96, LEFT), cells=tuple(Cell(cell.x, 0.0) for cell in layout(96, LEFT).cells)),
     "few": evolve(layout(96, LEFT), cells=layout(96, LEFT).cells[:6]),
     "none": evolve(layout(96, LEFT), cells=()),
@@ -164,13 +182,13 @@ BLIND = {
 }
 
 
-@pytest.mark.parametrize("how", BLIND)
+@pytest.mark.parametrize("how", UNUSABLE_LAYOUTS)
 def test_cells_that_do_not_separate_left_from_right_have_no_regions_and_no_mode(how: str) -> None:
-    assert regions(BLIND[how]) == {}
+    assert regions(UNUSABLE_LAYOUTS[how]) == {}
     contact = Contact()
-    contact.set_layout(BLIND[how])
+    contact.set_layout(UNUSABLE_LAYOUTS[how])
     contact.start(0.0)
-    cells = (1.0,) * len(BLIND[how].cells)
+    cells = (1.0,) * len(UNUSABLE_LAYOUTS[how].cells)
     contact.add(cells, sum(cells))
     assert contact.shares() is None
 
@@ -179,9 +197,9 @@ def test_another_layout_of_as_many_cells_has_regions_of_its_own() -> None:
     contact = Contact()
     contact.set_layout(layout(96, LEFT))
     before = contact.region_cells
-    contact.set_layout(shifted(layout(96, LEFT)))
-    assert contact.region_cells == regions(shifted(layout(96, LEFT))) != before
+    contact.set_layout(reorder(layout(96, LEFT)))
+    assert contact.region_cells == regions(reorder(layout(96, LEFT))) != before
 
 
 def test_a_share_that_no_insole_can_have_is_bounded() -> None:
-    assert at_pace({"L1": 1e200}, 0.5)["L1"] < 1e9
+    assert at_reference_speed({"L1": 1e200}, 0.5)["L1"] < 1e9

@@ -1,1 +1,1 @@
-"""Liu et al. 2015: steps between static zones on a 20 Hz SensorTag, turns, activities, a Snake game on the plan."""
+"""Liu et al. 2015: strides of a 20 Hz SensorTag (the paper's steps), turns, activities, a Snake game on the plan."""

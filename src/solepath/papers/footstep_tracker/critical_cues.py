@@ -1,7 +1,7 @@
-"""Cues for heel-off, toe-off, heel-strike and foot-flat at the critical times of a step (Liu et al. 2015, IEEE MASS).
+"""Cues for heel-off, toe-off, heel-strike and foot-flat at the critical times of a stride (Liu et al. 2015, IEEE MASS).
 
-By algorithm 1. A detector that cuts the samples into steps (static_zones.StaticZones) gives all four at once. A foot
-that lies still again without a swing has taken no step and gives no cues."""
+Algorithm 1 gives the critical times. The detector that cuts the samples into strides (static_zones.StaticZones) passes
+on all four at once. A foot that lies still again without a swing has taken no stride; it gives foot-flat alone."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ from ...foot.phase import TO_COME, Cue
 from ...foot.stance.stance import Load, Stance
 from ...types import Phase, Vec3
 from ...types.attrs import define, field
-from .segment import StepSegment
+from .segment import StrideSegment
 
 
 @define
 class CriticalCues(Cues):
-    """Reports gait events at the critical times of a step.
+    """Reports gait events at the critical times of a stride.
 
-    Latency: all four are known when the static zone that ends the step is, `loose_length` s (static_zones.py) after
-    foot-flat; so toe-off some 0.6 s after it happened. `PressureCues` handles an insole alone."""
+    Latency: all four are known when the static zone that ends the stride is detected, `loose_length` s after foot-flat
+    (static_zones.py). Toe-off is known some 0.6 s after it happened. `PressureCues` handles an insole alone."""
 
     pressure: PressureCues = field(factory=PressureCues)
 
@@ -29,9 +29,9 @@ class CriticalCues(Cues):
         self, t: float, dt: float, acc: Vec3, gyro: Vec3, still: bool, speed: float, phase: Phase,
         load: Load | None, stance: Stance,
     ) -> Sequence[SeenCue]:  # fmt: skip
-        """Return uplift, liftoff, landing and rest of the segment that ends here, as cues (`Cues`)."""
+        """Return uplift, liftoff, landing and rest of the segment that ends at this sample, as cues (`Cues`)."""
         segment = stance.detail
-        if not isinstance(segment, StepSegment) or segment.times is None:
+        if not isinstance(segment, StrideSegment) or segment.times is None:
             if still and phase is not Phase.STATIONARY:
                 return (SeenCue(Cue.FLAT, t),)
             return ()

@@ -1,15 +1,18 @@
 """Track of the wearer by the strides of both feet (Liu et al. 2015, IEEE MASS, section IV.C).
 
 "Double feet based calibration": "If the difference of displacement for each foot is more than one meter, we chose the
-mean of them as the displacement, and restart the estimation process." The feet's displacements are summed since the
-last restart; each stride goes in the common direction, the mean of both feet's turns (section IV.D). Open in the paper:
+mean of them as the displacement, and restart the estimation process." Each foot's displacement is the sum of its
+strides since the last restart. Each stride is laid in the common direction, the mean of both feet's turns (section
+IV.D). The paper leaves these points open:
 
-- Up to a restart the wearer is at the mean of both paths, too. So a restart moves nothing; it sets the difference to
-  zero, which would otherwise hold ever older strides.
-- Half a stride lies between the feet. The difference is the mean of those after the newest stride of either foot, which
-  does not alternate with it.
+- Before a restart, too, the wearer is at the mean of both paths. So a restart does not move the wearer. It sets the
+  difference to zero, so that old strides no longer count in it.
+- After a stride the foot is half a stride ahead of the other, so the difference of the paths alternates. Therefore the
+  mean of the difference after the newest left stride and that after the newest right stride is compared with 1 m.
 - A foot that took no stride while the other took `ABSENT_STRIDES` is absent: it counts as if it had moved with the
-  other."""
+  other.
+
+Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -39,30 +42,30 @@ class FootPath:
 
     has_samples: bool = False
     """Flag: samples of the foot have come."""
-    here: Flat = (0.0, 0.0)
+    displacement: Flat = (0.0, 0.0)
     """Displacement since the last restart, m."""
     heading: float = 0.0
-    """Sum of the turns of all of its strides, rad."""
+    """Sum of the turns of the foot's strides and of those it is taken to have made while absent, rad, left positive."""
     own_heading: float = 0.0
-    """Heading of its own track, rad: the sum of turns without those added while it was absent."""
-    lead: Flat = (0.0, 0.0)
+    """Heading of the foot's own track, rad: the sum of the turns that were measured on this foot."""
+    lead_displacement: Flat = (0.0, 0.0)
     """Displacement since the other foot's last stride, m."""
     lead_turn: float = 0.0
     """Turn since the other foot's last stride, rad."""
     lead_strides: int = 0
     """Number of strides since the other foot's last stride."""
     difference: Flat = (0.0, 0.0)
-    """Left displacement less the right one after its newest stride, m."""
+    """Left foot's displacement minus the right foot's after the newest stride of this foot, m."""
     track_position: Vec3 = ZERO
-    """Position of its own track after its newest stride, world frame, m."""
+    """Position of this foot by its own track after its newest stride, world frame, m."""
 
 
 @define
 class Footsteps(TrackPart):
     """Tracks the wearer by the strides of both feet.
 
-    Between strides the position moves by half of what the track of either foot has moved since its last stride. World
-    frame, height 0. Latency: none beyond the strides' own."""
+    Between strides the position moves by half of what each foot's track has moved since that foot's last stride. World
+    frame, height 0. Latency: that of the strides."""
 
     needs_samples: ClassVar[bool] = True
 
@@ -70,7 +73,7 @@ class Footsteps(TrackPart):
     restart_position: Flat = field(default=(0.0, 0.0), init=False)
     """Position of the wearer at the last restart, m."""
     idle: bool = field(default=False, init=False)
-    """Flag: samples of both feet have come."""
+    """Flag: samples of both feet have come, after which `feed` does nothing (`TrackPart`)."""
     restarts: int = field(default=0, init=False)
     """Number of restarts."""
 
@@ -98,43 +101,46 @@ class Footsteps(TrackPart):
         x, y = _rotate((taken.displacement[0], taken.displacement[1]), heading - this.own_heading - 0.25 * turn)
         this.own_heading += turn
         this.heading += turn
-        if abs(this.heading - other.heading) > pi:  # whole turns are unknown
+        if abs(this.heading - other.heading) > pi:  # the feet may have counted a full circle differently
             this.heading -= 2.0 * pi * round((this.heading - other.heading) / (2.0 * pi))
-        this.here = (this.here[0] + x, this.here[1] + y)
-        this.lead = (this.lead[0] + x, this.lead[1] + y)
+        this.displacement = (this.displacement[0] + x, this.displacement[1] + y)
+        this.lead_displacement = (this.lead_displacement[0] + x, this.lead_displacement[1] + y)
         this.lead_turn += turn
         this.lead_strides += 1
         this.track_position = taken.position
-        other.lead, other.lead_turn, other.lead_strides = (0.0, 0.0), 0.0, 0
+        other.lead_displacement, other.lead_turn, other.lead_strides = (0.0, 0.0), 0.0, 0
         if not other.has_samples or this.lead_strides >= ABSENT_STRIDES:
-            other.here = (other.here[0] + this.lead[0], other.here[1] + this.lead[1])
+            other.displacement = (
+                other.displacement[0] + this.lead_displacement[0],
+                other.displacement[1] + this.lead_displacement[1],
+            )
             other.heading += this.lead_turn
-            this.lead, this.lead_turn = (0.0, 0.0), 0.0
-        (lx, ly), (rx, ry) = (path.here for path in self.paths.values())
+            this.lead_displacement, this.lead_turn = (0.0, 0.0), 0.0
+        (lx, ly), (rx, ry) = (path.displacement for path in self.paths.values())
         this.difference = (lx - rx, ly - ry)
         (ax, ay), (bx, by) = this.difference, other.difference
         if 0.5 * hypot(ax + bx, ay + by) > LARGEST_DISTANCE:
             self.restart_position = self._mean()
             for path in self.paths.values():
-                path.here = path.difference = (0.0, 0.0)
+                path.displacement = path.difference = (0.0, 0.0)
             self.restarts += 1
 
     def _mean(self) -> Flat:
-        (lx, ly), (rx, ry) = (path.here for path in self.paths.values())
+        (lx, ly), (rx, ry) = (path.displacement for path in self.paths.values())
         x, y = self.restart_position
         return (x + 0.5 * (lx + rx), y + 0.5 * (ly + ry))
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
-        known = list(feet.values())
-        if not known:
+        poses = list(feet.values())
+        if not poses:
             return None
         x, y = self._mean()
         heading = 0.5 * sum([path.heading for path in self.paths.values()])
         present = [
             f
-            for f in known
+            for f in poses
             if self.paths[f.foot].has_samples and self.paths[OTHER[f.foot]].lead_strides < ABSENT_STRIDES
-        ] or known
+        ] or poses
         k = 1.0 / len(present)
         for foot in present:
             path, (px, py, _) = self.paths[foot.foot], foot.position
@@ -142,7 +148,7 @@ class Footsteps(TrackPart):
             x, y = x + k * dx, y + k * dy
         covariances = [foot.covariance for foot in present]
         xx, xy, xz, yy, yz, zz = (sum([c[i] for c in covariances]) * k * k for i in range(6))
-        t = max([foot.t for foot in known])
+        t = max([foot.t for foot in poses])
         return Position(t, (x, y, 0.0), (xx, xy, xz, yy, yz, zz))
 
 

@@ -1,12 +1,14 @@
-"""Corrector that moves step by step over the ground (Liu et al. 2015, IEEE MASS, sections IV.C and IV.D).
+"""Corrector that moves stride by stride over the ground (Liu et al. 2015, IEEE MASS, sections IV.C and IV.D).
 
-step_length.py has the equations for a step's length and turn. Open in the paper, and settled here:
+stride_length.py has the equations for a stride's length and turn. The paper leaves these points open:
 
-- From one rest to the next the foot goes along its direction after half of the turn: the chord of an arc.
-- The integrals do not hold for a step that lost samples for longer than `LONGEST_GAP`: it ends where the live track
-  does, less the drift that its velocity shows at rest.
-- A foot that pivots on its sole, in what looks like a static zone, turns by its gyroscope.
-- `as_printed` uses the equations as they are printed, and none of these changes."""
+- From one rest to the next the foot moves in the direction that it has after half of the turn: the chord of an arc.
+- The integrals do not hold for a stride with a gap longer than `LONGEST_GAP`. Such a stride ends where the live
+  position is, minus the drift that the remaining velocity at rest implies.
+- A foot that pivots on its sole may seem to be in a static zone. Then its attitude follows the gyroscope.
+- `as_printed` uses the equations as they are printed, without any of these changes.
+
+Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -21,28 +23,28 @@ from ...types import Foot, Phase, Quat, Vec3
 from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import GRAVITY, IDENTITY, ZERO, from_yaw, heading_turned, multiply, rotate, tipped
 from .critical_times import CriticalTimes
-from .segment import StepSegment
-from .step_length import closed_step_length, step_length, swing_turn, vertical_turn
+from .segment import StrideSegment
+from .stride_length import closed_stride_length, stride_length, swing_turn, vertical_turn
 
 LONGEST_GAP = 0.12
-"""Longest gap of a step that the integrals hold for, s: two of the paper's samples."""
+"""Longest gap in a stride for which the integrals hold, s: two of the paper's samples."""
 LONGEST_MOTION = 2.0
-"""Time without rest after which the live position stays until the next rest, s."""
+"""Time without rest after which the live position is frozen until the next rest, s."""
 PIVOT_RATE = 0.15
 """Rate about the vertical above which a still foot pivots on its sole, rad/s."""
-END_SHARE = 0.8
-"""Least ratio of the ends of a gyroscope's ranges: they differ because the bias is removed already."""
+RANGE_END_SHARE = 0.8
+"""Least ratio of the range's ends on different axes and sides. They differ because the bias is removed already."""
 AXIS_SHARE = 0.95
-"""Ratio of rates about the foot's axes to those about the sensor's, which are up to 15 degrees off."""
-LONGEST_STEP = 3.0
-"""Length of the longest step, m."""
-STEP_ERROR, TURN_ERROR = 0.1, 0.05
-"""Error of a step as a share of its length (the paper's figure 11), and error of its turn, rad."""
+"""Least ratio of a rate about a foot axis to that about the sensor's axis, which is up to 15 degrees off."""
+LONGEST_STRIDE = 3.0
+"""Length of the longest stride, m."""
+STRIDE_ERROR, TURN_ERROR = 0.1, 0.05
+"""Error of a stride as a share of its length (the paper's figure 11), and error of its turn, rad."""
 
 
 @frozen
 class ProjectionSettings:
-    """Settings of `Projection`; phi of (1) is the product of the first two."""
+    """Settings of `Projection`; phi of (1) is `outwards` times `toe_out`."""
 
     toe_out: float = 0.0
     """Toe-out angle phi of this foot, rad, outwards positive."""
@@ -54,18 +56,18 @@ class ProjectionSettings:
 
 @define
 class Projection(Strapdown):
-    """Corrector that moves step by step.
+    """Corrector that moves the foot stride by stride, by the projected stride length.
 
-    Frame as in `Corrector`; height is always 0, for the paper's track has none. Latency: a step is known when the
-    static zone that ends it is. Meanwhile the live position and attitude are those of a strapdown, without its height,
-    and jump to the step's own end."""
+    The frame is that of `Corrector`. Height is always 0, because the paper's track has none. Latency: a stride is known
+    when the static zone that ends it is detected. Until then the live position and attitude are those of strapdown
+    integration at height 0. They jump at the end of the stride."""
 
     settings: ProjectionSettings = ProjectionSettings()
     turning: TurningSteps = field(factory=TurningSteps)
     largest_saturated: float = field(default=0.0, init=False)
-    """Largest rate about an axis that the device called saturated, rad/s; 0 when it never did."""
+    """Largest rate about an axis in a sample that the device marked as saturated, rad/s; 0 before the first."""
     least_saturated: float = field(default=0.0, init=False)
-    """Least saturated rate, rad/s, without those of an accelerometer's saturation."""
+    """Least rate, rad/s, of the saturated samples in which the gyroscope, not the accelerometer, was saturated."""
     rest_attitude: Quat = field(default=IDENTITY, init=False)
     """Attitude at the last rest."""
     rest_position: Vec3 = field(default=ZERO, init=False)
@@ -73,9 +75,9 @@ class Projection(Strapdown):
     moving_time: float = field(default=0.0, init=False)
     """Time since the last rest, s."""
     length: float = field(default=0.0, init=False)
-    """Way since the last anchor, m."""
-    steps: int = field(default=0, init=False)
-    """Number of steps since the last anchor."""
+    """Distance walked since the last anchor, m."""
+    stride_count: int = field(default=0, init=False)
+    """Number of strides since the last anchor."""
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> Projection:
         """Return the corrector for this foot, with its toe-out angle where it is known."""
@@ -88,7 +90,7 @@ class Projection(Strapdown):
         self.velocity = self.position = self.rest_position = ZERO
         self.force = self.rate = None
         self.moving_time = self.length = 0.0
-        self.steps = 0
+        self.stride_count = 0
 
     def predict(self, dt: float, acc: Vec3, gyro: Vec3, saturated: bool = False) -> None:
         before = self.position
@@ -98,8 +100,8 @@ class Projection(Strapdown):
             rate = max(abs(x), abs(y), abs(z))
             self.largest_saturated = max(self.largest_saturated, rate)
             if (
-                self.least_saturated < END_SHARE * self.largest_saturated
-                or END_SHARE * self.largest_saturated <= rate < self.least_saturated
+                self.least_saturated < RANGE_END_SHARE * self.largest_saturated
+                or RANGE_END_SHARE * self.largest_saturated <= rate < self.least_saturated
             ):
                 self.least_saturated = rate
         self.moving_time += dt
@@ -114,8 +116,8 @@ class Projection(Strapdown):
         if stance.hint is not Phase.STATIONARY:
             return False
         segment = stance.detail
-        if isinstance(segment, StepSegment):
-            self._end_step(segment)
+        if isinstance(segment, StrideSegment):
+            self._end_stride(segment)
         elif self.settings.as_printed or self.rate is None or abs(rotate(self.attitude, self.rate)[2]) < PIVOT_RATE:
             self.attitude = self.rest_attitude
         self.position, self.velocity = self.rest_position, ZERO
@@ -123,50 +125,50 @@ class Projection(Strapdown):
         self.rest_attitude, self.moving_time = self.attitude, 0.0
         return True
 
-    def _end_step(self, segment: StepSegment) -> None:
-        """Move the foot, which lies still again, to the end of the step."""
+    def _end_stride(self, segment: StrideSegment) -> None:
+        """Move the foot, which lies still again, to the end of the stride."""
         x, y, _ = self.rest_position
         if segment.longest_gap >= LONGEST_GAP:
             x, y = self._dedrifted_end()
         elif segment.times is not None:
-            x, y = self._step_end(segment, segment.times)
-        # else the foot turned on the spot or shook, without a swing
+            x, y = self._stride_end(segment, segment.times)
+        # without critical times the foot turned on the spot or shook
         x0, y0, _ = self.rest_position
         self.length += hypot(x - x0, y - y0)
-        self.steps += 1
+        self.stride_count += 1
         self.attitude = multiply(from_yaw(heading_turned(self.rest_attitude, self.attitude)), self.rest_attitude)
         self.rest_position = (x, y, 0.0)
 
-    def _step_end(self, segment: StepSegment, times: CriticalTimes) -> tuple[float, float]:
-        """Return the end of a step by the equations, m."""
+    def _stride_end(self, segment: StrideSegment, times: CriticalTimes) -> tuple[float, float]:
+        """Return the position (x, y) at the end of a stride by the equations, m."""
         settings, rows = self.settings, segment.rows
         phi = settings.outwards * settings.toe_out
         if settings.as_printed:
-            length, turn = sum(step_length(rows, times, phi)), swing_turn(rows, times)
+            length, turn = sum(stride_length(rows, times, phi)), swing_turn(rows, times)
         else:
             end = AXIS_SHARE * self.least_saturated if self.least_saturated > 0.0 else inf
-            length, turn = sum(closed_step_length(rows, times, phi, end)), vertical_turn(rows, times, end)
+            length, turn = sum(closed_stride_length(rows, times, phi, end)), vertical_turn(rows, times, end)
         turn = self.turning.turn(turn)
         fx, fy, _ = rotate(self.rest_attitude, segment.forward)
-        # x is to the right: the way lies phi to that side of the foot's direction
+        # the direction of walking lies phi to the right of the foot's long axis
         direction = atan2(fy, fx) + 0.5 * turn - phi
         self.attitude = multiply(from_yaw(turn), self.rest_attitude)
-        length = min(max(length, -LONGEST_STEP), LONGEST_STEP)
+        length = min(max(length, -LONGEST_STRIDE), LONGEST_STRIDE)
         x, y, _ = self.rest_position
         return x + length * cos(direction), y + length * sin(direction)
 
     def _dedrifted_end(self) -> tuple[float, float]:
-        """Return the end of a step by the live track less its drift, m."""
+        """Return the live position (x, y) without the drift that the velocity at rest implies, m."""
         x, y, _ = self.position
         vx, vy, _ = self.velocity
         half = 0.5 * min(self.moving_time, LONGEST_MOTION)
         x, y = x - vx * half, y - vy * half
         x0, y0, _ = self.rest_position
-        k = LONGEST_STEP / max(LONGEST_STEP, hypot(x - x0, y - y0))
+        k = LONGEST_STRIDE / max(LONGEST_STRIDE, hypot(x - x0, y - y0))
         return x0 + k * (x - x0), y0 + k * (y - y0)
 
     def repair(self, yaw: float, position: Vec3) -> None:
-        """Do nothing: a step that lost samples ends by `_dedrifted_end`, the others by their own equations alone."""
+        """Do nothing: `_dedrifted_end` ends a stride with a gap, and no other stride needs a repair."""
 
     def bridge(self, dt: float) -> float:
         if dt <= LONGEST_BRIDGE:
@@ -182,19 +184,19 @@ class Projection(Strapdown):
         self.moving_time += dt
 
     def anchor(self) -> tuple[float, ...]:
-        stretch = self.covariance()
-        self.length, self.steps = 0.0, 0
-        return stretch
+        covariance = self.covariance()
+        self.length, self.stride_count = 0.0, 0
+        return covariance
 
     def covariance(self) -> tuple[float, ...]:
         x, y, _ = self.position
         x0, y0, _ = self.rest_position
-        variance = (STEP_ERROR * (self.length + hypot(x - x0, y - y0))) ** 2
-        yaw = TURN_ERROR * TURN_ERROR * min(self.steps, 1000)
+        variance = (STRIDE_ERROR * (self.length + hypot(x - x0, y - y0))) ** 2
+        yaw = TURN_ERROR * TURN_ERROR * min(self.stride_count, 1000)
         return (variance, 0.0, 0.0, variance, 0.0, 0.0, yaw)
 
     def _level(self, dt: float) -> None:
-        """Turn the attitude about f x z so that the specific force points up, by 1/s."""
+        """Tilt the attitude so that the specific force comes to point up, with a time constant of 1 s."""
         if self.force is None:
             return
         fx, fy, _ = self.force

@@ -18,4 +18,4 @@ FOOTSTEP_TRACKER = Recipe(
     parts=usual(Footsteps(), TwoSecondWindows()),
     place=SnakeGame(),
 )
-"""Liu et al. 2015: steps between static zones, projected onto the ground; turns; candidate traces on a floor plan."""
+"""Liu et al. 2015: strides between static zones, projected onto the ground; turns; candidate traces on a floor plan."""

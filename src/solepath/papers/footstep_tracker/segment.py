@@ -1,4 +1,6 @@
-"""Samples of one step, between two static zones, and the axes of the foot."""
+"""Samples of one stride, between two static zones, and the axes of the foot.
+
+Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -10,60 +12,61 @@ from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY, ZERO
 from .critical_times import CriticalTimes, Row
 
-MISFITS = 3
-"""Number of steps in a row with another axis after which that one replaces the known one."""
+MOST_MISFITS = 3
+"""Number of consecutive strides about a different axis after which that axis replaces the learnt one."""
 LEAST_RISE = 0.25
-"""Least rise of the heel that shows the axis, rad."""
-STEP_WEIGHT = 0.2
-"""Weight of each step in the learnt axis."""
+"""Least rotation of the foot while the heel rises from which the axis is learnt, rad."""
+STRIDE_WEIGHT = 0.2
+"""Weight of each stride in the learnt axis."""
 
 
 @frozen
-class StepSegment:
-    """The samples of one step.
-
-    `rows` in the paper's axes; `times` None where there is no swing in them. `forward`: the foot's y axis in the sensor
-    frame, a unit vector. `longest_gap`: the longest time between two of its samples, s."""
+class StrideSegment:
+    """The samples of one stride."""
 
     rows: tuple[Row, ...]
+    """Samples in the paper's axes."""
     times: CriticalTimes | None
+    """Critical times; None when the samples contain no swing."""
     forward: Vec3
+    """Unit vector of the foot's y axis in the sensor frame."""
     longest_gap: float
+    """Longest time between two samples of the stride, s."""
 
 
 @define
 class FootAxes:
     """The mounting of the sensor: y forward and x to the right in the sensor frame, unit vectors.
 
-    Up is the specific force of a foot at rest. Across is the axis about which the heel rises at the start of a step,
-    for any mounting. Forward is the foot's own direction, the paper's d_f: between it and the way lies the toe-out
-    angle."""
+    Up is the direction of the specific force of a foot at rest. Right is the axis about which the heel rises at the
+    start of a stride. Forward is the foot's long axis, the paper's d_f. The toe-out angle lies between it and the
+    direction of walking. All this holds for any mounting of the sensor."""
 
     right: Vec3 | None = field(default=None, init=False)
-    """Learnt axis to the right, sensor frame; None before the first step."""
+    """Learnt axis to the right, sensor frame; None before the first stride."""
     misfits: int = field(default=0, init=False)
-    """Number of steps in a row that rose about another axis."""
+    """Number of consecutive strides in which the heel rose about an axis more than 60 degrees off the learnt one."""
 
     def add_segment(self, rows: Sequence[Row], up: Vec3) -> None:
-        """Add one segment, in the sensor frame, of a foot with the unit vector `up` at rest."""
-        found = _rise(rows, up)
-        if found is None:
+        """Add one segment in the sensor frame; `up` is the unit vector upwards while the foot rests."""
+        right = _rise(rows, up)
+        if right is None:
             return
         if self.right is None:
-            self.right = found
+            self.right = right
             return
-        (x, y, z), (u, v, w) = found, self.right
+        (x, y, z), (u, v, w) = right, self.right
         if u * x + v * y + w * z < 0.5:
             self.misfits += 1
-            if self.misfits < MISFITS:
+            if self.misfits < MOST_MISFITS:
                 return
-            u, v, w = found
+            u, v, w = right
         self.misfits = 0
-        k = STEP_WEIGHT
+        k = STRIDE_WEIGHT
         self.right = _unit((u + k * (x - u), v + k * (y - v), w + k * (z - w)))
 
     def axes(self, up: Vec3) -> tuple[Vec3, Vec3] | None:
-        """Return (x, y) of a foot with the unit vector `up` at rest; None while they are not known."""
+        """Return the axes (x, y) of a foot at rest whose unit vector upwards is `up`; None while they are not known."""
         if self.right is None:
             return None
         right = _unit(_horizontal(self.right, up))
@@ -71,7 +74,7 @@ class FootAxes:
 
 
 def to_foot_axes(rows: Sequence[Row], right: Vec3, forward: Vec3, up: Vec3) -> tuple[Row, ...]:
-    """Return rows of the sensor frame in the paper's axes, a_z with the paper's sign."""
+    """Convert rows from the sensor frame to the paper's axes, with the paper's sign of a_z."""
     (xx, xy, xz), (yx, yy, yz), (zx, zy, zz) = right, forward, up
     return tuple(
         [
@@ -85,27 +88,27 @@ def to_foot_axes(rows: Sequence[Row], right: Vec3, forward: Vec3, up: Vec3) -> t
 
 
 def scale_to_offset(rows: Sequence[Row], scale: float) -> tuple[Row, ...]:
-    """Return rows whose error at rest is corrected as an offset of the vertical axis instead of a scale.
+    """Return the rows with the error at rest removed as an offset of the vertical axis instead of by a scale factor.
 
-    The accelerations were multiplied by `scale`, so that they read 1 g at rest."""
+    The accelerations of `rows` had been multiplied by `scale`, so that they read 1 g at rest."""
     k = 1.0 / scale
     offset = GRAVITY * (k - 1.0)
     return tuple([(t, k * ax, k * ay, k * az + offset, gx, gy, gz) for t, ax, ay, az, gx, gy, gz in rows])
 
 
 def _rise(rows: Sequence[Row], up: Vec3) -> Vec3 | None:
-    """Return x to the right from the first turn of a segment about a level axis: the heel rises, the toe goes down."""
-    turned, largest, found = ZERO, 0.0, ZERO
+    """Return the axis to the right from the segment's first rotation about a level axis, in which the heel rises."""
+    rotation, largest, axis = ZERO, 0.0, ZERO
     for before, row in zip(rows, rows[1:], strict=False):
         dt = row[0] - before[0]
-        x, y, z = turned
-        turned = (x + row[4] * dt, y + row[5] * dt, z + row[6] * dt)
-        x, y, z = _horizontal(turned, up)
+        x, y, z = rotation
+        rotation = (x + row[4] * dt, y + row[5] * dt, z + row[6] * dt)
+        x, y, z = _horizontal(rotation, up)
         angle = sqrt(x * x + y * y + z * z)
         if angle > largest:
-            largest, found = angle, (-x, -y, -z)
+            largest, axis = angle, (-x, -y, -z)
         elif largest > LEAST_RISE and angle < 0.7 * largest:
-            return _unit(found)
+            return _unit(axis)
     return None
 
 

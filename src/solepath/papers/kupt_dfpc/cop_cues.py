@@ -1,19 +1,19 @@
 """Cues for toe-off and heel-strike from the centre of pressure (CoP), and the phases that follow from them.
 
-After Chen et al. 2019 (IEEE Internet of Things Journal 6), section III.C.2 and fig. 4. In the air the CoP is set to the
-foot's centre. Along the foot it jumps there from the toes when the foot leaves the ground (from sample A to B of the
-figure), rests there in the air, and jumps from there to the heel when the foot lands (C to D).
+After Chen et al. 2019 (IEEE Internet of Things Journal 6), section III.C.2 and fig. 4. While the foot is in the air the
+CoP is set to the foot's centre. So the CoP jumps from the toes to the centre when the foot leaves the ground (samples A
+and B of the figure), stays there in the air, and jumps to the heel when the foot lands (samples C and D).
 
-- Toe-off is the sample before the largest jump from motion start to the first sample of swing (point A).
-- Heel-strike is the sample after the largest jump from swing to motion end (point D).
-- Motion ends and starts with the first and after the last sample that the detector calls stationary.
-- A swing is normal when the CoP rested at the foot's centre for `REST_TIME` s. A stride without one is abnormal
-  (section IV.A): "toe-off and heel-strike were not extracted for that step". Its phases continue without a heel-strike,
-  and no mark is set, so that it calibrates nothing.
+- A motion starts after the last stationary sample, and ends with the next stationary sample.
+- Toe-off (A) is the sample before the largest jump between motion start and the first sample of swing.
+- Heel-strike (D) is the sample after the largest jump between swing and motion end.
+- A swing is normal if the CoP stayed at the foot's centre for `REST_TIME` s. A stride without a normal swing is
+  abnormal (section IV.A): "toe-off and heel-strike were not extracted for that step". Its phases follow one another
+  without a heel-strike. It has no mark, so it does not calibrate anything.
 
-Where the load is unknown (before it has fallen and risen once) the inertial cues are used. A foot that slides away
-without ever leaving the ground has cleared it when it has been fast for `SHUFFLE_TIME`. The table of stages.py gives
-the next stage for each cue of the cells."""
+The inertial cues are used while the load is unknown, that is until it has fallen and risen once. A foot that slides
+away without leaving the ground has its toe-off where it became fast, if it stays fast for `SHUFFLE_TIME`. The table of
+stages.py gives the next stage for each cue of the cells. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -28,59 +28,61 @@ from ...foot.stance.stance import Load, Stance
 from ...types import Layout, Phase, Vec3
 from ...types.attrs import define, field
 from ...types.vector import TIE
-from .stages import STAGES, CellCue, StepStage
+from .stages import STAGES, CellCue, StrideStage
 
 LARGEST_JUMP = 1e3
-"""Jump that no centre of pressure exceeds, m."""
+"""Jump that the centre of pressure cannot exceed, m."""
 REST_TIME, LONGEST_LANDING = 0.1, 0.4
-"""Rest of the CoP at the foot's centre that makes a swing normal, s, and longest wait for a stationary foot, s.
+"""Least time of the CoP at the foot's centre in a normal swing, and longest wait for a stationary foot on landing, s.
 
-After the wait a heel-strike is reported even when the foot is not stationary yet."""
+After the wait a heel-strike is reported even if the foot is not stationary yet."""
 SHUFFLE_TIME = 0.25
-"""Time for which a foot must be fast (InertialCues) to have left without ever being in the air, s."""
+"""Time, s, after which a foot that stays fast (InertialCues) without being in the air counts as swinging."""
 AREA_ON, AREA_OFF = 0.05, 0.03
-"""Shares of the full load for an insole alone: both areas above the first are flat, until one is below the second."""
+"""Loads for an insole alone, as shares of the full load (that of cells that bear the body, foot/pressure/insole.py).
+
+Foot-flat starts when both areas exceed the first, and lasts until one falls below the second."""
 LOAD_VALID_TIME = 0.05
-"""Time for which samples without cells are skipped where cells come more slowly than inertial samples, s."""
+"""Longest time, s, for which samples without a load are skipped, because cells are read less often than the IMU."""
 
 
 @define
 class CopCues(Cues):
     """Reports toe-off and heel-strike from the centre of pressure.
 
-    Latency: toe-off one sample; heel-strike and foot-flat at the first stationary sample, as the paper has it; heel-off
-    one sample."""
+    Latency: toe-off and heel-off are known one sample later, heel-strike and foot-flat at the first stationary sample,
+    as in the paper."""
 
     inertial: InertialCues = field(factory=InertialCues)
     touch: Touch = field(factory=Touch)
     sagittal: float = field(default=0.0, init=False)
     """Rate about the axis to the wearer's left in the last sample, positive toe down, rad/s (`Cues`)."""
     mark: Cue | None = field(default=None, init=False)
-    """Mark of the last sample, None without one. CLEAR: the sample before the last is the best candidate so far for
-    toe-off. CONTACT: the last sample is the best candidate for heel-strike."""
+    """Mark of the last sample, None without one. `Cue.CLEAR` means that the sample before it is the best candidate so
+    far for toe-off, `Cue.CONTACT` that the last sample is the best candidate for heel-strike."""
     foot_centre: float | None = field(default=None, init=False)
-    """Coordinate x of the foot's centre, m; None without a layout."""
-    stage: StepStage = field(default=StepStage.LEAVING, init=False)
+    """Coordinate x of the foot's centre, foot frame, m; None without a layout."""
+    stage: StrideStage = field(default=StrideStage.LEAVING, init=False)
     """Stage of the stride by the cells."""
     cop: float | None = field(default=None, init=False)
-    """Coordinate x of the centre of pressure in the last sample, m."""
-    load_at: float | None = field(default=None, init=False)
+    """Coordinate x of the centre of pressure in the last sample, foot frame, m."""
+    load_t: float | None = field(default=None, init=False)
     """Time of the last sample with a load, s."""
     largest_jump: float = field(default=-1.0, init=False)
     """Largest jump of the CoP so far in this stage, m."""
-    candidate_at: float | None = field(default=None, init=False)
+    candidate_t: float | None = field(default=None, init=False)
     """Time of the best candidate for toe-off or heel-strike, s."""
-    ground_at: float | None = field(default=None, init=False)
+    ground_t: float | None = field(default=None, init=False)
     """Time of the last sample on the ground, s."""
-    stage_since: float = field(default=0.0, init=False)
+    stage_t_start: float = field(default=0.0, init=False)
     """Start of the stage, s."""
-    airborne_since: float | None = field(default=None, init=False)
+    airborne_t_start: float | None = field(default=None, init=False)
     """Start of the time in the air, s; None on the ground."""
     contact_reported: bool = field(default=False, init=False)
     """Flag: the heel-strike of this landing was reported."""
-    fast_since: float | None = field(default=None, init=False)
+    fast_t_start: float | None = field(default=None, init=False)
     """Time since which the foot has been fast, s; None while it is not."""
-    flat: bool = field(default=False, init=False)
+    areas_loaded: bool = field(default=False, init=False)
     """Flag, for an insole alone: both areas are loaded."""
 
     def set_layout(self, layout: Layout) -> None:
@@ -94,142 +96,141 @@ class CopCues(Cues):
         self.mark = None
         seen = self.inertial.update(t, dt, acc, gyro, still, speed, phase)
         self.sagittal = 0.0 if self.inertial.axis is None else self.inertial.sagittal
-        if load is None and self.load_at is not None and t - self.load_at < LOAD_VALID_TIME:
+        if load is None and self.load_t is not None and t - self.load_t < LOAD_VALID_TIME:
             return ()
         stationary = still and stance.hint is Phase.STATIONARY
         airborne = self.touch.update(t, load, stationary)
         if load is None or not self.touch.trusted:
             self._discard_load(t)
             return () if seen is None else (seen,)
-        found = self._start(t, airborne, phase) if self.load_at is None else []
-        found += self._add_load(t, stationary, airborne, load)
-        if self.stage is StepStage.LEAVING and phase is not Phase.SWING and speed >= SHUFFLE_SPEED:
-            if self.fast_since is None:
-                self.fast_since = t
-            elif t - self.fast_since >= SHUFFLE_TIME - TIE:
-                found.append(SeenCue(Cue.CLEAR, self.fast_since))
+        cues = self._start(t, airborne, phase) if self.load_t is None else []
+        cues += self._add_load(t, stationary, airborne, load)
+        if self.stage is StrideStage.LEAVING and phase is not Phase.SWING and speed >= SHUFFLE_SPEED:
+            if self.fast_t_start is None:
+                self.fast_t_start = t
+            elif t - self.fast_t_start >= SHUFFLE_TIME - TIE:
+                cues.append(SeenCue(Cue.CLEAR, self.fast_t_start))
         else:
-            self.fast_since = None
-        return found
+            self.fast_t_start = None
+        return cues
 
     def alone(self, t: float, dt: float, load: Load, phase: Phase) -> Sequence[SeenCue]:
-        """Return the cues of one sample of an insole alone (`Cues`): both loaded areas take the place of the detector.
+        """Return the cues of one sample of an insole alone (`Cues`); a foot is stationary when both areas are loaded.
 
         Without a layout there are no areas; then a heel-strike is reported at once, and foot-flat never."""
         if load.heel is None or load.forefoot is None:
-            self.flat = False
-            found = self._add_load(t, False, self.touch.update(t, load), load)
-            if self.stage is StepStage.LANDING:
-                found += self._with_times((Cue.CONTACT,), t)
-            return found
-        self.flat = min(load.heel, load.forefoot) >= (AREA_OFF if self.flat else AREA_ON)
-        return self._add_load(t, self.flat, self.touch.update(t, load), load)
+            self.areas_loaded = False
+            cues = self._add_load(t, False, self.touch.update(t, load), load)
+            if self.stage is StrideStage.LANDING:
+                cues += self._with_times((Cue.CONTACT,), t)
+            return cues
+        self.areas_loaded = min(load.heel, load.forefoot) >= (AREA_OFF if self.areas_loaded else AREA_ON)
+        return self._add_load(t, self.areas_loaded, self.touch.update(t, load), load)
 
     def _start(self, t: float, airborne: bool, phase: Phase) -> list[SeenCue]:
-        """Return the cues at the first sample with a known load, in a swing or at its end."""
+        """Return the cues at the first sample with a known load, when the foot swings or has just landed."""
         if airborne:
-            left = self.touch.moving_since
-            self.stage = StepStage.FLYING
-            self.airborne_since = t - REST_TIME
-            return [] if phase is Phase.SWING else [SeenCue(Cue.CLEAR, t if left is None else left)]
+            moving_t_start = self.touch.moving_since
+            self.stage = StrideStage.FLYING
+            self.airborne_t_start = t - REST_TIME
+            return [] if phase is Phase.SWING else [SeenCue(Cue.CLEAR, t if moving_t_start is None else moving_t_start)]
         if phase is Phase.SWING:
-            self._enter(StepStage.LANDING, t)
-            self.largest_jump, self.candidate_at = LARGEST_JUMP, t  # its first load: reported, but no mark
+            self._enter(StrideStage.LANDING, t)
+            self.largest_jump, self.candidate_t = LARGEST_JUMP, t  # report this sample, but never set a mark
         return []
 
     def _add_load(self, t: float, stationary: bool, airborne: bool, load: Load) -> list[SeenCue]:
         """Return the cues of one sample with a load."""
-        last_cop, before = self.cop, self.load_at
-        self.load_at = t
-        on_ground = last_cop if load.centre is None else load.centre[0]
-        new_cop = self.foot_centre if airborne else on_ground
+        last_cop, last_t = self.cop, self.load_t
+        self.load_t = t
+        ground_cop = last_cop if load.centre is None else load.centre[0]
+        new_cop = self.foot_centre if airborne else ground_cop
         self.cop = new_cop
         jump = 0.0 if last_cop is None or new_cop is None else abs(new_cop - last_cop)
-        found: list[SeenCue] = []
+        cues: list[SeenCue] = []
         for cue in self._cell_cues(t, stationary, airborne):
             stage, reported = STAGES[self.stage][cue]
-            found += self._with_times(reported, t)
+            cues += self._with_times(reported, t)
             if stage is self.stage or cue is CellCue.LEAVES or cue is CellCue.BRUSHES:
                 self.stage = stage  # the search for the largest jump continues
             else:
                 self._enter(stage, t)
             if cue is CellCue.MOVES or cue is CellCue.LANDS:
-                self._update_candidate(jump, before, t)
+                self._update_candidate(jump, last_t, t)
         if not airborne:
-            self.ground_at, self.airborne_since = t, None
-        elif self.airborne_since is None:
-            self.airborne_since = t
-        return found
+            self.ground_t, self.airborne_t_start = t, None
+        elif self.airborne_t_start is None:
+            self.airborne_t_start = t
+        return cues
 
     def _cell_cues(self, t: float, stationary: bool, airborne: bool) -> list[CellCue]:
         """Return the cues of the cells in this sample, in order."""
-        rested = self.airborne_since is not None and t - self.airborne_since >= REST_TIME - TIE
-        landing = self.stage is StepStage.LANDING
+        rested = self.airborne_t_start is not None and t - self.airborne_t_start >= REST_TIME - TIE
+        landing = self.stage is StrideStage.LANDING
         if airborne:
             if landing:
                 return [CellCue.LEAVES] if rested else []
             return [CellCue.MOVES, CellCue.LEAVES]
-        if self.stage is StepStage.FLYING:
+        if self.stage is StrideStage.FLYING:
             touched = CellCue.LANDS if rested else CellCue.BRUSHES
             return [touched, CellCue.STANDS] if stationary else [touched]
         if stationary:
             return [CellCue.STANDS]
-        lingers = landing and t - self.stage_since >= LONGEST_LANDING - TIE
+        lingers = landing and t - self.stage_t_start >= LONGEST_LANDING - TIE
         return [CellCue.MOVES, CellCue.LINGERS] if lingers else [CellCue.MOVES]
 
-    def _update_candidate(self, jump: float, before: float | None, t: float) -> None:
-        """Make the sample the best candidate if the CoP jumped by more m since `before`, s, than ever in this stage."""
+    def _update_candidate(self, jump: float, last_t: float | None, t: float) -> None:
+        """Make the sample the best candidate if its jump, m, since `last_t`, s, is the largest of this stage."""
         if jump <= self.largest_jump:
             return
-        if self.stage is StepStage.LEAVING and before is not None:
-            self.largest_jump, self.candidate_at, self.mark = jump, before, Cue.CLEAR
-        elif self.stage is StepStage.LANDING and not self.contact_reported:
-            self.largest_jump, self.candidate_at, self.mark = jump, t, Cue.CONTACT
+        if self.stage is StrideStage.LEAVING and last_t is not None:
+            self.largest_jump, self.candidate_t, self.mark = jump, last_t, Cue.CLEAR
+        elif self.stage is StrideStage.LANDING and not self.contact_reported:
+            self.largest_jump, self.candidate_t, self.mark = jump, t, Cue.CONTACT
 
     def _with_times(self, cues: Sequence[Cue], t: float) -> list[SeenCue]:
-        """Return the cues with their times."""
-        found: list[SeenCue] = []
+        timed_cues: list[SeenCue] = []
         for cue in cues:
-            cue_at: float | None = t
+            cue_t: float | None = t
             if cue is Cue.CONTACT:
-                cue_at, self.contact_reported = (
-                    None if self.contact_reported else self.candidate_at,
-                    self.contact_reported or self.candidate_at is not None,
+                cue_t, self.contact_reported = (
+                    None if self.contact_reported else self.candidate_t,
+                    self.contact_reported or self.candidate_t is not None,
                 )
             elif cue is Cue.CLEAR:
-                landing = self.stage is StepStage.LANDING  # the candidate is one for heel-strike
-                cue_at = self.candidate_at if self.candidate_at is not None and not landing else self.ground_at
-                if cue_at is None:
-                    cue_at = self.airborne_since if landing else t
-            if cue_at is not None:
-                found.append(SeenCue(cue, cue_at))
-        return found
+                landing = self.stage is StrideStage.LANDING  # then the candidate is one for heel-strike
+                cue_t = self.candidate_t if self.candidate_t is not None and not landing else self.ground_t
+                if cue_t is None:
+                    cue_t = self.airborne_t_start if landing else t
+            if cue_t is not None:
+                timed_cues.append(SeenCue(cue, cue_t))
+        return timed_cues
 
-    def _enter(self, stage: StepStage, t: float) -> None:
+    def _enter(self, stage: StrideStage, t: float) -> None:
         self.stage = stage
-        self.stage_since = t
+        self.stage_t_start = t
         self.largest_jump = -1.0
-        self.candidate_at = self.airborne_since = None
+        self.candidate_t = self.airborne_t_start = None
         self.contact_reported = False
 
     def _discard_load(self, t: float) -> None:
-        """Discard the load, which is unknown now: the stride under way is not a normal one."""
-        if self.load_at is not None or self.stage is not StepStage.LEAVING:
-            self._enter(StepStage.LEAVING, t)
-        self.load_at = self.cop = self.ground_at = None
+        """Discard what depends on the load, which is now unknown; so the present stride is not a normal one."""
+        if self.load_t is not None or self.stage is not StrideStage.LEAVING:
+            self._enter(StrideStage.LEAVING, t)
+        self.load_t = self.cop = self.ground_t = None
 
     def cleared(self, t: float) -> SeenCue:
         return self.inertial.cleared(t)
 
     def reset(self) -> None:
         self.inertial.reset()
-        self.fast_since = None
-        if self.load_at is not None:
-            self._discard_load(self.load_at)
+        self.fast_t_start = None
+        if self.load_t is not None:
+            self._discard_load(self.load_t)
 
     def restart(self) -> None:
         self.inertial = self.inertial.restart()
         self.touch = self.touch.restart()
-        self._enter(StepStage.LEAVING, 0.0)
-        self.cop = self.load_at = self.ground_at = self.fast_since = self.mark = None
-        self.flat = False
+        self._enter(StrideStage.LEAVING, 0.0)
+        self.cop = self.load_t = self.ground_t = self.fast_t_start = self.mark = None
+        self.areas_loaded = False

@@ -1,30 +1,32 @@
 """Double-foot position calibration: the strides of both feet calibrate each other (recipe kupt-dfpc).
 
 "Smart insole-based indoor localization system for Internet of Things applications", IEEE Internet of Things Journal 6,
-2019, section III.C.4: similarity of two steps (9), error index (10, from the corrector), coefficient (11), calibrated
-stride length (12), choice of the foot (13). The paper's step of a foot is called a stride here.
+2019, section III.C.4: similarity r of two steps (9), error index EI (10, from the corrector), coefficient (11),
+calibrated stride length (12), choice of the foot (13). The paper's step of one foot is called a stride here.
 
-Settled here, because the paper leaves it open:
+The paper leaves these points open:
 
-- The other foot's stride is its latest one that ended before this one did (fig. 9: L1, R1, L2, ... each by the one
-  before). It is not used when it ended before this stride started (the other foot left one out) or longer than
-  `LONGEST_WAIT` before this foot left the ground (the wearer stood), nor when it was abnormal.
-- A stride that has nothing to be compared with, or is itself abnormal (no error index), keeps its own length:
-  coefficient 1. So does one that is not similar at all, r = 0, or whose similarity is undefined because a path of the
-  centre of pressure is constant or unknown: (11) tends to 1 as r goes to 0.
+- A stride's partner is the other foot's latest stride that ended before this one did (fig. 9: L1, R1, L2, ...). There
+  is no partner if that stride ended before this one started (the other foot skipped a stride), or more than
+  `LONGEST_WAIT` before this foot left the ground (the wearer stood). An abnormal partner does not calibrate a length.
+- A stride without a normal partner keeps its own length: the coefficient is 1. So does an abnormal stride (which has no
+  error index). The same holds for r = 0 and for an undefined r, when a path of the centre of pressure is constant or
+  unknown: (11) tends to 1 as r goes to 0.
 - A half stride and a whole one are not similar: fig. 11 has low similarities at the first and the last step of a walk.
-  Our paths of the centre of pressure end at toe-off, before it shows that a stride closes the walk; so strides of which
-  one is shorter than `LENGTH_RATIO` of the other have r = 0.
-- (11) is computed as EI_other / (EI_other + r EI_own), which is the same and divides by zero only where both error
-  indices are zero; there it is 1 / (1 + r), as for any two equal ones.
-- (13) adds up pairs of strides. A pair is a stride and the other foot's before it, each stride in one pair at most:
-  with feet that take turns that is the k-th left with the k-th right one, and a stride missing on one side shifts
-  nothing. While the sum is zero the foot that stepped first is the chosen one.
-- An abnormal stride has no error index. If (13) left it out, it would count in favour of its foot. In a pair with a
-  normal stride it counts as `ABNORMAL_EXCESS` m/s worse than that, by the mean of both lengths as in (13), so the
-  weight of an absurd stride is its length. A pair of two abnormal strides favours neither foot.
+  Paths of the centre of pressure here end at toe-off, too early to show that a stride is the last one of a walk. So
+  r = 0 if one stride is shorter than `LENGTH_RATIO` of the other.
+- (11) is computed in the equivalent form EI_other / (EI_other + r EI_own). Its denominator is zero only if both error
+  indices are zero; then 1 / (1 + r) is used, as for any two equal error indices.
+- (13) is a sum over pairs of a stride and its partner. A stride is in one pair at most. If the feet alternate, the k-th
+  left stride is paired with the k-th right one, and a missing stride does not shift later pairs. While the sum is zero,
+  the foot of the first stride is chosen.
+- An abnormal stride has no error index. If (13) left it out, that would favour its foot. In a pair with a normal stride
+  its error is taken to be `ABNORMAL_EXCESS` m/s larger. As in (13) this is multiplied by the mean of both lengths, so
+  an absurdly long stride has a large weight. A pair of two abnormal strides counts for neither foot.
 - A foot that took no stride during `ABSENT_STRIDES` strides of the other is not chosen, whatever (13) gives. When it
-  steps again its path continues from the other's end, since its way in between is not known."""
+  moves again, its path continues from the end of the other foot's path, since its own movement is not known.
+
+Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -49,12 +51,12 @@ ABSENT_AFTER = 1.0
 LEAST_LENGTH = 1e-6
 """Length below which a stride has no direction, m."""
 LEAST_SPREAD = 1e-12
-"""Variation of a path of the centre of pressure below which it is constant but for rounding, m^2."""
+"""Sum of squared deviations, m^2, below which a path of the centre of pressure counts as constant."""
 LONGEST_WAIT, LENGTH_RATIO, ABSENT_STRIDES = 1.0, 0.75, 3
-"""Oldest end of a stride of the other foot that is used, s, a ratio of lengths, and a number of strides.
+"""Longest time from the partner's end to toe-off, s; least ratio of lengths; number of strides.
 
-If one stride is shorter than this ratio of the other, r is 0. A foot without a stride during so many of the other's is
-not chosen."""
+If the shorter stride is less than this ratio of the longer one, r is 0. A foot that takes no stride during that number
+of strides of the other foot is absent, and is not chosen."""
 ABNORMAL_EXCESS = 1.0
 """Excess error of an abnormal stride over a normal one, m/s.
 
@@ -63,14 +65,16 @@ It is about the sum of the error indices of normal strides on recorded insoles."
 
 @define
 class FusedStride:
-    """A stride of one foot as the fusion keeps it."""
+    """A stride of one foot after fusion."""
 
     t_end: float
+    """End of the stride, s."""
     length: float
     """Length by the foot's own track, m."""
     calibrated_length: float
     """Calibrated length D of (12), m."""
     error_index: float | None
+    """Error index (10), m/s; None for an abnormal stride."""
     cop_path: tuple[float, ...]
     """Centre of pressure along the foot at POINTS instants, m; empty when it is not known."""
     paired: bool = False
@@ -82,29 +86,30 @@ class CalibratedPath:
     """The calibrated path of one foot."""
 
     strides: list[FusedStride] = field(factory=list)
+    """Latest `KEPT_STRIDES` strides, oldest first."""
     end: Vec3 = ZERO
     """End of the last stride, world frame, m."""
     distance: float = 0.0
     """Sum of the calibrated lengths, m."""
     offset: tuple[float, float] = (0.0, 0.0)
-    """Shift of `end` by calibration against the foot's own track, m."""
+    """Sum of the changes of strides by calibration (x, y), world frame, m."""
     foot_position: Vec3 = ZERO
     """Position of the foot's own track after its last stride, world frame, m."""
     other_strides: int = 0
-    """Number of strides of the other foot since this one's last."""
+    """Number of strides of the other foot since this foot's last stride."""
 
 
 @define
 class DoubleFoot(TrackPart):
-    """Fuses both feet: takes their strides and reports one `StrideFused` for each.
+    """Fuses the strides of both feet, and reports one `StrideFused` for each stride.
 
-    Latency: none beyond the stride's own. The choice of (13) is repeated after every stride and is final for it. O(1)
-    memory.
+    Latency: that of the stride. The foot is chosen again after every stride by (13). A choice is never revised. Memory
+    is constant.
 
-    The live position is that of the chosen foot on its calibrated path: the path's end, plus the motion of the foot's
-    own track since; it is the other foot's while the chosen one is absent. So it stands while that foot stands, and
-    jumps by half a stride when the choice changes. Its covariance is that of the foot's own track plus the square of
-    the shift by calibration, because either may be right."""
+    The live position is the end of the chosen foot's calibrated path plus the motion of that foot's own track since
+    then. While the chosen foot is absent, the other foot is used. So the live position stands still with that foot, and
+    jumps by half a stride when the choice changes. The covariance is that of the foot's own track plus the square of
+    the shift by calibration, because either path may be the right one."""
 
     needs_samples: ClassVar[bool] = True
     idle = True
@@ -125,15 +130,15 @@ class DoubleFoot(TrackPart):
         return [self.add_stride(stride, middle) for stride in strides]
 
     def reset(self, site: Site) -> None:
-        """Discard the foot's strides so far, whose times are on another clock."""
+        """Discard the foot's strides so far, because their times are on another clock."""
         if site.foot is not None:
             self.paths[site.foot].strides = []
 
     def add_stride(self, taken: StrideTaken, centre: float | None) -> StrideFused:
         """Add one stride and return its fusion with the other foot's.
 
-        `centre`: x of the insole's centre in the foot frame, m, where the centre of pressure is taken to be while the
-        foot is in the air (section III.C.2); None when there is no insole."""
+        `centre` is the x coordinate of the insole's centre, foot frame, m; None without an insole. While the foot is in
+        the air, the centre of pressure is set to it (section III.C.2)."""
         foot = taken.foot
         path, other_path = self.paths[foot], self.paths[OTHER[foot]]
         index = _valid_index(taken.features.error_index)
@@ -151,8 +156,8 @@ class DoubleFoot(TrackPart):
         if partner is not None and not partner.paired:
             partner.paired = paired = True
             excess = self._excess_error(index, partner.error_index)
-            mean = 0.5 * (abs(length) + abs(partner.calibrated_length))
-            self.error_balance += (excess if foot is Foot.LEFT else -excess) * mean  # (13)
+            mean_length = 0.5 * (abs(length) + abs(partner.calibrated_length))
+            self.error_balance += (excess if foot is Foot.LEFT else -excess) * mean_length  # (13)
         fused = FusedStride(taken.t_end, taken.length, length, index, cop_path, paired)
         path.strides = [*path.strides[1 - KEPT_STRIDES :], fused]
         self._extend(path, other_path, taken, length)
@@ -174,27 +179,27 @@ class DoubleFoot(TrackPart):
         )
 
     def _excess_error(self, own: float | None, other: float | None) -> float:
-        """Return by how much the one stride errs more than the other, m/s."""
+        """Return the error index of this stride minus that of the other foot's stride, m/s."""
         if own is None:
             return 0.0 if other is None else ABNORMAL_EXCESS
         return -ABNORMAL_EXCESS if other is None else own - other
 
     def _partner(self, taken: StrideTaken, other_path: CalibratedPath) -> FusedStride | None:
-        """Return the other foot's latest stride before this one; None if it is too old."""
-        left_at = taken.t_start if taken.t_toe_off is None else taken.t_toe_off
+        """Return the partner: the other foot's latest stride that ended before this one; None if it is too old."""
+        toe_off_t = taken.t_start if taken.t_toe_off is None else taken.t_toe_off
         for fused in reversed(other_path.strides):
             if fused.t_end <= taken.t_end:
-                fresh = fused.t_end > taken.t_start and left_at - fused.t_end <= LONGEST_WAIT
-                return fused if fresh else None
+                is_recent = fused.t_end > taken.t_start and toe_off_t - fused.t_end <= LONGEST_WAIT
+                return fused if is_recent else None
         return None
 
     def _extend(self, path: CalibratedPath, other_path: CalibratedPath, taken: StrideTaken, length: float) -> None:
-        """Extend the path in the stride's own direction, by the calibrated length."""
+        """Extend the path in the direction of the stride by the calibrated length, m."""
         if path.other_strides >= ABSENT_STRIDES:
             path.end, path.distance, path.offset = other_path.end, other_path.distance, other_path.offset
         dx, dy, dz = taken.displacement
-        own = taken.length
-        k = length / own if own > LEAST_LENGTH else 1.0
+        own_length = taken.length
+        k = length / own_length if own_length > LEAST_LENGTH else 1.0
         x, y, z = path.end
         path.end = (x + k * dx, y + k * dy, z + dz)
         path.distance += abs(length)
@@ -217,44 +222,43 @@ class DoubleFoot(TrackPart):
         newest = max([pose.t for pose in feet.values()])
         present = [foot for foot, pose in feet.items() if newest - pose.t < ABSENT_AFTER]
         chosen = self.chosen if self.chosen in present else present[0]
-        path, foot = self.paths[chosen], feet[chosen]
-        dx, dy, dz = sub(foot.position, path.foot_position)
+        path, pose = self.paths[chosen], feet[chosen]
+        dx, dy, dz = sub(pose.position, path.foot_position)
         x, y, z = path.end
-        xx, xy, xz, yy, yz, zz = foot.covariance
+        xx, xy, xz, yy, yz, zz = pose.covariance
         sx, sy = path.offset
         return Position(newest, (x + dx, y + dy, z + dz), (xx + sx * sx, xy + sx * sy, xz, yy + sy * sy, yz, zz))
 
 
 def resample_cop(taken: StrideTaken, centre: float) -> tuple[float, ...]:
-    """Return copY of a stride, the centre of pressure along the foot, m, at POINTS instants evenly spaced in time.
+    """Return the centre of pressure along the foot (copY of (9)), m, at POINTS instants evenly spaced in time.
 
-    Strides have unequal numbers of samples and (9) needs equal ones, so both are compared over the stride's own time
-    from foot-flat to heel-strike: first the path on the ground, as `StrideFeatures.cop` has it from foot-flat to toe-
-    off, then `centre` while the foot is in the air, each in proportion to its time. The loading after heel-strike is
-    not part of that path and is left out. Empty without a path, and for a stride without a toe-off."""
-    cop, start, off = taken.features.cop, taken.t_start, taken.t_toe_off
+    Strides have unequal numbers of samples, but (9) needs equal numbers. So each stride is resampled from foot-flat to
+    heel-strike. Until toe-off the values are those of `StrideFeatures.cop`, afterwards they are `centre`. The phase
+    after heel-strike is left out. The result is empty for a stride without a path or a toe-off."""
+    cop, start, toe_off = taken.features.cop, taken.t_start, taken.t_toe_off
     end = taken.t_end if taken.t_heel_strike is None else taken.t_heel_strike
-    if not cop or off is None or not start <= off <= end or not end > start:
+    if not cop or toe_off is None or not start <= toe_off <= end or not end > start:
         return ()
-    along = [x for x, _ in cop]
-    last = len(along) - 1
-    found = []
+    cop_x = [x for x, _ in cop]
+    last = len(cop_x) - 1
+    path = []
     for k in range(POINTS):
         t = start + (k + 0.5) / POINTS * (end - start)
-        if t >= off:
-            found.append(centre)
+        if t >= toe_off:
+            path.append(centre)
             continue
-        at = (t - start) / (off - start) * last
-        i = min(int(at), last)
-        ahead = along[min(i + 1, last)]
-        found.append(along[i] + (at - i) * (ahead - along[i]))
-    return tuple(found)
+        place = (t - start) / (toe_off - start) * last
+        i = min(int(place), last)
+        next_x = cop_x[min(i + 1, last)]
+        path.append(cop_x[i] + (place - i) * (next_x - cop_x[i]))
+    return tuple(path)
 
 
 def correlation(one: tuple[float, ...], other: tuple[float, ...]) -> float | None:
-    """Return r of (9), the similarity of two paths of equally many points, 0 to 1.
+    """Return the similarity r (9) of two paths with equal numbers of points, 0 to 1.
 
-    None when one of them is constant or empty."""
+    It is None if one path is constant or empty."""
     n = len(one)
     if n == 0 or n != len(other):
         return None
@@ -269,13 +273,13 @@ def correlation(one: tuple[float, ...], other: tuple[float, ...]) -> float | Non
 
 
 def own_share(similarity: float | None, own_index: float, other_index: float) -> float:
-    """Return Calicoef of (11), the share of the foot's own length in its calibrated one, 0 to 1."""
+    """Return the coefficient (11), Calicoef: the weight of a stride's own length in its calibrated length, 0 to 1."""
     if similarity is None or similarity <= 0.0:
         return 1.0
-    against = other_index + similarity * own_index
-    if against <= 0.0:
+    sum_of_errors = other_index + similarity * own_index
+    if sum_of_errors <= 0.0:
         return 1.0 / (1.0 + similarity)
-    return other_index / against
+    return other_index / sum_of_errors
 
 
 def _valid_index(index: float | None) -> float | None:

@@ -1,22 +1,25 @@
-"""Position and velocity of the sensor in a shoe that rolls over its heel or its forefoot, as on rockers.
+"""Position and velocity of the sensor in a shoe that rolls over its heel or its forefoot.
 
 Equations (4) to (7) of Chen et al., "Smart insole-based indoor localization system for Internet of Things applications"
-(IEEE Internet of Things Journal 6, 2019), figs. 5 to 7. Seen from the side the point below the sensor on the shoe's
-bottom is L_r away from a pivot on the ground, the sensor H_imu above that point, and the sole is pitched:
+(IEEE Internet of Things Journal 6, 2019), figs. 5 to 7. Seen from the side, the pivot is the point of the shoe's bottom
+that stays on the ground. L_r is the length from it along the bottom to the point below the sensor, and the sensor lies
+H_imu above that point. With the pitch of the sole the sensor's position is
 
     P_h = L_r cos(pitch) - H_imu sin(pitch)         along the ground, from the pivot
     P_z = L_r sin(pitch) + H_imu cos(pitch)         above it
 
-From heel-strike to foot-flat the pivot is the heel's end, behind the sensor: pitch is toe-up, and the sensor lies P_h
-ahead of a point that stands still (4). From heel-off to toe-off the pivot is where the forefoot leaves the ground, in
-front of the sensor: pitch is heel-up, and the sensor lies P_h + L_p2t behind the toe, which stands still (6). Hence the
-minus sign in (7). Velocities are differences between two samples over the true time between them (5) (7): the mean
-velocity in between.
+From heel-strike to foot-flat the pivot is the heel's end, behind the sensor. The pitch is toe-up, and the sensor lies
+P_h ahead of the heel's end, which stands still (4). From heel-off to toe-off the pivot is where the forefoot leaves the
+ground, ahead of the sensor. The pitch is heel-up, and the sensor lies P_h + L_p2t behind the toe, which stands still
+(6). Hence the minus sign in (7). A velocity is the difference of the positions at two samples over the time between
+them (5) (7): the mean velocity of that interval.
 
-The pitch comes from the attitude, for any mounting of the sensor. `Sagittal` keeps, in the sensor frame, the direction
-up while the foot stood flat and the direction of the toes. The heel lifts by turning the foot toe-down, which tilts
-"up" towards the heel: this gives the direction of the toes. Everything is relative to the standing foot, so a sensor
-that is mounted skewed, or a frame whose vertical is a degree off, gives the same pitch."""
+The pitch comes from the attitude, for any mounting of the sensor. `Sagittal` learns two directions in the sensor frame:
+upwards while the foot stands flat, and towards the toes. When the heel lifts, the foot turns toe-down, and the upward
+direction tilts in the foot towards the heel; this shows where the toes are. Pitch is relative to the foot that stood
+flat. So neither the mounting nor a navigation frame whose vertical is a degree off changes it.
+
+Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -29,24 +32,25 @@ from ...types.vector import ZERO
 
 DEFAULT_LENGTH = 0.285
 """Length of the shoe whose geometry is the default, m."""
-SHORTEST, LONGEST = 0.15, 0.40
+SHORTEST_INSOLE, LONGEST_INSOLE = 0.15, 0.40
 """Lengths of the shortest and the longest insole, m."""
 FLAT_TIME = 0.05
 """Time constant with which "up" on the flat foot follows the measured direction, s."""
-LEAST_LIFT_ANGLE = 0.35
-"""Least lift of the heel from which a push-off shows the direction of the toes, rad."""
-MISFITS, FOLLOW_SHARE = 3, 0.2
-"""Number of push-offs in a row after which another direction replaces the known one, and share of each push-off.
+LEAST_HEEL_RISE = 0.35
+"""Least tilt of the foot in a push-off from which the direction of the toes is learnt, rad."""
+MOST_MISFITS, FOLLOW_SHARE = 3, 0.2
+"""Number of consecutive misfits after which a new direction of the toes is taken, and weight of each push-off.
 
-Another direction differs by more than 60 degrees. Each push-off moves the direction of the toes by the share."""
+A misfit is a push-off whose direction differs by more than 60 degrees from the learnt one. Any other push-off moves the
+learnt direction towards its own by the weight."""
 
 
 def shoe_for(length: float) -> ShoeGeometry:
-    """Return the default shoe in the size of an insole of `length` m; unscaled for a length that no insole has.
+    """Return the default shoe scaled to an insole of `length` m, or unscaled if no insole has that length.
 
-    Lengths along the sole grow with the insole, the height of the sensor does not."""
+    Lengths along the sole are scaled, the height of the sensor is not."""
     shoe = ShoeGeometry()
-    if not SHORTEST <= length <= LONGEST:
+    if not SHORTEST_INSOLE <= length <= LONGEST_INSOLE:
         return shoe
     k = length / DEFAULT_LENGTH
     return evolve(
@@ -58,15 +62,15 @@ def shoe_for(length: float) -> ShoeGeometry:
 
 
 def heel_position(shoe: ShoeGeometry, toe_up: float) -> tuple[float, float]:
-    """Return (P_h ahead of the heel's end, P_z above the ground) of the sensor, m, at this toe-up pitch, rad (4)."""
+    """Return the sensor's position (P_h ahead of the heel's end, P_z above ground), m, at a toe-up pitch, rad (4)."""
     s, c = sin(toe_up), cos(toe_up)
     return shoe.heel_radius * c - shoe.height * s, shoe.heel_radius * s + shoe.height * c
 
 
 def forefoot_position(shoe: ShoeGeometry, heel_up: float) -> tuple[float, float]:
-    """Return (P_h + L_p2t behind the toe, P_z above the ground) of the sensor, m, at this heel-up pitch, rad (6).
+    """Return the sensor's position (P_h + L_p2t behind the toe, P_z above ground), m, at a heel-up pitch, rad (6).
 
-    Between flat and `steepest` the fitted curves hold; beyond, their values stay constant."""
+    L_r and L_p2t are fitted curves from flat to the steepest measured posture; outside they are constant."""
     p = min(max(heel_up, 0.0), shoe.steepest)
     radius = to_toe = 0.0
     for k in reversed(shoe.forefoot_radius):
@@ -84,15 +88,15 @@ class Sagittal:
     Angles in rad. The direction of the toes is known after the first push-off; `toe` is None until then."""
 
     up: Vec3 | None = field(default=None, init=False)
-    """Direction up in the sensor frame while the foot stood flat, unit length."""
+    """Unit vector upwards in the sensor frame while the foot stood flat; None before the first flat sample."""
     toe: Vec3 | None = field(default=None, init=False)
-    """Direction of the toes in the sensor frame, unit length."""
+    """Unit vector towards the toes in the sensor frame; None before the first push-off."""
     tilt_sum: Vec3 = field(default=ZERO, init=False)
-    """Sum of the tilts of "up" in this push-off, sensor frame."""
+    """Sum over this push-off of the horizontal parts of the upward direction, sensor frame, without unit."""
     largest_tilt: float = field(default=0.0, init=False)
     """Square of the sine of the largest tilt in this push-off."""
     misfits: int = field(default=0, init=False)
-    """Number of push-offs in a row in another direction."""
+    """Number of consecutive misfits (`MOST_MISFITS`)."""
     pitch: float = field(default=0.0, init=False)
     """Pitch of the last sample, positive toe-up, rad."""
     forward: tuple[float, float] = field(default=(1.0, 0.0), init=False)
@@ -111,10 +115,10 @@ class Sagittal:
         self.up = (u * k, v * k, w * k)
 
     def update(self, attitude: Quat) -> None:
-        """Compute `pitch` and `forward` for this attitude; nothing as long as `toe` is unknown."""
+        """Compute `pitch` and `forward` for this attitude; they stay unchanged as long as `toe` is unknown."""
         if self.toe is None or self.up is None:
             return
-        # the toes' direction at right angles to what is now "up on the flat foot"
+        # `up` may have changed since `toe` was learnt: take the part of `toe` at right angles to it
         (fx, fy, fz), (ux, uy, uz) = self.toe, self.up
         along = fx * ux + fy * uy + fz * uz
         fx, fy, fz = fx - along * ux, fy - along * uy, fz - along * uz
@@ -133,7 +137,7 @@ class Sagittal:
     def add_lift_sample(self, attitude: Quat) -> None:
         """Add one sample of a push-off, in which the heel lifts.
 
-        Tilts after the largest, on the way back, do not count."""
+        Tilts that are clearly smaller than the largest so far do not count: the foot then swings back."""
         if self.up is None:
             return
         x, y, z = _up(attitude)
@@ -156,7 +160,7 @@ class Sagittal:
         self.tilt_sum = ZERO
         self.largest_tilt = 0.0
         size = sqrt(x * x + y * y + z * z)
-        if largest_tilt < sin(LEAST_LIFT_ANGLE) ** 2 or size < 1e-9:
+        if largest_tilt < sin(LEAST_HEEL_RISE) ** 2 or size < 1e-9:
             return
         x, y, z = -x / size, -y / size, -z / size  # "up" tilts to the heel
         if self.toe is None:
@@ -166,7 +170,7 @@ class Sagittal:
         share = FOLLOW_SHARE
         if u * x + v * y + w * z < 0.5:
             self.misfits += 1
-            if self.misfits < MISFITS:
+            if self.misfits < MOST_MISFITS:
                 return
             share = 1.0
         self.misfits = 0
@@ -175,21 +179,25 @@ class Sagittal:
         self.toe = (u * size, v * size, w * size)
 
     def heel_position(self, shoe: ShoeGeometry) -> Vec3:
-        """Return the sensor's position from the heel's end, navigation frame, m (4)."""
+        """Return the sensor's position relative to the heel's end, navigation frame, m (4)."""
         ahead, above = heel_position(shoe, self.pitch)
         x, y = self.forward
         return (ahead * x, ahead * y, above)
 
     def forefoot_position(self, shoe: ShoeGeometry) -> Vec3:
-        """Return the sensor's position from the toe, navigation frame, m: (6), negated so that (7) is a difference."""
+        """Return the sensor's position relative to the toe, navigation frame, m: (6) with the sign of (7)."""
         behind, above = forefoot_position(shoe, -self.pitch)
         x, y = self.forward
         return (-behind * x, -behind * y, above)
 
 
-def mean_velocity(before: Vec3, now: Vec3, dt: float) -> Vec3:
-    """Return the mean velocity between two positions, m/s, `dt` s apart: (5) and (7)."""
-    return ((now[0] - before[0]) / dt, (now[1] - before[1]) / dt, (now[2] - before[2]) / dt)
+def mean_velocity(last_position: Vec3, position: Vec3, dt: float) -> Vec3:
+    """Return the mean velocity, m/s, between two positions, m, that are `dt` s apart: (5) and (7)."""
+    return (
+        (position[0] - last_position[0]) / dt,
+        (position[1] - last_position[1]) / dt,
+        (position[2] - last_position[2]) / dt,
+    )
 
 
 def _up(attitude: Quat) -> Vec3:

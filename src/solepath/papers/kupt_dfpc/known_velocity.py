@@ -1,8 +1,9 @@
 """KUPT detector: the velocity is known from heel-strike to toe-off, not only while the foot stands still.
 
 Chen et al., "Smart insole-based indoor localization system for Internet of Things applications" (IEEE Internet of
-Things Journal 6, 2019), section III.C. While the shoe rolls over its forefoot or its heel, the velocity of the sensor
-follows from its pitch (kinematics.py); only the swing is left to integration, and only there a drift is taken out."""
+Things Journal 6, 2019), section III.C. While the shoe rolls over its forefoot or its heel, the sensor's velocity
+follows from its pitch (kinematics.py). Only in swing is the velocity integrated, and only there is a drift removed.
+Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -18,16 +19,16 @@ from ...types.vector import IDENTITY, ZERO
 from .kinematics import Sagittal, mean_velocity, shoe_for
 
 HIGHEST_FLAT_RATE = 0.5
-"""Rate above which a foot does not lie flat, whatever its cells show, rad/s."""
+"""Angular rate above which a foot does not lie flat, even if its cells show a load, rad/s."""
 LARGEST_TOE_DOWN = 0.1
 """Toe-down pitch above which a landing foot does not roll over its heel, rad."""
 LOAD_VALID_TIME = 0.05
-"""Time for which a load holds where loads come more slowly than inertial samples, s."""
+"""Time for which a load is used for later samples, s, because cells are read less often than the IMU."""
 LONGEST_STRIDE, UNCERTAIN_SIGMA = 3.0, 0.05
-"""Longest stride, s, and sigma of a zero velocity that ends a longer motion, m/s.
+"""Longest stride, s, and largest sigma, m/s, of an inertial zero velocity that ends a longer motion.
 
-In a longer motion the foot has stood, and integration must not continue. After that time the inertial detector need not
-be certain."""
+In a longer motion the foot must have stood without being detected, and integration must end. So less certain evidence
+suffices."""
 
 
 @frozen
@@ -35,9 +36,9 @@ class KnownVelocitySettings:
     """Settings of `KnownVelocity`."""
 
     area_on: float = 0.05
-    """Share of the full load on both areas above which the foot becomes stationary."""
+    """Load on both areas above which the foot becomes stationary, as a share of the full load."""
     area_off: float = 0.03
-    """Share of the full load on either area below which the foot is no longer stationary."""
+    """Load on either area below which the foot is no longer stationary, as a share of the full load."""
     sigma: float = 0.01
     """Noise of a zero velocity, m/s."""
     rolling_sigma: float = 0.1
@@ -48,15 +49,17 @@ class KnownVelocitySettings:
 
 @define
 class KnownVelocity(Detector):
-    """Detector that gives the sensor's velocity from the load on two areas, parted by the circuit board (III.C.1).
+    """Detector of the sensor's velocity from the loads of heel and forefoot, the areas on either side of the board.
 
-    Both areas loaded: the foot is stationary, velocity zero. Then the forefoot alone: the shoe rolls over its forefoot
-    and the velocity is that of (7). No load: swing. Then the heel: the velocity of (5). Rolling velocities are the mean
-    since the sample before. They need the direction of the toes, which the first push-off gives; before it, and when
-    the forefoot lands first, there is no evidence. As long as the cells are not reliable, or have no layout, an
-    inertial detector is used. It is also used in a motion longer than any stride, from then on until the foot is
-    certainly stationary: an area that measures nothing would leave it moving for ever. The statistic is the smaller of
-    the two loads as a share of the wearer's full load."""
+    The circuit board divides the insole in two (III.C.1). Both areas loaded: the foot is stationary and its velocity
+    is zero. Forefoot alone after that: the shoe rolls over its forefoot with the velocity of (7). No load: swing. Heel
+    alone after swing: the shoe rolls over its heel with the velocity of (5). A rolling velocity is the mean since the
+    previous sample. It needs the direction of the toes, which is known after the first push-off. Before that, and when
+    the forefoot lands first, there is no evidence.
+
+    An inertial detector is used while the cells are not reliable or have no layout. It is also used when a motion lasts
+    longer than any stride, until the foot is certainly stationary; otherwise the motion would never end if an area did
+    not measure. The statistic is the smaller of the two loads as a share of the full load."""
 
     settings: KnownVelocitySettings = KnownVelocitySettings()
     sagittal: Sagittal = field(factory=Sagittal)
@@ -66,15 +69,16 @@ class KnownVelocity(Detector):
     moving_time: float = field(default=0.0, init=False)
     """Time since the foot was last certainly stationary, s."""
     touch: Touch = field(factory=Touch, init=False)
+    """Detector of a foot in the air, from the load."""
     inertial: ShoeDetector = field(factory=ShoeDetector, init=False)
-    """Detector that is used as long as the cells are not reliable (touch.py): standing before the first step."""
+    """Detector for the time in which the cells are not reliable (touch.py), such as standing before the first step."""
     phase: Phase | None = field(default=None, init=False)
     """Phase by the load; None while the load does not show it."""
     position: Vec3 | None = field(default=None, init=False)
-    """Position of the sensor in the last sample, from the heel's end or the toe, navigation frame, m."""
+    """Position of the sensor in the last sample relative to the pivot's end of the shoe, navigation frame, m."""
     last_load: Load | None = field(default=None, init=False)
     """Last load; None when it is too old."""
-    last_load_at: float = field(default=0.0, init=False)
+    last_load_t: float = field(default=0.0, init=False)
     """Time of the last load, s."""
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> KnownVelocity:
@@ -87,7 +91,7 @@ class KnownVelocity(Detector):
 
     @property
     def shoe_in_use(self) -> ShoeGeometry:
-        """Geometry of the shoe that velocities are computed with."""
+        """Geometry of the shoe from which velocities are computed."""
         return self.settings.shoe or self.default_shoe
 
     def update(
@@ -99,8 +103,8 @@ class KnownVelocity(Detector):
         self.moving_time += dt
         overdue = self.moving_time > LONGEST_STRIDE and inertial.sigma <= UNCERTAIN_SIGMA
         if load is not None:
-            self.last_load, self.last_load_at = load, t
-        elif self.last_load is not None and t - self.last_load_at < LOAD_VALID_TIME:
+            self.last_load, self.last_load_t = load, t
+        elif self.last_load is not None and t - self.last_load_t < LOAD_VALID_TIME:
             load = self.last_load
         else:
             self.last_load = None
@@ -143,7 +147,7 @@ class KnownVelocity(Detector):
         return Stance(ZERO, inf, statistic, None)
 
     def _from_inertial(self, dt: float, attitude: Quat, inertial: Stance, overdue: bool) -> Stance:
-        """Return the inertial detector's evidence, because the cells show nothing."""
+        """Return the inertial detector's evidence, because there is none from the cells."""
         self.phase = self.position = None
         if inertial.hint is Phase.STATIONARY:
             self.moving_time = 0.0
@@ -160,7 +164,7 @@ class KnownVelocity(Detector):
         """Return the evidence of a foot between heel-off and toe-off."""
         sagittal = self.sagittal
         if not on_forefoot:
-            # the weight went back to the heel: the shoe does not roll over its forefoot
+            # the weight is on the heel again: the shoe does not roll over its forefoot
             self.position = None
             return Stance(ZERO, inf, statistic, None)
         sagittal.add_lift_sample(attitude)
@@ -175,10 +179,10 @@ class KnownVelocity(Detector):
 
     def _rolling(self, phase: Phase, position: Vec3 | None, dt: float, statistic: float) -> Stance:
         """Return the velocity from the last sample's position to `position` as evidence, if both are known."""
-        before, self.position, self.phase = self.position, position, phase
-        if before is None or position is None or dt <= 0.0:
+        last_position, self.position, self.phase = self.position, position, phase
+        if last_position is None or position is None or dt <= 0.0:
             return Stance(ZERO, inf, statistic, phase)
-        return Stance(mean_velocity(before, position, dt), self.settings.rolling_sigma, statistic, phase)
+        return Stance(mean_velocity(last_position, position, dt), self.settings.rolling_sigma, statistic, phase)
 
 
 def _end_motion(inertial: Stance) -> Stance:

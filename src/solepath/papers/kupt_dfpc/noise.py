@@ -1,7 +1,8 @@
 """Noise of pressure cells while the foot swings: equation (1) of Chen et al. 2019 (IEEE Internet of Things Journal 6).
 
-The wearer walks for about 20 s. The samples with the least total pressure are those of the swing, which takes 38 % of a
-gait cycle; the paper uses the least 15 %. A cell's noise is their mean plus three standard deviations."""
+The wearer walks for about 20 s. Swing takes 38 % of a gait cycle, so the 15 % of the samples with the least total
+pressure, which the paper uses, are in swing. A cell's noise is the mean of its values in these samples plus three
+standard deviations."""
 
 from __future__ import annotations
 
@@ -13,19 +14,21 @@ from ...calibration import Calibration, CalibrationError, InsoleCalibration
 from ...foot.pressure.insole import in_newtons
 from ...types import Foot, Sample
 
-SHARE = 0.15
-"""Share of the samples, those with the least total pressure, that are taken for swing."""
+SWING_SHARE = 0.15
+"""Share of the samples that are taken for swing, because they have the least total pressure."""
 FEWEST_SAMPLES = 20
-"""Fewest samples in swing that show a spread (5 s of walking at 30 Hz have 22)."""
+"""Least number of swing samples for a standard deviation; 5 s of walking at 30 Hz have 22."""
 
 
-def pressure_noise(samples: Iterable[Sample], share: float = SHARE, known: Calibration | None = None) -> Calibration:
-    """Return the noise of every cell of every insole in `samples`, and nothing else.
+def pressure_noise(
+    samples: Iterable[Sample], share: float = SWING_SHARE, known: Calibration | None = None
+) -> Calibration:
+    """Return a calibration that contains only the noise of every cell of every insole in `samples`.
 
-    `share`: share of the samples, those with the least total pressure, that are taken for swing. `known`: where it
-    turns an insole's values into newtons, noise is in N too. Takes the samples one by one and keeps their pressures.
-    CalibrationError when there are no cells, too few samples, or a number of cells that changes; ValueError for a share
-    outside 0 to 1."""
+    `share` is the share of the samples that are taken for swing (`SWING_SHARE`). The noise is in N if the calibration
+    `known` converts the insole's values to newtons, otherwise in the samples' unit. All pressures are kept in memory.
+    Raises CalibrationError when there are no cells, too few samples, or a number of cells that changes, and ValueError
+    when the share is outside 0 to 1."""
     if not 0.0 < share <= 1.0:
         raise ValueError(f"share is {share}")
     rows: dict[Foot, list[tuple[float, ...]]] = {}
@@ -35,10 +38,10 @@ def pressure_noise(samples: Iterable[Sample], share: float = SHARE, known: Calib
             continue
         cells = sample.pressure
         newtons = None if known is None else known.insole(foot).newtons
-        before = rows.setdefault(foot, [])
-        if before and len(before[0]) != len(cells):
-            raise CalibrationError(f"the {foot.value} insole has {len(before[0])} cells and then {len(cells)}")
-        before.append(cells if newtons is None else in_newtons(newtons, cells))
+        foot_rows = rows.setdefault(foot, [])
+        if foot_rows and len(foot_rows[0]) != len(cells):
+            raise CalibrationError(f"the {foot.value} insole has {len(foot_rows[0])} cells and then {len(cells)}")
+        foot_rows.append(cells if newtons is None else in_newtons(newtons, cells))
     if not rows:
         raise CalibrationError("no pressure cells in this recording: nothing to learn of their noise")
     return Calibration(insoles={foot: _insole_noise(foot, rows[foot], share) for foot in Foot if foot in rows})
@@ -48,11 +51,11 @@ def _insole_noise(foot: Foot, rows: list[tuple[float, ...]], share: float) -> In
     pressure = np.array(rows, dtype=np.float64)
     count = round(share * len(pressure))
     if count < FEWEST_SAMPLES:
-        what = (
+        reason = (
             f"{len(pressure)} samples of the {foot.value} insole, {count} of them in swing; {FEWEST_SAMPLES} are wanted"
         )
-        raise CalibrationError(f"too short a walk: {what}")
-    # P_total; ties in the order of time, so that the same walk gives the same noise everywhere
-    least = pressure[np.argsort(pressure.sum(axis=1), kind="stable")[:count]]
-    noise = least.mean(axis=0) + 3.0 * least.std(axis=0)
+        raise CalibrationError(f"too short a walk: {reason}")
+    # by P_total; a stable sort keeps ties in the order of time, so that every platform gives the same noise
+    swing = pressure[np.argsort(pressure.sum(axis=1), kind="stable")[:count]]
+    noise = swing.mean(axis=0) + 3.0 * swing.std(axis=0)
     return InsoleCalibration(noise=tuple(noise.tolist()))

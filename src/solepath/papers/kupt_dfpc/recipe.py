@@ -12,21 +12,23 @@ from .fusion import DoubleFoot
 from .known_velocity import KnownVelocity
 from .swing_dedrift import SwingDedrift
 
-BOARD = 0.44
-"""Place of the circuit board that parts an insole into two areas, as a share of its length: 12.5 of 28.5 cm."""
+BOARD_SHARE = 0.44
+"""Place of the circuit board between an insole's two areas, from the heel's end, as a share of its length.
+
+The paper has 12.5 cm of 28.5 cm."""
 
 KUPT = Recipe(
     "kupt",
     KnownVelocity(),
     SwingDedrift(),
     CopCues(),
-    InsoleLoads(InsoleSettings(heel_end=BOARD, forefoot_start=BOARD)),
+    InsoleLoads(InsoleSettings(heel_end=BOARD_SHARE, forefoot_start=BOARD_SHARE)),
     needs_pressure=True,
 )
 """Velocity known from heel-strike to toe-off, without the fusion of both feet."""
 
 KUPT_DFPC = evolve(KUPT, name="kupt-dfpc", parts=usual(DoubleFoot()))
-"""Chen et al. 2019: `KUPT`, with both feet calibrating each other's strides."""
+"""Chen et al. 2019: `KUPT`, with the strides of both feet calibrating each other."""
 
 ZUPT = evolve(KUPT, name="zupt", corrector=LinearDedrift())
-"""Chen et al.'s baseline: stationary as in `KUPT`, but with a known velocity only while stationary."""
+"""Chen et al.'s baseline: `KUPT` without rolling velocities, so the velocity is known only while the foot stands."""

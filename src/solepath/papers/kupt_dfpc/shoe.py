@@ -1,17 +1,18 @@
 """Geometry of the wearer's own shoe, from static postures measured with rulers (Chen et al. 2019, section III.C.3).
 
-The wearer stands in postures between flat and toe-off, the paper's in five of them, three times each. For each the file
-has the heel-up pitch that the sensor showed and two lengths, in a line of comma-separated values with a header:
+The wearer stands still in postures between flat and toe-off; in the paper these are five, each taken three times. The
+file has a header, and one line for each time, with the heel-up pitch by the sensor and two measured lengths:
 
     pitch_deg,L_r_m,L_p2t_m
     0,0.070,0.090
     15,0.077,0.083
 
-`L_r_m`: along the shoe's bottom, from the point below the sensor to where the ruler meets the ground, m. (Where a round
-sole touches the ground is a little further ahead; with that point (6) would have the velocity at toe-off too low by
-some decimetres per second.) `L_p2t_m`: on the ground, from there to where the tip of the flat shoe was, m. Columns may
-come in any order, others are ignored; `H_imu_m` and `heel_L_r_m`, where there are such columns, are the same in every
-line and go into the geometry."""
+`L_r_m` is the length along the shoe's bottom from the point below the sensor to where a ruler laid along the bottom
+meets the ground, m. (A round sole touches the ground a little further ahead. With that point (6) would make the
+velocity at toe-off too low by some decimetres per second.) `L_p2t_m` is the length on the ground from the ruler's point
+to where the tip of the flat shoe was, m. Columns may have any order, and unknown columns are ignored. Optional columns
+of the geometry are `H_imu_m`, the sensor's height, and `heel_L_r_m`, the distance along the bottom from the heel's end
+to the point below the sensor. They have the same value in every line. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -29,14 +30,14 @@ COLUMNS = ("pitch_deg", "L_r_m", "L_p2t_m")
 """Names of the columns that a file must have."""
 CONSTANT_COLUMNS = ("H_imu_m", "heel_L_r_m")
 """Names of the columns that a file may have, with one value in all lines."""
-DEGREE = 2
-"""Degree of the polynomials; 1 with three postures.
+POLYNOMIAL_DEGREE = 2
+"""Degree of the fitted polynomials; 1 with three postures.
 
-For the round sole of kinematics.py, five postures to 60 degrees, three times each, rulers off by 2 mm: the sensor's way
-per pitch, which is what velocity needs, errs at 50 degrees by 5 mm/rad with a straight line, by 4 with degree 2, by 6
-with 3 and with 4."""
-STEEPEST = 80.0
-"""Steepest posture, degrees."""
+The velocity depends on the sensor's displacement per pitch. Its error at 50 degrees, for the round sole of
+kinematics.py, five postures up to 60 degrees, each taken three times, and rulers off by 2 mm: 5 mm/rad with degree 1,
+4 with degree 2, 6 with degrees 3 and 4."""
+LARGEST_PITCH = 80.0
+"""Pitch of the steepest posture, degrees."""
 LONGEST_SHOE = 0.5
 """Length of the longest shoe, m."""
 SAME_POSTURE = 2.0
@@ -47,36 +48,38 @@ Column = NDArray[np.float64]
 
 @frozen
 class ShoeFit:
-    """A fitted shoe geometry and its residuals.
-
-    `residual_radius`, `residual_to_toe`: root mean square of the curves' residuals, m. `worst`: the largest residual,
-    m."""
+    """A fitted shoe geometry and its residuals."""
 
     calibration: Calibration
     postures: int
+    """Number of different postures."""
     measurements: int
+    """Number of lines of the file."""
     residual_radius: float
+    """Root mean square of the residuals of L_r, m."""
     residual_to_toe: float
+    """Root mean square of the residuals of L_p2t, m."""
     worst: float
+    """Largest absolute residual of both, m."""
 
 
 def fit_shoe(path: Path | str) -> ShoeFit:
     """Fit the geometry of the shoe whose postures are in the file.
 
-    CalibrationError with one sentence that names the file, and the line where there is one, when it cannot be used."""
-    rows, single = _read(path)
+    Raises CalibrationError when the file cannot be used. The message names the file and, if possible, the line."""
+    rows, constants = _read(path)
     pitch = np.radians(rows[:, 0])
     postures = 1 + int(np.count_nonzero(np.diff(np.sort(rows[:, 0])) > SAME_POSTURE))
     if postures < 3:
         raise CalibrationError(f"{path}: {postures} postures; three different ones at least make a curve")
     if (steepest := float(pitch.max())) < radians(30.0):
         raise CalibrationError(f"{path}: the steepest posture is {rows[:, 0].max():g} degrees; a toe-off is 50 or more")
-    degree = min(DEGREE, postures - 2)
+    degree = min(POLYNOMIAL_DEGREE, postures - 2)
     radius, residual_r = _fit(pitch, rows[:, 1], degree)
     to_toe, residual_t = _fit(pitch, rows[:, 2], degree)
     shoe = ShoeGeometry(
-        heel_radius=single.get("heel_L_r_m", ShoeGeometry().heel_radius),
-        height=single.get("H_imu_m", ShoeGeometry().height),
+        heel_radius=constants.get("heel_L_r_m", ShoeGeometry().heel_radius),
+        height=constants.get("H_imu_m", ShoeGeometry().height),
         forefoot_radius=radius,
         pivot_to_toe=to_toe,
         steepest=steepest,
@@ -92,7 +95,7 @@ def fit_shoe(path: Path | str) -> ShoeFit:
 
 
 def _fit(pitch: Column, length: Column, degree: int) -> tuple[tuple[float, ...], Column]:
-    """Return the coefficients, constant first, and the residual of each measurement."""
+    """Return the coefficients of length (m) over pitch (rad), constant first, and each measurement's residual, m."""
     coefficients = np.polynomial.polynomial.polyfit(pitch, length, degree)
     residual = length - np.polynomial.polynomial.polyval(pitch, coefficients)
     return tuple(coefficients.tolist()), np.asarray(residual, dtype=np.float64)
@@ -100,14 +103,14 @@ def _fit(pitch: Column, length: Column, degree: int) -> tuple[tuple[float, ...],
 
 def _read(path: Path | str) -> tuple[Column, dict[str, float]]:
     rows: list[list[float]] = []
-    single: dict[str, float] = {}
+    constants: dict[str, float] = {}
     for row in read_rows(path, COLUMNS):
-        pitch = row.number(COLUMNS[0], -5.0, STEEPEST, "degrees")
+        pitch = row.number(COLUMNS[0], -5.0, LARGEST_PITCH, "degrees")
         rows.append([pitch, *(row.number(name, 0.0, LONGEST_SHOE, "m") for name in COLUMNS[1:])])
         for name in [name for name in CONSTANT_COLUMNS if name in row.cells]:
             value = row.number(name, 0.0, LONGEST_SHOE, "m")
-            if single.setdefault(name, value) != value:
-                raise CalibrationError(f"{row.where}: {name} is {value:g} here and {single[name]:g} before")
+            if constants.setdefault(name, value) != value:
+                raise CalibrationError(f"{row.where}: {name} is {value:g} here and {constants[name]:g} before")
     if not rows:
         raise CalibrationError(f"{path}: holds no postures")
-    return np.array(rows, dtype=np.float64), single
+    return np.array(rows, dtype=np.float64), constants

@@ -1,7 +1,8 @@
-"""Corrector of KUPT: velocity known from heel-strike to toe-off, a linear drift taken out of the swing between.
+"""Corrector of KUPT: the velocity is known from heel-strike to toe-off, and a linear drift is removed from the swing.
 
 Chen et al., "Smart insole-based indoor localization system for Internet of Things applications" (IEEE Internet of
-Things Journal 6, 2019), section III.C.3, equations (8) and (10). The velocities come from known_velocity.py."""
+Things Journal 6, 2019), section III.C.3, equations (8) and (10). The known velocities come from known_velocity.py. A
+raw velocity is integrated from motion start without correction."""
 
 from __future__ import annotations
 
@@ -16,30 +17,31 @@ from ...types.attrs import define, field, frozen
 from ...types.vector import TIE, ZERO
 
 SHORT_GAP = 0.08
-"""Longest gap of a normal motion, s: one lost sample of the paper's 30 Hz is 0.067 s; differences take true time."""
+"""Longest gap in a normal motion, s: one lost sample at the paper's 30 Hz leaves 0.067 s."""
 LARGEST_ROLLING_SIGMA = 0.2
 """Sigma above which evidence of a rolling shoe is not used, m/s."""
 LARGEST_ROLLING_ERROR = 0.6
-"""Distance of a rolling velocity of push-off from the raw one, along the ground, above which it is not used, m/s.
+"""Horizontal difference of rolling and raw velocity in push-off above which the rolling velocity is not used, m/s.
 
-In 0.3 s a tilt that is off by 2 degrees and an accelerometer by 20 mg make 0.16 m/s, a rolling velocity is good to 0.1,
-and three times both together is 0.57. Emulated feet stay within 0.05; recorded ones that roll reach 0.5, and those
-whose cells release late are at 0.7 to 1.3."""
+In 0.3 s a tilt error of 2 degrees and an accelerometer error of 20 mg cause an error of 0.16 m/s. A rolling velocity
+has an error of 0.1 m/s. Three times their combination is 0.57. The difference is up to 0.05 for emulated feet, up to
+0.5 for recorded feet that roll, and 0.7 to 1.3 for recorded insoles whose cells release the load late."""
 
 
 @frozen
 class MotionMoment:
-    """State of the integration at one sample of a motion.
-
-    `elapsed`: s since motion start. `velocity` (m/s) and `raw_displacement` (m): raw. `known_displacement`: integral of
-    the known velocities, m. `error`: raw less known velocity over the interval that ended here, m/s; None when unknown.
-    """
+    """The state of the integration at one sample of a motion, navigation frame."""
 
     elapsed: float
+    """Time since motion start, s."""
     velocity: Vec3
+    """Raw velocity, m/s."""
     raw_displacement: Vec3
+    """Integral of the raw velocity, m."""
     known_displacement: Vec3
+    """Integral of the known velocities, m."""
     error: Vec3 | None
+    """Mean raw velocity minus known velocity over the interval that ended here, m/s; None when unknown."""
 
 
 @frozen
@@ -57,25 +59,25 @@ class SwingDedrift(LinearDedrift):
     """Corrector with known velocities on the ground; in swing the drift is linear between toe-off and heel-strike (8).
 
     Velocities are known from motion start to toe-off and from heel-strike to motion end, as means over the interval
-    between two samples. So they are compared with the raw velocity's mean over the same interval, and the errors belong
-    to the middle of it: over the last interval before toe-off and, as in (5), the one after heel-strike. A heel does
-    not roll at once: it slides on the ground and the sole gives way for `slide_time` s, which (4) does not model, so
-    k_h of (8) is the first sample that long after heel-strike; 0 gives the paper's. While the foot moves, the live
-    position takes the velocities as they become known and continues from the last of them in swing; at motion end it is
-    corrected in one jump.
+    between two samples. So they are compared with the mean of the raw velocity over the same interval. The differences,
+    the errors of (8), are those in the middle of the last interval before toe-off and, as in (5), of the first one
+    after heel-strike. A heel does not roll at once: for `slide_time` it slides and the sole gives way, which (4) does
+    not model. So k_h of (8) is the first sample at least that long after heel-strike; with 0 it is the paper's. While
+    the foot moves, the live position follows the known velocities. In swing it is integrated from the last of them. At
+    motion end it is corrected in one jump.
 
-    The vertical part of a rolling velocity is about L_r times the pitch rate: a pivot that is off by 1 cm at toe-off
-    makes 8 cm/s, and in level walking it adds nothing to a height corrected by a line over the whole motion. So heights
-    get that line unless `vertical` is set.
+    The vertical rolling velocity is about L_r times the pitch rate, so a pivot that is 1 cm off at toe-off causes an
+    error of 8 cm/s. In level walking a linear drift over the whole motion suffices for the height, and is used unless
+    `vertical` is set.
 
-    A raw velocity that was zero at motion start cannot be off by `LARGEST_ROLLING_ERROR` when the foot leaves the
-    ground a few tenths of a second later; in fig. 14 too it drifts in swing and landing. On recorded insoles, whose
-    cells release late, the foot is then already in motion and does not roll. So a velocity of push-off that contradicts
-    the raw one so much is not used. Where the heel never rolled the error is that at motion end, and the swing lasts
-    until then.
+    The raw velocity is zero at motion start. Some tenths of a second later, when the foot leaves the ground, its error
+    cannot be `LARGEST_ROLLING_ERROR`; in fig. 14, too, it drifts in swing and landing. On recorded insoles whose cells
+    release the load late the foot then moves already and does not roll. So a push-off velocity that differs so much
+    from the raw velocity is not used. If the heel never rolled, the error at motion end is used, and swing lasts until
+    then.
 
-    A motion without both marks, with a gap in it, or without a usable velocity at toe-off is abnormal: it loses one
-    linear drift over its whole time, as with ZUPT. Memory is three moments, however long the motion."""
+    A motion is abnormal without toe-off or heel-strike, with a gap, or without a usable velocity at toe-off. Then one
+    linear drift over the whole motion is removed, as with ZUPT. Three moments are kept, however long the motion."""
 
     settings: SwingSettings = SwingSettings()
     motion_start: Vec3 = field(default=ZERO, init=False)
@@ -86,29 +88,32 @@ class SwingDedrift(LinearDedrift):
     interval_velocity: Vec3 = field(default=ZERO, init=False)
     """Mean raw velocity over the last interval, m/s."""
     interval: float = field(default=0.0, init=False)
+    """Time between the last two samples, s."""
     current: MotionMoment | None = field(default=None, init=False)
+    """State at the last sample; None after a gap."""
     previous: MotionMoment | None = field(default=None, init=False)
+    """State at the sample before the last; None after a gap."""
     toe_off: MotionMoment | None = field(default=None, init=False)
-    toe_off_error_at: float = field(default=0.0, init=False)
-    """Time of the error at toe-off, s since motion start."""
-    strike: MotionMoment | None = field(default=None, init=False)
-    strike_error: Vec3 | None = field(default=None, init=False)
-    strike_error_at: float = field(default=0.0, init=False)
+    """State at the best candidate for toe-off."""
+    toe_off_error_time: float = field(default=0.0, init=False)
+    """Time of the error at toe-off, s since motion start; `heel_strike_error_time` likewise."""
+    heel_strike: MotionMoment | None = field(default=None, init=False)
+    heel_strike_error: Vec3 | None = field(default=None, init=False)
+    heel_strike_error_time: float = field(default=0.0, init=False)
     previous_interval: float = field(default=0.0, init=False)
     standing: bool = field(default=True, init=False)
-    """Flag: the last sample was one of stance, and a motion starts with the next."""
+    """Flag: the last sample was in stance; a motion starts with the next sample."""
     moved: bool = field(default=False, init=False)
-    """Flag: there was a sample without a zero velocity since the last with one."""
+    """Flag: the motion has a sample without zero velocity."""
     has_gap: bool = field(default=False, init=False)
-    """Flag: a gap lies in this motion."""
+    """Flag: the motion has a gap."""
     last_error_index: float | None = field(default=None, init=False)
 
     @property
     def error_index(self) -> float | None:
-        """Error index (10), m/s: the length of the horizontal part of V_errt + V_errh; None for an abnormal motion.
+        """Error index (10), m/s: horizontal length of V_errt + V_errh, the errors at toe-off and heel-strike.
 
-        The paper has one number for a velocity that has three; the error of the horizontal position is the one that
-        matters."""
+        It is None for an abnormal motion. (10) leaves open how three components make one number."""
         return self.last_error_index
 
     def start(self, attitude: Quat, tilt_sigma: float) -> None:
@@ -143,7 +148,7 @@ class SwingDedrift(LinearDedrift):
         if rolls and stance.sigma <= LARGEST_ROLLING_SIGMA:
             error = self._use_velocity(stance.v_ref, hint is Phase.PUSH_OFF)
         elif self.previous is not None and self.previous.error is not None:
-            # nothing new is known: the error stays as it was
+            # no new evidence: the error is taken to be that of the previous interval
             ex, ey, ez = self.previous.error
             vx, vy, vz = self.interval_velocity
             self._add_known((vx - ex, vy - ey, vz - ez))
@@ -155,16 +160,16 @@ class SwingDedrift(LinearDedrift):
         return False
 
     def _use_velocity(self, v_ref: Vec3, push_off: bool) -> Vec3 | None:
-        """Use the known velocity over the last interval; return the raw one's error, None if it is too large."""
+        """Use the known velocity over the last interval; return the raw velocity's error, None if it is too large."""
         (vx, vy, vz), (rx, ry, rz) = self.interval_velocity, v_ref
         error = (vx - rx, vy - ry, vz - rz)
         if push_off and hypot(error[0], error[1]) > LARGEST_ROLLING_ERROR:
             self._add_known(self.interval_velocity)
             return None
         self._add_known(v_ref)
-        # live: the position reached with the known velocity, and the raw velocity less its error
+        # the live position moves with the known velocity; the live velocity is the raw velocity minus its error
         (ux, uy, uz), (px, py, pz) = self.raw_velocity, self.velocity
-        # integration took a mean of (p + p_before)/2 over this interval; take v_ref instead
+        # integration used the mean of old and new velocity over this interval; replace it by v_ref
         change = (ux - vx, uy - vy, uz - vz)  # half of the velocity's change over the interval
         x, y, z = self.position
         dt = self.interval
@@ -174,16 +179,16 @@ class SwingDedrift(LinearDedrift):
             z + (rz - (pz - change[2])) * dt,
         )
         self.velocity = (ux - error[0], uy - error[1], uz - error[2])
-        previous, strike = self.previous, self.strike
-        settled = (
+        previous, heel_strike = self.previous, self.heel_strike
+        is_settled = (
             previous is not None
-            and strike is not None
-            and previous.elapsed - strike.elapsed >= self.settings.slide_time - TIE
+            and heel_strike is not None
+            and previous.elapsed - heel_strike.elapsed >= self.settings.slide_time - TIE
         )
-        if settled and self.strike_error is None:
-            self.strike = previous
-            self.strike_error = error
-            self.strike_error_at = self.swing - 0.5 * dt
+        if is_settled and self.heel_strike_error is None:
+            self.heel_strike = previous
+            self.heel_strike_error = error
+            self.heel_strike_error_time = self.swing - 0.5 * dt
         return error
 
     def _add_known(self, v: Vec3) -> None:
@@ -192,14 +197,14 @@ class SwingDedrift(LinearDedrift):
         self.known_displacement = (x + v[0] * dt, y + v[1] * dt, z + v[2] * dt)
 
     def mark(self, t: float, cue: Cue) -> None:
-        """Set a candidate: for toe-off the sample before this one (A of fig. 4), for heel-strike this one (D)."""
+        """Set the candidate: for toe-off the sample before this one (A of fig. 4), for heel-strike this one (D)."""
         if cue is Cue.CLEAR:
             self.toe_off = self.previous
             if self.previous is not None:
-                self.toe_off_error_at = self.previous.elapsed - 0.5 * self.previous_interval
+                self.toe_off_error_time = self.previous.elapsed - 0.5 * self.previous_interval
         elif cue is Cue.CONTACT:
-            self.strike = self.current
-            self.strike_error = None
+            self.heel_strike = self.current
+            self.heel_strike_error = None
 
     def _end_motion(self) -> None:
         """End the motion, or add one more sample of stance."""
@@ -221,63 +226,67 @@ class SwingDedrift(LinearDedrift):
         self.standing = True
 
     def _calibrated_displacement(self, duration: float) -> Vec3 | None:
-        """Return the displacement of a normal motion that ends here, m, and set the error index; None for any other."""
-        toe_off, strike = self.toe_off, self.strike
-        if self.has_gap or toe_off is None or toe_off.error is None or strike is None:
+        """Return the displacement of a normal motion that ends here, m, and set the error index; None if abnormal."""
+        toe_off, heel_strike = self.toe_off, self.heel_strike
+        if self.has_gap or toe_off is None or toe_off.error is None or heel_strike is None:
             return None
-        error, error_at = self.strike_error, self.strike_error_at
-        if error is None:  # the heel never rolled: the velocity is known where the foot stands
-            error, error_at = self.raw_velocity, duration
-            strike = MotionMoment(duration, self.raw_velocity, self.raw_displacement, self.known_displacement, error)
+        error, error_time = self.heel_strike_error, self.heel_strike_error_time
+        if error is None:  # the heel never rolled: the velocity is zero where the foot stands
+            error, error_time = self.raw_velocity, duration
+            heel_strike = MotionMoment(
+                duration, self.raw_velocity, self.raw_displacement, self.known_displacement, error
+            )
         else:
-            # the last interval, in which the foot came to rest, with the error as it was
+            # in the last interval, before the foot rests, the error is taken to be unchanged
             vx, vy, vz = self.interval_velocity
             self._add_known((vx - error[0], vy - error[1], vz - error[2]))
-        drift_start = self.toe_off_error_at
-        if error_at <= drift_start:
+        drift_start = self.toe_off_error_time
+        if error_time <= drift_start:
             return None
-        swing = strike.elapsed - toe_off.elapsed
-        # of V_raw - V_errt - driftrate (k - kt), from k_t to k_h
+        swing = heel_strike.elapsed - toe_off.elapsed
+        # integral over the swing of (k - k_t) / (k_h - k_t), for V_raw - V_errt - driftrate (k - k_t)
         drift_time = (
             0.5
-            * ((strike.elapsed - drift_start) ** 2 - (toe_off.elapsed - drift_start) ** 2)
-            / (error_at - drift_start)
+            * ((heel_strike.elapsed - drift_start) ** 2 - (toe_off.elapsed - drift_start) ** 2)
+            / (error_time - drift_start)
         )
         displacement = [0.0, 0.0, 0.0]
         for k in range(3):
             first, last = toe_off.error[k], error[k]
             swing_displacement = (
-                strike.raw_displacement[k] - toe_off.raw_displacement[k] - first * swing - (last - first) * drift_time
+                heel_strike.raw_displacement[k]
+                - toe_off.raw_displacement[k]
+                - first * swing
+                - (last - first) * drift_time
             )
             displacement[k] = (
                 toe_off.known_displacement[k]
                 + swing_displacement
                 + self.known_displacement[k]
-                - strike.known_displacement[k]
+                - heel_strike.known_displacement[k]
             )
         self.last_error_index = hypot(toe_off.error[0] + error[0], toe_off.error[1] + error[1])
         return (displacement[0], displacement[1], displacement[2])
 
     def _start_motion(self) -> None:
-        """Start a motion at the position of the foot."""
         self.motion_start = self.position
         self.raw_velocity = self.velocity
         self.raw_displacement = self.known_displacement = ZERO
-        self.current = self.previous = self.toe_off = self.strike = None
-        self.strike_error = None
+        self.current = self.previous = self.toe_off = self.heel_strike = None
+        self.heel_strike_error = None
         self.standing = self.moved = self.has_gap = False
 
     def bridge(self, dt: float) -> float:
         if self.standing:
             self._start_motion()
-        over = LinearDedrift.bridge(self, dt)
-        if over == 0.0:
-            self._start_motion()  # it continues from the same position, at rest
+        integration_time = LinearDedrift.bridge(self, dt)
+        if integration_time == 0.0:
+            self._start_motion()  # after a long gap: from the same position, at rest
         if dt > SHORT_GAP:
             self.has_gap = True
             self.current = self.previous = None
         self.moved = True
-        return over
+        return integration_time
 
     def infill(self, dt: float, attitude: Quat, velocity: Vec3, position: Vec3) -> None:
         if self.standing:

@@ -1,17 +1,16 @@
 """Bias of the accelerometer, estimated while the foot stands: equations (4) to (10) of Bebek et al. 2010.
 
 "Personal navigation via high-resolution gait-corrected inertial measurement units" (IEEE Trans. Instrum. Meas. 59,
-2010). Everything is in the sensor's own frame, where the bias is constant. With a_m the measured acceleration without
-gravity (4), a standing foot has a_m + a_b + a_n = 0 (6)(7), so that -a_m measures the bias z = a_b (8)(9), and with F =
-I, H = I, G_1 = I and no input (A = B = 0)
+2010). All vectors are in the sensor frame, in which the bias is constant. a_m is the measured acceleration without
+gravity (4), a_b the bias and a_n the noise. A standing foot has a_m + a_b + a_n = 0 (6)(7), so -a_m is a measurement of
+z = a_b (8)(9). With F = I, H = I, G_1 = I and no input (A = B = 0) the Kalman filter is
 
     measurement   z_hat = z_bar + P Sigma_v^-1 (-a_m - z_bar),   P = M - M (M + Sigma_v)^-1 M
     time          z_bar = z_hat,   M = P + Sigma_w
 
-The covariances are multiples of the identity at the start and stay so: one number stands for three axes.
-
-(10) as printed, a_a = a_m - R a_b, contradicts (6), a_a = a_m + R a_b + R a_n, in which -a_m is a measurement of a_b:
-it would double the error that it removes. The sign here is that of (6)."""
+P and M are the covariances after and before a measurement. They start as multiples of the identity and stay so; one
+number stands for three axes. (10) as printed, a_a = a_m - R a_b, contradicts (6), a_a = a_m + R a_b + R a_n. Since -a_m
+measures a_b, (10) would double the error instead of removing it. The sign here is that of (6)."""
 
 from __future__ import annotations
 
@@ -22,7 +21,7 @@ from ...types.vector import ZERO
 BIAS_SIGMA = 0.098
 """Standard deviation of the bias before anything is known, m/s^2."""
 SAMPLE_NOISE = 0.0076
-"""Square root of Sigma_v, m/s^2 a sample."""
+"""Square root of Sigma_v, the noise of one sample, m/s^2."""
 BIAS_WANDER = 1.6e-4
 """Square root of Sigma_w for one second, m/s^2/sqrt(s): sqrt(2 / 300 s) 0.2 mg."""
 
@@ -31,8 +30,8 @@ BIAS_WANDER = 1.6e-4
 class AccelerometerBias:
     """Kalman filter for the bias of three equal axes, m/s^2, sensor frame.
 
-    The figures are those of the ST LSM6DSOX (DS12814, table 2): zero-g offset +-20 mg taken as two sigma, 110
-    ug/sqrt(Hz) of noise over the 50 Hz of a sensor read at 100 Hz, and 0.1 mg/K of drift over 2 K within 300 s."""
+    The numbers are those of the ST LSM6DSOX (DS12814, table 2): a zero-g offset of +-20 mg, taken as two sigma; noise
+    of 110 ug/sqrt(Hz) over the bandwidth of 50 Hz at 100 samples a second; a drift of 0.1 mg/K over 2 K in 300 s."""
 
     bias: Vec3 = field(default=ZERO, init=False)
     """Estimated bias z_hat, m/s^2, sensor frame."""

@@ -1,8 +1,8 @@
 """Navigation of Bebek et al. 2010, figure 8: zero-velocity resets, accelerometer bias and calibrated drift.
 
 "Personal navigation via high-resolution gait-corrected inertial measurement units" (IEEE Trans. Instrum. Meas. 59,
-2010). The acceleration without its bias is integrated, the velocity is reset to zero while the foot stands, and the
-drift found by calibration laps (papers/pressure_contour/square.py) is subtracted from the position."""
+2010). The acceleration without its bias is integrated. The velocity is reset to zero while the foot stands. The drift
+that calibration laps have shown (papers/pressure_contour/square.py) is subtracted from the position."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from ...types.attrs import define, evolve, field, frozen
 from ...types.vector import GRAVITY, ZERO, conjugate, from_yaw, multiply, normalise, rotate, rotate_back, sub
 from .acc_bias import AccelerometerBias
 
-STANDING_AFTER = 1.0
-"""Time after which a standing foot no longer drifts, s."""
+STANDING_DELAY = 1.0
+"""Time after the start of a stance from which the calibrated drift is no longer subtracted, s; chosen by hand."""
 
 
 @frozen
@@ -27,42 +27,43 @@ class BiasZuptSettings(DedriftSettings):
     """Settings of `BiasZupt`."""
 
     drift: tuple[float, float] | None = None
-    """Calibrated slope of the position, m/s (x, y); None without a calibration. It is in the device's own world frame
-    where the device has an attitude of its own, otherwise in the navigation frame."""
+    """Calibrated drift of the position (x, y), m/s; None without a calibration. Its frame is the device's own world
+    frame if the device reports attitudes, otherwise the navigation frame."""
     remove_swing_drift: bool = True
     """Flag: a linear drift of the velocity in swing is removed from the position. The velocity left at the end of a
-    swing is taken to have grown evenly, so the position loses half of it times the time since the foot last stood. The
-    paper speaks of resets alone. Without this a tilt of a quarter of a degree, which is what its sensor promises, costs
-    a centimetre a stride."""
+    swing is taken to have grown evenly, so half of it times the time since the foot last stood is subtracted from the
+    position. The paper has resets only. Without this a tilt error of a quarter of a degree, the accuracy of its sensor,
+    costs a centimetre per stride."""
     turn_error: float = 0.0175
-    """Heading error of a device's own attitude, rad: the InertiaCube3's data sheet has 1 degree."""
+    """Heading error of the attitude that a device reports, rad: 1 degree in the InertiaCube3's data sheet."""
 
 
 @define
 class BiasZupt(LinearDedrift):
     """Corrector: strapdown navigation with zero-velocity resets, an accelerometer bias and a calibrated drift.
 
-    Frame and units as in `Corrector`. Latency: the position is corrected, in one jump, with the first sample of stance.
+    Frame and units are those of `Corrector`. Latency: the position is corrected, in one jump, at the first sample of
+    stance.
 
-    The attitude is the device's own where the device reports one, as the paper's InertiaCube3 does: its heading is
-    turned once, so that the heading of navigation continues. Without one the attitude is integrated, and pulled towards
-    gravity while the foot stands; a horizontal bias then looks like a tilt, and only the vertical bias is observable.
-    """
+    If the device reports its attitude, as the paper's InertiaCube3 does, that attitude is used. A constant is added to
+    its heading, so that the heading of navigation continues. Otherwise the attitude is integrated, and tilted towards
+    gravity while the foot stands. Then a horizontal bias cannot be told from a tilt; only the vertical one can be
+    estimated."""
 
     settings: BiasZuptSettings = BiasZuptSettings()
     bias: AccelerometerBias = field(factory=AccelerometerBias)
     device_attitude: Quat | None = field(default=None, init=False)
     """Attitude that the device reports for the next sample."""
     heading_offset: float | None = field(default=None, init=False)
-    """Angle from the device's own heading to that of navigation, rad; None before the device's first attitude."""
+    """Heading of navigation minus the device's heading, rad, left positive; None before the device's first attitude."""
     motion_acc: Vec3 = field(default=ZERO, init=False)
     """Acceleration a_m of the last sample, without gravity, sensor frame, m/s^2."""
     standing_time: float = field(default=0.0, init=False)
     """Time for which the foot has stood without a break, s."""
     last_dt: float = field(default=0.0, init=False)
-    """Duration of the last sample, s."""
+    """Time between the last two samples, s."""
     integrated: bool = field(default=True, init=False)
-    """Flag: the attitude of the last sample is integrated, not the device's own."""
+    """Flag: the attitude of the last sample is integrated, not reported by the device."""
 
     def calibrated(self, foot: Foot, calibration: Calibration) -> BiasZupt:
         drift = calibration.drift.get(foot)
@@ -90,10 +91,10 @@ class BiasZupt(LinearDedrift):
             self.rate = None
             LinearDedrift.predict(self, dt, unbiased, ZERO, saturated)
             self.rate = gyro
-        # (4): a_m in the sensor frame is the specific force without the gravity that the attitude sees there
+        # (4): a_m is the specific force minus gravity, which the attitude turns into the sensor frame
         self.motion_acc = sub(acc, rotate_back(self.attitude, (0.0, 0.0, GRAVITY)))
         drift = self.settings.drift
-        if drift is not None and self.standing_time < STANDING_AFTER:
+        if drift is not None and self.standing_time < STANDING_DELAY:
             dx, dy = drift
             if self.heading_offset is not None:
                 dx, dy, _ = rotate(from_yaw(self.heading_offset), (dx, dy, 0.0))
@@ -115,7 +116,7 @@ class BiasZupt(LinearDedrift):
     def bridge(self, dt: float) -> float:
         if dt > LONGEST_BRIDGE:
             self.standing_time = 0.0
-        if dt == inf:  # the clock restarts, so the device and its world may have restarted too
+        if dt == inf:  # the clock restarts, so the device may have restarted with another world frame
             self.heading_offset = self.device_attitude = None
         return LinearDedrift.bridge(self, dt)
 
@@ -124,11 +125,11 @@ class BiasZupt(LinearDedrift):
         self.standing_time = 0.0
 
     def covariance(self) -> tuple[float, ...]:
-        found = LinearDedrift.covariance(self)
+        covariance = LinearDedrift.covariance(self)
         if self.heading_offset is None:
-            return found
-        # Each stretch between anchors starts with a new heading: its error moves that stretch sideways and no other.
-        variance = found[0] + (self.settings.turn_error * self.length) ** 2
+            return covariance
+        # after every anchor the heading error starts again, so it moves the track sideways only from there on
+        variance = covariance[0] + (self.settings.turn_error * self.length) ** 2
         return (variance, 0.0, 0.0, variance, 0.0, variance, 0.0)
 
     def _to_navigation_frame(self, device_attitude: Quat) -> Quat:
@@ -139,8 +140,8 @@ class BiasZupt(LinearDedrift):
         return normalise(multiply(from_yaw(self.heading_offset), device_attitude))
 
     def _level(self) -> None:
-        """Pull an integrated attitude by the specific force without the bias.
+        """Tilt an integrated attitude towards gravity by the measured specific force, in which the bias remains.
 
-        With the bias in it, bias and tilt could drift against each other."""
+        With the bias removed, bias and tilt could drift in opposite directions."""
         if self.integrated:
             self._pull(rotate(self.attitude, self.motion_acc), self.last_dt)

@@ -4,24 +4,26 @@ Equations (1) and (2) of "Personal navigation via high-resolution gait-corrected
 Trans. Instrum. Meas. 59, 2010). Rays leave a fixed centre, the centroid of the heel's cells, at equal angles. The point
 where the pressure along a ray first falls below a level belongs to that level's contour, at the radius r(theta).
 
-    v(theta) = (r(theta, t) - r(theta, t - dt)) / dt        along the ray r_hat (1), looking back instead of ahead
+    v(theta) = (r(theta, t) - r(theta, t - dt)) / dt        along the ray r_hat (1), backward instead of forward in time
     v_cntr = 1/pi integral of v(theta) r_hat dtheta         (2)
 
-The paper leaves out the factor 1/pi: a contour that moves as a whole with velocity u has v(theta) = u . r_hat, and the
-integral of (u . r_hat) r_hat is pi u. Two more things are left open there:
+The paper leaves out the factor 1/pi. A contour that moves as a whole with velocity u has v(theta) = u . r_hat, and the
+integral of (u . r_hat) r_hat is pi u. The paper leaves two more points open:
 
-- Rays end where the cells do, and a contour that lies partly beyond them has no radius there. The integral is then
-  taken over the rays that have an opposite with a radius too, and normalised by least squares over those: with all rays
-  that is the factor 1/pi again. An elliptic contour that grows or shrinks has equal v on opposite rays, wherever the
-  centre is, and they cancel; half a contour that only grows would seem to move.
-- Which pressures. The paper's figure 4 shows 20 to 70 kPa. But at a fixed pressure the contour also shrinks, by some
-  cm/s, as the weight leaves the heel, and cells differ in gain by some per cent: on emulated insoles a heel that lies
-  still then seems to move by 5 to 20 mm/s, and the contours are slower than 4 mm/s in a third of the true stance with
-  96 cells and in a twentieth with the paper's 24. A level that is a fixed share of the heel's present mean pressure
-  does not change with the weight (1 to 2 mm/s; two thirds of the stance with either), and it needs no scale. Shares are
-  the default; `pascals` takes the paper's.
+- Rays end at the outermost cells. A contour that lies partly beyond them has no radius there. The integral is then
+  taken over those rays that have a radius, as their opposite rays do, and normalised by least squares; with all rays
+  the factor is 1/pi again. An elliptic contour that only grows or shrinks has equal v on opposite rays, which cancel
+  wherever the centre is. Without the opposite rays it would seem to move.
+- The pressure levels. The paper's figure 4 has 20 to 70 kPa. But a contour of fixed pressure shrinks, by some cm/s, as
+  the weight leaves the heel, and the gains of cells differ by some per cent. On emulated insoles a heel that lies still
+  then seems to move at 5 to 20 mm/s. The contours are slower than 4 mm/s in a third of the true stance with 96 cells,
+  and in a twentieth with the paper's 24 cells. A level that is a fixed share of the heel's present mean pressure
+  does not depend on the weight or on the cells' scale. With such levels a still heel seems to move at 1 to 2 mm/s, and
+  the contours are slower than 4 mm/s in two thirds of the stance with 96 and with 24 cells. So shares are the default.
+  The setting `pascals` selects fixed levels, as in the paper.
 
-Work per sample: a weighted sum of three cells for each of some 60 points, and one pass along each ray."""
+Cost of a sample: a weighted sum of three cells for each of some 60 points, and one pass along each ray. Numbers without
+a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -35,31 +37,32 @@ from ...types.attrs import define, field, frozen
 from ...types.vector import TIE
 
 HEEL_SHARE = 0.33
-"""Share of the insole's length behind which cells are the heel's."""
+"""End of the heel's cells, measured from the heel's end, as a share of the insole's length."""
 CONTOUR_SHARE = 0.50
-"""Share of the insole's length behind which cells carry contours: the paper takes 54 of the 99 cells of an insole."""
+"""End of the cells that contours use, from the heel's end, as a share of the length: the paper uses 54 of 99 cells."""
 FEWEST_CELLS = 4
-"""Fewest heel cells that have a contour."""
+"""Least number of heel cells for contours."""
 PAPER_LEVELS = (20e3, 30e3, 40e3, 50e3, 60e3, 70e3)
 """Levels of the paper's figure 4, Pa."""
-AXES = 6
+RAY_PAIRS = 6
 """Number of pairs of opposite rays."""
-RINGS = 8
-"""Number of points on the longest ray, its centre not counted."""
+POINTS_PER_RAY = 8
+"""Number of points on the longest ray, without the centre."""
 NEAREST_CELLS = 10
-"""Number of nearest cells of which three make the triangle about a point."""
-INTERVAL = 0.05
-"""Delta t of (1), s: long enough for the cells' noise.
+"""Number of a point's nearest cells among which the triangle around it is searched."""
+COMPARISON_TIME = 0.05
+"""Delta t of (1), s, long enough that the cells' noise stays below the paper's threshold.
 
-With `AXES` pairs of rays sigma_v = sqrt(2 / AXES) sigma_r / interval an axis and a level, and a radius is as uncertain
-as the pressure over its slope. A cell of 12-bit resistive insoles has 0.12 N rms (emulate/sensors/parts.py), 0.8 kPa on
-1.6 cm^2, half a kPa once three are weighted; a heel that bears 200 N has slopes of 2 kPa/mm: 0.25 mm, and 0.14 mm over
-all rays. To stay below the paper's 4 mm/s that takes 36 ms; 50 ms are taken."""
-MISSING = -1.0
+The noise of the velocity is sigma_v = sqrt(2 / RAY_PAIRS) sigma_r / Delta t, per axis and level. The noise of a radius,
+sigma_r, is that of the pressure divided by its slope. A cell of 12-bit resistive insoles has 0.12 N rms
+(emulate/sensors/parts.py). This is 0.8 kPa on 1.6 cm^2, and half a kPa as weighted mean of three cells. A heel that
+bears 200 N has a slope of 2 kPa/mm, so sigma_r is 0.25 mm. Over all rays that makes 0.14 mm. sigma_v is below the
+paper's 4 mm/s from 36 ms on; 50 ms are used."""
+NO_RADIUS = -1.0
 """Value in the place of a radius when the contour does not cross the ray."""
 
-Point = tuple[int, int, int, float, float, float]
-"""Three cells and their weights; the weighted sum of the cells' loads is the pressure at the point."""
+WeightedCells = tuple[int, int, int, float, float, float]
+"""Indices of three cells and their weights, 1/m^2: the weighted sum of their loads is the pressure at a point."""
 
 
 @frozen
@@ -67,36 +70,36 @@ class ContourSettings:
     """Settings of `Contours`."""
 
     shares: tuple[float, ...] = (1.4, 1.2, 1.0, 0.8, 0.6, 0.4)
-    """Levels as shares of the present mean pressure of the heel's cells. 1.4 is still well below the peak of a patch of
-    pressure; 0.4 lies at its edge, where a heel that leans has its only contours."""
+    """Levels as shares of the present mean pressure of the heel's cells. 1.4 is well below the peak pressure. 0.4 lies
+    at the edge of the loaded area, where a heel that leans has its only contours."""
     pascals: tuple[float, ...] | None = None
-    """Fixed levels, Pa, instead of `shares`, for cells whose scale is known; None for shares."""
+    """Fixed levels, Pa, used instead of `shares` if the scale of the cells is known; None for shares."""
 
 
 @define
 class Contours:
     """Measures the velocity of the heel's pressure contours from the loads of the cells while the heel is loaded.
 
-    Latency: none beyond `INTERVAL`, over which the contours are compared."""
+    Latency: the velocity is the mean over the last `COMPARISON_TIME`."""
 
     settings: ContourSettings = ContourSettings()
     cells: list[int] = field(factory=list, init=False)
-    """Indices of the cells used here; `per_area` and `points` count in their order."""
+    """Indices in the layout of the cells used here, in the order of `per_area`; `points` has indices in this list."""
     per_area: list[float] = field(factory=list, init=False)
-    """Weights, 1 / m^2 over the number of heel cells, whose sum of loads is the heel's mean pressure."""
-    points: list[Point] = field(factory=list, init=False)
-    """Centre and, ray by ray, the points along each ray."""
+    """Weight of each cell's load in the heel's mean pressure, 1/m^2."""
+    points: list[WeightedCells] = field(factory=list, init=False)
+    """The centre, followed by the points of each ray from the inside out."""
     rays: list[tuple[int, float]] = field(factory=list, init=False)
     """Number of points on each ray, and their distance, m."""
     levels: tuple[float, ...] = field(default=(), init=False)
-    """Levels in falling order, as shares or, if `absolute`, in Pa."""
-    absolute: bool = field(default=False, init=False)
+    """Levels in falling order, in Pa if `levels_in_pascals`, otherwise as shares."""
+    levels_in_pascals: bool = field(default=False, init=False)
     """Flag: the levels are pressures, not shares."""
     history: deque[tuple[float, tuple[float, ...]]] = field(factory=deque, init=False)
-    """Time and radii, level by level and ray by ray, from `INTERVAL` ago until now."""
+    """Samples of the last `COMPARISON_TIME`, each with its time, s, and the radii, m, of all levels ray by ray."""
 
     def set_layout(self, layout: Layout) -> str | None:
-        """Set the places of the cells, and return why they cannot have contours, None if they can."""
+        """Set the places of the cells; return the reason why they cannot have contours, or None if they can."""
         self.history.clear()
         self.cells, self.points, self.rays = [], [], []
         heel = [cell for cell in layout.cells if cell.x < HEEL_SHARE * layout.length]
@@ -104,15 +107,15 @@ class Contours:
             return f"{len(heel)} pressure cells under the heel have no contour, {FEWEST_CELLS} are the fewest"
         self.cells = [i for i, cell in enumerate(layout.cells) if cell.x < CONTOUR_SHARE * layout.length]
         shares, pascals = self.settings.shares, self.settings.pascals
-        self.absolute = pascals is not None and layout.scale is not None
-        self.levels = tuple(sorted(pascals if self.absolute and pascals else shares, reverse=True))
+        self.levels_in_pascals = pascals is not None and layout.scale is not None
+        self.levels = tuple(sorted(pascals if self.levels_in_pascals and pascals else shares, reverse=True))
         used = [layout.cells[i] for i in self.cells]
         self.per_area = [
             1.0 / (max(cell.area, 1e-9) * len(heel)) if cell.x < HEEL_SHARE * layout.length else 0.0 for cell in used
         ]
         centre = (sum(cell.x for cell in heel) / len(heel), sum(cell.y for cell in heel) / len(heel))
         self._set_rays(used, centre)
-        if not self.rays or sum(1 for count, _ in self.rays if count) < 2 * AXES - 2:
+        if not self.rays or sum(1 for count, _ in self.rays if count) < 2 * RAY_PAIRS - 2:
             self.points, self.rays = [], []
             return "the pressure cells under the heel do not surround a centre: they have no contour"
         return None
@@ -122,85 +125,85 @@ class Contours:
         self.history.clear()
 
     def velocity(self, t: float, cells: list[float]) -> tuple[float, float] | None:
-        """Return the (forward, left) velocity of the contours' centre, foot frame, m/s; None where there is none.
+        """Return the velocity (forward, left) of the contours' centre, foot frame, m/s; None without contours.
 
-        It is the mean of the levels whose contours exist now and `INTERVAL` ago. `cells`: loads above tare of the cells
-        in `self.cells`."""
+        It is the mean over the levels that have contours now and had them `COMPARISON_TIME` ago. `cells` are the loads
+        above tare of the cells in `self.cells`."""
         if not self.points:
             return None
-        now = self._radii(cells)
+        radii = self._radii(cells)
         history = self.history
         if history and history[-1][0] >= t:  # the clock has restarted
             history.clear()
-        before = None
-        while history and history[0][0] <= t - INTERVAL + TIE:
-            before = history.popleft()
-        history.append((t, now))
-        if before is None:
+        earlier_radii = None
+        while history and history[0][0] <= t - COMPARISON_TIME + TIE:
+            earlier_radii = history.popleft()
+        history.append((t, radii))
+        if earlier_radii is None:
             return None
-        history.appendleft(before)
-        since = t - before[0]
-        if since > 3.0 * INTERVAL:  # slow samples are not far apart, but a gap is
+        history.appendleft(earlier_radii)
+        elapsed = t - earlier_radii[0]
+        if elapsed > 3.0 * COMPARISON_TIME:  # a gap; even slow samples are nearer
             history.popleft()
             return None
-        return self._centre_velocity(now, before[1], 1.0 / since)
+        return self._centre_velocity(radii, earlier_radii[1], 1.0 / elapsed)
 
     def _radii(self, cells: list[float]) -> tuple[float, ...]:
-        """Return r(theta) of every level, m."""
+        """Return the radii r(theta), m, ray by ray, each for all levels."""
         pressures = [a * cells[i] + b * cells[j] + c * cells[k] for i, j, k, a, b, c in self.points]
-        mean = 1.0 if self.absolute else sum(map(mul, self.per_area, cells))
+        mean = 1.0 if self.levels_in_pascals else sum(map(mul, self.per_area, cells))
         levels = [share * mean for share in self.levels]
         count = len(levels)
         middle = pressures[0]
         first = 0
         while first < count and middle <= levels[first]:
             first += 1
-        missing = (MISSING,) * first
-        levels.append(-inf)  # nothing is below it
-        found: list[float] = []
-        at = 1
+        missing = (NO_RADIUS,) * first
+        levels.append(-inf)  # sentinel that no pressure is below
+        radii: list[float] = []
+        next_point = 1
         for points, step in self.rays:
-            found += missing
+            radii += missing
             level, target, inner, r = first, levels[first], middle, 0.0
-            for outer in pressures[at : at + points]:
+            for outer in pressures[next_point : next_point + points]:
                 if outer < target:
                     along = step / (inner - outer)
                     while outer < target:
-                        found.append(r + (inner - target) * along)
+                        radii.append(r + (inner - target) * along)
                         level += 1
                         target = levels[level]
                     if level == count:
                         break
                 inner = outer
                 r += step
-            found += (MISSING,) * (count - level)
-            at += points
-        return tuple(found)
+            radii += (NO_RADIUS,) * (count - level)
+            next_point += points
+        return tuple(radii)
 
     def _centre_velocity(
-        self, now: tuple[float, ...], before: tuple[float, ...], rate: float
+        self, radii: tuple[float, ...], earlier_radii: tuple[float, ...], rate: float
     ) -> tuple[float, float] | None:
-        """Return (1) and (2) for each level, as their mean."""
+        """Return the mean over all levels of the centre's velocity (1)(2), m/s; `rate` is 1 / dt, 1/s."""
         sum_x = sum_y = 0.0
         contours = 0
         count = len(self.levels)
         for level in range(count):
-            present, history = now[level::count], before[level::count]
-            if max(present) < 0.0 or max(history) < 0.0:
+            present, past = radii[level::count], earlier_radii[level::count]
+            if max(present) < 0.0 or max(past) < 0.0:
                 continue
-            if min(present) >= 0.0 and min(history) >= 0.0:
-                # all rays: the normal equations have AXES on their diagonal
-                moved = list(map(sub, present, history))
-                sum_x += sum(map(mul, moved, _COS)) / AXES
-                sum_y += sum(map(mul, moved, _SIN)) / AXES
+            if min(present) >= 0.0 and min(past) >= 0.0:
+                # with all rays the matrix of the normal equations is RAY_PAIRS times the identity
+                radius_changes = list(map(sub, present, past))
+                sum_x += sum(map(mul, radius_changes, _COS)) / RAY_PAIRS
+                sum_y += sum(map(mul, radius_changes, _SIN)) / RAY_PAIRS
                 contours += 1
                 continue
-            found = _fit_pairs(present, history)
-            if found is None and not self.absolute:
-                found = _fit_rays(present, history)
-            if found is not None:
-                sum_x += found[0]
-                sum_y += found[1]
+            displacement = _fit_pairs(present, past)
+            if displacement is None and not self.levels_in_pascals:
+                displacement = _fit_rays(present, past)
+            if displacement is not None:
+                sum_x += displacement[0]
+                sum_y += displacement[1]
                 contours += 1
         if not contours:
             return None
@@ -208,17 +211,17 @@ class Contours:
         return sum_x * k, sum_y * k
 
     def _set_rays(self, used: list[Cell], centre: tuple[float, float]) -> None:
-        """Set the points of the rays from the centre."""
+        """Set the points on the rays from the centre (x, y), foot frame, m."""
         x, y = centre
-        step = max((hypot(cell.x - x, cell.y - y) for cell in used if cell.x < 2.0 * x), default=0.0) / RINGS
+        step = max((hypot(cell.x - x, cell.y - y) for cell in used if cell.x < 2.0 * x), default=0.0) / POINTS_PER_RAY
         middle = _triangle(used, x, y)
         if middle is None or step <= 0.0:
             return
         self.points = [middle]
-        for k in range(2 * AXES):
-            c, s = cos(pi * k / AXES), sin(pi * k / AXES)
+        for k in range(2 * RAY_PAIRS):
+            c, s = cos(pi * k / RAY_PAIRS), sin(pi * k / RAY_PAIRS)
             first_point = len(self.points)
-            for ring in range(1, RINGS + 1):
+            for ring in range(1, POINTS_PER_RAY + 1):
                 point = _triangle(used, x + step * ring * c, y + step * ring * s)
                 if point is None:
                     break
@@ -226,62 +229,64 @@ class Contours:
             self.rays.append((len(self.points) - first_point, step))
 
 
-_COS = [cos(pi * k / AXES) for k in range(2 * AXES)]
+_COS = [cos(pi * k / RAY_PAIRS) for k in range(2 * RAY_PAIRS)]
 """Cosine of each ray's direction."""
-_SIN = [sin(pi * k / AXES) for k in range(2 * AXES)]
+_SIN = [sin(pi * k / RAY_PAIRS) for k in range(2 * RAY_PAIRS)]
 """Sine of each ray's direction."""
 _RAYS = [(c, s, c * c, c * s, s * s) for c, s in zip(_COS, _SIN, strict=True)]
 """Direction of each ray, and its terms of the normal equations."""
 
 
-def _fit_pairs(now: tuple[float, ...], before: tuple[float, ...]) -> tuple[float, float] | None:
-    """Return how far the centre of one level's contour has moved, m, by its rays that have an opposite."""
-    opposites = zip(now[:AXES], now[AXES:], before[:AXES], before[AXES:], strict=True)
+def _fit_pairs(radii: tuple[float, ...], earlier_radii: tuple[float, ...]) -> tuple[float, float] | None:
+    """Return the displacement of one level's contour, m, by those of its rays whose opposite has a radius, too."""
+    opposites = zip(
+        radii[:RAY_PAIRS], radii[RAY_PAIRS:], earlier_radii[:RAY_PAIRS], earlier_radii[RAY_PAIRS:], strict=True
+    )
     return _least_squares([0.5 * (r - p - q + o) if min(r, q, p, o) >= 0.0 else None for r, q, p, o in opposites])
 
 
-def _fit_rays(now: tuple[float, ...], before: tuple[float, ...]) -> tuple[float, float] | None:
-    """Return how far the centre of one level's contour has moved, m, by all its rays."""
-    return _least_squares([r - p if r >= 0.0 and p >= 0.0 else None for r, p in zip(now, before, strict=True)])
+def _fit_rays(radii: tuple[float, ...], earlier_radii: tuple[float, ...]) -> tuple[float, float] | None:
+    """Return the displacement of one level's contour, m, by all its rays that have a radius."""
+    return _least_squares([r - p if r >= 0.0 and p >= 0.0 else None for r, p in zip(radii, earlier_radii, strict=True)])
 
 
-def _least_squares(moved: list[float | None]) -> tuple[float, float] | None:
-    """Return the vector u for which u . r_hat is nearest to `moved`, m, along the first rays, by least squares.
+def _least_squares(radius_changes: list[float | None]) -> tuple[float, float] | None:
+    """Return the vector u, m, that fits u . r_hat to the changes of the first rays' radii, m, by least squares.
 
-    None where too few directions, or too similar ones, have a value."""
+    It is None if too few rays have a change, or all of them have nearly the same direction."""
     xx = xy = yy = bx = by = 0.0
-    for (c, s, cc, cs, ss), along in zip(_RAYS, moved, strict=False):
-        if along is not None:
+    for (c, s, cc, cs, ss), radius_change in zip(_RAYS, radius_changes, strict=False):
+        if radius_change is not None:
             xx += cc
             xy += cs
             yy += ss
-            bx += along * c
-            by += along * s
+            bx += radius_change * c
+            by += radius_change * s
     determinant = xx * yy - xy * xy
-    if determinant < 1.0:  # three neighbouring directions have 1.5, all six axes 9
+    if determinant < 1.0:  # it is 1.5 for three neighbouring directions, 9 for all six axes
         return None
     return (yy * bx - xy * by) / determinant, (xx * by - xy * bx) / determinant
 
 
-def _triangle(cells: list[Cell], x: float, y: float) -> Point | None:
-    """Return the tightest triangle of cells about a point and the cells' weights there; None if no cells surround it.
+def _triangle(cells: list[Cell], x: float, y: float) -> WeightedCells | None:
+    """Return the smallest triangle of cells around a point, with the weights that turn their loads into its pressure.
 
-    The weights turn loads into pressures."""
+    It is None if no cells surround the point. The smallest triangle is that of least perimeter."""
     order = sorted(range(len(cells)), key=lambda i: (hypot(cells[i].x - x, cells[i].y - y), i))[:NEAREST_CELLS]
-    best: Point | None = None
-    tightest = 0.0
+    tightest: WeightedCells | None = None
+    least_perimeter = 0.0
     for i, j, k in combinations(order, 3):
         a, b, c = cells[i], cells[j], cells[k]
         area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y)
-        if abs(area) < 1e-7:  # m^2: in one line
+        if abs(area) < 1e-7:  # m^2: the cells lie in one line
             continue
         first = ((b.x - x) * (c.y - y) - (c.x - x) * (b.y - y)) / area
         second = ((c.x - x) * (a.y - y) - (a.x - x) * (c.y - y)) / area
         third = 1.0 - first - second
         if min(first, second, third) < -1e-9:
             continue
-        around = hypot(a.x - b.x, a.y - b.y) + hypot(b.x - c.x, b.y - c.y) + hypot(c.x - a.x, c.y - a.y)
-        if best is None or around < tightest - 1e-9:
-            tightest = around
-            best = (i, j, k, first / max(a.area, 1e-9), second / max(b.area, 1e-9), third / max(c.area, 1e-9))
-    return best
+        perimeter = hypot(a.x - b.x, a.y - b.y) + hypot(b.x - c.x, b.y - c.y) + hypot(c.x - a.x, c.y - a.y)
+        if tightest is None or perimeter < least_perimeter - 1e-9:
+            least_perimeter = perimeter
+            tightest = (i, j, k, first / max(a.area, 1e-9), second / max(b.area, 1e-9), third / max(c.area, 1e-9))
+    return tightest

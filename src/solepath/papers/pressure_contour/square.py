@@ -2,15 +2,16 @@
 
 "Personal navigation via high-resolution gait-corrected inertial measurement units" (IEEE Trans. Instrum. Meas. 59,
 2010). The wearer walks four to six laps of a square on whose edges every stride of one foot is marked (40 marks on 4
-times 11.7 m in the paper) and stands on the same marks in every lap. A foot that comes back to its mark is where it
-was, so a line through the positions of one mark over time (least squares) has the slope of the drift. The mean slope of
-all marks is subtracted from later positions.
+times 11.7 m in the paper) and steps on the same marks in every lap. On every visit of a mark the true position is the
+same. So the slope of a line through the computed positions over time (least squares) is the drift. The mean slope of
+all marks is subtracted from later positions as a velocity.
 
-The paper finds a drift in a fixed direction. A drift that changes direction is different: extrapolated from five
-minutes to half an hour its correction does more harm than good. A fixed drift moves all marks by the same amount from
-every lap to the next; so the slope is kept when it is larger than the laps' disagreement explains, by the test that is
-exact for independent movements of two components: with n movements of standard error s an axis, k = n - 1 and a chance
-of CHANCE, slope^2 / (2 s^2) > k (CHANCE^(-1/k) - 1), the F distribution with 2 and 2 k degrees of freedom."""
+The paper's drift has a fixed direction. The correction of a drift that changes direction would do more harm than good,
+if it were extrapolated from five minutes to half an hour. A fixed drift moves all marks from each lap to the next at
+the same velocity. So the slope is used only if it is larger than chance explains. The test is exact for n independent
+two-dimensional lap velocities whose mean has the standard error s on each axis. With k = n - 1 and a probability p of a
+false drift the condition is slope^2 / (2 s^2) > k (p^(-1/k) - 1), from the F distribution with 2 and 2 k degrees of
+freedom. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -31,48 +32,50 @@ from ...types.vector import from_yaw, rotate
 from .bias_zupt import BiasZupt
 from .recipe import PRESSURE_CONTOUR
 
-STEPS_PER_LAP = 40
-"""Number of the paper's marks."""
+STRIDES_PER_LAP = 40
+"""Number of marks around the paper's square, one for each stride of one foot."""
 FEWEST_LAPS = 3
-"""Fewest laps that show a drift: two points lie on any line."""
-CHANCE = 0.01
-"""Probability of keeping a slope where nothing drifts."""
+"""Least number of laps for a drift; a line through two points always fits."""
+FALSE_DRIFT_PROBABILITY = 0.01
+"""Probability of using a slope if there is no drift."""
 LARGEST_DRIFT = 0.05
-"""Largest drift of a foot whose velocity is reset at every stride, m/s: 5 cm a stride."""
+"""Largest drift of a foot whose velocity is reset at every stride, m/s: about 5 cm per stride."""
 CLOSURE_SHARE = 0.25
-"""Share of the square's diagonal by which a mark may move from one lap to the next, beside a drift.
+"""Distance by which a mark may move per lap in addition to the drift, as a share of the square's diagonal.
 
-The laps of a square of 11.7 m then end within 4 m, 9 % of their way."""
+The laps of a square of 11.7 m then end within 4 m, which is 9 % of the distance walked."""
 MARK_TOLERANCE = 1.0
 """Longest time between the end of a stride and a mark's time in the file, s."""
 
 
 @frozen
 class CornerMark:
-    """A visit of mark `name` by the foot at `t`, s."""
+    """A visit of a mark by the foot."""
 
     name: str
     t: float
+    """Time of the visit, s."""
 
 
 @frozen
 class SquareDrift:
-    """Drift that the laps show.
-
-    `slope`: mean of the marks' slopes, m/s (x, y), in the frame of `Calibration.drift`; `scatter`: its standard error
-    by the laps' disagreement, m/s an axis; `agreed`: the slope is larger than that explains."""
+    """The drift of one foot by the laps."""
 
     foot: Foot
     slope: tuple[float, float]
+    """Mean of the marks' slopes (x, y), m/s, in the frame of `Calibration.drift`."""
     scatter: float
+    """Standard error of `slope` on each axis, m/s, from the differences between the laps."""
     agreed: bool
+    """Flag: the slope is larger than chance explains."""
     marks: int
+    """Number of marks that were visited often enough."""
     visits: int
-    """Number of visits of all marks together."""
+    """Number of visits of all these marks."""
 
     @property
     def kept(self) -> tuple[float, float]:
-        """Slope that a calibration takes, m/s: `slope` if `agreed`, otherwise zero."""
+        """Slope for a calibration (x, y), m/s: `slope` if `agreed`, otherwise zero."""
         return self.slope if self.agreed else (0.0, 0.0)
 
 
@@ -81,15 +84,16 @@ def square_drift(
     *,
     foot: Foot | None = None,
     marks: Sequence[CornerMark] | None = None,
-    steps_per_lap: int = STEPS_PER_LAP,
+    steps_per_lap: int = STRIDES_PER_LAP,
     recipe: Recipe = PRESSURE_CONTOUR,
     calibration: Calibration | None = None,
 ) -> SquareDrift:
-    """Run the laps through a session and fit a line for each mark.
+    """Run the laps through a session, and fit a line to the positions of each mark.
 
-    With `marks` every visit is the stride that ends nearest to its time; without, every `steps_per_lap`-th stride is on
-    the same mark. `foot`: the foot to use; the right one where both were recorded. CalibrationError when there are too
-    few laps, when they are no laps (`check_laps`), or when the recipe cannot use a drift."""
+    With `marks` a visit is the stride that ends nearest to its time. Without them every `steps_per_lap`-th stride is on
+    the same mark. `foot` is the foot to use; None selects the right foot if it was recorded. Raises CalibrationError
+    when there are too few laps, when they are not laps of a square (`check_laps`), or when the recipe cannot use a
+    drift."""
     if not isinstance(recipe.corrector, BiasZupt):
         raise CalibrationError(f"recipe {recipe.name} takes no drift off")
     known = Calibration() if calibration is None else calibration
@@ -105,20 +109,20 @@ def square_drift(
         _visits_by_count(strides[chosen], steps_per_lap) if marks is None else _visits_by_marks(strides[chosen], marks)
     )
     tracker = session.feet[chosen]
-    # Strides are in the world frame, along the first heading; a drift is in the sensor's or the device's frame.
+    # strides are in the world frame, but a drift is in the navigation frame or in that of the device
     corrector = tracker.corrector
     heading_offset = corrector.heading_offset if isinstance(corrector, BiasZupt) else None
     north = tracker.gait.world.north or (1.0, 0.0)
     to_drift_frame = -atan2(north[1], north[0]) - (heading_offset or 0.0)
-    found = fit_drift(chosen, visits, to_drift_frame)
-    check_laps(found, visits)
-    return found
+    drift = fit_drift(chosen, visits, to_drift_frame)
+    check_laps(drift, visits)
+    return drift
 
 
 def read_marks(path: Path | str) -> tuple[CornerMark, ...]:
-    """Read marks from a .csv with the columns `mark` and `t`, one row for every visit.
+    """Read marks from a .csv with the columns `mark` and `t`, s, one row for every visit.
 
-    CalibrationError when the file is not of that form."""
+    Raises CalibrationError when the file does not have that form."""
     rows = read_rows(path, ("mark", "t"))
     if not rows:
         raise CalibrationError(f"{path}: no visits of marks")
@@ -126,7 +130,7 @@ def read_marks(path: Path | str) -> tuple[CornerMark, ...]:
 
 
 Visits = dict[str, list[tuple[float, Vec3]]]
-"""Visits by mark, each with its time, s, and the position found for it, world frame, m."""
+"""Visits by mark, each with its time, s, and the computed position, world frame, m."""
 
 
 def _visits_by_count(strides: Sequence[StrideTaken], steps_per_lap: int) -> Visits:
@@ -152,9 +156,9 @@ def _visits_by_marks(strides: Sequence[StrideTaken], marks: Sequence[CornerMark]
 
 
 def fit_drift(foot: Foot, visits: Mapping[str, list[tuple[float, Vec3]]], to_drift_frame: float) -> SquareDrift:
-    """Fit one line for each mark that was visited often enough.
+    """Fit a line to the positions of each mark that was visited often enough, and return the mean drift.
 
-    `to_drift_frame` turns from the world frame to the drift's, rad."""
+    `to_drift_frame` is the angle, rad, by which vectors are turned from the world frame to that of the drift."""
     slopes: list[tuple[float, float]] = []
     moves: dict[int, list[tuple[float, float]]] = {}
     used = 0
@@ -175,16 +179,16 @@ def fit_drift(foot: Foot, visits: Mapping[str, list[tuple[float, Vec3]]], to_dri
     laps = np.array([np.mean(lap, axis=0) for lap in moves.values()])
     scatter = float(np.sqrt(np.mean(laps.var(axis=0, ddof=1)) / len(laps))) if len(laps) > 1 else inf
     k = len(laps) - 1
-    agreed = k > 0 and x * x + y * y > 2.0 * scatter * scatter * k * (CHANCE ** (-1.0 / k) - 1.0)
+    agreed = k > 0 and x * x + y * y > 2.0 * scatter * scatter * k * (FALSE_DRIFT_PROBABILITY ** (-1.0 / k) - 1.0)
     sx, sy, _ = rotate(from_yaw(to_drift_frame), (x, y, 0.0))
     return SquareDrift(foot, (sx, sy), scatter, agreed, len(slopes), used)
 
 
-def check_laps(found: SquareDrift, visits: Mapping[str, list[tuple[float, Vec3]]]) -> None:
-    """Check that the laps are laps of a square.
+def check_laps(drift: SquareDrift, visits: Mapping[str, list[tuple[float, Vec3]]]) -> None:
+    """Raise CalibrationError unless the laps are laps of a square.
 
-    CalibrationError when from one lap to the next the marks, in the mean, lie farther apart than `LARGEST_DRIFT` and
-    `CLOSURE_SHARE` allow, or the drift is larger than `LARGEST_DRIFT`."""
+    The mean distance of the marks from one lap to the next must be within `LARGEST_DRIFT` and `CLOSURE_SHARE`, and the
+    drift within `LARGEST_DRIFT`."""
     marks = [np.array([(t, x, y) for t, (x, y, _) in places]) for places in visits.values() if len(places) > 1]
     middles = np.array([mark[:, 1:].mean(axis=0) for mark in marks])
     diagonal = float(np.linalg.norm(np.ptp(middles, axis=0)))
@@ -193,13 +197,13 @@ def check_laps(found: SquareDrift, visits: Mapping[str, list[tuple[float, Vec3]]
         for number, (duration, dx, dy) in enumerate(np.diff(mark, axis=0)):
             moves.setdefault(number, []).append((float(duration), hypot(dx, dy)))
     for lap in moves.values():
-        duration, moved = np.mean(lap, axis=0)
-        if moved > LARGEST_DRIFT * duration + CLOSURE_SHARE * diagonal:
+        duration, distance = np.mean(lap, axis=0)
+        if distance > LARGEST_DRIFT * duration + CLOSURE_SHARE * diagonal:
             raise CalibrationError(
-                f"the laps do not close: a mark lies {moved:.1f} m from where it lay a lap before, "
+                f"the laps do not close: a mark lies {distance:.1f} m from where it lay a lap before, "
                 f"the diagonal of all marks is {diagonal:.1f} m; is the number of steps a lap right?"
             )
-    speed = hypot(*found.slope)
+    speed = hypot(*drift.slope)
     if speed > LARGEST_DRIFT:
         raise CalibrationError(
             f"a drift of {100.0 * speed:.1f} cm/s: more than {100.0 * LARGEST_DRIFT:.0f} cm/s are no drift of steps"

@@ -1,1 +1,1 @@
-"""Li et al. 2016: stance by short-time energy, tilt fed back in stance, stairs by angle per metre."""
+"""Li et al. 2016: stance by short-time energy, tilt feedback in stance, stairs by angle per metre."""

@@ -1,9 +1,9 @@
 """Attitude of a foot by Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), section 3.2.
 
-The vector product with gravity gives the posture, and Runge and Kutta's fourth-order method integrates the quaternion.
-Q turns the sensor's coordinates into those of the reference frame, whose gravitational vector is aR = [0, 0, 1]: the
-reading of an accelerometer at rest, upwards. gb is that vector turned by Q into the sensor's coordinates, g'R the
-measured one, both of length 1; e = gb x g'R is the axis and, while small, the angle by which Q is off."""
+A vector product with gravity gives the tilt, and Runge and Kutta's fourth-order method integrates the quaternion. Q
+turns vectors from the sensor frame to the reference frame, whose gravitational vector is aR = [0, 0, 1]: the direction
+of an accelerometer's reading at rest, upwards. gb is aR turned into the sensor frame, g'R the measured direction there;
+both are unit vectors. e = gb x g'R has the axis of Q's tilt error and, if small, its angle, rad."""
 
 from __future__ import annotations
 
@@ -12,22 +12,22 @@ from math import sqrt
 from ...types import Quat, Vec3
 from ...types.vector import IDENTITY, from_rotation_vector, levelling, multiply, normalise
 
-POINTS = 400
-"""Number of points of the initialisation, which "will converge in about 4 s (i.e., 400 points)" (fig. 7)."""
-POINT_INTERVAL = 0.01
-"""Time between two points of the initialisation, s."""
+ITERATIONS = 400
+"""Number of iterations to the first attitude, which "will converge in about 4 s (i.e., 400 points)" (fig. 7)."""
+ITERATION_INTERVAL = 0.01
+"""Time step of an iteration, s."""
 GAIN = 2.0
-"""Kp of the initialisation, 1/s: tan of half the error falls by exp(-Kp t), to a thousandth within fig. 7's 4 s."""
+"""Gain Kp of the iteration, 1/s. The tangent of half the error falls as exp(-Kp t): to a thousandth in fig. 7's 4 s."""
 LARGEST_ERROR = 2e-3
-"""Error of the posture after all points above which it did not converge, rad."""
-WIDEST_TURN = 1.0
-"""Square of the turn within one sample, rad^2, that Runge and Kutta's polynomial follows to 1e-3 rad.
+"""Error of the attitude after all iterations above which they have not converged, rad."""
+LARGEST_SQUARED_TURN = 1.0
+"""Square of the largest rotation within one sample, rad^2, for which Runge and Kutta's error is at most 1e-3 rad.
 
-A wider turn, which samples at a low rate have, is computed exactly."""
+A larger rotation, which occurs at low sample rates, is computed in closed form."""
 
 
 def gravity_error(attitude: Quat, acc: Vec3) -> Vec3:
-    """Return e = gb x g'R, sensor frame; zero if `acc` has no length.
+    """Return the tilt error e = gb x g'R, sensor frame, rad; zero if `acc` is zero.
 
     `acc` is the measured specific force, in any unit."""
     q0, q1, q2, q3 = attitude
@@ -42,36 +42,37 @@ def gravity_error(attitude: Quat, acc: Vec3) -> Vec3:
 
 
 def posture(acc: Vec3) -> Quat:
-    """Return the posture of a foot at rest, iterated from Q = [1, 0, 0, 0] until the vector product is zero (fig. 6).
+    """Return the attitude of a foot at rest, iterated from Q = [1, 0, 0, 0] until the vector product is zero (fig. 6).
 
-    `acc` is the mean specific force of a rest. Each of 400 points turns Q as the feedback of stance would with a
-    gyroscope that reads zero; the paper does not describe its P, "the solution process of the quaternion", any further.
-    For an upside-down sensor the vector product gives no direction of turn, so the iteration starts upside down."""
-    direct = levelling(acc)
-    q = IDENTITY if abs(direct[0]) > 0.1 else direct
-    for _ in range(POINTS):
+    `acc` is the mean specific force at rest, in any unit. Each iteration turns Q as the feedback in stance would do if
+    the gyroscope read zero. The paper does not describe its P, "the solution process of the quaternion", any further.
+    For a sensor that is upside down the vector product is zero without giving an axis, so the iteration starts from the
+    closed-form solution."""
+    closed_form = levelling(acc)
+    q = IDENTITY if abs(closed_form[0]) > 0.1 else closed_form
+    for _ in range(ITERATIONS):
         ex, ey, ez = gravity_error(q, acc)
         rate = (-GAIN * ex, -GAIN * ey, -GAIN * ez)
-        q = turn(q, rate, rate, POINT_INTERVAL)
+        q = turn(q, rate, rate, ITERATION_INTERVAL)
     ex, ey, ez = gravity_error(q, acc)
-    return q if ex * ex + ey * ey + ez * ez < LARGEST_ERROR * LARGEST_ERROR else direct
+    return q if ex * ex + ey * ey + ez * ez < LARGEST_ERROR * LARGEST_ERROR else closed_form
 
 
-def turn(q: Quat, before: Vec3, after: Vec3, h: float) -> Quat:
-    """Return Q after `h` s in which the rate went from `before` to `after`, sensor frame, rad/s.
+def turn(q: Quat, rate_before: Vec3, rate_after: Vec3, dt: float) -> Quat:
+    """Return Q after `dt` s in which the rate changes linearly between two values, sensor frame, rad/s.
 
     Q' = 1/2 Q w, of which the paper prints the matrix, is integrated by Q_n+1 = Q_n + h/6 (k1 + 2 k2 + 2 k3 + k4) and
-    normalised. The paper has 3 k3, a misprint: the weights of the classical method add up to 6; with 3 they add up to
-    7, and every turn comes out a sixth too wide. Its f(w_n + h/2, ...) is the rate half an interval later: the mean of
-    both."""
-    ax, ay, az = before
-    cx, cy, cz = after
-    half = 0.5 * h
+    normalised; h is `dt`. The paper prints 3 k3, which must be a mistake: the weights of the classical method add up to
+    6, and with 3 k3 every rotation would be a sixth too large. The paper's f(w_n + h/2, ...) is taken to be the rate in
+    the middle of the interval, the mean of both rates."""
+    ax, ay, az = rate_before
+    cx, cy, cz = rate_after
+    half = 0.5 * dt
     ax, ay, az, cx, cy, cz = ax * half, ay * half, az * half, cx * half, cy * half, cz * half
     bx, by, bz = 0.5 * (ax + cx), 0.5 * (ay + cy), 0.5 * (az + cz)
-    if 4.0 * (bx * bx + by * by + bz * bz) > WIDEST_TURN:
+    if 4.0 * (bx * bx + by * by + bz * bz) > LARGEST_SQUARED_TURN:
         return normalise(multiply(q, from_rotation_vector((2.0 * bx, 2.0 * by, 2.0 * bz))))
-    # the k are of whole intervals: h k1 and so on
+    # k1 to k3 are multiplied by the interval: h k1 and so on
     w, x, y, z = q
     k1w = -ax * x - ay * y - az * z
     k1x = ax * w + az * y - ay * z

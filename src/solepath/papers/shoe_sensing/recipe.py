@@ -8,7 +8,7 @@ from .short_time_energy import AccelerationMagnitude, ShortTimeEnergy
 from .walking_state import AnglePerMetre
 
 SHOE_SENSING = Recipe("shoe-sensing", ShortTimeEnergy(), ShoeSensing(), parts=usual(activity=AnglePerMetre()))
-"""Li et al. 2016: short-time energy, tilt fed back in stance, height errors of level strides taken out."""
+"""Li et al. 2016: short-time energy, tilt feedback in stance, height errors of level strides removed."""
 
 SHOE_MAGNITUDE = Recipe(
     "acceleration-magnitude",
@@ -16,4 +16,4 @@ SHOE_MAGNITUDE = Recipe(
     ShoeSensing(ShoeSensingSettings(detector_delay=0.0)),
     parts=usual(activity=AnglePerMetre()),
 )
-"""Li et al.'s baseline: as `SHOE_SENSING`, with stance where the acceleration is as large as gravity."""
+"""Li et al.'s baseline: `SHOE_SENSING`, but with stance where the specific force is about 1 g."""

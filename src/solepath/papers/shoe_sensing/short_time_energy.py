@@ -1,7 +1,7 @@
 """Stance evidence of Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), section 3.1.2.
 
-`ShortTimeEnergy` uses the short-time energy of the acceleration's magnitude, `AccelerationMagnitude`, the paper's
-baseline, the magnitude itself."""
+`ShortTimeEnergy` uses the short-time energy of the magnitude of the specific force. `AccelerationMagnitude`, the
+paper's baseline, uses the magnitude itself. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from ...types import Phase, Quat, Vec3
 from ...types.attrs import define, field, frozen
 from ...types.vector import GRAVITY, IDENTITY, TIE, ZERO
 
-RATE = 100.0
+PAPER_RATE = 100.0
 """Sampling rate of the paper, Hz."""
 LARGEST_SQUARE = 1e4
-"""Limit of one sample's squared magnitude, g^2: the running sum stays exact to far below the threshold."""
+"""Limit of one sample's squared x, g^2, so that rounding errors of the running sum stay far below the threshold."""
 LONGEST_SAMPLE = 0.1
-"""Limit of one sample's duration, s."""
+"""Limit of the time that one sample counts for, s."""
 
 
 @frozen
@@ -39,29 +39,30 @@ class EnergySettings:
 class ShortTimeEnergy(Detector):
     """Detector by short-time energy E_n = sum over m = n-N+1 .. n of [x(m) w(n-m)]^2; stationary where E < E_T = 0.05.
 
-    x = sqrt(accX^2 + accY^2 + accZ^2) - g. The statistic is E. Latency: `window`.
+    x = sqrt(accX^2 + accY^2 + accZ^2) - g. The statistic is E, g^2. Latency: `window`.
 
-    The paper gives neither a unit nor w and N. x is in g here: at rest the noise of the paper's MPU-6050 (0.4 mg per
-    sqrt(Hz), 3 mg over 50 Hz) and an offset of one axis (50 to 80 mg in its data sheet) make an x of 0.03 to 0.8 m/s^2.
-    In (m/s^2)^2 fifteen samples at rest would reach 0.01 to 10, and many a sensor could never stand; in g^2 they stay
-    below 0.1, before the accelerometer's scale is learnt, and the paper's own gravity is [0, 0, 1]. w is a rectangle. N
-    is a time, `window`, and each sample counts for as many of the paper's 100 Hz samples as it lasts: the energy of the
-    same motion is the same at every rate.
+    The paper gives neither a unit nor w and N. Here x is in g, because the paper's gravity is [0, 0, 1] and because of
+    sensor errors at rest: The noise of the paper's MPU-6050 (0.4 mg per sqrt(Hz), 3 mg over 50 Hz) and the offset of
+    one axis (50 to 80 mg in its data sheet) make an x of 0.03 to 0.8 m/s^2. Fifteen samples at rest would then have an
+    energy of 0.01 to 10 (m/s^2)^2, and many sensors would never be stationary. In g^2 the energy is below 0.1, even
+    before the accelerometer's scale is learnt. w is a rectangle. N is a time, `window`. A sample is weighted by its
+    duration times the paper's 100 Hz, so the energy of a motion does not depend on the sample rate.
 
-    "N is critical": with 0.15 s a walker's stances are found and little else, but a jogger's foot is flat for 0.08 s.
-    So the energy is summed backwards for as long as it stays below E_T. If that covers all of `window`, E < E_T: sigma
-    is `sigma` and the hint STATIONARY. If it covers less, down to `shortest_stance`, sigma is larger in proportion and
-    there is no hint: it may be a jogger's stance, and a corrector that knows how fast the foot is can decide."""
+    "N is critical": A window of 0.15 s finds the stances of walkers and little else, but a jogger's foot is flat for
+    0.08 s. So energy is summed backwards in time while it is below E_T. If the sum covers the whole `window`, E < E_T,
+    the evidence has `sigma` and the hint STATIONARY. If it covers less, but at least `shortest_stance`, sigma is
+    inversely proportional to that time and there is no hint. This may be a jogger's stance; a corrector, which knows
+    the speed of the foot, can decide."""
 
     settings: EnergySettings = EnergySettings()
     entries: deque[tuple[float, float]] = field(factory=deque, init=False)
-    """Samples in the window, each with its duration, s, and its energy, g^2."""
+    """Samples in the window, each with its duration, s, and energy, g^2."""
     total_time: float = field(default=0.0, init=False)
     """Duration of all samples in the window, s."""
     total_energy: float = field(default=0.0, init=False)
     """Energy of all samples in the window, g^2."""
     still_count: int = field(default=0, init=False)
-    """Number of last samples whose energy stays below E_T together."""
+    """Number of latest samples whose total energy is below E_T."""
     still_time: float = field(default=0.0, init=False)
     """Duration of the last `still_count` samples, s."""
     still_energy: float = field(default=0.0, init=False)
@@ -78,7 +79,7 @@ class ShortTimeEnergy(Detector):
             square = LARGEST_SQUARE
         if dt > LONGEST_SAMPLE:
             dt = LONGEST_SAMPLE
-        energy = square * dt * RATE
+        energy = square * dt * PAPER_RATE
         entries = self.entries
         entries.append((dt, energy))
         self.total_time += dt
@@ -107,24 +108,24 @@ class ShortTimeEnergy(Detector):
             self.total_time = self.still_time
             if self.total_time >= settings.window - TIE:
                 return Stance(ZERO, settings.sigma, self.total_energy, Phase.STATIONARY)
-        total_time = self.still_time
-        if total_time >= settings.shortest_stance - TIE:
-            return Stance(ZERO, settings.sigma * settings.window / total_time, self.total_energy, None)
+        time = self.still_time
+        if time >= settings.shortest_stance - TIE:
+            return Stance(ZERO, settings.sigma * settings.window / time, self.total_energy, None)
         return Stance(ZERO, inf, self.total_energy, None)
 
 
 @frozen
 class AccelerationMagnitude(Detector):
-    """Detector: the foot stands where the acceleration is as large as gravity.
+    """Detector: the foot stands while the magnitude of the specific force, |a|, is about 1 g.
 
-    Li et al. compare with it in section 4.2.1, without a threshold. The threshold is that of Jimenez and others, "A
-    comparison of pedestrian dead-reckoning algorithms using a low-cost MEMS IMU" (IEEE WISP 2009), condition C1: 9
-    m/s^2 < |a| < 11 m/s^2. The statistic is |a| - g, m/s^2. No latency."""
+    Li et al. compare with it in section 4.2.1, but give no threshold. Here it is condition C1 of Jimenez and others, "A
+    comparison of pedestrian dead-reckoning algorithms using a low-cost MEMS IMU" (IEEE WISP 2009): 9 m/s^2 < |a| < 11
+    m/s^2. The statistic is |a| - g, m/s^2. It has no latency."""
 
     lowest: float = 9.0
-    """Magnitude that the acceleration of a standing foot exceeds, m/s^2."""
+    """Lower limit of |a| of a standing foot, m/s^2."""
     highest: float = 11.0
-    """Magnitude that the acceleration of a standing foot stays below, m/s^2."""
+    """Upper limit of |a| of a standing foot, m/s^2."""
     sigma: float = 0.01
     """Noise of the zero velocity of a stance, m/s."""
 

@@ -1,7 +1,7 @@
 """Walking state by the angle per metre of each stride.
 
 Li, Liu, Liu, Chen, Ma, "3D tracking via shoe sensing" (Sensors 16, 1809, 2016), section 3.4.1. The angle and its
-thresholds are in body/activity/steepness.py."""
+thresholds are in body/activity/steepness.py. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -17,44 +17,46 @@ from ...types import Activity, Foot, Phase, Site
 from ...types.attrs import define, field
 from ...types.vector import TIE
 
-STANDING_AFTER = 1.2
+STANDING_DELAY = 1.2
 """Time without motion after which the wearer is STANDING, s; longer than a stance of a slow walker."""
-UNKNOWN_AFTER = 5.0
+UNKNOWN_DELAY = 5.0
 """Time of motion without a stride after which the activity is UNKNOWN, s."""
-CLOCKS_APART, SILENT_AFTER = 5.0, 10.0
-"""Time between two feet above which their clocks differ, s, and silence that ends the wait for a foot, s."""
+LARGEST_CLOCK_DIFFERENCE, LONGEST_SILENCE = 5.0, 10.0
+"""Difference of the feet's times from which their clocks differ, s; longest time without samples of a foot, s."""
 _ACTIVITY_OF = {0: Activity.WALKING, 1: Activity.STAIRS_UP, -1: Activity.STAIRS_DOWN}
+"""Activity by the direction of a stride (`steepness`)."""
 
 
 @define
 class AnglePerMetre(ActivityPart):
-    """Classifies each stride as level, upstairs or downstairs by its own angle per metre, and counts flights of stairs.
+    """Classifies each stride as level, upstairs or downstairs by its angle per metre, and detects flights of stairs.
 
-    The paper has three states and takes walking and jogging for one: a level stride is WALKING, however fast. It has no
-    state for a wearer who does not walk: feet that stand for `STANDING_AFTER` s are STANDING from the start of that
-    stance, and feet that move without a stride for `UNKNOWN_AFTER` s are UNKNOWN. Every event is final and has no
-    probabilities. Latency: the stride's end, for a state that started with its toe-off; `STANDING_AFTER` for standing.
+    The paper has three states: level, up and down. Walking and jogging are one state, so a level stride is WALKING at
+    any speed. Two states are added: feet that stand for `STANDING_DELAY` are STANDING from the start of that stance,
+    and feet that move without a stride for `UNKNOWN_DELAY` are UNKNOWN. Every event is final and has no probability.
+    Latency: a state that starts with a toe-off is known at the end of that stride; standing, after `STANDING_DELAY`.
 
-    A stride that gains more height than stairs have (steepness.py) is an error of the track, and its angle means
-    nothing: the activity of a wearer who walked or climbed stays, that of one who stood becomes UNKNOWN. When the clock
-    of one foot restarts, events have the times of the other foot. A foot more than `CLOCKS_APART` s away from the other
-    is left out until it is nearer, the other foot's clock restarts too, or the other foot has no samples for
-    `SILENT_AFTER` s."""
+    A stride with a larger height change than stairs have (steepness.py) is an error of the track, so its angle is not
+    used. The activity of a wearer who walked or climbed stays; STANDING becomes UNKNOWN. When the clock of one foot
+    restarts, events have the times of the other foot. A foot whose time differs by more than `LARGEST_CLOCK_DIFFERENCE`
+    is not used until the difference is smaller, the other foot's clock restarts, too, or the other foot has sent no
+    samples for `LONGEST_SILENCE`."""
 
     needs_samples: ClassVar[bool] = True
 
     activity: Activity = field(default=Activity.UNKNOWN, init=False)
+    """Activity of the last event."""
     flights: Flights = field(factory=Flights, init=False)
-    changed_at: float | None = field(default=None, init=False)
+    reported_t: float | None = field(default=None, init=False)
     """Time `t` of the last event, s; None when that event is on a clock that is no longer used."""
     clocks: dict[Foot, float] = field(factory=dict, init=False)
-    """Newest time of each foot whose clock dates events, s."""
+    """Newest time of each foot whose clock is used for the times of events, s."""
     waiting_since: dict[Foot, float | None] = field(factory=dict, init=False)
-    """Start of the wait for the other foot, s, own clock, by foot whose clock restarted and does not date events. None
-    when the other foot sent a sample just now."""
+    """Feet that are not used since their clocks restarted, each with the time, s, of its own clock since which the
+    other foot has been silent; None if the other foot is not silent."""
     moved_at: float | None = field(default=None, init=False)
     """Last time at which a foot was off the ground or about to leave it, s; at first, the time of the first sample."""
-    stride_at: float | None = field(default=None, init=False)
+    stride_t: float | None = field(default=None, init=False)
     """End of the last stride, or last time of standing, s; at first, the time of the first sample."""
 
     def reset(self, site: Site) -> None:
@@ -75,14 +77,14 @@ class AnglePerMetre(ActivityPart):
         if self.waiting_since and not self._use_clock(view.foot, t):
             return ()
         self.clocks[view.foot] = t
-        if self.moved_at is None or self.stride_at is None:
-            self.moved_at = self.stride_at = t
+        if self.moved_at is None or self.stride_t is None:
+            self.moved_at = self.stride_t = t
         known_at = view.known_at
         events: list[Event] = []
         for event in view.events:
             if isinstance(event, StrideTaken):
                 t_start = event.t_start if event.t_toe_off is None else max(event.t_start, event.t_toe_off)
-                self.stride_at = max(self.stride_at, event.t)
+                self.stride_t = max(self.stride_t, event.t)
                 direction = None
                 if is_stair_rise(event.height_change, event.degraded):
                     direction = steepness(event.length, event.height_change)
@@ -93,43 +95,43 @@ class AnglePerMetre(ActivityPart):
         if view.phase is not Phase.STATIONARY:
             if t > self.moved_at:
                 self.moved_at = t
-            if t - self.stride_at > UNKNOWN_AFTER and self.activity is not Activity.UNKNOWN:
-                self._report(Activity.UNKNOWN, self.stride_at, known_at, events)
-        elif t - self.moved_at >= STANDING_AFTER - TIE:
-            self.stride_at = max(self.stride_at, t)
+            if t - self.stride_t > UNKNOWN_DELAY and self.activity is not Activity.UNKNOWN:
+                self._report(Activity.UNKNOWN, self.stride_t, known_at, events)
+        elif t - self.moved_at >= STANDING_DELAY - TIE:
+            self.stride_t = max(self.stride_t, t)
             self._report(Activity.STANDING, self.moved_at, known_at, events)
         if self.flights.direction != 0:
             events += self.flights.advance(t, known_at)
         return events
 
     def _use_clock(self, foot: Foot, t: float) -> bool:
-        """Return whether the clock of `foot`, whose newest time is `t`, dates events."""
+        """Return whether events may have times of the clock of `foot`, whose newest time is `t` s."""
         waiting_since, clocks = self.waiting_since, self.clocks
         if foot not in waiting_since and clocks:
             for other in waiting_since:
                 waiting_since[other] = None
             return True
-        if clocks and abs(t - max(clocks.values())) > CLOCKS_APART:
-            since = waiting_since[foot]
-            if since is None:
-                waiting_since[foot] = since = t
-            if t - since <= SILENT_AFTER:
+        if clocks and abs(t - max(clocks.values())) > LARGEST_CLOCK_DIFFERENCE:
+            wait_start = waiting_since[foot]
+            if wait_start is None:
+                waiting_since[foot] = wait_start = t
+            if t - wait_start <= LONGEST_SILENCE:
                 return False
             for other in clocks:
                 waiting_since[other] = None
             clocks.clear()
             self.flights.reset()
         if not clocks:
-            self.moved_at = self.stride_at = None
-            if self.changed_at is not None and t < self.changed_at:
-                self.changed_at = None
+            self.moved_at = self.stride_t = None
+            if self.reported_t is not None and t < self.reported_t:
+                self.reported_t = None
         waiting_since.pop(foot, None)
         return True
 
     def _report(self, activity: Activity, t_start: float, known_at: float, events: list[Event]) -> None:
         """Add an ActivityChanged to `events` if the activity changes."""
-        if activity is self.activity and self.changed_at is not None:
+        if activity is self.activity and self.reported_t is not None:
             return
-        t_start = t_start if self.changed_at is None else max(t_start, self.changed_at)
-        self.activity, self.changed_at = activity, t_start
+        t_start = t_start if self.reported_t is None else max(t_start, self.reported_t)
+        self.activity, self.reported_t = activity, t_start
         events.append(ActivityChanged(t=t_start, known_at=max(known_at, t_start), activity=activity, probability=None))

@@ -1,1 +1,1 @@
-"""Gong et al. 2023: each foot measured from the other at touchdown, compensated by walking mode; seven sensors."""
+"""Gong et al. 2023: each foot's position relative to the other at touchdown, compensated by walking mode."""

@@ -1,10 +1,10 @@
 """Compensation of a wearer's own touchdowns, from walks over marks on the floor.
 
-After Gong et al. 2023 (Sensors 23, 5417), section 3.3: the wearer steps on a marked point with each footfall, straight
-on and along bends of 4 m and 2 m, and the mean of (marked point - measured) is the compensation of that foot in that
-mode. Each step counts by itself: its error is measured from the mark of the other foot, so errors do not accumulate.
-The marks' frame is any on the floor; its turn to the session's frame is found from all steps together. A mark is the
-place of the point of the ground below the ankle."""
+After Gong et al. 2023 (Sensors 23, 5417), section 3.3: the wearer steps on marked points, straight ahead and along
+bends of 4 m and 2 m. The compensation of a foot in a mode is the mean of (marked point - measured point). Points are
+taken relative to the other foot's mark or measured place, so errors do not accumulate over steps. The marks may be in
+any frame on the floor; the angle from the session's frame to it is fitted to all steps. A mark is the point of the
+ground below the ankle."""
 
 from __future__ import annotations
 
@@ -27,38 +27,46 @@ from .modes import Modes
 from .settings import ModesSettings
 
 MARK_TOLERANCE = 0.3
-"""Longest time between a mark that names a time and its touchdown, s."""
+"""Longest time between a touchdown and the time in its mark, s; chosen by hand."""
 MODES = tuple(mode for mode in WalkingMode if mode is not WalkingMode.STANDING)
 """Walking modes that have a compensation."""
 
 
 @frozen
 class ModeMark:
-    """A point on the floor, m, that a foot stepped on in this mode, at about `t` s or with its `step`-th touchdown."""
+    """A marked point on the floor on which a foot stepped."""
 
     where: str
+    """File and line of the mark, for messages."""
     foot: Foot
     x: float
+    """Position along the first axis of the marks' frame, m."""
     y: float
+    """Position along the second axis of the marks' frame, m."""
     mode: WalkingMode
+    """Walking mode of the step that ended on the mark."""
     t: float | None = None
+    """Approximate time of the touchdown, s; None if `step` is given."""
     step: int | None = None
+    """Number of the touchdown among those of this foot, from 1; None if `t` is given."""
 
 
 @frozen
 class StepError:
-    """Marked less measured position of one step, in the direction of walking half a step before it ended, m."""
+    """The marked minus the measured position of one step, in the direction of walking half a step before its end."""
 
     foot: Foot
     mode: WalkingMode
     forward: float
+    """Error in the direction of walking, m."""
     left: float
+    """Error to the left of the direction of walking, m."""
 
 
 def read_marks(path: Path | str) -> list[ModeMark]:
     """Read the marks of a csv file with the columns foot (left, right), x, y (m), mode, and t (s) or step (from 1).
 
-    CalibrationError that names file and line."""
+    Raises CalibrationError, with file and line, when the file does not have that form."""
     rows = read_rows(path, ("foot", "x", "y", "mode"))
     if not rows:
         raise CalibrationError(f"{path}: no marks")
@@ -83,7 +91,7 @@ def read_marks(path: Path | str) -> list[ModeMark]:
 def touchdowns(walk: DecodedRecording, known: Calibration, heading: float | None = None) -> list[TouchedDown]:
     """Return the touchdowns of a walk by method III without compensation, in the order of time.
 
-    `heading`: as in `ModesSettings`."""
+    `heading` is that of `ModesSettings`, rad."""
     insoles = dict(known.insoles)
     for foot, layout in walk.layouts.items():
         insole = known.insole(foot)
@@ -96,18 +104,19 @@ def touchdowns(walk: DecodedRecording, known: Calibration, heading: float | None
 
 
 def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown]) -> list[StepError]:
-    """Return the error of every step between marks of both feet; a mark of each foot before them gives the direction.
+    """Return the error of every step that ends the fourth of four consecutive marked touchdowns of alternate feet.
 
-    CalibrationError for a mark without a touchdown, or two marks of one touchdown."""
-    at: dict[int, ModeMark] = {}
+    The first two touchdowns serve to compute the direction of walking. Raises CalibrationError when a mark has no
+    touchdown, or two marks have the same one."""
+    mark_of: dict[int, ModeMark] = {}
     for mark in marks:
         k = _touchdown_index(mark, downs)
-        if k in at:
-            raise CalibrationError(f"{mark.where}: the same touchdown as at {at[k].where}")
-        at[k] = mark
+        if k in mark_of:
+            raise CalibrationError(f"{mark.where}: the same touchdown as at {mark_of[k].where}")
+        mark_of[k] = mark
     steps = []
     for k in range(3, len(downs)):
-        earliest, earlier, before, newest = (at.get(j) for j in range(k - 3, k + 1))
+        earliest, earlier, before, newest = (mark_of.get(j) for j in range(k - 3, k + 1))
         if earliest is None or earlier is None or before is None or newest is None:
             continue
         if not downs[k - 1].final:  # reported before the first heading was final: in another frame
@@ -115,81 +124,85 @@ def step_errors(marks: Iterable[ModeMark], downs: list[TouchedDown]) -> list[Ste
         if not earliest.foot is before.foot is not newest.foot is earlier.foot:
             continue
         (x, y, _), (px, py, _) = downs[k].position, downs[k - 1].position
-        # one foot's chord is the tangent a step back, the other's two steps back; this is it half a step back
-        ahead = atan2(newest.y - earlier.y, newest.x - earlier.x)
-        behind = atan2(before.y - earliest.y, before.x - earliest.x)
-        ahead += 0.5 * atan2(sin(ahead - behind), cos(ahead - behind))
-        steps.append((newest, (newest.x - before.x, newest.y - before.y), (x - px, y - py), ahead))
-    # the turn from the session's frame to the marks', least squares over the steps
+        # the line through two touchdowns of one foot is the direction between them: for this foot one step before the
+        # end, for the other foot two steps before; extrapolate to half a step before
+        direction = atan2(newest.y - earlier.y, newest.x - earlier.x)
+        earlier_direction = atan2(before.y - earliest.y, before.x - earliest.x)
+        direction += 0.5 * atan2(sin(direction - earlier_direction), cos(direction - earlier_direction))
+        steps.append((newest, (newest.x - before.x, newest.y - before.y), (x - px, y - py), direction))
+    # angle from the session's frame to that of the marks, by least squares over all steps
     turn = atan2(
         sum([mx * true[1] - my * true[0] for _, true, (mx, my), _ in steps]),
         sum([mx * true[0] + my * true[1] for _, true, (mx, my), _ in steps]),
     )
     c, s = cos(turn), sin(turn)
-    found = []
-    for reached, (tx, ty), (mx, my), ahead in steps:
+    errors = []
+    for mark_reached, (tx, ty), (mx, my), direction in steps:
         ex, ey = tx - (c * mx - s * my), ty - (s * mx + c * my)
-        ca, sa = cos(ahead), sin(ahead)
-        found.append(StepError(reached.foot, reached.mode, ca * ex + sa * ey, ca * ey - sa * ex))
-    return found
+        ca, sa = cos(direction), sin(direction)
+        errors.append(StepError(mark_reached.foot, mark_reached.mode, ca * ex + sa * ey, ca * ey - sa * ex))
+    return errors
 
 
 def mean_errors(errors: Iterable[StepError]) -> dict[Foot, dict[WalkingMode, tuple[float, float]]]:
-    """Return the mean errors (forward, left), m, by foot and mode, without the part that is an error of heading."""
-    gathered: dict[Foot, dict[WalkingMode, list[StepError]]] = {}
+    """Return the mean errors (forward, left), m, by foot and mode, without the error that a wrong heading causes."""
+    errors_of: dict[Foot, dict[WalkingMode, list[StepError]]] = {}
     for error in errors:
-        gathered.setdefault(error.foot, {}).setdefault(error.mode, []).append(error)
+        errors_of.setdefault(error.foot, {}).setdefault(error.mode, []).append(error)
     means = {
         foot: {
-            mode: (sum([e.forward for e in some]) / len(some), sum([e.left for e in some]) / len(some))
-            for mode, some in gathered[foot].items()
+            mode: (
+                sum([e.forward for e in mode_errors]) / len(mode_errors),
+                sum([e.left for e in mode_errors]) / len(mode_errors),
+            )
+            for mode, mode_errors in errors_of[foot].items()
         }
         for foot in Foot
-        if foot in gathered
+        if foot in errors_of
     }
     remove_heading_error(means)
     return means
 
 
 def remove_heading_error(means: dict[Foot, dict[WalkingMode, tuple[float, float]]]) -> None:
-    """Remove, mode by mode, the error to the side that both feet have in common.
+    """Remove from each mode the sideways error that both feet have in common, m.
 
-    It turns the whole path, as a sensor's heading error does, which differs from walk to walk. Where a touchdown is
-    misplaced, the errors of the feet have opposite signs."""
+    A common error turns the whole path, as the heading error of a sensor does, which differs from walk to walk. The
+    sideways errors of misplaced touchdowns have opposite signs for the two feet."""
     left, right = means.get(Foot.LEFT, {}), means.get(Foot.RIGHT, {})
     for mode in left.keys() & right.keys():
-        aside = 0.5 * (left[mode][1] + right[mode][1])
-        left[mode] = (left[mode][0], left[mode][1] - aside)
-        right[mode] = (right[mode][0], right[mode][1] - aside)
+        common_error = 0.5 * (left[mode][1] + right[mode][1])
+        left[mode] = (left[mode][0], left[mode][1] - common_error)
+        right[mode] = (right[mode][0], right[mode][1] - common_error)
 
 
 def fit_modes(
     walks: Iterable[tuple[DecodedRecording, Path | str]], known: Calibration | None = None, heading: float | None = None
 ) -> Calibration:
-    """Return a calibration with the compensation that marked walks show.
+    """Return a calibration that contains the compensation from marked walks.
 
-    Each walk is a recording and its csv file of marks (`read_marks`). `known`: limbs and insoles of the wearer.
-    `heading`: direction that the wearer faces at the start of each walk in the world that the sensors share, rad;
-    without it the first step gives the direction, and should not go round a bend. CalibrationError when no step lies
-    between two marks."""
+    Each walk is a recording and its csv file of marks (`read_marks`). `known` has the wearer's limbs and insoles.
+    `heading` is the direction, rad, that the wearer faces at the start of each walk, in the world that the sensors
+    share. None takes the direction of the first step, which must then be straight. Raises CalibrationError when a walk
+    has no four consecutive marks."""
     known = Calibration() if known is None else known
     errors: list[StepError] = []
     for walk, path in walks:
-        found = step_errors(read_marks(path), touchdowns(walk, known, heading))
-        if not found:
+        walk_errors = step_errors(read_marks(path), touchdowns(walk, known, heading))
+        if not walk_errors:
             raise CalibrationError(f"{path}: no four marks one after the other, left and right in turn")
-        errors += found
+        errors += walk_errors
     return Calibration(modes=mean_errors(errors))
 
 
 def _touchdown_index(mark: ModeMark, downs: list[TouchedDown]) -> int:
-    """Return the index of a mark's touchdown."""
-    of_foot = [k for k, down in enumerate(downs) if down.foot is mark.foot]
+    """Return the index in `downs` of a mark's touchdown."""
+    foot_indices = [k for k, down in enumerate(downs) if down.foot is mark.foot]
     if mark.t is not None:
-        near = [(abs(downs[k].t - mark.t), k) for k in of_foot if abs(downs[k].t - mark.t) <= MARK_TOLERANCE]
-        if not near:
+        candidates = [(abs(downs[k].t - mark.t), k) for k in foot_indices if abs(downs[k].t - mark.t) <= MARK_TOLERANCE]
+        if not candidates:
             raise CalibrationError(f"{mark.where}: the {mark.foot.value} foot did not come down at {mark.t:g} s")
-        return min(near)[1]
-    if mark.step is None or mark.step > len(of_foot):
-        raise CalibrationError(f"{mark.where}: the {mark.foot.value} foot came down {len(of_foot)} times only")
-    return of_foot[mark.step - 1]
+        return min(candidates)[1]
+    if mark.step is None or mark.step > len(foot_indices):
+        raise CalibrationError(f"{mark.where}: the {mark.foot.value} foot came down {len(foot_indices)} times only")
+    return foot_indices[mark.step - 1]

@@ -1,11 +1,11 @@
 """Compensation epsilon_P of a touchdown, by foot and walking mode.
 
-After Gong et al. 2023 (Sensors 23, 5417), equation (8) and table 1. The paper leaves two things open:
+After Gong et al. 2023 (Sensors 23, 5417), equation (8) and table 1. The paper leaves two points open:
 
-- Unit of table 1. Its header says mm, but values of 0.34 to 1.8 mm would move the end of a side of 4 m, some six or
-  seven steps, by less than 5 mm, while table 4 has IV better than III by up to 15 cm there. Centimetres fit that in
-  kind. Table 4 is headed mm as well, and its values (0.17 at the corner C of 4.0 m) are metres.
-- Axes of table 1. x goes across and y along the direction of walking; x to the right, so that x, y and up are right
+- The unit of table 1. Its header says mm. But values of 0.34 to 1.8 mm would move the end of a side of 4 m, which takes
+  six or seven steps, by less than 5 mm, whereas by table 4 method IV is better than III by up to 15 cm there.
+  Centimetres have the right order of magnitude. Table 4, too, is headed mm, but has metres (0.17 at corner C, 4.0 m).
+- The axes of table 1. y points in the direction of walking, and x to the right, so that x, y and up are right
   handed."""
 
 from __future__ import annotations
@@ -37,20 +37,20 @@ TABLE_1: Compensation = {
 }
 """Table 1, (x, y) in cm, converted to (forward, left) in m.
 
-It holds for the paper's wearers, limbs and sensors; `solepath calibrate modes` finds a wearer's own."""
+It holds for the paper's wearers and sensors; `solepath calibrate modes` measures the compensation of another wearer."""
 
 
 def compensation_of(table: Compensation, foot: Foot, mode: WalkingMode) -> tuple[float, float]:
-    """Return (forward, left) of `foot` in `mode`, m; zero where the table has no such row."""
+    """Return the compensation (forward, left) of `foot` in `mode`, m; zero if the table has no such row."""
     return table.get(foot, {}).get(mode, (0.0, 0.0))
 
 
 def epsilon_p(table: Compensation, foot: Foot, mode: WalkingMode, direction: tuple[float, float]) -> Vec3:
-    """Return epsilon_P of (8) as a vector of the world, m; `direction` of walking, world, of length 1."""
+    """Return epsilon_P of (8), world frame, m; `direction` is the unit vector of walking, world frame."""
     (c, s), (forward, left) = direction, compensation_of(table, foot, mode)
     return (forward * c - left * s, forward * s + left * c, 0.0)
 
 
 def merge_own(table: Compensation, own: Compensation) -> Compensation:
-    """Return the table with a wearer's `own` values in place of its values, where there are any."""
+    """Return the table, with those values replaced for which a wearer has `own` values."""
     return {foot: {**table.get(foot, {}), **own.get(foot, {})} for foot in Foot}

@@ -1,25 +1,27 @@
 """Track of both feet by touchdowns: each is measured from the other, and compensated by walking mode (walking-modes).
 
-After Gong et al. 2023 (Sensors 23, 5417). One foot is the reference (touchdown.py), the other is V_change away from it,
-(1)-(3); when that comes down it becomes the reference there, with a compensation, P_s = P_t + V_change + epsilon_P (8).
-Methods I, II and III are this part with `Height`, `NetAcceleration`, `PressureTouchdown` and no compensation; IV is III
-with it.
+After Gong et al. 2023 (Sensors 23, 5417). One foot is the reference (touchdown.py); the other foot is V_change away
+from it, (1)-(3). When the other foot comes down, it becomes the reference at P_s = P_t + V_change + epsilon_P (8), with
+epsilon_P the compensation. Methods I, II and III are this part with `Height`, `NetAcceleration` and `PressureTouchdown`
+without a compensation. Method IV is III with it.
 
-places.py has P_L, P_R and V_change, compensation.py epsilon_P, and recognition.py the mode that it is for. P_L and P_R
-come from the chain of seven attitudes (limbs.py). Without sensors above the ankles they are the feet's own inertial
-tracks, set apart by the width of the hips at the start; a Limitation reports that once.
+places.py has P_L, P_R and V_change, compensation.py has epsilon_P, recognition.py the walking mode. P_L and P_R come
+from the chain of seven attitudes (limbs.py). Without sensors above the ankles they come from the feet's own inertial
+tracks, which start at a distance of the hips' width; a Limitation reports that once.
 
-Open in the paper, and settled here:
+The paper leaves these points open:
 
-- Direction of walking, which table 1 is along. It is the common direction of both feet when one has come down, which
-  in a bend is the tangent half a step back; with the feet's own tracks it is that of the foot's stride, from its last
-  touchdown to this one.
-- The first heading is final when the wearer has gone 1.5 m; touchdowns before that are not final.
-- Height. The method is planar; heights of touchdowns are those of the feet's own tracks. Those drift apart, so without
-  the chain method I compares how far each foot is above its own last foot-flat.
-- A touchdown that was not found. A foot that becomes the reference after it moved on since its last touchdown came down
-  meanwhile: it is a touchdown. So is one of a reference foot elsewhere. A foot whose sign fails (evidence.py) comes
-  down with its own strides; without the other foot it is the only reference, along its own track."""
+- Direction of walking, in which table 1 is given. With the chain it is the mean direction of both feet at a touchdown;
+  in a bend this is the tangent half a step before. With the feet's own tracks it is the direction from the foot's
+  previous touchdown to this one.
+- The first heading is final when the wearer is 1.5 m from the start; earlier touchdowns are not final.
+- Height. The method is planar, so heights of touchdowns are those of the feet's own tracks. These drift apart. So
+  without the chain method I compares the height of each foot above its own last foot-flat.
+- Undetected touchdowns. If a foot becomes the reference after it has moved, a touchdown is reported. The same holds if
+  the reference foot comes down at another place. A foot whose sign fails (evidence.py) comes down with its own strides.
+  If the other foot is absent, it is the only reference and follows its own track.
+
+Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -38,28 +40,28 @@ from ...types import OTHER, SITE_OF_FOOT, Foot, Sample, Site
 from ...types.attrs import define, evolve, field
 from ...types.vector import TIE, ZERO, sub
 from .compensation import epsilon_p, merge_own
-from .evidence import UNSEEN_STRIDES
+from .evidence import MOST_STRIDES_WITHOUT_SIGN
 from .limbs.limb_sensors import LimbSensors
 from .limbs.limbs import LIMB_SITES
-from .mode import LEAST_STEP
+from .mode import LEAST_STEP_LENGTH
 from .places import FootPlaces
 from .recognition import Recognition
 from .settings import ModesSettings
 from .signs import Signs
 from .touchdown import AnyTouchdown, Height, PressureTouchdown, ReferenceFoot, displace
 
-LEAST_MOVE = 0.03
-"""Distance below which a foot that comes down had not moved, m: the flags of standing feet flicker."""
-OWN_STEP = 0.3
-"""Distance from which on a reference foot that comes down has moved by itself, m.
+LEAST_MOVED_DISTANCE = 0.03
+"""Least distance between two touchdowns of a foot, m. The flags of standing feet flicker, which is no touchdown."""
+LEAST_OWN_STEP_LENGTH = 0.3
+"""Least distance that the reference foot has moved when it takes a step, m.
 
 The heel of a foot that rolls over its toes moves less."""
 LONGEST_WAIT = 0.06
-"""Longest wait of a touchdown for attitudes of its instant, s: three samples of the paper's 50 Hz."""
+"""Longest wait at a touchdown for the attitudes of that instant, s: three samples at the paper's 50 Hz."""
 STEP_SIGMA = 0.02
-"""Error of one touchdown, m an axis."""
+"""Error of one touchdown on each axis, m."""
 SCALE_SIGMA, HEADING_SIGMA = 0.02, 0.03
-"""Error of scale common to all touchdowns, as a share of the way, and error of the first heading, rad."""
+"""Scale error of all touchdowns, as a share of the distance from the start, and error of the first heading, rad."""
 
 
 @define
@@ -70,6 +72,7 @@ class Modes(TrackPart):
     sites: ClassVar[tuple[Site, ...]] = LIMB_SITES
 
     touchdown: AnyTouchdown = field(factory=PressureTouchdown)
+    """Method that detects touchdowns."""
     settings: ModesSettings = ModesSettings()
     places: FootPlaces = field(init=False)
     limb_sensors: LimbSensors = field(factory=LimbSensors, init=False)
@@ -77,15 +80,16 @@ class Modes(TrackPart):
     recognition: Recognition = field(init=False)
     reference: ReferenceFoot = field(factory=ReferenceFoot, init=False)
     pending: tuple[Foot, float] | None = field(default=None, init=False)
-    """Foot that came down and time, s, while the chain does not know that instant yet."""
-    heights_at: float | None = field(default=None, init=False)
-    """Instant of the chain's heights, s."""
+    """Foot and time, s, of a touchdown at which the chain is not known yet; None without one."""
+    heights_t: float | None = field(default=None, init=False)
+    """Instant of the heights from the chain, s."""
     touchdowns: int = field(default=0, init=False)
+    """Number of touchdowns so far."""
     limitation_reported: bool = field(default=False, init=False)
     """Flag: the reason why the chain is not used was reported."""
-    lone_feet: list[Foot] = field(factory=list, init=False)
-    """Feet reported to continue without the other."""
-    blind: list[Foot] = field(factory=list, init=False)
+    feet_reported_alone: list[Foot] = field(factory=list, init=False)
+    """Feet that were reported to continue without the other foot."""
+    feet_reported_blind: list[Foot] = field(factory=list, init=False)
     """Feet whose cells were reported to show no mode."""
 
     def __attrs_post_init__(self) -> None:
@@ -116,7 +120,7 @@ class Modes(TrackPart):
         self.limb_sensors.reset(site)
 
     def feed(self, view: FootView) -> Sequence[PartOutput]:
-        """Add a sample of a foot: update the reference foot, touchdowns and the mode of the contact that ended."""
+        """Add a sample of a foot; update the reference foot, touchdowns and walking mode."""
         foot, t, known_at, sample = view.foot, view.t, view.known_at, view.sample
         self.limb_sensors.add_time(t)
         self.places.add_view(view)
@@ -133,91 +137,96 @@ class Modes(TrackPart):
     def _update_reference(self, foot: Foot, t: float, known_at: float) -> list[Event]:
         """Update the reference foot, and return the events of a touchdown."""
         events = self._resolve_pending(t, known_at)
-        seen = self._measure_heights(t) if isinstance(self.touchdown, Height) else t
+        sign_t = self._measure_heights(t) if isinstance(self.touchdown, Height) else t
         other = OTHER[foot]
         alone = foot if self._is_alone(foot, t) else other if self._is_alone(other, t) else None
-        if alone is None and len(self.signs.shown) < len(Foot):
+        if alone is None and len(self.signs.states) < len(Foot):
             return events
-        if alone is foot and foot not in self.lone_feet:
-            self.lone_feet.append(foot)
+        if alone is foot and foot not in self.feet_reported_alone:
+            self.feet_reported_alone.append(foot)
             what = f"the {other.value} foot is not heard: the wearer goes by the {foot.value} foot's own track"
             events.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[other], what=what))
-        before = self.reference.down
+        down_before = self.reference.down
         flags = self.signs.down_flags(t, alone, known_at, events)
-        taken = self.reference.update(flags)
-        if taken is None:
-            here = self.reference.foot
-            k = 0 if here is Foot.LEFT else 1
-            if here is not None and flags[k] and not before[k] and self.places.sides[here].moved_distance > OWN_STEP:
+        change = self.reference.update(flags)
+        if change is None:
+            reference_foot = self.reference.foot
+            k = 0 if reference_foot is Foot.LEFT else 1
+            if (
+                reference_foot is not None
+                and flags[k]
+                and not down_before[k]
+                and self.places.sides[reference_foot].moved_distance > LEAST_OWN_STEP_LENGTH
+            ):
                 events += self._flush_pending(known_at)
-                events += self._add_touchdown(here, t, known_at, by_own_track=True)
+                events += self._add_touchdown(reference_foot, t, known_at, by_own_track=True)
             return events
-        if not taken[1] and self.places.sides[taken[0]].moved_distance < LEAST_STEP:
-            return events  # a foot that was down all the time becomes the reference where it is
+        if not change[1] and self.places.sides[change[0]].moved_distance < LEAST_STEP_LENGTH:
+            return events  # the foot was down all the time, so this is no touchdown
         events += self._flush_pending(known_at)
-        self.pending = (taken[0], seen)
+        self.pending = (change[0], sign_t)
         return events + self._resolve_pending(t, known_at)
 
     def _is_alone(self, foot: Foot, t: float) -> bool:
-        """Return whether the other foot is silent while this one takes strides, or is at an unknown place."""
+        """Return whether the other foot is silent while this one takes strides, or the other's place is unknown."""
         other = OTHER[foot]
-        if other not in self.signs.shown:
-            return self.signs.evidence[foot].stride_count >= UNSEEN_STRIDES
+        if other not in self.signs.states:
+            return self.signs.evidence[foot].stride_count >= MOST_STRIDES_WITHOUT_SIGN
         return self.places.is_lost(other, t)
 
     def _measure_heights(self, t: float) -> float:
-        """Set both feet's heights, by the chain at the latest instant that it knows, and return that instant, s."""
+        """Set the heights of both feet at the latest instant at which the chain is known; return that instant, s."""
         chain = self.places.chain
         complete = chain.complete() if chain.is_current(t) else None
-        if complete is not None and complete == self.heights_at:
+        if complete is not None and complete == self.heights_t:
             return min(t, complete)
-        self.heights_at = complete
-        for foot, state in self.signs.shown.items():
+        self.heights_t = complete
+        for foot, state in self.signs.states.items():
             own = self.places.sides[foot].track[2] - state.flat_height
             state.height = own if complete is None else chain.height(foot, complete)
         return t if complete is None else min(t, complete)
 
     def _flush_pending(self, known_at: float) -> list[Event]:
-        """Compute the pending touchdown with the attitudes at hand."""
+        """Compute the pending touchdown with the newest attitudes."""
         if self.pending is None:
             return []
-        (foot, came), self.pending = self.pending, None
-        return self._add_touchdown(foot, came, known_at)
+        (foot, touchdown_t), self.pending = self.pending, None
+        return self._add_touchdown(foot, touchdown_t, known_at)
 
     def _resolve_pending(self, t: float, known_at: float) -> list[Event]:
-        """Compute a touchdown once every attitude of that instant is there, or has not come for `LONGEST_WAIT`."""
+        """Compute the pending touchdown once all attitudes of its instant are known, or after `LONGEST_WAIT`."""
         if self.pending is None:
             return []
-        _, came = self.pending
+        _, touchdown_t = self.pending
         chain = self.places.chain
-        if chain.is_current(came) and t - came < LONGEST_WAIT:
+        if chain.is_current(touchdown_t) and t - touchdown_t < LONGEST_WAIT:
             complete = chain.complete()
-            if complete is not None and complete < came - TIE:
+            if complete is not None and complete < touchdown_t - TIE:
                 return []
         return self._flush_pending(known_at)
 
     def _add_pressure(self, view: FootView, cells: PressedCells) -> list[Event]:
-        """Add the cells of a foot, and report another mode if they show it."""
+        """Add the cells of a foot, and report the walking mode if it has changed."""
         foot, t, known_at, state = view.foot, view.t, view.known_at, self.signs.add_pressure(view.foot, cells)
-        both_feet = OTHER[foot] in self.signs.shown
+        both_feet = OTHER[foot] in self.signs.states
         mode = self.recognition.add_pressure(foot, state, cells.values, cells.layout, t, both_feet)
         events: list[Event] = []
         if mode is not None:
             events.append(WalkingModeChanged(t=t, known_at=known_at, mode=mode, foot=foot))
-        if self.recognition.blind(foot) and foot not in self.blind:
-            self.blind.append(foot)
+        if self.recognition.is_blind(foot) and foot not in self.feet_reported_blind:
+            self.feet_reported_blind.append(foot)
             what = f"the cells of the {foot.value} insole do not tell left from right: no walking modes"
             events.append(Limitation(t=t, known_at=known_at, site=SITE_OF_FOOT[foot], what=what))
         return events
 
     def _add_touchdown(self, foot: Foot, t: float, known_at: float, by_own_track: bool = False) -> list[Event]:
-        """Add a touchdown; `by_own_track`: only the foot's own track shows its place, as it was the reference."""
+        """Add a touchdown; `by_own_track` if the foot was itself the reference, so only its own track has its place."""
         places = self.places
         side, chain = places.sides[foot], places.chain
         if chain.is_current(t):
-            swung = places.swing_foot(foot)
-            x, y, _ = sub(places.sides[swung].own_position, places.sides[swung].place)
-            chain.add_touchdown(swung, t, atan2(y, x) if places.heading_settled else 0.0)
+            swing_foot = places.swing_foot(foot)
+            x, y, _ = sub(places.sides[swing_foot].own_position, places.sides[swing_foot].place)
+            chain.add_touchdown(swing_foot, t, atan2(y, x) if places.heading_settled else 0.0)
         if by_own_track or self._is_alone(foot, t):
             (x, y, _), chained = side.own_position, False
             place = (x, y, side.track[2])
@@ -226,10 +235,10 @@ class Modes(TrackPart):
         dx, dy = place[0] - side.place[0], place[1] - side.place[1]
         step = hypot(dx, dy)
         self.recognition.add_touchdown(foot, step)
-        if step < LEAST_MOVE:
+        if step < LEAST_MOVED_DISTANCE:
             return []
         compensation, mode = ZERO, self.recognition.mode_at_touchdown(foot)
-        if step > LEAST_STEP:
+        if step > LEAST_STEP_LENGTH:
             side.direction = places.walking_direction(t) if chained else (dx / step, dy / step)
             if not chain.aligned:
                 chain.given_up = True
@@ -240,22 +249,22 @@ class Modes(TrackPart):
         events: list[Event] = []
         if not (chained or self.limitation_reported or chain.is_current(t)):
             self.limitation_reported = True
-            why = chain.why_unusable(t, self.limb_sensors.times)
-            what = f"{why}: the feet are where their own inertial tracks have them"
+            reason = chain.why_unusable(t, self.limb_sensors.times)
+            what = f"{reason}: the feet are where their own inertial tracks have them"
             events.append(Limitation(t=t, known_at=known_at, site=None, what=what))
         final = places.heading_settled or not (chained or chain.may_recover())
-        came = TouchedDown(
+        touchdown = TouchedDown(
             t=t, known_at=known_at, final=final, foot=foot, position=side.place, mode=mode, compensation=compensation
         )
-        return [*events, came]
+        return [*events, touchdown]
 
     def position(self, feet: Mapping[Foot, FootPose]) -> Position | None:
-        """Return the mean of both feet: the reference foot's touchdown, and the other foot's present place."""
-        known = list(feet.values())
-        if not known:
+        """Return the mean of the reference foot's touchdown and the other foot's present place."""
+        poses = list(feet.values())
+        if not poses:
             return None
-        t = max([pose.t for pose in known])
-        for pose in known:
+        t = max([pose.t for pose in poses])
+        for pose in poses:
             if OTHER[pose.foot] not in feet or self.places.is_lost(OTHER[pose.foot], t):
                 x, y, z = self.places.middle(pose.foot)
                 return Position(t, (x, y, z), self._covariance(x, y, [pose]))
@@ -265,15 +274,15 @@ class Modes(TrackPart):
             moving = reference is not None and foot is not reference
             places.append(self.places.locate(foot, t)[0] if moving else side.place)
         x, y, z = (0.5 * (one + other) for one, other in zip(*places, strict=True))
-        return Position(t, (x, y, z), self._covariance(x, y, known))
+        return Position(t, (x, y, z), self._covariance(x, y, poses))
 
-    def _covariance(self, x: float, y: float, known: list[FootPose]) -> Covariance3:
-        """Return the covariance from single and common errors of touchdowns and the first heading; z is the tracks'."""
-        each = STEP_SIGMA**2 * (1 + self.touchdowns)
+    def _covariance(self, x: float, y: float, poses: list[FootPose]) -> Covariance3:
+        """Return the covariance from errors of single touchdowns, scale and first heading, m^2; z is the tracks'."""
+        variance = STEP_SIGMA**2 * (1 + self.touchdowns)
         scale, turn = SCALE_SIGMA**2, HEADING_SIGMA**2
-        xx, yy = each + scale * x * x + turn * y * y, each + scale * y * y + turn * x * x
+        xx, yy = variance + scale * x * x + turn * y * y, variance + scale * y * y + turn * x * x
         xy = (scale - turn) * x * y
-        own = [sum([foot.covariance[i] for foot in known]) / len(known) ** 2 for i in range(6)]
+        track_covariance = [sum([foot.covariance[i] for foot in poses]) / len(poses) ** 2 for i in range(6)]
         if not self.places.chain.aligned:
-            xx, xy, yy = xx + own[0], xy + own[1], yy + own[3]
-        return (xx, xy, 0.0, yy, 0.0, own[5])
+            xx, xy, yy = xx + track_covariance[0], xy + track_covariance[1], yy + track_covariance[3]
+        return (xx, xy, 0.0, yy, 0.0, track_covariance[5])

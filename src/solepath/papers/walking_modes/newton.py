@@ -1,8 +1,8 @@
 """Conversion from counts to newtons: a cubic for each insole, fitted to forces of a gauge and counts of the insole.
 
 After Gong et al. 2023 (Sensors 23, 5417), section 3.1 and fig. 6: a gauge presses a cell with 0 to 200 N, and "the
-mathematical relationship between the pressure value and the AD value of the insole is a cubic polynomial"; forces below
-5 N are not recorded, and 200 N is the most."""
+mathematical relationship between the pressure value and the AD value of the insole is a cubic polynomial". The insole
+does not record forces below 5 N or above 200 N."""
 
 from __future__ import annotations
 
@@ -14,39 +14,43 @@ from ...calibration import CalibrationError, Newtons
 from ...calibration.csv_table import read_rows
 from ...types.attrs import frozen
 
-THRESHOLD, MOST = 5.0, 200.0
+LOWEST_FORCE, HIGHEST_FORCE = 5.0, 200.0
 """Range of the paper's insole, N."""
 LEAST_POINTS = 5
-"""Fewest points of a fit: a cubic goes through any four."""
+"""Least number of points of a fit; a cubic goes through any four."""
 
 
 @frozen
 class GaugeFit:
-    """A conversion fitted to `points` points; `residual`: rms of the cubic's residuals, N; `worst`: the largest."""
+    """A fitted conversion and its residuals."""
 
     newtons: Newtons
     residual: float
+    """Root mean square of the residuals, N."""
     worst: float
+    """Largest absolute residual, N."""
     points: int
+    """Number of measured points."""
 
 
 def fit_gauge(path: Path | str) -> GaugeFit:
-    """Fit the cubic of a csv file with the columns `counts` and `newtons`, by least squares.
+    """Fit a cubic to the points of a csv file with the columns `counts` and `newtons`, by least squares.
 
-    CalibrationError for a file that cannot be read, too few points, or counts that do not rise with the force."""
+    Raises CalibrationError when the file cannot be read, has too few points, or the fitted force does not rise with the
+    counts."""
     rows = read_rows(path, ("counts", "newtons"))
     counts = np.array([row.number("counts") for row in rows])
-    forces = np.array([row.number("newtons", 0.0, MOST, "N") for row in rows])
-    different = len(set(counts.tolist()))
-    if different < LEAST_POINTS:
-        raise CalibrationError(f"{path}: {different} different counts, and a cubic wants {LEAST_POINTS} or more")
+    forces = np.array([row.number("newtons", 0.0, HIGHEST_FORCE, "N") for row in rows])
+    distinct_counts = len(set(counts.tolist()))
+    if distinct_counts < LEAST_POINTS:
+        raise CalibrationError(f"{path}: {distinct_counts} different counts, and a cubic wants {LEAST_POINTS} or more")
     unit = float(np.abs(counts).max())
-    # in shares of the largest count: the third power of 14 bits would cost half of the digits
-    scaled = np.polynomial.polynomial.polyfit(counts / unit, forces, 3)
-    steps = np.polynomial.polynomial.polyval(np.linspace(counts.min(), counts.max(), 200) / unit, scaled)
-    if not (np.diff(steps[steps > THRESHOLD]) > 0.0).all() or steps[-1] <= THRESHOLD:
+    # fit over counts divided by the largest one: the third power of a 14-bit count would cost half of the digits
+    coefficients = np.polynomial.polynomial.polyfit(counts / unit, forces, 3)
+    fitted_forces = np.polynomial.polynomial.polyval(np.linspace(counts.min(), counts.max(), 200) / unit, coefficients)
+    if not (np.diff(fitted_forces[fitted_forces > LOWEST_FORCE]) > 0.0).all() or fitted_forces[-1] <= LOWEST_FORCE:
         raise CalibrationError(f"{path}: the fitted force does not rise with the counts")
-    residuals = forces - np.polynomial.polynomial.polyval(counts / unit, scaled)
-    a, b, c, d = (float(value) / unit**power for power, value in enumerate(scaled))
-    newtons = Newtons((a, b, c, d), THRESHOLD, MOST)
+    residuals = forces - np.polynomial.polynomial.polyval(counts / unit, coefficients)
+    a, b, c, d = (float(value) / unit**power for power, value in enumerate(coefficients))
+    newtons = Newtons((a, b, c, d), LOWEST_FORCE, HIGHEST_FORCE)
     return GaugeFit(newtons, float(np.sqrt(np.mean(residuals**2))), float(np.abs(residuals).max()), len(rows))

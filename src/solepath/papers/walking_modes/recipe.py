@@ -19,8 +19,8 @@ WALKING_MODES = Recipe(
 )
 """Gong et al. 2023, method IV: touchdowns by maximum pressure, compensated by walking mode.
 
-It ships the paper's table 1, which holds for the paper's wearers: on emulated ones it does worse than the compensation
-from their own marked walks (`solepath calibrate modes`)."""
+The compensation is the paper's table 1, which holds for the paper's wearers. For emulated wearers it is worse than the
+compensation from their own marked walks (`solepath calibrate modes`)."""
 
 TOUCHDOWN_HEIGHT = Recipe("touchdown-height", Cycle(), _OWN_HEIGHTS, parts=usual(Modes(Height())))
 """Gong et al. 2023, method I: the lower foot is the reference."""

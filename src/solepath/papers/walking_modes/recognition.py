@@ -1,49 +1,53 @@
 """Walking mode during a walk, from contacts of both feet, the body's weight, and table 2 (mode.py).
 
-After Gong et al. 2023 (Sensors 23, 5417), section 3.3. The paper leaves open when the mode is known. A contact shows
-its mode when it ends, long after its touchdown. But when a foot comes down the other has borne the whole weight, and
-the mode of the step that ends is that of the other's contact up to then; where it shows none, the latest that it
-showed. Standing is no mode to walk in: the first step after it is taken for a straight one. So is every step of insoles
-whose cells do not show left and right."""
+After Gong et al. 2023 (Sensors 23, 5417), section 3.3. A contact is the time from a foot's touchdown until its cells
+are unloaded. The paper leaves open when the mode is known. The mode of a contact is certain only at its end, but the
+compensation is needed at a touchdown. By then the other foot has borne the whole weight. So the mode of the step that
+ends is that of the other foot's contact so far or, if this has no mode yet, the latest one of that foot. The first step
+after standing is taken for a straight one. So is every step if the cells do not show left and right. Numbers without a
+source were chosen by hand."""
 
 from __future__ import annotations
 
 from ...types import OTHER, Foot, Layout, WalkingMode
 from ...types.attrs import define, field
-from .mode import LEAST_STEP, LONGEST_CONTACT, STANDING_WEIGHT, Contact, at_pace, decide
+from .mode import LEAST_STEP_LENGTH, LONGEST_CONTACT, STANDING_WEIGHT, Contact, at_reference_speed, decide
 from .settings import ModesSettings
 from .touchdown import FootState, PressureTouchdown
 
 MEAN_SAMPLES = 2000
-"""Number of samples of the mean load of both feet; after that, older samples fade."""
+"""Number of samples over which the mean load of both feet is a plain mean; later samples have weight 1/2000 each."""
 
 
 @define
 class SoleContacts:
-    """The contacts of one foot, and the mode that they showed."""
+    """The contacts of one foot, and their latest mode."""
 
     step: float = field(default=0.0, init=False)
-    """Length of the stride that ended with its last touchdown, m."""
+    """Length of the stride that ended with the foot's last touchdown, m."""
     contact: Contact = field(factory=Contact, init=False)
+    """Present or last contact."""
     pressed: bool = field(default=False, init=False)
-    """Flag: its contact lasts."""
+    """Flag: the foot is in contact now."""
     mode: WalkingMode | None = field(default=None, init=False)
-    """Latest mode that its contacts showed."""
+    """Latest mode of the foot's contacts; None before the first."""
     in_newtons: bool = field(default=True, init=False)
-    """Flag: its samples may be in newtons."""
+    """Flag: the foot's samples may be in newtons."""
 
 
 @define
 class Recognition:
-    """Recognises the walking mode; takes every sample of cells and every touchdown."""
+    """Recognises the walking mode from all samples of the cells and all touchdowns."""
 
     settings: ModesSettings = ModesSettings()
     soles: dict[Foot, SoleContacts] = field(init=False)
+    """Contacts by foot."""
     contact_detector: PressureTouchdown = field(factory=PressureTouchdown, init=False)
-    """Detector that starts and ends the contacts that show a mode."""
+    """Detector of the start and the end of a contact."""
     mean_load: float = field(default=0.0, init=False)
-    """Mean load of both feet, unit of the samples."""
+    """Mean of the sum of both feet's loads, unit of the samples."""
     load_count: int = field(default=0, init=False)
+    """Number of samples in `mean_load`, at most `MEAN_SAMPLES`."""
 
     def __attrs_post_init__(self) -> None:
         self.soles = {foot: SoleContacts() for foot in Foot}
@@ -51,21 +55,21 @@ class Recognition:
     def add_pressure(
         self, foot: Foot, state: FootState, cells: tuple[float, ...], layout: Layout | None, t: float, both_feet: bool
     ) -> WalkingMode | None:
-        """Add a sample of the cells of `foot` at `t` s, and return the mode if the foot shows another one.
+        """Add a sample of the cells of `foot` at `t` s; return the foot's mode if it has changed, otherwise None.
 
-        `state` has the sample's pressure; `layout` as far as it is known; `both_feet`: samples of the other foot have
-        come too."""
+        `state` has the sample's pressure, `layout` is None if it is unknown, and `both_feet` is true if samples of the
+        other foot have come, too."""
         sole = self.soles[foot]
         contact = sole.contact
         sole.in_newtons = state.highest_pressure is None
         contact.set_layout(layout)
         total = sum(cells)
         pressed = self.contact_detector.is_down(state, sole.pressed)
-        both = total + self.soles[OTHER[foot]].contact.last_load
+        both_loads = total + self.soles[OTHER[foot]].contact.last_load
         contact.last_load = total
         if both_feet:
             self.load_count = min(self.load_count + 1, MEAN_SAMPLES)
-            self.mean_load += (both - self.mean_load) / self.load_count
+            self.mean_load += (both_loads - self.mean_load) / self.load_count
         mode: WalkingMode | None = None
         if pressed:
             if not sole.pressed:
@@ -73,22 +77,22 @@ class Recognition:
             contact.add(cells, total)
             if contact.duration(t) > LONGEST_CONTACT and not contact.too_long:
                 contact.too_long = True
-                mode = self._standing(both)
+                mode = self._standing(both_loads)
         elif sole.pressed:
             contact.t_end = t
-            mode = self._mode_of_ended(foot, both)
+            mode = self._mode_of_ended(foot, both_loads)
         sole.pressed = pressed
         if mode is None or mode is sole.mode:
             return None
         sole.mode = mode
         return mode
 
-    def blind(self, foot: Foot) -> bool:
-        """Return whether the foot's cells do not show left and right: they show no mode but standing."""
+    def is_blind(self, foot: Foot) -> bool:
+        """Return whether the foot's cells do not show left and right, so that they show no mode except standing."""
         return self.soles[foot].contact.blind
 
     def add_touchdown(self, foot: Foot, step: float) -> None:
-        """Add a touchdown of the foot `step` m from where it stood before."""
+        """Add a touchdown of the foot at a distance of `step` m from its previous one."""
         self.soles[foot].step = step
 
     def mode_at_touchdown(self, foot: Foot) -> WalkingMode:
@@ -100,13 +104,13 @@ class Recognition:
             mode = reference.mode
         return WalkingMode.STRAIGHT if mode is None or mode is WalkingMode.STANDING else mode
 
-    def _standing(self, both: float) -> WalkingMode | None:
-        """Return STANDING by table 2 if there is no step and the weight is on the feet."""
+    def _standing(self, both_loads: float) -> WalkingMode | None:
+        """Return STANDING by table 2 if the wearer's weight is on the feet; `both_loads` is the sum of their loads."""
         weight = self.settings.weight if self.soles[Foot.LEFT].in_newtons else None
         weight = self.mean_load if weight is None else weight
-        return WalkingMode.STANDING if both > STANDING_WEIGHT * weight else None
+        return WalkingMode.STANDING if both_loads > STANDING_WEIGHT * weight else None
 
-    def _mode_of_ended(self, foot: Foot, both: float) -> WalkingMode | None:
+    def _mode_of_ended(self, foot: Foot, both_loads: float) -> WalkingMode | None:
         """Return the mode of a contact that has ended."""
         sole = self.soles[foot]
         contact = sole.contact
@@ -114,7 +118,7 @@ class Recognition:
         if shares is None or contact.too_long:
             return None
         contact.forward = shares["F1"] - shares["F2"]
-        return self._standing(both) if sole.step < LEAST_STEP else self._mode_so_far(foot)
+        return self._standing(both_loads) if sole.step < LEAST_STEP_LENGTH else self._mode_so_far(foot)
 
     def _mode_so_far(self, foot: Foot) -> WalkingMode | None:
         """Return the mode of a foot's contact so far, by table 2."""
@@ -124,4 +128,4 @@ class Recognition:
         if shares is None:
             return None
         forward = shares["F1"] - shares["F2"] + self.soles[OTHER[foot]].contact.forward
-        return decide(foot, sole.step, at_pace(shares, contact.speed(sole.step)), forward, self.settings.th)
+        return decide(foot, sole.step, at_reference_speed(shares, contact.speed(sole.step)), forward, self.settings.th)

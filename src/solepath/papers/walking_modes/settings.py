@@ -6,7 +6,7 @@ from ...calibration import Limbs
 from ...types import Foot, WalkingMode
 from ...types.attrs import frozen
 from .compensation import Compensation, compensation_of
-from .mode import TH
+from .mode import MODE_THRESHOLD
 
 
 @frozen
@@ -16,19 +16,20 @@ class ModesSettings:
     compensation: Compensation | None = None
     """Compensation epsilon_P; None for methods I to III."""
     limbs: Limbs = Limbs()
+    """Lengths of the wearer's limbs."""
     weight: float | None = None
-    """Weight of the wearer, N; None: learnt as the mean load of both feet."""
+    """Weight of the wearer, N; None if it is to be learnt as the mean load of both feet."""
     heading: float | None = None
-    """Wearer's heading in the N-pose, in the world that the devices share, rad; None: the direction of the first step.
-    It is known beforehand on a floor that was surveyed."""
-    th: float = TH
-    """Threshold TH of mode.py."""
+    """Heading of the wearer in the N-pose (limbs.py), rad, left positive, in the world that the devices share. None for
+    the direction of the first step. On a surveyed floor it may be known beforehand."""
+    th: float = MODE_THRESHOLD
+    """Threshold th of mode.py, as a multiple of the mean load of a cell."""
 
     @property
     def feet_distance(self) -> float:
-        """Distance between the feet at the start, m: the hips' width, as in the chain's N-pose.
+        """Distance between the feet at the start, m: the hips' width, corrected by the straight mode's compensation.
 
-        If feet are known to come down nearer to each other than the chain has them, they stood so as well."""
+        If the feet come down nearer to each other than the chain computes, they stand nearer to each other, too."""
         distance = self.limbs.hip_width
         if self.compensation is None:
             return distance

@@ -1,4 +1,4 @@
-"""Touchdown signs of both feet, and which foot is down by them or, where a sign fails, by its strides."""
+"""Touchdown signs of both feet, and the feet that are down by their signs or, if a sign fails, by their strides."""
 
 from __future__ import annotations
 
@@ -21,18 +21,20 @@ class Signs:
     """Collects the signs of both feet: add views and pressures before `down_flags`."""
 
     method: AnyTouchdown
-    shown: dict[Foot, FootState] = field(factory=dict, init=False)
+    """Method that turns the states of both feet into touchdown flags."""
+    states: dict[Foot, FootState] = field(factory=dict, init=False)
     """State by foot, for feet with samples."""
     evidence: dict[Foot, SignEvidence] = field(init=False)
+    """Check of each foot's sign."""
 
     def __attrs_post_init__(self) -> None:
         self.evidence = {foot: SignEvidence() for foot in Foot}
 
     def add_view(self, view: FootView, height: float) -> None:
-        """Add a sample of a foot and its events; `height` of its own track, m."""
-        state, evidence = self.shown.get(view.foot), self.evidence[view.foot]
+        """Add a sample of a foot and its events; `height` is that of the foot's own track, m."""
+        state, evidence = self.states.get(view.foot), self.evidence[view.foot]
         if state is None:
-            state = self.shown[view.foot] = FootState()
+            state = self.states[view.foot] = FootState()
         state.in_swing = view.phase is Phase.SWING
         for event in view.events:
             if isinstance(event, StrideTaken):
@@ -46,22 +48,22 @@ class Signs:
 
     def add_pressure(self, foot: Foot, cells: PressedCells) -> FootState:
         """Add the cells of the foot's newest sample, and return its state."""
-        state = self.shown[foot]
+        state = self.states[foot]
         state.pressure = max(cells.values)
         state.highest_pressure = None if cells.in_newtons else cells.highest
         return state
 
     def down_flags(self, t: float, alone: Foot | None, known_at: float, events: list[Event]) -> Flags:
-        """Return TD_L and TD_R, by the method or, where that fails, by the foot's own strides, which is reported once.
+        """Return the flags TD_L and TD_R by the method or, if a foot's sign fails, by that foot's strides.
 
-        `alone`: the only foot with samples."""
-        left, right = self.shown.get(Foot.LEFT, UNKNOWN_STATE), self.shown.get(Foot.RIGHT, UNKNOWN_STATE)
+        The use of strides is reported once. `alone` is the only foot with samples, None if both have samples."""
+        left, right = self.states.get(Foot.LEFT, UNKNOWN_STATE), self.states.get(Foot.RIGHT, UNKNOWN_STATE)
         flags = self.method.update(t, left, right)
-        none = alone is not None and isinstance(self.method, Height)  # one foot is lower than no other
+        has_no_sign = alone is not None and isinstance(self.method, Height)  # it compares two feet
         down = []
         for foot, state, flag in ((Foot.LEFT, left, flags[0]), (Foot.RIGHT, right, flags[1])):
             evidence = self.evidence[foot]
-            down.append(evidence.is_down(flag, state.in_swing, none) and (alone is None or alone is foot))
+            down.append(evidence.is_down(flag, state.in_swing, has_no_sign) and (alone is None or alone is foot))
             if evidence.uses_strides and not evidence.reported and state is not UNKNOWN_STATE:
                 evidence.reported = True
                 sign = "insole" if isinstance(self.method, PressureTouchdown) else "foot's motion"

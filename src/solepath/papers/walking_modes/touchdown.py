@@ -1,15 +1,15 @@
 """Detection of touchdowns by three methods, and the rule that makes one foot the reference.
 
 After "Improving Accuracy of Real-Time Positioning and Path Tracking by Using an Error Compensation Algorithm against
-Walking Modes" (Gong et al. 2023, Sensors 23, 5417), section 2. The three parts turn the state of both feet in one
-sample into the flags TD_L and TD_R and are interchangeable: `Height` is method I, `NetAcceleration` II,
-`PressureTouchdown` III (and IV, which adds a compensation: modes.py).
+Walking Modes" (Gong et al. 2023, Sensors 23, 5417), section 2. Three interchangeable classes compute the touchdown
+flags TD_L and TD_R, which are true while the foot is down, from the state of both feet in one sample: `Height` is
+method I, `NetAcceleration` method II, `PressureTouchdown` method III (and IV, which adds a compensation: modes.py).
 
-The paper compares flags but does not say which foot is the reference while both are down, or neither. Here
-(`ReferenceFoot`): a foot whose flag rises becomes the reference, whatever the other's; if the reference's flag falls,
-the other foot becomes the reference if that is down; else nothing changes. So in walking each foot is the reference
-from its own touchdown to the other's. A foot whose sign fails (evidence.py) may become the reference without a
-touchdown since it moved on: it has come down unseen (modes.py)."""
+The other foot's position is measured from the reference foot. The paper does not say which foot is the reference while
+both are down, or neither. Here (`ReferenceFoot`) a foot that comes down becomes the reference. When the reference foot
+comes up, the other foot becomes the reference if it is down. So in walking each foot is the reference from its own
+touchdown to the other's. A foot whose sign fails (evidence.py) may become the reference after an undetected touchdown
+(modes.py)."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ from ...types.vector import TIE, ZERO, sub
 
 
 def v_change(left: Vec3, right: Vec3, reference: Foot) -> Vec3:
-    """Return the vector from the foot that is down to the one in the air, in the positions' frame, m.
+    """Return the vector from the reference foot to the other foot, m, in the frame of the positions `left` and `right`.
 
-    Equation (1), P_L - P_R, where the right foot is down, and (2), P_R - P_L, where the left one is."""
+    It is P_L - P_R (1) if the right foot is the reference, otherwise P_R - P_L (2)."""
     return sub(left, right) if reference is Foot.RIGHT else sub(right, left)
 
 
 def displace(reference: Vec3, change: Vec3, compensation: Vec3 = ZERO) -> Vec3:
-    """Return the position of the foot in the air: equation (3), P_s = P_t + V_change; (8), + epsilon_P."""
+    """Return the position of the other foot, m: P_s = P_t + V_change (3), with compensation + epsilon_P (8)."""
     return (
         reference[0] + change[0] + compensation[0],
         reference[1] + change[1] + compensation[1],
@@ -36,37 +36,38 @@ def displace(reference: Vec3, change: Vec3, compensation: Vec3 = ZERO) -> Vec3:
 
 @define
 class FootState:
-    """State of one foot; None for a value that is not measured."""
+    """The state of one foot; a value that is not measured is None."""
 
     height: float | None = None
-    """Height of its end, z up, in the same frame as the other's, m."""
+    """Height of the foot, m, upwards positive, in a frame that both feet share."""
     acceleration: float | None = None
-    """Acceleration |A| of (5), net of gravity, m/s^2."""
+    """Magnitude |A| of the acceleration without gravity (5), m/s^2."""
     pressure: float | None = None
-    """MaxPressure of (6), unit of the samples."""
+    """Value of the most loaded cell, MaxPressure of (6), unit of the samples."""
     highest_pressure: float | None = None
-    """Highest value that any cell has shown, where the samples may not be in N; else None."""
+    """Highest value of any cell so far; None if the samples are in N."""
     in_swing: bool = False
-    """Flag: the foot swings by its own phase (types.Phase)."""
+    """Flag: the foot is in swing by its phase (types.Phase)."""
     flat_height: float = 0.0
-    """Height of its own track at its last foot-flat, m."""
+    """Height of the foot by its own track at its last foot-flat, m."""
 
 
 Flags = tuple[bool, bool]
 """Flags TD_L and TD_R."""
 
 HEIGHT_MARGIN = 0.01
-"""Least difference of height that changes the flags, m: both feet on a floor differ by their errors.
+"""Least difference of height that changes the flags, m; not in the paper, chosen by hand.
 
-The paper has none."""
+The computed heights of two feet on one floor differ by their errors."""
 A_A, STEADY_TIME = 1.0, 0.05
-"""Threshold of the net acceleration, m/s^2, and time for which it must last, s.
+"""Threshold A_a of the net acceleration, m/s^2, and time for which it must be lower until the foot is down, s.
 
-The paper gives neither A_a nor a filter. This is the band of 9 to 11 m/s^2 about gravity in which Jimenez, Seco,
-Prieto, Guevara ("A comparison of pedestrian dead-reckoning algorithms using a low-cost MEMS IMU", WISP 2009, condition
-C1) take a foot for still."""
+The paper gives neither A_a nor a filter. The threshold is the half width of the band of 9 to 11 m/s^2 in which Jimenez,
+Seco, Prieto, Guevara ("A comparison of pedestrian dead-reckoning algorithms using a low-cost MEMS IMU", WISP 2009,
+condition C1) take a foot for still. The time was chosen by hand."""
 RELEASE_SHARE = 0.5
-"""Share of the threshold below which a foot that is down comes up, or a cell that flickers would make steps."""
+"""Pressure below which a foot is no longer down, as a share of the threshold; without it a noisy cell would make steps.
+"""
 
 
 @define
@@ -74,6 +75,7 @@ class Height:
     """Method I, equation (4): the lower foot is down."""
 
     down: Flags = field(default=(False, False), init=False)
+    """Flags of the last sample."""
 
     def update(self, t: float, left: FootState, right: FootState) -> Flags:
         if left.height is not None and right.height is not None:
@@ -88,23 +90,23 @@ class Height:
 class NetAcceleration:
     """Method II, equation (5): a foot is down while |A|, without gravity, is below A_a."""
 
-    moving_at: tuple[float | None, float | None] = field(default=(None, None), init=False)
-    """Time when each foot was last above the threshold, s; None before the first value."""
+    moving_t: tuple[float | None, float | None] = field(default=(None, None), init=False)
+    """Time, s, at which the left and the right foot last exceeded the threshold; None before the first value."""
 
     def update(self, t: float, left: FootState, right: FootState) -> Flags:
-        (was_left, down_left), (was_right, down_right) = (
-            self._foot_down(t, left.acceleration, self.moving_at[0]),
-            self._foot_down(t, right.acceleration, self.moving_at[1]),
+        (left_moving_t, down_left), (right_moving_t, down_right) = (
+            self._foot_down(t, left.acceleration, self.moving_t[0]),
+            self._foot_down(t, right.acceleration, self.moving_t[1]),
         )
-        self.moving_at = (was_left, was_right)
+        self.moving_t = (left_moving_t, right_moving_t)
         return down_left, down_right
 
-    def _foot_down(self, t: float, acceleration: float | None, moving_at: float | None) -> tuple[float | None, bool]:
+    def _foot_down(self, t: float, acceleration: float | None, moving_t: float | None) -> tuple[float | None, bool]:
         if acceleration is None:
-            return moving_at, False
-        if moving_at is None or moving_at > t or acceleration >= A_A:
+            return moving_t, False
+        if moving_t is None or moving_t > t or acceleration >= A_A:
             return t, False
-        return moving_at, t - moving_at >= STEADY_TIME - TIE
+        return moving_t, t - moving_t >= STEADY_TIME - TIE
 
 
 @frozen
@@ -112,9 +114,9 @@ class PressureTouchdownSettings:
     """Settings of `PressureTouchdown`."""
 
     threshold: float = 5.0
-    """Threshold of the most loaded cell, N (section 3.1: the least that the paper's insole records)."""
+    """Threshold of the most loaded cell, N: the least force that the paper's insole records (section 3.1)."""
     share: float = 0.1
-    """Threshold as a share of the highest value of this foot's cells, where their unit may not be N."""
+    """Threshold as a share of the highest value of this foot's cells so far, if their unit is not known to be N."""
 
 
 @define
@@ -123,13 +125,14 @@ class PressureTouchdown:
 
     settings: PressureTouchdownSettings = PressureTouchdownSettings()
     down: Flags = field(default=(False, False), init=False)
+    """Flags of the last sample."""
 
     def update(self, t: float, left: FootState, right: FootState) -> Flags:
         self.down = (self.is_down(left, self.down[0]), self.is_down(right, self.down[1]))
         return self.down
 
     def is_down(self, foot: FootState, down: bool) -> bool:
-        """Return whether a foot is down, given whether it was `down` before."""
+        """Return whether a foot is down; `down` is true if it was down in the previous sample."""
         if foot.pressure is None:
             return False
         threshold = (
@@ -139,21 +142,24 @@ class PressureTouchdown:
 
 
 AnyTouchdown = Height | NetAcceleration | PressureTouchdown
+"""Method I, II or III."""
 
 
 @define
 class ReferenceFoot:
-    """The foot that the other's place is measured from; None before any foot was down."""
+    """The choice of the reference foot, from which the other foot's place is measured."""
 
     foot: Foot | None = field(default=None, init=False)
+    """Reference foot; None before any foot was down."""
     down: Flags = field(default=(False, False), init=False)
+    """Flags of the last sample."""
 
     def update(self, flags: Flags) -> tuple[Foot, bool] | None:
-        """Return the foot that becomes the reference with these flags, and whether it came down now; None if none.
+        """Return the foot that becomes the reference, and whether it comes down now; None if the reference stays.
 
-        When both flags rise at once it is the foot that was not the reference, at the very first the left foot."""
-        before, self.down = self.down, flags
-        rose = (flags[0] and not before[0], flags[1] and not before[1])
+        If both feet come down at once, it is the foot that was not the reference; the first time, the left foot."""
+        old_flags, self.down = self.down, flags
+        rose = (flags[0] and not old_flags[0], flags[1] and not old_flags[1])
         if self.foot is None:
             if not any(flags):
                 return None

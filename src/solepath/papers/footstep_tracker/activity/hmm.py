@@ -1,7 +1,7 @@
-"""Forward filter of a hidden Markov model, online; plain floats, a few states.
+"""Forward filter of a hidden Markov model with a few states, one observation at a time.
 
-Rabiner 1989, "A tutorial on hidden Markov models": alpha of equations (19) and (20), scaled to sum 1 as in its section
-V.A."""
+Rabiner 1989, "A tutorial on hidden Markov models": alpha of equations (19) and (20), scaled to sum 1 as in section V.A
+there."""
 
 from __future__ import annotations
 
@@ -9,9 +9,10 @@ from collections.abc import Sequence
 from math import exp, isfinite
 
 LEAST_LIKELIHOOD = 1e-12
-"""Least likelihood of a state relative to the likeliest: a smaller one could not recover."""
+"""Least likelihood of a state relative to the likeliest one. With a smaller one it could not become likely again."""
 
 Matrix = tuple[tuple[float, ...], ...]
+"""Rows of a matrix."""
 
 
 def scaled_likelihoods(log_likelihoods: Sequence[float]) -> tuple[float, ...]:
@@ -24,13 +25,13 @@ def scaled_likelihoods(log_likelihoods: Sequence[float]) -> tuple[float, ...]:
 
 
 def forward(belief: Sequence[float], transitions: Matrix, likelihoods: Sequence[float]) -> tuple[float, ...]:
-    """Return the belief one step later, given the likelihoods of the observation (`scaled_likelihoods`).
+    """Return the probabilities of the states after one more observation, from the old ones and the likelihoods.
 
-    It sums to 1."""
+    `likelihoods` are those of `scaled_likelihoods`. The result sums to 1."""
     prior = [0.0] * len(belief)
-    for held, row in zip(belief, transitions, strict=True):
+    for share, row in zip(belief, transitions, strict=True):
         for j, p in enumerate(row):
-            prior[j] += held * p
+            prior[j] += share * p
     return bayes_update(prior, likelihoods)
 
 

@@ -1,34 +1,35 @@
-"""Activities of windows of two seconds, by a tree and a hidden Markov model.
+"""Activities of windows of two seconds, by a decision tree and a hidden Markov model.
 
 After Liu et al. 2015, "Track Your Foot Step: Anchor-free Indoor Localization based on Sensing Users' Foot Steps",
-section IV.A, fig. 5: a threshold on the variance of a_z parts {standing, hypergravity, weightlessness} from {walking,
-stairs up, stairs down}; thresholds on its mean part the first three; a hidden Markov model parts the others. "If we
-estimate the user's activity as EHG, then we wait for an EWL, and we say the user is under EA. If the user is under EWL,
-we wait for an EHG, and we say the user is under ED."
+section IV.A, fig. 5. A threshold on the variance of a_z separates {standing, hypergravity, weightlessness} from
+{walking, stairs up, stairs down}; thresholds on its mean separate the first three, a hidden Markov model the others.
+"If we estimate the user's activity as EHG [hypergravity], then we wait for an EWL [weightlessness], and we say the user
+is under EA [elevator ascending]. If the user is under EWL, we wait for an EHG, and we say the user is under ED
+[descending]." Hypergravity and weightlessness last for one pulse each, when an elevator speeds up and when it brakes.
 
-Open in the paper, and settled here:
+The paper leaves these points open:
 
-- Observations of the hidden Markov model. Features of the window (window_model.FEATURES: log variance and skewness of
-  a_z, the mean force, the log energies across a_z and of the turning; section V.C has "accelerometer and gyroscope
-  data") under a mixture of Gaussians for each state, as Mannini and Sabatini 2010 (Sensors 10, 1154) classify
-  activities by a continuous-emission model of window features. Windows that slide by a quarter contain each instant
-  four times, so a window's log-likelihood counts a quarter.
-- The mean of standing. A threshold on the mean itself needs sensors without offset, but offsets are as large as a
-  lift's pulse. So the mean counts against that of the foot's own standing (`StandingForce`).
-- In fig. 4 a_z is about -9.8 at rest, so its "smaller" in hypergravity is larger downwards. Here specific force counts
-  upwards: hypergravity is above.
-- The wait for the other pulse ends when the wearer walks off, and after `LONGEST_RIDE`; then there was no ride.
-- Two feet. Both give the same window: the mean of their variances and of their means counts, and their log-likelihoods
-  add up.
-- Running is none of the paper's activities. It comes out as WALKING.
+- Observations of the hidden Markov model are window features (window_model.FEATURES: log variance and skewness of a_z,
+  the mean force, the log energies across a_z and of the rotation; section V.C has "accelerometer and gyroscope data").
+  Each state has a mixture of Gaussians, as in the continuous-emission model of window features of Mannini and Sabatini
+  2010 (Sensors 10, 1154). Windows overlap so that each instant is in four, so a log-likelihood counts a quarter.
+- A threshold on the mean itself needs sensors without offset, but offsets are as large as the pulses of an elevator.
+  So the mean is compared with the mean while the same foot stood (`StandingForce`).
+- In fig. 4 a_z is about -9.8 at rest, so "smaller" in hypergravity means more negative. Here specific force is positive
+  upwards, so it is larger in hypergravity.
+- The wait for the second pulse ends when the wearer walks away, and after `LONGEST_RIDE`. Then there was no ride.
+- The windows of both feet at one time are combined: variances and means are averaged, log-likelihoods are added.
+- Running is none of the paper's activities. It is reported as WALKING.
 
-Time of a change. A window moves if any part of it does: so movement started in the newest half-second of the first
-window that moves, and ended at the start of the first one that does not; the same holds for a lift's pulses. Between
-walking and stairs the middle of the window counts. The first windows of a movement hold some standing too, which looks
-like stairs: the hidden Markov model starts with the first that holds none, and a movement is reported when one more
-window has moved, so a foot that is put elsewhere within half a second has not walked. So a label is known within
-0.5 s after the start of a pulse, 2.5 s of movement, 2 s of standing, 1.5 s of stairs after walking. A lift that has
-set off is reported as not final until its second pulse."""
+Time of a change: A window counts as moving if any part of it moves. So movement started in the newest half-second of
+the first moving window, and ended at the start of the first window that does not move. The same holds for the pulses of
+an elevator. A change between walking and stairs is in the middle of the window. The first windows of a movement also
+contain standing, which makes them look like stairs. So the hidden Markov model starts with the first window without
+standing. A movement is reported after one more moving window: a foot that is only put elsewhere within half a second
+has not walked. So a label is known within 0.5 s after the start of a pulse, 2.5 s of movement, 2 s of standing, 1.5 s
+of stairs after walking. A ride in an elevator is not final until its second pulse.
+
+Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -42,63 +43,43 @@ from ....types import Activity, Foot, Site
 from ....types.attrs import define, field, frozen
 from .hmm import bayes_update, forward, scaled_likelihoods
 from .window_model import WindowModel, shipped
-from .windows import BLOCKS, HOP, WINDOW, FootWindow, FootWindows
+from .windows import BLOCKS, HOP, QUICK_SHARE, WINDOW, FootWindow, FootWindows, StandingForce
 
 MOVING = (Activity.WALKING, Activity.STAIRS_UP, Activity.STAIRS_DOWN)
 """States of the hidden Markov model."""
-LIFT = {True: Activity.ELEVATOR_UP, False: Activity.ELEVATOR_DOWN}
-"""Activity of a lift by its direction, True for up."""
-UNIFORM = (1.0 / 3.0,) * 3
-"""Belief before the first window of a movement."""
-SILENT_HOPS = 4
-"""Number of half-seconds behind the other foot after which a foot is not waited for."""
-LOST_HOPS = 8
+ELEVATOR_ACTIVITY = {True: Activity.ELEVATOR_UP, False: Activity.ELEVATOR_DOWN}
+"""Activity in an elevator by its direction; True for up."""
+UNIFORM_BELIEF = (1.0 / 3.0,) * 3
+"""Probabilities of the states before the first window of a movement."""
+LONGEST_SILENCE = 4
+"""Number of half-seconds by which a foot may lag behind the other before its windows are no longer waited for."""
+LONGEST_GAP = 8
 """Number of half-seconds without a window after which the activity is unknown."""
-QUICK_SHARE, SLOW_SHARE = 0.5, 0.05
-"""Share of a window in the mean of standing: the second after a movement, and in the long run."""
 LONGEST_PULSE = 10
-"""Longest pulse of a lift, half-seconds: after a longer one the foot stands otherwise than before."""
+"""Longest pulse of an elevator, half-seconds. A longer one means that the foot now stands in another posture."""
 LONGEST_RIDE = 120
 """Longest time from the first pulse of a ride to the second, half-seconds."""
 FIRST_WHOLE_WINDOW = BLOCKS
-"""Number of the first window of a movement in which nothing stands still."""
+"""Number, from 1, of the first window of a movement that contains no standing."""
 FEWEST_WINDOWS = FIRST_WHOLE_WINDOW + 1
-"""Number of windows that make a movement: fewer are a foot that was put elsewhere."""
+"""Least number of windows of a movement; with fewer, a foot was only put elsewhere."""
 
 
 @define
-class StandingForce:
-    """The mean specific force of a foot that stands, m/s^2."""
-
-    mean: float | None = None
-    share: float = 1.0
-    """Share that the next window of standing will have in the mean."""
-    windows: int = 0
-
-    def add_window(self, mean: float) -> None:
-        """Add another window of standing."""
-        self.windows += 1
-        self.mean = mean if self.mean is None else self.mean + self.share * (mean - self.mean)
-        self.share = max(SLOW_SHARE, self.share / (1.0 + self.share))
-
-    def moved(self) -> None:
-        """Let the next window count more, because the foot may stand otherwise after a movement."""
-        self.share = max(self.share, QUICK_SHARE)
-
-
-@define
-class LiftPulses:
-    """The pulses of a lift so far, one or both."""
+class ElevatorPulses:
+    """The one or two pulses of an elevator so far."""
 
     t_start: float
     """Start of the ride, s."""
     index: int
+    """Number of the first window with a pulse."""
     up: bool
+    """Flag: the elevator goes up."""
     braking: bool = False
-    """Flag: the second pulse has come."""
+    """Flag: the second pulse has started."""
     newest: int = 0
     """Number of the last window with a pulse."""
-    first_pulse: int = 1
+    first_pulse_windows: int = 1
     """Number of windows of the first pulse."""
 
 
@@ -120,16 +101,19 @@ class TwoSecondWindows(ActivityPart):
     activity: Activity = field(default=Activity.UNKNOWN, init=False)
     """Newest reported activity."""
     origin: float | None = field(default=None, init=False)
-    """Start of all windows, s."""
+    """Time of the first sample, from which windows are numbered, s."""
     feet: dict[Foot, FootWindows] = field(factory=dict, init=False)
+    """Windows by foot."""
     standing: dict[Foot, StandingForce] = field(factory=dict, init=False)
-    decided: int | None = field(default=None, init=False)
-    """Number of the newest window that was decided."""
+    """Force of standing by foot."""
+    newest_decided: int | None = field(default=None, init=False)
+    """Number of the newest window that was classified."""
     belief: tuple[float, ...] | None = field(default=None, init=False)
-    """Belief of the hidden Markov model; None while the wearer stands."""
-    ride: LiftPulses | None = field(default=None, init=False)
-    moved: int = field(default=0, init=False)
-    """Number of windows of movement since the last without."""
+    """Probabilities of the states of the hidden Markov model; None while the wearer stands."""
+    ride: ElevatorPulses | None = field(default=None, init=False)
+    """Pulses of the present elevator ride; None without one."""
+    moving_windows: int = field(default=0, init=False)
+    """Number of consecutive moving windows up to now."""
     reported_t: float | None = field(default=None, init=False)
     """Time `t` of the newest event, s."""
 
@@ -141,7 +125,7 @@ class TwoSecondWindows(ActivityPart):
     def reset(self, site: Site) -> None:
         """Discard all windows when the clock of a foot's samples restarts."""
         if site.foot is not None:
-            self.origin = self.decided = self.belief = self.ride = self.reported_t = None
+            self.origin = self.newest_decided = self.belief = self.ride = self.reported_t = None
             self.activity = Activity.UNKNOWN
             self.feet, self.standing = {}, {}
 
@@ -160,64 +144,72 @@ class TwoSecondWindows(ActivityPart):
         return self._decide_ready(view.known_at)
 
     def _decide_ready(self, known_at: float) -> list[Event]:
-        """Decide about every window that no foot will add to, after a half-second of one foot."""
+        """Classify every window that is complete for all feet that still send samples."""
         events: list[Event] = []
         while waiting := [w.ready[0].index for w in self.feet.values() if w.ready]:
             index = min(waiting)
             newest = [w.newest for w in self.feet.values() if w.newest is not None]
-            if any(index >= one >= max(newest) - SILENT_HOPS for one in newest):
+            if any(index >= newest_index >= max(newest) - LONGEST_SILENCE for newest_index in newest):
                 break
             ready = [(foot, w.ready) for foot, w in self.feet.items() if w.ready and w.ready[0].index == index]
             windows = {foot: queue.popleft() for foot, queue in ready}
-            if self.decided is None or index > self.decided:
+            if self.newest_decided is None or index > self.newest_decided:
                 events += self._decide(index, windows, known_at)
         return events
 
     def _decide(self, index: int, windows: dict[Foot, FootWindow], known_at: float) -> list[Event]:
         events: list[Event] = []
-        if self.decided is not None and index - self.decided > LOST_HOPS:
+        if self.newest_decided is not None and index - self.newest_decided > LONGEST_GAP:
             events = [] if self.ride is None else self._withdraw_ride(self.ride, known_at)
             self.belief = None
-            events += self._change(self._newest(self.decided) + HOP, Activity.UNKNOWN, known_at)
-        self.decided = index
+            events += self._change(self._newest(self.newest_decided) + HOP, Activity.UNKNOWN, known_at)
+        self.newest_decided = index
         model = self.settings.model or shipped()
         if sum([w.variance for w in windows.values()]) > model.moving * len(windows):
-            self.moved += 1
+            self.moving_windows += 1
             for foot in windows:
-                self.standing[foot].moved()
-            if self.moved < FIRST_WHOLE_WINDOW:
+                self.standing[foot].add_movement()
+            if self.moving_windows < FIRST_WHOLE_WINDOW:
                 return events
             state = self._state(model, windows)
-            return events if self.moved < FEWEST_WINDOWS else events + self._add_moving_window(index, state, known_at)
-        self.moved, self.belief = 0, None
-        off = 0.0
+            return (
+                events
+                if self.moving_windows < FEWEST_WINDOWS
+                else events + self._add_moving_window(index, state, known_at)
+            )
+        self.moving_windows, self.belief = 0, None
+        difference = 0.0
         for foot, window in windows.items():
             mean = self.standing[foot].mean
-            off += 0.0 if mean is None else window.mean - mean
-        off /= len(windows)
-        pulse = 0 if abs(off) < model.pulse else 1 if off > 0.0 else -1
+            difference += 0.0 if mean is None else window.mean - mean
+        difference /= len(windows)
+        pulse = 0 if abs(difference) < model.pulse else 1 if difference > 0.0 else -1
         if pulse == 0:
             for foot, window in windows.items():
                 self.standing[foot].add_window(window.mean)
         return events + self._add_standing_window(index, pulse, windows, known_at)
 
     def _state(self, model: WindowModel, windows: dict[Foot, FootWindow]) -> Activity:
-        """Return the likeliest movement by the hidden Markov model, with this window."""
+        """Return the likeliest movement after this window, by the hidden Markov model."""
         feet = [model.log_likelihoods(window) for window in windows.values()]
         share = 1.0 / BLOCKS
-        likely = scaled_likelihoods([share * sum(values) for values in zip(*feet, strict=True)])
-        before = self.belief
-        self.belief = bayes_update(UNIFORM, likely) if before is None else forward(before, model.transitions, likely)
+        likelihoods = scaled_likelihoods([share * sum(values) for values in zip(*feet, strict=True)])
+        belief = self.belief
+        self.belief = (
+            bayes_update(UNIFORM_BELIEF, likelihoods)
+            if belief is None
+            else forward(belief, model.transitions, likelihoods)
+        )
         return MOVING[self.belief.index(max(self.belief))]
 
     def _add_moving_window(self, index: int, state: Activity, known_at: float) -> list[Event]:
-        t_start = self._newest(index - self.moved + 1)
+        t_start = self._newest(index - self.moving_windows + 1)
         events: list[Event] = []
         if self.ride is not None:
             ride = self.ride
             events = self._end_ride(ride, t_start, known_at) if ride.braking else self._withdraw_ride(ride, known_at)
         if self.activity in MOVING:
-            t_start = self._newest(index) + 0.5 * (HOP - WINDOW)  # the half-second in the window's middle
+            t_start = self._newest(index) + 0.5 * (HOP - WINDOW)  # the middle of the window
         return events + self._change(t_start, state, known_at)
 
     def _add_standing_window(
@@ -235,51 +227,51 @@ class TwoSecondWindows(ActivityPart):
                 pulse = 0
             if ride.braking:
                 events += self._end_ride(ride, self._start(index), known_at)
-                pulse = 0  # a lift that brakes hard swings back
+                pulse = 0  # an elevator that brakes hard rebounds, which looks like a pulse
             elif pulse == direction and index - ride.newest <= BLOCKS:
-                ride.newest, ride.first_pulse = index, ride.first_pulse + 1
-                if ride.first_pulse <= LONGEST_PULSE:
+                ride.newest, ride.first_pulse_windows = index, ride.first_pulse_windows + 1
+                if ride.first_pulse_windows <= LONGEST_PULSE:
                     return events
-                first = all(self.standing[foot].windows <= LONGEST_PULSE for foot in windows)
+                is_first_standing = all(self.standing[foot].windows <= LONGEST_PULSE for foot in windows)
                 for foot, window in windows.items():
                     self.standing[foot] = StandingForce(window.mean, QUICK_SHARE, LONGEST_PULSE)
-                if first:  # the very first standing was the pulse, and this is standing
-                    ride.up, ride.first_pulse = not ride.up, 1
+                if is_first_standing:  # what was taken for standing was the pulse, and this is standing
+                    ride.up, ride.first_pulse_windows = not ride.up, 1
                     return events + self._change(
-                        ride.t_start, LIFT[ride.up], known_at, final=False, revises=ride.t_start
+                        ride.t_start, ELEVATOR_ACTIVITY[ride.up], known_at, final=False, revises=ride.t_start
                     )
                 pulse = 0
                 events += self._withdraw_ride(ride, known_at)
             elif pulse == direction or index - ride.index > LONGEST_RIDE:
-                events += self._withdraw_ride(ride, known_at)  # its other pulse never came
+                events += self._withdraw_ride(ride, known_at)  # the second pulse never came
             else:
                 return events
         if pulse == 0:
             return events + self._change(self._start(index), Activity.STANDING, known_at)
         t_start = self._not_before_reported(self._newest(index))
-        self.ride = LiftPulses(t_start, index, pulse > 0, newest=index)
-        return events + self._change(t_start, LIFT[pulse > 0], known_at, final=False)
+        self.ride = ElevatorPulses(t_start, index, pulse > 0, newest=index)
+        return events + self._change(t_start, ELEVATOR_ACTIVITY[pulse > 0], known_at, final=False)
 
-    def _end_ride(self, ride: LiftPulses, t: float, known_at: float) -> list[Event]:
+    def _end_ride(self, ride: ElevatorPulses, t: float, known_at: float) -> list[Event]:
         self.ride = None
         t = self._not_before_reported(t)
         ridden = LiftRidden(t=t, known_at=known_at, t_start=ride.t_start, up=ride.up, height=None)
         return [ridden, *self._change(t, Activity.STANDING, known_at)]
 
-    def _withdraw_ride(self, ride: LiftPulses, known_at: float) -> list[Event]:
+    def _withdraw_ride(self, ride: ElevatorPulses, known_at: float) -> list[Event]:
         self.ride = None
         return self._change(ride.t_start, Activity.STANDING, known_at, revises=ride.t_start)
 
     def _change(
         self, t: float, activity: Activity, known_at: float, *, final: bool = True, revises: float | None = None
     ) -> list[Event]:
-        """Return the event of this activity, if it is another one or a revision."""
+        """Return the event of this activity if the activity changes or an event is revised, otherwise nothing."""
         if activity is self.activity and revises is None:
             return []
         if revises is None:
             t = self._not_before_reported(t)
         if self.reported_t is None and self.origin is not None:
-            t = self.origin  # the first window includes the half-second of levelling
+            t = self.origin  # the first window also stands for the half-second before it, used for levelling
         self.activity, self.reported_t = activity, t
         return [
             ActivityChanged(t=t, known_at=known_at, final=final, activity=activity, probability=None, revises=revises)

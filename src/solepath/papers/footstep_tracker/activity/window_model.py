@@ -1,7 +1,7 @@
-"""Model of `TwoSecondWindows`: thresholds of its tree, and mixtures for windows of walking and of stairs.
+"""Model of `TwoSecondWindows`: thresholds of the decision tree, and mixtures for windows of walking and of stairs.
 
-`solepath.lab.train.footstep_activity` learns it, and `shipped` reads the result from footstep_activity.json, which
-names its training data."""
+`solepath.lab.train.footstep_activity` learns the model. `shipped` reads it from footstep_activity.json, which names its
+training data. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -16,47 +16,47 @@ from .hmm import Matrix
 from .windows import FootWindow
 
 FEATURES = ("log variance", "skewness", "mean", "log across", "log turning")
-"""Features of a window for the hidden Markov model, in the order of `window_features`; the last needs a gyroscope."""
+"""Names of a window's features, in the order of `window_features`; the last feature needs a gyroscope."""
 LEAST_VARIANCE = 1e-6
-"""Least variance, m^2/s^4 and rad^2/s^2; no sensor has less noise."""
+"""Variance added before a logarithm is taken, m^2/s^4 and rad^2/s^2; no sensor has less noise."""
 LARGEST_SKEWNESS = 4.0
-"""Limit of the skewness: one bump of the foot must not decide about a window."""
+"""Limit of the absolute skewness, so that a single bump of the foot does not decide about a window."""
 
 
 def window_features(window: FootWindow) -> tuple[float, ...]:
-    """Return the window's features, as `FEATURES` names them; logarithms of m^2/s^4 and rad^2/s^2."""
-    known = (
+    """Return the window's features in the order of `FEATURES`; logarithms are of values in m^2/s^4 and rad^2/s^2."""
+    features = (
         log(window.variance + LEAST_VARIANCE),
         max(-LARGEST_SKEWNESS, min(LARGEST_SKEWNESS, window.skewness)),
         window.mean,
         log(window.across + LEAST_VARIANCE),
     )
-    return known if window.turning is None else (*known, log(window.turning + LEAST_VARIANCE))
+    return features if window.turning is None else (*features, log(window.turning + LEAST_VARIANCE))
 
 
 @frozen
 class Gaussian:
-    """One component of a mixture.
-
-    `factor`: the lower triangle, row by row, whose product with its own transpose is the covariance."""
+    """One component of a mixture of Gaussians."""
 
     weight: float
     mean: tuple[float, ...]
     factor: tuple[tuple[float, ...], ...]
+    """Lower Cholesky factor of the covariance, row by row."""
 
     def log_density(self, x: tuple[float, ...]) -> float:
-        """Return the log density of the features `x`, times the weight, but for a constant of all Gaussians.
+        """Return the logarithm of weight times density at `x`, without a constant that all Gaussians have in common.
 
-        Where `x` lacks the last features it is that of the others: the triangle's first rows are theirs."""
+        If `x` lacks the last features, the result is the marginal density of the others, for which the first rows of
+        the factor suffice."""
         log_sum = log(self.weight)
-        solved: list[float] = []
+        coordinates: list[float] = []
         for value, mean, row in zip(x, self.mean, self.factor, strict=False):
-            left = value - mean
-            for known, entry in zip(solved, row, strict=False):
-                left -= known * entry
-            left /= row[-1]
-            solved.append(left)
-            log_sum -= 0.5 * left * left + log(row[-1])
+            residual = value - mean
+            for coordinate, entry in zip(coordinates, row, strict=False):
+                residual -= coordinate * entry
+            residual /= row[-1]
+            coordinates.append(residual)
+            log_sum -= 0.5 * residual * residual + log(row[-1])
         return log_sum
 
 
@@ -69,7 +69,8 @@ class WindowModel:
     moving: float
     """Variance of a_z above which a window is walking or stairs, m^2/s^4 (fig. 6a)."""
     pulse: float
-    """Difference of a window's mean from that of standing in hypergravity or weightlessness, m/s^2 (fig. 6b)."""
+    """Least difference of a window's mean from that of standing while an elevator speeds up or brakes, m/s^2 (fig. 6b).
+    """
     walking: tuple[Gaussian, ...]
     """Mixture of Gaussians over `FEATURES` for walking."""
     stairs_up: tuple[Gaussian, ...]
@@ -82,10 +83,10 @@ class WindowModel:
     def log_likelihoods(self, window: FootWindow) -> tuple[float, float, float]:
         """Return the log likelihoods of walking, stairs up and stairs down.
 
-        A mixture counts as its likeliest component: they lie apart."""
+        The likeliest component stands for the whole mixture, because the components hardly overlap."""
         x = window_features(window)
-        up, down = (max([one.log_density(x) for one in part]) for part in (self.stairs_up, self.stairs_down))
-        return max([one.log_density(x) for one in self.walking]), up, down
+        up, down = (max([g.log_density(x) for g in mixture]) for mixture in (self.stairs_up, self.stairs_down))
+        return max([g.log_density(x) for g in self.walking]), up, down
 
 
 @cache

@@ -1,13 +1,16 @@
-"""Windows of two seconds of one foot's vertical acceleration, and the features of each.
+"""Windows of two seconds of one foot's vertical specific force, and their features.
 
 Liu et al. 2015, "Track Your Foot Step", section IV.A: "We use a slide window with size 40, which equals to 2 seconds in
 time, to ensure that the window contains an entire step period during walking or a process of hypergravity and
-weightlessness." Time counts here, not samples, so any rate will do. The paper does not give the shift of the window:
-here it is a quarter of the window (`HOP`), so a window is four blocks, of which only sums are kept.
+weightlessness." Here a window is a time, not a number of samples, so the sample rate does not matter. The paper does
+not give the shift from one window to the next. Here it is a quarter of a window (`HOP`). So a window is made of four
+blocks, of which only sums are kept.
 
-a_z is the paper's vertical axis of a sensor lying flat in the sole. A sensor may have any mounting, so the axis is the
-direction of gravity in the sensor over the window before: over whole strides a foot starts and ends with the same
-velocity, and the mean specific force is gravity. It needs no gyroscope."""
+a_z is the component along the paper's vertical axis, of a sensor that lies flat in the sole. For any other mounting the
+axis is the mean direction of specific force over the previous window: a foot has the same velocity at both ends of a
+whole stride, so that mean is gravity. This needs no gyroscope.
+
+Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -29,9 +32,12 @@ FEWEST_SAMPLES = 8
 HIGHEST_RATE_SQUARE = radians(250.0) ** 2
 """Limit of the squared angular rate, rad^2/s^2.
 
-The paper's SensorTag measures no more, and other sensors must give the same result for the same gait."""
+The range of the paper's SensorTag ends there, and a sensor with a larger range must give the same result for the same
+gait."""
 LEAST_FORCE = 1.0
-"""Mean specific force of a window below which gravity has no direction, m/s^2."""
+"""Length of a window's mean specific force below which it does not show the direction of gravity, m/s^2."""
+QUICK_SHARE, SLOW_SHARE = 0.5, 0.05
+"""Weight of a window in the mean of standing: directly after a movement, and least weight in the long run."""
 
 
 @frozen
@@ -39,63 +45,70 @@ class FootWindow:
     """The features of one window of one foot."""
 
     index: int
-    """Number of its last half-second, from the start of all windows."""
+    """Number of the window's last half-second, counted from the first sample."""
     mean: float
-    """Length of the mean specific force, m/s^2: for a foot that stays level, the mean of a_z."""
+    """Length of the mean specific force, m/s^2; the mean of a_z if the foot stays level."""
     variance: float
     """Variance of a_z, m^2/s^4."""
     skewness: float
-    """Skewness of a_z: above 0 when its peaks are higher than its troughs are deep."""
+    """Skewness of a_z, without unit: positive when upward peaks are higher than downward ones."""
     across: float
-    """Mean square of the specific force across a_z, m^2/s^4."""
+    """Mean square of the specific force at right angles to a_z, m^2/s^4."""
     turning: float | None
     """Mean square of the angular rate, rad^2/s^2; None without a gyroscope."""
 
 
 @define
 class WindowBlock:
-    """Sums over half a second.
-
-    a_z counts less standard gravity, or its square would drown the rest."""
+    """The sums over the samples of half a second."""
 
     index: int
+    """Number of the half-second, counted from the first sample."""
     levelled: bool
     """Flag: the axis of a_z was known."""
     count: int = 0
+    """Number of samples."""
     x: float = 0.0
+    """Sum of the specific force along the sensor's x, m/s^2; `y` and `z` likewise."""
     y: float = 0.0
     z: float = 0.0
     along: float = 0.0
+    """Sum of a_z minus standard gravity, m/s^2. Without the subtraction powers would lose digits."""
     square: float = 0.0
+    """Sum of the squares of a_z minus standard gravity, m^2/s^4."""
     cube: float = 0.0
+    """Sum of the cubes of a_z minus standard gravity, m^3/s^6."""
     energy: float = 0.0
     """Sum of the squared specific force, all axes, m^2/s^4."""
     turning: float = 0.0
+    """Sum of the squared angular rate, rad^2/s^2."""
     turns: int = 0
-    """Number of angular rates among the samples."""
+    """Number of samples with an angular rate."""
 
 
 @define
 class FootWindows:
-    """Computes the windows of one foot from its samples in the order of their time; O(1) a sample."""
+    """Computes the windows of one foot from its samples, in order of time, at constant cost for each sample."""
 
     axis: Vec3 = (0.0, 0.0, 1.0)
-    """Direction of gravity in the sensor, a unit vector."""
+    """Unit vector upwards in the sensor frame."""
     levelled: bool = False
+    """Flag: `axis` is known."""
     newest: int | None = None
     """Number of the present half-second; None before any sample."""
     blocks: deque[WindowBlock] = field(factory=deque)
-    """Blocks of the window, the one being filled last."""
+    """Blocks of the window; the last one is being filled."""
     ready: deque[FootWindow] = field(factory=deque)
     """Finished windows that have not been taken yet."""
 
     def update(self, since: float, acc: Vec3, gyro: Vec3 | None = None) -> bool:
-        """Add one sample, and return whether it starts another half-second, so `ready` may have another window.
+        """Add one sample, and return whether it starts another half-second, so that `ready` may have another window.
 
-        Specific force in m/s^2 and angular rate in rad/s, sensor frame, `since` s after the start of all windows."""
+        `acc` is the specific force in m/s^2 and `gyro` the angular rate in rad/s, sensor frame. `since` is the time
+        since the first sample, s."""
         index = int((since + TIE) // HOP)
-        fresh = index != self.newest
-        if fresh:
+        is_next_block = index != self.newest
+        if is_next_block:
             self._start_block(index)
         block = self.blocks[-1]
         x, y, z = acc
@@ -115,10 +128,10 @@ class FootWindows:
             square = x * x + y * y + z * z
             block.turning += square if square < HIGHEST_RATE_SQUARE else HIGHEST_RATE_SQUARE
             block.turns += 1
-        return fresh
+        return is_next_block
 
     def _start_block(self, index: int) -> None:
-        """Start another half-second: finish the window that is full, and level the axis."""
+        """Start another half-second: complete a full window, and estimate the vertical axis."""
         blocks = self.blocks
         if blocks:
             self._level()
@@ -127,7 +140,7 @@ class FootWindows:
             if window is not None:
                 self.ready.append(window)
         if self.newest is not None and index != self.newest + 1:
-            blocks.clear()  # a gap: no window goes over it
+            blocks.clear()  # no window contains a gap
         elif len(blocks) == BLOCKS:
             blocks.popleft()
         blocks.append(WindowBlock(index, self.levelled))
@@ -155,7 +168,7 @@ def measure_window(blocks: deque[WindowBlock]) -> FootWindow | None:
     share = 1.0 / count
     x, y, z = (share * sum([getattr(block, axis) for block in blocks]) for axis in "xyz")
     m1, m2, m3, energy = (
-        share * sum([getattr(block, what) for block in blocks]) for what in ("along", "square", "cube", "energy")
+        share * sum([getattr(block, name) for block in blocks]) for name in ("along", "square", "cube", "energy")
     )
     turns = sum([block.turns for block in blocks])
     variance = max(0.0, m2 - m1 * m1)
@@ -168,3 +181,24 @@ def measure_window(blocks: deque[WindowBlock]) -> FootWindow | None:
         turning=sum([block.turning for block in blocks]) / turns if turns >= FEWEST_SAMPLES else None,
         across=max(0.0, energy - (m2 + 2.0 * GRAVITY * m1 + GRAVITY * GRAVITY)),
     )
+
+
+@define
+class StandingForce:
+    """The length of a standing foot's specific force, averaged over windows, m/s^2."""
+
+    mean: float | None = None
+    share: float = 1.0
+    """Weight that the next window of standing will have in the mean."""
+    windows: int = 0
+    """Number of windows of standing so far."""
+
+    def add_window(self, mean: float) -> None:
+        """Add the mean specific force of another window of standing, m/s^2."""
+        self.windows += 1
+        self.mean = mean if self.mean is None else self.mean + self.share * (mean - self.mean)
+        self.share = max(SLOW_SHARE, self.share / (1.0 + self.share))
+
+    def add_movement(self) -> None:
+        """Give the next window more weight, because after a movement the foot may stand in another posture."""
+        self.share = max(self.share, QUICK_SHARE)

@@ -1,4 +1,4 @@
-"""Samples of the sensors above the ankles: rejection, and the attitudes that they give to the chain."""
+"""Samples of the sensors above the ankles: rejection, and attitudes for the chain."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .inclination import Inclination
 from .limbs import LowerLimbs
 
 FARTHEST_AHEAD = 60.0
-"""Time ahead of all others at which a sample is rejected, s, unless the last one of its site was ahead too."""
+"""Largest time ahead of all earlier samples, s. Later ones are rejected, unless the site's last one was, too."""
 
 
 @define
@@ -22,9 +22,9 @@ class LimbSensors:
     times: dict[Site, float] = field(factory=dict, init=False)
     """Time of the newest used sample by site, s."""
     newest: float | None = field(default=None, init=False)
-    """Time of the newest sample of any site, feet too, s."""
-    ahead_at: dict[Site, float] = field(factory=dict, init=False)
-    """Time of a site's last sample, s, if it was too far ahead."""
+    """Time of the newest sample of any site, including the feet, s."""
+    ahead_t: dict[Site, float] = field(factory=dict, init=False)
+    """Time of a site's last sample, s, if it was rejected for being too far ahead."""
 
     def add_time(self, t: float) -> None:
         """Add the time of a sample of a foot, s."""
@@ -32,17 +32,17 @@ class LimbSensors:
             self.newest = t
 
     def add_sample(self, sample: Sample, chain: LowerLimbs) -> RejectionReason | None:
-        """Add one sample, and return why it is rejected, None if it is not."""
+        """Add one sample; return the reason for its rejection, or None if it is used."""
         site, t = sample.site, sample.t
-        wrong = rejection_reason(sample, self.times.get(site))
-        if wrong is None and self.newest is not None and t - self.newest > FARTHEST_AHEAD:
-            before = self.ahead_at.get(site)
-            self.ahead_at[site] = t
-            if before is None or not before < t <= before + FARTHEST_AHEAD:
-                wrong = Rejection.ABSURD, f"{t - self.newest:.4g} s ahead of everything before"
-        if wrong is not None:
-            return wrong
-        self.ahead_at.pop(site, None)
+        reason = rejection_reason(sample, self.times.get(site))
+        if reason is None and self.newest is not None and t - self.newest > FARTHEST_AHEAD:
+            last_ahead_t = self.ahead_t.get(site)
+            self.ahead_t[site] = t
+            if last_ahead_t is None or not last_ahead_t < t <= last_ahead_t + FARTHEST_AHEAD:
+                reason = Rejection.ABSURD, f"{t - self.newest:.4g} s ahead of everything before"
+        if reason is not None:
+            return reason
+        self.ahead_t.pop(site, None)
         self.times[site] = t
         self.add_time(t)
         if sample.quat is not None:
@@ -59,5 +59,5 @@ class LimbSensors:
     def reset(self, site: Site) -> None:
         """Discard the times of a site whose clock restarts."""
         self.times.pop(site, None)
-        self.ahead_at.pop(site, None)
+        self.ahead_t.pop(site, None)
         self.newest = max(self.times.values(), default=None)

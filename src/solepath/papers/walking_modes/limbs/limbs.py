@@ -1,12 +1,13 @@
-"""Lower limbs as a chain of seven segments, which gives the ends of the feet seen from the pelvis.
+"""Lower limbs as a chain of seven segments, which gives the ends of the feet relative to the pelvis.
 
-After Gong et al. 2023 (Sensors 23, 5417), section 3.2.2 and fig. 8: O_0 at the hips, O_1 the knee, O_2 the ankle, O_3
-the end of the foot, and P_R, P_L "from the last column" of the product (7) of the transforms between them.
+After Gong et al. 2023 (Sensors 23, 5417), section 3.2.2 and fig. 8: O_0 is at the hips, O_1 the knee, O_2 the ankle,
+O_3 the end of the foot. P_R and P_L are "from the last column" of the product (7) of the transforms between them.
 
-A sensor is mounted in any way, so the relation of its attitude to its segment is taken from the first time that all
-seven are still together: the wearer stands upright, thighs and shanks vertical, feet level, everything facing the first
-heading (N-pose). Attitudes come from the devices (`Sample.quat`), which share one world with z up, as sensors with a
-magnetometer do; or from acceleration and angular velocity (inclination.py), each in a world of its own heading."""
+Sensors may have any mounting. So the rotation between a sensor and its segment is computed at the first time at which
+all seven segments are still. The wearer is then taken to be in the N-pose: upright, thighs and shanks vertical, feet
+level, all segments facing the first heading. Attitudes come from the devices (`Sample.quat`), which share one world
+with z up, as sensors with a magnetometer do. Or they are computed from acceleration and angular velocity
+(inclination.py), each in a world with its own heading. Numbers without a source were chosen by hand."""
 
 from __future__ import annotations
 
@@ -23,7 +24,7 @@ from .segment import LimbSegment
 
 LIMB_SITES = (Site.PELVIS, Site.LEFT_THIGH, Site.RIGHT_THIGH, Site.LEFT_SHANK, Site.RIGHT_SHANK)
 """The sites above the ankles."""
-LEGS = {
+LEG_SITES = {
     Foot.LEFT: (Site.LEFT_THIGH, Site.LEFT_SHANK, Site.LEFT_FOOT),
     Foot.RIGHT: (Site.RIGHT_THIGH, Site.RIGHT_SHANK, Site.RIGHT_FOOT),
 }
@@ -31,38 +32,38 @@ LEGS = {
 SEGMENTS = (*LIMB_SITES, Site.LEFT_FOOT, Site.RIGHT_FOOT)
 """Sites of all seven segments."""
 STANDING_TIME = 0.5
-"""Time for which all seven segments must be still, s."""
+"""Time for which all seven segments must be still in the N-pose, s."""
 ATTITUDE_VALID_TIME = 0.25
-"""Time for which an attitude is valid, s."""
+"""Time for which an attitude is used, s."""
 LEAST_FIRST_STEP = 0.15
-"""Length above which a step gives the first heading, m (as in foot/world.py)."""
+"""Length of a step, m, from which it shows the first heading (as in foot/world.py)."""
 
-LARGEST_PART = 1e6
-"""Largest component of a valid quaternion; its inverse is the least length."""
+LARGEST_COMPONENT = 1e6
+"""Limit of the components of a valid quaternion; its length is at least 1 / LARGEST_COMPONENT."""
 
 
 class Transform(NamedTuple):
-    """A homogeneous transform: `rotation`, then `translation` (m), which is the last column of its matrix."""
+    """A homogeneous transform: a rotation followed by a translation, m, which is the last column of its matrix."""
 
     rotation: Quat = IDENTITY
     translation: Vec3 = ZERO
 
     def then(self, other: Transform) -> Transform:
-        """Return the product with `other`, which is seen from the end of this one."""
+        """Return the product with `other`, which is given in the frame at the end of this transform."""
         x, y, z = self.translation
         dx, dy, dz = rotate(self.rotation, other.translation)
         return Transform(multiply(self.rotation, other.rotation), (x + dx, y + dy, z + dz))
 
 
 def foot_end(pelvis: Quat, thigh: Quat, shank: Quat, foot: Quat, hip: Vec3, limbs: Limbs) -> Vec3:
-    """Return O_3 seen from the middle of the hips, in the frame that the segments' attitudes lead to, m.
+    """Return O_3 relative to the middle of the hips, m, in the frame into which the attitudes turn the segments.
 
     It is the last column of
 
         0_3R = 0_1R 1_2R 2_3R                                                                                   (7)
 
-    from the pelvis on. `hip`: the hip joint in the pelvis, m. In the N-pose all attitudes are the identity: thigh and
-    shank point down, the foot forward from below the ankle."""
+    from the pelvis on. `hip` is the position of the hip joint in the pelvis, m. In the N-pose all attitudes are the
+    identity: thigh and shank point down, and the foot points forward from below the ankle."""
     chain = Transform(pelvis, ZERO).then(Transform(multiply(conjugate(pelvis), thigh), hip))
     chain = chain.then(Transform(multiply(conjugate(thigh), shank), (0.0, 0.0, -limbs.thigh)))
     chain = chain.then(Transform(multiply(conjugate(shank), foot), (0.0, 0.0, -limbs.shank)))
@@ -75,25 +76,27 @@ class LowerLimbs:
 
     settings: ModesSettings = ModesSettings()
     facing: float | None = field(init=False)
-    """Heading of the wearer in the N-pose, or of the first step, in the world that the devices share, rad."""
+    """Heading of the wearer in the N-pose, or of the first step, in the world that the devices share, rad; None while
+    unknown."""
     turn: float = field(default=0.0, init=False)
-    """Angle from `facing` to the x axis of the world, rad."""
+    """Angle from `facing` to the x axis of the world frame, rad, left positive."""
     segments: dict[Site, LimbSegment] = field(init=False)
+    """Segment by the site of its sensor."""
     aligned: bool = field(default=False, init=False)
     """Flag: the N-pose of all segments is known."""
     given_up: bool = field(default=False, init=False)
-    """Flag: the wearer walked off before all seven segments were still."""
+    """Flag: the wearer started to walk before all seven segments were still."""
 
     def __attrs_post_init__(self) -> None:
         self.facing = self.settings.heading
         self.segments = {site: LimbSegment() for site in SEGMENTS}
 
     def set_attitude(self, site: Site, t: float, quat: Quat) -> None:
-        """Set a new attitude of a sensor, of any length but 0."""
-        if not all([-LARGEST_PART < part < LARGEST_PART for part in quat]):
+        """Set a new attitude of a sensor; the quaternion may have any length except 0."""
+        if not all([-LARGEST_COMPONENT < part < LARGEST_COMPONENT for part in quat]):
             return
         length = sqrt(sum([part * part for part in quat]))
-        if length < 1.0 / LARGEST_PART:
+        if length < 1.0 / LARGEST_COMPONENT:
             return
         k = 1.0 / length
         segment = self.segments[site]
@@ -106,30 +109,29 @@ class LowerLimbs:
     def set_own_attitude(self, site: Site, t: float, quat: Quat, heading: float | None) -> None:
         """Set a new attitude of a sensor with a world of its own.
 
-        `heading`: the wearer's first heading in that world, rad, None until it is known. Not used where the site has
-        sent an attitude in the shared world."""
+        `heading` is the wearer's first heading in that world, rad; None while unknown. The attitude is not used if the
+        site has sent an attitude in the shared world."""
         segment = self.segments[site]
         if segment.own_world or segment.t is None:
             segment.own_world, segment.heading = True, heading
             self.set_attitude(site, t, quat)
 
     def reset(self, site: Site) -> None:
-        """Discard the times of a sensor whose clock restarts.
-
-        The world of an attitude that it sends may be another from now on."""
+        """Discard the times of a sensor whose clock restarts; its attitudes may be in another world from now on."""
         segment = self.segments[site]
         segment.t = segment.earlier_t = segment.still_since = None
         segment.world_changed = segment.standing is not None and not segment.own_world
 
     def _realign(self, segment: LimbSegment) -> None:
-        """Find the turn of a segment whose sensor's world is new, which stands as in the N-pose.
+        """Compute the rotation from a sensor's new world to its old one while its segment stands as in the N-pose.
 
-        It is turned as the other known segments are. The difference of its attitude from that is the turn from its old
-        world to its new one."""
+        The heading of the segment is taken to have changed since the N-pose as those of the other segments have."""
         standing = segment.standing
-        known = [s for s in self.segments.values() if s is not segment and s.standing is not None and not s.own_world]
+        references = [
+            s for s in self.segments.values() if s is not segment and s.standing is not None and not s.own_world
+        ]
         x = y = 0.0
-        for other in known:
+        for other in references:
             if other.standing is not None and other.t is not None and not other.world_changed:
                 w, _, _, z = multiply(other.sensor, conjugate(other.standing))
                 yaw = 2.0 * atan2(z, w)
@@ -143,7 +145,7 @@ class LowerLimbs:
         segment.world_changed = False
 
     def _align(self) -> None:
-        """Take the attitudes for the N-pose if all segments have been still for long enough."""
+        """Take the present attitudes for those of the N-pose if all segments have been still for long enough."""
         if any([segment.still_time() < STANDING_TIME for segment in self.segments.values()]):
             return
         for segment in self.segments.values():
@@ -151,7 +153,7 @@ class LowerLimbs:
         self.aligned = True
 
     def is_current(self, t: float) -> bool:
-        """Return whether the chain can be used for this instant, s."""
+        """Return whether the chain can be used at `t` s."""
         if not self.aligned:
             return False
         for segment in self.segments.values():
@@ -162,7 +164,7 @@ class LowerLimbs:
         return True
 
     def may_recover(self) -> bool:
-        """Return whether the chain may become usable, or usable again."""
+        """Return whether the chain may become usable later."""
         return (self.aligned or not self.given_up) and not self.missing()
 
     def missing(self) -> tuple[Site, ...]:
@@ -170,7 +172,7 @@ class LowerLimbs:
         return tuple([site for site in LIMB_SITES if self.segments[site].t is None])
 
     def why_unusable(self, t: float, sampled_sites: Iterable[Site]) -> str:
-        """Return why the chain cannot be used at `t` s; `sampled_sites`: the sites that have sent samples."""
+        """Return the reason why the chain cannot be used at `t` s; `sampled_sites` are those that have sent samples."""
         missing = self.missing()
         if missing:
             silent = [site for site in missing if site not in sampled_sites]
@@ -182,15 +184,15 @@ class LowerLimbs:
             return f"the sensor at the {_names(world_changed)} began anew, and its world with it"
         if not self.aligned:
             return "the wearer did not stand still before the first step"
-        old = [
+        ages = [
             (site, t - s.t)
             for site, s in self.segments.items()
             if s.t is not None and abs(t - s.t) >= ATTITUDE_VALID_TIME
         ]
-        if old:
-            most = max([age for _, age in old], key=abs)
-            names = _names([site for site, _ in old])
-            return f"the newest attitude of the {names} is {abs(most):.2g} s {'old' if most > 0.0 else 'ahead'}"
+        if ages:
+            oldest = max([age for _, age in ages], key=abs)
+            names = _names([site for site, _ in ages])
+            return f"the newest attitude of the {names} is {abs(oldest):.2g} s {'old' if oldest > 0.0 else 'ahead'}"
         names = _names([site for site, s in self.segments.items() if s.own_world and s.heading is None])
         return f"the sensor at the {names} does not know yet which way the wearer goes"
 
@@ -198,56 +200,57 @@ class LowerLimbs:
         return self.segments[site].attitude(self.facing or 0.0, self.turn, t)
 
     def complete(self) -> float | None:
-        """Return the time up to which every segment's attitude is known, s."""
+        """Return the time up to which the attitudes of all segments are known, s; None if one has none."""
         times = [segment.t for segment in self.segments.values() if segment.t is not None]
         return min(times) if len(times) == len(SEGMENTS) else None
 
     def end(self, foot: Foot, t: float) -> Vec3:
-        """Return P_L or P_R at `t` s: the end of the foot seen from the middle of the hips, world frame, m."""
-        thigh, shank, end = [self._attitude(site, t) for site in LEGS[foot]]
+        """Return P_L or P_R at `t` s: the end of the foot relative to the middle of the hips, world frame, m."""
+        thigh, shank, foot_attitude = [self._attitude(site, t) for site in LEG_SITES[foot]]
         side = 0.5 if foot is Foot.LEFT else -0.5
         limbs = self.settings.limbs
         hip = (0.0, side * limbs.hip_width, 0.0)
-        return foot_end(self._attitude(Site.PELVIS, t), thigh, shank, end, hip, limbs)
+        return foot_end(self._attitude(Site.PELVIS, t), thigh, shank, foot_attitude, hip, limbs)
 
     def height(self, foot: Foot, t: float) -> float:
-        """Return the height of the sole below the ankle at `t` s, seen from the middle of the hips, m.
+        """Return the height of the sole below the ankle at `t` s, relative to the middle of the hips, upwards, m.
 
-        It is not that of the foot's end, P_Lz and P_Rz of (4): in a chain without toes the end dips below the floor
-        when the heel comes up, and the foot that pushes off would be the lower one."""
+        The height of the foot's end, P_Lz and P_Rz of (4), is not used: the chain has no toe joint, so when the heel
+        rises, the end goes below the floor, and the foot that pushes off would be the lower one."""
         segments, limbs = self.segments, self.settings.limbs
-        thigh, shank, end = [segments[site].upright(t) for site in LEGS[foot]]
+        thigh_upright, shank_upright, foot_upright = [segments[site].upright(t) for site in LEG_SITES[foot]]
         side = 0.5 if foot is Foot.LEFT else -0.5
-        _, _, hip = rotate(self._attitude(Site.PELVIS, t), (0.0, side * limbs.hip_width, 0.0))
-        return hip - limbs.thigh * thigh - limbs.shank * shank - limbs.ankle_height * end
+        _, _, hip_height = rotate(self._attitude(Site.PELVIS, t), (0.0, side * limbs.hip_width, 0.0))
+        return (
+            hip_height - limbs.thigh * thigh_upright - limbs.shank * shank_upright - limbs.ankle_height * foot_upright
+        )
 
     def forward(self, foot: Foot, t: float) -> tuple[float, float]:
-        """Return the direction of a foot, horizontal, world frame, of length 1; (1, 0) when it points up."""
-        x, y, _ = rotate(self._attitude(LEGS[foot][2], t), (1.0, 0.0, 0.0))
+        """Return the horizontal unit vector in the direction of a foot, world frame; (1, 0) if it points up or down."""
+        x, y, _ = rotate(self._attitude(LEG_SITES[foot][2], t), (1.0, 0.0, 0.0))
         length = hypot(x, y)
         return (x / length, y / length) if length > 1e-6 else (1.0, 0.0)
 
     def add_touchdown(self, foot: Foot, t: float, direction: float = 0.0) -> None:
-        """Add a touchdown of the foot at `t` s: the first step gives the wearer's first heading.
+        """Add a touchdown of the foot at `t` s; the first step gives the wearer's first heading.
 
-        Hips and feet are left out, so the heading need not be known for it: legs that hang down do so for any heading.
-        `direction`: direction of the step, rad from the x axis of the world, when the wearer walked before the chain
-        was known."""
+        It is computed from thighs and shanks alone. They hang down in the N-pose, so their vectors need no heading.
+        `direction` is the angle from the world's x axis to the step, rad, left positive; it is not 0 if the wearer has
+        walked before the chain was known."""
         if self.facing is not None or not self.aligned:
             return
         limbs = self.settings.limbs
         x = y = 0.0
         for leg, sign in ((foot, 1.0), (OTHER[foot], -1.0)):
-            for site, length in zip(LEGS[leg], (limbs.thigh, limbs.shank), strict=False):
+            for site, length in zip(LEG_SITES[leg], (limbs.thigh, limbs.shank), strict=False):
                 dx, dy, _ = rotate(self.segments[site].attitude(0.0, 0.0, t), (0.0, 0.0, -length))
                 x += sign * dx
                 y += sign * dy
         if hypot(x, y) > LEAST_FIRST_STEP:
             self.facing = atan2(y, x)
-            if not any([segment.own_world for segment in self.segments.values()]):  # own worlds know the first heading
+            if not any([segment.own_world for segment in self.segments.values()]):  # own worlds have the first heading
                 self.facing -= direction
 
 
 def _names(sites: Iterable[Site]) -> str:
-    """Return the names of the sites, for a message."""
     return ", ".join([site.words for site in sites])
