@@ -85,7 +85,7 @@ def test_a_turn_on_the_spot_is_made_in_small_steps_around_the_body() -> None:
 
 def test_walks_start_and_end_with_half_steps() -> None:
     for foot_first in Foot:
-        walker = Walker(Route().stand(1).walk(12.0, 1.3).stop(1), Wearer(first=foot_first), seed=3)
+        walker = Walker(Route().stand(1).walk(12.0, 1.3).stop(1), Wearer(first_foot=foot_first), seed=3)
         assert all_steps(walker)[0][1] is foot_first
         truth = walker.truth()
         steps = sorted((step.t_heel_strike, step.length) for foot in Foot for step in truth.steps(foot))

@@ -156,7 +156,9 @@ def test_the_load_moves_to_the_outside_of_a_bend_and_more_in_a_tight_one(foot: F
 def test_leaning_changes_neither_the_weight_nor_where_it_is_along_the_foot(foot: Foot) -> None:
     walker, cells = bend(2.0), layout(96, foot)
     t = np.arange(0.0, walker.duration, 0.01)
-    upright = evolve(walker.loads, leans={foot: np.zeros_like(table) for foot, table in walker.loads.leans.items()})
+    upright = evolve(
+        walker.loads, lateral_shifts={foot: np.zeros_like(table) for foot, table in walker.loads.lateral_shifts.items()}
+    )
     plain = upright.cells(cells, walker.wearer.shoe.width, walker.motions[foot], t)
     leaning = walker.cell_loads(cells, t)
     assert leaning.min() >= 0.0
@@ -172,8 +174,8 @@ def test_loads_of_a_straight_walk_are_bit_for_bit_those_of_one_who_never_leans()
     t = np.arange(0.0, walker.duration, 0.01)
     for foot in Foot:
         cells = layout(96, foot)
-        assert not walker.loads.leans[foot][:, 0].any()
-        upright = evolve(walker.loads, leans={foot: np.zeros_like(walker.loads.leans[foot])})
+        assert not walker.loads.lateral_shifts[foot][:, 0].any()
+        upright = evolve(walker.loads, lateral_shifts={foot: np.zeros_like(walker.loads.lateral_shifts[foot])})
         plain = upright.cells(cells, walker.wearer.shoe.width, walker.motions[foot], t)
         assert np.array_equal(walker.cell_loads(cells, t), plain)
 

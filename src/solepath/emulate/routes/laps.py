@@ -215,7 +215,7 @@ def marks(walker: Walker, per_lap: int | None = None) -> tuple[FloorMark, ...]:
     """Return the marks of a walker on a paced route and the strides on them, in the order of time.
 
     Closing steps have no mark. `per_lap` is the number of a foot's marks in one lap."""
-    exact = evolve(walker.wearer, width_variation=0.0, angle_variation=0.0, aim=0.0)
+    exact = evolve(walker.wearer, width_variation=0.0, angle_variation=0.0, mark_error=0.0)
     meant = plan(walker.route, exact, np.random.default_rng(0))
     closing = {
         max(s.heel_strike for foot in Foot for s in walker.plan.strides[foot] if start <= s.heel_strike <= end)

@@ -47,7 +47,7 @@ class _Planner:
         self.wearer = wearer
         self.rng = rng
         self.t = 0.0
-        self.moving = wearer.first  # the foot that moves next
+        self.moving = wearer.first_foot  # the foot that moves next
         self.struck: float | None = None  # time of the last heel-strike; None while standing
         self.bout_start = 0.0
         self.running: float | None = None  # speed of the last step if it was a running step
@@ -138,7 +138,7 @@ class _Planner:
         falls = []
         for k in range(1, count + 1):
             _, speed = path.at(each * k)
-            hit = each * k + self.wearer.aim * float(np.clip(self.rng.standard_normal(), -3.0, 3.0))
+            hit = each * k + self.wearer.mark_error * float(np.clip(self.rng.standard_normal(), -3.0, 3.0))
             falls.append(_Footfall(path.at(hit)[0], speed, each / speed, path.curvature(each * k)))
         return falls
 
@@ -147,14 +147,14 @@ class _Planner:
         kind = StrideKind.UP if flight.rise > 0.0 else StrideKind.DOWN
         falls = []
         for k in range(1, flight.steps + 1):
-            hit = flight.going * k + self.wearer.aim * float(np.clip(self.rng.standard_normal(), -2.0, 2.0))
+            hit = flight.going * k + self.wearer.mark_error * float(np.clip(self.rng.standard_normal(), -2.0, 2.0))
             pose = evolve(piece.start.ahead(hit, 0.0), z=flight.z + flight.rise * k)
             duration = flight.going / piece.speed
             falls.append(_Footfall(pose, piece.speed, duration, 0.0, kind, flight))
         return falls
 
     def _on_the_spot(self, pivot: Pivot) -> list[_Footfall]:
-        count = max(1, int(np.ceil(abs(pivot.angle) / self.wearer.pivot_step)))
+        count = max(1, int(np.ceil(abs(pivot.angle) / self.wearer.max_pivot_turn)))
         turned = [pivot.angle * k / count for k in range(1, count + 1)]
         duration = 60.0 / self.wearer.cadence(pivot.speed)
         falls = [_Footfall(evolve(pivot.start, heading=pivot.start.heading + a), pivot.speed, duration) for a in turned]
@@ -211,9 +211,9 @@ class _Planner:
         reach = min(moved / 1.42, 1.4)
         roll, yaw, outward = (float(value) for value in self.rng.standard_normal(3))
         side = 1.0 if foot is Foot.LEFT else -1.0
-        weave = (side * (0.16 + 0.03 * roll), -side * (0.10 + 0.02 * yaw), side * (0.012 + 0.004 * outward))
+        deviation = (side * (0.16 + 0.03 * roll), -side * (0.10 + 0.02 * yaw), side * (0.012 + 0.004 * outward))
         if style is not None:
-            weave = (style.weave * weave[0], style.weave * weave[1], weave[2])
+            deviation = (style.deviation_factor * deviation[0], style.deviation_factor * deviation[1], deviation[2])
         leave = wearer.toe_off_pitch * max(reach, 0.08) ** 0.55 if style is None else style.toe_off_pitch
         strike = wearer.strike_pitch * max(reach, 0.05) ** 0.9 if style is None else style.strike_pitch
         before.append(
@@ -229,10 +229,10 @@ class _Planner:
                 strike_pitch=strike * self._vary(wearer.angle_variation),
                 speed=fall.speed * min(reach, 1.0) if style is None else fall.speed,
                 clearance=(wearer.clearance if style is None else style.clearance) * self._vary(0.08),
-                weave=weave,
-                settle=4e-4 * float(np.clip(self.rng.standard_normal(), -1.0, 1.0)),
+                deviation=deviation,
+                rest_pitch=4e-4 * float(np.clip(self.rng.standard_normal(), -1.0, 1.0)),
                 curvature=fall.curvature,
-                pace=0.5 * moved / step,
+                step_speed=0.5 * moved / step,
                 kind=kind,
                 flight=self.flight if kind in (StrideKind.UP, StrideKind.DOWN) else None,
             )

@@ -55,12 +55,12 @@ class Style:
     hold: float = 0.0
     """Horizontal deviation of the swing from a quintic in the middle, as a share of its length."""
     soon: float = 0.0
-    """Weight of EVEN_OUT in the vertical motion of the swing: the foot rises, or sinks, earlier."""
-    weave: float = 1.0
+    """Weight of LEVELLING in the vertical motion of the swing: the foot rises, or sinks, earlier."""
+    deviation_factor: float = 1.0
     """Roll and yaw of the foot in swing, relative to walking."""
-    front: float = 0.0
+    forefoot_share: float = 0.0
     """Share of the load that lands on the forefoot."""
-    bounce: float = 0.0
+    load_amplitude: float = 0.0
     """Amplitude of the load about the weight, as a share of the weight."""
 
 
@@ -75,8 +75,8 @@ CLIMBING = Style(
     clearance=0.05,
     hold=-0.27,
     soon=25.0,
-    front=0.7,
-    bounce=0.10,
+    forefoot_share=0.7,
+    load_amplitude=0.10,
 )
 DESCENDING = Style(
     double=0.10,
@@ -88,8 +88,8 @@ DESCENDING = Style(
     sink=0.45,
     clearance=0.04,
     hold=0.12,
-    front=0.9,
-    bounce=0.20,
+    forefoot_share=0.9,
+    load_amplitude=0.20,
 )
 
 
@@ -106,7 +106,7 @@ def style_of(kind: StrideKind, speed: float) -> Style:
             slide=0.25 * speed,
             sink=0.33 * speed,
             clearance=0.15,
-            weave=2.0,
+            deviation_factor=2.0,
         )
     return CLIMBING if kind is StrideKind.UP else DESCENDING
 

@@ -17,7 +17,7 @@ from ...types import Sample, Site
 from ...types.vector import GRAVITY
 from ..wearers.curves import Array, Rng
 from ..wearers.motion import Kinematics
-from ..wearers.turning import multiplied
+from ..wearers.turning import multiply_quaternions
 from .parts import AttitudePart, BarometerPart, CellPart, Imu, Triad
 
 INTERNAL_RATE = 800.0
@@ -195,7 +195,7 @@ def read_attitudes(true: Array, t: Array, part: AttitudePart, north: float, rng:
     angle = np.linalg.norm(turned, axis=1, keepdims=True)
     axis = 0.5 * np.sinc(angle / (2.0 * pi)) * turned  # sin(angle / 2) / angle
     about = np.array([[cos(0.5 * north), 0.0, 0.0, -sin(0.5 * north)]])
-    return multiplied(multiplied(about, np.concatenate((np.cos(0.5 * angle), axis), axis=1)), true)
+    return multiply_quaternions(multiply_quaternions(about, np.concatenate((np.cos(0.5 * angle), axis), axis=1)), true)
 
 
 def samples_of(
