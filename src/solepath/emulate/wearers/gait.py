@@ -13,7 +13,7 @@ from attrs import frozen
 
 from ...calibration import Limbs
 from ...types import Foot
-from ..routes.lift import CarRide
+from ..routes.elevator import CarRide
 from ..routes.path import Flight, Pose
 from ..routes.styles import StrideKind
 from .curves import Rng

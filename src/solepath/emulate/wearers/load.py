@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 
 from ...types import Foot, Layout
 from ...types.vector import GRAVITY
-from ..routes.lift import CarRide
+from ..routes.elevator import CarRide
 from ..routes.styles import StrideKind, style_of
 from .curves import Array, Rng
 from .gait import SETTLE_TIME, PlannedStride, WalkPlan, Wearer

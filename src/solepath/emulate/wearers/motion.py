@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from ...types import Phase
 from ...types.vector import GRAVITY
-from ..routes.lift import CarRide
+from ..routes.elevator import CarRide
 from .curves import Array
 from .shoe import Mounting
 from .turning import matrices

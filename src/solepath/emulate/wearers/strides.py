@@ -16,7 +16,7 @@ import numpy as np
 from attrs import evolve
 
 from ...types import Foot, Phase
-from ..routes.lift import CarRide
+from ..routes.elevator import CarRide
 from ..routes.path import Flight, Pose
 from ..routes.styles import StrideKind, style_of
 from .curves import BUMP, LEVELLING, Array, EndState, constant, evaluate, join, subcurve
@@ -130,10 +130,10 @@ class _MotionBuilder:
         if stride.flight is not None:
             style = style_of(stride.kind, stride.speed)
             displacement = p1 - p0
-            hold = style.hold * min(1.0, 2.0 * stride.flight.going / hypot(displacement[0], displacement[1]))
+            hold = style.mid_swing_shift * min(1.0, 2.0 * stride.flight.going / hypot(displacement[0], displacement[1]))
             x += hold * displacement[0] * BUMP
             y += hold * displacement[1] * BUMP
-            z += style.soon * 2.0 * abs(stride.flight.rise) * LEVELLING
+            z += style.early_rise * 2.0 * abs(stride.flight.rise) * LEVELLING
             z += self._bump_over_stairs(stride, stride.flight, (x, y, z), pitches, yaw) * BUMP
         else:
             z += self._bump_over_ground(stride, z, pitches, roll) * BUMP
@@ -178,7 +178,7 @@ class _MotionBuilder:
             dx = shoe.heel.x + (shoe.forefoot.x - shoe.heel.x) * share - shoe.ankle[0]
             dz = radius - shoe.ankle[2]
             ahead, up = np.cos(angle) * dx - np.sin(angle) * dz, np.sin(angle) * dx + np.cos(angle) * dz
-            least = flight.above(x + np.cos(turned) * ahead, y + np.sin(turned) * ahead, np.full(len(s), radius))
+            least = flight.clear_height(x + np.cos(turned) * ahead, y + np.sin(turned) * ahead, np.full(len(s), radius))
             height = max(height, float(np.max(stride.clearance + (least - z - up) / bump)))
         return height
 
@@ -285,7 +285,7 @@ def _excess(stride: PlannedStride) -> tuple[float, float, float]:
     slide, sink = SLIDE_SPEED_RATIO * stride.speed, SINK_SPEED_RATIO * stride.speed
     if stride.kind is not StrideKind.WALK:
         style = style_of(stride.kind, stride.speed)
-        slide, sink = style.slide, style.sink
+        slide, sink = style.forward_speed, style.sink_speed
     return (slide * cos(stride.end.heading), slide * sin(stride.end.heading), -sink)
 
 

@@ -12,7 +12,7 @@ import numpy as np
 from attrs import evolve, frozen
 
 from ...types import Activity, Foot, Phase, Vec3
-from ..routes.lift import CarRide
+from ..routes.elevator import CarRide
 from ..routes.styles import StrideKind
 from .curves import Array
 from .gait import Climb, WalkPlan

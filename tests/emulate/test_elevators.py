@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from solepath.emulate.routes.lift import CarRide, Lift, ride
+from solepath.emulate.routes.elevator import CarRide, Elevator, ride
 from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.shoe import ON_INSTEP
 from solepath.emulate.wearers.walker import Walker
@@ -20,7 +20,7 @@ def up_and_down() -> Walker:
 
 
 lifts = st.builds(
-    Lift,
+    Elevator,
     height=st.floats(0.5, 60.0) | st.floats(-60.0, -0.5),
     speed=st.floats(0.4, 4.0),
     acceleration=st.floats(0.3, 1.5),
@@ -38,29 +38,29 @@ def moved(car: CarRide, t: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarr
 
 @settings(max_examples=30)
 @given(lifts)
-def test_a_car_keeps_its_limits_and_stops_at_its_floor(lift: Lift) -> None:
-    car = ride(lift, 3.0, np.random.default_rng(1))
+def test_a_car_keeps_its_limits_and_stops_at_its_floor(elevator: Elevator) -> None:
+    car = ride(elevator, 3.0, np.random.default_rng(1))
     t = np.linspace(car.start - 1.0, car.end + 1.0, 4001)
     height, speed, acceleration = moved(car, t)
-    assert height[0] == 0.0 and height[-1] == lift.height
+    assert height[0] == 0.0 and height[-1] == elevator.height
     before, _, _ = moved(car, np.array([car.end - 1e-9]))
-    assert before[0] == pytest.approx(lift.height, abs=1e-6)
-    assert np.abs(speed).max() <= lift.speed + 1e-9
-    assert np.abs(acceleration).max() <= lift.acceleration + 1e-9
-    assert np.abs(np.diff(acceleration)).max() <= lift.jerk * (t[1] - t[0]) + 1e-9
-    assert np.all(np.sign(speed[np.abs(speed) > 1e-9]) == np.sign(lift.height))
+    assert before[0] == pytest.approx(elevator.height, abs=1e-6)
+    assert np.abs(speed).max() <= elevator.speed + 1e-9
+    assert np.abs(acceleration).max() <= elevator.acceleration + 1e-9
+    assert np.abs(np.diff(acceleration)).max() <= elevator.jerk * (t[1] - t[0]) + 1e-9
+    assert np.all(np.sign(speed[np.abs(speed) > 1e-9]) == np.sign(elevator.height))
 
 
 @settings(max_examples=20)
 @given(lifts)
-def test_the_acceleration_of_a_lift_integrates_to_its_height(lift: Lift) -> None:
-    car = ride(lift, 0.0, np.random.default_rng(1))
+def test_the_acceleration_of_a_lift_integrates_to_its_height(elevator: Elevator) -> None:
+    car = ride(elevator, 0.0, np.random.default_rng(1))
     t = np.linspace(0.0, car.end, 20001)
     h = t[1] - t[0]
     acceleration = car.at(t)[2][:, 2]
     speed = np.concatenate(([0.0], np.cumsum(0.5 * h * (acceleration[1:] + acceleration[:-1]))))
     assert speed[-1] == pytest.approx(0.0, abs=2e-3)
-    assert np.sum(0.5 * h * (speed[1:] + speed[:-1])) == pytest.approx(lift.height, rel=1e-2, abs=2e-2)
+    assert np.sum(0.5 * h * (speed[1:] + speed[:-1])) == pytest.approx(elevator.height, rel=1e-2, abs=2e-2)
 
 
 @pytest.mark.parametrize("foot", list(Foot))
