@@ -212,7 +212,7 @@ class _Planner:
         end = self._stance(
             footfall.pose, foot, wearer.width_variation * lateral, 0.5 * wearer.angle_variation * toe_out
         )
-        # A stride at 1.3 m/s is about 1.42 m long. In shorter ones the foot pitches less. The exponents keep enough pitch
+        # A stride at 1.3 m/s is about 1.42 m long. In shorter ones the foot pitches less; the exponents keep some pitch
         # in half steps and steps in place.
         displacement = hypot(end.x - start.x, end.y - start.y)
         reach = min(displacement / 1.42, 1.4)
