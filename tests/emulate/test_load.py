@@ -8,7 +8,7 @@ from attrs import evolve
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import boot
-from solepath.emulate.sensors.insoles import SCALE, heel_array, layout
+from solepath.emulate.sensors.insoles import LOAD_PER_COUNT, heel_array, layout
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.curves import Array
 from solepath.emulate.wearers.gait import Wearer
@@ -112,7 +112,7 @@ def test_a_layout_has_its_cells_on_the_sole_and_mirrored_for_the_other_foot(coun
     assert len({(cell.x, cell.y) for cell in left.cells}) == count
     surface = sum(cell.area for cell in left.cells)
     assert 0.010 < surface < 0.020  # a sole of about 200 cm^2, four fifths of it under cells
-    assert left.scale == SCALE
+    assert left.scale == LOAD_PER_COUNT
 
 
 def test_a_layout_of_too_many_or_too_few_cells_is_rejected() -> None:

@@ -15,7 +15,7 @@ from ...link.devices.cc2650 import DRIVER, PROFILE
 from ...types.vector import GRAVITY
 from ..sensors.device import device_numbers, draw_clock
 from ..sensors.parts import AK8963, BMP280
-from ..sensors.sensortags import BATTERY, CC2650, CC2650_KEYS, cc2650_air
+from ..sensors.sensortags import BATTERY, CC2650, CC2650_KEYS, cc2650_barometer_value
 from ..sensors.tag_signals import BAROMETER_DELAY, Series
 from ..wearers.walker import Walker
 from .attributes import Battery
@@ -73,7 +73,9 @@ class CC2650Peripheral(Tag):
             return (0.0, partial(self._encode_movement, parsed, period)) if bits & _AXIS_BITS else None
         if not checked_code(config, 1):
             return None
-        return BAROMETER_DELAY, lambda number: cc2650_air(float(self.series(sensor, period)[0].value(number)[0, 0]))
+        return BAROMETER_DELAY, lambda number: cc2650_barometer_value(
+            float(self.series(sensor, period)[0].value(number)[0, 0])
+        )
 
     def _encode_movement(self, config: Any, period: float, number: int) -> bytes | None:
         acc, gyro, mag = self.series("cc2650/movement", period)
@@ -85,12 +87,12 @@ class CC2650Peripheral(Tag):
         """Return the series of the sensor; for movement those of accelerometer, gyroscope and magnetometer."""
         worn, part = self._worn, self.device.part
         if sensor == "cc2650/barometer":
-            return (worn.air(period, BMP280, self._numbers(3)),)
-        moving = worn.moving(period)
+            return (worn.barometer(period, BMP280, self._numbers(3)),)
+        motion = worn.motion(period)
         return (
-            moving.acc(part, self._numbers(0)),
-            moving.gyro(part, self._numbers(1)),
-            moving.mag(AK8963, self._numbers(2)),
+            motion.acc(part, self._numbers(0)),
+            motion.gyro(part, self._numbers(1)),
+            motion.mag(AK8963, self._numbers(2)),
         )
 
     def _awake(self, acc: Series, period: float, number: int) -> bool:

@@ -90,7 +90,7 @@ class _Frames:
 
     def elapsed(self, number: int, since: float) -> int:
         """Return the ticks of the device's clock from `since`, s, to the frame's first sample."""
-        return round((self.signal.taken(number, self.batch) - since) / self.signal.step * self.signal.interval)
+        return round((self.signal.sample_time(number, self.batch) - since) / self.signal.step * self.signal.interval)
 
     def resend(self, command: Resend) -> None:
         """Queue the requested frames that are still kept; they go with the next frames."""

@@ -11,8 +11,8 @@ from attrs import define, evolve, frozen
 
 from ...link.profile import Profile, ti_uuid
 from ..sensors.device import DeviceClock, device_numbers, foot_of
-from ..sensors.sensortags import CC2541, CC2650, PRESS
-from ..sensors.tag_signals import HANDLING, Series, WornTag
+from ..sensors.sensortags import CC2541, CC2650, PRESS_TIME
+from ..sensors.tag_signals import HANDLING_TIME, Series, WornTag
 from ..wearers.walker import Walker
 from .attributes import NOTIFY, READ, WRITE, AttCode, AttError, Characteristic, information, services
 from .peripheral import Peripheral, Placement
@@ -66,7 +66,7 @@ class TimedSource:
         return ceil((t - self.first) / self.step)
 
     def due(self, number: int) -> float:
-        return self.first + self.step * number + HANDLING
+        return self.first + self.step * number + HANDLING_TIME
 
     def values(self, number: int, mtu: int) -> Sequence[bytes]:
         value = self.encode(number)
@@ -87,7 +87,7 @@ class Presses:
     def due(self, number: int) -> float:
         if number >= 2 * len(self.presses):
             return inf
-        return sorted(self.presses)[number // 2] + (PRESS if number % 2 else 0.0)
+        return sorted(self.presses)[number // 2] + (PRESS_TIME if number % 2 else 0.0)
 
     def values(self, number: int, mtu: int) -> Sequence[bytes]:
         return (self.up if number % 2 else self.down,)

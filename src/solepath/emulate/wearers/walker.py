@@ -79,6 +79,8 @@ class Walker:
             acc, gyro = exact.force, exact.rate
         else:
             sampling = instants(0.0, 1.0 / rate, sample_count)
-            t, rng = sampling.taken, np.random.default_rng([self.seed, 1, list(Foot).index(foot)])
-            acc, gyro = measure_imu(self.kinematics(foot, sampling.fine, mounting), sampling, errors, rng, 0.5 * rate)
+            t, rng = sampling.times, np.random.default_rng([self.seed, 1, list(Foot).index(foot)])
+            acc, gyro = measure_imu(
+                self.kinematics(foot, sampling.fine_times, mounting), sampling, errors, rng, 0.5 * rate
+            )
         return samples_of(SITE_OF_FOOT[foot], t, acc, gyro, None if layout is None else self.cell_loads(layout, t))
