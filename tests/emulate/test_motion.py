@@ -35,10 +35,10 @@ EARLY, LATE = 0.5 - sqrt(3.0) / 6.0, 0.5 + sqrt(3.0) / 6.0
 
 
 def strapdown(walker: Walker, foot: Foot, mounting: Mounting, rate: float) -> tuple[np.ndarray, np.ndarray]:
-    """Times and positions from specific force and angular rate alone, from the true pose at rest at t = 0.
+    """Return times and positions integrated from specific force and angular rate, from the true pose at t = 0.
 
-    Fourth order: two Gauss points a step, h/2 (w1 + w2) + sqrt(3)/12 h^2 w1 x w2 for the turn (Magnus).
-    """
+    The integration is of fourth order (Magnus). It has two Gauss points w1, w2 in each interval h, and the turn
+    h/2 (w1 + w2) + sqrt(3)/12 h^2 w1 x w2."""
     h = 1.0 / rate
     t = np.arange(0.0, walker.duration, h)
     one, two = (walker.kinematics(foot, t[:-1] + c * h, mounting) for c in (EARLY, LATE))
@@ -87,7 +87,7 @@ def test_velocity_and_acceleration_are_the_derivatives_of_position(winding: Walk
     assert np.median(np.abs(change - now.acceleration)) < 1e-4
 
 
-WAYS: dict[str, tuple[Route, float, float]] = {
+ROUTES: dict[str, tuple[Route, float, float]] = {
     "winding": (
         Route().stand(1.0).walk(6.0, 1.2).turn(radians(90), 2.0).walk(4.0).turn(radians(-180)).stop(1.0),
         8.0,
@@ -95,20 +95,20 @@ WAYS: dict[str, tuple[Route, float, float]] = {
     ),
     "jogging": (Route().stand(1.0).walk(5.0).jog(20.0).walk(5.0).stop(1.0), 10.0, 6.0),
     "stairs": (Route().stand(1.0).walk(3.0).stairs(10).walk(3.0).stairs(6, up=False).walk(1.0).stop(1.0), 6.0, 3.0),
-    "lifts": (Route().stand(2.0).walk(3.0).lift(7.0, 1.6, 1.0, 1.2).walk(3.0).stop(2.0), 8.0, 3.0),
+    "elevators": (Route().stand(2.0).walk(3.0).lift(7.0, 1.6, 1.0, 1.2).walk(3.0).stop(2.0), 8.0, 3.0),
 }
-"""Route, and at the most: speed, m/s, and change of acceleration in 0.1 ms, m/s^2."""
+"""Route, largest speed, m/s, and largest change of acceleration in 0.1 ms, m/s^2, by name."""
 
 
-@pytest.mark.parametrize("way", WAYS)
-def test_position_and_velocity_never_jump_and_the_same_seed_goes_the_same_way(way: str) -> None:
-    route, fastest, hardest = WAYS[way]
+@pytest.mark.parametrize("name", ROUTES)
+def test_position_and_velocity_never_jump_and_the_same_seed_goes_the_same_way(name: str) -> None:
+    route, max_speed, max_acceleration_change = ROUTES[name]
     walker = Walker(route, seed=6)
     t = np.arange(0.0, walker.duration, 1e-4)
     found = walker.kinematics(Foot.LEFT, t, ON_INSTEP)
-    assert np.linalg.norm(np.diff(found.position, axis=0), axis=1).max() < fastest * 1e-4
+    assert np.linalg.norm(np.diff(found.position, axis=0), axis=1).max() < max_speed * 1e-4
     assert np.linalg.norm(np.diff(found.velocity, axis=0), axis=1).max() < 250.0 * 1e-4
-    assert np.linalg.norm(np.diff(found.acceleration, axis=0), axis=1).max() < hardest
+    assert np.linalg.norm(np.diff(found.acceleration, axis=0), axis=1).max() < max_acceleration_change
     same, other = (Walker(route, seed=seed).truth().steps(Foot.LEFT) for seed in (6, 7))
     assert walker.truth().steps(Foot.LEFT) == same != other
 

@@ -1,4 +1,4 @@
-"""Emulated parts have the errors of their data sheets."""
+"""Emulated sensors have the errors of their data sheets."""
 
 from math import pi, radians, sqrt
 
@@ -41,7 +41,7 @@ from solepath.types.vector import GRAVITY, from_rotation_vector, multiply
 
 
 def allan_deviation(values: np.ndarray, rate: float, tau: float) -> np.ndarray:
-    """Two-sample deviation of averages over `tau` s, for each axis."""
+    """Return the two-sample deviation of averages over `tau` s, for each axis."""
     size = int(tau * rate)
     means = values[: len(values) // size * size].reshape(-1, size, values.shape[1]).mean(axis=1)
     return np.sqrt(0.5 * np.mean(np.diff(means, axis=0) ** 2, axis=0))
