@@ -1,4 +1,4 @@
-"""The emulated foot obeys mechanics: its sensor signals integrate to its track, and its rockers do not slip."""
+"""The emulated foot obeys mechanics: its sensor signals integrate to its track, and its sole rolls without slip."""
 
 from math import radians, sqrt
 

@@ -22,7 +22,7 @@ from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample, Site
 
 @pytest.fixture(scope="module")
 def storey() -> Walker:
-    """Up two flights with a landing, and down them again."""
+    """Return a walker who climbs two flights with a landing between them and walks down again."""
     route = Route().stand(1.0).walk(3.0).stairs(10).walk(0.4).turn(radians(180), 0.7).stairs(10).walk(3.0).stop(1.0)
     route = route.stairs(10, up=False).walk(0.4).turn(radians(-180), 0.7).stairs(10, up=False).walk(3.0).stop(1.0)
     return Walker(route, seed=4)
