@@ -1,9 +1,9 @@
 """Errors of sensor chips, pressure cells and whole devices, from their data sheets.
 
 A tolerance of +-x in a sheet is taken as two standard deviations between specimens. No sheet specifies how a bias
-changes over time. Here the bias follows the temperature slowly, by the sheet's drift per kelvin times WARMING. Comments
-name what is assumed where a sheet gives no value. (*) marks figures that have not been compared with the sheet
-itself."""
+changes over time. Here the bias follows the temperature slowly, by the sheet's drift per kelvin times
+TEMPERATURE_SPREAD. Comments name what is assumed where a sheet gives no value. (*) marks figures that have not been
+compared with the sheet itself."""
 
 from __future__ import annotations
 
