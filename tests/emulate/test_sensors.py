@@ -56,23 +56,21 @@ def test_the_white_noise_is_that_of_the_data_sheet(part: TriadErrors) -> None:
         low_pass(add_errors(still, sampling, part, np.random.default_rng(1)), sampling.rate, 50.0), sampling
     )
     for tau in (0.2, 0.5):
-        assert allan_deviation(noisy, 100.0, tau) == pytest.approx(
-            np.full(3, part.noise_density / sqrt(2 * tau)), rel=0.12
-        )
+        assert allan_deviation(noisy, 100.0, tau) == pytest.approx(np.full(3, part.density / sqrt(2 * tau)), rel=0.12)
 
 
 def test_the_noise_per_sample_fits_the_bandwidth() -> None:
     """A second-order Butterworth passes the noise of 1.11 times its corner frequency."""
     part = MPU9250.gyro
     sampling = instants(0.0, 1.0 / 400.0, 40000)
-    steady = evolve(part, bias_drift=0.0)
+    steady = evolve(part, drift=0.0)
     noisy = low_pass(
         add_errors(np.zeros((len(sampling.fine_times), 3)), sampling, steady, np.random.default_rng(2)),
         sampling.rate,
         92.0,
     )
     passed = take_samples(noisy, sampling)[100:]
-    assert passed.std(axis=0) == pytest.approx(np.full(3, part.noise_density * sqrt(1.11 * 92.0)), rel=0.05)
+    assert passed.std(axis=0) == pytest.approx(np.full(3, part.density * sqrt(1.11 * 92.0)), rel=0.05)
     # The sheet's own total is 0.1 degrees/s rms at 92 Hz.
     assert passed.std(axis=0) == pytest.approx(np.full(3, radians(0.1)), rel=0.1)
 
@@ -88,7 +86,7 @@ def test_a_bias_wanders_slowly_and_stays_bounded() -> None:
 def test_counts_are_rounded_and_stop_at_full_scale() -> None:
     sampling = instants(0.0, 0.01, 5)
     ramp = np.outer(np.ones(len(sampling.fine_times)), [1.26, -50.0, 39.9])
-    eight = TriadErrors(noise_density=0.0, bias=0.0, bias_drift=0.0, scale=0.0, cross=0.0, bandwidth=1e9, bits=8)
+    eight = TriadErrors(density=0.0, bias=0.0, drift=0.0, scale=0.0, cross=0.0, bandwidth=1e9, bits=8)
     found = to_counts(measure(ramp, sampling, eight, np.random.default_rng(1)), eight, 0.25)
     assert found.counts.tolist() == [[5, -128, 127]] * 5
     assert found.saturated.all()

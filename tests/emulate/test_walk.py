@@ -30,7 +30,7 @@ from solepath.wire.insole import InsoleFrame, parse_frame
 from solepath.wire.insole_info import parse_info
 
 SHORT = Route().stand(1.0).walk(6.0, 1.3).stop(1.0)
-IDEAL = TriadErrors(noise_density=0.0, bias=0.0, bias_drift=0.0, scale=0.0, cross=0.0, bandwidth=1e9)
+IDEAL = TriadErrors(density=0.0, bias=0.0, drift=0.0, scale=0.0, cross=0.0, bandwidth=1e9)
 IDEAL_IMU = Imu("ideal", IDEAL, IDEAL)
 IDEAL_CELL = CellErrors("ideal", gain=0.0, preload=0.0, noise=0.0, lag=1e-6)
 PROMPT = Radio(latency=0.0, jitter=0.0)

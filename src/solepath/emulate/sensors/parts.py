@@ -1,9 +1,9 @@
 """Errors of sensor chips, pressure cells and whole devices, from their data sheets.
 
 A tolerance of +-x in a sheet is taken as two standard deviations between specimens. No sheet specifies how a bias
-changes over time. Here the bias follows the temperature slowly, by the sheet's drift per kelvin times
-TEMPERATURE_SPREAD. Comments name what is assumed where a sheet gives no value. (*) marks figures that have not been
-compared with the sheet itself."""
+changes over time. Here the bias follows the temperature slowly, by the sheet's drift per kelvin times WARMING. Comments
+name what is assumed where a sheet gives no value. (*) marks figures that have not been compared with the sheet
+itself."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from attrs import evolve, frozen
 
 from ...types.vector import GRAVITY
 
-TEMPERATURE_SPREAD = 2.0
+WARMING = 2.0
 """Standard deviation of the temperature of a worn device, K (assumed)."""
 
 _G = GRAVITY
@@ -27,11 +27,11 @@ class TriadErrors:
 
     The unit u is m/s^2 for accelerometers, rad/s for gyroscopes and T for magnetometers."""
 
-    noise_density: float
+    density: float
     """White noise density, u/sqrt(Hz)."""
     bias: float
     """Constant bias, u."""
-    bias_drift: float
+    drift: float
     """Variation of the bias over time, u, as a first-order Gauss-Markov process."""
     scale: float
     """Relative scale error."""
@@ -40,7 +40,7 @@ class TriadErrors:
     bandwidth: float
     """Bandwidth of the sensor's own second-order low pass, Hz."""
     correlation_time: float = 300.0
-    """Correlation time of `bias_drift`, s."""
+    """Correlation time of `drift`, s."""
     bits: int = 16
     """Number of bits of a reading."""
     g_effect: float = 0.0
@@ -62,19 +62,13 @@ class Imu:
 
 
 def _gyro(
-    noise_density: float, bias: float, drift: float, scale: float, cross: float, bandwidth: float, g_effect: float = 0.0
+    density: float, bias: float, drift: float, scale: float, cross: float, bandwidth: float, g_effect: float = 0.0
 ) -> TriadErrors:
     """Return the errors of a gyroscope in rad/s.
 
-    `noise_density` is in degrees/s/sqrt(Hz), `bias` in degrees/s, `drift` in degrees/s/K, `g_effect` in degrees/s/g."""
+    `density` is in degrees/s/sqrt(Hz), `bias` in degrees/s, `drift` in degrees/s/K, `g_effect` in degrees/s/g."""
     return TriadErrors(
-        noise_density * _DPS,
-        bias * _DPS,
-        drift * TEMPERATURE_SPREAD * _DPS,
-        scale,
-        cross,
-        bandwidth,
-        g_effect=g_effect * _DPS / _G,
+        density * _DPS, bias * _DPS, drift * WARMING * _DPS, scale, cross, bandwidth, g_effect=g_effect * _DPS / _G
     )
 
 
@@ -83,15 +77,10 @@ LSM6DSOX = Imu(
     # ST DS12814, table 2 (typical): noise density 110 ug/sqrt(Hz) at +-16 g, zero-g offset +-20 mg, 0.1 mg/K,
     # sensitivity tolerance +-1 %; the low pass at ODR/2 is set by the device. Cross axis is not given: 1 % assumed.
     TriadErrors(
-        noise_density=110e-6 * _G,
-        bias=10 * _MG,
-        bias_drift=0.1 * TEMPERATURE_SPREAD * _MG,
-        scale=0.005,
-        cross=0.005,
-        bandwidth=400.0,
+        density=110e-6 * _G, bias=10 * _MG, drift=0.1 * WARMING * _MG, scale=0.005, cross=0.005, bandwidth=400.0
     ),
     # Same table: 3.8 mdps/sqrt(Hz), zero-rate level +-1 dps, 0.010 dps/K, sensitivity tolerance +-1 %.
-    _gyro(noise_density=3.8e-3, bias=0.5, drift=0.010, scale=0.005, cross=0.005, bandwidth=400.0),
+    _gyro(density=3.8e-3, bias=0.5, drift=0.010, scale=0.005, cross=0.005, bandwidth=400.0),
 )
 
 MPU9250 = Imu(
@@ -99,16 +88,11 @@ MPU9250 = Imu(
     # InvenSense PS-MPU-9250A-01 rev. 1.0, table 2: 300 ug/sqrt(Hz), zero-g +-60 mg (x, y) and +-80 mg (z) of which the
     # smaller is used for all, 1.5 mg/K, initial tolerance +-3 %, cross axis +-2 %, low pass up to 260 Hz.
     TriadErrors(
-        noise_density=300e-6 * _G,
-        bias=30 * _MG,
-        bias_drift=1.5 * TEMPERATURE_SPREAD * _MG,
-        scale=0.015,
-        cross=0.010,
-        bandwidth=260.0,
+        density=300e-6 * _G, bias=30 * _MG, drift=1.5 * WARMING * _MG, scale=0.015, cross=0.010, bandwidth=260.0
     ),
     # Table 1: 0.01 dps/sqrt(Hz), ZRO +-5 dps, +-30 dps over 125 K (0.24 dps/K as the extreme, half of it as sigma),
     # scale +-3 %, cross axis +-2 %, low pass up to 250 Hz.
-    _gyro(noise_density=0.01, bias=2.5, drift=0.12, scale=0.015, cross=0.010, bandwidth=250.0),
+    _gyro(density=0.01, bias=2.5, drift=0.12, scale=0.015, cross=0.010, bandwidth=250.0),
 )
 
 MPU6050 = Imu(
@@ -117,17 +101,12 @@ MPU6050 = Imu(
     # the smaller is used for all, +-35 mg over 70 K (0.5 mg/K), initial tolerance +-3 %, cross axis +-2 %, low pass up
     # to 260 Hz.
     TriadErrors(
-        noise_density=400e-6 * _G,
-        bias=25 * _MG,
-        bias_drift=0.5 * TEMPERATURE_SPREAD * _MG,
-        scale=0.015,
-        cross=0.010,
-        bandwidth=260.0,
+        density=400e-6 * _G, bias=25 * _MG, drift=0.5 * WARMING * _MG, scale=0.015, cross=0.010, bandwidth=260.0
     ),
     # Section 6.1 (*): 0.005 dps/sqrt(Hz), the 18 degrees/h/sqrt(Hz) that Sensors 2016, 16, 1809 names; initial ZRO
     # +-20 dps, +-20 dps over 125 K (half of the extreme as sigma), scale +-3 %, cross axis +-2 %, linear acceleration
     # sensitivity 0.1 dps/g, low pass up to 256 Hz.
-    _gyro(noise_density=0.005, bias=10.0, drift=0.08, scale=0.015, cross=0.010, bandwidth=256.0, g_effect=0.1),
+    _gyro(density=0.005, bias=10.0, drift=0.08, scale=0.015, cross=0.010, bandwidth=256.0, g_effect=0.1),
 )
 
 KXTJ9_IMU3000 = Imu(
@@ -136,9 +115,9 @@ KXTJ9_IMU3000 = Imu(
     # reset, low pass at ODR/2. Noise 750 ug/sqrt(Hz) and scale +-3 % are figures of the family, and far below one
     # count of 1/16 g. The maximum of the offset is a limit, which no chip that is sold exceeds.
     TriadErrors(
-        noise_density=750e-6 * _G,
+        density=750e-6 * _G,
         bias=60 * _MG,
-        bias_drift=0.2 * TEMPERATURE_SPREAD * _MG,
+        drift=0.2 * WARMING * _MG,
         scale=0.015,
         cross=0.010,
         bandwidth=25.0,
@@ -147,13 +126,13 @@ KXTJ9_IMU3000 = Imu(
     ),
     # InvenSense PS-IMU-3000A rev. 1.1 (*): 0.01 dps/sqrt(Hz), initial ZRO +-20 dps, +-0.03 dps/K, scale +-3 %,
     # cross axis 2 %, linear acceleration sensitivity 0.1 dps/g, low pass up to 256 Hz.
-    _gyro(noise_density=0.01, bias=10.0, drift=0.03, scale=0.015, cross=0.010, bandwidth=188.0, g_effect=0.1),
+    _gyro(density=0.01, bias=10.0, drift=0.03, scale=0.015, cross=0.010, bandwidth=188.0, g_effect=0.1),
 )
 
-AK8963 = TriadErrors(noise_density=0.15e-6, bias=10e-6, bias_drift=0.2e-6, scale=0.025, cross=0.01, bandwidth=50.0)
+AK8963 = TriadErrors(density=0.15e-6, bias=10e-6, drift=0.2e-6, scale=0.025, cross=0.01, bandwidth=50.0)
 """Errors of the AK8963 in the MPU-9250, AKM MS1356-E (*): 0.15 uT per count, scale +-5 %. Iron (bias) is assumed."""
 
-MAG3110 = TriadErrors(noise_density=0.25e-6, bias=10e-6, bias_drift=0.2e-6, scale=0.025, cross=0.01, bandwidth=40.0)
+MAG3110 = TriadErrors(density=0.25e-6, bias=10e-6, drift=0.2e-6, scale=0.025, cross=0.01, bandwidth=40.0)
 """Errors of the Freescale MAG3110 (*): 0.25 uT rms, 0.1 uT per count, cross axis +-1 %. Iron (bias) is assumed."""
 
 
@@ -167,10 +146,10 @@ class BarometerErrors:
     """Noise of one reading, Pa rms."""
     offset: float
     """Constant offset, between specimens, Pa."""
-    bias_drift: float = 8.0
+    drift: float = 8.0
     """Variation over time, weather included, Pa."""
     correlation_time: float = 600.0
-    """Correlation time of `bias_drift`, s."""
+    """Correlation time of `drift`, s."""
 
 
 BMP280 = BarometerErrors("BMP280", noise=1.3, offset=50.0)

@@ -93,11 +93,11 @@ def add_errors(true: Array, sampling: Sampling, chip: TriadErrors, rng: Rng, for
     mixing += chip.cross * rng.standard_normal((3, 3)) * (1.0 - np.eye(3))
     signal = true @ mixing.T
     signal += np.clip(chip.bias * rng.standard_normal(3), -chip.bias_limit, chip.bias_limit)
-    signal += chip.bias_drift * random_drift(sampling.fine_times, chip.correlation_time, 3, rng)
+    signal += chip.drift * random_drift(sampling.fine_times, chip.correlation_time, 3, rng)
     if force is not None and chip.g_effect:
         signal += chip.g_effect * force * rng.choice([-1.0, 1.0], 3)
     # White noise of density d has sigma d sqrt(rate / 2) when it fills the band up to half of the fine rate.
-    signal += chip.noise_density * sqrt(0.5 * sampling.rate) * rng.standard_normal(true.shape)
+    signal += chip.density * sqrt(0.5 * sampling.rate) * rng.standard_normal(true.shape)
     return np.asarray(signal)
 
 
@@ -190,7 +190,7 @@ def air_pressure(height: Array) -> Array:
 def read_barometer(height: Array, t: Array, chip: BarometerErrors, rng: Rng) -> Array:
     """Return the pressures, Pa, that a barometer reports at heights (N), m, and times (N), s."""
     pressure = air_pressure(height) + chip.offset * rng.standard_normal()
-    pressure += chip.bias_drift * random_drift(t, chip.correlation_time, 1, rng)[:, 0]
+    pressure += chip.drift * random_drift(t, chip.correlation_time, 1, rng)[:, 0]
     return np.asarray(pressure + chip.noise * rng.standard_normal(len(t)))
 
 
