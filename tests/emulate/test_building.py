@@ -25,7 +25,7 @@ def plan() -> IndexedPlan:
     return IndexedPlan(BUILDING)
 
 
-def test_the_building_has_two_floors_of_56_by_63_metres_with_four_lifts_and_two_staircases() -> None:
+def test_the_building_has_two_floors_of_56_by_63_metres_with_four_elevators_and_two_staircases() -> None:
     assert unusable(BUILDING) is None and warnings(BUILDING) == ()
     assert len(BUILDING.levels) == 2
     for level in BUILDING.levels:
@@ -74,15 +74,15 @@ def test_a_wanderer_comes_by_one_connector_and_leaves_by_another(seed: int) -> N
     way = wandering(seed)
     truth = Walker(way.route, seed=seed).truth()
     assert way.entry != way.exit and {way.entry, way.exit} <= {one.name for one in BUILDING.connectors}
-    lifts = {cabin.name for cabin in CABINS}
-    assert len(truth.rides) == (way.entry in lifts) + (way.exit in lifts)
-    assert len(truth.flights) == 2 * ((way.entry not in lifts) + (way.exit not in lifts))
+    cabins = {cabin.name for cabin in CABINS}
+    assert len(truth.rides) == (way.entry in cabins) + (way.exit in cabins)
+    assert len(truth.flights) == 2 * ((way.entry not in cabins) + (way.exit not in cabins))
     climbed = sum(ride.height for ride in truth.rides) + sum(flight.height for flight in truth.flights)
     assert climbed == pytest.approx(0.0)  # to the other floor and back
     assert way.start.level != way.level
 
 
-def test_the_case_study_goes_down_by_the_lift_at_the_bottom_left_and_away_by_another() -> None:
+def test_the_case_study_goes_down_by_the_elevator_at_the_bottom_left_and_away_by_another() -> None:
     way = case_study()
     walker, t, places = walked(way, 3)
     truth = walker.truth()

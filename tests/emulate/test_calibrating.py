@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from solepath.emulate.routes.postures import PITCHES, REPEATED, posture, postures, write_postures
+from solepath.emulate.routes.postures import PITCHES, REPETITIONS, posture, postures, write_postures
 from solepath.emulate.routes.route import Route
 from solepath.emulate.wearers.shoe import IN_SOLE, Mounting, Shoe
 from solepath.emulate.wearers.walker import Walker
@@ -39,10 +39,10 @@ def test_a_flat_shoe_has_the_distances_of_its_parts() -> None:
 
 def test_five_postures_are_measured_three_times_to_the_millimetre() -> None:
     found = postures(seed=3)
-    assert len(found) == len(PITCHES) * REPEATED == 15
+    assert len(found) == len(PITCHES) * REPETITIONS == 15
     assert found == postures(seed=3) != postures(seed=4)
     for k, one in enumerate(found):
-        assert one.pitch == pytest.approx(PITCHES[k // REPEATED], abs=radians(5))
+        assert one.pitch == pytest.approx(PITCHES[k // REPETITIONS], abs=radians(5))
         assert one.sensor_to_ground == pytest.approx(posture(one.pitch).sensor_to_ground, abs=0.0025)
         assert one.ground_to_tip == pytest.approx(posture(one.pitch).ground_to_tip, abs=0.0025)
         assert round(1000 * one.sensor_to_ground, 6) % 1 == 0.0

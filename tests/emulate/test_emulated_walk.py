@@ -27,7 +27,7 @@ from solepath.wire.insole import parse_frame
 
 WALK = Route().stand(3.0).walk(100.0, 1.3).stop(2.0)
 BAD = Radio(loss=0.05, jitter=0.05)
-"""5 % of the notifications are lost, the others up to 50 ms late."""
+"""A radio that loses 5 % of the notifications and delays the others by up to 50 ms."""
 
 
 def compared_walk(walk: EmulatedWalk) -> tuple[list[Event], dict[Foot, FootComparison]]:
@@ -165,7 +165,7 @@ def test_insoles_of_any_kind_find_every_step(device: Insole) -> None:
 
 @cache
 def tagged(name: str) -> dict[tuple[int, Foot], FootComparison]:
-    """Both feet of three walks with SensorTags on the laces."""
+    """Return both feet of three walks with SensorTags on the laces."""
     devices: dict[str, Device] = {
         "CC2650 at 10 Hz": CC2650(),
         "CC2541 at 10 Hz": CC2541(),

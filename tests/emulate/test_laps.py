@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from solepath.emulate.routes.laps import (
-    MARK_STEPS,
-    MARKS_APART,
-    PER_LAP,
-    RADII,
+    BEND_RADII,
+    MARK_SPACING,
+    MARKS_PER_LAP,
+    STEPS_OVER_MARKS,
     corners,
     corridor,
     field_walk,
@@ -41,19 +41,21 @@ def test_laps_end_at_their_start(route: Route) -> None:
 
 
 def test_a_lap_of_the_square_has_forty_marks_for_each_foot(laps: Walker) -> None:
-    found = marks(laps, PER_LAP)
+    found = marks(laps, MARKS_PER_LAP)
     for foot in Foot:
         own = [mark for mark in found if mark.foot is foot]
-        assert [(mark.lap, mark.number) for mark in own] == [divmod(k, PER_LAP) for k in range(3 * PER_LAP)]
-        assert [mark.step for mark in own] == list(range(1, 3 * PER_LAP + 1))
+        assert [(mark.lap, mark.number) for mark in own] == [divmod(k, MARKS_PER_LAP) for k in range(3 * MARKS_PER_LAP)]
+        assert [mark.step for mark in own] == list(range(1, 3 * MARKS_PER_LAP + 1))
         for lap in (1, 2):
-            for one, again in zip(own[:PER_LAP], own[lap * PER_LAP : (lap + 1) * PER_LAP], strict=True):
+            for one, again in zip(
+                own[:MARKS_PER_LAP], own[lap * MARKS_PER_LAP : (lap + 1) * MARKS_PER_LAP], strict=True
+            ):
                 assert hypot(one.x - again.x, one.y - again.y) < 1e-6
         apart = [hypot(a.x - b.x, a.y - b.y) for a, b in pairwise(own)]
         assert max(apart) < 1.35 and min(apart) > 0.75
 
 
-@pytest.mark.parametrize("mode", [None, WalkingMode.STRAIGHT, *RADII])
+@pytest.mark.parametrize("mode", [None, WalkingMode.STRAIGHT, *BEND_RADII])
 def test_feet_land_on_their_marks_within_centimetres(laps: Walker, mode: WalkingMode | None) -> None:
     walker = laps if mode is None else Walker(marked(mode), seed=5)
     found = marks(walker)
@@ -64,10 +66,10 @@ def test_feet_land_on_their_marks_within_centimetres(laps: Walker, mode: Walking
         errors.append(hypot(stride.end.x - mark.x, stride.end.y - mark.y))
     assert max(errors) < 0.06 and np.sqrt(np.mean(np.square(errors))) == pytest.approx(0.0156, rel=0.3)
     if mode is not None:
-        assert len(found) == MARK_STEPS
+        assert len(found) == STEPS_OVER_MARKS
         assert {mark.mode for mark in found} == {mode}
         apart = [hypot(a.x - b.x, a.y - b.y) for a, b in pairwise(found)]
-        assert np.mean(apart) == pytest.approx(MARKS_APART, abs=0.04)
+        assert np.mean(apart) == pytest.approx(MARK_SPACING, abs=0.04)
 
 
 def test_steps_are_labelled_by_the_bend_in_which_they_land() -> None:

@@ -14,9 +14,9 @@ from solepath.emulate.sensors.suit import limb_mounting, limb_samples, suit
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.curves import Array
 from solepath.emulate.wearers.gait import Wearer
-from solepath.emulate.wearers.limbs import SLACK, Body, ankle_place
+from solepath.emulate.wearers.limbs import MAX_SLIP, Body, ankle_place
 from solepath.emulate.wearers.shoe import Mounting
-from solepath.emulate.wearers.turning import matrices, multiplied, quaternions
+from solepath.emulate.wearers.turning import matrices, multiply_quaternions, quaternions
 from solepath.emulate.wearers.walker import Walker
 from solepath.link.decoder import Decoder
 from solepath.types import Foot, Quat, Sample, Site
@@ -59,7 +59,7 @@ def test_the_chain_from_the_pelvis_down_ends_at_the_ankle_in_the_shoe(walker: Wa
     ankle = ankle + body.segment(thigh, t)[1] @ (limbs.thigh * down) + body.segment(shank, t)[1] @ (limbs.shank * down)
     shoe = walker.kinematics(foot, t, Mounting(ankle_place(walker.wearer.shoe, limbs))).position
     loose = np.linalg.norm(ankle - shoe, axis=1)
-    assert loose.max() < np.hypot(*SLACK) + 1e-9
+    assert loose.max() < np.hypot(*MAX_SLIP) + 1e-9
     assert loose == pytest.approx(np.linalg.norm(body.slip(foot, t), axis=1), abs=1e-9)
 
 
@@ -81,7 +81,7 @@ def test_rates_and_forces_of_body_sensors_are_those_of_their_motion(walker: Walk
     t = np.arange(3.0, 6.0, 0.001)
     found = body.at(site, t, mounting)
     half = found.attitude[:-1]
-    turned = multiplied(half * (1.0, -1.0, -1.0, -1.0), found.attitude[1:])
+    turned = multiply_quaternions(half * (1.0, -1.0, -1.0, -1.0), found.attitude[1:])
     middle = 0.5 * (found.rate[1:] + found.rate[:-1])
     assert 2.0 * turned[:, 1:] / 0.001 == pytest.approx(middle, abs=0.03)  # differences of 1 ms
     moved = found.position[-1] - found.position[0]
@@ -117,7 +117,7 @@ def test_attitudes_are_off_by_the_paper_s_sensor_and_mountings_stay(walker: Walk
         assert mounting == limb_mounting(site, walker.wearer.limbs, 7) != limb_mounting(site, walker.wearer.limbs, 8)
         t = np.array([sample.t for sample in exact[site]])
         turn = walker.body.segment(site, t)[1]
-        expected = multiplied(quaternions(turn), np.array([mounting.attitude]))
+        expected = multiply_quaternions(quaternions(turn), np.array([mounting.attitude]))
         same = np.abs(np.sum(expected * np.array([sample.quat for sample in exact[site]]), axis=1))
         assert same == pytest.approx(1.0, abs=1e-9)
 

@@ -8,7 +8,7 @@ from attrs import evolve
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insole_device import boot
-from solepath.emulate.sensors.insoles import SCALE, heel_array, layout
+from solepath.emulate.sensors.insoles import LOAD_PER_COUNT, heel_array, layout
 from solepath.emulate.walk import emulate
 from solepath.emulate.wearers.curves import Array
 from solepath.emulate.wearers.gait import Wearer
@@ -25,8 +25,8 @@ def walker() -> Walker:
     return Walker(Route().stand(2.0).walk(20.0, 1.3).stop(2.0), seed=11)
 
 
-def spans(walker: Walker, foot: Foot) -> list[tuple[float, float, float, float]]:
-    """Heel-strike, foot-flat, heel-off and toe-off of every stance between two steps."""
+def stance_times(walker: Walker, foot: Foot) -> list[tuple[float, float, float, float]]:
+    """Return heel-strike, foot-flat, heel-off and toe-off, s, of every stance between two strides of a foot."""
     strides = walker.plan.strides[foot]
     return [(a.heel_strike, a.foot_flat, b.heel_off, b.toe_off) for a, b in zip(strides, strides[1:], strict=False)]
 
@@ -42,16 +42,16 @@ def test_both_feet_together_bear_the_weight_over_every_step(walker: Walker) -> N
     together = walker.loads.total(Foot.LEFT, T) + walker.loads.total(Foot.RIGHT, T)
     assert together == pytest.approx(walker.loads.body(T), rel=1e-12)
     assert 0.7 * weight < together.min() and together.max() < 1.3 * weight
-    for strike, _, _, off in spans(walker, Foot.LEFT)[1:-1]:
-        whole = (strike <= T) & (off > T)
+    for heel_strike, _, _, toe_off in stance_times(walker, Foot.LEFT)[1:-1]:
+        whole = (heel_strike <= T) & (toe_off > T)
         assert together[whole].mean() == pytest.approx(weight, rel=0.06)
     assert together.mean() == pytest.approx(weight, rel=0.01)
 
 
 def test_a_stance_has_two_humps_over_the_weight_and_a_trough_below(walker: Walker) -> None:
     weight = 75.0 * GRAVITY
-    for strike, _, _, off in spans(walker, Foot.RIGHT)[1:-1]:
-        load = walker.loads.total(Foot.RIGHT, np.linspace(strike, off, 101))
+    for heel_strike, _, _, toe_off in stance_times(walker, Foot.RIGHT)[1:-1]:
+        load = walker.loads.total(Foot.RIGHT, np.linspace(heel_strike, toe_off, 101))
         first, trough, second = load[10:40].max(), load[40:60].min(), load[60:90].max()
         assert 1.05 * weight < first < 1.25 * weight
         assert 1.05 * weight < second < 1.25 * weight
@@ -61,8 +61,8 @@ def test_a_stance_has_two_humps_over_the_weight_and_a_trough_below(walker: Walke
 @pytest.mark.parametrize("foot", list(Foot))
 def test_the_load_shows_heel_strike_and_toe_off_within_a_sample(walker: Walker, foot: Foot) -> None:
     t = np.arange(0.0, walker.duration, 0.01)
-    on = walker.loads.total(foot, t) > 20.0
-    rises, falls = t[1:][on[1:] & ~on[:-1]], t[1:][~on[1:] & on[:-1]]
+    in_contact = walker.loads.total(foot, t) > 20.0
+    rises, falls = t[1:][in_contact[1:] & ~in_contact[:-1]], t[1:][~in_contact[1:] & in_contact[:-1]]
     strides = walker.plan.strides[foot]
     assert len(rises) == len(falls) == len(strides)
     # Up to 10 ms until the next sample and a few until 20 N; starting and closing steps load and unload more slowly.
@@ -83,8 +83,8 @@ def test_the_cells_share_the_whole_load(walker: Walker, foot: Foot, count: int) 
     assert cells.max() < shape.full_scale
 
 
-def areas(walker: Walker, foot: Foot, t: Array) -> tuple[Array, Array]:
-    """Load on the rear third and on the front half of a 96-cell insole."""
+def rear_and_front_loads(walker: Walker, foot: Foot, t: Array) -> tuple[Array, Array]:
+    """Return the loads on the rear third and on the front half of an insole of 96 cells, N."""
     shape = layout(96, foot)
     cells = walker.cell_loads(shape, t)
     x = np.array([cell.x for cell in shape.cells]) / shape.length
@@ -93,12 +93,12 @@ def areas(walker: Walker, foot: Foot, t: Array) -> tuple[Array, Array]:
 
 @pytest.mark.parametrize("foot", list(Foot))
 def test_the_load_goes_from_heel_to_forefoot_with_the_events(walker: Walker, foot: Foot) -> None:
-    for strike, flat, lift, off in spans(walker, foot):
-        rear, front = areas(walker, foot, np.linspace(strike + 1e-6, flat - 1e-6, 20))
+    for heel_strike, foot_flat, heel_off, toe_off in stance_times(walker, foot):
+        rear, front = rear_and_front_loads(walker, foot, np.linspace(heel_strike + 1e-6, foot_flat - 1e-6, 20))
         assert front.max() == 0.0 and rear.max() > 100.0
-        rear, front = areas(walker, foot, np.array([flat + 0.02, lift - 0.02]))
+        rear, front = rear_and_front_loads(walker, foot, np.array([foot_flat + 0.02, heel_off - 0.02]))
         assert (rear > 10.0).all() and (front > 10.0).all()
-        rear, front = areas(walker, foot, np.linspace(lift + 1e-6, off - 1e-6, 20))
+        rear, front = rear_and_front_loads(walker, foot, np.linspace(heel_off + 1e-6, toe_off - 1e-6, 20))
         assert rear.max() == 0.0 and front.max() > 100.0
 
 
@@ -112,7 +112,7 @@ def test_a_layout_has_its_cells_on_the_sole_and_mirrored_for_the_other_foot(coun
     assert len({(cell.x, cell.y) for cell in left.cells}) == count
     surface = sum(cell.area for cell in left.cells)
     assert 0.010 < surface < 0.020  # a sole of about 200 cm^2, four fifths of it under cells
-    assert left.scale == SCALE
+    assert left.scale == LOAD_PER_COUNT
 
 
 def test_a_layout_of_too_many_or_too_few_cells_is_rejected() -> None:
@@ -125,13 +125,13 @@ STRAIGHT = Route().stand(1.0).walk(6.0, 1.3).stop(1.0)
 
 
 def bend(radius: float, speed: float = 1.1, wearer: Wearer | None = None) -> Walker:
-    """12 m around a bend, to the left when `radius` is positive."""
+    """Return a walker on 12 m of a bend, which is to the left when `radius` is positive."""
     return Walker(
         Route().stand(1.0).turn(copysign(12.0 / abs(radius), radius), abs(radius), speed).stop(2.0), wearer, seed=2
     )
 
 
-def places(walker: Walker, cells: Layout) -> Array:
+def lateral_load_positions(walker: Walker, cells: Layout) -> Array:
     """Return the mean lateral position of the load in every stance of a full walk, m to the left."""
     y = np.array([cell.y for cell in cells.cells])
     found = []
@@ -145,10 +145,10 @@ def places(walker: Walker, cells: Layout) -> Array:
 @pytest.mark.parametrize("foot", list(Foot))
 def test_the_load_moves_to_the_outside_of_a_bend_and_more_in_a_tight_one(foot: Foot) -> None:
     cells = layout(99, foot)
-    wide, tight = places(bend(4.0), cells), places(bend(2.0), cells)
+    wide, tight = lateral_load_positions(bend(4.0), cells), lateral_load_positions(bend(2.0), cells)
     assert tight.max() < wide.min() < wide.max() < -0.005  # in a left turn to the right edge
     assert tight.mean() == pytest.approx(-0.015, abs=0.003)
-    wide, tight = places(bend(-4.0), cells), places(bend(-2.0), cells)
+    wide, tight = lateral_load_positions(bend(-4.0), cells), lateral_load_positions(bend(-2.0), cells)
     assert tight.min() > wide.max() > wide.min() > 0.005
 
 
@@ -156,14 +156,16 @@ def test_the_load_moves_to_the_outside_of_a_bend_and_more_in_a_tight_one(foot: F
 def test_leaning_changes_neither_the_weight_nor_where_it_is_along_the_foot(foot: Foot) -> None:
     walker, cells = bend(2.0), layout(96, foot)
     t = np.arange(0.0, walker.duration, 0.01)
-    upright = evolve(walker.loads, leans={foot: np.zeros_like(table) for foot, table in walker.loads.leans.items()})
+    upright = evolve(
+        walker.loads, lateral_shifts={foot: np.zeros_like(table) for foot, table in walker.loads.lateral_shifts.items()}
+    )
     plain = upright.cells(cells, walker.wearer.shoe.width, walker.motions[foot], t)
     leaning = walker.cell_loads(cells, t)
     assert leaning.min() >= 0.0
     assert leaning.sum(axis=1) == pytest.approx(plain.sum(axis=1), abs=1e-9)
     x = np.array([cell.x for cell in cells.cells])
-    on = plain.sum(axis=1) > 10.0
-    along, before = ((load[on] @ x) / load[on].sum(axis=1) for load in (leaning, plain))
+    in_contact = plain.sum(axis=1) > 10.0
+    along, before = ((load[in_contact] @ x) / load[in_contact].sum(axis=1) for load in (leaning, plain))
     assert np.abs(along - before).max() < 0.012
 
 
@@ -172,8 +174,8 @@ def test_loads_of_a_straight_walk_are_bit_for_bit_those_of_one_who_never_leans()
     t = np.arange(0.0, walker.duration, 0.01)
     for foot in Foot:
         cells = layout(96, foot)
-        assert not walker.loads.leans[foot][:, 0].any()
-        upright = evolve(walker.loads, leans={foot: np.zeros_like(walker.loads.leans[foot])})
+        assert not walker.loads.lateral_shifts[foot][:, 0].any()
+        upright = evolve(walker.loads, lateral_shifts={foot: np.zeros_like(walker.loads.lateral_shifts[foot])})
         plain = upright.cells(cells, walker.wearer.shoe.width, walker.motions[foot], t)
         assert np.array_equal(walker.cell_loads(cells, t), plain)
 
@@ -197,8 +199,8 @@ def test_a_heel_array_bears_only_the_load_above_it(way: str) -> None:
     array, heel = walker.cell_loads(heel_array(foot), t).sum(axis=1), walker.loads.shares(foot, t)[0]
     on_heel = heel * walker.loads.total(foot, t)
     assert (array <= on_heel + 1e-9).all()
-    struck = on_heel > 50.0
-    share = array[struck] / on_heel[struck]
+    loaded = on_heel > 50.0
+    share = array[loaded] / on_heel[loaded]
     assert share.min() > 0.5 and share.max() < 0.97
     assert array[on_heel == 0.0].max() == 0.0
 

@@ -1,4 +1,4 @@
-"""The emulated foot obeys mechanics: its sensor signals integrate to its track, and its rockers do not slip."""
+"""The emulated foot obeys mechanics: its sensor signals integrate to its track, and its sole rolls without slip."""
 
 from math import radians, sqrt
 
@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from solepath.emulate.routes.route import Route
-from solepath.emulate.wearers.curves import BUMP, DEGREE, EVEN_OUT, constant, evaluate, join, part
+from solepath.emulate.wearers.curves import BUMP, DEGREE, LEVELLING, constant, evaluate, join, subcurve
 from solepath.emulate.wearers.shoe import IN_SOLE, ON_INSTEP, Mounting
-from solepath.emulate.wearers.strides import IMPACT
+from solepath.emulate.wearers.strides import IMPACT_TIME
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot, Phase
 from solepath.types.vector import GRAVITY, from_rotation_vector, multiply, normalise, rotate
@@ -35,10 +35,10 @@ EARLY, LATE = 0.5 - sqrt(3.0) / 6.0, 0.5 + sqrt(3.0) / 6.0
 
 
 def strapdown(walker: Walker, foot: Foot, mounting: Mounting, rate: float) -> tuple[np.ndarray, np.ndarray]:
-    """Times and positions from specific force and angular rate alone, from the true pose at rest at t = 0.
+    """Return times and positions integrated from specific force and angular rate, from the true pose at t = 0.
 
-    Fourth order: two Gauss points a step, h/2 (w1 + w2) + sqrt(3)/12 h^2 w1 x w2 for the turn (Magnus).
-    """
+    The integration is of fourth order (Magnus). It has two Gauss points w1, w2 in each interval h, and the turn
+    h/2 (w1 + w2) + sqrt(3)/12 h^2 w1 x w2."""
     h = 1.0 / rate
     t = np.arange(0.0, walker.duration, h)
     one, two = (walker.kinematics(foot, t[:-1] + c * h, mounting) for c in (EARLY, LATE))
@@ -87,7 +87,7 @@ def test_velocity_and_acceleration_are_the_derivatives_of_position(winding: Walk
     assert np.median(np.abs(change - now.acceleration)) < 1e-4
 
 
-WAYS: dict[str, tuple[Route, float, float]] = {
+ROUTES: dict[str, tuple[Route, float, float]] = {
     "winding": (
         Route().stand(1.0).walk(6.0, 1.2).turn(radians(90), 2.0).walk(4.0).turn(radians(-180)).stop(1.0),
         8.0,
@@ -95,20 +95,20 @@ WAYS: dict[str, tuple[Route, float, float]] = {
     ),
     "jogging": (Route().stand(1.0).walk(5.0).jog(20.0).walk(5.0).stop(1.0), 10.0, 6.0),
     "stairs": (Route().stand(1.0).walk(3.0).stairs(10).walk(3.0).stairs(6, up=False).walk(1.0).stop(1.0), 6.0, 3.0),
-    "lifts": (Route().stand(2.0).walk(3.0).lift(7.0, 1.6, 1.0, 1.2).walk(3.0).stop(2.0), 8.0, 3.0),
+    "elevators": (Route().stand(2.0).walk(3.0).lift(7.0, 1.6, 1.0, 1.2).walk(3.0).stop(2.0), 8.0, 3.0),
 }
-"""Route, and at the most: speed, m/s, and change of acceleration in 0.1 ms, m/s^2."""
+"""Route, largest speed, m/s, and largest change of acceleration in 0.1 ms, m/s^2, by name."""
 
 
-@pytest.mark.parametrize("way", WAYS)
-def test_position_and_velocity_never_jump_and_the_same_seed_goes_the_same_way(way: str) -> None:
-    route, fastest, hardest = WAYS[way]
+@pytest.mark.parametrize("name", ROUTES)
+def test_position_and_velocity_never_jump_and_the_same_seed_goes_the_same_way(name: str) -> None:
+    route, max_speed, max_acceleration_change = ROUTES[name]
     walker = Walker(route, seed=6)
     t = np.arange(0.0, walker.duration, 1e-4)
     found = walker.kinematics(Foot.LEFT, t, ON_INSTEP)
-    assert np.linalg.norm(np.diff(found.position, axis=0), axis=1).max() < fastest * 1e-4
+    assert np.linalg.norm(np.diff(found.position, axis=0), axis=1).max() < max_speed * 1e-4
     assert np.linalg.norm(np.diff(found.velocity, axis=0), axis=1).max() < 250.0 * 1e-4
-    assert np.linalg.norm(np.diff(found.acceleration, axis=0), axis=1).max() < hardest
+    assert np.linalg.norm(np.diff(found.acceleration, axis=0), axis=1).max() < max_acceleration_change
     same, other = (Walker(route, seed=seed).truth().steps(Foot.LEFT) for seed in (6, 7))
     assert walker.truth().steps(Foot.LEFT) == same != other
 
@@ -117,7 +117,7 @@ def test_the_shoe_rolls_without_slip_over_heel_and_forefoot(straight: Walker) ->
     """The velocity of the sensor is omega x (sensor - contact), the contact being below the arc's centre."""
     motion = straight.motions[Foot.LEFT]
     for stride in straight.plan.strides[Foot.LEFT]:
-        spans = ((stride.heel_off, stride.toe_off), (stride.heel_strike + IMPACT, stride.foot_flat))
+        spans = ((stride.heel_off, stride.toe_off), (stride.heel_strike + IMPACT_TIME, stride.foot_flat))
         for start, end in spans:
             t = np.linspace(start + 1e-6, end - 1e-6, 25)
             sensor = motion.at(t, IN_SOLE)
@@ -177,7 +177,7 @@ def test_the_rates_and_forces_of_a_foot_are_those_of_walking(straight: Walker) -
 
 def test_heel_strike_brings_a_short_impact(straight: Walker) -> None:
     stride = straight.plan.strides[Foot.RIGHT][4]
-    t = np.linspace(stride.heel_strike, stride.heel_strike + IMPACT, 200)
+    t = np.linspace(stride.heel_strike, stride.heel_strike + IMPACT_TIME, 200)
     found = straight.kinematics(Foot.RIGHT, t)
     assert -found.acceleration[:, 0].min() > 2.0 * GRAVITY
     before = straight.kinematics(Foot.RIGHT, t[:1] - 1e-6).velocity[0]
@@ -201,10 +201,12 @@ def test_a_join_has_the_given_value_velocity_and_acceleration_at_both_ends(
 @given(st.lists(values, min_size=DEGREE + 1, max_size=DEGREE + 1), st.floats(0.0, 1.0), st.floats(0.0, 1.0))
 def test_a_part_of_a_curve_is_the_curve(factors: list[float], start: float, end: float) -> None:
     curve, s = np.array(factors), np.linspace(0.0, 1.0, 7)
-    assert evaluate(part(curve, start, end), s) == pytest.approx(evaluate(curve, start + (end - start) * s), abs=1e-6)
+    assert evaluate(subcurve(curve, start, end), s) == pytest.approx(
+        evaluate(curve, start + (end - start) * s), abs=1e-6
+    )
 
 
-@pytest.mark.parametrize("shape", [BUMP, EVEN_OUT])
+@pytest.mark.parametrize("shape", [BUMP, LEVELLING])
 def test_added_shapes_change_nothing_at_the_ends(shape: np.ndarray) -> None:
     for s in (0.0, 1.0):
         assert [float(evaluate(shape, s, order)) for order in range(3)] == pytest.approx([0.0] * 3, abs=1e-9)

@@ -21,8 +21,8 @@ def jogger() -> Walker:
     return Walker(Route().stand(1.0).walk(5.0).jog(30.0).walk(5.0).stop(1.0), seed=6)
 
 
-def run(walker: Walker, foot: Foot) -> list[PlannedStride]:
-    """Strides at full speed."""
+def full_speed_strides(walker: Walker, foot: Foot) -> list[PlannedStride]:
+    """Return the strides of a foot at full running speed."""
     return [s for s in walker.plan.strides[foot] if s.kind is StrideKind.RUN and s.speed > 2.59]
 
 
@@ -42,12 +42,12 @@ def test_there_is_a_flight_between_the_steps_of_a_jogger(jogger: Walker) -> None
 @pytest.mark.parametrize("foot", list(Foot))
 def test_a_jogger_stands_on_a_foot_for_under_two_fifths_of_the_stride(jogger: Walker, foot: Foot) -> None:
     """1.60 m a stride and more, some 160 steps a minute, stance 35 to 40 %."""
-    strides = run(jogger, foot)
+    strides = full_speed_strides(jogger, foot)
     for one, two in pairwise(strides):
         if two.number == one.number + 1:
-            lasts = two.heel_strike - one.heel_strike
-            assert 0.33 < (two.toe_off - one.heel_strike) / lasts < 0.43
-            assert 140.0 < 120.0 / lasts < 180.0
+            stride_time = two.heel_strike - one.heel_strike
+            assert 0.33 < (two.toe_off - one.heel_strike) / stride_time < 0.43
+            assert 140.0 < 120.0 / stride_time < 180.0
             assert 1.5 < np.hypot(two.end.x - two.start.x, two.end.y - two.start.y) < 2.3
 
 
@@ -55,7 +55,10 @@ def test_a_jogger_stands_on_a_foot_for_under_two_fifths_of_the_stride(jogger: Wa
 def test_a_jogger_lands_harder_and_turns_the_foot_further_than_a_walker(jogger: Walker, foot: Foot) -> None:
     walked = Walker(Route().stand(1.0).walk(20.0).stop(1.0), seed=6)
     figures = []
-    for walker, strides in ((jogger, run(jogger, foot)), (walked, list(walked.plan.strides[foot][2:-2]))):
+    for walker, strides in (
+        (jogger, full_speed_strides(jogger, foot)),
+        (walked, list(walked.plan.strides[foot][2:-2])),
+    ):
         top: list[float] = []
         hard: list[float] = []
         turned: list[float] = []
@@ -75,7 +78,7 @@ def test_a_jogger_lands_harder_and_turns_the_foot_further_than_a_walker(jogger: 
 
 
 def test_each_foot_of_a_jogger_bears_twice_the_weight_and_in_flight_none_does(jogger: Walker) -> None:
-    strides = sorted((s.heel_strike, s, foot) for foot in Foot for s in run(jogger, foot))
+    strides = sorted((s.heel_strike, s, foot) for foot in Foot for s in full_speed_strides(jogger, foot))
     for (_, one, foot), (_, two, _) in pairwise(strides[2:-2]):
         flown = np.linspace(two.toe_off + 1e-3, one.heel_strike - 1e-3, 20)
         assert max(abs(jogger.loads.total(side, flown)).max() for side in Foot) < 1e-6

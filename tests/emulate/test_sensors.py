@@ -1,4 +1,4 @@
-"""Emulated parts have the errors of their data sheets."""
+"""Emulated sensors have the errors of their data sheets."""
 
 from math import pi, radians, sqrt
 
@@ -18,22 +18,22 @@ from solepath.emulate.sensors.parts import (
     RESISTIVE,
     T5400,
     AttitudePart,
-    BarometerPart,
+    BarometerErrors,
     Imu,
-    Triad,
+    TriadErrors,
 )
 from solepath.emulate.sensors.sensors import (
+    add_errors,
     air_pressure,
-    errors,
     instants,
     low_pass,
     measure,
+    random_drift,
     read_attitudes,
     read_barometer,
     read_cells,
-    sample,
+    take_samples,
     to_counts,
-    wander,
 )
 from solepath.emulate.wearers.walker import Walker
 from solepath.types import Foot
@@ -41,18 +41,20 @@ from solepath.types.vector import GRAVITY, from_rotation_vector, multiply
 
 
 def allan_deviation(values: np.ndarray, rate: float, tau: float) -> np.ndarray:
-    """Two-sample deviation of averages over `tau` s, for each axis."""
+    """Return the two-sample deviation of averages over `tau` s, for each axis."""
     size = int(tau * rate)
     means = values[: len(values) // size * size].reshape(-1, size, values.shape[1]).mean(axis=1)
     return np.sqrt(0.5 * np.mean(np.diff(means, axis=0) ** 2, axis=0))
 
 
 @pytest.mark.parametrize("part", [LSM6DSOX.acc, LSM6DSOX.gyro, MPU9250.acc, MPU9250.gyro])
-def test_the_white_noise_is_that_of_the_data_sheet(part: Triad) -> None:
+def test_the_white_noise_is_that_of_the_data_sheet(part: TriadErrors) -> None:
     """Allan deviation of white noise of density d (per sqrt(Hz), one-sided) at tau is d / sqrt(2 tau)."""
-    when = instants(0.0, 0.01, 30000)
-    still = np.zeros((len(when.fine), 3))
-    noisy = sample(low_pass(errors(still, when, part, np.random.default_rng(1)), when.rate, 50.0), when)
+    sampling = instants(0.0, 0.01, 30000)
+    still = np.zeros((len(sampling.fine_times), 3))
+    noisy = take_samples(
+        low_pass(add_errors(still, sampling, part, np.random.default_rng(1)), sampling.rate, 50.0), sampling
+    )
     for tau in (0.2, 0.5):
         assert allan_deviation(noisy, 100.0, tau) == pytest.approx(np.full(3, part.density / sqrt(2 * tau)), rel=0.12)
 
@@ -60,17 +62,21 @@ def test_the_white_noise_is_that_of_the_data_sheet(part: Triad) -> None:
 def test_the_noise_per_sample_fits_the_bandwidth() -> None:
     """A second-order Butterworth passes the noise of 1.11 times its corner frequency."""
     part = MPU9250.gyro
-    when = instants(0.0, 1.0 / 400.0, 40000)
-    steady = evolve(part, wander=0.0)
-    noisy = low_pass(errors(np.zeros((len(when.fine), 3)), when, steady, np.random.default_rng(2)), when.rate, 92.0)
-    passed = sample(noisy, when)[100:]
+    sampling = instants(0.0, 1.0 / 400.0, 40000)
+    steady = evolve(part, drift=0.0)
+    noisy = low_pass(
+        add_errors(np.zeros((len(sampling.fine_times), 3)), sampling, steady, np.random.default_rng(2)),
+        sampling.rate,
+        92.0,
+    )
+    passed = take_samples(noisy, sampling)[100:]
     assert passed.std(axis=0) == pytest.approx(np.full(3, part.density * sqrt(1.11 * 92.0)), rel=0.05)
     # The sheet's own total is 0.1 degrees/s rms at 92 Hz.
     assert passed.std(axis=0) == pytest.approx(np.full(3, radians(0.1)), rel=0.1)
 
 
 def test_a_bias_wanders_slowly_and_stays_bounded() -> None:
-    path = wander(np.arange(0.0, 20000.0, 1.0), 300.0, 4, np.random.default_rng(3))
+    path = random_drift(np.arange(0.0, 20000.0, 1.0), 300.0, 4, np.random.default_rng(3))
     assert path[0] == pytest.approx(0.0)
     assert path.std() == pytest.approx(1.0, rel=0.2)
     assert np.diff(path[::30], axis=0).std() == pytest.approx(sqrt(2.0 * 30.0 / 300.0), rel=0.1)
@@ -78,13 +84,13 @@ def test_a_bias_wanders_slowly_and_stays_bounded() -> None:
 
 
 def test_counts_are_rounded_and_stop_at_full_scale() -> None:
-    when = instants(0.0, 0.01, 5)
-    ramp = np.outer(np.ones(len(when.fine)), [1.26, -50.0, 39.9])
-    eight = Triad(density=0.0, bias=0.0, wander=0.0, scale=0.0, cross=0.0, bandwidth=1e9, bits=8)
-    found = to_counts(measure(ramp, when, eight, np.random.default_rng(1)), eight, 0.25)
+    sampling = instants(0.0, 0.01, 5)
+    ramp = np.outer(np.ones(len(sampling.fine_times)), [1.26, -50.0, 39.9])
+    eight = TriadErrors(density=0.0, bias=0.0, drift=0.0, scale=0.0, cross=0.0, bandwidth=1e9, bits=8)
+    found = to_counts(measure(ramp, sampling, eight, np.random.default_rng(1)), eight, 0.25)
     assert found.counts.tolist() == [[5, -128, 127]] * 5
     assert found.saturated.all()
-    unsaturated = to_counts(measure(0.1 * ramp, when, eight, np.random.default_rng(1)), eight, 0.25)
+    unsaturated = to_counts(measure(0.1 * ramp, sampling, eight, np.random.default_rng(1)), eight, 0.25)
     assert not unsaturated.saturated.any()
 
 
@@ -97,9 +103,9 @@ def test_a_low_pass_keeps_what_is_slow_and_halves_the_power_at_its_corner() -> N
 
 
 def test_samples_are_taken_at_the_times_of_the_clock() -> None:
-    when = instants(0.0123, 0.031, 50)
-    assert sample(when.fine[:, None], when)[:, 0] == pytest.approx(when.taken)
-    assert when.rate >= 800.0
+    sampling = instants(0.0123, 0.031, 50)
+    assert take_samples(sampling.fine_times[:, None], sampling)[:, 0] == pytest.approx(sampling.times)
+    assert sampling.rate >= 800.0
 
 
 @pytest.mark.parametrize("part", [LSM6DSOX, MPU9250, KXTJ9_IMU3000])
@@ -147,7 +153,7 @@ def test_a_device_with_another_north_turns_the_world_about_the_vertical() -> Non
 
 
 @pytest.mark.parametrize("part", [BMP280, T5400])
-def test_three_metres_change_a_barometer_by_36_pascal(part: BarometerPart) -> None:
+def test_three_metres_change_a_barometer_by_36_pascal(part: BarometerErrors) -> None:
     assert air_pressure(np.array([0.0]))[0] == 101325.0
     t = np.arange(0.0, 60.0, 1.0)
     low, high = (read_barometer(np.full(60, h), t, part, np.random.default_rng(4)) for h in (0.0, 3.0))

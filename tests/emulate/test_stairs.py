@@ -22,7 +22,7 @@ from solepath.types import SITE_OF_FOOT, Activity, Foot, Sample, Site
 
 @pytest.fixture(scope="module")
 def storey() -> Walker:
-    """Up two flights with a landing, and down them again."""
+    """Return a walker who climbs two flights with a landing between them and walks down again."""
     route = Route().stand(1.0).walk(3.0).stairs(10).walk(0.4).turn(radians(180), 0.7).stairs(10).walk(3.0).stop(1.0)
     route = route.stairs(10, up=False).walk(0.4).turn(radians(-180), 0.7).stairs(10, up=False).walk(3.0).stop(1.0)
     return Walker(route, seed=4)
@@ -40,7 +40,7 @@ def room_below(walker: Walker, foot: Foot, flight: Flight, t: np.ndarray) -> np.
         radius = shoe.heel.radius + (shoe.forefoot.radius - shoe.heel.radius) * share
         x = shoe.heel.x + (shoe.forefoot.x - shoe.heel.x) * share
         centre = motion.at(t, Mounting((x, 0.0, radius))).position
-        room = np.minimum(room, centre[:, 2] - flight.above(centre[:, 0], centre[:, 1], np.full(len(t), radius)))
+        room = np.minimum(room, centre[:, 2] - flight.clear_height(centre[:, 0], centre[:, 1], np.full(len(t), radius)))
     return room
 
 
@@ -102,7 +102,7 @@ def test_a_foot_in_stationary_is_still_at_the_height_of_its_tread(storey: Walker
             assert stride.flight is not None
             t = np.array([stride.foot_flat + 0.01])
             found = storey.kinematics(foot, t, IN_SOLE)
-            tread = stride.flight.ground(np.array([stride.end.x]), np.array([stride.end.y]))
+            tread = stride.flight.ground_height(np.array([stride.end.x]), np.array([stride.end.y]))
             assert found.position[0, 2] - IN_SOLE.position[2] == pytest.approx(float(tread[0]), abs=2e-4)
             assert np.linalg.norm(found.velocity) < 1e-2
 

@@ -10,12 +10,12 @@ import pytest
 
 from solepath.emulate.radio import Radio
 from solepath.emulate.routes.route import Route
-from solepath.emulate.sensors.device import SETUP, Device, Notification
+from solepath.emulate.sensors.device import SETUP_TIME, Device, Notification
 from solepath.emulate.sensors.insole_device import ACC_COUNT, GYRO_COUNT, TICK_RATE, Insole
 from solepath.emulate.sensors.insoles import heel_array
-from solepath.emulate.sensors.parts import CellPart, Imu, Triad
+from solepath.emulate.sensors.parts import CellErrors, Imu, TriadErrors
 from solepath.emulate.sensors.sensors import air_pressure
-from solepath.emulate.sensors.sensortags import CC2541, CC2650, T5400_CALIBRATION, raw_air
+from solepath.emulate.sensors.sensortags import CC2541, CC2650, T5400_CALIBRATION, raw_barometer_values
 from solepath.emulate.sensors.sensortags import GYRO_COUNT as TAG_GYRO_COUNT
 from solepath.emulate.walk import emulate, sampled
 from solepath.emulate.wearers.shoe import IN_SOLE, Mounting
@@ -30,9 +30,9 @@ from solepath.wire.insole import InsoleFrame, parse_frame
 from solepath.wire.insole_info import parse_info
 
 SHORT = Route().stand(1.0).walk(6.0, 1.3).stop(1.0)
-IDEAL = Triad(density=0.0, bias=0.0, wander=0.0, scale=0.0, cross=0.0, bandwidth=1e9)
+IDEAL = TriadErrors(density=0.0, bias=0.0, drift=0.0, scale=0.0, cross=0.0, bandwidth=1e9)
 IDEAL_IMU = Imu("ideal", IDEAL, IDEAL)
-IDEAL_CELL = CellPart("ideal", gain=0.0, preload=0.0, noise=0.0, lag=1e-6)
+IDEAL_CELL = CellErrors("ideal", gain=0.0, preload=0.0, noise=0.0, lag=1e-6)
 PROMPT = Radio(latency=0.0, jitter=0.0)
 
 
@@ -64,7 +64,7 @@ def test_two_insoles_at_100_hz_send_what_they_should() -> None:
         channels = Counter(p.channel for p in walk.packets if p.site is site)
         assert channels["insole/info"] == channels["device/firmware"] == channels["device/battery"] == 1
         sent = frames(walk.packets, site)
-        assert len(sent) == pytest.approx((walk.truth.duration - SETUP) * 100, abs=4)
+        assert len(sent) == pytest.approx((walk.truth.duration - SETUP_TIME) * 100, abs=4)
         info = parse_info(next(p.data for p in walk.packets if p.site is site and p.channel == "insole/info"))
         for one, two in pairwise(sent):
             assert two.sequence == (one.sequence + 1) % 2**16
@@ -155,7 +155,7 @@ def test_frames_too_long_for_the_link_come_in_fragments() -> None:
 )
 def test_a_recording_starts_with_all_reads_and_writes(device: Device, profile: Profile) -> None:
     walk = emulate(SHORT, devices={Site.LEFT_FOOT: device}, seed=2)
-    setup = [(p.channel, p.data) for p in walk.packets if p.t < SETUP]
+    setup = [(p.channel, p.data) for p in walk.packets if p.t < SETUP_TIME]
     expected: list[str] = [*profile.reads]
     for write in profile.setup:
         expected += [write.channel, *write.then_read]
@@ -195,7 +195,7 @@ def test_a_cc2541_sends_each_sensor_at_its_own_time(rate: float) -> None:
 def test_the_raw_air_of_a_t5400_gives_the_pressure_back() -> None:
     for height in (-20.0, 0.0, 3.0, 400.0):
         pascal = float(air_pressure(np.array([height]))[0])
-        raw = raw_air(pascal)
+        raw = raw_barometer_values(pascal)
         assert T5400_CALIBRATION.pascal(**raw) == pytest.approx(pascal, abs=2.0)
         assert T5400_CALIBRATION.celsius(raw["temperature"]) == pytest.approx(24.0, abs=0.1)
 

@@ -1,4 +1,4 @@
-"""Walks that tests share, and every session and decoder of the library under one handle, for tests of all of them."""
+"""Walks that tests share, and every kind of session and decoder behind one interface, for tests of all of them."""
 
 from __future__ import annotations
 
@@ -39,22 +39,22 @@ from solepath.types import Foot, Packet, Sample, Site
 
 LEFT, RIGHT = Site.LEFT_FOOT, Site.RIGHT_FOOT
 ROUGH = Radio(loss=0.05, duplicate=0.02, corrupt=0.02, truncate=0.02, latency=0.01, jitter=0.04)
-"""A radio that a session must tolerate: lost, doubled, damaged and late packets."""
+"""A radio that a session must tolerate; it loses, doubles, damages and delays packets."""
 SHORT = Route().stand(1.5).walk(3.0, 1.3).turn(radians(60), radius=1.5).walk(2.0).stop(1.0)
-"""About 8 s, three or four steps of each foot."""
+"""A walk of about 8 s, with three or four strides of each foot."""
 
 Item = Packet | Sample
 
 
 @cache
 def insoles(route: Route = SHORT, radio: Radio = CLEAN, seed: int = 1, cells: int = 96) -> EmulatedWalk:
-    """A walk with an insole in each shoe."""
+    """Return a walk with an insole in each shoe."""
     return emulate(route, devices={LEFT: Insole(cells=cells), RIGHT: Insole(cells=cells)}, radio=radio, seed=seed)
 
 
 @cache
 def samples(route: Route = SHORT, cells: int = 24, rate: float = 100.0, seed: int = 1) -> tuple[Sample, ...]:
-    """Samples of both feet in the order of time, with the errors of a named part; without a radio or a wire."""
+    """Return the samples of both feet in the order of time, with the errors of LSM6DSOX, without packets."""
     return both_feet(Walker(route, seed=seed), rate, LSM6DSOX, cells)
 
 
@@ -73,7 +73,7 @@ def _time(sample: Sample) -> float:
 
 
 def columns_of(walker: Walker, foot: Foot) -> dict[str, np.ndarray]:
-    """Exact samples of a foot at 100 Hz, as a file of samples has them."""
+    """Return exact samples of a foot at 100 Hz as columns, as in a file of samples."""
     found = walker.samples(foot, 100.0)
     return {key: np.array([getattr(s, key) for s in found]) for key in ("t", "acc", "gyro")}
 
@@ -112,7 +112,7 @@ class Machine:
 
 
 def _session(name: str, items: tuple[Item, ...], recipe: Recipe = DEFAULT) -> Machine:
-    pressures = name in ("fragments", "samples with pressure")  # in a few: it makes most of what is said
+    pressures = name in ("fragments", "samples with pressure")  # only in two, because they are most of the output
 
     def start() -> Session:
         return Session(recipe, poses=True, pressures=pressures)
@@ -121,7 +121,7 @@ def _session(name: str, items: tuple[Item, ...], recipe: Recipe = DEFAULT) -> Ma
 
 
 def _placed(name: str, items: tuple[Item, ...], recipe: Recipe) -> Machine:
-    """A session in a building whose wearer's first steps are known, and the rest has to be found out."""
+    """Return a session in a building where only the wearer's start is known."""
     building = IndexedPlan(BUILDING)
     first_place = Start("0", (COLUMNS[0], 12.0))
 
@@ -143,7 +143,7 @@ def _decoder(name: str, items: tuple[Packet, ...]) -> Machine:
 
 @cache
 def packets() -> dict[str, tuple[Packet, ...]]:
-    """Both feet over a bad radio, by the device that they wear."""
+    """Return the packets of both feet over a bad radio, by the device that they wear."""
     devices = {
         "whole frames": Insole(),
         "fragments": Insole(cells=24, rate=50.0, mtu=23),
@@ -226,7 +226,7 @@ RECIPES = (
 
 @cache
 def suited() -> tuple[Sample, ...]:
-    """Samples of pelvis, thighs, shanks and both feet, whose insoles have 99 cells, in the order of their time."""
+    """Return samples of seven sites in the order of time; the feet wear insoles of 99 cells."""
     layouts = {LEFT: layout(99, Foot.LEFT), RIGHT: layout(99, Foot.RIGHT)}
     return tuple(limb_samples(Walker(SHORT, seed=3), 25.0, layouts=layouts))
 
@@ -272,12 +272,12 @@ NAMES = PACKET_NAMES + SAMPLE_NAMES
 
 
 def of(kind: Any, events: list[Any]) -> list[Any]:
-    """The events of a kind."""
+    """Return the events of a kind."""
     return [event for event in events if isinstance(event, kind)]
 
 
 def pieces(items: tuple[Item, ...], sizes: list[int]) -> Iterator[tuple[Item, ...]]:
-    """The items cut into chunks of these sizes, again and again until all are gone."""
+    """Yield the items in chunks of these sizes, which are repeated until no item is left."""
     at, k = 0, 0
     while at < len(items):
         size = max(1, sizes[k % len(sizes)]) if sizes else len(items)

@@ -54,7 +54,7 @@ def test_a_script_is_read_line_by_line_in_its_order() -> None:
 
 
 @pytest.mark.parametrize(
-    ("line", "why"),
+    ("line", "reason"),
     [
         ("5 left_foot", "SECONDS SITE WHAT"),
         ("soon left_foot hang", "'soon' is not a number"),
@@ -77,8 +77,8 @@ def test_a_script_is_read_line_by_line_in_its_order() -> None:
         ('5 left_foot name "open', "quotation"),
     ],
 )
-def test_a_line_that_cannot_be_understood_is_named(line: str, why: str) -> None:
-    with pytest.raises(ValueError, match=f"^line 2: .*{why}"):
+def test_a_line_that_cannot_be_understood_is_named(line: str, reason: str) -> None:
+    with pytest.raises(ValueError, match=f"^line 2: .*{reason}"):
         parse_faults(f"1 * drop\n{line}\n")
 
 

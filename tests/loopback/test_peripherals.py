@@ -36,10 +36,10 @@ def frames(received: Received) -> list[InsoleFrame]:
 # every device
 
 
-@pytest.mark.parametrize(("device", "known"), DEVICES)
-def test_a_device_has_the_attributes_of_its_profile_and_what_else_it_has(device: Device, known: Profile) -> None:
+@pytest.mark.parametrize(("device", "profile"), DEVICES)
+def test_a_device_has_the_attributes_of_its_profile_and_what_else_it_has(device: Device, profile: Profile) -> None:
     table = {(s.uuid, c.uuid): c for s in worn(device).services for c in s.characteristics}
-    for channel in known.channels:
+    for channel in profile.channels:
         served = table[channel.service, channel.characteristic]
         assert served.channel == channel.name
         assert ("write" if channel.access is Access.WRITE else channel.access.value) in served.properties
@@ -47,72 +47,72 @@ def test_a_device_has_the_attributes_of_its_profile_and_what_else_it_has(device:
     assert len({c.channel for c in table.values()}) == len(table)
 
 
-@pytest.mark.parametrize(("device", "known"), DEVICES)
-def test_a_device_after_its_setup_decodes_to_samples_only(device: Device, known: Profile) -> None:
-    tag, decoder, out = worn(device), Decoder(site=LEFT), []
-    start(tag, *(c.name for c in known.channels if c.access is Access.NOTIFY))
-    setup = [(name, tag.read(name, 0.0)) for name in known.reads]
-    for write in known.setup:
+@pytest.mark.parametrize(("device", "profile"), DEVICES)
+def test_a_device_after_its_setup_decodes_to_samples_only(device: Device, profile: Profile) -> None:
+    tag, decoder, decoded = worn(device), Decoder(site=LEFT), []
+    start(tag, *(c.name for c in profile.channels if c.access is Access.NOTIFY))
+    setup = [(name, tag.read(name, 0.0)) for name in profile.reads]
+    for write in profile.setup:
         tag.write(write.channel, write.value, 0.0)
         setup += [(write.channel, write.value), *((name, tag.read(name, 0.0)) for name in write.then_read)]
     for name, value in setup:
-        out += decoder.feed(Packet(0.0, LEFT, name, value or b""))
+        decoded += decoder.feed(Packet(0.0, LEFT, name, value or b""))
     for t, outgoing in played(tag, walker().duration):
-        out += decoder.feed(Packet(t, LEFT, outgoing.channel, outgoing.value))
-    samples = [one for one in out if isinstance(one, Sample)]
-    assert len(samples) == pytest.approx(walker().duration * known.nominal_rate, rel=0.05)
-    assert {type(one).__name__ for one in out} <= {"Sample", "LayoutKnown", "BatteryLevel"}
+        decoded += decoder.feed(Packet(t, LEFT, outgoing.channel, outgoing.value))
+    samples = [one for one in decoded if isinstance(one, Sample)]
+    assert len(samples) == pytest.approx(walker().duration * profile.nominal_rate, rel=0.05)
+    assert {type(one).__name__ for one in decoded} <= {"Sample", "LayoutKnown", "BatteryLevel"}
 
 
-@pytest.mark.parametrize(("device", "known"), DEVICES)
-def test_only_what_is_subscribed_is_sent_and_only_while_connected(device: Device, known: Profile) -> None:
+@pytest.mark.parametrize(("device", "profile"), DEVICES)
+def test_only_what_is_subscribed_is_sent_and_only_while_connected(device: Device, profile: Profile) -> None:
     tag = worn(device)
     assert tag.next_due() is None
     assert tag.poll(1.0) == []
-    set_up(tag, known, now=1.0)
-    stream = known.streams[0]
+    set_up(tag, profile, now=1.0)
+    stream = profile.streams[0]
     assert played(tag, 3.0, stream)
     tag.subscribe(stream, False, 3.0)
     assert not played(tag, 5.0, stream)
     tag.subscribe(stream, True, 5.0)
     again = played(tag, 7.0, stream)
-    assert again[0][0] < 5.0 + 1.5 / known.nominal_rate
-    assert len(again) == pytest.approx(2.0 * known.nominal_rate, abs=1.5), "what was missed does not come later"
+    assert again[0][0] < 5.0 + 1.5 / profile.nominal_rate
+    assert len(again) == pytest.approx(2.0 * profile.nominal_rate, abs=1.5), "what was missed does not come later"
     tag.disconnected(7.0)
     assert tag.next_due() is None
     start(tag, stream, now=7.5)
-    assert not played(tag, 9.0, stream), "a new connection begins with everything off"
+    assert not played(tag, 9.0, stream), "a new connection starts with everything off"
 
 
-@pytest.mark.parametrize(("device", "known"), DEVICES)
-def test_attributes_reject_requests_that_they_do_not_support(device: Device, known: Profile) -> None:
+@pytest.mark.parametrize(("device", "profile"), DEVICES)
+def test_attributes_reject_requests_that_they_do_not_support(device: Device, profile: Profile) -> None:
     tag = start(worn(device))
     assert error_code(tag, "device/firmware", b"x") == 0x03
     assert error_code(tag, "no such channel") == 0x02
     with pytest.raises(Exception, match="0x06"):
         tag.subscribe("device/firmware", True, 0.0)
-    keys = f"{known.name}/keys"
-    assert error_code(tag, "insole/frame" if known is insole.PROFILE else keys) == 0x02
+    keys = f"{profile.name}/keys"
+    assert error_code(tag, "insole/frame" if profile is insole.PROFILE else keys) == 0x02
 
 
-@pytest.mark.parametrize(("device", "known"), DEVICES)
-def test_the_streams_never_dry_up_before_and_after_the_walk(device: Device, known: Profile) -> None:
-    tag = set_up(worn(device, started_at=1000.0), known, now=900.0)
-    stream = known.streams[0]
-    assert len(played(tag, 910.0, stream)) == pytest.approx(10.0 * known.nominal_rate, rel=0.02)
+@pytest.mark.parametrize(("device", "profile"), DEVICES)
+def test_the_streams_never_dry_up_before_and_after_the_walk(device: Device, profile: Profile) -> None:
+    tag = set_up(worn(device, started_at=1000.0), profile, now=900.0)
+    stream = profile.streams[0]
+    assert len(played(tag, 910.0, stream)) == pytest.approx(10.0 * profile.nominal_rate, rel=0.02)
     tag.disconnected(910.0)
-    set_up(tag, known, now=5000.0)
+    set_up(tag, profile, now=5000.0)
     received = played(tag, 5010.0, stream)
-    assert len(received) == pytest.approx(10.0 * known.nominal_rate, rel=0.02)
+    assert len(received) == pytest.approx(10.0 * profile.nominal_rate, rel=0.02)
     assert all(5000.0 <= t <= 5010.0 for t, _ in received)
 
 
-@pytest.mark.parametrize(("device", "known"), DEVICES)
+@pytest.mark.parametrize(("device", "profile"), DEVICES)
 @settings(max_examples=40)
 @given(st.lists(st.tuples(st.integers(0, 30), st.binary(max_size=4)), max_size=12))
-def test_every_write_is_obeyed_or_rejected(device: Device, known: Profile, writes: list[tuple[int, bytes]]) -> None:
+def test_every_write_is_obeyed_or_rejected(device: Device, profile: Profile, writes: list[tuple[int, bytes]]) -> None:
     tag = _lasting(device)
-    set_up(tag, known)
+    set_up(tag, profile)
     channels = [c.channel for s in tag.services for c in s.characteristics]
     now = 0.0
     for which, value in writes:

@@ -1,4 +1,4 @@
-"""Routes and radio of `solepath demo`: its default route, a straight walk, or a walk through the emulated building."""
+"""Routes and radio of `solepath demo`: a default route, a straight walk, or a walk through the emulated building."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .radio import Radio
 from .routes.route import Route
 
 RADIO = Radio(loss=0.03, duplicate=0.005, corrupt=0.005, latency=0.015, jitter=0.030)
-"""A crowded 2.4 GHz band: 3 in 100 notifications never arrive, the others arrive after 15 to 45 ms."""
+"""A crowded 2.4 GHz band (assumed): 3 in 100 notifications never arrive, the others arrive after 15 to 45 ms."""
 
 ROUTE = (
     Route()
@@ -27,17 +27,17 @@ ROUTE = (
     .walk(10.0, speed=1.4)
     .stop(2.0)
 )
-"""A route of about 40 m: a U, a halt, a turn on the spot, and a second part."""
+"""A route of about 40 m: a U-shaped path, a halt, a turn on the spot, and a second path."""
 
 WAY = 8
-"""Seed of the walk through the emulated building: down by one of four lifts, 130 m of corridors, up the stairs."""
+"""Seed of a walk through the emulated building: down by an elevator, along 130 m of corridors, up the stairs."""
 
 
 def straight(distance: float) -> Route:
-    """Return the route: stand, walk `distance` m straight on, stand."""
+    """Return a route that stands, walks `distance` m straight on and stands."""
     return Route().stand(3.0).walk(distance, speed=1.3).stop(2.0)
 
 
 def radio(loss: float | None = None, jitter: float | None = None) -> Radio:
-    """Return RADIO with another share of lost packets or another jitter, s; None keeps the value of RADIO."""
+    """Return RADIO with this share of lost packets and this jitter, s; None keeps the value of RADIO."""
     return evolve(RADIO, loss=RADIO.loss if loss is None else loss, jitter=RADIO.jitter if jitter is None else jitter)

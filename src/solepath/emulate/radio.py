@@ -1,8 +1,8 @@
 """The radio channel between a device and its receiver: loss, duplicates, bit errors and delay.
 
 Bluetooth Low Energy keeps the order of notifications, and its link layer repeats lost packets. A bad channel therefore
-shows as delay: a late packet holds up all packets behind it. Loss happens in higher layers: full queues, lossy relays,
-dropped callbacks. Packets do not change their order on one Bluetooth link; `in_order=False` is for other relays."""
+shows as delay, and a late packet delays all packets behind it. Packets are lost in higher layers, by full queues, lossy
+relays and dropped callbacks. They keep their order on a Bluetooth link; `in_order=False` is for other relays."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def _share(_: object, attribute: object, value: float) -> None:
 
 @frozen
 class Radio:
-    """Settings of a radio channel: shares of notifications from 0 to 1, and times in s."""
+    """The settings of a radio channel; shares are from 0 to 1, times in s."""
 
     loss: float = field(default=0.0, validator=_share)
     """Share of notifications that never arrive."""
@@ -39,41 +39,43 @@ class Radio:
     jitter: float = 0.004
     """Largest additional transmission time, s; uniformly distributed from 0."""
     interval: float = 0.0
-    """Time between connection events, s: packets wait for the next event. 0: packets do not wait."""
+    """Time between connection events, s, at which packets are sent; 0: packets do not wait for events."""
     in_order: bool = True
-    """No packet overtakes another one."""
+    """True when no packet overtakes another one."""
 
     def transmit(self, sent: list[Notification], site: Site, rng: Rng) -> list[Packet]:
-        """Return the packets that arrive when a device sends `sent`, sorted by time of arrival."""
+        """Return the packets that arrive of the notifications `sent`, sorted by time of arrival."""
         chances = rng.uniform(size=(len(sent), 6))
         phase = self.interval * float(rng.uniform())
-        found: list[Packet] = []
-        newest = -np.inf
-        for item, (lost, twice, damaged, cut, delay, again) in zip(sent, chances.tolist(), strict=True):
-            if item.acknowledged:
-                newest = max(newest, item.t)
-                found.append(Packet(item.t, site, item.channel, item.data))
+        packets: list[Packet] = []
+        last_arrival = -np.inf
+        for notification, (loss, duplicate, corrupt, truncate, delay, second_delay) in zip(
+            sent, chances.tolist(), strict=True
+        ):
+            if notification.acknowledged:
+                last_arrival = max(last_arrival, notification.t)
+                packets.append(Packet(notification.t, site, notification.channel, notification.data))
                 continue
-            if lost < self.loss:
+            if loss < self.loss:
                 continue
-            data = item.data
-            if damaged < self.corrupt:
+            data = notification.data
+            if corrupt < self.corrupt:
                 data = _flip(data, rng)
-            if cut < self.truncate:
+            if truncate < self.truncate:
                 data = data[: int(rng.integers(0, len(data)))]
-            copies = (delay, again) if twice < self.duplicate else (delay,)
-            for part in copies:
-                arrival = item.t + self.latency + self.jitter * part
+            delays = (delay, second_delay) if duplicate < self.duplicate else (delay,)
+            for share in delays:
+                arrival = notification.t + self.latency + self.jitter * share
                 if self.interval > 0.0:
                     arrival = phase + self.interval * ceil((arrival - phase) / self.interval)
                 if self.in_order:
-                    arrival = newest = max(newest, arrival)
-                found.append(Packet(float(arrival), site, item.channel, data))
-        return found if self.in_order else sorted(found, key=attrgetter("t"))
+                    arrival = last_arrival = max(last_arrival, arrival)
+                packets.append(Packet(float(arrival), site, notification.channel, data))
+        return packets if self.in_order else sorted(packets, key=attrgetter("t"))
 
 
 CLEAN = Radio()
-"""A good link: no loss, latency from 5 to 9 ms."""
+"""A good link, without loss and with a latency from 5 to 9 ms."""
 
 
 def _flip(data: bytes, rng: Rng) -> bytes:

@@ -33,9 +33,9 @@ class EmulatedWalk:
     packets: tuple[Packet, ...]
     """Packets of all sites in the order of arrival."""
     truth: Truth
-    """Ground truth for sensors that are mounted as the devices have them."""
+    """Ground truth for sensors with the mountings of the devices."""
     walker: Walker
-    """The walker that the devices measured: exact kinematics, loads, and samples without a radio."""
+    """The walker whose motion the devices measured, with exact kinematics, loads, and samples without a radio."""
 
 
 def emulate(
@@ -46,10 +46,10 @@ def emulate(
     radio: Radio = CLEAN,
     seed: int = 1,
 ) -> EmulatedWalk:
-    """Walk `route` and return what the receiver gets. Without `devices`, both feet wear insoles of 96 cells at 100 Hz.
+    """Return the packets and the truth of a walk on `route`.
 
-    Sites above the ankle wear devices that send their own attitude (Dot). A device that only feet can wear raises
-    ValueError at any other site."""
+    Without `devices`, both feet wear insoles of 96 cells at 100 Hz. Sites above the ankle can wear only devices that
+    send their own attitude (Dot); any other device raises ValueError there."""
     if devices is None:
         devices = {SITE_OF_FOOT[foot]: Insole() for foot in Foot}
     walker = Walker(route, wearer, seed)
@@ -71,21 +71,23 @@ class SampledWalk:
     samples: tuple[Sample, ...]
     """Samples of both feet in the order of time."""
     truth: Truth
-    """Ground truth for sensors that are mounted as the insoles have them."""
+    """Ground truth for sensors with the mountings of the insoles."""
     walker: Walker
-    """The walker that the insoles measured."""
+    """The walker whose motion the insoles measured."""
 
 
 def sampled(
     route: Route, *, wearer: Wearer | None = None, insoles: Mapping[Site, Insole] | None = None, seed: int = 1
 ) -> SampledWalk:
-    """Return the walk of `emulate` with these arguments, without packets: the same values at their true times."""
+    """Return the walk of `emulate` with the same arguments as samples at their true times, without packets."""
     if insoles is None:
         insoles = {SITE_OF_FOOT[foot]: Insole() for foot in Foot}
     walker = Walker(route, wearer, seed)
-    found = [
-        one for site, insole in insoles.items() for one in insole.samples(walker, site, device_numbers(seed, site))
+    samples = [
+        sample
+        for site, insole in insoles.items()
+        for sample in insole.samples(walker, site, device_numbers(seed, site))
     ]
-    found.sort(key=attrgetter("t"))
+    samples.sort(key=attrgetter("t"))
     mountings = {foot_of(site): insole.mounting for site, insole in insoles.items()}
-    return SampledWalk(tuple(found), walker.truth(mountings), walker)
+    return SampledWalk(tuple(samples), walker.truth(mountings), walker)

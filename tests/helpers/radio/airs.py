@@ -72,12 +72,12 @@ def troubles(packets: list[Packet]) -> list[str]:
 
 
 def whole(packets: list[Packet]) -> list[Packet]:
-    """Return the packets with fragments joined, each frame at the arrival of its last fragment."""
-    under_way = defaultdict[Site, Reassembly](Reassembly)
+    """Return the packets with fragments joined to frames, which arrive when their last fragment arrives."""
+    reassemblies = defaultdict[Site, Reassembly](Reassembly)
     found = []
     for packet in packets:
         if packet.channel == "insole/frame" and is_fragment(packet.data):
-            frame, dropped = under_way[packet.site].feed(parse_fragment(packet.data))
+            frame, dropped = reassemblies[packet.site].feed(parse_fragment(packet.data))
             assert dropped is None
             if frame is not None:
                 found.append(evolve(packet, data=bytes(frame)))

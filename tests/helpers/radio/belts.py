@@ -115,7 +115,7 @@ def times(packets: list[Packet], channel: str) -> list[float]:
 
 
 def failing(beneath: Backend, errors: list[Exception | None]) -> Backend:
-    """Return a backend whose scans start with these errors, in turn."""
+    """Return a backend whose next scans fail to start with these errors, in order; None starts."""
     scanner: Any = beneath.scanner
 
     class Scanner(scanner):

@@ -49,7 +49,7 @@ def set_up(device: Peripheral, profile: Profile, now: float = 0.0, mtu: int = 24
 
 
 def played(device: Peripheral, until: float, channel: str = "") -> Received:
-    """Return what the device sends until `until`, with the times; only of `channel` if it is given."""
+    """Return the notifications until `until`, s, with their times; only those of `channel` if it is given."""
     received: Received = []
     while (due := device.next_due()) is not None and due <= until:
         received += [(due, outgoing) for outgoing in device.poll(due)]

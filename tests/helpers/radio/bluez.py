@@ -21,9 +21,9 @@ from solepath.emulate.devices.attributes import Characteristic, Service
 from solepath.emulate.devices.peripheral import Peripheral
 
 ADAPTER = "/org/bluez/hci0"
-ADVERTISING = 0.1
+ADVERTISING_INTERVAL = 0.1
 """Time between the advertisements of a device, s."""
-SIGNAL = -60
+SIGNAL_STRENGTH = -60
 """Received signal strength, dBm."""
 NOT_PAIRED = DBusError("org.bluez.Error.NotPermitted", "Not paired")
 
@@ -44,14 +44,14 @@ T = TypeVar("T")
 
 
 class Bluez(bus.Service):
-    """The service org.bluez; `adapter`: there is an adapter, `powered`: it is on."""
+    """The service org.bluez; `adapter` says whether there is an adapter, `powered` whether it is on."""
 
     def __init__(self, peripherals: Iterable[Peripheral], *, adapter: bool = True, powered: bool = True) -> None:
         super().__init__()
         self._devices = {f"{ADAPTER}/dev_{one.address.replace(':', '_')}": one for one in peripherals}
         self._links: dict[str, LoopbackLink] = {}
         self._channels: dict[str, tuple[str, str]] = {}
-        """Path of the device and channel, by the path of the characteristic."""
+        """Path of the device, and channel, for each path of a characteristic."""
         self._scanning: set[str] = set()
         """Bus names of the programs that discover."""
         if adapter:
@@ -103,10 +103,10 @@ class Bluez(bus.Service):
             for path, device in self._devices.items():
                 if self._scanning and path not in self._links and device.visible(loop.time()):
                     self._report_device(path, device)
-            await asyncio.sleep(ADVERTISING)
+            await asyncio.sleep(ADVERTISING_INTERVAL)
 
     def _report_device(self, path: str, device: Peripheral) -> None:
-        signal = Variant("n", SIGNAL)
+        signal = Variant("n", SIGNAL_STRENGTH)
         if path in self.objects:
             self.change(path, _DEVICE, RSSI=signal)
             return
@@ -187,7 +187,7 @@ class Bluez(bus.Service):
             raise DBusError("org.bluez.Error.AlreadyConnected", "Already Connected")
         loop = asyncio.get_running_loop()
         while not device.visible(loop.time()):
-            await asyncio.sleep(ADVERTISING)  # until it is cancelled
+            await asyncio.sleep(ADVERTISING_INTERVAL)  # until it is cancelled
         self._links[path] = LoopbackLink(device, device.mtu, 0.01, lambda: self._lost(path))
         device.is_encrypted = self.objects[path][_DEVICE]["Paired"].value
         self.change(path, _DEVICE, Connected=Variant("b", True))

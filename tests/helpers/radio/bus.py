@@ -58,7 +58,7 @@ async def message_bus(directory: Path) -> AsyncIterator[str]:
 
 
 class DBusError(Exception):
-    """The service answers a call with this error."""
+    """The error with which the service answers a call."""
 
     def __init__(self, name: str, words: str) -> None:
         super().__init__(name, words)
@@ -68,7 +68,7 @@ class DBusError(Exception):
 class Service(ABC):
     """Objects by path, with their properties by interface.
 
-    `errors` has the errors that answer the next calls of a method ("Device1.Connect"), `calls` all calls so far.
+    `errors` lists the errors that answer the next calls of a method ("Device1.Connect"), `calls` all calls so far.
     """
 
     def __init__(self) -> None:
@@ -84,7 +84,7 @@ class Service(ABC):
 
     @abstractmethod
     def client_left(self, sender: str) -> None:
-        """Handle that the program with this name has left the bus."""
+        """Discard the state of the program with this bus name, which has left the bus."""
 
     @asynccontextmanager
     async def owning(self, name: str, address: str) -> AsyncIterator[None]:
@@ -113,10 +113,10 @@ class Service(ABC):
 
     def change(self, path: str, interface: str, *removed: str, **properties: Variant) -> None:
         """Set properties to new values, and remove others."""
-        held = self.objects[path][interface]
-        held.update(properties)
+        known = self.objects[path][interface]
+        known.update(properties)
         for name in removed:
-            held.pop(name, None)
+            known.pop(name, None)
         self._emit(path, _PROPERTIES, "PropertiesChanged", "sa{sv}as", [interface, properties, list(removed)])
 
     def _emit(self, path: str, interface: str, member: str, signature: str, body: list[Any]) -> None:

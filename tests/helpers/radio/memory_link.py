@@ -1,4 +1,4 @@
-"""A connection to an emulated device in one process: requests one by one, notifications when they are due."""
+"""A connection to an emulated device in the same process."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ T = TypeVar("T")
 class LoopbackLink:
     """A connection that delivers requests one after the other, and notifications when they are due."""
 
-    def __init__(self, device: Peripheral, mtu: int, round_trip: float, lost: Callable[[], None]) -> None:
+    def __init__(self, device: Peripheral, mtu: int, round_trip: float, on_lost: Callable[[], None]) -> None:
         self.mtu = mtu
         self.callbacks: dict[str, NotifyCallback] = {}
-        self._device, self._round_trip, self._lost = device, round_trip, lost
+        self._device, self._round_trip, self._on_lost = device, round_trip, on_lost
         self._loop = asyncio.get_running_loop()
         self._closed = self._loop.create_future()
-        self._turn = asyncio.Lock()
+        self._request_lock = asyncio.Lock()
         self._timer: asyncio.TimerHandle | None = None
         device.changed = self._schedule
         device.connected(self._loop.time(), mtu)
@@ -35,7 +35,7 @@ class LoopbackLink:
 
     async def request(self, do: Callable[[float], T | None]) -> T:
         """Return the device's answer; raise BleakGATTProtocolError when it rejects, BleakError when the link ends."""
-        async with self._turn:
+        async with self._request_lock:
             await asyncio.wait([self._closed], timeout=self._round_trip)
             if self.is_up:
                 try:
@@ -48,7 +48,7 @@ class LoopbackLink:
             raise BleakError("disconnected")
 
     def command(self, do: Callable[[float], object]) -> None:
-        """Write without response: errors are not reported."""
+        """Write without response; errors are not reported."""
         if self.is_up:
             try:
                 do(self._loop.time())
@@ -64,7 +64,7 @@ class LoopbackLink:
             self._timer.cancel()
         self._device.changed = None
         self._device.disconnected(self._loop.time())
-        self._lost()
+        self._on_lost()
 
     def _schedule(self) -> None:
         if self._timer is not None:
@@ -90,5 +90,5 @@ class LoopbackLink:
             return
         try:
             callback(bytearray(outgoing.value[: self.mtu - 3]))
-        except Exception as error:  # the host's own; the next notification comes all the same
+        except Exception as error:  # raised by the host; the next notification is delivered all the same
             self._loop.call_exception_handler({"message": "a notification's callback failed", "exception": error})

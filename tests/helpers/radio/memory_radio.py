@@ -4,10 +4,9 @@
     device = await BleakScanner.find_device_by_name("solepath L", backend=reach.backend.scanner)
     async with BleakClient(device, backend=reach.backend.client) as client: ...
 
-A host sees the same as on a real link: devices advertise, one host at a time connects. Each request takes its time and
-is answered, rejected (BleakGATTProtocolError) or ended by the loss of the link (BleakError). A notification that is
-longer than the MTU allows is cut without an error. Time is that of the running loop.
-"""
+A host sees what it would see on a real link. Devices advertise, and one host at a time connects. Each request takes
+`round_trip` s and is answered, rejected (BleakGATTProtocolError) or ended by the loss of the link (BleakError). A
+notification that is longer than the MTU allows is cut without an error. Time is that of the running loop."""
 
 from __future__ import annotations
 
@@ -31,15 +30,15 @@ from solepath.emulate.devices.attributes import SMALLEST_MTU, AttCode, Character
 from solepath.emulate.devices.peripheral import Peripheral
 from solepath.link.profile import standard_uuid
 
-ADVERTISING = 0.1
+ADVERTISING_INTERVAL = 0.1
 """Time between advertisements of a device, s."""
-SIGNAL = -50
+SIGNAL_STRENGTH = -50
 """Received signal strength of every device, dBm."""
-_SUBSCRIPTION = standard_uuid(0x2902)
+_CONFIGURATION_UUID = standard_uuid(0x2902)
 
 
 class MemoryRadio:
-    """The devices within reach; `mtu` is the MTU that the host requests, `round_trip` the time of a request, s."""
+    """The devices within reach; `mtu` is the ATT MTU that the host requests, `round_trip` the time of a request, s."""
 
     def __init__(self, peripherals: Iterable[Peripheral], *, mtu: int = 247, round_trip: float = 0.015) -> None:
         self.peripherals = tuple(peripherals)
@@ -49,10 +48,10 @@ class MemoryRadio:
         """Addresses of the devices that the host is paired with."""
 
         class MemoryClient(_MemoryClient):
-            air = self
+            radio = self
 
         class MemoryScanner(_Scanner):
-            air = self
+            radio = self
 
         self.backend = Backend(MemoryClient, MemoryScanner)
 
@@ -62,7 +61,7 @@ class MemoryRadio:
 
 
 class _MemoryClient(BaseBleakClient):
-    air: ClassVar[MemoryRadio]
+    radio: ClassVar[MemoryRadio]
 
     def __init__(self, address_or_ble_device: BLEDevice | str, **kwargs: Any) -> None:
         requested: set[str] | None = kwargs.pop("services", None)
@@ -88,9 +87,9 @@ class _MemoryClient(BaseBleakClient):
     async def connect(self, pair: bool, **kwargs: Any) -> None:
         if self.is_connected:
             raise BleakError("already connected")
-        device = await self._found(float(kwargs.get("timeout", self._timeout)))
+        device = await self._find_device(float(kwargs.get("timeout", self._timeout)))
         self._device, self._name = device, device.name
-        link = self._link = LoopbackLink(device, min(self.air.mtu, device.mtu), self.air.round_trip, self._on_lost)
+        link = self._link = LoopbackLink(device, min(self.radio.mtu, device.mtu), self.radio.round_trip, self._on_lost)
         try:
             await self._encrypt(pair)
         except BaseException:
@@ -99,21 +98,21 @@ class _MemoryClient(BaseBleakClient):
         self.services = _collection(device, self._requested_services, link.mtu)
         self._established = True
 
-    async def _found(self, timeout: float) -> Peripheral:
+    async def _find_device(self, timeout: float) -> Peripheral:
         loop = asyncio.get_running_loop()
-        give_up = loop.time() + timeout
+        deadline = loop.time() + timeout
         while True:
-            await asyncio.sleep(self.air.round_trip)
-            for device in self.air.advertising(loop.time()):
+            await asyncio.sleep(self.radio.round_trip)
+            for device in self.radio.advertising(loop.time()):
                 if device.address.lower() == self.address.lower():
                     return device
-            if loop.time() >= give_up:
+            if loop.time() >= deadline:
                 raise BleakDeviceNotFoundError(self.address, f"no device with the address {self.address} is in reach")
-            await asyncio.sleep(ADVERTISING)
+            await asyncio.sleep(ADVERTISING_INTERVAL)
 
     async def disconnect(self) -> None:
         if self._link is not None:
-            await asyncio.sleep(self.air.round_trip)
+            await asyncio.sleep(self.radio.round_trip)
         if self._link is not None:
             self._link.lose()
 
@@ -125,33 +124,33 @@ class _MemoryClient(BaseBleakClient):
 
     async def _encrypt(self, pair: bool) -> None:
         """Encrypt the link with the keys of an earlier pairing, or pair first if `pair`."""
-        link, device = self._up()
-        if device.address in self.air.paired:
-            await link.request(lambda now: _encrypted(device))
+        link, device = self._open_link()
+        if device.address in self.radio.paired:
+            await link.request(lambda now: _encrypt_link(device))
         elif pair:
             await self.pair()
 
     async def pair(self, *args: Any, **kwargs: Any) -> None:
-        link, device = self._up()
-        if device.address in self.air.paired:
+        link, device = self._open_link()
+        if device.address in self.radio.paired:
             return
         if not await link.request(device.accepts_pairing):
             raise BleakError("the device refused to be paired")
-        await link.request(lambda now: _encrypted(device))
-        self.air.paired.add(device.address)
+        await link.request(lambda now: _encrypt_link(device))
+        self.radio.paired.add(device.address)
 
     async def unpair(self) -> None:
         """Delete the pairing and end the link."""
-        self.air.paired.discard(self.address)
+        self.radio.paired.discard(self.address)
         await self.disconnect()
 
     async def read_gatt_char(self, characteristic: BleakGATTCharacteristic, **kwargs: Any) -> bytearray:
-        link, device = self._up()
+        link, device = self._open_link()
         channel = _channel(characteristic)
         return bytearray(await link.request(lambda now: device.read(channel, now)))
 
     async def write_gatt_char(self, characteristic: BleakGATTCharacteristic, data: SizedBuffer, response: bool) -> None:
-        link, device = self._up()
+        link, device = self._open_link()
         channel, value = _channel(characteristic), bytes(data)
         if response:
             await link.request(lambda now: device.write(channel, value, now) or None)
@@ -159,42 +158,42 @@ class _MemoryClient(BaseBleakClient):
             link.command(lambda now: device.write(channel, value, now))
 
     async def read_gatt_descriptor(self, descriptor: BleakGATTDescriptor, **kwargs: Any) -> bytearray:
-        link, _ = self._up()
+        link, _ = self._open_link()
         on = _channel_of(descriptor) in link.callbacks
         return bytearray(await link.request(lambda now: bytes([on, 0])))
 
     async def write_gatt_descriptor(self, descriptor: BleakGATTDescriptor, data: SizedBuffer) -> None:
-        self._up()
+        self._open_link()
         raise BleakGATTProtocolError(AttCode.WRITE_NOT_PERMITTED)
 
     async def start_notify(
         self, characteristic: BleakGATTCharacteristic, callback: NotifyCallback, **kwargs: Any
     ) -> None:
-        link, device = self._up()
+        link, device = self._open_link()
         channel = _channel(characteristic)
         if channel in link.callbacks:
             raise BleakError("notifications have been started already")
         link.callbacks[channel] = callback
         try:
-            await link.request(lambda now: _subscribed(device, channel, True, now))
+            await link.request(lambda now: _subscribe(device, channel, True, now))
         except BaseException:
             link.callbacks.pop(channel, None)
             raise
 
     async def stop_notify(self, characteristic: BleakGATTCharacteristic) -> None:
-        link, device = self._up()
+        link, device = self._open_link()
         channel = _channel(characteristic)
-        await link.request(lambda now: _subscribed(device, channel, False, now))
+        await link.request(lambda now: _subscribe(device, channel, False, now))
         link.callbacks.pop(channel, None)
 
-    def _up(self) -> tuple[LoopbackLink, Peripheral]:
+    def _open_link(self) -> tuple[LoopbackLink, Peripheral]:
         if self._link is None or self._device is None:
             raise BleakError("not connected")
         return self._link, self._device
 
 
 class _Scanner(BaseBleakScanner):
-    air: ClassVar[MemoryRadio]
+    radio: ClassVar[MemoryRadio]
 
     def __init__(
         self,
@@ -219,42 +218,48 @@ class _Scanner(BaseBleakScanner):
 
     def _listen(self) -> None:
         loop = asyncio.get_running_loop()
-        self._timer = loop.call_later(ADVERTISING, self._listen)
-        for device in self.air.advertising(loop.time()):
+        self._timer = loop.call_later(ADVERTISING_INTERVAL, self._listen)
+        for device in self.radio.advertising(loop.time()):
             advertisement = AdvertisementData(
                 local_name=device.name,
                 manufacturer_data={},
                 service_data={},
                 service_uuids=list(device.advertised),
                 tx_power=None,
-                rssi=SIGNAL,
+                rssi=SIGNAL_STRENGTH,
                 platform_data=(device,),
             )
             if self.is_allowed_uuid(advertisement.service_uuids):
-                seen = self.create_or_update_device(device.address, device.address, device.name, device, advertisement)
-                self.call_detection_callbacks(seen, advertisement)
+                ble_device = self.create_or_update_device(
+                    device.address, device.address, device.name, device, advertisement
+                )
+                self.call_detection_callbacks(ble_device, advertisement)
 
 
 def _collection(device: Peripheral, requested: set[str] | None, mtu: int) -> BleakGATTServiceCollection:
     """Return the device's attributes as discovery finds them, with consecutive handles."""
-    found = BleakGATTServiceCollection()
+    collection = BleakGATTServiceCollection()
     handle = 0
     for service in device.services:
         handle += 1
         if requested and service.uuid not in requested:
             continue
         group = BleakGATTService(service, handle, service.uuid)
-        found.add_service(group)
+        collection.add_service(group)
         for characteristic in service.characteristics:
             handle += 1
             names = cast(list[CharacteristicPropertyName], sorted(characteristic.properties))
-            one = BleakGATTCharacteristic(characteristic, handle, characteristic.uuid, names, lambda: mtu - 3, group)
-            found.add_characteristic(one)
+            bleak_characteristic = BleakGATTCharacteristic(
+                characteristic, handle, characteristic.uuid, names, lambda: mtu - 3, group
+            )
+            collection.add_characteristic(bleak_characteristic)
             handle += 1
             if "notify" in characteristic.properties:
                 handle += 1
-                found.add_descriptor(BleakGATTDescriptor(characteristic, handle, _SUBSCRIPTION, one))
-    return found
+                collection.add_descriptor(
+                    BleakGATTDescriptor(characteristic, handle, _CONFIGURATION_UUID, bleak_characteristic)
+                )
+    return collection
 
 
 def _channel(characteristic: BleakGATTCharacteristic) -> str:
@@ -267,11 +272,11 @@ def _channel_of(descriptor: BleakGATTDescriptor) -> str:
     return attribute.channel
 
 
-def _subscribed(device: Peripheral, channel: str, on: bool, now: float) -> bool:
+def _subscribe(device: Peripheral, channel: str, on: bool, now: float) -> bool:
     device.subscribe(channel, on, now)
     return True
 
 
-def _encrypted(device: Peripheral) -> bool:
+def _encrypt_link(device: Peripheral) -> bool:
     device.is_encrypted = True
     return True

@@ -35,7 +35,7 @@ SERVICES = (
     Service(LOG, (Characteristic(PAGE, "strap/page", frozenset({"read"})),)),
 )
 BOOK = bytes(range(250)) * 2
-"""Value of strap/page: longer than any packet."""
+"""Value of strap/page, which is longer than any packet."""
 
 
 @frozen
@@ -56,7 +56,7 @@ class Count:
 
 
 class Strap(Peripheral):
-    """Sends a counter at the rate written to strap/control, one byte, Hz; it rejects values of any other length."""
+    """A strap that sends a counter at the rate, Hz, that one byte written to strap/control sets."""
 
     size = 20
 

@@ -1,4 +1,4 @@
-"""The virtual radio in virtual time, for tests: sleeping takes no real time; a strap, and a host that logs."""
+"""Tests of the virtual radio in virtual time, in which sleeping takes no real time; a strap, and a host that logs."""
 
 from __future__ import annotations
 
@@ -40,10 +40,10 @@ def virtually(test: Callable[..., Awaitable[None]]) -> Callable[..., None]:
     """Run an async test in virtual time."""
 
     @wraps(test)
-    def run_it(*given: Any, **named: Any) -> None:
+    def run_in_virtual_time(*given: Any, **named: Any) -> None:
         run(lambda: test(*given, **named))
 
-    return run_it
+    return run_in_virtual_time
 
 
 def now() -> float:

@@ -1,4 +1,4 @@
-"""Client and scanner of bleak over a virtual central, for `BleakClient(..., backend=)`, as with a real adapter."""
+"""Client and scanner of bleak over a virtual central, to be passed as `BleakClient(..., backend=)`."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from .radio import VirtualRadio, end_link
 _T = TypeVar("_T")
 
 _SMALLEST_MTU = 23
-_PAIRING = 30.0
+_PAIRING_TIMEOUT = 30.0
 """Time after which a pairing has failed, s (Bluetooth Core, vol 3 part H, 3.4)."""
 _PAIRING_ERRORS: dict[tuple[str, int | None], str] = {
     ("smp", int(smp.ErrorCode.PAIRING_NOT_SUPPORTED)): "the device refused to be paired",
@@ -63,7 +63,7 @@ def _uuid(uuid: core.UUID) -> str:
 
 
 class RadioScanner(BaseBleakScanner):
-    """Scanner of the advertisements on the virtual link."""
+    """A scanner of the advertisements on the virtual medium."""
 
     radio: ClassVar[VirtualRadio]
 
@@ -108,7 +108,7 @@ class RadioScanner(BaseBleakScanner):
 
 
 class RadioClient(BaseBleakClient):
-    """A GATT client on the virtual link.
+    """A GATT client on the virtual medium.
 
     The disconnected callback is called once for every established link, whichever side ended it. A pending request then
     ends with a BleakError."""
@@ -139,9 +139,9 @@ class RadioClient(BaseBleakClient):
     async def connect(self, pair: bool, **kwargs: Any) -> None:
         """Connect, exchange the MTU and discover the services.
 
-        With the keys of an earlier pairing the link is encrypted; without keys and with `pair` the device is paired.
-        `timeout`, s: a device that does not answer raises TimeoutError; an address that no device advertises raises
-        BleakDeviceNotFoundError; a link that is lost at once, or a failed pairing, raises BleakError."""
+        With the keys of an earlier pairing the link is encrypted; without keys and with `pair` the device is paired. A
+        device that does not answer within `timeout` s raises TimeoutError. An address that no device advertises raises
+        BleakDeviceNotFoundError. A link that is lost at once, or a failed pairing, raises BleakError."""
         if self._link is not None:
             raise BleakError("already connected")
         timeout: float = kwargs.get("timeout", self._timeout)
@@ -169,28 +169,28 @@ class RadioClient(BaseBleakClient):
             self._established = True
 
     async def _discover(self, peer: Peer) -> BleakGATTServiceCollection:
-        found = BleakGATTServiceCollection()
+        collection = BleakGATTServiceCollection()
         for service in await peer.discover_services():
             if self._requested_services and _uuid(service.uuid) not in self._requested_services:
                 continue
-            ours = BleakGATTService(service, service.handle, _uuid(service.uuid))
-            found.add_service(ours)
+            bleak_service = BleakGATTService(service, service.handle, _uuid(service.uuid))
+            collection.add_service(bleak_service)
             for characteristic in await service.discover_characteristics():
                 properties = list(gatt_char_props_to_strs(int(characteristic.properties)))
-                of_ours = BleakGATTCharacteristic(
+                bleak_characteristic = BleakGATTCharacteristic(
                     characteristic,
                     characteristic.handle,
                     _uuid(characteristic.uuid),
                     properties,
                     self._payload_size,
-                    ours,
+                    bleak_service,
                 )
-                found.add_characteristic(of_ours)
+                collection.add_characteristic(bleak_characteristic)
                 for descriptor in await characteristic.discover_descriptors():
-                    found.add_descriptor(
-                        BleakGATTDescriptor(descriptor, descriptor.handle, _uuid(descriptor.type), of_ours)
+                    collection.add_descriptor(
+                        BleakGATTDescriptor(descriptor, descriptor.handle, _uuid(descriptor.type), bleak_characteristic)
                     )
-        return found
+        return collection
 
     def _payload_size(self) -> int:
         """Return the size of a value that fits in one ATT packet, bytes."""
@@ -219,7 +219,7 @@ class RadioClient(BaseBleakClient):
         if link.is_encrypted:
             return
         try:
-            async with asyncio.timeout(_PAIRING):
+            async with asyncio.timeout(_PAIRING_TIMEOUT):
                 await self._request(link.pair)
         except TimeoutError as error:
             await self.disconnect()
@@ -243,8 +243,8 @@ class RadioClient(BaseBleakClient):
             await self.disconnect()
             raise BleakError("the device did not answer") from error
         except core.ProtocolError as error:
-            known = _PAIRING_ERRORS.get((error.error_namespace, error.error_code))
-            raise BleakError(known or str(error)) from error
+            message = _PAIRING_ERRORS.get((error.error_namespace, error.error_code))
+            raise BleakError(message or str(error)) from error
         except (core.BaseBumbleError, TimeoutError) as error:
             raise BleakError(str(error)) from error
 
@@ -280,12 +280,14 @@ class RadioClient(BaseBleakClient):
     async def stop_notify(self, characteristic: BleakGATTCharacteristic) -> None:
         subscriber = self._subscriptions.pop(characteristic.handle, None)
         if subscriber is not None:
-            with suppress(BleakGATTProtocolError):  # notifications are off here, also when the device answers an error
+            with suppress(
+                BleakGATTProtocolError
+            ):  # bleak's side is unsubscribed even when the device answers with an error
                 await self._request(partial(characteristic.obj.unsubscribe, subscriber))
 
 
 def _deliver(callback: NotifyCallback, value: bytes) -> None:
-    """Call the app's callback; its exception goes to the loop's handler and does not look like an unreadable packet."""
+    """Call the app's callback; report its exception to the event loop, so that it is not taken for a bad packet."""
     try:
         callback(bytearray(value))
     except Exception as error:

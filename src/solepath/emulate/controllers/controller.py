@@ -1,8 +1,8 @@
-"""Virtual controllers: those of bumble on a shared link, corrected where they differ from the Core specification.
+"""Virtual Bluetooth controllers: those of bumble on a shared medium, corrected by the Core specification.
 
 Three corrections matter in tests of a reconnect. A cancelled connection request really ends. When a device has just
-accepted another central, a second central does not keep a link that is dead from the start. A scan response has its own
-data. Extended advertising and privacy are left out: nothing here needs them."""
+accepted another central, a second central does not keep a link that was never established. A scan response has its own
+data. Extended advertising and privacy are left out because nothing here needs them."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ class VirtualMedium(LocalLink):
     def send_advertising_pdu(self, sender_controller: Controller, packet: ll.AdvertisingPdu) -> None:
         if self._interval is not None and isinstance(packet, ll.ConnectInd):
             self._end(packet.initiator_address, packet.advertiser_address)
-            ends = frozenset((packet.initiator_address, packet.advertiser_address))
-            self._events[ends] = ConnectionEvents(self._interval)
+            addresses = frozenset((packet.initiator_address, packet.advertiser_address))
+            self._events[addresses] = ConnectionEvents(self._interval)
         super().send_advertising_pdu(sender_controller, packet)
 
     def send_acl_data(
@@ -48,27 +48,27 @@ class VirtualMedium(LocalLink):
         transport: core.PhysicalTransport,
         data: bytes,
     ) -> None:
-        go = partial(super().send_acl_data, sender_controller, destination_address, transport, data)
+        deliver = partial(super().send_acl_data, sender_controller, destination_address, transport, data)
         events = self._events.get(frozenset((sender_controller.random_address, destination_address)))
         if events is None:
-            go()
+            deliver()
         else:
-            events.send(go)
+            events.send(deliver)
 
     def send_ll_control_pdu(
         self, sender_address: hci.Address, receiver_address: hci.Address, packet: ll.ControlPdu
     ) -> None:
-        go = partial(super().send_ll_control_pdu, sender_address, receiver_address, packet)
+        deliver = partial(super().send_ll_control_pdu, sender_address, receiver_address, packet)
         events = self._events.get(frozenset((sender_address, receiver_address)))
         if events is None:
-            go()
+            deliver()
         elif isinstance(packet, ll.TerminateInd):
             # bumble's controllers drop a link that they end, so earlier packets must arrive now
             events.flush()
-            go()
+            deliver()
             self._end(sender_address, receiver_address)
         else:
-            events.send(go)
+            events.send(deliver)
 
     def _end(self, one: hci.Address, other: hci.Address) -> None:
         events = self._events.pop(frozenset((one, other)), None)
@@ -76,7 +76,7 @@ class VirtualMedium(LocalLink):
             events.end()
 
     def lose(self, controller: Controller, connection: Connection) -> None:
-        """End a link as radio silence does: both sides see a supervision timeout."""
+        """End a link as radio silence does; both sides then report a supervision timeout."""
         self._end(connection.self_address, connection.peer_address)
         for end in list(self.controllers):
             other = end.le_connections.get(connection.self_address)
@@ -86,17 +86,17 @@ class VirtualMedium(LocalLink):
             controller.on_le_disconnected(connection, hci.HCI_ErrorCode.CONNECTION_TIMEOUT_ERROR)
 
     def leave(self, controller: Controller) -> None:
-        """Remove a controller from the medium, as if it had lost its power."""
+        """Remove a controller from the medium, as if it had lost power."""
         controller.le_legacy_advertiser.stop()
         for connection in list(controller.le_connections.values()):
             self.lose(controller, connection)
-        for ends in [ends for ends in self._events if controller.random_address in ends]:
-            self._end(*ends)
+        for addresses in [addresses for addresses in self._events if controller.random_address in addresses]:
+            self._end(*addresses)
         self.controllers.discard(controller)
 
 
 class VirtualController(Controller):
-    """One controller on the medium; `advertisement()` returns the data to advertise, None for no advertisement."""
+    """A controller on the medium; `advertisement()` returns the data to advertise, or None for no advertisement."""
 
     le_acl_data_packet_length = 251  # data length extension: an ATT MTU of 247 needs no fragments
     le_features = Controller.le_features & ~(
@@ -107,7 +107,7 @@ class VirtualController(Controller):
 
     def __init__(self, name: str, link: VirtualMedium, advertisement: Callable[[], bytes | None] | None = None) -> None:
         super().__init__(name, link=link)
-        self.air = link
+        self.medium = link
         self.advertisement = advertisement
 
     def send_advertising_pdu(self, packet: ll.AdvertisingPdu) -> None:
@@ -119,12 +119,12 @@ class VirtualController(Controller):
         super().send_advertising_pdu(packet)
 
     def on_advertising_pdu(self, pdu: ll.AdvInd | ll.AdvExtInd) -> None:
-        """Report the advertisement, and in an active scan the scan response of the device too."""
+        """Report the advertisement, and in an active scan also the scan response of the device."""
         address = pdu.advertiser_address
         if self.le_scan_enable:
             self._report(hci.HCI_LE_Advertising_Report_Event.EventType.ADV_IND, address, pdu.data)
             if self.le_scan_type == hci.HCI_LE_Set_Scan_Parameters_Command.ACTIVE_SCANNING:
-                device = self.air.find_le_controller(address)
+                device = self.medium.find_le_controller(address)
                 answer = device.le_legacy_advertiser.scan_response_data if device is not None else b""
                 self._report(hci.HCI_LE_Advertising_Report_Event.EventType.SCAN_RSP, address, answer)
         pending = self.pending_le_connection
@@ -142,13 +142,15 @@ class VirtualController(Controller):
         self.send_hci_packet(hci.HCI_LE_Advertising_Report_Event([report]))
 
     def on_le_connect_ind(self, packet: ll.ConnectInd) -> None:
-        """Accept a connection; without advertising do not answer, so that the link is not established (0x3E)."""
-        mine = packet.advertiser_address == self.random_address
-        if mine and not self.le_legacy_advertiser.enabled:
-            caller = self.air.find_le_controller(packet.initiator_address)
-            half = caller.le_connections.get(packet.advertiser_address) if caller is not None else None
-            if caller is not None and half is not None:
-                caller.on_le_disconnected(half, hci.HCI_ErrorCode.CONNECTION_FAILED_TO_BE_ESTABLISHED_ERROR)
+        """Accept a connection; when not advertising, do not answer, so that the link is not established (0x3E)."""
+        is_addressed = packet.advertiser_address == self.random_address
+        if is_addressed and not self.le_legacy_advertiser.enabled:
+            initiator = self.medium.find_le_controller(packet.initiator_address)
+            half_open_link = initiator.le_connections.get(packet.advertiser_address) if initiator is not None else None
+            if initiator is not None and half_open_link is not None:
+                initiator.on_le_disconnected(
+                    half_open_link, hci.HCI_ErrorCode.CONNECTION_FAILED_TO_BE_ESTABLISHED_ERROR
+                )
             return
         super().on_le_connect_ind(packet)
 
@@ -174,46 +176,48 @@ class VirtualController(Controller):
         return hci.HCI_StatusReturnParameters(hci.HCI_ErrorCode.SUCCESS)
 
 
-_TOLERANCE = 1e-6
-"""Rounding error of summed floats, as a part of an interval."""
+_INTERVAL_TOLERANCE = 1e-6
+"""Tolerance for the rounding of summed times, as a share of an interval."""
 
 
 class ConnectionEvents:
-    """The connection events of one link, `interval` s apart; the first is `interval` s after the link was made.
+    """The connection events of one link, `interval` s apart; the first is `interval` s after the link starts.
 
-    All packets that are ready at an event go in their order. There is no limit on their number, as a real radio has.
-    Answers go at the next event."""
+    All packets that are ready at an event are sent in order. Their number is not limited, unlike on a real radio.
+    Answers are sent at the next event."""
 
     def __init__(self, interval: float) -> None:
         self.interval = interval
         self._loop = asyncio.get_running_loop()
         self._t_start = self._loop.time()
-        self._done = 0
+        self._last_event = 0
         """Number of the last event at which a packet was sent."""
-        self._ready: list[Callable[[], None]] = []
+        self._ready_packets: list[Callable[[], None]] = []
         self._timer: asyncio.TimerHandle | None = None
 
     def send(self, packet: Callable[[], None]) -> None:
         """Call `packet` at the next event."""
-        self._ready.append(packet)
+        self._ready_packets.append(packet)
         if self._timer is None:
-            number = max(self._done + 1, ceil((self._loop.time() - self._t_start) / self.interval - _TOLERANCE))
+            number = max(
+                self._last_event + 1, ceil((self._loop.time() - self._t_start) / self.interval - _INTERVAL_TOLERANCE)
+            )
             self._timer = self._loop.call_at(self._t_start + number * self.interval, self._event, number)
 
     def flush(self) -> None:
-        """Send all ready packets now, because the link ends in an orderly way."""
-        ready = self._ready
+        """Send all ready packets now, because one side ends the link."""
+        ready_packets = self._ready_packets
         self.end()
-        for packet in ready:
+        for packet in ready_packets:
             packet()
 
     def end(self) -> None:
         """Discard all ready packets, because the link has ended."""
-        self._ready = []
+        self._ready_packets = []
         if self._timer is not None:
             self._timer.cancel()
             self._timer = None
 
     def _event(self, number: int) -> None:
-        self._done = number
+        self._last_event = number
         self.flush()

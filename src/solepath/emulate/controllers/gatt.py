@@ -53,4 +53,4 @@ def advertisement(name: str, services: Sequence[str]) -> bytes:
     entries.append(data_types.CompleteLocalName(name))
     flags = AdvertisingData.Flags.LE_GENERAL_DISCOVERABLE_MODE | AdvertisingData.Flags.BR_EDR_NOT_SUPPORTED
     full = bytes(AdvertisingData([data_types.Flags(flags), *entries]))
-    return full if len(full) <= emulated.ADVERTISEMENT else bytes(AdvertisingData(entries))
+    return full if len(full) <= emulated.MAX_ADVERTISEMENT_SIZE else bytes(AdvertisingData(entries))

@@ -1,7 +1,7 @@
-"""One virtual central: a bumble Device that scanners and clients share, opened when it is first needed.
+"""A virtual central: a bumble Device that scanners and clients share, opened when it is first needed.
 
-A controller makes one connection at a time. An attempt to reach a device that does not answer holds the controller for
-a few seconds, lets the other attempts go first and then repeats, until its own time is over."""
+A controller makes one connection at a time. An attempt to connect to a device that does not answer occupies the
+controller for ATTEMPT_TIMEOUT s. It then lets other attempts go first and repeats until its caller gives up."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from bumble.transport.common import Transport
 _T = TypeVar("_T")
 
 ATTEMPT_TIMEOUT = 2.0
-"""Time that one attempt to connect may hold the controller, s; devices advertise about every 0.1 s."""
+"""Time for which one attempt to connect may occupy the controller, s; devices advertise about every 0.1 s."""
 CONTROLLER_TIMEOUT = 5.0
 """Time that a controller may take to start or to end a link, s."""
 RETRY_INTERVAL = 1.0
@@ -35,8 +35,8 @@ class VirtualRadio:
     """A central behind an HCI transport.
 
     `reach` opens the transport and raises OSError when there is none; after a loss the next scan or connection calls it
-    again. `where` names the transport in messages. `address` is the static random address of the central; None: any.
-    `mtu` is the ATT MTU that the central requests, bytes."""
+    again. `where` is the name of the transport in messages. `address` is the static random address of the central;
+    None: any. `mtu` is the ATT MTU that the central requests, bytes."""
 
     def __init__(
         self, reach: Callable[[], Awaitable[Transport]], where: str, mtu: int, address: str | None = None
@@ -50,14 +50,14 @@ class VirtualRadio:
         self._device: Device | None = None
         self._transport: Transport | None = None
         self._listeners: list[ScanListener] = []
-        self._opening = asyncio.Lock()
-        self._connecting = asyncio.Lock()
+        self._opening_lock = asyncio.Lock()
+        self._connecting_lock = asyncio.Lock()
         self._tasks: set[asyncio.Task[Any]] = set()
         self._closed = False
 
     async def device(self) -> Device:
         """Return the started Device; raise a BleakError that names `where` when it cannot be reached."""
-        async with self._opening:
+        async with self._opening_lock:
             if self._device is None:
                 await self._open()
             if self._device is None:
@@ -92,8 +92,8 @@ class VirtualRadio:
     def _lost(self, device: Device) -> None:
         """Handle the loss of the transport.
 
-        bumble has already reported it to every link, but tasks that wait for the controller would wait for ever. Scans
-        continue as soon as the controller is back."""
+        bumble has already reported the loss to every link, but tasks that wait for the controller would wait for ever.
+        Scans continue as soon as the controller can be reached again."""
         if self._device is device:
             self._device = self._transport = None
             for task in self._tasks:
@@ -147,12 +147,12 @@ class VirtualRadio:
             listener(advertisement)
 
     async def connect(self, peer: hci.Address) -> Connection:
-        """Return a link to the device of this address; try until cancelled. Raise BleakError when the controller fails.
+        """Return a link to the device of this address; try until cancelled.
 
-        A link that is lost as soon as it is made raises BleakError too."""
+        A controller that fails raises BleakError, and so does a link that is lost as soon as it is made."""
         while True:
             device = await self.device()
-            async with self._connecting:
+            async with self._connecting_lock:
                 attempt = self.task(device.connect(peer, timeout=ATTEMPT_TIMEOUT))
                 try:
                     link = await asyncio.shield(attempt)
@@ -184,18 +184,18 @@ class VirtualRadio:
         """Start a task that ends when the radio closes."""
         task = asyncio.get_running_loop().create_task(work)
         self._tasks.add(task)
-        task.add_done_callback(self._done)
+        task.add_done_callback(self._forget_task)
         return task
 
-    def _done(self, task: asyncio.Task[Any]) -> None:
+    def _forget_task(self, task: asyncio.Task[Any]) -> None:
         self._tasks.discard(task)
         if not task.cancelled():
-            task.exception()  # marks it as retrieved: a caller that still waits has it, and no other needs it
+            task.exception()  # marks the exception as retrieved, for the case that no caller waits any more
 
     async def finish(self, work: Coroutine[Any, Any, _T]) -> _T:
         """Run an exchange with the controller or a device to its end, even when the caller gives up.
 
-        After an abandoned request its answer would be taken for the answer to the next request. An exchange that ends
+        The late answer to an abandoned request would be taken for the answer to the next request. An exchange that ends
         with the link raises BleakError."""
         task = self.task(work)
         try:
@@ -234,7 +234,7 @@ def is_up(link: Connection) -> bool:
 
 
 async def end_link(link: Connection) -> None:
-    """Disconnect; return when both sides know it, or when the link has ended in any other way."""
+    """Disconnect; return when both sides have confirmed it, or when the link has ended in any other way."""
     if not is_up(link):
         return
     try:
@@ -248,31 +248,31 @@ async def end_link(link: Connection) -> None:
 
 
 def _cancelled() -> bool:
-    """Return whether the running task itself is cancelled, and not the task that it waits for."""
+    """Return whether the running task itself is cancelled, not only the task that it waits for."""
     task = asyncio.current_task()
     return task is not None and task.cancelling() > 0
 
 
 _KEYS = PairingDelegate.KeyDistribution.DISTRIBUTE_ENCRYPTION_KEY
-"""Keys that a pairing exchanges; no identities, because the addresses are static."""
+"""Keys that a pairing exchanges; identities are not needed, because the addresses are static."""
 
 
 class PairingConsent(PairingDelegate):
-    """A pairing delegate; `agrees()` decides whether to accept a pairing that the other side starts."""
+    """A pairing delegate; `accepts()` decides whether to accept a pairing that the other side starts."""
 
-    def __init__(self, agrees: Callable[[], bool]) -> None:
+    def __init__(self, accepts: Callable[[], bool]) -> None:
         super().__init__(local_initiator_key_distribution=_KEYS, local_responder_key_distribution=_KEYS)
-        self._agrees = agrees
+        self._accepts = accepts
 
     async def accept(self) -> bool:
-        return self._agrees()
+        return self._accepts()
 
 
-def just_works(device: Device, agrees: Callable[[], bool]) -> None:
+def just_works(device: Device, accepts: Callable[[], bool]) -> None:
     """Let the device pair by LE Secure Connections, Just Works, with bonding (the keys are kept).
 
-    When the other side starts the pairing, `agrees()` decides."""
-    pairing_consent = PairingConsent(agrees)
+    When the other side starts the pairing, `accepts()` decides."""
+    pairing_consent = PairingConsent(accepts)
 
     def config(link: Connection) -> PairingConfig:
         return PairingConfig(sc=True, mitm=False, bonding=True, delegate=pairing_consent)

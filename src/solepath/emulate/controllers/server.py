@@ -34,13 +34,13 @@ from .radio import VirtualRadio, end_link, just_works
 
 _T = TypeVar("_T")
 
-ADVERTISING = 62.5
-"""Advertising interval as bumble's host takes it, ms.
+ADVERTISING_INTERVAL = 62.5
+"""Advertising interval that bumble's host is given, ms; the real one is 100 ms.
 
-bumble's controller reads the 0.625 ms units of HCI as milliseconds, so the interval is 100 ms."""
-_CENTRAL = "C0:50:1E:9A:74:01"
-_STANDARD = ("0000180a", "0000180f")
-"""Services that the Bluetooth SIG defines: their characteristics need no description."""
+The reason is that bumble's controller reads the 0.625 ms units of HCI as milliseconds."""
+_CENTRAL_ADDRESS = "C0:50:1E:9A:74:01"
+_STANDARD_SERVICES = ("0000180a", "0000180f")
+"""Starts of the UUIDs of services whose characteristics need no description; the Bluetooth SIG defines them."""
 
 
 @asynccontextmanager
@@ -50,16 +50,16 @@ async def virtual_air(
     """Serve the devices in this process, in the time of this loop, and yield a Backend that reaches them.
 
     `mtu` is the ATT MTU that the central requests; a device may accept less. `interval` is the time between the
-    connection events of each link, s: all ready packets go then, requests and answers too (0.0075 to 4 s on a real
-    link, often 0.03). None: packets do not wait."""
+    connection events of each link, s, at which all ready packets are sent, requests and answers too (0.0075 to 4 s on a
+    real link, often 0.03). None: packets do not wait."""
     link = VirtualMedium(interval)
     controller = VirtualController("central", link)
 
     async def reach() -> Transport:
         return Transport(controller, AsyncPipeSink(controller))
 
-    async with on_air(peripherals, link):
-        radio = VirtualRadio(reach, "the virtual controller", mtu, _CENTRAL)
+    async with advertise_devices(peripherals, link):
+        radio = VirtualRadio(reach, "the virtual controller", mtu, _CENTRAL_ADDRESS)
         try:
             yield backend_of(radio)
         finally:
@@ -68,7 +68,7 @@ async def virtual_air(
 
 
 @asynccontextmanager
-async def on_air(peripherals: Iterable[Peripheral], link: VirtualMedium) -> AsyncIterator[None]:
+async def advertise_devices(peripherals: Iterable[Peripheral], link: VirtualMedium) -> AsyncIterator[None]:
     """Let the devices advertise and serve on this link until the block is left."""
     servers = [Server(device, link) for device in peripherals]
     try:
@@ -81,19 +81,19 @@ async def on_air(peripherals: Iterable[Peripheral], link: VirtualMedium) -> Asyn
 
 
 class Server:
-    """GATT server of one Peripheral: calls it at the times that it returns, and sends what it returns."""
+    """The GATT server of one Peripheral: it polls the device when values are due, and sends them."""
 
-    def __init__(self, peripheral: Peripheral, air: VirtualMedium) -> None:
-        self.peripheral, self.air = peripheral, air
+    def __init__(self, peripheral: Peripheral, medium: VirtualMedium) -> None:
+        self.peripheral, self.medium = peripheral, medium
         self._loop = asyncio.get_running_loop()
         self._link: Connection | None = None
         self._timer: asyncio.TimerHandle | None = None
         self._due = 0.0
-        self._silence: asyncio.Future[bytes] | None = None
+        self._link_end: asyncio.Future[bytes] | None = None
         self._restart: asyncio.Task[None] | None = None
         self._stopped = False
         self._controller = VirtualController(
-            peripheral.name, air, lambda: self._advertised() if peripheral.visible(self._loop.time()) else None
+            peripheral.name, medium, lambda: self._advertised() if peripheral.visible(self._loop.time()) else None
         )
         config = DeviceConfiguration(
             name=self.peripheral.name,
@@ -107,8 +107,10 @@ class Server:
         self._device.add_service(GenericAccessService(peripheral.name))
         self._served: dict[str, Characteristic[bytes]] = {}
         for service in peripheral.services:
-            described = not service.uuid.startswith(_STANDARD)
-            found = {each.channel: self._characteristic(each, described) for each in service.characteristics}
+            described = not service.uuid.startswith(_STANDARD_SERVICES)
+            found = {
+                attribute.channel: self._characteristic(attribute, described) for attribute in service.characteristics
+            }
             self._device.add_service(Service(short_or_long(service.uuid), list(found.values())))
             self._served |= found
         self._device.on(Device.EVENT_CONNECTION, self._connected)
@@ -123,7 +125,7 @@ class Server:
         served: Characteristic[bytes] = Characteristic(
             short_or_long(attribute.uuid),
             properties,
-            att.Attribute.READABLE | att.Attribute.WRITEABLE,  # the device itself rejects what is not permitted
+            att.Attribute.READABLE | att.Attribute.WRITEABLE,  # the Peripheral itself rejects what is not permitted
             CharacteristicValue(
                 read=partial(self.read, attribute.channel), write=partial(self.write, attribute.channel)
             ),
@@ -149,13 +151,13 @@ class Server:
         self._disarm()
         self.peripheral.changed = None
         await self._device.power_off()
-        self.air.leave(self._controller)
+        self.medium.leave(self._controller)
 
     async def _advertise(self) -> None:
         await self._device.start_advertising(
             advertising_data=self._advertised(),
-            advertising_interval_min=ADVERTISING,
-            advertising_interval_max=ADVERTISING,
+            advertising_interval_min=ADVERTISING_INTERVAL,
+            advertising_interval_max=ADVERTISING_INTERVAL,
         )
 
     def _advertised(self) -> bytes:
@@ -163,7 +165,7 @@ class Server:
 
     def _connected(self, link: Connection) -> None:
         self._link = link
-        self._silence = self._loop.create_future()
+        self._link_end = self._loop.create_future()
         self._device.gatt_server.max_mtu = self.peripheral.mtu
         link.on(Connection.EVENT_DISCONNECTION, partial(self._disconnected, link))
         link.on(Connection.EVENT_CONNECTION_ATT_MTU_UPDATE, lambda: self._update_link_state(link))
@@ -180,13 +182,13 @@ class Server:
             return
         self._link = None
         self._disarm()
-        if self._silence is not None:
-            self._silence.cancel()
+        if self._link_end is not None:
+            self._link_end.cancel()
         self.peripheral.disconnected(self._loop.time())
         if not self._stopped:
             self._restart = self._loop.create_task(self._advertise())
 
-    # requests; the channel is the first argument, since it is bound when the table of attributes is made
+    # requests; the channel is the first argument because it is bound when the table of attributes is built
 
     async def read(self, channel: str, link: Connection) -> bytes:
         """Return the value of a channel."""
@@ -203,7 +205,7 @@ class Server:
         self._request(partial(self.peripheral.subscribe, channel, notify))
 
     def _request(self, request: Callable[[float], _T]) -> _T:
-        """Return the device's answer, or raise its error as an ATT error; then set the timer again."""
+        """Return the device's answer, or raise its error as an ATT error; set the timer again in both cases."""
         try:
             return request(self._loop.time())
         except AttError as error:
@@ -216,9 +218,9 @@ class Server:
 
     async def _no_answer(self) -> bytes:
         """Wait until the link ends, for a request that the device never answers."""
-        if self._silence is None:
+        if self._link_end is None:
             raise att.ATT_Error(att.ATT_UNLIKELY_ERROR_ERROR)
-        return await asyncio.shield(self._silence)
+        return await asyncio.shield(self._link_end)
 
     def _disarm(self) -> None:
         if self._timer is not None:
@@ -245,6 +247,6 @@ class Server:
             self._device.gatt_server.send_gatt_pdu(link, bytes(pdu))
         if self.peripheral.hang_up(now):
             for connection in list(self._controller.le_connections.values()):
-                self.air.lose(self._controller, connection)
+                self.medium.lose(self._controller, connection)
         else:
             self._arm()

@@ -22,11 +22,11 @@ from ..devices.peripheral import Peripheral
 from .central import backend_of
 from .controller import VirtualController, VirtualMedium
 from .radio import VirtualRadio
-from .server import on_air
+from .server import advertise_devices
 
 _SCHEME = "tcp:"
 _BACKLOG = 1 << 20
-"""Bytes that a client may leave unread before it is disconnected, as a link without answers is."""
+"""Number of bytes that a client may leave unread before it is disconnected (assumed)."""
 
 
 @asynccontextmanager
@@ -38,7 +38,7 @@ async def serve(peripherals: Iterable[Peripheral], host: str, port: int) -> Asyn
     be used raises OSError."""
     link = VirtualMedium()
     clients: set[_TcpClient] = set()
-    async with on_air(peripherals, link):
+    async with advertise_devices(peripherals, link):
         listening = await asyncio.get_running_loop().create_server(lambda: _TcpClient(link, clients), host, port)
         try:
             address = listening.sockets[0].getsockname()
@@ -51,10 +51,10 @@ async def serve(peripherals: Iterable[Peripheral], host: str, port: int) -> Asyn
 
 
 class _TcpClient(asyncio.Protocol):
-    """One client's controller, at the other end of its TCP connection."""
+    """The TCP connection of one client, and the virtual controller that it drives."""
 
     def __init__(self, link: VirtualMedium, clients: set[_TcpClient]) -> None:
-        self._air = link
+        self._medium = link
         self._clients = clients
         self._parser = PacketParser(self)
         self._transport: asyncio.Transport | None = None
@@ -63,7 +63,7 @@ class _TcpClient(asyncio.Protocol):
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         self._transport = cast(asyncio.Transport, transport)
         self._transport.set_write_buffer_limits(high=_BACKLOG)
-        self._controller = VirtualController("client", self._air)
+        self._controller = VirtualController("client", self._medium)
         self._controller.host = StreamPacketSink(self._transport)
         self._clients.add(self)
 
@@ -74,7 +74,7 @@ class _TcpClient(asyncio.Protocol):
             self.drop()  # the client does not speak HCI
 
     def on_packet(self, packet: bytes) -> None:
-        """Handle a whole HCI packet from the parser."""
+        """Handle a complete HCI packet from the parser."""
         if self._controller is None:
             return
         try:
@@ -95,7 +95,7 @@ class _TcpClient(asyncio.Protocol):
             return
         self._clients.discard(self)
         controller.host = None
-        self._air.leave(controller)
+        self._medium.leave(controller)
         self._transport.abort()
 
 

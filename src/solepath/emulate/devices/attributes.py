@@ -26,14 +26,14 @@ class AttCode(IntEnum):
 
 SMALLEST_MTU = 23
 """Default ATT MTU of a link, bytes."""
-ADVERTISEMENT = 31
-"""Size of a legacy advertisement, bytes (Bluetooth Core, vol 6 part B, 2.3.1)."""
-SIG = "-0000-1000-8000-00805f9b34fb"
-"""End of every UUID of the Bluetooth SIG; only 16 bits of the first half differ between them."""
+MAX_ADVERTISEMENT_SIZE = 31
+"""Largest size of a legacy advertisement, bytes (Bluetooth Core, vol 6 part B, 2.3.1)."""
+SIG_UUID_END = "-0000-1000-8000-00805f9b34fb"
+"""End of every UUID that the Bluetooth SIG assigns; these UUIDs differ only in 16 bits of the start."""
 
 
 class AttError(Exception):
-    """The device rejects a request with this ATT error code."""
+    """The error code with which the device rejects a request."""
 
     def __init__(self, code: int) -> None:
         super().__init__(f"ATT error {code:#04x}")
@@ -63,15 +63,15 @@ class Service:
 
 @frozen
 class Outgoing:
-    """A notification that is due now."""
+    """A notification that must be sent now."""
 
     channel: str
     value: bytes
 
 
 def is_short(uuid: str) -> bool:
-    """Return whether the UUID is one of the Bluetooth SIG, so that 16 bits identify it."""
-    return uuid.startswith("0000") and uuid.endswith(SIG)
+    """Return whether the Bluetooth SIG assigned the UUID, so that 16 bits identify it."""
+    return uuid.startswith("0000") and uuid.endswith(SIG_UUID_END)
 
 
 def check_fits(name: str, services: Sequence[str]) -> None:
@@ -79,8 +79,8 @@ def check_fits(name: str, services: Sequence[str]) -> None:
     short = sum(map(is_short, services))
     long = len(services) - short
     size = 2 + len(name.encode()) + (2 + 2 * short if short else 0) + (2 + 16 * long if long else 0)
-    if size > ADVERTISEMENT:
-        raise ValueError(f"the name {name!r} and the services make {size} bytes, {ADVERTISEMENT} fit")
+    if size > MAX_ADVERTISEMENT_SIZE:
+        raise ValueError(f"the name {name!r} and the services make {size} bytes, {MAX_ADVERTISEMENT_SIZE} fit")
 
 
 READ = frozenset({"read"})
@@ -88,7 +88,7 @@ NOTIFY = frozenset({"notify"})
 WRITE = frozenset({"write"})
 
 BATTERY_STEP = 600.0
-"""Time in which the battery loses one percent, s."""
+"""Time in which the battery loses one percent, s (assumed)."""
 
 _INFORMATION = {"manufacturer": 0x2A29, "model": 0x2A24, "hardware": 0x2A27, "software": 0x2A28}
 _DEVICE_INFORMATION = 0x180A
@@ -102,8 +102,9 @@ def services(
 ) -> tuple[Service, ...]:
     """Return the services of a device.
 
-    They hold the channels of `profile` with their `properties`, the pairs (service, characteristic) of `more`, and the
-    characteristics of Device Information that `information` names (manufacturer, model, hardware, software)."""
+    The services contain the channels of `profile` with these `properties`, the pairs (service, characteristic) of
+    `more`, and the characteristics of Device Information that `information` names (manufacturer, model, hardware,
+    software)."""
     table = [(c.service, Characteristic(c.characteristic, c.name, properties[c.name])) for c in profile.channels]
     table += more
     for name in information:

@@ -22,9 +22,9 @@ from .peripheral import Peripheral, Placement
 class Bench:
     """Virtual devices worn on `route`; by default the insoles "solepath L" and "solepath R" on both feet.
 
-    SensorTags have their product names, the same on both feet; only the address distinguishes them.
-    It is F0:5E:00:00:00:01 for the first site in the order of Site that wears a device, :02 for the next.
-    `started_at` is the loop's time at which the walk starts. A device that the site cannot wear raises ValueError."""
+    Both SensorTags have the same product name, so only the address distinguishes them. The first site, in the order of
+    Site, that wears a device has the address F0:5E:00:00:00:01, the next one :02. The walk starts at `started_at`, s,
+    on the clock of the event loop. A device that the site cannot wear raises ValueError."""
 
     def __init__(
         self,
@@ -56,26 +56,26 @@ class Bench:
         raise KeyError(site)
 
     def walk_from(self, started_at: float) -> None:
-        """Restart the walk at this time of the loop."""
+        """Restart the walk at this time of the event loop, s."""
         for peripheral in self.peripherals:
             peripheral.walk_from(started_at)
 
     def prepare(self) -> None:
-        """Compute now what the devices send after their usual setup, so that no host waits for it."""
+        """Compute the signals of all devices now, so that no host waits for them."""
         for peripheral in self.peripherals:
             peripheral.prepare()
 
     def truth(self) -> Truth:
-        """Return the ground truth, in times of the walk."""
+        """Return the ground truth of the walk; its times count from the start of the walk."""
         return self.walker.truth({foot_of(site): device.mounting for site, device in self.devices.items()})
 
 
-def _peripheral(device: Device, walker: Walker, seed: int, worn: Placement) -> Peripheral:
+def _peripheral(device: Device, walker: Walker, seed: int, placement: Placement) -> Peripheral:
     match device:
         case Insole():
-            return InsolePeripheral(device, walker, seed, worn)
+            return InsolePeripheral(device, walker, seed, placement)
         case CC2650():
-            return CC2650Peripheral(device, walker, seed, worn)
+            return CC2650Peripheral(device, walker, seed, placement)
         case CC2541():
-            return CC2541Peripheral(device, walker, seed, worn)
+            return CC2541Peripheral(device, walker, seed, placement)
     raise ValueError(f"no peripheral is known for {type(device).__name__}")

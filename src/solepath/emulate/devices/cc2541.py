@@ -1,6 +1,6 @@
 """The emulated CC2541 SensorTag as a GATT server: protocol/cc2541.md from the device's side.
 
-Like the CC2650 it accepts any configuration, and each sensor keeps its own errors for every period."""
+Like the CC2650 it accepts any configuration, and a sensor has the same errors at every period."""
 
 from __future__ import annotations
 
@@ -13,58 +13,58 @@ from ..sensors.tag_signals import Series
 from ..wearers.walker import Walker
 from .attributes import AttCode, AttError
 from .peripheral import Placement
-from .tag import STOCK, Encoder, Presses, Sensor, Tag, checked_code, constant_sensors, shortest
+from .tag import STOCK_PERIOD, Encoder, KeyPresses, Sensor, Tag, checked_code, constant_sensors, shortest_period
 
-# Constant values of the sensors that do not measure the wearer: 24 degrees Celsius, half of the air's moisture.
-_ROOM = {"cc2541/infrared": bytes.fromhex("0000000c"), "cc2541/humidity": bytes.fromhex("3867b072")}
+# Constant values of the sensors that do not measure the wearer: 24 degrees Celsius, 50 % humidity.
+_CONSTANT_VALUES = {"cc2541/infrared": bytes.fromhex("0000000c"), "cc2541/humidity": bytes.fromhex("3867b072")}
 
 
 class CC2541Peripheral(Tag):
     """A CC2541 on a foot."""
 
-    def __init__(self, device: CC2541, walker: Walker, seed: int, worn: Placement) -> None:
+    def __init__(self, device: CC2541, walker: Walker, seed: int, placement: Placement) -> None:
         self.device = device
-        numbers = device_numbers(seed, worn.site)
+        numbers = device_numbers(seed, placement.site)
         clock = draw_clock(numbers, 1.0 / device.rate, device.ppm)
         self._delays = {**DELAYS, "cc2541/gyroscope": float(numbers.uniform()) / device.rate}
-        self._shortest = shortest(device.rate)
+        self._shortest_period = shortest_period(device.rate)
         sensors = (
-            Sensor("cc2541/accelerometer", 100, self._shortest, bytes(3)),
-            Sensor("cc2541/gyroscope", 100, self._shortest, bytes(6)),
-            Sensor("cc2541/magnetometer", 200, STOCK, bytes(6)),
-            Sensor("cc2541/barometer", 100, STOCK, bytes(4)),
-            *constant_sensors(_ROOM),
+            Sensor("cc2541/accelerometer", 100, self._shortest_period, bytes(3)),
+            Sensor("cc2541/gyroscope", 100, self._shortest_period, bytes(6)),
+            Sensor("cc2541/magnetometer", 200, STOCK_PERIOD, bytes(6)),
+            Sensor("cc2541/barometer", 100, STOCK_PERIOD, bytes(4)),
+            *constant_sensors(_CONSTANT_VALUES),
         )
-        super().__init__(device, walker, seed, worn, clock, PROFILE, sensors, "SensorTag")
+        super().__init__(device, walker, seed, placement, clock, PROFILE, sensors, "SensorTag")
 
     def prepare(self) -> None:
         for sensor in ("cc2541/accelerometer", "cc2541/gyroscope"):
-            self.series(sensor, 0.01 * self._shortest)
+            self.series(sensor, 0.01 * self._shortest_period)
         for sensor in ("cc2541/magnetometer", "cc2541/barometer"):
             self.series(sensor, 1.0)
 
     def start(self, t: float) -> None:
-        self.flow("cc2541/keys", Presses(self.device.presses, *CC2541_KEYS), t)
+        self.flow("cc2541/keys", KeyPresses(self.device.presses, *CC2541_KEYS), t)
 
     def stop(self) -> None:
         super().stop()
-        self._fetched = False
+        self._calibration_requested = False
 
     def value(self, channel: str, t: float) -> bytes:
         if channel != "cc2541/barometer-calibration":
             return super().value(channel, t)
-        if not self._fetched:
+        if not self._calibration_requested:
             raise AttError(AttCode.READ_NOT_PERMITTED)
         return CALIBRATION
 
     def take(self, channel: str, value: bytes, t: float) -> None:
         super().take(channel, value, t)
         if channel == "cc2541/barometer-config" and value == b"\x02":
-            self._fetched = True
+            self._calibration_requested = True
 
     def encoder(self, sensor: str, config: bytes, period: float) -> Encoder | None:
-        most = {"cc2541/accelerometer": 3, "cc2541/gyroscope": 7, "cc2541/barometer": 2}.get(sensor, 1)
-        code = checked_code(config, most)
+        max_code = {"cc2541/accelerometer": 3, "cc2541/gyroscope": 7, "cc2541/barometer": 2}.get(sensor, 1)
+        code = checked_code(config, max_code)
         if not code or (sensor == "cc2541/barometer" and code == 2):
             return None
         return self._delays[sensor], partial(self._encode, sensor, code, period)

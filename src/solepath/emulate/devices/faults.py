@@ -1,7 +1,7 @@
 """Scripted faults of emulated devices: the syntax of a script, and its effect on one device.
 
-A script is text, one fault a line, `SECONDS SITE WHAT [AMOUNT]`; `#` starts a comment, `*` means every site and a
-semicolon ends a fault as the end of a line does:
+A line of a script is one fault, `SECONDS SITE WHAT [AMOUNT]`, or several faults with semicolons between them. `#`
+starts a comment and `*` means every site:
 
     12.5 left_foot disconnect         # the link is lost, the device advertises again at once
     20 right_foot vanish 60           # the link is lost and the device does not advertise for 60 s
@@ -34,9 +34,9 @@ from attrs import frozen
 
 from ...types import Site
 
-HANGING = 1.0
+HANG_TIME = 1.0
 """Time from a request that is never answered until the link is lost, s."""
-PAIRING = "pairing"
+PAIRING_ARGUMENT = "pairing"
 """Argument of the fault "refuse" that rejects an attempt to pair instead of a request to a channel."""
 
 
@@ -72,9 +72,9 @@ class Fault:
     kind: FaultKind
     """Kind of the fault."""
     amount: float = 1.0
-    """Duration in s for VANISH and FREEZE (inf by default), MTU for MTU, else a number of notifications or requests."""
+    """Duration, s, for VANISH and FREEZE (default inf), bytes for MTU, else the number of notifications or requests."""
     argument: str = ""
-    """Channel, or PAIRING, for REJECT; name for NAME."""
+    """Channel or PAIRING_ARGUMENT for REJECT, name for NAME; else empty."""
 
 
 _COUNTED = {FaultKind.DROP, FaultKind.DUPLICATE, FaultKind.TRUNCATE, FaultKind.FLIP, FaultKind.REJECT}
@@ -113,27 +113,27 @@ def _fault(words: list[str]) -> Fault:
         raise ValueError("a fault is SECONDS SITE WHAT [AMOUNT]")
     at, kind = _number(words[0], "seconds"), _one_of(FaultKind, words[2], "fault")
     site = None if words[1] == "*" else _one_of(Site, words[1], "site", "* and ")
-    rest = words[3:]
+    arguments = words[3:]
     argument = ""
     if kind in _NAMING:
-        if not rest:
+        if not arguments:
             raise ValueError(f"{kind.value} needs {_NAMING[kind]}")
-        argument, rest = rest[0], rest[1:]
-    takes = kind in _COUNTED | _LASTING | {FaultKind.MTU}
-    if len(rest) > takes:
+        argument, arguments = arguments[0], arguments[1:]
+    takes_amount = kind in _COUNTED | _LASTING | {FaultKind.MTU}
+    if len(arguments) > takes_amount:
         raise ValueError(f"too many words after {kind.value}")
-    return Fault(at, site, kind, _amount(kind, rest), argument)
+    return Fault(at, site, kind, _amount(kind, arguments), argument)
 
 
-def _amount(kind: FaultKind, rest: list[str]) -> float:
+def _amount(kind: FaultKind, arguments: list[str]) -> float:
     if kind is FaultKind.MTU:
-        amount = _number(rest[0], "MTU") if rest else 0.0
+        amount = _number(arguments[0], "MTU") if arguments else 0.0
         if amount != int(amount) or not 23 <= amount <= 517:
             raise ValueError("mtu needs a whole number from 23 to 517")
         return amount
-    if not rest:
+    if not arguments:
         return inf if kind in _LASTING else 1.0
-    amount = _number(rest[0], "amount")
+    amount = _number(arguments[0], "amount")
     if kind in _COUNTED and (amount != int(amount) or amount < 1):
         raise ValueError(f"{kind.value} needs a whole number, at least 1")
     return amount
@@ -149,30 +149,30 @@ def _number(word: str, kind: str) -> float:
     return value
 
 
-def _one_of(kind: type[_E], word: str, called: str, also: str = "") -> _E:
+def _one_of(kind: type[_E], word: str, noun: str, more_choices: str = "") -> _E:
     try:
         return kind(word)
     except ValueError:
-        there = ", ".join(one.value for one in kind)
-        raise ValueError(f"no {called} {word!r}; there are {also}{there}") from None
+        choices = ", ".join(one.value for one in kind)
+        raise ValueError(f"no {noun} {word!r}; there are {more_choices}{choices}") from None
 
 
 class FaultState:
-    """The faults of one device over time; `t` is always the time of the walk, s, and never decreases."""
+    """The faults of one device over time; `t` is always the time of the walk, s, and must not decrease."""
 
     def __init__(self, faults: Iterable[Fault], site: Site) -> None:
-        mine = [fault for fault in faults if fault.site in (None, site)]
-        self._coming = sorted(mine, key=attrgetter("at"))
+        site_faults = [fault for fault in faults if fault.site in (None, site)]
+        self._pending = sorted(site_faults, key=attrgetter("at"))
         self._random = random.Random(f"faults {site.value}")
-        self._left = dict.fromkeys(_COUNTED - {FaultKind.REJECT}, 0)
+        self._counts = dict.fromkeys(_COUNTED - {FaultKind.REJECT}, 0)
         self._rejections: dict[str, int] = {}
         self._hidden_until = -inf
         self._frozen_until = -inf
-        self._hang = False
+        self._hang_pending = False
         self._lost_at = inf
-        self.happened = 0
-        self.cut = False
-        """True when the link must be lost now."""
+        self.count = 0
+        self.must_disconnect = False
+        """True when the link must end now."""
         self.mtu: int | None = None
         """Largest MTU that the device accepts; None when no fault sets it."""
         self.restarted_at: float | None = None
@@ -184,18 +184,18 @@ class FaultState:
 
     def next_at(self) -> float:
         """Return the time of the next fault, s; inf when there is none."""
-        return min(self._coming[0].at if self._coming else inf, self._lost_at)
+        return min(self._pending[0].at if self._pending else inf, self._lost_at)
 
     def advance(self, t: float) -> None:
         """Apply all faults up to `t`."""
-        while self._coming and self._coming[0].at <= t:
-            self._start_fault(self._coming.pop(0))
+        while self._pending and self._pending[0].at <= t:
+            self._start_fault(self._pending.pop(0))
         if self._lost_at <= t:
-            self.cut, self._lost_at = True, inf
+            self.must_disconnect, self._lost_at = True, inf
 
     def connected(self) -> None:
-        """Start a new link: a pending loss of the old link does not end it; a pending HANG stays."""
-        self.cut, self._lost_at = False, inf
+        """Start a new link, which a pending loss of the old link does not end; a pending HANG stays."""
+        self.must_disconnect, self._lost_at = False, inf
 
     def hidden(self, t: float) -> bool:
         """Return whether the device does not advertise at `t`."""
@@ -206,40 +206,40 @@ class FaultState:
         return t < self._frozen_until
 
     def thaw(self) -> None:
-        """End a FREEZE."""
+        """End a FREEZE before its time."""
         self._frozen_until = -inf
 
     def rejects(self, channel: str) -> bool:
-        """Return whether the device rejects a request to the channel; call it once for each request."""
+        """Return whether the device rejects this request to the channel; each call counts as one request."""
         left = self._rejections.get(channel, 0)
         self._rejections[channel] = max(0, left - 1)
         return left > 0
 
     def hangs(self, t: float) -> bool:
-        """Return whether a request at `t` is never answered; later ones are not answered either until the link ends."""
-        if self._hang:
-            self._hang, self._lost_at = False, t + HANGING
+        """Return whether a request at `t` is never answered; after it no request is answered until the link ends."""
+        if self._hang_pending:
+            self._hang_pending, self._lost_at = False, t + HANG_TIME
         return self._lost_at < inf
 
     def apply(self, value: bytes) -> list[bytes]:
         """Return the notifications that are sent in place of one notification."""
-        if self._spend(FaultKind.DROP):
+        if self._use_up(FaultKind.DROP):
             return []
-        if self._spend(FaultKind.TRUNCATE):
+        if self._use_up(FaultKind.TRUNCATE):
             value = value[: self._random.randrange(len(value))] if value else value
-        if self._spend(FaultKind.FLIP):
+        if self._use_up(FaultKind.FLIP):
             value = self._flip(value)
-        return [value, value] if self._spend(FaultKind.DUPLICATE) else [value]
+        return [value, value] if self._use_up(FaultKind.DUPLICATE) else [value]
 
     def _start_fault(self, fault: Fault) -> None:
-        self.happened += 1
+        self.count += 1
         match fault.kind:
             case FaultKind.DISCONNECT:
-                self.cut = True
+                self.must_disconnect = True
             case FaultKind.RESTART:
-                self.cut, self.restarted_at = True, fault.at
+                self.must_disconnect, self.restarted_at = True, fault.at
             case FaultKind.VANISH:
-                self.cut, self._hidden_until = True, fault.at + fault.amount
+                self.must_disconnect, self._hidden_until = True, fault.at + fault.amount
             case FaultKind.FREEZE:
                 self._frozen_until = fault.at + fault.amount
             case FaultKind.MTU:
@@ -247,18 +247,18 @@ class FaultState:
             case FaultKind.REJECT:
                 self._rejections[fault.argument] = self._rejections.get(fault.argument, 0) + int(fault.amount)
             case FaultKind.HANG:
-                self._hang = True
+                self._hang_pending = True
             case FaultKind.NAME:
                 self.name = fault.argument
             case FaultKind.PAIRING:
                 self.needs_pairing = True
             case _:
-                self._left[fault.kind] += int(fault.amount)
+                self._counts[fault.kind] += int(fault.amount)
 
-    def _spend(self, kind: FaultKind) -> bool:
-        if self._left[kind] == 0:
+    def _use_up(self, kind: FaultKind) -> bool:
+        if self._counts[kind] == 0:
             return False
-        self._left[kind] -= 1
+        self._counts[kind] -= 1
         return True
 
     def _flip(self, value: bytes) -> bytes:

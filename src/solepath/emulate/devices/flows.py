@@ -1,4 +1,6 @@
-"""Values that the channels of an emulated device notify, and the time of the next one. Times are of the walk, s."""
+"""Values that the channels of an emulated device notify, and the time of the next one.
+
+All times count from the start of the walk, s."""
 
 from __future__ import annotations
 
@@ -9,18 +11,16 @@ from attrs import define, field
 
 
 class ValueSource(Protocol):
-    """The values of one channel: each has a number and a time."""
+    """The values of one channel, each with a number and a time; times grow with the number."""
 
     def after(self, t: float) -> int:
         """Return the number of the first value that is measured at `t` or later."""
 
     def due(self, number: int) -> float:
-        """Return the time at which the radio has the value, s: never before the previous one; inf when there is none.
-
-        Times grow with the number."""
+        """Return the time at which the radio has the value of this number, s; inf when there is no such value."""
 
     def values(self, number: int, mtu: int) -> Sequence[bytes]:
-        """Return the notifications of the value, in order: none, one, or several when one is too short."""
+        """Return the notifications of the value in order; there are several when the value is too long for one."""
 
 
 @define(eq=False)
@@ -63,8 +63,8 @@ class Flows:
         self._flows.clear()
         self._subscribed.clear()
 
-    def first(self, t: float) -> tuple[str | None, float]:
-        """Return the subscribed channel whose value is due first, and its time; None and `t` when none is due."""
+    def find_due(self, t: float) -> tuple[str | None, float]:
+        """Return the subscribed channel whose value is due first, and that time, s; None and `t` if none is due."""
         first, soonest = None, t
         for channel, flow in self._flows.items():
             if channel in self._subscribed:

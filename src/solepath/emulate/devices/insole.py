@@ -25,16 +25,16 @@ UNKNOWN_OPCODE = 0x80
 WRONG_VALUE = 0x81
 NOT_NOW = 0x82
 
-SHORTEST = 82
+SHORTEST_INTERVAL = 82
 """Shortest sampling interval of the emulated insole, ticks: 400 Hz."""
-KEPT = 20.0
-"""Time for which frames are kept for retransmission, s."""
-_BURST = 4
+KEEPING_TIME = 20.0
+"""Time for which sent frames are stored for retransmission, s."""
+_MAX_RESENT_FRAMES = 4
 """Largest number of frames that are retransmitted with each new frame."""
-_SIGNALS = 3
+_MAX_CACHED_SIGNALS = 3
 """Number of sampling intervals for which the measured walk is cached."""
 _OPCODES = range(1, 5)
-_LONGEST = 512
+_MAX_FRAME_SIZE = 512
 _HEADER_AND_CRC = 16
 
 _SERVICES = services(
@@ -54,14 +54,14 @@ _SERVICES = services(
 class _Frames:
     """A ValueSource of the frames of a signal.
 
-    `sequence` and `ticks` are added to those of the signal. `kept` has the numbers of the frames that were sent,
-    `to_resend` the numbers of the frames that must be sent again."""
+    `sequence` and `ticks` are added to those of the signal. `sent_numbers` are the numbers of recently sent frames,
+    `to_resend` those of frames that must be sent again."""
 
     signal: InsoleSignal
     batch: int
     sequence: int = 0
     ticks: int = 0
-    kept: deque[int] = Factory(deque)
+    sent_numbers: deque[int] = Factory(deque)
     to_resend: deque[int] = Factory(deque)
 
     def after(self, t: float) -> int:
@@ -72,11 +72,11 @@ class _Frames:
 
     def values(self, number: int, mtu: int) -> Sequence[bytes]:
         found = self._pieces(number, False, mtu)
-        for _ in range(min(_BURST, len(self.to_resend))):
+        for _ in range(min(_MAX_RESENT_FRAMES, len(self.to_resend))):
             found += self._pieces(self.to_resend.popleft(), True, mtu)
-        self.kept.append(number)
-        while len(self.kept) * self.signal.step * self.batch > KEPT:
-            self.kept.popleft()
+        self.sent_numbers.append(number)
+        while len(self.sent_numbers) * self.signal.step * self.batch > KEEPING_TIME:
+            self.sent_numbers.popleft()
         return found
 
     def frame(self, number: int) -> InsoleFrame:
@@ -84,19 +84,21 @@ class _Frames:
         sequence, ticks = (frame.sequence + self.sequence) % 2**16, (frame.ticks + self.ticks) % 2**32
         return evolve(frame, sequence=sequence, ticks=ticks)
 
-    def own_ticks(self, number: int) -> int:
-        """Return the ticks of a frame before `ticks` is added."""
+    def signal_ticks(self, number: int) -> int:
+        """Return the ticks of a frame without the offset `ticks`."""
         return self.signal.ticks + number * self.batch * self.signal.interval
 
     def elapsed(self, number: int, since: float) -> int:
         """Return the ticks of the device's clock from `since`, s, to the frame's first sample."""
-        return round((self.signal.taken(number, self.batch) - since) / self.signal.step * self.signal.interval)
+        return round((self.signal.sample_time(number, self.batch) - since) / self.signal.step * self.signal.interval)
 
     def resend(self, command: Resend) -> None:
-        """Queue the requested frames that are still kept; they go with the next frames."""
+        """Queue the requested frames, if they are still stored; they are sent with the next frames."""
         requested = {(command.first + i) % 2**16 for i in range(command.count)}
         offset = self.signal.sequence + self.sequence
-        self.to_resend += [n for n in self.kept if (offset + n) % 2**16 in requested and n not in self.to_resend]
+        self.to_resend += [
+            n for n in self.sent_numbers if (offset + n) % 2**16 in requested and n not in self.to_resend
+        ]
 
     def _pieces(self, number: int, retransmitted: bool, mtu: int) -> list[bytes]:
         frame = self.frame(number)
@@ -106,13 +108,13 @@ class _Frames:
 class InsolePeripheral(Peripheral):
     """A worn insole, "solepath L" or "solepath R", as a GATT server.
 
-    Its frames are byte for byte those of `device.emit` for the same walker, site, seed and interval, as long as SET
-    INTERVAL comes while it is stopped. When it comes while it runs, sequence and ticks continue. The signal of the
-    whole walk is computed once for each interval, when it is first needed or by `prepare`."""
+    The frames are byte for byte those of `device.emit` for the same walker, site, seed and interval, unless SET
+    INTERVAL comes while the insole is sampling; sequence and ticks then continue. The signal of the whole walk is
+    computed once for each interval, when it is first needed or by `prepare`."""
 
-    def __init__(self, device: Insole, walker: Walker, seed: int, worn: Placement) -> None:
-        name = f"solepath {'L' if foot_of(worn.site) is Foot.LEFT else 'R'}"
-        super().__init__(worn, name, _SERVICES, INSOLE.services)
+    def __init__(self, device: Insole, walker: Walker, seed: int, placement: Placement) -> None:
+        name = f"solepath {'L' if foot_of(placement.site) is Foot.LEFT else 'R'}"
+        super().__init__(placement, name, _SERVICES, INSOLE.services)
         self.device, self._walker, self._seed = device, walker, seed
         self._interval = device.interval
         self._signals: dict[int, InsoleSignal] = {}
@@ -131,7 +133,7 @@ class InsolePeripheral(Peripheral):
             if device.interval != self._interval:
                 device = evolve(device, rate=TICK_RATE / self._interval)
             found = device.measure(self._walker, self.site, device_numbers(self._seed, self.site))
-            while len(self._signals) >= _SIGNALS:
+            while len(self._signals) >= _MAX_CACHED_SIGNALS:
                 self._signals.pop(next(iter(self._signals)))
             self._signals[self._interval] = found
         return found
@@ -163,7 +165,7 @@ class InsolePeripheral(Peripheral):
                 self._frames = None
                 self.flow("insole/frame", None, t)
             case SetInterval(interval=interval):
-                self._interval = max(SHORTEST, interval)
+                self._interval = max(SHORTEST_INTERVAL, interval)
                 if self._frames is not None:
                     self._measure(self._continued_frames(self._frames, t), t)
             case Resend():
@@ -181,21 +183,21 @@ class InsolePeripheral(Peripheral):
         if self.restarted_at is not None:
             number = frames.after(t)
             frames.sequence = -(frames.signal.sequence + number) % 2**16
-            frames.ticks = (frames.elapsed(number, self.restarted_at) - frames.own_ticks(number)) % 2**32
+            frames.ticks = (frames.elapsed(number, self.restarted_at) - frames.signal_ticks(number)) % 2**32
         return frames
 
     def _batch(self) -> int:
-        """Return the samples per frame: those of the device, or fewer when the frame would have too many fragments."""
-        one = len(build_frame(self.signal().frame(0))) - _HEADER_AND_CRC
-        room = min(_LONGEST, max(self.agreed_mtu - 3, MAX_FRAGMENTS * (self.agreed_mtu - 4)))
-        return max(1, min(self.device.batch, (room - _HEADER_AND_CRC) // one))
+        """Return how many samples a frame has: `device.batch`, or fewer when there would be too many fragments."""
+        sample_size = len(build_frame(self.signal().frame(0))) - _HEADER_AND_CRC
+        max_size = min(_MAX_FRAME_SIZE, max(self.agreed_mtu - 3, MAX_FRAGMENTS * (self.agreed_mtu - 4)))
+        return max(1, min(self.device.batch, (max_size - _HEADER_AND_CRC) // sample_size))
 
     def _continued_frames(self, old: _Frames, t: float) -> _Frames:
         """Return the frames at the current interval that continue the sequence and the clock of the old ones at `t`."""
         new = _Frames(self.signal(), old.batch)
         number = new.after(t)
-        last = old.kept[-1] if old.kept else old.after(t) - 1
+        last = old.sent_numbers[-1] if old.sent_numbers else old.after(t) - 1
         new.sequence = (old.signal.sequence + old.sequence + last + 1 - new.signal.sequence - number) % 2**16
         ticks = old.signal.ticks + old.ticks + new.elapsed(number, old.signal.first)
-        new.ticks = (ticks - new.own_ticks(number)) % 2**32
+        new.ticks = (ticks - new.signal_ticks(number)) % 2**32
         return new

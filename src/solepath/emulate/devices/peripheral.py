@@ -1,7 +1,7 @@
-"""One emulated device as its server sees it: attributes to read and write, and notifications at their times.
+"""One emulated device for a GATT server: attributes to read and write, and notifications at their times.
 
-The device has no clock and no asyncio. The server passes the time of its loop as `now` (s, never decreasing) and does
-this for each connection:
+The device has no clock and no asyncio. The server passes the time of its event loop as `now`, s, which never decreases.
+It does this for each connection:
 
     device.connected(now, mtu)
     ... subscribe, read, write as the host requests ...
@@ -21,11 +21,11 @@ from attrs import frozen
 
 from ...types import Site
 from .attributes import SMALLEST_MTU, AttCode, AttError, Outgoing, Service, check_fits
-from .faults import PAIRING, Fault, FaultKind, FaultState
+from .faults import PAIRING_ARGUMENT, Fault, FaultKind, FaultState
 from .flows import Flows, ValueSource
 
-_AT_ONCE = 2e-6
-"""Time by which a timer may fire too early, s: the resolution of a loop's clock."""
+_TIMER_TOLERANCE = 2e-6
+"""Time by which a timer may fire too early, s; it is the resolution of an event loop's clock."""
 
 
 @frozen
@@ -39,9 +39,9 @@ class Placement:
     mtu: int = 247
     """Largest ATT MTU that the device accepts, bytes."""
     started_at: float = 0.0
-    """Time of the loop at which the walk starts, s; before it the wearer stands at the start."""
+    """Time of the event loop at which the walk starts, s; until then the wearer stands at the start."""
     faults: tuple[Fault, ...] = ()
-    """Script of faults for all devices; those of other sites have no effect on this one."""
+    """Script of faults for all devices; faults of other sites have no effect on this device."""
 
 
 class Peripheral:
@@ -49,17 +49,22 @@ class Peripheral:
 
     `sent` counts the sent notifications by channel. When `log` is a list, it collects all of them."""
 
-    def __init__(self, worn: Placement, name: str, services: Iterable[Service], advertised: Iterable[str]) -> None:
-        self.site, self.address = worn.site, worn.address
+    def __init__(self, placement: Placement, name: str, services: Iterable[Service], advertised: Iterable[str]) -> None:
+        self.site, self.address = placement.site, placement.address
         self.services = tuple(services)
         self.advertised = tuple(advertised)
         self.sent: dict[str, int] = {}
         self.log: list[Outgoing] | None = None
         self.changed: Callable[[], None] | None = None
-        for text in (name, *(fault.argument for fault in worn.faults if fault.kind is FaultKind.NAME)):
+        for text in (name, *(fault.argument for fault in placement.faults if fault.kind is FaultKind.NAME)):
             check_fits(text, self.advertised)
-        self._name, self._mtu, self._started_at, self._faults = name, worn.mtu, worn.started_at, worn.faults
-        self._fault_state = FaultState(worn.faults, worn.site)
+        self._name, self._mtu, self._started_at, self._faults = (
+            name,
+            placement.mtu,
+            placement.started_at,
+            placement.faults,
+        )
+        self._fault_state = FaultState(placement.faults, placement.site)
         self._properties = {c.channel: c.properties for service in self.services for c in service.characteristics}
         self._flows = Flows()
         self._now = -inf
@@ -80,13 +85,13 @@ class Peripheral:
         raise AttError(AttCode.WRITE_NOT_PERMITTED)
 
     def stop(self) -> None:
-        """Reset the device after the loss of its link; its channels have stopped already."""
+        """Reset the device after the end of its link; its channels have stopped already."""
 
     def start(self, t: float) -> None:
-        """Start what the device sends from a connection at `t` s of the walk on."""
+        """Start the channels that send as soon as a host connects, at `t` s of the walk."""
 
     def prepare(self) -> None:
-        """Compute now what is otherwise computed when a host first needs it."""
+        """Compute the signals now and not when a host first needs them."""
 
     def flow(self, channel: str, source: ValueSource | None, t: float) -> None:
         """Set the source of the channel's values from `t` s of the walk on; None stops the channel."""
@@ -106,13 +111,13 @@ class Peripheral:
 
     @property
     def restarted_at(self) -> float | None:
-        """Time of the walk at which the device last restarted, s; None when it never did."""
+        """Time of the walk at which the device last restarted, s; None when it never restarted."""
         return self._fault_state.restarted_at
 
     @property
     def fault_count(self) -> int:
         """Number of faults of the script that have happened in this walk."""
-        return self._fault_state.happened
+        return self._fault_state.count
 
     @property
     def needs_pairing(self) -> bool:
@@ -120,7 +125,7 @@ class Peripheral:
         return self._fault_state.needs_pairing
 
     def walk_from(self, started_at: float) -> None:
-        """Restart the walk and the script of its faults at this time of the loop; earlier faults have no effect."""
+        """Restart the walk and its fault script at this time of the event loop, s; earlier faults have no effect."""
         self._started_at = started_at
         self._fault_state = FaultState(self._faults, self.site)
         self._flows.go_to(self._now - started_at)
@@ -131,7 +136,7 @@ class Peripheral:
         return not self._fault_state.hidden(self._advance(now))
 
     def connected(self, now: float, mtu: int) -> None:
-        """Start a link with the current ATT MTU."""
+        """Start a link with this ATT MTU, bytes."""
         t = self._advance(now)
         self._fault_state.connected()
         self.is_connected, self.is_encrypted, self.agreed_mtu = True, False, mtu
@@ -141,7 +146,7 @@ class Peripheral:
     def accepts_pairing(self, now: float) -> bool:
         """Return whether the device accepts a pairing that the host starts."""
         self._advance(now)
-        return not self._fault_state.rejects(PAIRING)
+        return not self._fault_state.rejects(PAIRING_ARGUMENT)
 
     def disconnected(self, now: float) -> None:
         """End the link: remove all subscriptions and reset the device as its protocol says."""
@@ -182,19 +187,19 @@ class Peripheral:
         return True
 
     def next_due(self) -> float | None:
-        """Return the time of the loop at which to call `poll` and `hang_up` next, s; None when nothing is due."""
+        """Return when to call `poll` and `hang_up` next, s of the event loop; None when nothing is due."""
         if not self.is_connected:
             return None
-        soonest = min(self._flows.first(inf)[1], self._fault_state.next_at())
+        soonest = min(self._flows.find_due(inf)[1], self._fault_state.next_at())
         return None if soonest == inf else max(self._now, self._started_at + soonest)
 
     def poll(self, now: float) -> list[Outgoing]:
         """Return the notifications that are due by now, with the faults applied, in the order of time."""
         found: list[Outgoing] = []
         while self.is_connected:
-            channel, due = self._flows.first(now - self._started_at + _AT_ONCE)
+            channel, due = self._flows.find_due(now - self._started_at + _TIMER_TOLERANCE)
             t = self._advance(now) if channel is None else self._advance_faults(due)
-            if channel is None or self._fault_state.cut:
+            if channel is None or self._fault_state.must_disconnect:
                 break
             source, number = self._flows.take(channel)
             if self._fault_state.frozen(t) or self._is_closed(channel):
@@ -208,10 +213,13 @@ class Peripheral:
         return found
 
     def hang_up(self, now: float) -> bool:
-        """Return True once when the link must be lost now as by a supervision timeout (0x08)."""
+        """Return True, once, when the link must be lost now, as by a supervision timeout (0x08)."""
         self._advance(now)
-        cut, self._fault_state.cut = self._fault_state.cut and self.is_connected, False
-        return cut
+        must_disconnect, self._fault_state.must_disconnect = (
+            self._fault_state.must_disconnect and self.is_connected,
+            False,
+        )
+        return must_disconnect
 
     def _fails(self, channel: str, t: float) -> bool:
         if self._fault_state.hangs(t):
@@ -233,7 +241,7 @@ class Peripheral:
     def _advance(self, now: float) -> float:
         """Advance to `now` and return the time of the walk, s."""
         self._now = max(self._now, now)
-        return self._advance_faults(now - self._started_at + _AT_ONCE) - _AT_ONCE
+        return self._advance_faults(now - self._started_at + _TIMER_TOLERANCE) - _TIMER_TOLERANCE
 
     def _advance_faults(self, t: float) -> float:
         self._fault_state.advance(t)

@@ -1,4 +1,4 @@
-"""Builder of a route through BUILDING: it keeps the position on the plan while moves are added."""
+"""Builder of a route through BUILDING, which knows the position on the plan while moves are added."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ from math import atan2, cos, hypot, pi, sin, tan
 from attrs import Factory, define
 
 from ...floorplan.plan import Point, Start
-from .building import APPROACH, GOING, GROUND, LANE, RISE, STEPS, STOREY, UPPER
+from .building import EDGE_OFFSET, GOING, GROUND, LANE_OFFSET, RISE, RISERS, STOREY, UPPER
 from .path import ahead
 from .route import TIGHT_TURN, Route
 
 STAND_TIME = 2.0
-"""Time of standing at the start and at the end, s."""
-SPEED = 1.3
+"""Time for which the wearer stands at the start and at the end, s."""
+WALKING_SPEED = 1.3
 """Walking speed, m/s."""
-CORNER = 0.9
-"""Radius at which corners of corridors are walked, m."""
-TURNING = 5.6
-"""Distance from the door of a stairwell to the start of the turn on its landing, m."""
+CORNER_RADIUS = 0.9
+"""Radius of the bends in which the wearer walks around corners of corridors, m."""
+TURN_DISTANCE = 5.6
+"""Distance from the door of a stairwell to where the wearer starts to turn on the landing, m."""
 OTHER_LEVEL = {GROUND: UPPER, UPPER: GROUND}
 """Id of the other level for each level."""
 
@@ -29,13 +29,13 @@ class Course:
 
     level: str
     """Id of the level where the route ends so far."""
-    at: Point
+    position: Point
     """Position where the route ends so far, plan frame, m."""
     heading: float
     """Heading where the route ends so far, plan frame, rad."""
-    start: Start = Factory(lambda course: Start(course.level, course.at, course.heading), takes_self=True)
+    start: Start = Factory(lambda course: Start(course.level, course.position, course.heading), takes_self=True)
     """Start of the route on the plan."""
-    route: Route = Route(speed=SPEED)
+    route: Route = Route(speed=WALKING_SPEED)
     """Route so far."""
 
     def stand(self) -> None:
@@ -43,7 +43,7 @@ class Course:
         self.route = self.route.stand(STAND_TIME)
 
     def ride(self) -> None:
-        """Take the lift to the other floor."""
+        """Take the elevator to the other floor."""
         self.route = self.route.lift(STOREY if self.level == GROUND else -STOREY)
         self.level = OTHER_LEVEL[self.level]
 
@@ -52,52 +52,52 @@ class Course:
         self.route = self.route.turn(wrapped(heading - self.heading))
         self.heading = heading
 
-    def ahead(self, distance: float) -> None:
+    def walk(self, distance: float) -> None:
         """Walk `distance` m straight on."""
-        self.route = self.route.walk(distance, SPEED)
-        x, y = self.at
-        self.at = (x + distance * cos(self.heading), y + distance * sin(self.heading))
+        self.route = self.route.walk(distance, WALKING_SPEED)
+        x, y = self.position
+        self.position = (x + distance * cos(self.heading), y + distance * sin(self.heading))
 
     def bend(self, angle: float, radius: float) -> None:
-        """Walk a bend of `angle` rad, counter-clockwise positive, and `radius` m."""
-        self.route = self.route.turn(angle, radius, min(SPEED, TIGHT_TURN if radius < 1.0 else SPEED))
-        chord, way = 2.0 * radius * abs(sin(0.5 * angle)), self.heading + 0.5 * angle
-        self.at = (self.at[0] + chord * cos(way), self.at[1] + chord * sin(way))
+        """Walk a bend by `angle` rad, counter-clockwise positive, with radius `radius` m."""
+        self.route = self.route.turn(angle, radius, min(WALKING_SPEED, TIGHT_TURN if radius < 1.0 else WALKING_SPEED))
+        chord, direction = 2.0 * radius * abs(sin(0.5 * angle)), self.heading + 0.5 * angle
+        self.position = (self.position[0] + chord * cos(direction), self.position[1] + chord * sin(direction))
         self.heading += angle
 
-    def along(self, points: list[Point]) -> None:
-        """Walk from point to point with rounded corners; the first point is straight ahead."""
+    def walk_along(self, points: list[Point]) -> None:
+        """Walk from point to point, m, plan frame, with rounded corners; the first point must be straight ahead."""
         for k, (x, y) in enumerate(points):
-            away = hypot(x - self.at[0], y - self.at[1])
+            distance = hypot(x - self.position[0], y - self.position[1])
             if k + 1 == len(points):
-                self.ahead(away)
+                self.walk(distance)
                 return
-            onward = atan2(points[k + 1][1] - y, points[k + 1][0] - x)
-            angle = wrapped(onward - self.heading)
+            next_heading = atan2(points[k + 1][1] - y, points[k + 1][0] - x)
+            angle = wrapped(next_heading - self.heading)
             if abs(angle) > pi - 0.1:
-                self.ahead(away)
-                self.face(onward)
+                self.walk(distance)
+                self.face(next_heading)
             elif abs(angle) > 1e-9:
-                self.ahead(away - CORNER * tan(0.5 * abs(angle)))
-                self.bend(angle, CORNER)
-            elif away > 0.0:
-                self.ahead(away)
+                self.walk(distance - CORNER_RADIUS * tan(0.5 * abs(angle)))
+                self.bend(angle, CORNER_RADIUS)
+            elif distance > 0.0:
+                self.walk(distance)
 
     def climb(self, up: bool) -> None:
-        """Walk two flights and the landing between them, on which the turn is left upwards and right downwards."""
-        edge, far = ahead(up, GOING), APPROACH + (STEPS - 1) * GOING
+        """Walk two flights and the landing between them; the turn is to the left upwards, to the right downwards."""
+        edge, last_edge = ahead(up, GOING), EDGE_OFFSET + (RISERS - 1) * GOING
         self.flight(up)
-        self.ahead(TURNING - (APPROACH - edge + STEPS * GOING))
-        self.bend(pi if up else -pi, LANE)
-        self.ahead(TURNING - (far + edge))
+        self.walk(TURN_DISTANCE - (EDGE_OFFSET - edge + RISERS * GOING))
+        self.bend(pi if up else -pi, LANE_OFFSET)
+        self.walk(TURN_DISTANCE - (last_edge + edge))
         self.flight(up)
         self.level = OTHER_LEVEL[self.level]
 
     def flight(self, up: bool) -> None:
         """Walk one flight of stairs."""
-        self.route = self.route.stairs(STEPS, up, RISE, GOING)
-        x, y = self.at
-        self.at = (x + STEPS * GOING * cos(self.heading), y + STEPS * GOING * sin(self.heading))
+        self.route = self.route.stairs(RISERS, up, RISE, GOING)
+        x, y = self.position
+        self.position = (x + RISERS * GOING * cos(self.heading), y + RISERS * GOING * sin(self.heading))
 
 
 def wrapped(angle: float) -> float:

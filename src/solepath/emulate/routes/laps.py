@@ -24,38 +24,40 @@ from .route import Route
 
 Point = tuple[float, float]
 
-EDGE, PER_LAP = 11.7, 40
+SQUARE_SIDE, MARKS_PER_LAP = 11.7, 40
 """Side of the calibration square of Bebek et al. 2010 (section V-B), m, and number of marks around it for each foot."""
 LAP_SPEED = 0.8
 """Walking speed around the square, m/s: 235 m in five minutes (Bebek et al. 2010, section V-D)."""
-LAP_CORNER = 0.5
-"""Radius at which the corners of the square are walked, m (assumed: subjects who follow a square turn tightly)."""
+LAP_CORNER_RADIUS = 0.5
+"""Radius of the bends at the corners of the square, m (assumed: subjects who follow a square turn tightly)."""
 
-RADII = {
+BEND_RADII = {
     WalkingMode.LEFT_WIDE: 4.0,
     WalkingMode.LEFT_TIGHT: 2.0,
     WalkingMode.RIGHT_WIDE: -4.0,
     WalkingMode.RIGHT_TIGHT: -2.0,
 }
 """Radius of the bend of each mode, m; positive to the left (Gong et al. 2023, section 3.3)."""
-MARKS_APART = 0.55
+MARK_SPACING = 0.55
 """Distance between marks along the path, m: "an average of 0.5-0.6 m intervals" (Gong et al. 2023, section 3.3)."""
-MARK_STEPS = 50
+STEPS_OVER_MARKS = 50
 """Number of steps over marks."""
 MARK_SPEED = 1.1
 """Walking speed over marks, m/s (assumed)."""
-TIGHT, WIDE = 1.0 / (2.0 * 2.0**0.5), 1.0 / 8.0
-"""Least curvatures of a tight bend (geometric mean of 2 m and 4 m) and of any bend (8 m), 1/m."""
-IN_PLACE = 0.15
-"""Displacement of a foot, m, below which it does not walk (L_w of table 2)."""
+MIN_TIGHT_CURVATURE, MIN_BEND_CURVATURE = 1.0 / (2.0 * 2.0**0.5), 1.0 / 8.0
+"""Least curvatures of a tight bend and of any bend, 1/m.
+
+The radii are the geometric mean of 2 m and 4 m, and 8 m."""
+MIN_WALKING_DISPLACEMENT = 0.15
+"""Displacement of a foot over a stride, m, below which it is STANDING (L_w of table 2 of Gong et al. 2023)."""
 
 ALONG, ACROSS = 2.8, 4.0
 """Sides AB and CD, BC and DA of the rectangle of Gong et al. 2023, section 3.4, m."""
-CORNER = 0.5
-"""Radius at which the rectangle's corners are walked, m (assumed: without a halt, about one step on the arc)."""
-CORRIDOR = 91.0
+RECTANGLE_CORNER_RADIUS = 0.5
+"""Radius of the bends at the corners of the rectangle, m (assumed: without a halt, about one step on the arc)."""
+CORRIDOR_LENGTH = 91.0
 """Length of the walk around a floor of Chen et al. 2019, section IV-C, m."""
-FIELD = (60.0, 40.0)
+FIELD_SIZE = (60.0, 40.0)
 """Size of the field of a random walk, m, with the start in its middle (assumed: a part of a sports field)."""
 
 
@@ -66,7 +68,7 @@ class FloorMark:
     foot: Foot
     """Foot that landed on the mark."""
     step: int
-    """Number of the foot's stride, from 1."""
+    """Number of the stride among those of the foot, from 1."""
     t: float
     """Time of foot-flat on the mark, s."""
     x: float
@@ -88,15 +90,15 @@ class LapCorner:
     name: str
     """Name of the corner."""
     t: float
-    """Time at which the body is nearest to the corner or stands on it, s."""
+    """Time at which the pelvis is nearest to the corner, s; at corner A the time of the halt."""
     place: Vec3
     """Position of the corner, m."""
     body: Vec3
-    """Position of the pelvis at that time, on the ground, m."""
+    """Position of the pelvis at time `t`, projected to the ground, m."""
     steps: dict[Foot, int]
-    """Number of each foot's stride, from 1, that lands nearest to that time."""
+    """Number, from 1, of each foot's stride whose foot-flat is nearest to time `t`."""
     feet: dict[Foot, Vec3]
-    """Point of the ground below each ankle after that stride, m."""
+    """Point of the ground below each ankle after the stride of `steps`, m."""
 
 
 def straight(distance: float = 20.0, speed: float = 1.3) -> Route:
@@ -104,29 +106,31 @@ def straight(distance: float = 20.0, speed: float = 1.3) -> Route:
     return Route().stand(2.0).walk(distance, speed).stop(2.0)
 
 
-def square(laps: int = 5, edge: float = EDGE, speed: float = LAP_SPEED, corner: float = LAP_CORNER) -> Route:
-    """Return laps of a square to the left without a halt; each foot steps on the same PER_LAP marks in every lap."""
+def square(
+    laps: int = 5, edge: float = SQUARE_SIDE, speed: float = LAP_SPEED, corner: float = LAP_CORNER_RADIUS
+) -> Route:
+    """Return laps of a square to the left without a halt; a foot steps on the same MARKS_PER_LAP marks in every lap."""
     lap = 4.0 * (edge - 2.0 * corner + 0.5 * pi * corner)
-    route = Route().stand(2.0).paced(lap / (2 * PER_LAP))
+    route = Route().stand(2.0).paced(lap / (2 * MARKS_PER_LAP))
     for _ in range(4 * laps):
         route = route.walk(edge - 2.0 * corner, speed).turn(0.5 * pi, corner, speed)
     return route.stop(2.0)
 
 
 def marked(
-    mode: WalkingMode, steps: int = MARK_STEPS, spacing: float = MARKS_APART, speed: float = MARK_SPEED
+    mode: WalkingMode, steps: int = STEPS_OVER_MARKS, spacing: float = MARK_SPACING, speed: float = MARK_SPEED
 ) -> Route:
     """Return `steps` steps over marks, straight on or in the bend of the mode; raise ValueError for standing."""
     route = Route().stand(2.0).paced(spacing)
     if mode is WalkingMode.STRAIGHT:
         return route.walk(steps * spacing, speed).stop(2.0)
-    if mode not in RADII:
+    if mode not in BEND_RADII:
         raise ValueError(f"marks are walked over, not {mode.value}")
-    radius = RADII[mode]
+    radius = BEND_RADII[mode]
     return route.turn(steps * spacing / radius, abs(radius), speed).stop(2.0)
 
 
-def rectangle(speed: float = 1.1, corner: float = CORNER, rounds: int = 1) -> Route:
+def rectangle(speed: float = 1.1, corner: float = RECTANGLE_CORNER_RADIUS, rounds: int = 1) -> Route:
     """Return a rectangle from A over B, C and D back to A, counter-clockwise, with A at the origin and B ahead of it.
 
     Corners are bends of radius `corner`, walked at TIGHT_TURN (route.py) when it is below 1 m; 0 means a turn on the
@@ -135,73 +139,73 @@ def rectangle(speed: float = 1.1, corner: float = CORNER, rounds: int = 1) -> Ro
     return through(Route().stand(2.0), points, speed, corner).stop(2.0)
 
 
-def corridor(length: float = CORRIDOR, speed: float = 1.3, corner: float = 1.0) -> Route:
+def corridor(length: float = CORRIDOR_LENGTH, speed: float = 1.3, corner: float = 1.0) -> Route:
     """Return one lap around the inner block of a building's floor, to the left and back to the start.
 
-    Long sides are 1.5 times as long as short ones. (The paper shows its path only in fig. 13.)"""
+    Long sides are 1.5 times as long as short ones (assumed: the paper shows the path only in fig. 13)."""
     short = (length - 2.0 * pi * corner) / 5.0 + 2.0 * corner
     long = 1.5 * (short - 2.0 * corner) + 2.0 * corner
     route = Route().stand(2.0)
-    # It starts and ends in the middle of a long side, where there is no bend.
+    # The walk starts and ends in the middle of a long side, where there is no bend.
     points = [(0.5 * long, 0.0), (0.5 * long, short), (-0.5 * long, short), (-0.5 * long, 0.0), (0.0, 0.0)]
     return through(route, points, speed, corner).stop(2.0)
 
 
 def field_walk(
-    duration: float = 1800.0, speed: float = 1.0, seed: int = 1, field: Point = FIELD, corner: float = 1.5
+    duration: float = 1800.0, speed: float = 1.0, seed: int = 1, field: Point = FIELD_SIZE, corner: float = 1.5
 ) -> Route:
     """Return about `duration` s of walking from one random point in a field to the next, and back to the start."""
     rng = np.random.default_rng([seed, 7])
     half = (0.5 * field[0], 0.5 * field[1])
     points: list[Point] = [(0.4 * field[0], 0.0)]
-    behind: Point = (0.0, 0.0)
-    way = points[0][0]
-    while way + hypot(*points[-1]) < speed * duration or not _is_walkable(behind, points[-1], (0.0, 0.0)):
-        there = (float(rng.uniform(-half[0], half[0])), float(rng.uniform(-half[1], half[1])))
-        if _is_walkable(behind, points[-1], there):
-            way += hypot(there[0] - points[-1][0], there[1] - points[-1][1])
-            behind = points[-1]
-            points.append(there)
+    previous: Point = (0.0, 0.0)
+    distance = points[0][0]
+    while distance + hypot(*points[-1]) < speed * duration or not _is_walkable(previous, points[-1], (0.0, 0.0)):
+        target = (float(rng.uniform(-half[0], half[0])), float(rng.uniform(-half[1], half[1])))
+        if _is_walkable(previous, points[-1], target):
+            distance += hypot(target[0] - points[-1][0], target[1] - points[-1][1])
+            previous = points[-1]
+            points.append(target)
     return through(Route().stand(2.0), [*points, (0.0, 0.0)], speed, corner).stop(2.0)
 
 
 def through(route: Route, points: Sequence[Point], speed: float, corner: float) -> Route:
     """Return `route` continued on straight lines through the points, with bends of radius `corner`, m.
 
-    The first turn is on the spot, and all turns are when `corner` is 0. A bend that does not fit between two points
-    raises ValueError."""
+    The first turn is on the spot; with `corner` 0 all turns are. A bend that does not fit between two points raises
+    ValueError."""
     end = route.end
-    here, heading, cut = (end.x, end.y), end.heading, 0.0
-    for k, there in enumerate(points):
-        way = hypot(there[0] - here[0], there[1] - here[1])
-        toward = atan2(there[1] - here[1], there[0] - here[0])
-        turn = wrapped(toward - heading)
+    position, heading, cut_before = (end.x, end.y), end.heading, 0.0
+    for k, target in enumerate(points):
+        distance = hypot(target[0] - position[0], target[1] - position[1])
+        direction = atan2(target[1] - position[1], target[0] - position[0])
+        turn = wrapped(direction - heading)
         if k == 0 or corner == 0.0:
-            cut = 0.0
+            cut_before = 0.0
             if abs(turn) > 1e-9:
                 route = route.turn(turn)
         elif abs(turn) > 1e-9:
             route = route.turn(turn, corner)
-        after = 0.0
+        cut_after = 0.0
         if k + 1 < len(points) and corner > 0.0:
-            beyond = points[k + 1]
-            next_turn = wrapped(atan2(beyond[1] - there[1], beyond[0] - there[0]) - toward)
-            after = corner * tan(0.5 * abs(next_turn))
-        if way - cut - after <= 0.0:
-            raise ValueError(f"no room for bends of {corner:g} m between {here} and {there}")
-        route = route.walk(way - cut - after, speed)
-        here, heading, cut = there, toward, after
+            following = points[k + 1]
+            next_turn = wrapped(atan2(following[1] - target[1], following[0] - target[0]) - direction)
+            cut_after = corner * tan(0.5 * abs(next_turn))
+        if distance - cut_before - cut_after <= 0.0:
+            raise ValueError(f"no room for bends of {corner:g} m between {position} and {target}")
+        route = route.walk(distance - cut_before - cut_after, speed)
+        position, heading, cut_before = target, direction, cut_after
     return route
 
 
 def mode_of(stride: PlannedStride) -> WalkingMode:
     """Return the walking mode of a stride, from the bend where the foot landed."""
-    if hypot(stride.end.x - stride.start.x, stride.end.y - stride.start.y) < IN_PLACE:
+    if hypot(stride.end.x - stride.start.x, stride.end.y - stride.start.y) < MIN_WALKING_DISPLACEMENT:
         return WalkingMode.STANDING
-    if abs(stride.curvature) < WIDE:
+    if abs(stride.curvature) < MIN_BEND_CURVATURE:
         return WalkingMode.STRAIGHT
     left = stride.curvature > 0.0
-    if abs(stride.curvature) < TIGHT:
+    if abs(stride.curvature) < MIN_TIGHT_CURVATURE:
         return WalkingMode.LEFT_WIDE if left else WalkingMode.RIGHT_WIDE
     return WalkingMode.LEFT_TIGHT if left else WalkingMode.RIGHT_TIGHT
 
@@ -214,20 +218,22 @@ def modes(walker: Walker) -> dict[Foot, tuple[WalkingMode, ...]]:
 def marks(walker: Walker, per_lap: int | None = None) -> tuple[FloorMark, ...]:
     """Return the marks of a walker on a paced route and the strides on them, in the order of time.
 
-    Closing steps have no mark. `per_lap` is the number of a foot's marks in one lap."""
-    exact = evolve(walker.wearer, width_variation=0.0, angle_variation=0.0, aim=0.0)
-    meant = plan(walker.route, exact, np.random.default_rng(0))
+    The closing step before a halt has no mark. `per_lap` is the number of a foot's marks in one lap."""
+    exact = evolve(walker.wearer, width_variation=0.0, angle_variation=0.0, mark_error=0.0)
+    exact_plan = plan(walker.route, exact, np.random.default_rng(0))
     closing = {
         max(s.heel_strike for foot in Foot for s in walker.plan.strides[foot] if start <= s.heel_strike <= end)
         for start, end in walker.plan.bouts
     }
     found = []
     for foot in Foot:
-        for k, (stride, aimed) in enumerate(zip(walker.plan.strides[foot], meant.strides[foot], strict=True)):
+        for k, (stride, exact_stride) in enumerate(
+            zip(walker.plan.strides[foot], exact_plan.strides[foot], strict=True)
+        ):
             if stride.heel_strike not in closing:
                 lap, number = (0, k) if per_lap is None else divmod(k, per_lap)
-                at = aimed.end
-                found.append(FloorMark(foot, k + 1, stride.foot_flat, at.x, at.y, mode_of(stride), lap, number))
+                mark = exact_stride.end
+                found.append(FloorMark(foot, k + 1, stride.foot_flat, mark.x, mark.y, mode_of(stride), lap, number))
     return tuple(sorted(found, key=attrgetter("t")))
 
 
@@ -256,7 +262,7 @@ def _corner(walker: Walker, name: str, t: float, place: Vec3) -> LapCorner:
 def write_marks(path: Path | str, found: Iterable[FloorMark]) -> None:
     """Write marks for `solepath calibrate modes`: a csv file with the columns foot, x, y, mode and t.
 
-    Steps in place are left out."""
+    Strides with the mode STANDING are left out."""
     with Path(path).open("w", newline="", encoding="utf-8") as file:
         rows = csv.writer(file)
         rows.writerow(("foot", "x", "y", "mode", "t"))
@@ -265,7 +271,10 @@ def write_marks(path: Path | str, found: Iterable[FloorMark]) -> None:
                 rows.writerow((mark.foot.value, f"{mark.x:.4f}", f"{mark.y:.4f}", mark.mode.name, f"{mark.t:.3f}"))
 
 
-def _is_walkable(behind: Point, here: Point, there: Point) -> bool:
-    """Return whether `there` is 6 m or more away and not backwards."""
-    way, toward = (there[0] - here[0], there[1] - here[1]), atan2(here[1] - behind[1], here[0] - behind[0])
-    return hypot(*way) >= 6.0 and abs(wrapped(atan2(way[1], way[0]) - toward)) < 2.1
+def _is_walkable(previous: Point, position: Point, target: Point) -> bool:
+    """Return whether `target` is at least 6 m away and not behind: the turn to it is below 2.1 rad."""
+    displacement, direction = (
+        (target[0] - position[0], target[1] - position[1]),
+        atan2(position[1] - previous[1], position[0] - previous[0]),
+    )
+    return hypot(*displacement) >= 6.0 and abs(wrapped(atan2(displacement[1], displacement[0]) - direction)) < 2.1

@@ -1,4 +1,4 @@
-"""The path of a route on the floor: poses, pieces, stairs, and the parts between two halts."""
+"""The path of a route on the floor: poses, pieces, flights of stairs, and what lies between two halts."""
 
 from __future__ import annotations
 
@@ -8,26 +8,26 @@ import numpy as np
 from attrs import evolve, frozen
 
 from ..wearers.curves import Array
-from .lift import Lift
-from .styles import RUN_ACCELERATION, RUNNING_FROM
+from .elevator import Elevator
+from .styles import MIN_RUNNING_SPEED, RUN_ACCELERATION
 
-UP, DOWN = 0.25, 0.17
+EDGE_DISTANCE_UP, EDGE_DISTANCE_DOWN = 0.25, 0.17
 """Distance from the ankle to the next edge ahead, before a flight and on every tread, upwards and downwards, m.
 
-Upwards the heel is over the edge behind by 4 cm on treads of 0.30 m, and the forefoot rocker ends 9 cm before the next
-riser; downwards the ball of the foot is 6 cm behind the edge and the toes are over it."""
-HEEL = 0.13
-"""Least distance from the ankle back to the riser behind it downwards, m; on shorter treads the toes are out more."""
+Upwards, on treads of 0.30 m, the heel stands 4 cm back over the edge, and the forefoot rocker ends 9 cm before the next
+riser. Downwards the ball of the foot is 6 cm behind the edge, and the toes stand over the edge."""
+MIN_RISER_DISTANCE = 0.13
+"""Least distance downwards from the ankle to the riser behind it, m; on short treads the toes stand further out."""
 
 
 def ahead(up: bool, going: float) -> float:
-    """Return the distance from the ankle to the next edge on treads of depth `going`, m."""
-    return UP if up else min(DOWN, going - HEEL)
+    """Return the distance from the ankle to the next edge ahead on treads of depth `going`, m."""
+    return EDGE_DISTANCE_UP if up else min(EDGE_DISTANCE_DOWN, going - MIN_RISER_DISTANCE)
 
 
 @frozen
 class Flight:
-    """A flight of stairs in the world frame, without a limit of its width."""
+    """A flight of stairs of unlimited width in the world frame."""
 
     x: float
     """Coordinate x of the first edge, m."""
@@ -50,24 +50,26 @@ class Flight:
         return self.steps * self.rise
 
     def along(self, x: Array, y: Array) -> Array:
-        """Return the distance of points beyond the first edge, m."""
+        """Return the distance along the flight from the first edge to points, m; negative before it."""
         return np.asarray((x - self.x) * cos(self.heading) + (y - self.y) * sin(self.heading))
 
-    def ground(self, x: Array, y: Array) -> Array:
-        """Return the height of the tread or floor below points, m."""
+    def ground_height(self, x: Array, y: Array) -> Array:
+        """Return the height of the tread or floor at points, m."""
         return self._tread(self.along(x, y))
 
-    def above(self, x: Array, y: Array, radius: Array) -> Array:
-        """Return the height of the centre of a disc that touches the treads or an edge below it, m.
+    def clear_height(self, x: Array, y: Array, radius: Array) -> Array:
+        """Return the least height, m, at which the centre of a disc above (x, y) clears treads and edges.
 
-        The disc is vertical along the flight with its centre above (x, y)."""
+        The disc stands upright along the flight; its radius is `radius`, m."""
         u = self.along(x, y)
-        least = self._tread(u) + radius
+        height = self._tread(u) + radius
         for k in range(self.steps):
             edge = self.z + self.rise * (k + 1 if self.rise > 0.0 else k)
-            inside = radius**2 - (u - k * self.going) ** 2
-            least = np.where(inside > 0.0, np.maximum(least, edge + np.sqrt(np.maximum(inside, 0.0))), least)
-        return np.asarray(least)
+            squared_height = radius**2 - (u - k * self.going) ** 2
+            height = np.where(
+                squared_height > 0.0, np.maximum(height, edge + np.sqrt(np.maximum(squared_height, 0.0))), height
+            )
+        return np.asarray(height)
 
     def _tread(self, u: Array) -> Array:
         return np.asarray(self.z + self.rise * np.clip(np.floor(u / self.going) + 1.0, 0.0, self.steps))
@@ -79,7 +81,7 @@ RUN_START_SPEED = 1.2
 
 @frozen
 class Pose:
-    """A position and a heading on the path, in the world frame."""
+    """A position and a heading in the world frame."""
 
     x: float
     """Coordinate x, m."""
@@ -105,10 +107,10 @@ class Pose:
 
 @frozen
 class Piece:
-    """A part of the path: a straight line, an arc or a flight of stairs."""
+    """A straight line, an arc or a flight of stairs on the path."""
 
     start: Pose
-    """Pose at the start."""
+    """Pose at the start of the piece."""
     length: float
     """Length of the piece, m."""
     curvature: float
@@ -120,10 +122,10 @@ class Piece:
     running: bool = False
     """True when the wearer runs."""
     flight: Flight | None = None
-    """Flight of stairs; None on the level."""
+    """Flight of stairs that the piece is; None on the level."""
 
     def at(self, s: float) -> Pose:
-        """Return the pose `s` m from the start; on stairs its height is that of a ramp."""
+        """Return the pose `s` m from the start; on stairs the height is that of a ramp over them."""
         pose = self.start.ahead(s, self.curvature)
         return pose if self.flight is None else evolve(pose, z=pose.z + self.flight.height * s / self.length)
 
@@ -148,7 +150,7 @@ class WalkPath:
 
     @property
     def spacing(self) -> float | None:
-        """Distance between the marks to step on, m: that of the first piece; None: no marks."""
+        """Distance between the marks to step on in the first piece, m; None: no marks."""
         return self.pieces[0].spacing
 
     def at(self, s: float) -> tuple[Pose, float]:
@@ -158,14 +160,14 @@ class WalkPath:
 
     @property
     def sections(self) -> tuple[WalkPath, ...]:
-        """Flights of stairs one by one, and the level parts between them."""
-        found: list[list[Piece]] = []
+        """Sections of the path, in order: each flight of stairs, and the level pieces between flights."""
+        sections: list[list[Piece]] = []
         for piece in self.pieces:
-            if found and piece.flight is None and found[-1][-1].flight is None:
-                found[-1].append(piece)
+            if sections and piece.flight is None and sections[-1][-1].flight is None:
+                sections[-1].append(piece)
             else:
-                found.append([piece])
-        return tuple(WalkPath(tuple(pieces)) for pieces in found)
+                sections.append([piece])
+        return tuple(WalkPath(tuple(pieces)) for pieces in sections)
 
     def pace(self, s: float) -> tuple[float, bool]:
         """Return the speed `s` m after the halt, m/s, and whether the wearer runs there.
@@ -177,10 +179,10 @@ class WalkPath:
         k = self.pieces.index(piece)
         before = self.pieces[k - 1].speed if k else RUN_START_SPEED
         after = self.pieces[k + 1].speed if k + 1 < len(self.pieces) else RUN_START_SPEED
-        gained = sqrt(before**2 + 2.0 * RUN_ACCELERATION * max(rest, 0.0))
-        left = sqrt(after**2 + 2.0 * RUN_ACCELERATION * max(piece.length - rest, 0.0))
-        speed = min(piece.speed, gained, left)
-        return speed, speed >= RUNNING_FROM
+        speed_after_start = sqrt(before**2 + 2.0 * RUN_ACCELERATION * max(rest, 0.0))
+        speed_before_end = sqrt(after**2 + 2.0 * RUN_ACCELERATION * max(piece.length - rest, 0.0))
+        speed = min(piece.speed, speed_after_start, speed_before_end)
+        return speed, speed >= MIN_RUNNING_SPEED
 
     def curvature(self, s: float) -> float:
         """Return the curvature `s` m after the halt, 1/m; positive to the left."""
@@ -212,15 +214,15 @@ class Pivot:
 
 
 @frozen
-class Lifted:
-    """A ride in a lift."""
+class ElevatorStage:
+    """An elevator ride as a stage of a route."""
 
     start: Pose
     """Pose before the ride."""
-    lift: Lift
+    elevator: Elevator
     """Parameters of the ride."""
 
     @property
     def end(self) -> Pose:
         """Pose after the ride."""
-        return evolve(self.start, z=self.start.z + self.lift.height)
+        return evolve(self.start, z=self.start.z + self.elevator.height)

@@ -12,32 +12,32 @@ from attrs import evolve, frozen
 from ...types import Foot
 from ..wearers.curves import Rng
 from ..wearers.gait import SETTLE_TIME, Climb, PlannedStride, WalkPlan, Wearer, double_support
-from .lift import CarRide, ride
-from .path import Flight, Lifted, Piece, Pivot, Pose, WalkPath
-from .route import Leg, Route, Stand, legs
+from .elevator import CarRide, ride
+from .path import ElevatorStage, Flight, Piece, Pivot, Pose, WalkPath
+from .route import Route, Stage, Stand, stages
 from .styles import StrideKind, running_cadence, style_of
 
-SAME_LEVEL = 1e-6
+HEIGHT_TOLERANCE = 1e-6
 """Difference in height below which two floors are the same, m."""
 
 
 def plan(route: Route, wearer: Wearer, rng: Rng) -> WalkPlan:
-    """Plan the positions and times of the strides on `route`; `rng` draws all variations of the gait."""
-    return _Planner(wearer, rng).run(legs(route))
+    """Return the positions and times of the strides on `route`; `rng` draws all variations of the gait."""
+    return _Planner(wearer, rng).run(stages(route))
 
 
 @frozen
 class _Footfall:
-    """One planned step before its timing."""
+    """One planned step whose times are not known yet."""
 
     pose: Pose
-    """Pose on the path."""
+    """Pose on the centre line of the path."""
     speed: float
     """Speed along the path, m/s."""
     duration: float
     """Mean duration of the step, s."""
     curvature: float = 0.0
-    """Curvature of the path there, 1/m; positive to the left."""
+    """Curvature of the path at the footfall, 1/m; positive to the left."""
     kind: StrideKind = StrideKind.WALK
     flight: Flight | None = None
 
@@ -47,209 +47,216 @@ class _Planner:
         self.wearer = wearer
         self.rng = rng
         self.t = 0.0
-        self.moving = wearer.first  # the foot that moves next
-        self.struck: float | None = None  # time of the last heel-strike; None while standing
+        self.next_foot = wearer.first_foot
+        self.last_heel_strike: float | None = None  # time of the last heel-strike; None while standing
         self.bout_start = 0.0
-        self.running: float | None = None  # speed of the last step if it was a running step
+        self.last_running_speed: float | None = None  # speed of the last step if it was a running step
         self.flight: Flight | None = None  # flight of stairs that a foot is on
-        self.climbing: float | None = None  # time at which the climb started
+        self.climb_start: float | None = None  # time at which the climb started
         self.bouts: list[tuple[float, float]] = []
         self.climbs: list[Climb] = []
         self.rides: list[CarRide] = []
         origin = Pose(0.0, 0.0, 0.0, 0.0)
-        self.at = {foot: self._stance(origin, foot, 0.0, 0.0) for foot in Foot}
-        self.starts = dict(self.at)
+        self.feet = {foot: self._stance(origin, foot, 0.0, 0.0) for foot in Foot}
+        self.starts = dict(self.feet)
         self.strides: dict[Foot, list[PlannedStride]] = {foot: [] for foot in Foot}
 
-    def run(self, todo: list[Leg]) -> WalkPlan:
-        """Return the plan of all legs of a route."""
-        for leg in todo:
-            match leg:
+    def run(self, route_stages: list[Stage]) -> WalkPlan:
+        """Return the plan of all stages of a route."""
+        for stage in route_stages:
+            match stage:
                 case Stand(duration=duration):
                     self._halt()
                     self.t += duration
                 case WalkPath():
-                    self._walk(self._along(leg))
+                    self._walk(self._path_footfalls(stage))
                 case Pivot():
-                    self._walk(self._on_the_spot(leg))
-                case Lifted():
+                    self._walk(self._pivot_footfalls(stage))
+                case ElevatorStage():
                     self._halt()
-                    self._ride(leg)
+                    self._ride(stage)
         self._halt()
-        strides = {foot: tuple(found) for foot, found in self.strides.items()}
+        strides = {foot: tuple(made) for foot, made in self.strides.items()}
         return WalkPlan(self.t, self.starts, strides, tuple(self.bouts), tuple(self.climbs), tuple(self.rides))
 
-    def _ride(self, leg: Lifted) -> None:
-        """Add a ride: the doors close, the car moves, the doors open."""
-        car = ride(leg.lift, self.t + leg.lift.doors, self.rng)
+    def _ride(self, stage: ElevatorStage) -> None:
+        """Add an elevator ride, with the times in which the doors close and open."""
+        car = ride(stage.elevator, self.t + stage.elevator.doors, self.rng)
         self.rides.append(car)
-        self.t = car.end + leg.lift.doors
-        self.at = {foot: evolve(at, z=at.z + car.height) for foot, at in self.at.items()}
+        self.t = car.end + stage.elevator.doors
+        self.feet = {foot: evolve(pose, z=pose.z + car.height) for foot, pose in self.feet.items()}
 
     def _halt(self) -> None:
-        if self.struck is not None:
-            self.t = self.struck + SETTLE_TIME
+        if self.last_heel_strike is not None:
+            self.t = self.last_heel_strike + SETTLE_TIME
             self.bouts.append((self.bout_start, self.t))
-            self.struck = None
-            self.running = None
+            self.last_heel_strike = None
+            self.last_running_speed = None
 
-    def _along(self, path: WalkPath) -> list[_Footfall]:
-        """Return the steps of a path, section by section, and a closing half step."""
-        falls: list[_Footfall] = []
+    def _path_footfalls(self, path: WalkPath) -> list[_Footfall]:
+        """Return the footfalls of a path, section by section, and that of the closing half step."""
+        footfalls: list[_Footfall] = []
         for section in path.sections:
             piece = section.pieces[0]
             if piece.flight is not None:
-                falls += self._on_stairs(piece, piece.flight)
+                footfalls += self._stair_footfalls(piece, piece.flight)
             elif section.spacing is not None:
-                falls += self._on_marks(section, section.spacing)
+                footfalls += self._mark_footfalls(section, section.spacing)
             else:
-                falls += self._naturally(section)
-        # The closing half step: beside the foot that arrived.
-        return [*falls, evolve(falls[-1], kind=StrideKind.WALK)]
+                footfalls += self._natural_footfalls(section)
+        # The closing half step ends beside the foot that arrived.
+        return [*footfalls, evolve(footfalls[-1], kind=StrideKind.WALK)]
 
-    def _naturally(self, path: WalkPath) -> list[_Footfall]:
-        """Return steps of natural length with random variation, scaled to end exactly at the path's end."""
+    def _natural_footfalls(self, path: WalkPath) -> list[_Footfall]:
+        """Return footfalls with steps of natural length, varied at random and scaled to end at the path's end."""
         ends: list[float] = []
         s = 0.0
         while not ends or ends[-1] < path.length:
             speed, running = path.pace(min(s, path.length))
-            usual = (
+            step_length = (
                 speed * 60.0 / running_cadence(speed)
                 if running
                 else self.wearer.walk_ratio * self.wearer.cadence(speed)
             )
-            s += usual * self._vary(self.wearer.length_variation)
+            s += step_length * self._vary(self.wearer.length_variation)
             ends.append(s)
         if len(ends) > 1 and ends[-1] - path.length > path.length - ends[-2]:
             ends.pop()
-        fit = path.length / ends[-1]
-        falls = []
-        for end in (fit * end for end in ends):
+        scale = path.length / ends[-1]
+        footfalls = []
+        for end in (scale * end for end in ends):
             pose = path.at(end)[0]
             speed, running = path.pace(end)
-            usual = 60.0 / running_cadence(speed) if running else 60.0 / self.wearer.cadence(speed)
+            step_time = 60.0 / running_cadence(speed) if running else 60.0 / self.wearer.cadence(speed)
             kind = StrideKind.RUN if running else StrideKind.WALK
-            falls.append(_Footfall(pose, speed, usual, path.curvature(end), kind))
-        return falls
+            footfalls.append(_Footfall(pose, speed, step_time, path.curvature(end), kind))
+        return footfalls
 
-    def _on_marks(self, path: WalkPath, spacing: float) -> list[_Footfall]:
+    def _mark_footfalls(self, path: WalkPath, spacing: float) -> list[_Footfall]:
         count = max(1, round(path.length / spacing))
-        each = path.length / count
-        falls = []
+        mark_spacing = path.length / count
+        footfalls = []
         for k in range(1, count + 1):
-            _, speed = path.at(each * k)
-            hit = each * k + self.wearer.aim * float(np.clip(self.rng.standard_normal(), -3.0, 3.0))
-            falls.append(_Footfall(path.at(hit)[0], speed, each / speed, path.curvature(each * k)))
-        return falls
+            _, speed = path.at(mark_spacing * k)
+            position = mark_spacing * k + self.wearer.mark_error * float(np.clip(self.rng.standard_normal(), -3.0, 3.0))
+            footfalls.append(
+                _Footfall(path.at(position)[0], speed, mark_spacing / speed, path.curvature(mark_spacing * k))
+            )
+        return footfalls
 
-    def _on_stairs(self, piece: Piece, flight: Flight) -> list[_Footfall]:
-        """Return one step for every riser."""
+    def _stair_footfalls(self, piece: Piece, flight: Flight) -> list[_Footfall]:
+        """Return one footfall for every riser."""
         kind = StrideKind.UP if flight.rise > 0.0 else StrideKind.DOWN
-        falls = []
+        footfalls = []
         for k in range(1, flight.steps + 1):
-            hit = flight.going * k + self.wearer.aim * float(np.clip(self.rng.standard_normal(), -2.0, 2.0))
-            pose = evolve(piece.start.ahead(hit, 0.0), z=flight.z + flight.rise * k)
+            position = flight.going * k + self.wearer.mark_error * float(np.clip(self.rng.standard_normal(), -2.0, 2.0))
+            pose = evolve(piece.start.ahead(position, 0.0), z=flight.z + flight.rise * k)
             duration = flight.going / piece.speed
-            falls.append(_Footfall(pose, piece.speed, duration, 0.0, kind, flight))
-        return falls
+            footfalls.append(_Footfall(pose, piece.speed, duration, 0.0, kind, flight))
+        return footfalls
 
-    def _on_the_spot(self, pivot: Pivot) -> list[_Footfall]:
-        count = max(1, int(np.ceil(abs(pivot.angle) / self.wearer.pivot_step)))
-        turned = [pivot.angle * k / count for k in range(1, count + 1)]
+    def _pivot_footfalls(self, pivot: Pivot) -> list[_Footfall]:
+        count = max(1, int(np.ceil(abs(pivot.angle) / self.wearer.max_pivot_turn)))
+        angles = [pivot.angle * k / count for k in range(1, count + 1)]
         duration = 60.0 / self.wearer.cadence(pivot.speed)
-        falls = [_Footfall(evolve(pivot.start, heading=pivot.start.heading + a), pivot.speed, duration) for a in turned]
-        return [*falls, falls[-1]]
+        footfalls = [
+            _Footfall(evolve(pivot.start, heading=pivot.start.heading + a), pivot.speed, duration) for a in angles
+        ]
+        return [*footfalls, footfalls[-1]]
 
-    def _stance(self, pose: Pose, foot: Foot, width: float, turned: float) -> Pose:
+    def _stance(self, pose: Pose, foot: Foot, width: float, turn: float) -> Pose:
         side = 1.0 if foot is Foot.LEFT else -1.0
-        out = side * (0.5 * self.wearer.step_width + width)
-        heading = pose.heading + side * (self.wearer.toe_out + turned)
-        return Pose(pose.x - out * sin(pose.heading), pose.y + out * cos(pose.heading), pose.z, heading)
+        offset = side * (0.5 * self.wearer.step_width + width)
+        heading = pose.heading + side * (self.wearer.toe_out + turn)
+        return Pose(pose.x - offset * sin(pose.heading), pose.y + offset * cos(pose.heading), pose.z, heading)
 
-    def _walk(self, falls: list[_Footfall]) -> None:
-        for fall in falls:
-            step = fall.duration * self._vary(self.wearer.time_variation)
-            if self.struck is None:
+    def _walk(self, footfalls: list[_Footfall]) -> None:
+        for footfall in footfalls:
+            step_time = footfall.duration * self._vary(self.wearer.time_variation)
+            if self.last_heel_strike is None:
                 self.bout_start = self.t
-                # As if the other foot had just landed: the weight needs this time to leave the foot that moves first.
-                self.struck = self.t + 0.32 * step
-            foot = self.moving
-            self.moving = Foot.RIGHT if foot is Foot.LEFT else Foot.LEFT
-            self._stride(foot, fall, self.struck, step)
-            self.struck += step
-            self.t = self.struck
+                # The weight needs this time to leave the foot that moves first, as if the other foot had just landed.
+                self.last_heel_strike = self.t + 0.32 * step_time
+            foot = self.next_foot
+            self.next_foot = Foot.RIGHT if foot is Foot.LEFT else Foot.LEFT
+            self._stride(foot, footfall, self.last_heel_strike, step_time)
+            self.last_heel_strike += step_time
+            self.t = self.last_heel_strike
 
-    def _stride(self, foot: Foot, fall: _Footfall, struck: float, step: float) -> None:
-        wearer, before = self.wearer, self.strides[foot]
-        start = self.at[foot]
-        kind = fall.kind
-        if fall.flight is not None and fall.flight is not self.flight:
-            self.flight, self.climbing = fall.flight, None
-        if abs(fall.pose.z - start.z) > SAME_LEVEL:
-            kind = StrideKind.UP if fall.pose.z > start.z else StrideKind.DOWN
-        style = None if kind is StrideKind.WALK else style_of(kind, fall.speed)
-        double, early, flat = double_support(fall.speed), 0.12, 0.095
+    def _stride(self, foot: Foot, footfall: _Footfall, last_heel_strike: float, step_time: float) -> None:
+        wearer, strides = self.wearer, self.strides[foot]
+        start = self.feet[foot]
+        kind = footfall.kind
+        if footfall.flight is not None and footfall.flight is not self.flight:
+            self.flight, self.climb_start = footfall.flight, None
+        if abs(footfall.pose.z - start.z) > HEIGHT_TOLERANCE:
+            kind = StrideKind.UP if footfall.pose.z > start.z else StrideKind.DOWN
+        style = None if kind is StrideKind.WALK else style_of(kind, footfall.speed)
+        double_support_share, heel_off_share, foot_flat_share = double_support(footfall.speed), 0.12, 0.095
         if style is not None:
-            flat = style.flat
+            foot_flat_share = style.foot_flat_share
             if kind is not StrideKind.RUN:
-                double, early = style.double, style.early
-        if self.running is not None:
+                double_support_share, heel_off_share = style.double_support_share, style.heel_off_share
+        if self.last_running_speed is not None:
             # A runner is in flight before the other foot lands.
-            run = style_of(StrideKind.RUN, self.running)
-            double, early = run.double, run.early
-        toe_off = struck + double * 2.0 * step
-        earliest = before[-1].foot_flat + 0.04 if before else 0.0
-        heel_off = max(struck - early * 2.0 * step * self._vary(0.08), earliest)
-        if self.running is not None:
+            run = style_of(StrideKind.RUN, self.last_running_speed)
+            double_support_share, heel_off_share = run.double_support_share, run.heel_off_share
+        toe_off = last_heel_strike + double_support_share * 2.0 * step_time
+        earliest = strides[-1].foot_flat + 0.04 if strides else 0.0
+        heel_off = max(last_heel_strike - heel_off_share * 2.0 * step_time * self._vary(0.08), earliest)
+        if self.last_running_speed is not None:
             toe_off = max(toe_off, heel_off + 0.06)
-        heel_strike = struck + step
-        foot_flat = heel_strike + flat * 2.0 * step * self._vary(0.06)
-        width, out = (float(value) for value in self.rng.standard_normal(2))
-        end = self._stance(fall.pose, foot, wearer.width_variation * width, 0.5 * wearer.angle_variation * out)
-        # In short steps the foot rolls less; the exponents keep enough roll in half steps and steps in place.
-        moved = hypot(end.x - start.x, end.y - start.y)
-        reach = min(moved / 1.42, 1.4)
+        heel_strike = last_heel_strike + step_time
+        foot_flat = heel_strike + foot_flat_share * 2.0 * step_time * self._vary(0.06)
+        lateral, toe_out = (float(value) for value in self.rng.standard_normal(2))
+        end = self._stance(
+            footfall.pose, foot, wearer.width_variation * lateral, 0.5 * wearer.angle_variation * toe_out
+        )
+        # A stride at 1.3 m/s is about 1.42 m long. In shorter ones the foot pitches less; the exponents keep some pitch
+        # in half steps and steps in place.
+        displacement = hypot(end.x - start.x, end.y - start.y)
+        reach = min(displacement / 1.42, 1.4)
         roll, yaw, outward = (float(value) for value in self.rng.standard_normal(3))
         side = 1.0 if foot is Foot.LEFT else -1.0
-        weave = (side * (0.16 + 0.03 * roll), -side * (0.10 + 0.02 * yaw), side * (0.012 + 0.004 * outward))
+        deviation = (side * (0.16 + 0.03 * roll), -side * (0.10 + 0.02 * yaw), side * (0.012 + 0.004 * outward))
         if style is not None:
-            weave = (style.weave * weave[0], style.weave * weave[1], weave[2])
-        leave = wearer.toe_off_pitch * max(reach, 0.08) ** 0.55 if style is None else style.toe_off_pitch
-        strike = wearer.strike_pitch * max(reach, 0.05) ** 0.9 if style is None else style.strike_pitch
-        before.append(
+            deviation = (style.deviation_factor * deviation[0], style.deviation_factor * deviation[1], deviation[2])
+        toe_off_pitch = wearer.toe_off_pitch * max(reach, 0.08) ** 0.55 if style is None else style.toe_off_pitch
+        strike_pitch = wearer.strike_pitch * max(reach, 0.05) ** 0.9 if style is None else style.strike_pitch
+        strides.append(
             PlannedStride(
-                number=len(before) + 1,
+                number=len(strides) + 1,
                 heel_off=heel_off,
                 toe_off=toe_off,
                 heel_strike=heel_strike,
                 foot_flat=foot_flat,
                 start=start,
                 end=end,
-                toe_off_pitch=leave * self._vary(wearer.angle_variation),
-                strike_pitch=strike * self._vary(wearer.angle_variation),
-                speed=fall.speed * min(reach, 1.0) if style is None else fall.speed,
+                toe_off_pitch=toe_off_pitch * self._vary(wearer.angle_variation),
+                strike_pitch=strike_pitch * self._vary(wearer.angle_variation),
+                speed=footfall.speed * min(reach, 1.0) if style is None else footfall.speed,
                 clearance=(wearer.clearance if style is None else style.clearance) * self._vary(0.08),
-                weave=weave,
-                settle=4e-4 * float(np.clip(self.rng.standard_normal(), -1.0, 1.0)),
-                curvature=fall.curvature,
-                pace=0.5 * moved / step,
+                deviation=deviation,
+                rest_pitch=4e-4 * float(np.clip(self.rng.standard_normal(), -1.0, 1.0)),
+                curvature=footfall.curvature,
+                step_speed=0.5 * displacement / step_time,
                 kind=kind,
                 flight=self.flight if kind in (StrideKind.UP, StrideKind.DOWN) else None,
             )
         )
-        self.at[foot] = end
-        self.running = fall.speed if kind is StrideKind.RUN else None
-        self._step_off(before[-1])
+        self.feet[foot] = end
+        self.last_running_speed = footfall.speed if kind is StrideKind.RUN else None
+        self._end_climb(strides[-1])
 
-    def _step_off(self, stride: PlannedStride) -> None:
-        """End the climb when both feet are beyond the flight."""
+    def _end_climb(self, stride: PlannedStride) -> None:
+        """End the climb when both feet are on the floor after the flight."""
         flight = self.flight
         if flight is None:
             return
-        if self.climbing is None:
-            self.climbing = stride.toe_off
-        if all(abs(at.z - flight.z - flight.height) < SAME_LEVEL for at in self.at.values()):
-            self.climbs.append(Climb(self.climbing, stride.heel_strike, flight))
+        if self.climb_start is None:
+            self.climb_start = stride.toe_off
+        if all(abs(pose.z - flight.z - flight.height) < HEIGHT_TOLERANCE for pose in self.feet.values()):
+            self.climbs.append(Climb(self.climb_start, stride.heel_strike, flight))
             self.flight = None
 
     def _vary(self, sigma: float) -> float:

@@ -1,12 +1,12 @@
-"""A route as a list of actions, and the path on the floor that it describes.
+"""A route as a sequence of actions, and the path on the floor that it describes.
 
     Route().stand(2).walk(20, speed=1.3).turn(radians(90), radius=2).walk(10).stop(2)
 
-The wearer walks successive moves without a halt; only a turn on the spot starts and ends with the feet together. A
-closing half step ends the walk at every halt. World frame: z up, x along the first heading, y left, origin between the
-feet at the start.
+The wearer walks successive moves without a halt, except that a turn on the spot starts and ends with the feet together.
+At every halt the last step is a half step that brings the feet together. World frame: z up, x along the first heading,
+y left, origin between the feet at the start.
 
-Stairs and lifts change the floor; landings are ordinary walks and turns:
+Stairs and elevators change the floor; on landings the route has ordinary walks and turns:
 
     Route().stand(2).walk(5).stairs(11).turn(radians(180), 0.7).stairs(11).walk(5).lift(-3.5).jog(30).stop(2)"""
 
@@ -16,12 +16,12 @@ from math import inf, isfinite
 
 from attrs import evolve, frozen
 
-from .lift import Lift
-from .path import Flight, Lifted, Piece, Pivot, Pose, WalkPath, ahead
-from .styles import SPEED_DOWN, SPEED_UP
+from .elevator import Elevator
+from .path import ElevatorStage, Flight, Piece, Pivot, Pose, WalkPath, ahead
+from .styles import STAIRS_DOWN_SPEED, STAIRS_UP_SPEED
 
 TIGHT_TURN = 0.8
-"""Largest speed in a bend of less than about a metre, m/s; used when a turn has no speed of its own."""
+"""Largest speed in a bend of radius below 1 m, m/s; it holds for turns without a speed of their own (assumed)."""
 
 
 @frozen
@@ -74,39 +74,39 @@ class Stairs:
     """Horizontal speed along the flight, m/s."""
 
 
-Action = Stand | Walk | TurnAction | Stairs | Lift
+Action = Stand | Walk | TurnAction | Stairs | Elevator
 
 
 @frozen
 class Route:
-    """A list of actions in order; each method returns a longer route, a route itself never changes."""
+    """A sequence of actions; a route never changes, and each method returns a longer one."""
 
     actions: tuple[Action, ...] = ()
     """Actions in order."""
     speed: float = 1.3
-    """Speed of the next move without a speed of its own, m/s: the last one given, or 1.3."""
+    """Speed of moves without a speed of their own, m/s: the last speed that `walk` was called with, or 1.3."""
     spacing: float | None = None
     """Distance between the marks to step on along the path, m; None: steps of natural length."""
 
     def paced(self, spacing: float | None) -> Route:
-        """Return the route with every later footfall on a mark; None: with steps of natural length again.
+        """Let the wearer step on marks from here on; None: steps of natural length again. The wearer must stand here.
 
-        Marks are `spacing` m apart along the path from one halt to the next, scaled so that the last mark is at its
-        end. The wearer must halt before this."""
+        Marks are `spacing` m apart along the path from one halt to the next; the spacing is scaled so that the last
+        mark is at the end of the path."""
         return evolve(self, spacing=None if spacing is None else _positive("spacing", spacing))
 
     def stand(self, duration: float) -> Route:
-        """Halt with a closing half step, then stand for `duration` s."""
+        """Halt with a half step that brings the feet together, then stand for `duration` s."""
         return self._then(Stand(_positive("duration", duration)))
 
     def stop(self, duration: float = 2.0) -> Route:
-        """Halt with a closing half step, then stand for `duration` s, like `stand`."""
+        """Halt and stand for `duration` s, as `stand` does."""
         return self.stand(duration)
 
     def walk(self, distance: float, speed: float | None = None) -> Route:
         """Walk `distance` m straight on at `speed` m/s; the speed is kept for later moves."""
-        chosen = self.speed if speed is None else _positive("speed", speed)
-        return evolve(self._then(Walk(_positive("distance", distance), chosen, self.spacing)), speed=chosen)
+        chosen_speed = self.speed if speed is None else _positive("speed", speed)
+        return evolve(self._then(Walk(_positive("distance", distance), chosen_speed, self.spacing)), speed=chosen_speed)
 
     def jog(self, distance: float, speed: float = 2.6) -> Route:
         """Run `distance` m straight on at `speed` m/s; the speed is not kept for later moves.
@@ -120,14 +120,15 @@ class Route:
     ) -> Route:
         """Walk a flight of `steps` risers, each foot on every other tread; the speed is not kept for later moves.
 
-        `rise` and `going` of each riser are in m, `speed` along the flight in m/s. The first edge is `path.ahead` m
-        ahead of the ankles of a wearer who stands before it, and the flight is `steps * going` m long."""
+        `rise` is the height of a riser, m, `going` the distance between risers, m, and `speed` the horizontal speed
+        along the flight, m/s. The first edge is `path.ahead` m ahead of the ankles of a wearer who stands before it.
+        The flight is `steps * going` m long."""
         if steps < 1 or going < 0.25 or not 0.0 < rise <= 0.22:
             raise ValueError(f"stairs: 1 step or more, going from 0.25 m, rise to 0.22 m, got {steps}, {going}, {rise}")
         if self.actions and isinstance(self.actions[-1], Stairs):
             raise ValueError("stairs: a landing lies between two flights, walk or turn on it")
-        chosen = (SPEED_UP if up else SPEED_DOWN) if speed is None else _positive("speed", speed)
-        return self._then(Stairs(steps, rise if up else -rise, going, chosen))
+        chosen_speed = (STAIRS_UP_SPEED if up else STAIRS_DOWN_SPEED) if speed is None else _positive("speed", speed)
+        return self._then(Stairs(steps, rise if up else -rise, going, chosen_speed))
 
     def lift(
         self,
@@ -138,17 +139,17 @@ class Route:
         doors: float = 2.5,
         creep: float = 0.0,
     ) -> Route:
-        """Ride in a lift by `height` m, negative downwards; the other parameters are those of `Lift`."""
+        """Ride in an elevator by `height` m, negative downwards; the other parameters are those of `Elevator`."""
         if not isfinite(height) or abs(height) < 0.5:
             raise ValueError(f"lift: it goes at least half a metre, got {height}")
         for limit in (speed, acceleration, jerk, doors):
             _positive("lift", limit)
         if not 0.0 <= creep <= 0.3 * speed:
             raise ValueError(f"lift: creep must be between 0 and 0.3 of the speed, got {creep}")
-        return self._then(Lift(height, speed, acceleration, jerk, doors, creep))
+        return self._then(Elevator(height, speed, acceleration, jerk, doors, creep))
 
     def turn(self, angle: float, radius: float = 0.0, speed: float | None = None) -> Route:
-        """Turn by `angle` rad, counter-clockwise positive, along an arc of `radius` m, or on the spot when it is 0."""
+        """Turn by `angle` rad, counter-clockwise positive, along an arc of `radius` m; 0: on the spot."""
         if not isfinite(angle) or not isfinite(radius) or radius < 0.0:
             raise ValueError(f"turn: angle must be finite and radius not negative, got {angle}, {radius}")
         if speed is None:
@@ -158,15 +159,15 @@ class Route:
     @property
     def length(self) -> float:
         """Length of the path's centre line, m."""
-        return sum(piece.length for leg in legs(self) if isinstance(leg, WalkPath) for piece in leg.pieces)
+        return sum(piece.length for stage in stages(self) if isinstance(stage, WalkPath) for piece in stage.pieces)
 
     @property
     def end(self) -> Pose:
         """Pose at the end of the route, between the feet."""
         pose = Pose(0.0, 0.0, 0.0, 0.0)
-        for leg in legs(self):
-            if not isinstance(leg, Stand):
-                pose = leg.end
+        for stage in stages(self):
+            if not isinstance(stage, Stand):
+                pose = stage.end
         return pose
 
     def _then(self, action: Action) -> Route:
@@ -179,37 +180,37 @@ def _positive(name: str, value: float) -> float:
     return value
 
 
-Leg = Stand | WalkPath | Pivot | Lifted
+Stage = Stand | WalkPath | Pivot | ElevatorStage
 
 
-def legs(route: Route) -> list[Leg]:
-    """Split the route at its halts into stands, rides, turns on the spot, and paths between them."""
-    found: list[Leg] = []
+def stages(route: Route) -> list[Stage]:
+    """Return the stages of the route: stands, elevator rides, turns on the spot, and the paths between them."""
+    route_stages: list[Stage] = []
     pieces: list[Piece] = []
     pose = Pose(0.0, 0.0, 0.0, 0.0)
 
     def close() -> None:
         if pieces:
-            found.append(WalkPath(tuple(pieces)))
+            route_stages.append(WalkPath(tuple(pieces)))
             pieces.clear()
 
     for action in route.actions:
         match action:
             case Stand():
                 close()
-                found.append(action)
+                route_stages.append(action)
                 continue
             case TurnAction(angle=angle, radius=0.0):
                 close()
                 pivot = Pivot(pose, angle, action.speed)
-                found.append(pivot)
+                route_stages.append(pivot)
                 pose = pivot.end
                 continue
-            case Lift():
+            case Elevator():
                 close()
-                ridden = Lifted(pose, action)
-                found.append(ridden)
-                pose = ridden.end
+                stage = ElevatorStage(pose, action)
+                route_stages.append(stage)
+                pose = stage.end
                 continue
             case TurnAction(angle=angle, radius=radius):
                 bend = (1.0 if angle > 0.0 else -1.0) / radius
@@ -223,4 +224,4 @@ def legs(route: Route) -> list[Leg]:
         pieces.append(piece)
         pose = piece.at(piece.length)
     close()
-    return found
+    return route_stages

@@ -20,13 +20,13 @@ from ..wearers.curves import Array, Rng
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
 from .building import (
-    APPROACH,
     BUILDING,
     CABINS,
     COLUMNS,
+    EDGE_OFFSET,
     GOING,
     GROUND,
-    LANE,
+    LANE_OFFSET,
     NORTH,
     ROWS,
     UPPER,
@@ -41,13 +41,13 @@ from .route import Route
 
 MAX_OFFSET = 0.3
 """Largest distance of a random walk from the middle of the corridors, m."""
-FEWEST, MOST = 3, 7
+MIN_CORNERS, MAX_CORNERS = 3, 7
 """Least and largest number of corners of a random walk before it heads for its exit."""
-RUN_UP = 4.0
-"""Distance walked along the corridor before and after stairs on the other floor, m."""
+STAIRS_APPROACH = 4.0
+"""Distance walked along the corridor before or after stairs on the other floor, m."""
 _ELEVATION = {level.id: level.elevation for level in BUILDING.levels}
 
-Exit = Cabin | Well
+Passage = Cabin | Well
 
 
 @frozen
@@ -59,16 +59,16 @@ class BuildingWalk:
     start: Start
     """Start on the plan."""
     level: str
-    """Id of the level of the walk."""
+    """Id of the level between entry and exit."""
     entry: str = ""
-    """Name of the lift or stairs by which the wearer comes to the level; "" when the walk starts there."""
+    """Name of the elevator or stairs by which the wearer comes to the level; "" when the walk starts there."""
     exit: str = ""
-    """Name of the lift or stairs by which the wearer leaves the level; "" when the walk ends there."""
+    """Name of the elevator or stairs by which the wearer leaves the level; "" when the walk ends there."""
 
     def places(self, walker: Walker, t: Array | float) -> list[tuple[str, float, float]]:
-        """Return level, x and y (plan frame, m) of the middle between both ankles at times `t`, s.
+        """Return level id, x and y (plan frame, m) of the middle between both ankles at times `t`, s.
 
-        In a lift and on stairs it is the nearer level."""
+        In an elevator and on stairs the level is the nearer one."""
         when = np.atleast_1d(np.asarray(t, dtype=np.float64))
         x, y = self.track(walker, when).T
         high = _ELEVATION[self.start.level] + walker.truth().elevation(when)
@@ -87,130 +87,133 @@ class BuildingWalk:
 def case_study() -> BuildingWalk:
     """Return the walk of section V-F of Liu et al. 2015.
 
-    It goes down by the lift at the bottom left, along corridors, and away by another lift. The paper gives no lengths;
-    this walk turns five times on the floor."""
+    The wearer goes down by the elevator at the bottom left, along corridors, and away by another elevator. The paper
+    gives no lengths; this walk turns five times on the floor."""
     a, b = CABINS[:2]
-    course = Course(UPPER, a.middle, a.out)
+    course = Course(UPPER, a.middle, a.door_heading)
     course.stand()
     course.ride()
     west, middle, east = COLUMNS
     south, centre, _ = ROWS
     bends = ((west, a.middle[1]), (west, south), (middle, south), (middle, centre), (east, centre), (east, b.middle[1]))
-    course.along([*bends, b.middle])
-    course.face(b.out)
+    course.walk_along([*bends, b.middle])
+    course.face(b.door_heading)
     course.ride()
     course.stand()
     return BuildingWalk(course.route, course.start, GROUND, a.name, b.name)
 
 
 def corridor() -> BuildingWalk:
-    """Return 63 m straight on from door to door, as the long corridor of section V-D of Liu et al. 2015."""
+    """Return a walk of 63 m straight on from door to door, like the long corridor of Liu et al. 2015, section V-D."""
     course = Course(GROUND, (COLUMNS[0], 0.0), 0.5 * pi)
     course.stand()
-    course.along([(COLUMNS[0], NORTH)])
+    course.walk_along([(COLUMNS[0], NORTH)])
     course.stand()
     return BuildingWalk(course.route, course.start, GROUND)
 
 
 def wandering(seed: int) -> BuildingWalk:
-    """Return a random walk that comes to a floor by a lift or stairs, follows corridors and leaves by another exit."""
+    """Return a random walk that enters a floor by an elevator or stairs and leaves it by another one."""
     rng = np.random.default_rng([seed, 5])
     level = (GROUND, UPPER)[int(rng.integers(2))]
-    exits: list[Exit] = [*CABINS, *WELLS]
-    one, other = (exits[int(k)] for k in rng.choice(len(exits), 2, replace=False))
-    off = rng.uniform(-MAX_OFFSET, MAX_OFFSET, 2)
-    dx, dy = float(off[0]), float(off[1])
-    course = _arriving(one, level, dx, dy)
-    start, end = _beside(one, level, dx, dy), _beside(other, level, dx, dy)
-    course.along([*_strolled(_network(dx, dy, start, end), start, end, rng), _inside(other, level)])
-    _leaving(course, other, level, dx, dy)
+    connectors: list[Passage] = [*CABINS, *WELLS]
+    entry, departure = (connectors[int(k)] for k in rng.choice(len(connectors), 2, replace=False))
+    offsets = rng.uniform(-MAX_OFFSET, MAX_OFFSET, 2)
+    dx, dy = float(offsets[0]), float(offsets[1])
+    course = _arrival_course(entry, level, dx, dy)
+    start, end = _turning_point(entry, level, dx, dy), _turning_point(departure, level, dx, dy)
+    course.walk_along([*_random_path(_network(dx, dy, start, end), start, end, rng), _standing_point(departure, level)])
+    _add_departure(course, departure, level, dx, dy)
     course.stand()
-    return BuildingWalk(course.route, course.start, level, one.name, other.name)
+    return BuildingWalk(course.route, course.start, level, entry.name, departure.name)
 
 
-def _inside(one: Exit, level: str) -> Point:
+def _standing_point(connector: Passage, level: str) -> Point:
     """Return the point where the wearer stands in a cabin, or before the first edge of the stairs."""
-    if isinstance(one, Cabin):
-        return one.middle
-    lane = -LANE if level == GROUND else LANE  # the lane that starts, and ends, on this level
-    return in_well(one, APPROACH - ahead(level == GROUND, GOING), lane)
+    if isinstance(connector, Cabin):
+        return connector.middle
+    lane = -LANE_OFFSET if level == GROUND else LANE_OFFSET  # the lane whose stairs end on this level
+    return in_well(connector, EDGE_OFFSET - ahead(level == GROUND, GOING), lane)
 
 
-def _beside(one: Exit, level: str, dx: float, dy: float) -> Point:
+def _turning_point(connector: Passage, level: str, dx: float, dy: float) -> Point:
     """Return the point where the wearer turns into a cabin or a stairwell, on the walked line of its corridor."""
-    x, y = _inside(one, level)
-    heading = one.out if isinstance(one, Cabin) else one.inward
+    x, y = _standing_point(connector, level)
+    heading = connector.door_heading if isinstance(connector, Cabin) else connector.inward
     if abs(cos(heading)) > 0.5:
         return (min(COLUMNS, key=lambda column: abs(column - x)) + dx, y)
     return (x, min(ROWS, key=lambda row: abs(row - y)) + dy)
 
 
 def _network(dx: float, dy: float, *turnings: Point) -> dict[Point, list[Point]]:
-    """Return the graph of crossings and turning points, with their neighbours along the corridors."""
+    """Return the crossings and turning points of the corridors, each with its neighbours along them."""
     columns, rows = [x + dx for x in COLUMNS], [y + dy for y in ROWS]
     places = {*turnings, *((x, y) for x in columns for y in rows)}
     nodes: dict[Point, list[Point]] = {place: [] for place in sorted(places)}
     lines = [sorted(place for place in places if place[0] == x) for x in columns]
     lines += [sorted(place for place in places if place[1] == y) for y in rows]
     for line in lines:
-        for one, other in pairwise(line):
-            nodes[one].append(other)
-            nodes[other].append(one)
+        for point, neighbour in pairwise(line):
+            nodes[point].append(neighbour)
+            nodes[neighbour].append(point)
     return nodes
 
 
-def _strolled(nodes: dict[Point, list[Point]], start: Point, end: Point, rng: Rng) -> list[Point]:
-    """Return a path from `start` to `end` without reversing: random for some corners, then with the fewest points."""
+def _random_path(nodes: dict[Point, list[Point]], start: Point, end: Point, rng: Rng) -> list[Point]:
+    """Return a path that does not turn back: random for some corners, then with the fewest points to `end`."""
     path = [start, nodes[start][int(rng.integers(len(nodes[start])))]]
-    corners = int(rng.integers(FEWEST, MOST + 1))
+    corners = int(rng.integers(MIN_CORNERS, MAX_CORNERS + 1))
     while corners > 0 or path[-1] == end:
-        onward = _onward(nodes, path)
+        onward = _next_points(nodes, path)
         path.append(onward[int(rng.integers(len(onward)))])
-        corners -= len(path) > 2 and not _straight(*path[-3:])
-    ways = deque([path[-2:]])
+        corners -= len(path) > 2 and not _is_straight(*path[-3:])
+    paths = deque([path[-2:]])
     known = {(path[-2], path[-1])}
-    while ways[0][-1] != end:
-        way = ways.popleft()
-        for place in _onward(nodes, way):
-            if (way[-1], place) not in known:
-                known.add((way[-1], place))
-                ways.append([*way, place])
-    return [*path[:-2], *ways[0]]
+    while paths[0][-1] != end:
+        path_so_far = paths.popleft()
+        for place in _next_points(nodes, path_so_far):
+            if (path_so_far[-1], place) not in known:
+                known.add((path_so_far[-1], place))
+                paths.append([*path_so_far, place])
+    return [*path[:-2], *paths[0]]
 
 
-def _onward(nodes: dict[Point, list[Point]], path: list[Point]) -> list[Point]:
-    """Return the next possible points; back only at a corridor's end."""
+def _next_points(nodes: dict[Point, list[Point]], path: list[Point]) -> list[Point]:
+    """Return the possible next points; the way back is possible only at a corridor's end."""
     return [place for place in nodes[path[-1]] if place != path[-2]] or [path[-2]]
 
 
-def _straight(a: Point, b: Point, c: Point) -> bool:
+def _is_straight(a: Point, b: Point, c: Point) -> bool:
     return a[0] == b[0] == c[0] or a[1] == b[1] == c[1]
 
 
-def _arriving(one: Exit, level: str, dx: float, dy: float) -> Course:
-    """Return a course from the other floor to this one; it ends where the wearer comes out."""
-    if isinstance(one, Cabin):
-        course = Course(OTHER_LEVEL[level], one.middle, one.out)
+def _arrival_course(connector: Passage, level: str, dx: float, dy: float) -> Course:
+    """Return a course from the other floor to this one; it ends at the exit on this floor."""
+    if isinstance(connector, Cabin):
+        course = Course(OTHER_LEVEL[level], connector.middle, connector.door_heading)
         course.stand()
         course.ride()
         return course
-    inside, turning = _inside(one, OTHER_LEVEL[level]), _beside(one, OTHER_LEVEL[level], dx, dy)
-    if one.inward == pi:
-        course = Course(OTHER_LEVEL[level], (turning[0], turning[1] - RUN_UP), 0.5 * pi)
+    inside, turning = (
+        _standing_point(connector, OTHER_LEVEL[level]),
+        _turning_point(connector, OTHER_LEVEL[level], dx, dy),
+    )
+    if connector.inward == pi:
+        course = Course(OTHER_LEVEL[level], (turning[0], turning[1] - STAIRS_APPROACH), 0.5 * pi)
     else:
-        course = Course(OTHER_LEVEL[level], (turning[0] - RUN_UP, turning[1]), 0.0)
+        course = Course(OTHER_LEVEL[level], (turning[0] - STAIRS_APPROACH, turning[1]), 0.0)
     course.stand()
-    course.along([turning, inside])
+    course.walk_along([turning, inside])
     course.climb(up=level == UPPER)
     return course
 
 
-def _leaving(course: Course, other: Exit, level: str, dx: float, dy: float) -> None:
+def _add_departure(course: Course, connector: Passage, level: str, dx: float, dy: float) -> None:
     """Continue the course from a cabin, or from the first edge of stairs, to the other floor."""
-    if isinstance(other, Cabin):
-        course.face(other.out)
+    if isinstance(connector, Cabin):
+        course.face(connector.door_heading)
         course.ride()
         return
     course.climb(up=level == GROUND)
-    x, y = _beside(other, OTHER_LEVEL[level], dx, dy)
-    course.along([(x, y), (x, y - RUN_UP) if other.inward == pi else (x - RUN_UP, y)])
+    x, y = _turning_point(connector, OTHER_LEVEL[level], dx, dy)
+    course.walk_along([(x, y), (x, y - STAIRS_APPROACH) if connector.inward == pi else (x - STAIRS_APPROACH, y)])

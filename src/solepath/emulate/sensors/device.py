@@ -1,4 +1,4 @@
-"""The interface of every emulated device: worn at a site, it sends notifications by its own clock."""
+"""The interface of every emulated device, which is worn at a site and sends notifications by its own clock."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from ...types import Foot, Site
 from ..wearers.curves import Array, Rng
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
-from .sensors import Instants, instants
+from .sensors import Sampling, instants
 
 CRYSTAL_PPM = 30.0
-"""Standard deviation of the crystals' rate, ppm: the usual 32 kHz tuning fork is within about +-50 ppm."""
-SETUP = 0.05
-"""Time at which the setup (reads and writes) is over and measuring starts, s."""
+"""Standard deviation of a clock's rate error, ppm; usual 32 kHz crystals are within about +-50 ppm."""
+SETUP_TIME = 0.05
+"""Time of the walk at which the setup (reads and writes) is over and measuring starts, s (assumed)."""
 
 
 @frozen
@@ -32,7 +32,7 @@ class Notification:
     data: bytes
     """Value as the device encodes it."""
     acknowledged: bool = False
-    """True for a value that was read or written, not notified: the link layer repeats it until it arrives."""
+    """True for a value that was read or written and not notified; the link layer repeats it until it arrives."""
 
 
 @frozen
@@ -61,20 +61,21 @@ class Device(Protocol):
         """Return everything that the device sends over the walk, in the order of sending."""
 
 
-def setup_notifications(profile: Profile, own: Mapping[str, bytes]) -> list[Notification]:
-    """Return what a host reads and writes by `profile` before measuring starts, evenly spread over the time to `SETUP`.
+def setup_notifications(profile: Profile, device_values: Mapping[str, bytes]) -> list[Notification]:
+    """Return the values that a host reads and writes by `profile`, evenly spread over the time up to SETUP_TIME.
 
-    `own` has by channel the values that are read, and the written values that differ from `profile.setup`."""
-    values = [(channel, own[channel]) for channel in profile.reads]
+    `device_values` has, by channel, the values that are read, and the written values that differ from
+    `profile.setup`."""
+    values = [(channel, device_values[channel]) for channel in profile.reads]
     for write in profile.setup:
-        values.append((write.channel, own.get(write.channel, write.value)))
-        values += [(channel, own[channel]) for channel in write.then_read]
-    each = SETUP / (len(values) + 1)
-    return [Notification(each * k, channel, data, True) for k, (channel, data) in enumerate(values, 1)]
+        values.append((write.channel, device_values.get(write.channel, write.value)))
+        values += [(channel, device_values[channel]) for channel in write.then_read]
+    spacing = SETUP_TIME / (len(values) + 1)
+    return [Notification(spacing * k, channel, data, True) for k, (channel, data) in enumerate(values, 1)]
 
 
 def device_numbers(seed: int, site: Site, *more: int) -> Rng:
-    """Return the random generator of the device at a site, or of one part of it with `more`."""
+    """Return the random generator of the device at a site; with `more` that of one of its sensors."""
     return np.random.default_rng([seed, 2, list(Site).index(site), *more])
 
 
@@ -87,22 +88,22 @@ def foot_of(site: Site) -> Foot:
 
 def draw_clock(rng: Rng, interval: float, ppm: float | None = None) -> DeviceClock:
     """Return a clock whose first sample is at a random time within one `interval` after the setup."""
-    drawn = CRYSTAL_PPM * float(rng.standard_normal())
-    return DeviceClock(drawn if ppm is None else ppm, SETUP + interval * float(rng.uniform()))
+    random_ppm = CRYSTAL_PPM * float(rng.standard_normal())
+    return DeviceClock(random_ppm if ppm is None else ppm, SETUP_TIME + interval * float(rng.uniform()))
 
 
-def sampling_instants(walker: Walker, clock: DeviceClock, nominal: float, first: float | None = None) -> Instants:
+def make_sampling(walker: Walker, clock: DeviceClock, nominal: float, first: float | None = None) -> Sampling:
     """Return the instants of a sensor that measures every `nominal` s of the device's clock until the walk ends."""
     start, interval = clock.first if first is None else first, clock.interval(nominal)
     return instants(start, interval, max(2, int((walker.duration - start) / interval)))
 
 
-FIELD: Array = np.array([16e-6, 12e-6, -43e-6])
+MAGNETIC_FIELD: Array = np.array([16e-6, 12e-6, -43e-6])
 """Magnetic field of the earth in the world frame, T: 20 uT horizontal, 43 uT down, as in Central Europe."""
 
 
 def in_sensor_frame(attitude: Array, vector: Array) -> Array:
-    """Return a world vector in the sensor frames of these attitudes (N, 4): q* v q, (N, 3)."""
+    """Return a world vector v in the sensor frames of the attitudes q (N, 4), as q* v q, (N, 3)."""
     axis = -attitude[:, 1:]
     twice = 2.0 * np.cross(axis, vector)
     return np.asarray(vector + attitude[:, :1] * twice + np.cross(axis, twice))

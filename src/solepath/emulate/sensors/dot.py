@@ -11,16 +11,16 @@ from ...types import Site
 from ..wearers.curves import Rng
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
-from .device import Notification, draw_clock, sampling_instants, setup_notifications
+from .device import Notification, draw_clock, make_sampling, setup_notifications
 from .parts import CRE_CC02, AttitudePart
 from .sensors import read_attitudes
-from .tag_signals import HANDLING
+from .tag_signals import HANDLING_TIME
 
-RATE = 60.0
+SAMPLING_RATE = 60.0
 """Sampling rate after the usual setup, Hz."""
 TICK_RATE = 1e6
 """Rate of the device's clock, ticks per s."""
-BATTERY = b"\x5a\x00"
+BATTERY_VALUE = b"\x5a\x00"
 """Value of the battery channel: 90 percent, not charging."""
 
 
@@ -29,12 +29,13 @@ class Dot:
     """A Movella DOT that sends its attitude at 60 Hz."""
 
     mounting: Mounting = Mounting((0.0, 0.0, 0.0))
-    """Position and attitude on the segment of the site, in that segment's frame (limbs.py)."""
+    """Position, m, and attitude of the sensor in the frame of its segment (limbs.py)."""
     attitude: AttitudePart = CRE_CC02
-    """Attitude errors; by default those of the unit of Gong et al. 2023, because the DOT is worn in their experiments.
+    """Attitude errors; by default those of the device of Gong et al. 2023, because the DOT emulates their experiments.
+
     MOVELLA_DOT has the errors of the DOT itself."""
     north: float = 0.0
-    """Yaw of the device's world relative to the walk's world, rad."""
+    """Yaw of the device's world frame in the walk's world frame, rad, counter-clockwise positive."""
     ppm: float | None = None
     """Rate error of the clock, ppm; None: random."""
     ticks: int | None = None
@@ -42,16 +43,16 @@ class Dot:
 
     def emit(self, walker: Walker, site: Site, rng: Rng) -> list[Notification]:
         """Return everything that the device sends over the walk, in the order of sending."""
-        clock = draw_clock(rng, 1.0 / RATE, self.ppm)
-        drawn = int(rng.integers(0, 2**32))
-        first_ticks = drawn if self.ticks is None else self.ticks
-        t = sampling_instants(walker, clock, 1.0 / RATE).taken
-        true = walker.body.at(site, t, self.mounting).attitude
-        attitudes = read_attitudes(true, t, self.attitude, self.north, rng)
-        sent = setup_notifications(DRIVER.profile, {"dot-orientation/battery": BATTERY})
+        clock = draw_clock(rng, 1.0 / SAMPLING_RATE, self.ppm)
+        random_ticks = int(rng.integers(0, 2**32))
+        first_ticks = random_ticks if self.ticks is None else self.ticks
+        t = make_sampling(walker, clock, 1.0 / SAMPLING_RATE).times
+        true_attitudes = walker.body.at(site, t, self.mounting).attitude
+        attitudes = read_attitudes(true_attitudes, t, self.attitude, self.north, rng)
+        sent = setup_notifications(DRIVER.profile, {"dot-orientation/battery": BATTERY_VALUE})
         (stream,) = DRIVER.profile.streams
-        for k, (when, quat) in enumerate(zip(t.tolist(), attitudes.tolist(), strict=True)):
-            ticks = (first_ticks + round(k * TICK_RATE / RATE)) % 2**32
+        for k, (sample_time, quat) in enumerate(zip(t.tolist(), attitudes.tolist(), strict=True)):
+            ticks = (first_ticks + round(k * TICK_RATE / SAMPLING_RATE)) % 2**32
             data = DRIVER.write(stream, {"ticks": ticks, "quat": struct.unpack("<4f", struct.pack("<4f", *quat))})
-            sent.append(Notification(when + HANDLING, stream, data))
+            sent.append(Notification(sample_time + HANDLING_TIME, stream, data))
         return sent

@@ -17,12 +17,12 @@ from ...wire.insole_info import InsoleInfo, build_info
 from ..wearers.curves import Array, Rng
 from ..wearers.shoe import IN_SOLE, ON_HEEL, Mounting, Shoe
 from ..wearers.walker import Walker
-from .device import Notification, draw_clock, foot_of, sampling_instants, setup_notifications
-from .insoles import SCALE, heel_array, layout
-from .parts import HEEL_ARRAY, INERTIACUBE3, LSM6DSOX, RESISTIVE, AttitudePart, CellPart, Imu
-from .sensors import measure_imu, read_attitudes, read_cells, sample, samples_of, to_counts
+from .device import Notification, draw_clock, foot_of, make_sampling, setup_notifications
+from .insoles import LOAD_PER_COUNT, heel_array, layout
+from .parts import HEEL_ARRAY, INERTIACUBE3, LSM6DSOX, RESISTIVE, AttitudePart, CellErrors, Imu
+from .sensors import measure_imu, read_attitudes, read_cells, samples_of, take_samples, to_counts
 
-HANDLING = 1e-3
+HANDLING_TIME = 1e-3
 """Time from a frame's last sample until the radio has the frame, s."""
 
 Counts = np.ndarray[tuple[int, ...], np.dtype[np.int16]]
@@ -32,8 +32,8 @@ Counts = np.ndarray[tuple[int, ...], np.dtype[np.int16]]
 class InsoleSignal:
     """The counts that an insole measures over a walk; sample k is taken at true time `first` + k `step`, s.
 
-    Frames can have any number, also below 0 and after the end of the walk: the wearer then stands as at the start or
-    the end, and the device continues to count."""
+    Frame numbers below 0 and after the end of the walk are valid. The wearer then stands as at the start or the end,
+    and the device continues to count."""
 
     layout: Layout
     """Layout of the cells."""
@@ -54,12 +54,12 @@ class InsoleSignal:
     imu: Counts | None
     """Counts of accelerometer and gyroscope, (N, 6); None when they are not sent."""
     quats: Counts | None
-    """Attitude, Q14, (N, 4); None when it is not sent."""
-    full: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
+    """Attitude in units of 2^-14, (N, 4), w x y z; None when it is not sent."""
+    saturated: np.ndarray[tuple[int, ...], np.dtype[np.bool_]]
     """True where a sensor was at the end of its range, (N)."""
 
     def frames(self, batch: int) -> int:
-        """Return the number of frames of `batch` samples in the walk."""
+        """Return how many frames of `batch` samples the walk has."""
         return len(self.cells) // batch
 
     def frame(self, number: int, batch: int = 1) -> InsoleFrame:
@@ -73,16 +73,16 @@ class InsoleSignal:
             ticks=(self.ticks + start * self.interval) % 2**32,
             interval=self.interval,
             samples=tuple([self._sample(row) for row in rows]),
-            saturated=any(bool(self.full[row]) for row in rows),
+            saturated=any(bool(self.saturated[row]) for row in rows),
         )
 
-    def taken(self, number: int, batch: int = 1) -> float:
+    def sample_time(self, number: int, batch: int = 1) -> float:
         """Return the true time of a frame's first sample, s."""
         return self.first + self.step * (number * batch)
 
     def ready(self, number: int, batch: int = 1) -> float:
         """Return the time at which the radio has a frame, s."""
-        return self.first + self.step * (number * batch + batch - 1) + HANDLING
+        return self.first + self.step * (number * batch + batch - 1) + HANDLING_TIME
 
     def _sample(self, row: int) -> InsoleSample:
         return InsoleSample(
@@ -107,8 +107,9 @@ class Insole:
     """A pressure insole with cells of 12 bits and an IMU."""
 
     cells: int | Layout = 96
-    """Number of cells over the whole sole, or a layout for the foot that wears the insole. A layout without a scale is
-    read at the default scale and sent as counts."""
+    """Number of cells over the whole sole, or a layout for the foot that wears the insole.
+
+    The cells of a layout without a scale are read at the default scale and sent as counts."""
     rate: float = 100.0
     """Sampling rate, Hz; rounded to whole ticks."""
     batch: int = 1
@@ -116,18 +117,18 @@ class Insole:
     mtu: int = 247
     """ATT MTU of the link, bytes; larger frames are sent in fragments."""
     imu: bool = True
-    """Send acceleration and angular rate."""
+    """True when acceleration and angular rate are sent."""
     quaternion: bool = False
-    """Send the device's own attitude too."""
+    """True when the attitude that the device estimates is sent too."""
     attitude: AttitudePart | None = None
     """Attitude errors; None: a constant tilt error of half a degree and a random heading."""
     north: float = 0.0
-    """Yaw of the device's world relative to the walk's world, rad; used with `attitude`."""
+    """Yaw of the device's world frame in the walk's world frame, rad; it is used only with `attitude`."""
     mounting: Mounting = IN_SOLE
     """Position and attitude of the IMU on the foot."""
     part: Imu = LSM6DSOX
     """Errors of the IMU."""
-    cell_part: CellPart = RESISTIVE
+    cell_part: CellErrors = RESISTIVE
     """Errors of the cells."""
     ppm: float | None = None
     """Rate error of the clock, ppm; None: random."""
@@ -136,19 +137,19 @@ class Insole:
     firmware: str = "emulated 1"
     """Firmware version that the device reports."""
     reports_saturation: bool = True
-    """A frame with a saturated cell has the flag; False for devices whose cells are a separate unit."""
+    """True when a frame with a saturated cell has the flag; False for devices whose cells are a separate unit."""
     broken: tuple[tuple[int, int], ...] = ()
     """Broken cells: pairs of the cell's index and its constant count."""
 
     def emit(self, walker: Walker, site: Site, rng: Rng) -> list[Notification]:
         """Return everything that the insole sends over the walk, in the order of sending."""
         signal = self.measure(walker, site, rng)
-        own = {
+        device_values = {
             "insole/info": build_info(self.info(signal)),
             "device/firmware": build_firmware(self.firmware),
             "device/battery": build_battery(BATTERY),
         }
-        sent = setup_notifications(INSOLE, own)
+        sent = setup_notifications(INSOLE, device_values)
         for number in range(signal.frames(self.batch)):
             frame, ready = build_frame(signal.frame(number, self.batch)), signal.ready(number, self.batch)
             for piece in split(frame, self.mtu - 3, number % FRAME_IDS):
@@ -159,34 +160,41 @@ class Insole:
         """Return the counts that the insole measures over the walk."""
         foot = foot_of(site)
         clock = draw_clock(rng, self.interval / TICK_RATE, self.ppm)
-        when = sampling_instants(walker, clock, self.interval / TICK_RATE)
-        drawn, sequence, serial = (int(n) for n in rng.integers(0, (2**32, 2**16, 2**24)))
-        shape = self._layout(foot, walker.wearer.shoe)
+        sampling = make_sampling(walker, clock, self.interval / TICK_RATE)
+        random_ticks, sequence, serial = (int(n) for n in rng.integers(0, (2**32, 2**16, 2**24)))
+        cell_layout = self._layout(foot, walker.wearer.shoe)
 
-        motion = walker.kinematics(foot, when.fine, self.mounting)
-        measured, turned = measure_imu(motion, when, self.part, rng, 0.5 * self.rate)
-        acc, gyro = to_counts(measured, self.part.acc, ACC_COUNT), to_counts(turned, self.part.gyro, GYRO_COUNT)
-        lift = sample(motion.force, when) @ np.array(rotate_back(self.mounting.attitude, (0.0, 0.0, 1.0)))
-        loads = read_cells(
-            walker.cell_loads(shape, when.taken), when.taken, self.cell_part, shape.scale or SCALE, rng, lift=lift
+        kinematics = walker.kinematics(foot, sampling.fine_times, self.mounting)
+        measured, gyro_measured = measure_imu(kinematics, sampling, self.part, rng, 0.5 * self.rate)
+        acc, gyro = to_counts(measured, self.part.acc, ACC_COUNT), to_counts(gyro_measured, self.part.gyro, GYRO_COUNT)
+        upward_force = take_samples(kinematics.force, sampling) @ np.array(
+            rotate_back(self.mounting.attitude, (0.0, 0.0, 1.0))
         )
-        full = loads.saturated
+        loads = read_cells(
+            walker.cell_loads(cell_layout, sampling.times),
+            sampling.times,
+            self.cell_part,
+            cell_layout.scale or LOAD_PER_COUNT,
+            rng,
+            upward_force=upward_force,
+        )
+        saturated = loads.saturated
         for cell, count in self.broken:
             loads.counts[:, cell] = count
-            full = full | (count >= 4095)
-        attitude = self._attitudes(sample(motion.attitude, when), when.taken, rng)
+            saturated = saturated | (count >= 4095)
+        attitude = self._attitudes(take_samples(kinematics.attitude, sampling), sampling.times, rng)
         return InsoleSignal(
-            layout=shape,
+            layout=cell_layout,
             interval=self.interval,
             first=clock.first,
             step=clock.interval(self.interval / TICK_RATE),
             sequence=sequence,
-            ticks=drawn if self.ticks is None else self.ticks,
+            ticks=random_ticks if self.ticks is None else self.ticks,
             serial=serial,
             cells=loads.counts.astype(np.int16),
             imu=np.concatenate((acc.counts, gyro.counts), axis=1).astype(np.int16) if self.imu else None,
             quats=attitude,
-            full=acc.saturated | gyro.saturated | (full & self.reports_saturation),
+            saturated=acc.saturated | gyro.saturated | (saturated & self.reports_saturation),
         )
 
     def samples(self, walker: Walker, site: Site, rng: Rng) -> list[Sample]:
@@ -198,7 +206,7 @@ class Insole:
             acc, gyro = signal.imu[:, :3] * ACC_COUNT, signal.imu[:, 3:] * GYRO_COUNT
         quats = None if signal.quats is None else signal.quats / 16384.0
         cells = (signal.layout.scale or 1.0) * signal.cells
-        return samples_of(site, t, acc, gyro, cells, quats, signal.full)
+        return samples_of(site, t, acc, gyro, cells, quats, signal.saturated)
 
     @property
     def interval(self) -> int:
@@ -229,7 +237,7 @@ class Insole:
         return self.cells
 
     def _attitudes(self, true: Array, t: Array, rng: Rng) -> Counts | None:
-        """Return the attitude that the device estimates, Q14; None when it is not sent."""
+        """Return the attitude that the device estimates, in units of 2^-14, (N, 4); None when it is not sent."""
         if not self.quaternion:
             return None
         if self.attitude is not None:
@@ -245,8 +253,8 @@ class Insole:
 def boot(foot: Foot, rate: float = 100.0) -> Insole:
     """Return the sensors of Bebek et al. 2010, IEEE Trans. Instrum. Meas. 59.
 
-    They are an array of 24 cells under the heel and an attitude sensor on the back of the heel. Its acceleration and
-    rate have the errors of the other insoles, because the paper gives neither errors nor a sampling rate."""
+    They are an array of 24 cells under the heel and an attitude sensor on the back of the heel. Its specific force and
+    angular rate have the errors of the other insoles, because the paper gives neither errors nor a sampling rate."""
     return Insole(
         cells=heel_array(foot),
         rate=rate,

@@ -13,12 +13,12 @@ from ...types import Cell, Foot, Layout
 FULL_SCALE = 204.75
 """Largest load that a cell can report, N: 4095 counts of 12 bits at 0.05 N.
 
-It corresponds to the 5 to 200 N of a published 99-cell insole."""
+It corresponds to the range of 5 to 200 N of a published insole of 99 cells."""
 
-SCALE = FULL_SCALE / 4095
+LOAD_PER_COUNT = FULL_SCALE / 4095
 """Load per count, N."""
 
-# Half-widths of a left sole, as parts of its width, over x as a part of its length: lateral (+y) and medial (-y) side.
+# Half-widths of a left sole on its lateral (+y) and medial (-y) side, as shares of its width, at shares of its length.
 _ALONG = (0.00, 0.03, 0.10, 0.18, 0.30, 0.42, 0.55, 0.68, 0.76, 0.86, 0.94, 1.00)
 _LATERAL = (0.10, 0.24, 0.32, 0.34, 0.34, 0.38, 0.46, 0.50, 0.47, 0.36, 0.20, 0.05)
 _MEDIAL = (0.10, 0.24, 0.32, 0.33, 0.27, 0.23, 0.32, 0.46, 0.48, 0.45, 0.34, 0.12)
@@ -27,8 +27,8 @@ _MEDIAL = (0.10, 0.24, 0.32, 0.33, 0.27, 0.23, 0.32, 0.46, 0.48, 0.45, 0.34, 0.1
 def layout(count: int, foot: Foot, length: float = 0.285, width: float = 0.100) -> Layout:
     """Return the layout of an insole of `count` cells (24, 35, 96, 99, any number from 8 to 128).
 
-    Cells are in rows from heel to toe, each row from right to left. All cells of a row are equally wide; cells are 80 %
-    of the surface."""
+    The order of the cells is row by row from heel to toe, and in a row of a left foot from right to left. All cells of
+    a row are equally wide; cells are 80 % of the surface."""
     if not 8 <= count <= 128:
         raise ValueError(f"an insole has 8 to 128 cells, got {count}")
     rows = max(4, round(float(np.sqrt(count * length / (0.75 * width)))))
@@ -42,28 +42,28 @@ def layout(count: int, foot: Foot, length: float = 0.285, width: float = 0.100) 
         cells += [Cell(float(x), float(low + (k + 0.5) * step), float(area)) for k in range(share)]
     if foot is Foot.RIGHT:
         cells = [evolve(cell, y=-cell.y) for cell in cells]
-    return Layout(count, foot, tuple(cells), length, SCALE, FULL_SCALE)
+    return Layout(count, foot, tuple(cells), length, LOAD_PER_COUNT, FULL_SCALE)
 
 
 HEEL_LENGTH, HEEL_WIDTH = 0.0823, 0.0451
 """Sensing area of a DigiTacts II array, m (Bebek et al. 2010, section IV); its 24 cells lie 6 by 4 (assumed)."""
-HEEL_PRESSURE = 140e3
+MAX_HEEL_PRESSURE = 140e3
 """Largest pressure that a DigiTacts II array detects, Pa (Bebek et al. 2010, section IV)."""
 
 
 def heel_array(foot: Foot, length: float = 0.285, rear: float = 0.008) -> Layout:
     """Return the layout of a DigiTacts II array under the heel of a shoe of `length` m.
 
-    Its 24 cells are in rows from the back to the front, each row from right to left. The first row starts `rear` m in
-    front of the heel's rear end (assumed). The id is 24, as for 24 cells over the whole sole; INFO distinguishes them.
-    """
+    Its 24 cells are ordered row by row from the back to the front, and in a row from right to left. The first row
+    starts `rear` m in front of the heel's rear end (assumed). The id is 24, as for 24 cells over the whole sole; INFO
+    distinguishes them."""
     step, across = HEEL_LENGTH / 6, HEEL_WIDTH / 4
     cells = [
         Cell(rear + (row + 0.5) * step, -0.5 * HEEL_WIDTH + (column + 0.5) * across, step * across)
         for row in range(6)
         for column in range(4)
     ]
-    full = HEEL_PRESSURE * step * across
+    full = MAX_HEEL_PRESSURE * step * across
     return Layout(24, foot, tuple(cells), length, full / 4095, full)
 
 

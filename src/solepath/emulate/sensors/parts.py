@@ -1,8 +1,9 @@
-"""Sensor errors of named parts, from their data sheets.
+"""Errors of sensor chips, pressure cells and whole devices, from their data sheets.
 
-A tolerance of +-x in a sheet is taken as two standard deviations between parts. No sheet specifies how a bias changes
-over time; here it follows the temperature slowly: the sheet's drift per kelvin times WARMING. Comments name what is
-assumed where a sheet gives no value. (*) marks figures that have not been compared with the sheet itself."""
+A tolerance of +-x in a sheet is taken as two standard deviations between specimens. No sheet specifies how a bias
+changes over time. Here the bias follows the temperature slowly, by the sheet's drift per kelvin times WARMING. Comments
+name what is assumed where a sheet gives no value. (*) marks figures that have not been compared with the sheet
+itself."""
 
 from __future__ import annotations
 
@@ -21,52 +22,52 @@ _DPS = radians(1.0)
 
 
 @frozen
-class Triad:
-    """Errors of a three-axis sensor, as standard deviations between parts.
+class TriadErrors:
+    """The errors of a three-axis sensor, as standard deviations between specimens.
 
     The unit u is m/s^2 for accelerometers, rad/s for gyroscopes and T for magnetometers."""
 
     density: float
     """White noise density, u/sqrt(Hz)."""
     bias: float
-    """Bias at turn-on, u."""
-    wander: float
-    """Variation of the bias over time, u: a first-order Gauss-Markov process."""
+    """Constant bias, u."""
+    drift: float
+    """Variation of the bias over time, u, as a first-order Gauss-Markov process."""
     scale: float
     """Relative scale error."""
     cross: float
     """Relative cross-axis error."""
     bandwidth: float
-    """Bandwidth of the part's own second-order low pass, Hz."""
-    memory: float = 300.0
-    """Correlation time of `wander`, s."""
+    """Bandwidth of the sensor's own second-order low pass, Hz."""
+    correlation_time: float = 300.0
+    """Correlation time of `drift`, s."""
     bits: int = 16
-    """Bits of a reading."""
+    """Number of bits of a reading."""
     g_effect: float = 0.0
-    """Output per acceleration, u per m/s^2."""
+    """False output per specific force, u per m/s^2; its sign is random."""
     bias_limit: float = inf
     """Largest bias, u, where a sheet guarantees a limit."""
 
 
 @frozen
 class Imu:
-    """Errors of the accelerometer and the gyroscope of a device."""
+    """The errors of the accelerometer and the gyroscope of a device."""
 
     name: str
-    """Name of the part."""
-    acc: Triad
-    """Errors of the accelerometer, m/s^2."""
-    gyro: Triad
-    """Errors of the gyroscope, rad/s."""
+    """Name of the chip or chips."""
+    acc: TriadErrors
+    """Errors of the accelerometer, unit m/s^2."""
+    gyro: TriadErrors
+    """Errors of the gyroscope, unit rad/s."""
 
 
 def _gyro(
     density: float, bias: float, drift: float, scale: float, cross: float, bandwidth: float, g_effect: float = 0.0
-) -> Triad:
+) -> TriadErrors:
     """Return the errors of a gyroscope in rad/s.
 
     `density` is in degrees/s/sqrt(Hz), `bias` in degrees/s, `drift` in degrees/s/K, `g_effect` in degrees/s/g."""
-    return Triad(
+    return TriadErrors(
         density * _DPS, bias * _DPS, drift * WARMING * _DPS, scale, cross, bandwidth, g_effect=g_effect * _DPS / _G
     )
 
@@ -75,7 +76,9 @@ LSM6DSOX = Imu(
     "LSM6DSOX",
     # ST DS12814, table 2 (typical): noise density 110 ug/sqrt(Hz) at +-16 g, zero-g offset +-20 mg, 0.1 mg/K,
     # sensitivity tolerance +-1 %; the low pass at ODR/2 is set by the device. Cross axis is not given: 1 % assumed.
-    Triad(density=110e-6 * _G, bias=10 * _MG, wander=0.1 * WARMING * _MG, scale=0.005, cross=0.005, bandwidth=400.0),
+    TriadErrors(
+        density=110e-6 * _G, bias=10 * _MG, drift=0.1 * WARMING * _MG, scale=0.005, cross=0.005, bandwidth=400.0
+    ),
     # Same table: 3.8 mdps/sqrt(Hz), zero-rate level +-1 dps, 0.010 dps/K, sensitivity tolerance +-1 %.
     _gyro(density=3.8e-3, bias=0.5, drift=0.010, scale=0.005, cross=0.005, bandwidth=400.0),
 )
@@ -84,7 +87,9 @@ MPU9250 = Imu(
     "MPU-9250",
     # InvenSense PS-MPU-9250A-01 rev. 1.0, table 2: 300 ug/sqrt(Hz), zero-g +-60 mg (x, y) and +-80 mg (z) of which the
     # smaller is used for all, 1.5 mg/K, initial tolerance +-3 %, cross axis +-2 %, low pass up to 260 Hz.
-    Triad(density=300e-6 * _G, bias=30 * _MG, wander=1.5 * WARMING * _MG, scale=0.015, cross=0.010, bandwidth=260.0),
+    TriadErrors(
+        density=300e-6 * _G, bias=30 * _MG, drift=1.5 * WARMING * _MG, scale=0.015, cross=0.010, bandwidth=260.0
+    ),
     # Table 1: 0.01 dps/sqrt(Hz), ZRO +-5 dps, +-30 dps over 125 K (0.24 dps/K as the extreme, half of it as sigma),
     # scale +-3 %, cross axis +-2 %, low pass up to 250 Hz.
     _gyro(density=0.01, bias=2.5, drift=0.12, scale=0.015, cross=0.010, bandwidth=250.0),
@@ -95,7 +100,9 @@ MPU6050 = Imu(
     # InvenSense PS-MPU-6000A rev. 3.4, section 6.2 (*): 400 ug/sqrt(Hz), zero-g +-50 mg (x, y) and +-80 mg (z) of which
     # the smaller is used for all, +-35 mg over 70 K (0.5 mg/K), initial tolerance +-3 %, cross axis +-2 %, low pass up
     # to 260 Hz.
-    Triad(density=400e-6 * _G, bias=25 * _MG, wander=0.5 * WARMING * _MG, scale=0.015, cross=0.010, bandwidth=260.0),
+    TriadErrors(
+        density=400e-6 * _G, bias=25 * _MG, drift=0.5 * WARMING * _MG, scale=0.015, cross=0.010, bandwidth=260.0
+    ),
     # Section 6.1 (*): 0.005 dps/sqrt(Hz), the 18 degrees/h/sqrt(Hz) that Sensors 2016, 16, 1809 names; initial ZRO
     # +-20 dps, +-20 dps over 125 K (half of the extreme as sigma), scale +-3 %, cross axis +-2 %, linear acceleration
     # sensitivity 0.1 dps/g, low pass up to 256 Hz.
@@ -106,11 +113,11 @@ KXTJ9_IMU3000 = Imu(
     "KXTJ9 and IMU-3000",
     # Kionix KXTJ9 (*): 8 bits a reading; zero-g offset +-125 mg at the most, 0.2 mg/K, cross axis 2 %, ODR 50 Hz at
     # reset, low pass at ODR/2. Noise 750 ug/sqrt(Hz) and scale +-3 % are figures of the family, and far below one
-    # count of 1/16 g. The maximum of the offset is a limit: no part that is sold is beyond it.
-    Triad(
+    # count of 1/16 g. The maximum of the offset is a limit, which no chip that is sold exceeds.
+    TriadErrors(
         density=750e-6 * _G,
         bias=60 * _MG,
-        wander=0.2 * WARMING * _MG,
+        drift=0.2 * WARMING * _MG,
         scale=0.015,
         cross=0.010,
         bandwidth=25.0,
@@ -122,87 +129,90 @@ KXTJ9_IMU3000 = Imu(
     _gyro(density=0.01, bias=10.0, drift=0.03, scale=0.015, cross=0.010, bandwidth=188.0, g_effect=0.1),
 )
 
-AK8963 = Triad(density=0.15e-6, bias=10e-6, wander=0.2e-6, scale=0.025, cross=0.01, bandwidth=50.0)
-"""AKM MS1356-E (*) (inside the MPU-9250): 0.15 uT per count, scale +-5 %. The bias (iron in the shoe) is assumed."""
+AK8963 = TriadErrors(density=0.15e-6, bias=10e-6, drift=0.2e-6, scale=0.025, cross=0.01, bandwidth=50.0)
+"""Errors of the AK8963 in the MPU-9250, AKM MS1356-E (*): 0.15 uT per count, scale +-5 %. Iron (bias) is assumed."""
 
-MAG3110 = Triad(density=0.25e-6, bias=10e-6, wander=0.2e-6, scale=0.025, cross=0.01, bandwidth=40.0)
-"""Freescale MAG3110 (*): 0.25 uT rms noise, 0.1 uT per count, cross axis +-1 %. The bias (iron) is assumed."""
+MAG3110 = TriadErrors(density=0.25e-6, bias=10e-6, drift=0.2e-6, scale=0.025, cross=0.01, bandwidth=40.0)
+"""Errors of the Freescale MAG3110 (*): 0.25 uT rms, 0.1 uT per count, cross axis +-1 %. Iron (bias) is assumed."""
 
 
 @frozen
-class BarometerPart:
-    """Errors of a barometer, as standard deviations."""
+class BarometerErrors:
+    """The errors of a barometer, as standard deviations."""
 
     name: str
-    """Name of the part."""
+    """Name of the chip."""
     noise: float
     """Noise of one reading, Pa rms."""
     offset: float
-    """Offset between parts, Pa."""
-    wander: float = 8.0
+    """Constant offset, between specimens, Pa."""
+    drift: float = 8.0
     """Variation over time, weather included, Pa."""
-    memory: float = 600.0
-    """Correlation time of `wander`, s."""
+    correlation_time: float = 600.0
+    """Correlation time of `drift`, s."""
 
 
-BMP280 = BarometerPart("BMP280", noise=1.3, offset=50.0)
+BMP280 = BarometerErrors("BMP280", noise=1.3, offset=50.0)
 """Bosch BST-BMP280-DS001: absolute accuracy +-1 hPa; 1.3 Pa rms in standard resolution without filter (*)."""
 
-T5400 = BarometerPart("T5400", noise=6.0, offset=50.0)
+T5400 = BarometerErrors("T5400", noise=6.0, offset=50.0)
 """EPCOS T5400 (*): absolute accuracy +-1 hPa; the noise of a low-power reading is taken as 6 Pa (0.5 m)."""
 
 
 @frozen
-class CellPart:
-    """Errors of a pressure cell that a 12-bit converter reads, as standard deviations between cells.
+class CellErrors:
+    """The errors of a pressure cell that a 12-bit converter reads, as standard deviations between cells.
 
-    In the air the foot still touches the insole and presses on it (`hang`, `rub`). A cell's load is never negative."""
+    In swing the foot still touches the insole and presses on it (`relief_per_g`, `contact_noise`). The load of a cell
+    is never negative."""
 
     name: str
     """Name of the cell."""
     gain: float
     """Relative spread of the gain."""
     preload: float
-    """Mean of the constant load in the shoe, N; it is uniform over the cells from 0 to twice this value."""
+    """Mean of the constant load of a cell in the shoe, N; cells have values from 0 to twice the mean, uniformly."""
     noise: float
     """Noise of a reading, N rms."""
     lag: float
-    """Rise time of the cell and its foam, s."""
-    hang: float = 0.0
-    """Relief of the preload per g of specific force upwards beyond 1 g, as a share of the preload. The shoe hangs on
-    the laces; below 1 g the cell bears more."""
-    rub: float = 0.0
-    """Load that changes as the foot shifts in the air, N rms."""
-    rub_memory: float = 0.05
-    """Correlation time of `rub`, s."""
+    """Time constant of the cell and its foam, s."""
+    relief_per_g: float = 0.0
+    """Share of the preload that is relieved in swing for each g of upward specific force above 1 g.
+
+    The shoe hangs on the laces; below 1 g the cell bears more."""
+    contact_noise: float = 0.0
+    """Load that varies as the foot shifts in the shoe in swing, N rms."""
+    contact_correlation_time: float = 0.05
+    """Correlation time of `contact_noise`, s."""
 
 
-RESISTIVE = CellPart("FSR", gain=0.03, preload=0.5, noise=0.12, lag=0.003)
+RESISTIVE = CellErrors("FSR", gain=0.03, preload=0.5, noise=0.12, lag=0.003)
 """Interlink FSR 400 series integration guide (*): part-to-part repeatability +-6 %, break force 0.2 N.
 
 Noise of 2 to 3 counts, the lag of the cover and the in-shoe preload are assumed."""
 
-CAPACITIVE = CellPart("capacitive", gain=0.025, preload=0.3, noise=0.06, lag=0.002)
+CAPACITIVE = CellErrors("capacitive", gain=0.025, preload=0.3, noise=0.06, lag=0.002)
 """Calibrated capacitive insoles (novel pedar), accuracy +-5 %; noise, lag and preload are assumed as for RESISTIVE."""
 
-WORN_RESISTIVE = evolve(RESISTIVE, name="FSR in a laced shoe", hang=0.3, rub=0.2)
-WORN_CAPACITIVE = evolve(CAPACITIVE, name="capacitive in a laced shoe", hang=0.3, rub=0.12)
-"""Resistive and capacitive cells with the contact of the foot in swing.
+WORN_RESISTIVE = evolve(RESISTIVE, name="FSR in a laced shoe", relief_per_g=0.3, contact_noise=0.2)
+WORN_CAPACITIVE = evolve(CAPACITIVE, name="capacitive in a laced shoe", relief_per_g=0.3, contact_noise=0.12)
+"""Errors of capacitive cells with the contact of the foot in swing; WORN_RESISTIVE has those of resistive cells.
 
-No sheet and none of the papers gives figures. Assumed: each g relieves a third of the preload (a laced foot presses
-with about 50 N in all), and the load of each cell varies by 0.4 of its mean."""
+No sheet and none of the papers gives figures. Two are assumed: each g relieves a third of the preload (a laced foot
+presses with about 50 N in all), and the load of each cell varies by 0.4 of its mean."""
 
 HEEL_ARRAY = evolve(WORN_CAPACITIVE, name="DigiTacts II under a heel")
-"""Pressure Profile Systems DigiTacts II: capacitive, calibrated before shipment (Bebek et al. 2010, section IV).
+"""Errors of the Pressure Profile Systems DigiTacts II: capacitive, calibrated before shipment (Bebek et al. 2010,
+section IV).
 
 The paper (IEEE Trans. Instrum. Meas. 59) gives only the range; the errors are assumed as for other capacitive cells."""
 
 
 @frozen
 class AttitudePart:
-    """Errors of a device's own attitude, as standard deviations.
+    """The errors of the attitude that a device estimates, as standard deviations.
 
-    A sheet's accuracy is taken as one standard deviation, as makers who define it do."""
+    The accuracy of a sheet is taken as one standard deviation, as those makers do who define it."""
 
     name: str
     """Name of the device."""
@@ -210,7 +220,7 @@ class AttitudePart:
     """Error about either horizontal axis, rad."""
     heading: float
     """Error about the vertical axis, rad."""
-    memory: float = 30.0
+    correlation_time: float = 30.0
     """Correlation time of the errors, s (assumed)."""
 
 

@@ -19,22 +19,22 @@ from ..wearers.shoe import ON_INSTEP, Mounting
 from ..wearers.walker import Walker
 from .device import Notification, draw_clock, foot_of, setup_notifications
 from .parts import AK8963, BMP280, KXTJ9_IMU3000, MAG3110, MPU9250, T5400, Imu
-from .tag_signals import BAROMETER_DELAY, MAG_DELAY, SLOW, Series, WornTag, counts
+from .tag_signals import BAROMETER_DELAY, MAG_DELAY, SLOW_PERIOD, Series, WornTag, counts
 
 GYRO_COUNT = radians(500.0 / 65536.0)
-"""Angular rate per count of both tags, rad/s: +-250 degrees/s, which a foot in swing exceeds."""
+"""Angular rate per count of both tags, rad/s; the range is +-250 degrees/s, which a foot in swing exceeds."""
 AK8963_COUNT = 4912e-6 / 32760
 """Magnetic flux density per count of the CC2650's magnetometer, T."""
 MAG3110_COUNT = 2000e-6 / 65536
 """Magnetic flux density per count of the CC2541's magnetometer, T."""
-PRESS = 0.25
+PRESS_TIME = 0.25
 """Time for which a key is held, s."""
-TEMPERATURE = 24.0
+BAROMETER_TEMPERATURE = 24.0
 """Temperature of the barometer, degrees Celsius."""
 BATTERY = 91
 """Battery level of the CC2650, percent."""
 
-_EVERYTHING = {"gyro_axes": (True,) * 3, "acc_axes": (True,) * 3, "mag": True, "wake_on_motion": False}
+_ALL_SENSORS_ON = {"gyro_axes": (True,) * 3, "acc_axes": (True,) * 3, "mag": True, "wake_on_motion": False}
 CC2650_KEYS = tuple(
     [cc2650.DRIVER.write("cc2650/keys", {"left": left, "right": False, "reed": False}) for left in (True, False)]
 )
@@ -43,7 +43,7 @@ CC2650_KEYS = tuple(
 
 @frozen
 class CC2650:
-    """The newer SensorTag, with one movement characteristic for all inertial sensors."""
+    """The newer SensorTag, which has one movement characteristic for all inertial sensors."""
 
     rate: float = 10.0
     """Rate of the movement sensor, Hz; stock firmware has 10."""
@@ -64,22 +64,22 @@ class CC2650:
         """Return everything that the tag sends over the walk, in the order of sending."""
         period = 1.0 / self.rate
         worn = WornTag(walker, foot_of(site), self.mounting, draw_clock(rng, period, self.ppm))
-        moving = worn.moving(period)
-        acc, gyro, mag = moving.acc(self.part, rng), moving.gyro(self.part, rng), moving.mag(AK8963, rng)
-        air = worn.air(SLOW, BMP280, rng)
-        config = cc2650.DRIVER.write("cc2650/movement-config", {**_EVERYTHING, "range": self.range})
-        own = {
+        motion = worn.motion(period)
+        acc, gyro, mag = motion.acc(self.part, rng), motion.gyro(self.part, rng), motion.mag(AK8963, rng)
+        barometer = worn.barometer(SLOW_PERIOD, BMP280, rng)
+        config = cc2650.DRIVER.write("cc2650/movement-config", {**_ALL_SENSORS_ON, "range": self.range})
+        device_values = {
             "device/firmware": build_firmware(self.firmware),
             "device/battery": build_battery(BATTERY),
             "cc2650/movement-period": build_whole(PERIOD, {"period": period}),
             "cc2650/movement-config": config,
-            "cc2650/barometer-period": build_whole(PERIOD, {"period": SLOW}),
+            "cc2650/barometer-period": build_whole(PERIOD, {"period": SLOW_PERIOD}),
         }
-        moved = self.movement(
+        movements = self.movement(
             cc2650.DRIVER.parse("cc2650/movement-config", config), acc.values, gyro.values, mag.values
         )
-        sent = setup_notifications(cc2650.PROFILE, own) + acc.notified("cc2650/movement", moved)
-        sent += air.notified("cc2650/barometer", map(cc2650_air, air.values[:, 0].tolist()))
+        sent = setup_notifications(cc2650.PROFILE, device_values) + acc.notified("cc2650/movement", movements)
+        sent += barometer.notified("cc2650/barometer", map(cc2650_barometer_value, barometer.values[:, 0].tolist()))
         sent += _keys("cc2650/keys", self.presses, *CC2650_KEYS)
         return sorted(sent, key=attrgetter("t"))
 
@@ -97,21 +97,21 @@ class CC2650:
 T5400_CALIBRATION = cc2541.BarometerCalibration(
     c1=45697, c2=25592, c3=48894, c4=36174, c5=7001, c6=1990, c7=-2364, c8=-9363
 )
-"""Calibration of the CC2541's barometer: invented, of the size of real coefficients."""
+"""Calibration of the CC2541's barometer; the coefficients are invented and as large as real ones."""
 DELAYS = {
     "cc2541/accelerometer": 0.0,
     "cc2541/gyroscope": 0.0,
     "cc2541/magnetometer": MAG_DELAY,
     "cc2541/barometer": BAROMETER_DELAY,
 }
-"""Delay of each sensor's first sample after the tag's first sample, s; the gyroscope's is random within its period."""
+"""Time from the tag's first sample to each sensor's first one, s; the gyroscope's is replaced by a random one."""
 ALL_AXES = 7
-"""Configuration that switches all axes of the gyroscope on."""
+"""Configuration of the gyroscope that switches all axes on."""
 
 
 @frozen
 class CC2541:
-    """The older SensorTag, with one characteristic and one timer for each sensor."""
+    """The older SensorTag, which has one characteristic and one timer for each sensor."""
 
     rate: float = 10.0
     """Rate of the inertial sensors, Hz: 10 with stock firmware, 20 with modified firmware."""
@@ -133,25 +133,25 @@ class CC2541:
         period = 1.0 / self.rate
         worn = WornTag(walker, foot_of(site), self.mounting, draw_clock(rng, period, self.ppm))
         delays = {**DELAYS, "cc2541/gyroscope": period * float(rng.uniform())}
-        written = build_whole(PERIOD, {"period": period})
-        slow = build_whole(PERIOD, {"period": SLOW})
-        own = {
+        period_value = build_whole(PERIOD, {"period": period})
+        slow_period_value = build_whole(PERIOD, {"period": SLOW_PERIOD})
+        device_values = {
             "device/firmware": build_firmware(self.firmware),
-            "cc2541/accelerometer-period": written,
+            "cc2541/accelerometer-period": period_value,
             "cc2541/accelerometer-config": cc2541_bytes("cc2541/accelerometer-config", code=self.code),
-            "cc2541/gyroscope-period": written,
-            "cc2541/magnetometer-period": slow,
-            "cc2541/barometer-period": slow,
+            "cc2541/gyroscope-period": period_value,
+            "cc2541/magnetometer-period": slow_period_value,
+            "cc2541/barometer-period": slow_period_value,
             "cc2541/barometer-calibration": CALIBRATION,
         }
-        sent = setup_notifications(cc2541.PROFILE, own)
-        for channel, every, code in (
+        sent = setup_notifications(cc2541.PROFILE, device_values)
+        for channel, sensor_period, code in (
             ("cc2541/accelerometer", period, self.code),
             ("cc2541/gyroscope", period, ALL_AXES),
-            ("cc2541/magnetometer", SLOW, 1),
-            ("cc2541/barometer", SLOW, 1),
+            ("cc2541/magnetometer", SLOW_PERIOD, 1),
+            ("cc2541/barometer", SLOW_PERIOD, 1),
         ):
-            series = self.measure(channel, worn, every, delays[channel], rng)
+            series = self.measure(channel, worn, sensor_period, delays[channel], rng)
             sent += series.notified(channel, self.encode(channel, series.values, code))
         sent += _keys("cc2541/keys", self.presses, *CC2541_KEYS)
         return sorted(sent, key=attrgetter("t"))
@@ -162,12 +162,12 @@ class CC2541:
         The barometer has a fixed delay instead (tag_signals.py)."""
         match channel:
             case "cc2541/accelerometer":
-                return worn.moving(period, delay).acc(self.part, rng)
+                return worn.motion(period, delay).acc(self.part, rng)
             case "cc2541/gyroscope":
-                return worn.moving(period, delay).gyro(self.part, rng)
+                return worn.motion(period, delay).gyro(self.part, rng)
             case "cc2541/magnetometer":
-                return worn.moving(period, delay).mag(MAG3110, rng)
-        return worn.air(period, T5400, rng)
+                return worn.motion(period, delay).mag(MAG3110, rng)
+        return worn.barometer(period, T5400, rng)
 
     def encode(self, channel: str, measured: Array, code: int) -> list[bytes]:
         """Return the values of a channel for rows of measured values with the configuration `code`."""
@@ -181,7 +181,7 @@ class CC2541:
             case "cc2541/magnetometer":
                 rows = [{"mag": row} for row in counts(measured, MAG3110, MAG3110_COUNT)]
             case _:
-                rows = [raw_air(pascal) for pascal in measured[:, 0].tolist()]
+                rows = [raw_barometer_values(pascal) for pascal in measured[:, 0].tolist()]
         return [cc2541_bytes(channel, **row) for row in rows]
 
 
@@ -196,18 +196,18 @@ CALIBRATION = cc2541_bytes("cc2541/barometer-calibration", **asdict(T5400_CALIBR
 """Value of the barometer's calibration channel."""
 
 
-def raw_air(pascal: float) -> dict[str, int]:
-    """Return the raw values of the T5400 at this pressure, Pa: the inverse of its compensation."""
+def raw_barometer_values(pascal: float) -> dict[str, int]:
+    """Return the raw values of the T5400 at this pressure, Pa, by the inverse of the compensation."""
     c = T5400_CALIBRATION
-    t = round((TEMPERATURE - c.c2 / 2**10) * 2**24 / c.c1)
+    t = round((BAROMETER_TEMPERATURE - c.c2 / 2**10) * 2**24 / c.c1)
     low, high = c.pascal(t, 0), c.pascal(t, 1)
     return {"temperature": t, "pressure": round((pascal - low) / (high - low))}
 
 
 def _keys(channel: str, presses: tuple[float, ...], down: bytes, up: bytes) -> list[Notification]:
-    return [n for t in presses for n in (Notification(t, channel, down), Notification(t + PRESS, channel, up))]
+    return [n for t in presses for n in (Notification(t, channel, down), Notification(t + PRESS_TIME, channel, up))]
 
 
-def cc2650_air(pascal: float) -> bytes:
+def cc2650_barometer_value(pascal: float) -> bytes:
     """Return the value of the CC2650's barometer channel at this pressure, Pa."""
-    return cc2650.DRIVER.write("cc2650/barometer", {"temperature": TEMPERATURE, "pressure": pascal})
+    return cc2650.DRIVER.write("cc2650/barometer", {"temperature": BAROMETER_TEMPERATURE, "pressure": pascal})

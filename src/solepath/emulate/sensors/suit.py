@@ -1,4 +1,4 @@
-"""Samples and devices of seven sensors on the lower body: pelvis, thighs, shanks and feet."""
+"""Samples and devices of seven sites on the lower body: pelvis, thighs, shanks and feet."""
 
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ from ..wearers.walker import Walker
 from .device import Device
 from .dot import Dot
 from .insole_device import Insole
-from .insoles import SCALE
-from .parts import CRE_CC02, MPU9250, WORN_RESISTIVE, AttitudePart, CellPart, Imu
-from .sensors import instants, measure_imu, read_attitudes, read_cells, sample, samples_of
+from .insoles import LOAD_PER_COUNT
+from .parts import CRE_CC02, MPU9250, WORN_RESISTIVE, AttitudePart, CellErrors, Imu
+from .sensors import instants, measure_imu, read_attitudes, read_cells, samples_of, take_samples
 
 MISALIGNMENT = 0.15
-"""Standard deviation of the misalignment of a sensor strapped on by hand, about each axis, rad (assumed)."""
+"""Standard deviation, about each axis, of the misalignment of a sensor that is strapped on by hand, rad (assumed)."""
 
 
 def limb_mounting(site: Site, limbs: Limbs, seed: int, turned: float = MISALIGNMENT) -> Mounting:
-    """Return position and attitude of a site's sensor in its segment's frame, with a constant random misalignment.
+    """Return position, m, and attitude of a site's sensor in the frame of its segment, with a random misalignment.
 
-    The pelvis sensor sits on the small of the back, those of thigh and shank on the front half-way down, those of the
-    feet on the instep."""
+    The sensor of the pelvis sits on the small of the back, those of thighs and shanks half-way down on the front, those
+    of the feet on the instep. `turned` is the standard deviation of the misalignment about each axis, rad."""
     rng = np.random.default_rng([seed, 5, list(Site).index(site)])
     x, y, z = (turned * float(value) for value in rng.standard_normal(3))
     place = ON_INSTEP.position
@@ -52,40 +52,41 @@ def limb_samples(
     north: float = 0.0,
     turned: float = MISALIGNMENT,
     layouts: Mapping[Site, Layout] | None = None,
-    cell_part: CellPart | None = None,
+    cell_part: CellErrors | None = None,
 ) -> list[Sample]:
     """Return samples of all seven sites on the true clock at k / rate s, in the order of time and of Site.
 
-    There are no packets and no radio. `quat` turns from the sensor to a world that is turned by `north` rad from the
-    walk's world, with the errors of `attitude`. Acceleration and rate have the errors of `errors`, without saturation
-    and rounding; the paper gives no figures for its unit, and another nine-axis part replaces it. None: exact values.
-    `limbs` are the wearer's own by default. With `layouts` the samples of the feet have the loads of their cells, N,
-    exact or read by `cell_part` at the scale of the layout. `seed` sets mountings and errors."""
+    There are no packets and no radio. `quat` turns a vector of the sensor frame into a world frame that is yawed by
+    `north` rad from the walk's, with the errors of `attitude`. Acceleration and rate have the errors of `errors` and
+    are neither saturated nor rounded. Gong et al. 2023 give no figures for their device, so MPU9250 replaces it. None
+    for either stands for exact values. `limbs` are the wearer's own by default. With `layouts` the samples of the feet
+    have the loads of their cells, N, exact or read by `cell_part` at the scale of the layout. `seed` sets mountings and
+    errors."""
     wearer = walker.wearer
     limbs = limbs or wearer.limbs
     if limbs == wearer.limbs:
-        made = walker.body
+        body_motion = walker.body
     else:
-        made = body(walker.plan, walker.motions, walker.loads, wearer.shoe, wearer.centre_height, limbs)
-    when = instants(0.0, 1.0 / rate, int(walker.duration * rate) + 1)
-    found: list[Sample] = []
+        body_motion = body(walker.plan, walker.motions, walker.loads, wearer.shoe, wearer.centre_height, limbs)
+    sampling = instants(0.0, 1.0 / rate, int(walker.duration * rate) + 1)
+    samples: list[Sample] = []
     for order, site in enumerate(Site):
         rng = np.random.default_rng([seed, 6, order])
         mounting = limb_mounting(site, limbs, seed, turned)
         if errors is None:
-            true = made.at(site, when.taken, mounting)
+            true = body_motion.at(site, sampling.times, mounting)
             acc, gyro, turn = true.force, true.rate, true.attitude
         else:
-            true = made.at(site, when.fine, mounting)
-            acc, gyro = measure_imu(true, when, errors, rng, 0.5 * rate)
-            turn = sample(true.attitude, when)
+            true = body_motion.at(site, sampling.fine_times, mounting)
+            acc, gyro = measure_imu(true, sampling, errors, rng, 0.5 * rate)
+            turn = take_samples(true.attitude, sampling)
         if attitude is not None:
-            turn = read_attitudes(turn, when.taken, attitude, north, rng)
+            turn = read_attitudes(turn, sampling.times, attitude, north, rng)
         cells = None
         if site.foot is not None and layouts is not None and site in layouts:
-            cells = _pressed(walker, layouts[site], when.taken, cell_part, rng)
-        found += samples_of(site, when.taken, acc, gyro, cells, turn)
-    return sorted(found, key=attrgetter("t"))
+            cells = _cell_loads(walker, layouts[site], sampling.times, cell_part, rng)
+        samples += samples_of(site, sampling.times, acc, gyro, cells, turn)
+    return sorted(samples, key=attrgetter("t"))
 
 
 def suit(
@@ -93,14 +94,14 @@ def suit(
 ) -> dict[Site, Device]:
     """Return seven devices for one session, mounted by `limb_mounting`.
 
-    The feet wear insoles of 99 cells that send their attitude, at `rate` Hz; all other sites wear DOTs."""
-    worn: dict[Site, Device] = {}
+    The feet wear insoles of 99 cells that send their attitude, with `rate` samples a second; other sites wear DOTs."""
+    devices: dict[Site, Device] = {}
     for site in Site:
         mounting = limb_mounting(site, limbs, seed)
         if site.foot is None:
-            worn[site] = Dot(mounting, attitude, north)
+            devices[site] = Dot(mounting, attitude, north)
         else:
-            worn[site] = Insole(
+            devices[site] = Insole(
                 cells=99,
                 rate=rate,
                 quaternion=True,
@@ -110,13 +111,13 @@ def suit(
                 part=MPU9250,
                 cell_part=WORN_RESISTIVE,
             )
-    return worn
+    return devices
 
 
-def _pressed(walker: Walker, layout: Layout, t: Array, part: CellPart | None, rng: Rng) -> Array:
+def _cell_loads(walker: Walker, layout: Layout, t: Array, part: CellErrors | None, rng: Rng) -> Array:
     true = walker.cell_loads(layout, t)
     if part is None:
         return true
-    scale = layout.scale or SCALE
-    lift = walker.kinematics(layout.foot, t).force[:, 2]
-    return np.asarray(read_cells(true, t, part, scale, rng, lift=lift).counts * scale)
+    scale = layout.scale or LOAD_PER_COUNT
+    upward_force = walker.kinematics(layout.foot, t).force[:, 2]
+    return np.asarray(read_cells(true, t, part, scale, rng, upward_force=upward_force).counts * scale)

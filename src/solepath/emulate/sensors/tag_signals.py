@@ -11,18 +11,18 @@ from ..wearers.curves import Array, Rng
 from ..wearers.motion import Kinematics
 from ..wearers.shoe import Mounting
 from ..wearers.walker import Walker
-from .device import FIELD, DeviceClock, Notification, in_sensor_frame, sampling_instants
-from .parts import BarometerPart, Imu, Triad
-from .sensors import Instants, measure, read_barometer, to_counts
+from .device import MAGNETIC_FIELD, DeviceClock, Notification, in_sensor_frame, make_sampling
+from .parts import BarometerErrors, Imu, TriadErrors
+from .sensors import Sampling, measure, read_barometer, to_counts
 
-HANDLING = 2e-3
-"""Time from a measurement until the radio has it, s."""
-SLOW = 1.0
+HANDLING_TIME = 2e-3
+"""Time from a measurement until the radio has its value, s (assumed)."""
+SLOW_PERIOD = 1.0
 """Period of the barometer and of the CC2541's magnetometer after the usual setup, s."""
 MAG_DELAY = 0.3
-"""Delay of the magnetometer's first sample after the tag's first sample, s."""
+"""Time from the tag's first sample to the first one of the CC2541's magnetometer, s (assumed)."""
 BAROMETER_DELAY = 0.5
-"""Delay of the barometer's first sample after the tag's first sample, s."""
+"""Time from the tag's first sample to the first one of the barometer, s (assumed)."""
 
 Counts = tuple[int, int, int]
 
@@ -31,8 +31,7 @@ Counts = tuple[int, int, int]
 class Series:
     """The values of one sensor over a walk; value k is measured at true time `first` + k `step`, s.
 
-    Values can have any number, also below 0 and after the end of the walk: the wearer then stands as at the start or
-    the end."""
+    Numbers below 0 and after the end of the walk are valid; the wearer then stands as at the start or the end."""
 
     first: float
     """True time of value 0, s."""
@@ -41,23 +40,23 @@ class Series:
     values: Array
     """Measured values in SI units, (N, axes)."""
 
-    def taken(self, number: int) -> float:
-        """Return the true time of a value, s."""
+    def sample_time(self, number: int) -> float:
+        """Return the true time of the value of this number, s."""
         return self.first + self.step * number
 
     def value(self, number: int) -> Array:
-        """Return a value, (1, axes)."""
+        """Return the value of this number, (1, axes)."""
         row = min(max(number, 0), len(self.values) - 1)
         return self.values[row : row + 1]
 
     def notified(self, channel: str, payloads: Iterable[bytes]) -> list[Notification]:
         """Return the notifications of the encoded values, at the times at which the radio has them."""
-        return [Notification(self.taken(k) + HANDLING, channel, data) for k, data in enumerate(payloads)]
+        return [Notification(self.sample_time(k) + HANDLING_TIME, channel, data) for k, data in enumerate(payloads)]
 
 
-def counts(measured: Array, part: Triad, count: float, axes: Sequence[bool] = (True, True, True)) -> list[Counts]:
-    """Return the counts of a triad for measured values (N, 3); axes that are off read 0."""
-    x, y, z = (to_counts(measured, part, count).counts * axes).T.tolist()
+def counts(measured: Array, chip: TriadErrors, count: float, axes: Sequence[bool] = (True, True, True)) -> list[Counts]:
+    """Return the counts of a three-axis sensor for measured values (N, 3); axes that are off read 0."""
+    x, y, z = (to_counts(measured, chip, count).counts * axes).T.tolist()
     return list(zip(x, y, z, strict=True))
 
 
@@ -65,27 +64,29 @@ def counts(measured: Array, part: Triad, count: float, axes: Sequence[bool] = (T
 class TagMotion:
     """The motion of a tag at the sampling instants of a sensor."""
 
-    when: Instants
+    sampling: Sampling
     """Sampling instants of the sensor."""
     step: float
     """True time between samples, s."""
-    motion: Kinematics
+    kinematics: Kinematics
     """Motion of the tag at the fine instants."""
 
-    def acc(self, part: Imu, rng: Rng) -> Series:
-        """Return what the accelerometer measures, m/s^2."""
-        return self._series(measure(self.motion.force, self.when, part.acc, rng))
+    def acc(self, chip: Imu, rng: Rng) -> Series:
+        """Return the series of the accelerometer, m/s^2."""
+        return self._series(measure(self.kinematics.force, self.sampling, chip.acc, rng))
 
-    def gyro(self, part: Imu, rng: Rng) -> Series:
-        """Return what the gyroscope measures, rad/s."""
-        return self._series(measure(self.motion.rate, self.when, part.gyro, rng, self.motion.force))
+    def gyro(self, chip: Imu, rng: Rng) -> Series:
+        """Return the series of the gyroscope, rad/s."""
+        return self._series(measure(self.kinematics.rate, self.sampling, chip.gyro, rng, self.kinematics.force))
 
-    def mag(self, part: Triad, rng: Rng) -> Series:
-        """Return what the magnetometer measures, T."""
-        return self._series(measure(in_sensor_frame(self.motion.attitude, FIELD), self.when, part, rng))
+    def mag(self, chip: TriadErrors, rng: Rng) -> Series:
+        """Return the series of the magnetometer, T."""
+        return self._series(
+            measure(in_sensor_frame(self.kinematics.attitude, MAGNETIC_FIELD), self.sampling, chip, rng)
+        )
 
     def _series(self, values: Array) -> Series:
-        return Series(float(self.when.taken[0]), self.step, values)
+        return Series(float(self.sampling.times[0]), self.step, values)
 
 
 @frozen(eq=False)
@@ -101,14 +102,14 @@ class WornTag:
     clock: DeviceClock
     """Clock of the tag."""
 
-    def moving(self, period: float, delay: float = 0.0) -> TagMotion:
+    def motion(self, period: float, delay: float = 0.0) -> TagMotion:
         """Return the motion for a sensor that measures every `period` s, from `delay` s after the first sample on."""
-        when = sampling_instants(self.walker, self.clock, period, self.clock.first + delay)
-        motion = self.walker.kinematics(self.foot, when.fine, self.mounting)
-        return TagMotion(when, self.clock.interval(period), motion)
+        sampling = make_sampling(self.walker, self.clock, period, self.clock.first + delay)
+        kinematics = self.walker.kinematics(self.foot, sampling.fine_times, self.mounting)
+        return TagMotion(sampling, self.clock.interval(period), kinematics)
 
-    def air(self, period: float, part: BarometerPart, rng: Rng) -> Series:
-        """Return what the barometer measures every `period` s, Pa, (N, 1)."""
-        t = sampling_instants(self.walker, self.clock, period, self.clock.first + BAROMETER_DELAY).taken
+    def barometer(self, period: float, chip: BarometerErrors, rng: Rng) -> Series:
+        """Return the series of a barometer that measures every `period` s, Pa."""
+        t = make_sampling(self.walker, self.clock, period, self.clock.first + BAROMETER_DELAY).times
         height = self.walker.kinematics(self.foot, t, self.mounting).position[:, 2]
-        return Series(float(t[0]), self.clock.interval(period), read_barometer(height, t, part, rng)[:, None])
+        return Series(float(t[0]), self.clock.interval(period), read_barometer(height, t, chip, rng)[:, None])

@@ -1,4 +1,4 @@
-"""Polynomials over a unit interval, as coefficient arrays (constant first), and functions that join them smoothly."""
+"""Polynomials over the unit interval 0 <= s <= 1, as arrays of coefficients with the constant first."""
 
 from __future__ import annotations
 
@@ -9,19 +9,20 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Rng = np.random.Generator
-End = tuple[float, float, float]
-"""Value, velocity and acceleration at one end of a curve."""
+EndState = tuple[float, float, float]
+"""Value of a curve at one of its ends, and its first and second derivative by time there (per s, per s^2)."""
 
 DEGREE = 7
-"""Degree of every curve here: a quintic joins the two ends, and two more degrees shape what lies between."""
+"""Degree of every curve here: a quintic joins the two ends, and LEVELLING has two degrees more."""
 
 BUMP: Array = np.array([0.0, 0.0, 0.0, 64.0, -192.0, 192.0, -64.0, 0.0])
-"""Curve 64 s^3 (1 - s)^3: 1 in the middle; value, slope and curvature are 0 at both ends."""
+"""Curve 64 s^3 (1 - s)^3, which is 1 in the middle; value, slope and curvature are 0 at both ends."""
 
-EVEN_OUT: Array = np.array([0.0, 0.0, 0.0, 1.0, -5.0, 9.0, -7.0, 2.0])
-"""Curve s^3 (1 - s)^3 (1 - 2 s); added to a curve, it makes it start earlier, move slower in the middle, stop later.
+LEVELLING: Array = np.array([0.0, 0.0, 0.0, 1.0, -5.0, 9.0, -7.0, 2.0])
+"""Curve s^3 (1 - s)^3 (1 - 2 s), which makes a motion more even when it is added to it.
 
-Value, slope and curvature are 0 at both ends."""
+The motion then starts earlier, is slower in the middle and stops later. Value, slope and curvature of this curve are 0
+at both ends."""
 
 
 def constant(value: float) -> Array:
@@ -31,35 +32,35 @@ def constant(value: float) -> Array:
     return curve
 
 
-def join(start: End, end: End, duration: float) -> Array:
-    """Return the quintic in s = t / duration with the given value, velocity and acceleration (per s) at both ends."""
+def join(start: EndState, end: EndState, duration: float) -> Array:
+    """Return the quintic in s = t / duration with these values and derivatives at its ends; `duration` is in s."""
     p0, v0, a0 = start[0], start[1] * duration, start[2] * duration**2
     p1, v1, a1 = end[0], end[1] * duration, end[2] * duration**2
-    rest, slope, curve = p1 - p0 - v0 - 0.5 * a0, v1 - v0 - a0, a1 - a0
+    remainder, slope, curve = p1 - p0 - v0 - 0.5 * a0, v1 - v0 - a0, a1 - a0
     return np.array(
         [
             p0,
             v0,
             0.5 * a0,
-            10.0 * rest - 4.0 * slope + 0.5 * curve,
-            -15.0 * rest + 7.0 * slope - curve,
-            6.0 * rest - 3.0 * slope + 0.5 * curve,
+            10.0 * remainder - 4.0 * slope + 0.5 * curve,
+            -15.0 * remainder + 7.0 * slope - curve,
+            6.0 * remainder - 3.0 * slope + 0.5 * curve,
             0.0,
             0.0,
         ]
     )
 
 
-def part(curve: Array, start: float, end: float) -> Array:
-    """Return the part of a curve between s = start and s = end, over a unit interval of its own.
+def subcurve(curve: Array, start: float, end: float) -> Array:
+    """Return the curve that runs over the unit interval as `curve` runs from s = start to s = end.
 
-    It expands (start + (end - start) s)^k by the binomial theorem."""
-    moved = _BINOMIALS * np.where(_LOWER >= 0, float(start) ** np.maximum(_LOWER, 0), 0.0)
+    The powers (start + (end - start) s)^k are expanded by the binomial theorem."""
+    moved = _BINOMIALS * np.where(_EXPONENTS >= 0, float(start) ** np.maximum(_EXPONENTS, 0), 0.0)
     return np.asarray((moved @ curve) * (end - start) ** np.arange(DEGREE + 1))
 
 
 def evaluate(curve: Array, s: Array | float, order: int = 0) -> Array:
-    """Return the value of one curve, or of its derivative of `order` by s, at s."""
+    """Return the values of a curve at `s`, or of its derivative of this `order` by s."""
     factors = curve
     for _ in range(order):
         factors = factors[1:] * np.arange(1, len(factors))
@@ -69,5 +70,5 @@ def evaluate(curve: Array, s: Array | float, order: int = 0) -> Array:
     return np.asarray(total)
 
 
-_LOWER = np.arange(DEGREE + 1) - np.arange(DEGREE + 1)[:, None]
+_EXPONENTS = np.arange(DEGREE + 1) - np.arange(DEGREE + 1)[:, None]
 _BINOMIALS: Array = np.array([[comb(k, j) for k in range(DEGREE + 1)] for j in range(DEGREE + 1)], dtype=np.float64)

@@ -1,9 +1,10 @@
 """The wearer, and the planned strides of each foot with their four event times.
 
-Timing follows level walking of healthy adults: cadence from speed by a constant walk ratio (step length over cadence,
-about 0.0064 m per step/min; Sekiya and Nagasaki 1998, Gait & Posture 7), stance about 60 % and double support twice
-about 11 % of the stride at 1.3 m/s, foot-flat at about 9 % and heel-off at about 38 % of it (Perry, Gait Analysis,
-1992). The values for running and stairs are in styles.py."""
+The timing is that of healthy adults who walk on the level. The cadence follows from the speed by a constant walk ratio:
+step length over cadence is about 0.0064 m per step/min (Sekiya and Nagasaki 1998, Gait & Posture 7). At 1.3 m/s, as
+shares of the gait cycle from heel-strike on, stance lasts about 60 %, each of the two double supports about 11 %,
+foot-flat is at about 9 % and heel-off at about 38 % (Perry, Gait Analysis, 1992). The values for running and stairs are
+in styles.py."""
 
 from __future__ import annotations
 
@@ -12,39 +13,39 @@ from attrs import frozen
 
 from ...calibration import Limbs
 from ...types import Foot
-from ..routes.lift import CarRide
+from ..routes.elevator import CarRide
 from ..routes.path import Flight, Pose
 from ..routes.styles import StrideKind
 from .curves import Rng
 from .shoe import Rocker, Shoe
 
 SETTLE_TIME = 0.45
-"""Time in which the weight settles on both feet, and in which it moves on in a foot that has stood, s."""
+"""Time in which the weight comes to rest on both feet at a halt, and longest time of a load shift in a stance, s."""
 
 
 @frozen
 class Wearer:
-    """The parameters of a wearer; variations are standard deviations between strides."""
+    """The parameters of a wearer; every variation is a standard deviation between strides."""
 
     mass: float = 75.0
     """Body mass, kg."""
     shoe: Shoe = Shoe()
     """Shoe of either foot."""
     step_width: float = 0.14
-    """Distance between the tracks of the ankles, m."""
+    """Lateral distance between the tracks of the left and the right ankle, m."""
     toe_out: float = 0.12
     """Outward rotation of each foot from the path, rad (7 degrees)."""
     walk_ratio: float = 0.0064
     """Step length divided by cadence, m per step/min."""
     strike_pitch: float = 0.37
-    """Toe-up pitch at heel-strike of a full stride at 1.3 m/s, rad."""
+    """Pitch at heel-strike of a full stride at 1.3 m/s, rad; positive when the toe is up."""
     toe_off_pitch: float = 1.02
-    """Heel-up pitch at toe-off of a full stride at 1.3 m/s, rad."""
+    """Pitch at toe-off of a full stride at 1.3 m/s, rad; positive when the heel is up."""
     clearance: float = 0.018
-    """Least height of the sole in mid-swing, m."""
-    pivot_step: float = 0.7
-    """Largest turn of one step on the spot, rad."""
-    first: Foot = Foot.LEFT
+    """Least height of the sole above the ground in mid-swing, m."""
+    max_pivot_turn: float = 0.7
+    """Largest angle by which one step turns when the wearer turns on the spot, rad."""
+    first_foot: Foot = Foot.LEFT
     """Foot that makes the first step."""
     length_variation: float = 0.025
     """Variation of the step length, relative to the mean."""
@@ -53,21 +54,23 @@ class Wearer:
     width_variation: float = 0.012
     """Variation of the foot's lateral position, m."""
     angle_variation: float = 0.035
-    """Variation of pitch angles, relative to the mean; toe-out varies by half of this value in rad."""
+    """Variation of pitch angles, relative to their mean; the variation of toe-out is half of this number in rad."""
     load_variation: float = 0.0
     """Variation of the load's lateral position under the foot, m."""
-    aim: float = 0.01
-    """Standard deviation along the path between a foot and the mark that it steps on, m (assumed)."""
+    mark_error: float = 0.01
+    """Standard deviation of the distance along the path from a mark to the foot that steps on it, m (assumed)."""
     centre_height: float = 0.97
-    """Height of the body's centre of mass, m: 0.555 of a stature of 1.75 m. Source: Winter, Biomechanics and Motor
-    Control of Human Movement, 2009."""
+    """Height of the body's centre of mass, m.
+
+    It is 0.555 of a stature of 1.75 m (Winter, Biomechanics and Motor Control of Human Movement, 2009)."""
     limbs: Limbs = Limbs()
     """Lengths of the limbs."""
 
     def cadence(self, speed: float) -> float:
-        """Return the steps per minute at `speed` m/s.
+        """Return the cadence at `speed` m/s, steps per minute.
 
-        The walk ratio W = l / c and v = l c / 60 give c = sqrt(60 v / W)."""
+        With step length l and speed v, the walk ratio W = l / c and v = l c / 60 give the cadence c = sqrt(60 v /
+        W)."""
         return float(np.sqrt(60.0 * speed / self.walk_ratio))
 
 
@@ -86,25 +89,26 @@ class PlannedStride:
     foot_flat: float
     """Time of foot-flat, s."""
     start: Pose
-    """Position on the ground under the ankle, and heading, before the stride."""
+    """Point on the ground under the ankle, and heading of the foot, before the stride, world frame."""
     end: Pose
-    """Position on the ground under the ankle, and heading, after the stride."""
+    """Point on the ground under the ankle, and heading of the foot, after the stride, world frame."""
     toe_off_pitch: float
     """Pitch at toe-off, rad; positive when the heel is up."""
     strike_pitch: float
     """Pitch at heel-strike, rad; positive when the toe is up."""
     speed: float
-    """Speed of the body along the path, m/s."""
+    """Speed of the body along the path, m/s; less in a short step of walking."""
     clearance: float
-    """Least height of the sole in mid-swing, m."""
-    weave: tuple[float, float, float]
-    """Largest deviations in swing: roll, rad, yaw, rad, and outward displacement, m."""
-    settle: float
-    """Amplitude of the pitch during the next stance, rad."""
+    """Least height of the sole above the ground in mid-swing, m."""
+    deviation: tuple[float, float, float]
+    """Roll, rad, yaw, rad, and displacement to the left, m, in mid-swing; they are 0 at both ends of the swing."""
+    rest_pitch: float
+    """Largest pitch while the foot stands after the stride, rad; positive when the toe is up. It is 0 at both ends."""
     curvature: float
     """Curvature of the path where the foot lands, 1/m; positive to the left."""
-    pace: float
-    """Speed of the body over this step, m/s: half of the foot's displacement divided by the step time."""
+    step_speed: float
+    """Speed of the body during the step that ends this stride, m/s: half of the foot's displacement over the step
+    time."""
     kind: StrideKind = StrideKind.WALK
     """Kind of the stride."""
     flight: Flight | None = None
@@ -116,11 +120,11 @@ class Climb:
     """A flight of stairs that the wearer walked."""
 
     start: float
-    """Time at which the first foot leaves the one floor, s."""
+    """Time at which the first foot leaves the floor before the flight, s."""
     end: float
-    """Time at which both feet are on the other floor, s."""
+    """Time at which both feet are on the floor after the flight, s."""
     flight: Flight
-    """The flight of stairs."""
+    """Position and measures of the flight of stairs."""
 
     @property
     def up(self) -> bool:
@@ -140,42 +144,43 @@ class WalkPlan:
     duration: float
     """Duration of the walk, s."""
     starts: dict[Foot, Pose]
-    """Position of each foot at t = 0."""
+    """Point on the ground under each ankle, and heading of the foot, at t = 0, world frame."""
     strides: dict[Foot, tuple[PlannedStride, ...]]
     """Strides of each foot."""
     bouts: tuple[tuple[float, float], ...]
-    """Start of walking and time at which the closing foot has settled, for each bout between two stands, s."""
+    """Start and end, s, of each bout of walking between two stands; a bout ends SETTLE_TIME s after its last
+    heel-strike."""
     climbs: tuple[Climb, ...] = ()
     """Flights of stairs that the wearer walks."""
     rides: tuple[CarRide, ...] = ()
-    """Lifts that the wearer takes."""
+    """Elevator rides of the wearer."""
 
 
 def double_support(speed: float) -> float:
-    """Return the duration of each of the two double supports as a share of the stride; it falls with the speed, m/s."""
+    """Return the duration of one double support as a share of the stride, at `speed` m/s."""
     return float(np.clip(0.115 - 0.04 * (speed - 1.3), 0.05, 0.20))
 
 
-FOOT = 0.275
-"""Foot length that the default shoe (size 43) is for, m."""
-STATURE = 1.75
+DEFAULT_FOOT_LENGTH = 0.275
+"""Length of the foot that the default shoe (size 43) fits, m."""
+DEFAULT_STATURE = 1.75
 """Stature of the default wearer, m."""
 
 
-def wearer(stature: float, mass: float, foot_length: float) -> Wearer:
+def scaled_wearer(stature: float, mass: float, foot_length: float) -> Wearer:
     """Return a wearer of this stature, m, and mass, kg, in the default shoe scaled to a foot of `foot_length` m.
 
-    Limbs have the proportions of `Limbs`; `foot` is the part of the shoe ahead of the ankle. The walk ratio is
-    proportional to the stature to the power of 1.5: by dynamic similarity, step lengths scale with the leg length and
-    cadences with the frequency of a pendulum of that length (Alexander 1989, Physiol. Rev. 69)."""
-    plain, k = Wearer(), foot_length / FOOT
-    old = plain.shoe
+    The limbs have the proportions of `Limbs`; its `foot` is the length of the shoe ahead of the ankle. The walk ratio
+    is proportional to the stature to the power of 1.5. By dynamic similarity, the step length is proportional to the
+    leg length, and the cadence to the frequency of a pendulum of that length (Alexander 1989, Physiol. Rev. 69)."""
+    default, scale = Wearer(), foot_length / DEFAULT_FOOT_LENGTH
+    default_shoe = default.shoe
     shoe = Shoe(
-        length=k * old.length,
-        width=k * old.width,
-        heel=Rocker(k * old.heel.x, k * old.heel.radius),
-        forefoot=Rocker(k * old.forefoot.x, k * old.forefoot.radius),
-        ankle=(k * old.ankle[0], k * old.ankle[1], k * old.ankle[2]),
+        length=scale * default_shoe.length,
+        width=scale * default_shoe.width,
+        heel=Rocker(scale * default_shoe.heel.x, scale * default_shoe.heel.radius),
+        forefoot=Rocker(scale * default_shoe.forefoot.x, scale * default_shoe.forefoot.radius),
+        ankle=(scale * default_shoe.ankle[0], scale * default_shoe.ankle[1], scale * default_shoe.ankle[2]),
     )
     limbs = Limbs(
         hip_width=0.191 * stature,
@@ -188,18 +193,21 @@ def wearer(stature: float, mass: float, foot_length: float) -> Wearer:
         mass=mass,
         shoe=shoe,
         limbs=limbs,
-        centre_height=plain.centre_height * stature / STATURE,
-        walk_ratio=plain.walk_ratio * (stature / STATURE) ** 1.5,
+        centre_height=default.centre_height * stature / DEFAULT_STATURE,
+        walk_ratio=default.walk_ratio * (stature / DEFAULT_STATURE) ** 1.5,
     )
 
 
 def random_wearer(rng: Rng) -> tuple[Wearer, float]:
-    """Return a random wearer with a stature from 1.55 m to 1.92 m and a body mass index from 21 to 28, and the stature.
-
-    The stature is in m."""
+    """Return a random wearer and the wearer's stature: 1.55 to 1.92 m, with a body mass index of 21 to 28."""
     stature = float(rng.uniform(1.55, 1.92))
-    return wearer(stature, float(rng.uniform(21.0, 28.0)) * stature**2, 0.153 * stature), stature
+    return scaled_wearer(stature, float(rng.uniform(21.0, 28.0)) * stature**2, 0.153 * stature), stature
 
 
-SUBJECTS = (wearer(1.72, 63.0, 0.245), wearer(1.68, 52.5, 0.255), wearer(1.60, 50.0, 0.235), wearer(1.83, 81.0, 0.270))
-"""Subjects of Gong et al. 2023 (Sensors 23, 5417), table 3: height, weight and shoe size."""
+SUBJECTS = (
+    scaled_wearer(1.72, 63.0, 0.245),
+    scaled_wearer(1.68, 52.5, 0.255),
+    scaled_wearer(1.60, 50.0, 0.235),
+    scaled_wearer(1.83, 81.0, 0.270),
+)
+"""Wearers with the height, weight and shoe size of the subjects of Gong et al. 2023 (Sensors 23, 5417), table 3."""

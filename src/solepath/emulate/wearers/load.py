@@ -1,23 +1,24 @@
 """Vertical load under each foot, and its distribution over the sole.
 
-The forces are vertical only. In walking the two feet together bear the weight times 1 + A cos, one period per step with
-its maximum in the middle of double support. Each foot then shows the two maxima and the minimum of a force plate (about
-1.1, 0.8 and 1.1 body weights at 1.3 m/s; Perry, Gait Analysis, 1992), and the mean over a step is the weight. In double
-support the load moves from the trailing to the leading foot.
+Only vertical forces are emulated. In walking both feet together bear the weight times 1 + A cos(phase). One period
+lasts a step, and the maximum is in the middle of double support. The load of each foot then has two maxima and a
+minimum, as force plates show them (about 1.1, 0.8 and 1.1 body weights at 1.3 m/s; Perry, Gait Analysis, 1992). The
+mean over a step is the weight. In double support the load moves from the trailing to the leading foot.
 
-In running each foot bears half a sine wave from heel-strike to toe-off, and the load is 0 between (Alexander 1989,
-Physiol. Rev. 69); its mean over a step is the weight, so its maximum is 2 to 3 body weights. In a lift the load changes
-with the car's acceleration. On stairs the load lands on the forefoot.
+In running each foot bears half a sine wave from heel-strike to toe-off, and no load in flight (Alexander 1989,
+Physiol. Rev. 69). The mean over a step is the weight, so the maximum is 2 to 3 body weights. In an elevator the load
+changes with the car's acceleration. On stairs the load lands on the forefoot.
 
 Under the foot the load starts at the heel with heel-strike, reaches the forefoot with foot-flat, leaves the heel with
 heel-off and ends under the toes with toe-off.
 
 In a bend of radius r at speed v the line from the body's centre of mass along gravity and centrifugal force meets the
-ground h v^2 / (r g) away from the point below the centre, to the outside of the turn. Leaning and placing the feet
-compensate for most of that. LOAD_SHIFT_SHARE of it moves the load under each foot: to the right edge of both feet in a
-turn to the left. Under the heels insoles show the same (Turcato et al. 2015, J NeuroEng Rehabil 12:4: the lateral heel
-of the outer foot bears more, that of the inner foot less). Under the metatarsal heads they found the opposite, which is
-not emulated."""
+ground h v^2 / (r g) away from the point below the centre, to the outside of the turn. The wearer leans and places the
+feet so that most of this distance is compensated. The share LOAD_SHIFT_SHARE of it moves the load under each foot, in a
+turn to the left to the right edge of both feet. Insoles show the same under the heels (Turcato et al. 2015, J NeuroEng
+Rehabil 12:4: the lateral heel of the outer foot bears more, that of the inner foot less). Under the metatarsal heads
+they found the opposite, which is not emulated. Numbers without a source were chosen by hand for plausible loads and not
+swept."""
 
 from __future__ import annotations
 
@@ -27,33 +28,35 @@ from numpy.typing import NDArray
 
 from ...types import Foot, Layout
 from ...types.vector import GRAVITY
-from ..routes.lift import CarRide
+from ..routes.elevator import CarRide
 from ..routes.styles import StrideKind, style_of
 from .curves import Array, Rng
 from .gait import SETTLE_TIME, PlannedStride, WalkPlan, Wearer
 from .motion import FootMotion
-from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, pattern
+from .zones import FOREFOOT, HEEL, MIDFOOT, TOES, zone_shares
 
-BOUNCE = 0.17
-"""Amplitude of the load about the weight at 1.3 m/s, as a share of it; it grows with the square of the speed."""
+BOUNCE_AMPLITUDE = 0.17
+"""Amplitude A of the load in walking at 1.3 m/s, as a share of the weight; it grows with the square of the speed."""
 CATCH_TIME = 0.13
-"""Time that the closing foot takes to take over the weight, s."""
+"""Time in which a foot takes over its load at a halt, and in which a runner's first landing or last take-off loads it,
+s."""
 LOAD_SHIFT_SHARE = 0.3
-"""Share of h v^2 / (r g) by which the load moves under a foot (assumed).
+"""Share of h v^2 / (r g) by which the load moves under a foot in a bend (assumed).
 
-At 1.1 m/s it is 18 mm at r = 2 m; the ankle can move the load sideways by about 20 mm (Hof et al. 2007, Gait & Posture
-25)."""
-_EVER = 1e6
+It is 18 mm at a speed of 1.1 m/s and a radius of 2 m. The ankle can move the load sideways by about 20 mm (Hof et al.
+2007, Gait & Posture 25)."""
+_FOREVER = 1e6
 """Duration of the stances before the first and after the last stride, s."""
-_BLOCK = 4096
-"""Number of instants computed together: intermediate arrays need a hundred times the memory of one cell's loads."""
+_BLOCK_SIZE = 4096
+"""Number of instants computed at a time, because intermediate arrays need the memory of a hundred cells."""
 
 
 @frozen(eq=False)
 class Loads:
     """The vertical load under both feet over time.
 
-    In hand-overs the load moves from one foot to the other. Beats are the middles of double support and of flight."""
+    A hand-over is a time in which load moves from one foot to the other. A beat is the middle of a double support or of
+    a flight, and the start and the end of a bout."""
 
     weight: float
     """Weight of the body, N."""
@@ -61,66 +64,70 @@ class Loads:
     """Start of each hand-over, s."""
     end: Array
     """End of each hand-over, s."""
-    before: Array
-    """Share of the left foot before each hand-over."""
-    after: Array
-    """Share of the left foot after each hand-over."""
-    beat: Array
+    share_before: Array
+    """Share of the left foot in the load before each hand-over."""
+    share_after: Array
+    """Share of the left foot in the load after each hand-over."""
+    beat_times: Array
     """Time of each beat, s."""
-    bounce: Array
+    load_amplitude: Array
     """Amplitude of the load about the weight from each beat to the next, as a share of the weight."""
-    runs: Array
-    """Heel-strike after each beat in flight, and toe-off before the next beat in flight, s, (beats, 2); else 0."""
+    run_contacts: Array
+    """Heel-strike after each beat and toe-off before the next one, s, (beats, 2); 0 where that beat is not in
+    flight."""
     stances: dict[Foot, Array]
     """Heel-strike, foot-flat, heel-off and toe-off of each stance, s, (n, 4)."""
-    leans: dict[Foot, Array]
-    """Shift of the load to the left in each stance, m, and time at which it decays as the walk ends, s, (n, 2)."""
-    fronts: dict[Foot, Array]
+    lateral_shifts: dict[Foot, Array]
+    """Shift of the load to the left in each stance, m, and time at which it starts to decay at a halt, s, (n, 2)."""
+    forefoot_shares: dict[Foot, Array]
     """Share of the load that lands on the forefoot in each stance, (n)."""
     rides: tuple[CarRide, ...] = ()
-    """Lifts that the wearer takes."""
+    """Elevator rides of the wearer."""
 
     def total(self, foot: Foot, t: Array) -> Array:
-        """Return the load under one foot, N, (N)."""
+        """Return the load under one foot at times `t`, s, in newtons, (N)."""
         return np.asarray(self.share(foot, t) * self.body(t))
 
     def body(self, t: Array) -> Array:
-        """Return the load under both feet together, N, (N)."""
+        """Return the load under both feet together at times `t`, s, in newtons, (N)."""
         load = self._on_still_floor(t)
         for car in self.rides:
             load *= 1.0 + car.at(t)[2][:, 2] / GRAVITY
         return load
 
     def _on_still_floor(self, t: Array) -> Array:
-        """Return the load under both feet together on a floor that does not move, N, (N)."""
-        if len(self.beat) < 2:
+        """Return the load under both feet together, in newtons, (N), as if no elevator moved."""
+        if len(self.beat_times) < 2:
             return np.full_like(t, self.weight)
-        k = np.clip(np.searchsorted(self.beat, t, side="right") - 1, 0, len(self.beat) - 2)
-        phase = np.clip((t - self.beat[k]) / (self.beat[k + 1] - self.beat[k]), 0.0, 1.0)
+        k = np.clip(np.searchsorted(self.beat_times, t, side="right") - 1, 0, len(self.beat_times) - 2)
+        phase = np.clip((t - self.beat_times[k]) / (self.beat_times[k + 1] - self.beat_times[k]), 0.0, 1.0)
         # cos has zero slope at both ends of a step: the load is smooth at the start and the end of a bout.
-        swing = (self.bounce[k] + (self.bounce[k + 1] - self.bounce[k]) * phase) * np.cos(2.0 * np.pi * phase)
+        swing = (self.load_amplitude[k] + (self.load_amplitude[k + 1] - self.load_amplitude[k]) * phase) * np.cos(
+            2.0 * np.pi * phase
+        )
         load = np.asarray(self.weight * (1.0 + swing))
-        if self.runs.any():
+        if self.run_contacts.any():
             self._apply_flight(load, k, t)
         return load
 
     def _apply_flight(self, load: Array, k: NDArray[np.intp], t: Array) -> None:
-        """Change the load, in place, where the body is in flight before or after a beat: it falls to 0."""
-        strike, off = self.runs[k, 0], self.runs[k, 1]
-        both = (strike > 0.0) & (off > 0.0)
-        lasts = np.where(both, off - strike, 1.0)
-        step = self.beat[np.minimum(k + 1, len(self.beat) - 1)] - self.beat[k]
-        half = np.sin(np.pi * np.clip((t - strike) / lasts, 0.0, 1.0))
-        load[both] = (self.weight * 0.5 * np.pi * step / lasts * half)[both]
-        landing = (strike > 0.0) & ~both
+        """Set the load, in place, of steps that start with a landing or end with a take-off; it is 0 in flight."""
+        strike, off = self.run_contacts[k, 0], self.run_contacts[k, 1]
+        has_both_contacts = (strike > 0.0) & (off > 0.0)
+        stance_time = np.where(has_both_contacts, off - strike, 1.0)
+        step = self.beat_times[np.minimum(k + 1, len(self.beat_times) - 1)] - self.beat_times[k]
+        half = np.sin(np.pi * np.clip((t - strike) / stance_time, 0.0, 1.0))
+        load[has_both_contacts] = (self.weight * 0.5 * np.pi * step / stance_time * half)[has_both_contacts]
+        landing = (strike > 0.0) & ~has_both_contacts
         load[landing] *= hand_over((t - strike)[landing] / CATCH_TIME)
-        leaving = (off > 0.0) & ~both
+        leaving = (off > 0.0) & ~has_both_contacts
         load[leaving] *= hand_over((off - t)[leaving] / CATCH_TIME)
 
     def cells(self, layout: Layout, width: float, motion: FootMotion, t: Array) -> Array:
-        """Return the load on every cell of `layout`, N, (N, cells); the sum of a row is the foot's total.
+        """Return the load on every cell of `layout` at times `t`, s, as an array (times, cells), N.
 
-        Cells that end behind the middle of the foot bear only the load above them, and their sum is smaller."""
+        The sum of a row is the foot's load. When all cells are in the rear half of the sole, they bear only the load
+        above them, and the sum is smaller."""
         foot = layout.foot
         shares = self.shares(foot, t)
         pitch = motion.pitch(t)
@@ -128,138 +135,147 @@ class Loads:
         fore = 0.025 * np.sin(np.maximum(-pitch, 0.0)) / layout.length
         inward = -0.10 * fore / fore.max(initial=1e-9)
         total = self.total(foot, t)
-        lean = self.lean(foot, t)
-        found = np.zeros((len(t), len(layout.cells)))
-        still = np.zeros_like(t)
-        moves = ((HEEL, heel, still), (MIDFOOT, still, still), (FOREFOOT, fore, inward), (TOES, fore, still))
-        for (zone, ahead, aside), share in zip(moves, shares, strict=True):
+        lateral_shift = self.lateral_shift(foot, t)
+        cell_loads = np.zeros((len(t), len(layout.cells)))
+        no_shift = np.zeros_like(t)
+        zone_shifts = (
+            (HEEL, heel, no_shift),
+            (MIDFOOT, no_shift, no_shift),
+            (FOREFOOT, fore, inward),
+            (TOES, fore, no_shift),
+        )
+        for (zone, ahead, aside), share in zip(zone_shifts, shares, strict=True):
             loaded = np.flatnonzero(share * total > 0.0)
-            for start in range(0, len(loaded), _BLOCK):
-                some = loaded[start : start + _BLOCK]
-                borne = pattern(layout, width, zone, ahead[some], aside[some], lean[some])
-                found[some] += (share * total)[some, None] * borne
-        return found
+            for start in range(0, len(loaded), _BLOCK_SIZE):
+                block = loaded[start : start + _BLOCK_SIZE]
+                shares_of_cells = zone_shares(layout, width, zone, ahead[block], aside[block], lateral_shift[block])
+                cell_loads[block] += (share * total)[block, None] * shares_of_cells
+        return cell_loads
 
-    def lean(self, foot: Foot, t: Array) -> Array:
-        """Return the shift of the load to the left under a foot, m, (N); in a bend it is to the outside."""
+    def lateral_shift(self, foot: Foot, t: Array) -> Array:
+        """Return the shift of the load to the left under a foot at `t`, s, in m, (N); in a bend it is outwards."""
         rows = np.maximum(np.searchsorted(self.stances[foot][:, 0], t, side="right") - 1, 0)
-        shift, over = self.leans[foot][rows].T
-        return np.asarray(shift * (1.0 - hand_over((t - over) / SETTLE_TIME)))
+        shift, t_decay = self.lateral_shifts[foot][rows].T
+        return np.asarray(shift * (1.0 - hand_over((t - t_decay) / SETTLE_TIME)))
 
     def share(self, foot: Foot, t: Array) -> Array:
-        """Return the share of a foot in the body's load, (N)."""
+        """Return the share of a foot in the load of both feet at times `t`, s, (N)."""
         if not len(self.start):
             return np.full_like(t, 0.5)
         k = np.searchsorted(self.start, t, side="right") - 1
-        known = np.maximum(k, 0)
-        s = (t - self.start[known]) / (self.end[known] - self.start[known])
-        share = self.before[known] + (self.after[known] - self.before[known]) * hand_over(s)
-        left = np.where(k < 0, self.before[0], share)
+        row = np.maximum(k, 0)
+        s = (t - self.start[row]) / (self.end[row] - self.start[row])
+        share = self.share_before[row] + (self.share_after[row] - self.share_before[row]) * hand_over(s)
+        left = np.where(k < 0, self.share_before[0], share)
         return left if foot is Foot.LEFT else np.asarray(1.0 - left)
 
     def shares(self, foot: Foot, t: Array) -> Array:
-        """Return the shares of heel, midfoot, forefoot and toes in the foot's load, (4, N); their sum is one."""
+        """Return the shares of heel, midfoot, forefoot and toes in the foot's load at `t`, s, (4, N)."""
         stances = self.stances[foot]
         rows = np.maximum(np.searchsorted(stances[:, 0], t, side="right") - 1, 0)
         row = stances[rows]
-        flat, lift, off = row[:, 1], row[:, 2], row[:, 3]
-        ramp = np.minimum(lift - flat, SETTLE_TIME)
-        rolled = 0.45 * hand_over((t - flat) / ramp) + 0.55 * hand_over((t - lift + ramp) / ramp)
-        if self.fronts[foot].any():
-            front = self.fronts[foot][rows]
-            rolled += (1.0 - rolled) * front * (1.0 - hand_over((t - flat) / ramp))
-        middle = 0.5 * rolled * (1.0 - rolled)
-        front = rolled - 0.5 * middle
-        toes = front * (0.05 + 0.10 * rolled + 0.60 * hand_over((t - lift) / (off - lift)))
-        return np.stack((1.0 - rolled - 0.5 * middle, middle, front - toes, toes))
+        foot_flat, heel_off, off = row[:, 1], row[:, 2], row[:, 3]
+        ramp = np.minimum(heel_off - foot_flat, SETTLE_TIME)
+        rolled_share = 0.45 * hand_over((t - foot_flat) / ramp) + 0.55 * hand_over((t - heel_off + ramp) / ramp)
+        if self.forefoot_shares[foot].any():
+            forefoot_share = self.forefoot_shares[foot][rows]
+            rolled_share += (1.0 - rolled_share) * forefoot_share * (1.0 - hand_over((t - foot_flat) / ramp))
+        midfoot_share = 0.5 * rolled_share * (1.0 - rolled_share)
+        forefoot_share = rolled_share - 0.5 * midfoot_share
+        toes = forefoot_share * (0.05 + 0.10 * rolled_share + 0.60 * hand_over((t - heel_off) / (off - heel_off)))
+        return np.stack((1.0 - rolled_share - 0.5 * midfoot_share, midfoot_share, forefoot_share - toes, toes))
 
 
 def loads(plan: WalkPlan, wearer: Wearer, rng: Rng) -> Loads:
-    """Return the loads of a planned walk; `rng` draws the wearer's `load_variation` between steps."""
+    """Return the loads of a planned walk; `rng` draws the lateral position of the load in each stance."""
     hand_overs, beats = _hand_overs(plan)
     table = np.array(hand_overs).reshape(-1, 4)
-    beat = np.array(beats).reshape(-1, 4)
+    beat_times = np.array(beats).reshape(-1, 4)
     return Loads(
         weight=wearer.mass * GRAVITY,
         start=table[:, 0],
         end=table[:, 1],
-        before=table[:, 2],
-        after=table[:, 3],
-        beat=beat[:, 0],
-        bounce=np.minimum(BOUNCE * (beat[:, 1] / 1.3) ** 2, 0.35),
-        runs=beat[:, 2:],
+        share_before=table[:, 2],
+        share_after=table[:, 3],
+        beat_times=beat_times[:, 0],
+        load_amplitude=np.minimum(BOUNCE_AMPLITUDE * (beat_times[:, 1] / 1.3) ** 2, 0.35),
+        run_contacts=beat_times[:, 2:],
         stances={foot: _stances(plan, foot) for foot in Foot},
-        leans={foot: _leans(plan, foot, wearer, rng) for foot in Foot},
-        fronts={foot: np.array([0.0, *(_front(stride) for stride in plan.strides[foot])]) for foot in Foot},
+        lateral_shifts={foot: _lateral_shifts(plan, foot, wearer, rng) for foot in Foot},
+        forefoot_shares={
+            foot: np.array([0.0, *(_forefoot_share(stride) for stride in plan.strides[foot])]) for foot in Foot
+        },
         rides=plan.rides,
     )
 
 
-def _front(stride: PlannedStride) -> float:
-    """Return the share of the load that lands on the forefoot."""
-    return 0.0 if stride.kind is StrideKind.WALK else style_of(stride.kind, stride.speed).front
+def _forefoot_share(stride: PlannedStride) -> float:
+    """Return the share of the load that the forefoot takes at the landing of this stride."""
+    return 0.0 if stride.kind is StrideKind.WALK else style_of(stride.kind, stride.speed).forefoot_share
 
 
 def _equivalent_speed(stride: PlannedStride) -> float:
-    """Return the speed, m/s, of level walking with the same amplitude of the load as in this stride."""
+    """Return the speed, m/s, of level walking whose load has the same amplitude as in this stride."""
     if stride.kind is StrideKind.WALK or stride.kind is StrideKind.RUN:
         return stride.speed
-    return 1.3 * float(np.sqrt(style_of(stride.kind, stride.speed).bounce / BOUNCE))
+    return 1.3 * float(np.sqrt(style_of(stride.kind, stride.speed).load_amplitude / BOUNCE_AMPLITUDE))
 
 
 def hand_over(s: Array) -> Array:
-    """Return a curve from 0 to 1 over the unit interval with a non-zero slope at both ends, as force plates show it."""
+    """Return a curve from 0 at s = 0 to 1 at s = 1 with a slope at both ends, as force plates show it."""
     s = np.clip(s, 0.0, 1.0)
     return np.asarray(0.5 * s + s * s * (1.5 - s))
 
 
 def _hand_overs(plan: WalkPlan) -> tuple[list[tuple[float, ...]], list[tuple[float, ...]]]:
-    """Return rows of (start, end, before, after), and rows of (beat, speed that sets the bounce, two of `runs`)."""
+    """Return rows of hand-overs (start, end, share before, share after), and rows of beats.
+
+    A row of a beat is its time, the speed that sets the amplitude, and the two times of `Loads.run_contacts`."""
     strides = sorted((s.heel_strike, foot.value, s, foot) for foot in Foot for s in plan.strides[foot])
     steps = [(stride, foot) for _, _, stride, foot in strides]
     hand_overs: list[tuple[float, ...]] = []
     beats: list[tuple[float, ...]] = []
-    level = 0.5
+    left_share = 0.5
     for start, end in plan.bouts:
         bout = [(stride, foot) for stride, foot in steps if start <= stride.heel_strike <= end]
-        first, mover = bout[0]
-        away = 0.0 if mover is Foot.LEFT else 1.0
-        hand_overs.append((start, first.toe_off, level, away))
+        first, first_foot = bout[0]
+        other_foot_share = 0.0 if first_foot is Foot.LEFT else 1.0
+        hand_overs.append((start, first.toe_off, left_share, other_foot_share))
         beats.append((start, 0.0, 0.0, 0.0))
-        level = away
+        left_share = other_foot_share
         for (stride, foot), (following, _) in zip(bout, bout[1:], strict=False):
-            onto = 1.0 if foot is Foot.LEFT else 0.0
+            target_share = 1.0 if foot is Foot.LEFT else 0.0
             strike, off = stride.heel_strike, following.toe_off
-            hand_overs.append((min(strike, off), max(strike, off), level, onto))
-            flown = off < strike
-            if flown:
-                # This beat is in flight: the step before it ends with a take-off, the next one starts with a landing.
+            hand_overs.append((min(strike, off), max(strike, off), left_share, target_share))
+            in_flight = off < strike
+            if in_flight:
+                # The step before this beat ends with a take-off, the step after it starts with a landing.
                 beats[-1] = (*beats[-1][:3], off)
-            beats.append((0.5 * (strike + off), _equivalent_speed(stride), strike if flown else 0.0, 0.0))
-            level = onto
+            beats.append((0.5 * (strike + off), _equivalent_speed(stride), strike if in_flight else 0.0, 0.0))
+            left_share = target_share
         last, _ = bout[-1]
-        # The closing foot takes over the weight as in a step, a little more than half of it, and then half.
-        caught, settled = last.heel_strike + CATCH_TIME, last.heel_strike + SETTLE_TIME
-        most = 0.6 if level == 0.0 else 0.4
-        hand_overs.append((last.heel_strike, caught, level, most))
-        hand_overs.append((caught, settled, most, 0.5))
+        # The closing foot first takes a little more than half of the weight, as in a step, and then half of it.
+        caught_time, settled_time = last.heel_strike + CATCH_TIME, last.heel_strike + SETTLE_TIME
+        overshoot_share = 0.6 if left_share == 0.0 else 0.4
+        hand_overs.append((last.heel_strike, caught_time, left_share, overshoot_share))
+        hand_overs.append((caught_time, settled_time, overshoot_share, 0.5))
         beats.append((last.heel_strike + 0.5 * SETTLE_TIME, 0.0, 0.0, 0.0))
-        level = 0.5
+        left_share = 0.5
     return hand_overs, beats
 
 
 def _stances(plan: WalkPlan, foot: Foot) -> Array:
     strides = plan.strides[foot]
-    lands = [(-_EVER, -_EVER), *((s.heel_strike, s.foot_flat) for s in strides)]
-    leaves = [*((s.heel_off, s.toe_off) for s in strides), (_EVER, _EVER + 1.0)]
-    return np.array([(*land, *leave) for land, leave in zip(lands, leaves, strict=True)])
+    landings = [(-_FOREVER, -_FOREVER), *((s.heel_strike, s.foot_flat) for s in strides)]
+    departures = [*((s.heel_off, s.toe_off) for s in strides), (_FOREVER, _FOREVER + 1.0)]
+    return np.array([(*land, *leave) for land, leave in zip(landings, departures, strict=True)])
 
 
-def _leans(plan: WalkPlan, foot: Foot, wearer: Wearer, rng: Rng) -> Array:
-    """Return for every stance the shift of the load, m, and the last heel-strike of its bout, s."""
-    rows = [(0.0, -_EVER)]
+def _lateral_shifts(plan: WalkPlan, foot: Foot, wearer: Wearer, rng: Rng) -> Array:
+    """Return for every stance the shift of the load to the left, m, and the last heel-strike of its bout, s."""
+    rows = [(0.0, -_FOREVER)]
     for stride in plan.strides[foot]:
-        over = next(end for start, end in plan.bouts if start <= stride.heel_strike <= end) - SETTLE_TIME
-        shift = -LOAD_SHIFT_SHARE * wearer.centre_height * stride.pace**2 * stride.curvature / GRAVITY
-        rows.append((shift + wearer.load_variation * float(rng.standard_normal()), over))
+        last_heel_strike = next(end for start, end in plan.bouts if start <= stride.heel_strike <= end) - SETTLE_TIME
+        shift = -LOAD_SHIFT_SHARE * wearer.centre_height * stride.step_speed**2 * stride.curvature / GRAVITY
+        rows.append((shift + wearer.load_variation * float(rng.standard_normal()), last_heel_strike))
     return np.array(rows)

@@ -1,17 +1,17 @@
 """Motion of one foot: exact pose, velocity, acceleration and angular rate at any instant.
 
-A foot is a rigid shoe. Each of its four phases is a curve with continuous second derivatives at both ends, so specific
-force and angular rate follow by analytical differentiation, not by numerical differences:
+A foot is a rigid shoe. The motion in each of the four phases is a curve whose second derivatives are continuous at both
+ends. Specific force and angular rate are therefore analytical derivatives, not numerical differences:
 
-    LOADING     rolls without slip over the heel arc, pitch from strike to zero
-    STATIONARY  flat; the pitch changes by a fraction of a milliradian
-    PUSH_OFF    rolls without slip over the forefoot arc, pitch from zero to toe-off
-    SWING       the ankle point follows a curve through the air that clears the ground
+    LOADING     the shoe rolls without slip over the heel arc; the pitch goes from its value at heel-strike to 0
+    STATIONARY  the sole is flat; the pitch changes by a fraction of a milliradian
+    PUSH_OFF    the shoe rolls without slip over the forefoot arc; the pitch goes from 0 to its value at toe-off
+    SWING       the ankle point follows a curve on which the sole does not touch the ground
 
 The velocity of a point p on the rolling shoe is omega x (p - contact). This module evaluates the curves; strides.py
 makes them.
 
-Attitude is Rz(yaw) Ry(-pitch) Rx(roll), foot to world; pitch is positive toe up."""
+The attitude is Rz(yaw) Ry(-pitch) Rx(roll), foot to world; pitch is positive when the toe is up."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ from numpy.typing import NDArray
 
 from ...types import Phase
 from ...types.vector import GRAVITY
-from ..routes.lift import CarRide
+from ..routes.elevator import CarRide
 from .curves import Array
 from .shoe import Mounting
 from .turning import matrices
 
-Rows = NDArray[np.intp]
+RowIndices = NDArray[np.intp]
 
 X, Y, Z, PITCH, YAW, ROLL = range(6)
-"""Indices of the curves of a piece: x, y, z of the reference point, m, and pitch, yaw, roll, rad."""
+"""Indices of the curves of a piece: x, y, z of the reference point (world, m), and pitch, yaw, roll (rad)."""
 
 BLOCK = 65536
-"""Number of instants computed together: intermediate arrays need several times the memory of the result."""
+"""Number of instants computed at a time, because intermediate arrays need several times the memory of the result."""
 PHASES = (Phase.STATIONARY, Phase.PUSH_OFF, Phase.SWING, Phase.LOADING)
 """Phases in the order of their numbers in `FootMotion.phase`."""
 
@@ -59,22 +59,22 @@ class Kinematics:
 
 @frozen(eq=False)
 class FootMotion:
-    """The curves of one foot, piece by piece; before the first and after the last piece it stands."""
+    """The motion of one foot as a sequence of pieces in time; the foot stands before the first and after the last."""
 
     start: Array
     """Start of each piece, s, (rows)."""
     duration: Array
     """Duration of each piece, s, (rows)."""
     curves: Array
-    """Coefficients of x, y, z of the reference point in the world and of pitch, yaw, roll, (rows, 6, degree + 1)."""
+    """Coefficients of the curves x, y, z, m, and pitch, yaw, roll, rad, of each piece, (rows, 6, degree + 1)."""
     reference: Array
-    """Coordinates x and z of the reference point in the foot frame, m, (rows, 2)."""
+    """Coordinates x and z, in the foot frame, of the reference point that the curves move, m, (rows, 2)."""
     radius: Array
-    """Radius of the arc that rolls, m, (rows); 0 in the air."""
+    """Radius of the arc on which the sole rolls, m, (rows); 0 in swing."""
     phase: Array
     """Index of the phase in PHASES, (rows)."""
     rides: tuple[CarRide, ...] = ()
-    """Lifts that the foot rides in; its own curves are constant meanwhile, and higher by the ride afterwards."""
+    """Elevator rides of the wearer; the curves do not contain the motion of the car during a ride."""
 
     def phases(self, t: Array) -> list[Phase]:
         """Return the phase of the foot at times `t`, s."""
@@ -86,7 +86,7 @@ class FootMotion:
         return self._curve(row, (t - self.start[row]) / self.duration[row], PITCH, 0)
 
     def contact(self, t: Array) -> Array:
-        """Return the x coordinate in the foot frame at which the rolling sole touches the ground, m; nan in the air."""
+        """Return the x coordinate in the foot frame at which the sole touches the ground, m; nan in swing."""
         row = self._piece(t)
         radius = self.radius[row]
         touched = self.reference[row, 0] - radius * np.sin(self.pitch(t))
@@ -95,57 +95,59 @@ class FootMotion:
     def at(self, t: Array, mounting: Mounting) -> Kinematics:
         """Return the motion of a sensor mounted on this foot at times `t`, s."""
         t = np.asarray(t, dtype=np.float64)
-        return joined([self._block(t[k : k + BLOCK], mounting) for k in range(0, max(len(t), 1), BLOCK)])
+        return join_blocks([self._block(t[k : k + BLOCK], mounting) for k in range(0, max(len(t), 1), BLOCK)])
 
     def _block(self, t: Array, mounting: Mounting) -> Kinematics:
         row = self._piece(t)
         s = (t - self.start[row]) / self.duration[row]
-        per = 1.0 / self.duration[row]
+        inverse_duration = 1.0 / self.duration[row]
         value, first, second = (
-            [self._curve(row, s, channel, order) * per**order for channel in range(6)] for order in range(3)
+            [self._curve(row, s, channel, order) * inverse_duration**order for channel in range(6)]
+            for order in range(3)
         )
         pitch, yaw, roll = value[PITCH], value[YAW], value[ROLL]
         turn = _rotation(yaw, -pitch, roll)
         rate, rate_change = _body_rates(value, first, second)
 
-        # The reference point: its own curve, and on the ground the arc's roll of radius * pitch against the heading.
+        # A rolling arc moves the reference point from its curve by radius * pitch against the heading.
         ahead = np.stack([np.cos(yaw), np.sin(yaw), np.zeros_like(yaw)], axis=1)
         radius = self.radius[row]
         centre, centre_v, centre_a = (
             np.stack(found[:3], axis=1) - (radius * found[PITCH])[:, None] * ahead for found in (value, first, second)
         )
 
-        # The sensor on the rigid foot: v = v_c + w x r, a = a_c + w' x r + w x (w x r), in the foot frame.
+        # With the angular rate w and the arm r from the reference point c to the sensor, both in the foot frame:
+        # v = v_c + w x r, a = a_c + w' x r + w x (w x r).
         x, y, z = mounting.position
         arm = np.stack([x - self.reference[row, 0], np.full_like(t, y), z - self.reference[row, 1]], axis=1)
-        swing = np.cross(rate, arm)
+        arm_velocity = np.cross(rate, arm)
         position = centre + _apply(turn, arm)
-        velocity = centre_v + _apply(turn, swing)
-        acceleration = centre_a + _apply(turn, np.cross(rate_change, arm) + np.cross(rate, swing))
+        velocity = centre_v + _apply(turn, arm_velocity)
+        acceleration = centre_a + _apply(turn, np.cross(rate_change, arm) + np.cross(rate, arm_velocity))
 
         for car in self.rides:
-            aboard = np.flatnonzero((t >= car.start) & (t < car.end))
-            for total, added in zip((position, velocity, acceleration), car.at(t[aboard]), strict=True):
-                total[aboard] += added
+            riding = np.flatnonzero((t >= car.start) & (t < car.end))
+            for total, added in zip((position, velocity, acceleration), car.at(t[riding]), strict=True):
+                total[riding] += added
 
         # Specific force is acceleration minus gravity, in the sensor frame.
-        lifted = acceleration + np.array([0.0, 0.0, GRAVITY])
-        force = np.einsum("nij,ni->nj", turn, lifted)
-        mount = matrices(np.array([mounting.attitude]))[0]
+        opposed_gravity = acceleration + np.array([0.0, 0.0, GRAVITY])
+        force = np.einsum("nij,ni->nj", turn, opposed_gravity)
+        mounting_turn = matrices(np.array([mounting.attitude]))[0]
         return Kinematics(
             t=t,
             position=position,
             velocity=velocity,
             acceleration=acceleration,
             attitude=_multiply(_quaternion(yaw, -pitch, roll), np.array(mounting.attitude)),
-            rate=rate @ mount,
-            force=force @ mount,
+            rate=rate @ mounting_turn,
+            force=force @ mounting_turn,
         )
 
-    def _piece(self, t: Array) -> Rows:
+    def _piece(self, t: Array) -> RowIndices:
         return np.clip(np.searchsorted(self.start, t, side="right") - 1, 0, len(self.start) - 1)
 
-    def _curve(self, row: Rows, s: Array, channel: int, order: int) -> Array:
+    def _curve(self, row: RowIndices, s: Array, channel: int, order: int) -> Array:
         factors = np.asarray(np.polynomial.polynomial.polyder(self.curves[:, channel, :], order, axis=1))
         total: Array = factors[row, -1].copy()
         for k in range(factors.shape[1] - 2, -1, -1):
@@ -154,11 +156,11 @@ class FootMotion:
         return total
 
 
-def joined(blocks: list[Kinematics]) -> Kinematics:
-    """Return the blocks joined one after the other."""
+def join_blocks(blocks: list[Kinematics]) -> Kinematics:
+    """Return one record with the rows of all blocks in order."""
     if len(blocks) == 1:
         return blocks[0]
-    return Kinematics(*(np.concatenate([getattr(b, one.name) for b in blocks]) for one in fields(Kinematics)))
+    return Kinematics(*(np.concatenate([getattr(b, field.name) for b in blocks]) for field in fields(Kinematics)))
 
 
 def _body_rates(value: list[Array], first: list[Array], second: list[Array]) -> tuple[Array, Array]:

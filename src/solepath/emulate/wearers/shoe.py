@@ -1,11 +1,12 @@
 """The shoe as a rigid body with two rockers, and the mountings of sensors on it.
 
-Foot frame: x to the toe, y left, z up, origin on the ground under the heel's rear end, on the midline. In side view the
-sole is flat between two circular arcs that are tangent to it: the foot rolls over the heel arc from heel-strike to
-foot-flat, over the forefoot arc from heel-off to toe-off. When a circle rolls without slip over level ground by the
-pitch angle, its centre moves by radius times angle, so the foot's position follows from its pitch alone. This is the
-known velocity of KUPT (Chen et al. 2019, IEEE Internet of Things Journal, figs. 5 to 7), with round rockers where the
-paper has a pivot and fitted curves."""
+A rocker is a curved end of the sole over which the shoe rolls. Foot frame: x to the toe, y left, z up, origin on the
+ground under the heel's rear end, on the midline. In side view the sole is flat between two circular arcs that are
+tangent to it. The foot rolls over the heel arc from heel-strike to foot-flat, and over the forefoot arc from heel-off
+to toe-off. When a circle rolls without slip over level ground by the pitch angle, its centre moves by radius times
+angle, so the foot's position follows from its pitch alone. That motion gives the velocity of which KUPT makes use (Chen
+et al. 2019, IEEE Internet of Things Journal, figs. 5 to 7); the rockers here are round, where the paper has a pivot and
+fitted curves. Numbers without a source were chosen by hand for a shoe of this size and not swept."""
 
 from __future__ import annotations
 
@@ -17,7 +18,7 @@ from ...types.vector import IDENTITY
 
 @frozen
 class Rocker:
-    """One arc of the sole: the centre of its circle is at (x, 0, radius) in the foot frame, m."""
+    """A rocker of the sole: a circular arc with its centre at (x, 0, radius) in the foot frame, m."""
 
     x: float
     """Coordinate x of the centre in the foot frame, m."""
@@ -27,7 +28,7 @@ class Rocker:
 
 @frozen
 class Shoe:
-    """The geometry of a shoe; the default is about a size 43 (US 10), as in the paper's insole."""
+    """The geometry of a shoe; the default is about a size 43 (US 10), the size of the insole of Chen et al. 2019."""
 
     length: float = 0.285
     """Length of the sole, m."""
@@ -38,7 +39,7 @@ class Shoe:
     forefoot: Rocker = Rocker(x=0.195, radius=0.050)
     """Arc of the forefoot."""
     ankle: Vec3 = (0.085, 0.0, 0.080)
-    """Point in the foot frame that follows the planned curve in swing, m."""
+    """Ankle point in the foot frame, m; in swing this point follows the planned curve."""
 
 
 @frozen
@@ -52,7 +53,7 @@ class Mounting:
 
 
 IN_SOLE = Mounting()
-"""Mounting under the arch: L_r 12.5 cm in front of the heel's end, H_imu 2.9 cm above the ground (the paper's shoe)."""
+"""Mounting under the arch: 12.5 cm in front of the heel's end (L_r) and 2.9 cm high (H_imu), as in Chen et al. 2019."""
 
 ON_INSTEP = Mounting(position=(0.170, 0.0, 0.085))
 """Mounting on the laces, with the axes of the foot frame."""

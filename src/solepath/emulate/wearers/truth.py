@@ -1,8 +1,8 @@
 """The ground truth of a walk.
 
-The position of a foot is always the position of the sensor that is mounted on it, relative to the sensor's position at
-t = 0, in the world frame (z up, x along the route's first heading, y left), m. `FootTruth.origin` is the position at t
-= 0 relative to the point between the feet, so that both feet can be drawn on one floor."""
+The position of a foot is always the position of the sensor that is mounted on it, relative to the position of that
+sensor at t = 0, in the world frame (z up, x along the route's first heading, y left), m. `FootTruth.origin` is the
+sensor's position at t = 0 relative to the point between the feet; with it both feet can be drawn on one floor."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy as np
 from attrs import evolve, frozen
 
 from ...types import Activity, Foot, Phase, Vec3
-from ..routes.lift import CarRide
+from ..routes.elevator import CarRide
 from ..routes.styles import StrideKind
 from .curves import Array
 from .gait import Climb, WalkPlan
@@ -23,48 +23,48 @@ from .shoe import Mounting
 def activities(plan: WalkPlan) -> tuple[tuple[float, float, Activity], ...]:
     """Return the activities (start, end, activity) from 0 to the plan's end, s, without a gap.
 
-    A turn on the spot is walking. Running lasts from the start of its first swing to the last heel-strike, so that
-    walking in between counts as walking."""
-    found = [(start, end, Activity.WALKING) for start, end in plan.bouts]
-    found += _runs(plan)
+    A turn on the spot is walking. Running lasts from the toe-off of its first stride to its last heel-strike; walking
+    between two runs counts as walking."""
+    overlapping = [(start, end, Activity.WALKING) for start, end in plan.bouts]
+    overlapping += _running_spans(plan)
     for climb in plan.climbs:
-        found.append((climb.start, climb.end, Activity.STAIRS_UP if climb.up else Activity.STAIRS_DOWN))
+        overlapping.append((climb.start, climb.end, Activity.STAIRS_UP if climb.up else Activity.STAIRS_DOWN))
     for car in plan.rides:
-        found.append((car.start, car.end, Activity.ELEVATOR_UP if car.height > 0.0 else Activity.ELEVATOR_DOWN))
-    found_spans: list[tuple[float, float, Activity]] = []
-    marks = sorted({0.0, plan.duration, *(t for start, end, _ in found for t in (start, end))})
-    for start, end in zip(marks, marks[1:], strict=False):
+        overlapping.append((car.start, car.end, Activity.ELEVATOR_UP if car.height > 0.0 else Activity.ELEVATOR_DOWN))
+    spans: list[tuple[float, float, Activity]] = []
+    boundaries = sorted({0.0, plan.duration, *(t for start, end, _ in overlapping for t in (start, end))})
+    for start, end in zip(boundaries, boundaries[1:], strict=False):
         middle = 0.5 * (start + end)
         # Later spans are more specific and replace earlier ones.
-        what = next((a for b, e, a in reversed(found) if b <= middle < e), Activity.STANDING)
-        if found_spans and found_spans[-1][2] is what:
-            found_spans[-1] = (found_spans[-1][0], end, what)
+        activity = next((a for b, e, a in reversed(overlapping) if b <= middle < e), Activity.STANDING)
+        if spans and spans[-1][2] is activity:
+            spans[-1] = (spans[-1][0], end, activity)
         else:
-            found_spans.append((start, end, what))
-    return tuple(found_spans)
+            spans.append((start, end, activity))
+    return tuple(spans)
 
 
-def _runs(plan: WalkPlan) -> list[tuple[float, float, Activity]]:
-    steps = sorted((s.heel_strike, s.toe_off, s.kind is StrideKind.RUN) for foot in Foot for s in plan.strides[foot])
-    found: list[tuple[float, float, Activity]] = []
-    running = False
-    for strike, off, run in steps:
-        if run and running:
-            found[-1] = (found[-1][0], strike, Activity.RUNNING)
-        elif run:
-            found.append((off, strike, Activity.RUNNING))
-        running = run
-    return found
+def _running_spans(plan: WalkPlan) -> list[tuple[float, float, Activity]]:
+    strides = sorted((s.heel_strike, s.toe_off, s.kind is StrideKind.RUN) for foot in Foot for s in plan.strides[foot])
+    spans: list[tuple[float, float, Activity]] = []
+    was_running = False
+    for heel_strike, toe_off, is_running in strides:
+        if is_running and was_running:
+            spans[-1] = (spans[-1][0], heel_strike, Activity.RUNNING)
+        elif is_running:
+            spans.append((toe_off, heel_strike, Activity.RUNNING))
+        was_running = is_running
+    return spans
 
 
 @frozen
 class TrueStride:
-    """A true stride of one foot, from foot-flat to its next foot-flat; the first one starts at t = 0."""
+    """A true stride of one foot, from one foot-flat to its next; the first stride starts at t = 0."""
 
     foot: Foot
     """Foot that made the stride."""
     number: int
-    """Number of the foot's stride, from 1."""
+    """Number of this stride among those of the foot, from 1."""
     t_start: float
     """Foot-flat before the stride, s; 0 for the first stride."""
     t_end: float
@@ -76,19 +76,19 @@ class TrueStride:
     t_heel_strike: float
     """Time of heel-strike, s."""
     displacement: Vec3
-    """Displacement of the sensor in the world frame, m."""
+    """Displacement of the sensor over the stride in the world frame, m."""
     length: float
     """Horizontal length of the displacement, m."""
     heading_change: float
-    """Change of the foot's heading, rad, in (-pi, pi]."""
+    """Change of the foot's heading over the stride, rad, in (-pi, pi]; positive to the left."""
 
 
 @frozen(eq=False)
 class FootTruth:
-    """The ground truth of one foot; the stand before the first stride has no events."""
+    """The ground truth of one foot; the time before the first stride has no events."""
 
     foot: Foot
-    """Foot that this is the truth of."""
+    """Foot whose truth this is."""
     heel_strikes: tuple[float, ...]
     """True times of the heel-strikes, s."""
     foot_flats: tuple[float, ...]
@@ -107,9 +107,9 @@ class FootTruth:
     """Mounting of the sensor."""
 
     def pose(self, t: Array | float) -> Kinematics:
-        """Return the motion of the sensor at times `t`, s; its position is relative to that at t = 0."""
-        found = self.motion.at(np.atleast_1d(np.asarray(t, dtype=np.float64)), self.mounting)
-        return evolve(found, position=found.position - np.array(self.origin))
+        """Return the motion of the sensor at `t`, s; the position is relative to that at t = 0, world frame, m."""
+        kinematics = self.motion.at(np.atleast_1d(np.asarray(t, dtype=np.float64)), self.mounting)
+        return evolve(kinematics, position=kinematics.position - np.array(self.origin))
 
     def phases(self, t: Array | float) -> list[Phase]:
         """Return the phase of the foot at times `t`, s."""
@@ -125,16 +125,16 @@ class Truth:
     feet: dict[Foot, FootTruth]
     """Ground truth of each foot."""
     activities: tuple[tuple[float, float, Activity], ...]
-    """Activities of the wearer: start, s, end, s, and activity, without a gap."""
+    """Start, s, end, s, and kind of each activity of the wearer, in order and without a gap."""
     flights: tuple[Climb, ...]
     """Flights of stairs that the wearer walked, in order."""
     rides: tuple[CarRide, ...]
-    """Lifts that the wearer took, in order."""
+    """Elevator rides of the wearer, in order."""
     plan: WalkPlan
     """Plan of the walk."""
 
     def pose(self, foot: Foot, t: Array | float) -> Kinematics:
-        """Return the motion of a foot's sensor at times `t`, s; its position is relative to that at t = 0."""
+        """Return the motion of a foot's sensor at `t`, s; the position is relative to that at t = 0, world, m."""
         return self.feet[foot].pose(t)
 
     def steps(self, foot: Foot) -> tuple[TrueStride, ...]:
@@ -143,21 +143,21 @@ class Truth:
 
     def activity(self, t: float) -> Activity:
         """Return the activity of the wearer at `t` s."""
-        return next((what for start, end, what in self.activities if start <= t < end), Activity.STANDING)
+        return next((activity for start, end, activity in self.activities if start <= t < end), Activity.STANDING)
 
     def elevation(self, t: Array | float) -> Array:
         """Return the height of the wearer relative to t = 0 at times `t`, m, (N).
 
-        It is the mean height of the floors or treads under both feet; for a foot in swing it is interpolated linearly.
-        """
+        It is the mean height of the floors or treads under both feet. For a foot in swing the height is interpolated
+        linearly in time."""
         t = np.atleast_1d(np.asarray(t, dtype=np.float64))
         total = np.zeros(len(t))
         for foot in Foot:
-            when, climbed = [0.0], [0.0]
+            times, heights = [0.0], [0.0]
             for stride in self.plan.strides[foot]:
-                when += [stride.toe_off, stride.heel_strike]
-                climbed += [climbed[-1], climbed[-1] + stride.end.z - stride.start.z]
-            total += 0.5 * np.interp(t, when, climbed)
+                times += [stride.toe_off, stride.heel_strike]
+                heights += [heights[-1], heights[-1] + stride.end.z - stride.start.z]
+            total += 0.5 * np.interp(t, times, heights)
         for car in self.plan.rides:
             total += car.at(t)[0][:, 2]
         return total
@@ -166,34 +166,34 @@ class Truth:
 def foot_truth(foot: Foot, plan: WalkPlan, motion: FootMotion, mounting: Mounting) -> FootTruth:
     """Return the ground truth of one foot for a sensor with this mounting."""
     strides = plan.strides[foot]
-    marks = np.array([0.0, *(stride.foot_flat for stride in strides)])
-    places = motion.at(marks, mounting).position
-    steps = []
+    boundaries = np.array([0.0, *(stride.foot_flat for stride in strides)])
+    positions = motion.at(boundaries, mounting).position
+    true_strides = []
     for k, stride in enumerate(strides):
-        dx, dy, dz = (float(v) for v in places[k + 1] - places[k])
-        turned = stride.end.heading - stride.start.heading
-        steps.append(
+        dx, dy, dz = (float(v) for v in positions[k + 1] - positions[k])
+        turn = stride.end.heading - stride.start.heading
+        true_strides.append(
             TrueStride(
                 foot=foot,
                 number=k + 1,
-                t_start=float(marks[k]),
-                t_end=float(marks[k + 1]),
+                t_start=float(boundaries[k]),
+                t_end=float(boundaries[k + 1]),
                 t_heel_off=stride.heel_off,
                 t_toe_off=stride.toe_off,
                 t_heel_strike=stride.heel_strike,
                 displacement=(dx, dy, dz),
                 length=hypot(dx, dy),
-                heading_change=atan2(sin(turned), cos(turned)),
+                heading_change=atan2(sin(turn), cos(turn)),
             )
         )
-    x, y, z = (float(v) for v in places[0])
+    x, y, z = (float(v) for v in positions[0])
     return FootTruth(
         foot=foot,
         heel_strikes=tuple(s.heel_strike for s in strides),
         foot_flats=tuple(s.foot_flat for s in strides),
         heel_offs=tuple(s.heel_off for s in strides),
         toe_offs=tuple(s.toe_off for s in strides),
-        steps=tuple(steps),
+        steps=tuple(true_strides),
         origin=(x, y, z),
         motion=motion,
         mounting=mounting,

@@ -1,4 +1,4 @@
-"""Rotations in stacks: matrices (N, 3, 3) and unit quaternions (N, 4), w x y z."""
+"""Arrays of N rotations: matrices (N, 3, 3) and unit quaternions (N, 4), w x y z."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ def unit(v: Array) -> Array:
     return np.asarray(v / np.linalg.norm(v, axis=1, keepdims=True))
 
 
-def multiplied(p: Array, q: Array) -> Array:
-    """Return the Hamilton products of two stacks of quaternions, (N, 4) each, or one of them (1, 4)."""
+def multiply_quaternions(p: Array, q: Array) -> Array:
+    """Return the Hamilton products of two arrays of quaternions, (N, 4) each; one of them may be (1, 4)."""
     a, u = p[:, :1], p[:, 1:]
     b, v = q[:, :1], q[:, 1:]
     scalar = a * b - np.sum(u * v, axis=1, keepdims=True)
@@ -42,15 +42,15 @@ def quaternions(turn: Array) -> Array:
     x = [w[1], 1.0 + 2.0 * m[0][0] - trace, m[0][1] + m[1][0], m[0][2] + m[2][0]]
     y = [w[2], x[2], 1.0 + 2.0 * m[1][1] - trace, m[1][2] + m[2][1]]
     z = [w[3], x[3], y[3], 1.0 + 2.0 * m[2][2] - trace]
-    found = np.stack([np.stack(one, axis=1) for one in (w, x, y, z)], axis=1)
+    candidates = np.stack([np.stack(one, axis=1) for one in (w, x, y, z)], axis=1)
     largest = np.argmax(np.stack([w[0], x[1], y[2], z[3]], axis=1), axis=1)
-    q = unit(found[np.arange(len(found)), largest])
+    q = unit(candidates[np.arange(len(candidates)), largest])
     flips = np.where(np.sum(q[1:] * q[:-1], axis=1) < 0.0, -1.0, 1.0)
     q[1:] *= np.cumprod(flips)[:, None]
     return np.asarray(q)
 
 
-def turned(yaw: Array, roll: Array) -> Array:
+def yaw_roll_matrices(yaw: Array, roll: Array) -> Array:
     """Return Rz(yaw) Rx(roll) as matrices, (N, 3, 3)."""
     sy, cy, sr, cr = np.sin(yaw), np.cos(yaw), np.sin(roll), np.cos(roll)
     rows = [[cy, -sy * cr, sy * sr], [sy, cy * cr, -cy * sr], [np.zeros_like(yaw), sr, cr]]

@@ -1,4 +1,4 @@
-"""A wearer on a route: motion and loads of both feet, and samples of them without any radio."""
+"""A wearer on a route: the motion and the loads of both feet, and their samples without a radio."""
 
 from __future__ import annotations
 
@@ -44,9 +44,9 @@ class Walker:
         return self.plan.duration
 
     def truth(self, mountings: dict[Foot, Mounting] | None = None) -> Truth:
-        """Return the ground truth for sensors with these mountings; by default in the sole."""
-        places = {foot: (mountings or {}).get(foot, IN_SOLE) for foot in Foot}
-        feet = {foot: foot_truth(foot, self.plan, self.motions[foot], places[foot]) for foot in Foot}
+        """Return the ground truth for sensors with these mountings; without one the sensor is in the sole."""
+        sensor_mountings = {foot: (mountings or {}).get(foot, IN_SOLE) for foot in Foot}
+        feet = {foot: foot_truth(foot, self.plan, self.motions[foot], sensor_mountings[foot]) for foot in Foot}
         plan = self.plan
         return Truth(plan.duration, feet, activities(plan), plan.climbs, plan.rides, plan)
 
@@ -55,7 +55,7 @@ class Walker:
         return self.motions[foot].at(t, mounting)
 
     def cell_loads(self, layout: Layout, t: Array) -> Array:
-        """Return the true load on each cell at times `t`, N, (N, cells)."""
+        """Return the true load on each cell at times `t`, s, as an array (times, cells), N."""
         return self.loads.cells(layout, self.wearer.shoe.width, self.motions[layout.foot], t)
 
     def samples(
@@ -69,16 +69,18 @@ class Walker:
     ) -> list[Sample]:
         """Return samples of one foot on the true clock, at k / rate s, without packets and radio.
 
-        Without `errors` they are exact point values. With a part they have its errors, its low pass (at most half of
-        the rate) and its noise, without saturation and rounding. With a `layout` of this foot every sample has the
-        exact loads of its cells, N."""
-        count = int(self.duration * rate) + 1
+        Without `errors` the samples are exact values at these times. With `errors` they contain the errors and the
+        noise of that IMU, and its low pass, whose bandwidth is at most half of the rate; they are neither saturated nor
+        rounded. With a `layout` of this foot every sample contains the exact loads of the cells, N."""
+        sample_count = int(self.duration * rate) + 1
         if errors is None:
-            t = np.arange(count) / rate
+            t = np.arange(sample_count) / rate
             exact = self.kinematics(foot, t, mounting)
             acc, gyro = exact.force, exact.rate
         else:
-            when = instants(0.0, 1.0 / rate, count)
-            t, rng = when.taken, np.random.default_rng([self.seed, 1, list(Foot).index(foot)])
-            acc, gyro = measure_imu(self.kinematics(foot, when.fine, mounting), when, errors, rng, 0.5 * rate)
+            sampling = instants(0.0, 1.0 / rate, sample_count)
+            t, rng = sampling.times, np.random.default_rng([self.seed, 1, list(Foot).index(foot)])
+            acc, gyro = measure_imu(
+                self.kinematics(foot, sampling.fine_times, mounting), sampling, errors, rng, 0.5 * rate
+            )
         return samples_of(SITE_OF_FOOT[foot], t, acc, gyro, None if layout is None else self.cell_loads(layout, t))
