@@ -9,7 +9,7 @@ from solepath.lab.train.activities_course import LabelledCourse, chances, change
 from solepath.lab.train.hugadb import spans
 from solepath.types import Activity
 
-STOOD, WALKED, CLIMBED = Activity.STANDING, Activity.WALKING, Activity.STAIRS_UP
+STOOD, WALKED, STAIR_SPANS = Activity.STANDING, Activity.WALKING, Activity.STAIRS_UP
 
 
 def test_labels_become_spans_and_a_gap_parts_them() -> None:
@@ -20,7 +20,7 @@ def test_labels_become_spans_and_a_gap_parts_them() -> None:
 
 
 def test_frequent_climbing_makes_stairs_likelier() -> None:
-    done = [(10.0 * k, 10.0 * k + 10.0, (WALKED, CLIMBED)[k % 2]) for k in range(100)]
+    done = [(10.0 * k, 10.0 * k + 10.0, (WALKED, STAIR_SPANS)[k % 2]) for k in range(100)]
     learnt = chances([LabelledCourse(0.0, {}, tuple(done))])
     assert all(isclose(sum(row), 1.0, abs_tol=1e-4) for row in learnt)
     assert DEFAULT_CHANCES[WALK][UP] < learnt[WALK][UP] < 1.0 / 20.0 + 1e-3  # ten seconds are twenty blocks

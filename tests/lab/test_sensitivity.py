@@ -12,7 +12,7 @@ from solepath.foot.cues import inertial
 from solepath.foot.settings import CycleSettings, ErrorStateSettings
 from solepath.lab.evaluate.jobs import EvaluationJob
 from solepath.lab.evaluate.run import Meta, RunSettings
-from solepath.lab.evaluate.sensitivity import SHOWN, SensitivityJob, numbers, table
+from solepath.lab.evaluate.sensitivity import TABLE_COLUMNS, SensitivityJob, numbers, table
 from solepath.lab.measures.score import Scored
 from solepath.recipes import DEFAULT
 
@@ -27,7 +27,7 @@ def test_every_number_of_detector_and_filter_is_in_the_table_with_its_meaning() 
 
 
 def test_a_setting_at_twice_its_value_is_a_recipe_of_its_own() -> None:
-    recipe, constants = NUMBERS["innovation_gate"].at(2.0)
+    recipe, constants = NUMBERS["innovation_gate"].scale(2.0)
     assert recipe.corrector.settings == ErrorStateSettings(innovation_gate=2.0 * ErrorStateSettings().innovation_gate)
     assert (recipe.detector, constants) == (DEFAULT.detector, {})
 
@@ -50,7 +50,7 @@ def test_a_constant_is_changed_while_a_recording_is_scored_and_then_as_before(fa
 
 def test_a_line_has_the_change_at_half_and_at_twice_the_value() -> None:
     one = NUMBERS["PAST_PEAK"]
-    shown = [column for column in SHOWN if column.title in ("strides", "HS F1", "ipol HS")]
+    shown = [column for column in TABLE_COLUMNS if column.title in ("strides", "HS F1", "ipol HS")]
     default, half, double = [0.02, 0.98, 0.010], [0.021, 0.95, 0.0104], [0.02, 0.98, -0.020]
     lines = list(table(iter([(None, 1.0, default), (one, 0.5, half), (one, 2.0, double)]), shown))
     assert [cell.strip() for cell in lines[2].split("|")][4:-1] == ["2 %", "0.98", "10 ms"]

@@ -23,9 +23,9 @@ def run_jobs(
     before: int = 0,
     after: int = 0,
 ) -> Iterator[Done]:
-    """Yield the result of `work`, a function of a module, for every job, in the order of the jobs.
+    """Yield the result of the module-level function `work` for every job, in the order of the jobs.
 
-    `before` and `after` are the numbers of jobs of other work that the progress counts before and after these."""
+    `before` and `after` are numbers of other jobs, done before and after these, which `progress` counts as well."""
     with ExitStack() as stack:
         many = processes > 1 and len(jobs) > 1
         pool = stack.enter_context(ProcessPoolExecutor(min(processes, len(jobs)))) if many else None

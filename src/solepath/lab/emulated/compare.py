@@ -45,13 +45,13 @@ def compare(truth: Truth, feet: Mapping[Foot, FootRun]) -> list[FootComparison]:
 
 
 def _compare(truth: FootTruth, run: FootRun) -> FootComparison:
-    matched = pairs([s.t_end for s in truth.steps], [s.t_end for s in run.steps], STEP_TOLERANCE)
-    errors = [run.steps[j].length / truth.steps[i].length - 1.0 for i, j in matched if truth.steps[i].length > 0]
+    matched = pairs([s.t_end for s in truth.steps], [s.t_end for s in run.strides], STEP_TOLERANCE)
+    errors = [run.strides[j].length / truth.steps[i].length - 1.0 for i, j in matched if truth.steps[i].length > 0]
     return FootComparison(
         foot=truth.foot,
         steps_true=len(truth.steps),
         steps_found=len(matched),
-        steps_invented=len(run.steps) - len(matched),
+        steps_invented=len(run.strides) - len(matched),
         length_errors=Errors(tuple(errors)),
         events={
             "heel_strike": match(truth.heel_strikes, run.times[HeelStrike], windows=ALWAYS),

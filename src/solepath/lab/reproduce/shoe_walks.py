@@ -23,7 +23,7 @@ from ...papers.shoe_sensing.recipe import SHOE_MAGNITUDE, SHOE_SENSING
 from ...types import Foot, Sample
 from ..measures.alignment import Floats, align, distances
 from ..measures.matching import pairs
-from ..measures.strides import ALIGNED_OVER
+from ..measures.strides import ALIGNMENT_LENGTH
 from .walks import align_track, run_session, thin_out
 
 FOOT = Foot.RIGHT
@@ -206,7 +206,7 @@ def _courses(together: Sequence[tuple[StrideTaken, TrueStride]]) -> tuple[float,
     true = np.cumsum([one.displacement[:2] for _, one in together], axis=0)
     far = np.linalg.norm(true, axis=1)
     ours, true = (np.vstack([np.zeros(2), track[far < STRAIGHT]]) for track in (ours, true))
-    count = 2 + int(np.sum(far < ALIGNED_OVER))
+    count = 2 + int(np.sum(far < ALIGNMENT_LENGTH))
     ours = align(ours[:count], true[:count]).apply(ours)
     return tuple(_directions_off(ours, true).tolist())
 

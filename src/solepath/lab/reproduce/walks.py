@@ -18,7 +18,7 @@ from ...recording.decoded import decode_recording
 from ...session import Session
 from ...types import Packet, Sample
 from ..measures.alignment import Floats, align
-from ..measures.strides import ALIGNED_OVER
+from ..measures.strides import ALIGNMENT_LENGTH
 
 
 def join_routes(first: Route, second: Route) -> Route:
@@ -64,7 +64,7 @@ def run_session(
     return session.feed(items) + session.finish()
 
 
-def align_track(track: Floats, truth: Floats, over: float = ALIGNED_OVER) -> Floats:
+def align_track(track: Floats, truth: Floats, over: float = ALIGNMENT_LENGTH) -> Floats:
     """Return `track` (n, 2) turned and shifted to fit `truth` (n, 2) best over the first `over` metres.
 
     Rows of both are the same instants."""
