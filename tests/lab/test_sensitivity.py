@@ -40,7 +40,7 @@ def score(path: Path, meta: Meta, how: RunSettings) -> Scored:
 @pytest.mark.parametrize("factor", [0.5, 2.0])
 def test_a_constant_is_changed_while_a_recording_is_scored_and_then_as_before(factor: float) -> None:
     before = inertial.PAST_PEAK
-    recipe, constants = NUMBERS["PAST_PEAK"].at(factor)
+    recipe, constants = NUMBERS["PAST_PEAK"].scale(factor)
     job = SensitivityJob(EvaluationJob(score, RunSettings(recipe, Calibration(), None), Path("walk"), {}), constants)
     scored = job.run()
     assert isinstance(scored, Scored) and scored.figures == {"past_peak": factor * before}

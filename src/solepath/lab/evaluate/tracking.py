@@ -1,4 +1,4 @@
-"""Scores tracks and strides against markers, surveys and closed loops. Scorers have the form that datasets.py describes."""
+"""Scores tracks and strides against markers, surveys and closed loops; datasets.py describes what a scorer is."""
 
 from __future__ import annotations
 
