@@ -4,7 +4,7 @@ import pytest
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import sampled
-from solepath.lab.evaluate.ablation import COLUMNS, ABLATED_RECIPES, recipes
+from solepath.lab.evaluate.ablation import ABLATED_RECIPES, COLUMNS, recipes
 from solepath.lab.evaluate.changes import BETTER
 from solepath.lab.evaluate.datasets import DATASETS, EMULATED
 from solepath.lab.evaluate.report import Result

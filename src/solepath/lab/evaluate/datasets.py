@@ -12,7 +12,7 @@ from pathlib import Path
 from attrs import frozen
 
 from ...recipes import Recipe
-from ..emulated.walks import four_floors, half_hour, long_way, score_way
+from ..emulated.walks import four_floors, half_hour_walk, long_walk, score_route
 from ..measures.confusion import CLASSES
 from ..measures.score import Scored
 from .activity import STAIR_SPANS, score_labelled, score_stairs
@@ -128,10 +128,10 @@ WALK_FIGURES = (
     "rms_2d", "position_end", "end_relative", "position_max", "largest_relative", "height_end", "height_max", "path",
 )  # fmt: skip
 EMULATED = tuple(
-    DataSet(name, title, partial(score_way, way), WALK_FIGURES + STRIDE_FIGURES, has_pressure=True)
+    DataSet(name, title, partial(score_route, way), WALK_FIGURES + STRIDE_FIGURES, has_pressure=True)
     for name, title, way in (
-        ("emulated_long_way", "500 m with turns, emulated insoles on both feet", long_way),
-        ("emulated_half_hour", "30 minutes with turns, emulated insoles on both feet", half_hour),
+        ("emulated_long_way", "500 m with turns, emulated insoles on both feet", long_walk),
+        ("emulated_half_hour", "30 minutes with turns, emulated insoles on both feet", half_hour_walk),
         ("emulated_four_floors", "four floors of stairs up and down, emulated insoles on both feet", four_floors),
     )
 )

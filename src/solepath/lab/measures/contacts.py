@@ -1,6 +1,6 @@
 """Finds true contacts of a foot with the ground in the signals of switches and force sensors, and joins labels.
 
-The thresholds were chosen by hand on the data sets marpino_heel_toe and gaitpdb_vgrf and were not swept."""
+The thresholds were chosen by hand; no sweep of them is recorded."""
 
 from __future__ import annotations
 

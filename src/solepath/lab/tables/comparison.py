@@ -14,7 +14,7 @@ EVENTS = {"heel_strike": "heel-strike", "foot_flat": "foot-flat", "heel_off": "h
 
 
 def comparison_table(comparisons: Sequence[FootComparison]) -> str:
-    """Return the table of both feet's strides and events against the truth."""
+    """Return the table of the strides and events of both feet compared with the truth."""
     rows = [
         ["steps walked", *(str(c.steps_true) for c in comparisons)],
         ["steps found", *(str(c.steps_found) for c in comparisons)],
@@ -30,7 +30,7 @@ def comparison_table(comparisons: Sequence[FootComparison]) -> str:
 
 
 def place_table(score: PlaceScore) -> str:
-    """Return the table of positions on the floor plan, for strides while the wearer is on a floor."""
+    """Return the table of the score of positions on the floor plan."""
     rows = [
         ["steps placed", str(score.steps)],
         ["one candidate, the true one, after steps", "-" if score.decided is None else str(score.decided)],
@@ -42,7 +42,7 @@ def place_table(score: PlaceScore) -> str:
 
 
 def reproduced(done: Reproduction) -> str:
-    """Return the table of our figures beside the paper's, and the notes, a sentence a line."""
+    """Return the table of our figures beside the paper's, and below it the notes, one sentence on a line."""
     first, *others = STATISTICS
     header = [done.unit, f"ours: {first}", *others, f"paper: {first}", *others]
     rows = [[row.name, *_cells(statistics(row.values), row), *_cells(row.paper, row)] for row in done.rows]

@@ -1,4 +1,4 @@
-"""Scores as text tables: of recorded data, of the default recipe without each of its parts, beside earlier ones."""
+"""Text tables of scores: of each data set, of the ablation, and of the changes since an earlier evaluation."""
 
 from __future__ import annotations
 
@@ -94,11 +94,11 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
 
 
 def score_table(result: Result) -> str:
-    """Return title, table and failures. The table has a line a recording (when there are few) and the averages."""
+    """Return title, table and failures of a data set. The table may list recordings, and always has the averages."""
     data_set = result.data_set
     header = ["recording", *(COLUMNS[key][0] for key in data_set.figures)]
     rows: list[Sequence[str]] = []
-    if data_set.each:
+    if data_set.lists_recordings:
         rows += [_row(score.recording, score.flat(), data_set.figures) for score in result.scores]
         rows.append([])
     for summary in result.summaries:
@@ -117,7 +117,7 @@ def score_table(result: Result) -> str:
 
 
 def _confusion(summary: Summary) -> str:
-    """Return the table of reported activities for the labelled samples of each activity, %."""
+    """Return the confusion matrix: the share of each reported activity in the samples of each true one, %."""
     counts = summary.confusion or {}
     reported = [activity for activity in Activity if any(activity.value in row for row in counts.values())]
     rows = []
@@ -164,15 +164,15 @@ GROUPS = ("mean", "median", "together")
 
 
 def changes_table(changes: Changes) -> str:
-    """Return every figure of the groups, the figures of recordings that changed, and what is on one side only."""
+    """Return the table of the groups' figures and of changed figures of recordings, and the names of new recordings."""
     rows: list[Sequence[str]] = []
     for change in changes.changes:
         if change.row.split()[0] in GROUPS or change.verdict is not Verdict.SAME:
             rows.append(
                 (
                     f"{change.figure} ({change.row})",
-                    _digits(change.earlier),
-                    _digits(change.present),
+                    _format(change.earlier),
+                    _format(change.present),
                     change.verdict.value,
                 )
             )
@@ -191,7 +191,7 @@ def changes_table(changes: Changes) -> str:
 
 
 def comparison_tables(earlier: Scores, present: Scores) -> str:
-    """Return a table for each data set that is in both evaluations, and the names that are in one only."""
+    """Return a table for each data set that is in both evaluations, and the data sets that only one of them has."""
     parts = [changes_table(changes) for changes in compare_scores(earlier, present)]
     removed, new = names_missing(earlier, present), names_missing(present, earlier)
     if removed:
@@ -201,5 +201,5 @@ def comparison_tables(earlier: Scores, present: Scores) -> str:
     return "\n\n".join(parts)
 
 
-def _digits(value: float | None) -> str:
+def _format(value: float | None) -> str:
     return "-" if value is None else f"{value:.{DIGITS}g}"
