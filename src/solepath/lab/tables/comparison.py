@@ -41,13 +41,16 @@ def place_table(score: PlaceScore) -> str:
     return table(["place against the truth", "wearer"], rows)
 
 
-def reproduced(done: Reproduction) -> str:
+def reproduced(reproduction: Reproduction) -> str:
     """Return the table of our figures beside the paper's, and below it the notes, one sentence on a line."""
     first, *others = STATISTICS
-    header = [done.unit, f"ours: {first}", *others, f"paper: {first}", *others]
-    rows = [[row.name, *_cells(statistics(row.values), row), *_cells(row.paper, row)] for row in done.rows]
-    title = f"{done.name}: ours is emulated ({done.walked}), theirs was walked ({done.paper_title})."
-    return "\n".join([title, "", table(header, rows), *([""] if done.notes else []), *done.notes])
+    header = [reproduction.unit, f"ours: {first}", *others, f"paper: {first}", *others]
+    rows = [[row.name, *_cells(statistics(row.values), row), *_cells(row.paper, row)] for row in reproduction.rows]
+    title = (
+        f"{reproduction.name}: ours is emulated ({reproduction.emulation}), "
+        f"theirs was walked ({reproduction.paper_title})."
+    )
+    return "\n".join([title, "", table(header, rows), *([""] if reproduction.notes else []), *reproduction.notes])
 
 
 def _cells(of: Statistics, row: FigureRow) -> list[str]:

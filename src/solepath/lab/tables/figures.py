@@ -9,7 +9,7 @@ from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from ..reproduce.tables import Boxes, Drawn, Floor, PictureTrack, Reproduction, Statistics
+from ..reproduce.tables import BoxPlots, DrawStyle, FloorPanel, PictureTrack, Reproduction, Statistics
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00")
 """Colours that colour-blind readers can distinguish (Okabe and Ito 2008)."""
@@ -24,22 +24,22 @@ def formats() -> list[str]:
     return sorted(FigureCanvasBase.get_supported_filetypes())
 
 
-def draw(done: Reproduction, path: Path) -> None:
+def draw(reproduction: Reproduction, path: Path) -> None:
     """Draw the panels side by side into a file, in the format of its extension. Raise OSError when that fails."""
-    figure = Figure(figsize=(PANEL_SIZE * max(1, len(done.panels)), PANEL_SIZE), layout="constrained")
-    axes = figure.subplots(1, max(1, len(done.panels)), squeeze=False)[0]
-    for ax, panel in zip(axes, done.panels, strict=False):
-        if isinstance(panel, Boxes):
-            _draw_boxes(ax, panel, done)
+    figure = Figure(figsize=(PANEL_SIZE * max(1, len(reproduction.panels)), PANEL_SIZE), layout="constrained")
+    axes = figure.subplots(1, max(1, len(reproduction.panels)), squeeze=False)[0]
+    for ax, panel in zip(axes, reproduction.panels, strict=False):
+        if isinstance(panel, BoxPlots):
+            _draw_boxes(ax, panel, reproduction)
         else:
             _draw_floor(ax, panel)
         ax.set_title(panel.title, fontsize=10)
-    figure.suptitle(f"{done.name}, emulated ({done.paper_title})", fontsize=11)
+    figure.suptitle(f"{reproduction.name}, emulated ({reproduction.paper_title})", fontsize=11)
     figure.savefig(path, dpi=120)
 
 
-def _draw_boxes(ax: Axes, panel: Boxes, done: Reproduction) -> None:
-    rows = {row.name: row for row in done.rows}
+def _draw_boxes(ax: Axes, panel: BoxPlots, reproduction: Reproduction) -> None:
+    rows = {row.name: row for row in reproduction.rows}
     box_rows = [rows[name] for name in panel.rows]
     box_positions = range(1, len(box_rows) + 1)
     ax.boxplot(
@@ -74,15 +74,15 @@ def _draw_paper_box(ax: Axes, left: float, paper: Statistics) -> None:
     ax.autoscale_view()
 
 
-def _draw_floor(ax: Axes, panel: Floor) -> None:
+def _draw_floor(ax: Axes, panel: FloorPanel) -> None:
     n_drawn = 0
     for track in panel.tracks:
-        if track.drawn is Drawn.TRUTH:
+        if track.style is DrawStyle.TRUTH:
             ax.plot(*_columns(track), color="0.3", linestyle="--", linewidth=1.0, label=track.name, zorder=3)
             continue
         colour, marker = COLOURS[n_drawn % len(COLOURS)], MARKERS[n_drawn % len(MARKERS)]
         n_drawn += 1
-        if track.drawn is Drawn.DOTS:
+        if track.style is DrawStyle.DOTS:
             ax.scatter(*_columns(track), s=14, color=colour, marker=marker, alpha=0.7, label=track.name, zorder=2)
         else:
             ax.plot(*_columns(track), color=colour, linewidth=0.9, label=track.name, zorder=2)
