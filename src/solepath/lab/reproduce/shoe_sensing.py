@@ -182,8 +182,9 @@ def _height_notes(results: Sequence[ShoeResults]) -> list[str]:
         after = [abs(one.energy[state].height) for one in results]
         n_level = sum([height < 1e-6 for height in after])
         lines.append(
-            f"{state.capitalize()} 100 steps on the level: {n_level} of {len(results)} tracks end exactly as high as they began, at worst {max(after):.2f} m off; without elimination they "
-            f"drift by {np.mean(before):.2f} m on average and {max(before):.2f} m at worst."
+            f"{state.capitalize()} 100 steps on the level: {n_level} of {len(results)} tracks end exactly as high "
+            f"as they began, at worst {max(after):.2f} m off; without elimination they drift by "
+            f"{np.mean(before):.2f} m on average and {max(before):.2f} m at worst."
         )
     lines.append(
         'The paper\'s heights before elimination (0.12 m walking, 0.17 m jogging) are of "100 sets of data", and it '

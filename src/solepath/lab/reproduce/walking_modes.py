@@ -224,7 +224,7 @@ def _deviation(
 
 
 def _place(walker: Walker, foot: Foot, t: float, touchdown_events: Sequence[TouchedDown]) -> tuple[float, float]:
-    """Return the position, m, of the touchdown nearest to `t` s; without one, of the last one before or of the start."""
+    """Return the position, m, of the touchdown nearest to `t` s, or else of the last one before it or of the start."""
     near = [one for one in touchdown_events if abs(one.t - t) < MAX_TIME_DIFFERENCE]
     if near:
         x, y, _ = min(near, key=lambda one: abs(one.t - t)).position
