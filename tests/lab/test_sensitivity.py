@@ -16,7 +16,7 @@ from solepath.lab.evaluate.sensitivity import TABLE_COLUMNS, SensitivityJob, num
 from solepath.lab.measures.score import Scored
 from solepath.recipes import DEFAULT
 
-NUMBERS = {one.name: one for one in numbers()}
+NUMBERS = {number.name: number for number in numbers()}
 
 
 def test_every_number_of_detector_and_filter_is_in_the_table_with_its_meaning() -> None:
@@ -32,7 +32,7 @@ def test_a_setting_at_twice_its_value_is_a_recipe_of_its_own() -> None:
     assert (recipe.detector, constants) == (DEFAULT.detector, {})
 
 
-def score(path: Path, meta: Meta, how: RunSettings) -> Scored:
+def score(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     """The value of the constant while a recording is scored."""
     return Scored(path.name, {"past_peak": inertial.PAST_PEAK})
 
@@ -49,9 +49,9 @@ def test_a_constant_is_changed_while_a_recording_is_scored_and_then_as_before(fa
 
 
 def test_a_line_has_the_change_at_half_and_at_twice_the_value() -> None:
-    one = NUMBERS["PAST_PEAK"]
-    shown = [column for column in TABLE_COLUMNS if column.title in ("strides", "HS F1", "ipol HS")]
+    number = NUMBERS["PAST_PEAK"]
+    columns = [column for column in TABLE_COLUMNS if column.title in ("strides", "HS F1", "ipol HS")]
     default, half, double = [0.02, 0.98, 0.010], [0.021, 0.95, 0.0104], [0.02, 0.98, -0.020]
-    lines = list(table(iter([(None, 1.0, default), (one, 0.5, half), (one, 2.0, double)]), shown))
+    lines = list(table(iter([(None, 1.0, default), (number, 0.5, half), (number, 2.0, double)]), columns))
     assert [cell.strip() for cell in lines[2].split("|")][4:-1] == ["2 %", "0.98", "10 ms"]
     assert [cell.strip() for cell in lines[3].split("|")][4:-1] == ["+5 % / 0", "-0.03 / 0", "0 / -30 ms"]
