@@ -2,9 +2,9 @@
 
 It prints ratios and asserts nothing. It takes two minutes on two idle processors, or half an hour and 4 GB of memory
 with `--sizes 100 1000 5000 20000`. It needs the extra `bytewax`. For every line it runs the job of `solepath
-fleet-demo` with a recovery store, and then sessions without an engine ("bare") on the same packets in as many processes.
-All wearers walk for the same time, so that lines can be compared: samples of standing or of the first strides take
-another time.
+fleet-demo` with a recovery store. Then it runs sessions without an engine ("bare") on the same packets in as many
+processes. All wearers walk for the same time, so that lines can be compared: a sample of standing or of the first
+strides takes another time.
 """
 
 from __future__ import annotations

@@ -82,16 +82,16 @@ def calls_of(session: Session, packet: Packet) -> tuple[FrameCalls, list[Any]]:
 def collect_calls(packets: tuple[Packet, ...]) -> tuple[list[FrameCalls], list[FrameCalls]]:
     """Return the calls of the frames without events and of those that end a stride."""
     session = Session()
-    quiet_frames, stride_frames = [], []
+    frames_without_events, stride_frames = [], []
     for packet in packets:
         frame_calls, events = calls_of(session, packet)
         if packet.channel != "insole/frame":
             continue
         if not events:
-            quiet_frames.append(frame_calls)
+            frames_without_events.append(frame_calls)
         elif any(isinstance(event, StrideTaken) for event in events):
             stride_frames.append(frame_calls)
-    return quiet_frames, stride_frames
+    return frames_without_events, stride_frames
 
 
 def print_calls(name: str, frames: list[FrameCalls], calls: bool) -> None:
@@ -168,8 +168,8 @@ def main() -> None:
     parser.add_argument("--calls", action="store_true", help="list the functions of one frame of each kind")
     parser.add_argument("--no-import", action="store_true", help="the way alone")
     options = parser.parse_args()
-    quiet_frames, stride_frames = collect_calls(emulate(ROUTE, radio=CLEAN, seed=1).packets)
-    print_calls("a quiet frame", quiet_frames, options.calls)
+    frames_without_events, stride_frames = collect_calls(emulate(ROUTE, radio=CLEAN, seed=1).packets)
+    print_calls("a quiet frame", frames_without_events, options.calls)
     print_calls("a frame that ends a stride", stride_frames, options.calls)
     if not options.no_import:
         print_loading()
