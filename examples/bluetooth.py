@@ -1,6 +1,6 @@
 """Receives sensors over Bluetooth: `python bluetooth.py LEFT RIGHT` with two addresses from `solepath scan`.
 
-Without addresses an emulated wearer walks for eight seconds with two emulated insoles, behind virtual Bluetooth
+Without addresses it receives two emulated insoles of a wearer who walks for eight seconds, through virtual Bluetooth
 controllers.
 """
 

@@ -14,16 +14,16 @@ walk = emulate(route, radio=Radio(loss=0.02, latency=0.015, jitter=0.030), seed=
 print(f"{len(walk.packets)} packets in {walk.truth.duration:.1f} s. The first one:")
 print(walk.packets[0])
 
-# An app holds only a session. It opens nothing and waits for nothing: packets go in, events come out.
+# An app needs only a session, which opens no files or devices and never waits. Packets go in, events come out.
 session = Session()
 lost = rejected = 0
 for packet in walk.packets:
     for event in session.feed(packet):  # in the order in which they became known
         match event:
             case HeelStrike() | FootFlat() | HeelOff() | ToeOff():
-                # t: time of the event. known_at: arrival of the packet that made it known.
-                late = 1000 * (event.known_at - event.t)
-                print(f"{event.t:6.2f} s  {event.foot.value:5}  {type(event).__name__:10}  known {late:3.0f} ms later")
+                # t is the time of the event, known_at that of the packet after which it could be reported.
+                delay = 1000 * (event.known_at - event.t)
+                print(f"{event.t:6.2f} s  {event.foot.value:5}  {type(event).__name__:10}  known {delay:3.0f} ms later")
             case StrideTaken(t=t, foot=foot, number=number, length=length, heading_change=turn):
                 print(f"{t:6.2f} s  {foot.value:5}  step {number}: {length:.2f} m, turned {degrees(turn):+.0f} deg")
             case PacketsLost(count=count):

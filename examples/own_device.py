@@ -2,10 +2,10 @@
 
     python examples/own_device.py
 
-The device is invented: 16 bytes for every sample, 100 a second, numbered with 15 bits, no clock. Beside this file is
-own_device.json, which has bytes with their meaning, worked out by hand; this program checks them. Real devices that are
-declared in this way are in solepath/link/devices. `ble.DeviceConfig(site, profile=PROFILE)` and
-`Session(profiles=[DRIVER])` use the declaration.
+The device is invented. It sends 100 samples a second of 16 bytes each, with a number of 15 bits and without a time. The
+program checks the declaration against own_device.json, which has bytes and their meaning, worked out by hand. Real
+devices are declared in the same way in solepath/link/devices. Pass the declaration to
+`ble.DeviceConfig(site, profile=PROFILE)` and `Session(profiles=[DRIVER])`.
 """
 
 import json
@@ -50,11 +50,11 @@ FORMATS = {  # construct reads and writes them
 ACC, GYRO = 8 * 9.80665 / 32768, radians(1 / 16)
 
 
-def motion(sent, known):
-    """Return one notification in SI units. `known` has earlier values, for devices whose ranges can be set."""
-    sample = Measured(acc=tuple(v * ACC for v in sent.acc), gyro=tuple(v * GYRO for v in sent.gyro))
-    first = sent.number % 1000 == 0
-    return Reading((sample,), sequence=sent.number, battery=sent.battery / 1000 if first else None)
+def motion(frame, settings):
+    """Return one notification in SI units. `settings` has values that the device sent earlier, such as its range."""
+    sample = Measured(acc=tuple(v * ACC for v in frame.acc), gyro=tuple(v * GYRO for v in frame.gyro))
+    first = frame.number % 1000 == 0
+    return Reading((sample,), sequence=frame.number, battery=frame.battery / 1000 if first else None)
 
 
 DRIVER = Driver(PROFILE, FORMATS, readers={"shoe/motion": motion}, sequence=1 << 15, acc_range=8.0)

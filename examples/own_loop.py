@@ -3,8 +3,8 @@
     solepath demo --record walk.jsonl
     python examples/own_loop.py walk.jsonl
 
-A live source has the same loop: make a Packet of every Bluetooth notification and feed it. While nothing arrives, call
-`session.advance(now)` now and then, so that silence becomes an event too (StreamStale).
+The loop for live data is the same: make a Packet of every Bluetooth notification and feed it. While nothing arrives,
+call `session.advance(now)` several times a second, so that a silent device is reported (StreamStale).
 """
 
 import sys

@@ -1,9 +1,9 @@
-"""Feeds samples of your own sensor, one at a time: no packets, no radio, only numbers in SI units.
+"""Feeds samples of your own sensor in SI units, one at a time, without packets and radio.
 
     python examples/own_samples.py              emulated samples
     python examples/own_samples.py walk.csv     a file with the columns t,acc_x,acc_y,acc_z,gyro_x,gyro_y,gyro_z
 
-Whole files are easier with `solepath track walk.csv`. This program is for data from another source.
+For whole files `solepath track walk.csv` is easier. This program shows the loop for data from any other source.
 """
 
 import csv
@@ -27,7 +27,7 @@ def samples_of(path: str) -> Iterator[Sample]:
 
 
 def emulated_samples() -> Iterator[Sample]:
-    """Yield the samples of the right foot of an emulated walk at 100 Hz, in the same form."""
+    """Yield the samples of the right foot of an emulated walk at 100 Hz."""
     yield from Walker(Route().stand(2).walk(12).stop(2)).samples(Foot.RIGHT, 100.0)
 
 

@@ -1,4 +1,4 @@
-"""Stops in the middle of a walk, continues later in another process, and loses nothing.
+"""Stops in the middle of a walk and continues later, as in another process, without losing any data.
 
     python examples/save_and_resume.py
 
@@ -11,21 +11,21 @@ from solepath import Event, Session
 from solepath.emulate import Route, emulate
 
 walk = emulate(Route().stand(2).walk(10, speed=1.2).stop(2), seed=3)
-half = len(walk.packets) // 2
+middle = len(walk.packets) // 2
 
 # The first half ends in the middle of a stride.
 session = Session()
-events: list[Event] = session.feed(walk.packets[:half])
+events: list[Event] = session.feed(walk.packets[:middle])
 text = json.dumps(session.snapshot())
 print(f"{len(events)} events so far, saved in {len(text) / 1000:.0f} kB of JSON")
 del session
 
-# The second half. Session.restore raises SnapshotError for anything but a snapshot of this version.
+# The second half starts here. Session.restore raises SnapshotError for anything but a snapshot of this version.
 session = Session.restore(json.loads(text))
-events += session.feed(walk.packets[half:])
+events += session.feed(walk.packets[middle:])
 events += session.finish()
 
 # The same walk without a pause gives the same events, to the last bit of every number.
-whole = Session()
-same = whole.feed(walk.packets) + whole.finish() == events
-print(f"{len(events)} events in the end; the same as without the pause: {same}")
+whole_session = Session()
+is_same = whole_session.feed(walk.packets) + whole_session.finish() == events
+print(f"{len(events)} events in the end; the same as without the pause: {is_same}")

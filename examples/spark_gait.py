@@ -3,9 +3,9 @@
     python examples/spark_gait.py SENT EVENTS CHECKPOINT                      # on this machine, all present files
     spark-submit ... examples/spark_gait.py SENT EVENTS CHECKPOINT --every "10 seconds"   # on a cluster, until stopped
 
-SENT: a directory that Parquet files of rows (solepath.fleet.sent_row) are moved into, older ones first. EVENTS: becomes
-a directory of Parquet files of events. CHECKPOINT: directory from which the job continues after any end. Needs
-solepath[spark] and Java 17, on a cluster on every executor.
+SENT is a directory into which Parquet files of rows (solepath.fleet.sent_row) are moved, older ones first. EVENTS is a
+directory for Parquet files of events, which the job makes. CHECKPOINT is a directory with the state from which the job
+continues after it has stopped. The job needs solepath[spark] and Java 17, on a cluster on every executor.
 """
 
 import argparse

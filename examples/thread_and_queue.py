@@ -3,8 +3,9 @@
     python examples/thread_and_queue.py                     an emulated walk, as fast as the app takes it
     python examples/thread_and_queue.py walk.jsonl [SPEED]  a recording (solepath demo --record walk.jsonl), real time
 
-A session belongs to one thread; a Bluetooth library's callback only puts packets into a queue. Shown here: what to do
-when the queue is full (drop, count, report) or empty (advance), at going to the background (save, restore) and the end.
+A session belongs to one thread; a Bluetooth library's callback only puts packets into a queue. When the queue is full,
+packets are dropped, counted and reported. While it is empty, the session advances. When the app goes to the background,
+the session is saved, and later restored.
 """
 
 import json
@@ -21,12 +22,12 @@ from solepath.link.catalogue import PROFILES
 from solepath.recording import read_packets
 from solepath.wire.receiver import build_dropped
 
-# A packet of a stream may be dropped; a layout or a range, which is sent once, may not.
+# Packets of these channels may be dropped. A layout or a range is sent only once and must not be dropped.
 STREAMS = {name for profile in PROFILES for name in profile.streams}
 
 
 class Clock:
-    """The clock of the packets' times, at `speed` times real time; time.monotonic() in an app."""
+    """The clock of the packets' times, at `speed` times real time. An app uses time.monotonic()."""
 
     def __init__(self, speed: float, t_start: float) -> None:
         self.speed, self.t_start, self.t, self.started_at = speed, t_start, t_start, time.monotonic()
@@ -41,7 +42,7 @@ class Clock:
 
 
 class Receiver(threading.Thread):
-    """Stands for the thread on which a Bluetooth library calls back; `on_notification` is such a callback."""
+    """The thread of a Bluetooth library, which calls `on_notification` for each packet."""
 
     def __init__(self, packets: Iterator[Packet], clock: Clock, capacity: int) -> None:
         super().__init__(name="receiver", daemon=True)
@@ -60,7 +61,7 @@ class Receiver(threading.Thread):
         self.inbox.put(None)  # marks the end for the thread that reads the queue
 
     def on_notification(self, packet: Packet) -> None:
-        """Put the packet into the queue; wait only for a packet that is needed to read all others."""
+        """Put the packet into the queue. Wait for space only when the packet must not be dropped."""
         site, count = packet.site, self.dropped.get(packet.site, 0)
         report = [Packet(packet.t, site, "receiver/dropped", build_dropped(count), packet.device)] if count else []
         self.must_wait = packet.channel not in STREAMS
@@ -72,7 +73,7 @@ class Receiver(threading.Thread):
 
 
 class App:
-    """The app of one thread. `show` receives the events; a GUI passes them on to its own thread."""
+    """The app, whose methods run in one thread. `show` receives the events; a GUI passes them on to its own thread."""
 
     def __init__(self, packets: Iterator[Packet], clock: Clock, show: Callable[[Event], None]) -> None:
         self.packets, self.clock, self.show = packets, clock, show
@@ -117,8 +118,8 @@ def show(event: Event) -> None:
     match event:
         case StrideTaken(t=t, foot=foot, length=length, degraded=degraded, number=number):
             print(f"{t:6.2f} s  {foot.value} step of {length:.2f} m{', with a gap in it' if degraded else ''}")
-            hangs = app.clock.t + 1.6 if number == 2 and foot is Foot.LEFT else 0.0  # the screen, while packets come
-            while app.clock.t < hangs and app.receiver.is_alive() and not app.receiver.must_wait:
+            idle_from = app.clock.t + 1.6 if number == 2 and foot is Foot.LEFT else 0.0  # the screen is busy
+            while app.clock.t < idle_from and app.receiver.is_alive() and not app.receiver.must_wait:
                 app.clock.app_waits.set()
                 time.sleep(0.001)
         case PacketsDropped(t=t, site=site, count=count):
@@ -132,12 +133,12 @@ if len(sys.argv) > 1:
 else:
     walk = emulate(Route().stand(2).walk(16, speed=1.3).stop(2), seed=5)
     sent, speed = [packet for packet in walk.packets if not 7.5 < packet.t < 9.5], inf  # the radio is silent for 2 s
-app, background = App(iter(sent), Clock(speed, sent[0].t), show), sent[0].t + 11.0
+app, background_at = App(iter(sent), Clock(speed, sent[0].t), show), sent[0].t + 11.0
 app.listen()
 try:
     while app.turn():
-        if app.clock.t > background:
-            background, text = inf, app.stop()
+        if app.clock.t > background_at:
+            background_at, text = inf, app.stop()
             print(f"{app.clock.t:6.2f} s  paused, {len(text) / 1000:.0f} kB of state")
             app.clock.app_waits.set()
             app.clock.go_on(app.clock.t + 2.4)

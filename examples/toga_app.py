@@ -48,11 +48,11 @@ class GaitApp(toga.App):
         self.soles = toga.Canvas(height=190, margin=6, background_color="white")
         self.map = toga.Canvas(flex=1, margin=6, background_color="white")
         self.status = toga.Label("", font_size=11, margin=6)
-        big = {"font_size": 16, "height": 48, "flex": 1, "margin": 4}
-        self.start = toga.Button("Insoles", on_press=lambda _: self.toggle_listening(sensors()), **big)
-        self.show = toga.Button("Emulated", on_press=lambda _: self.toggle_listening(emulated()), **big)
-        below = {name: toga.Label(text, font_size=11, text_align=CENTER) for name, text in FIGURES.items()}
-        tiles = [toga.Box(children=[self.figures[n], below[n]], direction=COLUMN, flex=1) for n in FIGURES]
+        button_style = {"font_size": 16, "height": 48, "flex": 1, "margin": 4}
+        self.start = toga.Button("Insoles", on_press=lambda _: self.toggle_listening(sensors()), **button_style)
+        self.show = toga.Button("Emulated", on_press=lambda _: self.toggle_listening(emulated()), **button_style)
+        captions = {name: toga.Label(text, font_size=11, text_align=CENTER) for name, text in FIGURES.items()}
+        tiles = [toga.Box(children=[self.figures[n], captions[n]], direction=COLUMN, flex=1) for n in FIGURES]
         rows = [toga.Box(children=row, direction=ROW) for row in (tiles[:2], tiles[2:], [self.start, self.show])]
         column = [self.activity, rows[0], rows[1], self.soles, self.map, self.status, rows[2]]
         self.main_window = toga.MainWindow(size=(360, 740), content=toga.Box(children=column, direction=COLUMN))
@@ -74,17 +74,17 @@ class GaitApp(toga.App):
         self.listening = self.loop.create_task(self.listen(packets))
 
     async def listen(self, packets: AsyncIterator[Packet]) -> None:
-        why = "ended"
+        reason = "ended"
         try:
             async for packet in packets:
                 self.take(self.session.feed(packet))
         except asyncio.CancelledError:
-            why = "stopped"
+            reason = "stopped"
         except Exception as error:  # no Bluetooth, no permission, a missing package: the user reads it
-            why = str(error)
+            reason = str(error)
         self.take(self.session.finish())
         self.draw()
-        self.status.text, self.start.text, self.show.enabled, self.listening = why, "Insoles", True, None
+        self.status.text, self.start.text, self.show.enabled, self.listening = reason, "Insoles", True, None
 
     def take(self, events: list[object]) -> None:
         for event in events:
@@ -105,19 +105,19 @@ class GaitApp(toga.App):
 
     def draw(self) -> None:
         gait = self.session.gait
-        length, uneven = (gait.both.stride_length, gait.asymmetry("swing_time")) if gait else (None, None)
+        length, asymmetry = (gait.both.stride_length, gait.asymmetry("swing_time")) if gait else (None, None)
         self.figures["steps"].text = f"{self.steps}"
         self.figures["cadence"].text = f"{gait.cadence:.0f}" if gait and gait.cadence else "–"
         self.figures["length"].text = f"{length.mean:.2f}" if length else "–"
-        self.figures["asymmetry"].text = f"{uneven:+.1%}" if uneven is not None else "–"
+        self.figures["asymmetry"].text = f"{asymmetry:+.1%}" if asymmetry is not None else "–"
         self.activity.text = self.session.activity.value.replace("_", " ").lower()
         for canvas, drawn in ((self.soles, self.drawn_soles), (self.map, self.drawn_track)):
             canvas.root_state.drawing_actions[:] = drawn(canvas.layout.content_width, canvas.layout.content_height)
             canvas.redraw()
 
     def drawn_soles(self, width: float, height: float) -> Iterator[Fill]:
-        for foot, beside, middle in ((Foot.LEFT, 8, 0.3 * width), (Foot.RIGHT, width - 20, 0.7 * width)):
-            yield filled(COLOURS[foot], FillText(foot.name[0], beside, height - 8))
+        for foot, letter_x, middle in ((Foot.LEFT, 8, 0.3 * width), (Foot.RIGHT, width - 20, 0.7 * width)):
+            yield filled(COLOURS[foot], FillText(foot.name[0], letter_x, height - 8))
             load, layout = self.load.get(foot), self.layouts.get(foot)
             if load is None or layout is None:
                 continue

@@ -1,6 +1,6 @@
 """Calibrates the noise of two insoles' unloaded cells, and prints the distance walked by both feet together.
 
-`python two_insoles.py` emulates a short walk for the calibration, and then 20 m at 30 samples a second.
+`python two_insoles.py` emulates a short walk for the calibration, and then a walk of 20 m, both at 30 Hz.
 """
 
 from attrs import evolve
@@ -11,13 +11,13 @@ from solepath.papers.kupt_dfpc.noise import pressure_noise
 
 INSOLES = {site: Insole(rate=30.0) for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}
 
-# 20 s of walking give the reading of each cell while the foot is in the air
-warming_up = sampled(Route().stand(2.0).walk(25.0).stop(2.0), insoles=INSOLES, seed=1)
-calibration = pressure_noise(warming_up.samples)
+# in 20 s of walking each cell is unloaded many times, so its noise can be measured
+noise_walk = sampled(Route().stand(2.0).walk(25.0).stop(2.0), insoles=INSOLES, seed=1)
+calibration = pressure_noise(noise_walk.samples)
 for foot, insole in calibration.insoles.items():
     print(f"{foot.value} insole: {len(insole.noise)} cells, {max(insole.noise):.2f} N at the most in the air")
 
-# a device sends the positions of its cells; for your own samples they stand in the calibration
+# a device sends the positions of its cells; with samples of your own the calibration must have them
 insoles = {foot: evolve(insole, layout=layout(96, foot)) for foot, insole in calibration.insoles.items()}
 session = Session(recipes.by_name("kupt-dfpc"), calibration=evolve(calibration, insoles=insoles))
 

@@ -1,7 +1,7 @@
 """Measures processing times: `python tests/bench/bench.py`. Prints a table; asserts nothing.
 
-Medians of five runs in one process on one core, with the garbage collector off while the clock runs, as in timeit. The
-last column is the time as a multiple of the yardstick (yardstick.py), which depends less on the machine.
+Times are medians of five runs in one process on one core, with the garbage collector off, as in timeit. The last column
+is the time as a multiple of that of the yardstick (yardstick.py), which depends less on the machine.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ from statistics import median
 from time import perf_counter
 from typing import Any
 
-from measure import RUNS, held, machine, seconds, uncollected
-from yardstick import Tuned, Usual
+from measure import RUNS, machine, measure_memory, no_garbage_collection, seconds
+from solepath.body.layout_calibration.wear import Wear
+from yardstick import TunedFilter, UsualFilter
 
 from solepath import Calibration, Foot, Packet, Recipe, Sample, Session, Site, StrideTaken, recipes
 from solepath.body.gait.turns import Turns
 from solepath.body.part import ActivityPart, Part, TrackPart
 from solepath.body.place.place_hypotheses import PlaceHypotheses
-from solepath.body.worn.wear import Wear
 from solepath.calibration import InsoleCalibration
 from solepath.emulate.radio import CLEAN
 from solepath.emulate.routes.building import BUILDING
@@ -39,27 +39,27 @@ from solepath.link.decoder import Decoder
 from solepath.types import SITE_OF_FOOT
 
 ROUTE = Route().stand(2.0).walk(50.0, 1.3).stop(2.0)
-"""A walk of about 43 s, of which the foot stands 10 %."""
+"""A walk of about 43 s; the feet stand still for 10 % of it."""
 
 
-def each(items: list[Any], make: Callable[[], Any], prepare: Iterable[Any] = ()) -> float:
-    """Return microseconds an item: a new object is fed `prepare` unmeasured, then all items one by one."""
-    found = []
+def time_each(items: list[Any], make: Callable[[], Any], prepare: Iterable[Any] = ()) -> float:
+    """Return the microseconds for which a new object processes an item, after it was fed `prepare` unmeasured."""
+    times = []
     for _ in range(RUNS):
         one = make()
         for item in prepare:
             one.feed(item)
         feed = one.feed
-        with uncollected():
+        with no_garbage_collection():
             started_at = perf_counter()
             for item in items:
                 feed(item)
-            found.append((perf_counter() - started_at) / len(items) * 1e6)
-    return median(found)
+            times.append((perf_counter() - started_at) / len(items) * 1e6)
+    return median(times)
 
 
-def fed(items: Iterable[Any]) -> Session:
-    """Return a session after all these items."""
+def feed_session(items: Iterable[Any]) -> Session:
+    """Return a session that has processed these items."""
     session = Session()
     for item in items:
         session.feed(item)
@@ -73,15 +73,15 @@ def session_with_layout(recipe: Recipe, infos: list[Packet]) -> Session:
     return session
 
 
-class Timed:
-    """Wraps a part and sums the time of its calls, with or without the garbage collector.
+class TimedPart:
+    """A wrapper of a part that sums the time of its calls.
 
-    Fields are the part's own, and the wrapper passes for an instance of the part's class.
+    Other fields are the part's own, and `isinstance` takes the wrapper for an instance of the part's class.
     """
 
     def __init__(self, part: Any) -> None:
         self.part = part
-        self.taken = 0.0
+        self.total_time = 0.0
         self.calls = 0
 
     @property  # type: ignore[misc]
@@ -89,11 +89,11 @@ class Timed:
         return type(self.part)
 
     def receive(self, event: Any) -> Any:
-        """Forward an event; a method of the class, because a wearer tests the class for it."""
+        """Forward an event. It is a method of the class because a wearer looks for it there."""
         return self.__getattr__("receive")(event)
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if name in ("part", "taken", "calls"):
+        if name in ("part", "total_time", "calls"):
             object.__setattr__(self, name, value)
         else:
             setattr(self.part, name, value)
@@ -108,13 +108,13 @@ class Timed:
             try:
                 return what(*arguments)
             finally:
-                self.taken += perf_counter() - started_at
+                self.total_time += perf_counter() - started_at
                 self.calls += 1
 
         return timed
 
 
-OF_A_SAMPLE: dict[str, str | type[Part]] = {
+SAMPLE_PARTS: dict[str, str | type[Part]] = {
     "rest": "rest",
     "detector": "detector",
     "filter": "corrector",
@@ -125,73 +125,73 @@ OF_A_SAMPLE: dict[str, str | type[Part]] = {
     "how it is worn": Wear,
     "body": TrackPart,
 }
-"""The part of a sample's time that a row shows: a field of the foot, or a kind of part."""
+"""Parts whose share of a sample's time the table shows, by row: a field of the foot, or a class of parts."""
 
 
-def shares_of(items: list[Sample], make: Callable[[], Session]) -> dict[str, float]:
-    """Return microseconds a sample that each part of a foot and of a wearer takes, less the clock's own time."""
-    return {name: median([_share(items, make(), what) for _ in range(RUNS)]) for name, what in OF_A_SAMPLE.items()}
+def part_times(items: list[Sample], make: Callable[[], Session]) -> dict[str, float]:
+    """Return the microseconds a sample that each part takes, by row, without the time of the clock itself."""
+    return {name: median([_part_time(items, make(), what) for _ in range(RUNS)]) for name, what in SAMPLE_PARTS.items()}
 
 
-def _share(items: list[Sample], session: Session, what: str | type[Part]) -> float:
-    """Return the time of one part; one at a time, because a timed part would slow down a part that reads it."""
+def _part_time(items: list[Sample], session: Session, what: str | type[Part]) -> float:
+    """Return the microseconds a sample of one part; only one is timed, because a timed part slows down its readers."""
     session.feed(items[0])
-    part = _watched(session, what)
-    with uncollected():
+    part = _time_part(session, what)
+    with no_garbage_collection():
         for item in items[1:]:
             session.feed(item)
-    return (part.taken - part.calls * overhead()) / len(items) * 1e6
+    return (part.total_time - part.calls * overhead()) / len(items) * 1e6
 
 
-def _watched(session: Session, what: str | type[Part]) -> Timed:
+def _time_part(session: Session, what: str | type[Part]) -> TimedPart:
     wearer = session._state.wearer
     if isinstance(what, str):
         foot = next(iter(wearer.feet.values()))
-        part = Timed(getattr(foot, what))
+        part = TimedPart(getattr(foot, what))
         setattr(foot, what, part)
     else:
         place = next(k for k, one in enumerate(wearer.parts) if isinstance(one, what))
-        part = wearer.parts[place] = Timed(wearer.parts[place])
+        part = wearer.parts[place] = TimedPart(wearer.parts[place])
         wearer._choose_sampled()
     return part
 
 
 def overhead() -> float:
-    """Return the time that `Timed` measures for a call that does nothing, s."""
+    """Return the time, s, that `TimedPart` measures for a call that does nothing."""
 
     class Idle:
         def call(self, one: int, other: int) -> None:
             pass
 
-    idle = Timed(Idle())
+    idle = TimedPart(Idle())
     for _ in range(20_000):
         idle.call(1, 2)
-    return idle.taken / idle.calls
+    return idle.total_time / idle.calls
 
 
-def parts_of(items: list[Sample], recipe: Recipe, plan: IndexedPlan) -> dict[str, float]:
-    """Return microseconds a sample that activities, turns and the place on a plan take in a walk through a building."""
+def building_part_times(items: list[Sample], recipe: Recipe, plan: IndexedPlan) -> dict[str, float]:
+    """Return the microseconds a sample of activities, turns and place on a plan, in a walk through a building."""
     kinds: dict[str, type[Part]] = {"activity": ActivityPart, "turns": Turns, "place": PlaceHypotheses}
-    found: dict[str, list[float]] = {name: [] for name in kinds}
+    times: dict[str, list[float]] = {name: [] for name in kinds}
     for _ in range(RUNS):
         session = Session(recipe, floorplan=plan)
-        watched = {name: _watched(session, kind) for name, kind in kinds.items()}
-        with uncollected():
+        timed_parts = {name: _time_part(session, kind) for name, kind in kinds.items()}
+        with no_garbage_collection():
             for item in items:
                 session.feed(item)
-        for name, part in watched.items():
-            found[name].append(part.taken / len(items) * 1e6)
-    return {name: median(taken) for name, taken in found.items()}
+        for name, part in timed_parts.items():
+            times[name].append(part.total_time / len(items) * 1e6)
+    return {name: median(total_time) for name, total_time in times.items()}
 
 
-def _moment(sample: Sample) -> float:
+def _time_of(sample: Sample) -> float:
     return sample.t
 
 
 def main() -> None:
     walker = Walker(ROUTE, seed=1)
-    bare: list[Sample] = walker.samples(Foot.LEFT, 100.0, LSM6DSOX)
-    pressed: list[Sample] = walker.samples(Foot.LEFT, 100.0, LSM6DSOX, layout=layout(96, Foot.LEFT))
+    inertial_samples: list[Sample] = walker.samples(Foot.LEFT, 100.0, LSM6DSOX)
+    pressure_samples: list[Sample] = walker.samples(Foot.LEFT, 100.0, LSM6DSOX, layout=layout(96, Foot.LEFT))
     walk = emulate(ROUTE, radio=CLEAN, seed=1)
     left = [packet for packet in walk.packets if packet.site is Site.LEFT_FOOT]
     info = [packet for packet in left if packet.channel != "insole/frame"]
@@ -201,9 +201,9 @@ def main() -> None:
     fragments = list(emulate(ROUTE, devices={Site.LEFT_FOOT: small}, seed=1).packets)
     linear = Recipe("linear", Cycle(), LinearDedrift())
 
-    faster: list[Sample] = walker.samples(Foot.LEFT, 200.0, LSM6DSOX)
+    samples_200_hz: list[Sample] = walker.samples(Foot.LEFT, 200.0, LSM6DSOX)
 
-    yard = each(bare, Usual)
+    yardstick_time = time_each(inertial_samples, UsualFilter)
     rows: list[tuple[str, float, str]] = []
 
     def add(what: str, microseconds: float, unit: str = "us a sample") -> None:
@@ -212,71 +212,80 @@ def main() -> None:
     def decoder() -> Decoder:
         return Decoder(Site.LEFT_FOOT)
 
-    def knowing(**given: bool) -> Session:
-        session = Session(**given)
+    def session_with_cells(**options: bool) -> Session:
+        session = Session(**options)
         session.feed(info_packet)
         return session
 
-    add("yardstick: numpy, nine states, SHOE, the usual way", yard)
-    add("the same, tuned", each(bare, Tuned))
-    add("foot sample, inertial", each(bare, Session))
-    add("foot sample, inertial at 200 Hz", each(faster, Session))
-    add("foot sample, inertial, FootMoved", each(bare, lambda: Session(poses=True)))
-    add("foot sample, 96 cells", each(pressed, knowing))
-    add("foot sample, 96 cells, FootMoved", each(pressed, partial(knowing, poses=True)))
-    add("foot sample, 96 cells, FootMoved and FootPressed", each(pressed, partial(knowing, poses=True, pressures=True)))
-    add("foot sample, inertial, linear dedrift", each(bare, lambda: Session(linear)))
+    add("yardstick: numpy, nine states, SHOE, the usual way", yardstick_time)
+    add("the same, tuned", time_each(inertial_samples, TunedFilter))
+    add("foot sample, inertial", time_each(inertial_samples, Session))
+    add("foot sample, inertial at 200 Hz", time_each(samples_200_hz, Session))
+    add("foot sample, inertial, FootMoved", time_each(inertial_samples, lambda: Session(poses=True)))
+    add("foot sample, 96 cells", time_each(pressure_samples, session_with_cells))
+    add("foot sample, 96 cells, FootMoved", time_each(pressure_samples, partial(session_with_cells, poses=True)))
+    add(
+        "foot sample, 96 cells, FootMoved and FootPressed",
+        time_each(pressure_samples, partial(session_with_cells, poses=True, pressures=True)),
+    )
+    add("foot sample, inertial, linear dedrift", time_each(inertial_samples, lambda: Session(linear)))
     infos = [packet for packet in walk.packets if packet.channel == "insole/info"]
-    two_feet = walker.samples(Foot.RIGHT, 100.0, LSM6DSOX, layout=layout(96, Foot.RIGHT)) + pressed
-    two_feet.sort(key=_moment)
+    two_feet = walker.samples(Foot.RIGHT, 100.0, LSM6DSOX, layout=layout(96, Foot.RIGHT)) + pressure_samples
+    two_feet.sort(key=_time_of)
     for recipe in map(recipes.by_name, recipes.NAMES):
-        add(f"both feet, 96 cells, {recipe.name}", each(two_feet, partial(session_with_layout, recipe, infos)))
+        add(f"both feet, 96 cells, {recipe.name}", time_each(two_feet, partial(session_with_layout, recipe, infos)))
     layouts = {site: layout(99, foot) for foot, site in SITE_OF_FOOT.items()}
     suit = limb_samples(walker, 50.0, seed=1, layouts=layouts)
     insoles = sum(sample.pressure is not None for sample in suit)
-    worn = Calibration(insoles={foot: InsoleCalibration(layout(99, foot)) for foot in Foot})
-    microseconds = each(suit, partial(Session, recipes.by_name("walking-modes"), calibration=worn))
+    layout_calibration = Calibration(insoles={foot: InsoleCalibration(layout(99, foot)) for foot in Foot})
+    microseconds = time_each(suit, partial(Session, recipes.by_name("walking-modes"), calibration=layout_calibration))
     add("both feet, 99 cells, five limbs, walking-modes", microseconds * len(suit) / insoles, "us an insole sample")
-    add("insole frame, 96 cells: decode", each(frames, decoder, info), "us a packet")
-    add("insole frame, 96 cells: session", each(frames, Session, info), "us a packet")
-    add("insole frame, 96 cells: session, FootMoved", each(frames, lambda: Session(poses=True), info), "us a packet")
-    add("insole fragment of 20 bytes: session", each(fragments, Session), "us a packet")
+    add("insole frame, 96 cells: decode", time_each(frames, decoder, info), "us a packet")
+    add("insole frame, 96 cells: session", time_each(frames, Session, info), "us a packet")
+    add(
+        "insole frame, 96 cells: session, FootMoved",
+        time_each(frames, lambda: Session(poses=True), info),
+        "us a packet",
+    )
+    add("insole fragment of 20 bytes: session", time_each(fragments, Session), "us a packet")
 
-    for name, took in shares_of(bare, Session).items():
-        add(f"of a foot sample, inertial: {name}", took)
-    pressing = shares_of(pressed, knowing)
-    add("of a foot sample, 96 cells: cells", pressing["cells"])
+    for name, times in part_times(inertial_samples, Session).items():
+        add(f"of a foot sample, inertial: {name}", times)
+    pressure_times = part_times(pressure_samples, session_with_cells)
+    add("of a foot sample, 96 cells: cells", pressure_times["cells"])
 
-    way = wandering(1)
-    indoors = Walker(way.route, seed=1)
-    wandered = [sample for foot in Foot for sample in indoors.samples(foot, 100.0, LSM6DSOX)]
-    wandered.sort(key=_moment)
+    building_walk = wandering(1)
+    indoor_walker = Walker(building_walk.route, seed=1)
+    indoor_samples = [sample for foot in Foot for sample in indoor_walker.samples(foot, 100.0, LSM6DSOX)]
+    indoor_samples.sort(key=_time_of)
     for recipe in (recipes.DEFAULT, recipes.by_name("footstep-tracker"), recipes.by_name("shoe-sensing")):
-        took = parts_of(wandered, recipe, IndexedPlan(BUILDING))
+        times = building_part_times(indoor_samples, recipe, IndexedPlan(BUILDING))
         for name, what in (("activity", "activities"), ("turns", "turns"), ("place", "place on a floor plan")):
-            add(f"of it {what}, {recipe.name}", took[name])
+            add(f"of it {what}, {recipe.name}", times[name])
 
     duration = walk.packets[-1].t
-    real_time = duration / seconds(lambda: fed(walk.packets))
+    real_time = duration / seconds(lambda: feed_session(walk.packets))
 
     session = Session()
-    steps = sum(isinstance(event, StrideTaken) for event in session.feed(walk.packets))
+    strides = sum(isinstance(event, StrideTaken) for event in session.feed(walk.packets))
     saved = session.snapshot()
     text = json.dumps(saved)
     save, load = seconds(session.snapshot), seconds(lambda: Session.restore(saved))
 
     print(f"{machine()}, one used; medians of {RUNS}")
-    print(f"{len(bare)} samples, {len(frames)} frames, {steps} steps of both feet in {duration:.0f} s of walking")
+    counts = f"{len(inertial_samples)} samples, {len(frames)} frames, {strides} steps of both feet"
+    print(f"{counts} in {duration:.0f} s of walking")
     print()
     width = max(len(what) for what, _, _ in rows)
     print(f"{'':{width}}  {'time':>8} {'':<19} {'of the yardstick':>16}")
     for what, value, unit in rows:
-        print(f"{what:{width}}  {value:8.1f} {unit:<19} {value / yard:16.2f}")
+        print(f"{what:{width}}  {value:8.1f} {unit:<19} {value / yardstick_time:16.2f}")
     print()
     print(f"real-time factor, both feet with 96 cells at 100 Hz: {real_time:.0f}")
     print(f"snapshot {save * 1e3:.1f} ms, restore {load * 1e3:.1f} ms, {len(text) / 1000:.1f} kB as JSON")
-    print(f"memory of a session: {held(lambda: fed(bare)) / 1000:.0f} kB one foot, inertial; ", end="")
-    print(f"{held(lambda: fed(walk.packets)) / 1000:.0f} kB both feet with 96 cells and links")
+    memory = measure_memory(lambda: feed_session(inertial_samples))
+    print(f"memory of a session: {memory / 1000:.0f} kB one foot, inertial; ", end="")
+    print(f"{measure_memory(lambda: feed_session(walk.packets)) / 1000:.0f} kB both feet with 96 cells and links")
 
 
 if __name__ == "__main__":

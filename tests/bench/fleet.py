@@ -1,9 +1,10 @@
 """Measures a stream engine against bare sessions, for few and many wearers: `python tests/bench/fleet.py`.
 
-Prints ratios; asserts nothing; takes two minutes on two idle processors, half an hour with
-`--sizes 100 1000 5000 20000` (4 GB of memory). Needs the extra `bytewax`. Every line is a run of the job of
-`solepath fleet-demo` with a recovery store, and bare sessions in as many processes over the same packets. All wearers
-walk equally long, so that lines can be compared: a sample's time differs between standing, the first steps and others.
+It prints ratios and asserts nothing. It takes two minutes on two idle processors, or half an hour and 4 GB of memory
+with `--sizes 100 1000 5000 20000`. It needs the extra `bytewax`. For every line it runs the job of `solepath
+fleet-demo` with a recovery store. Then it runs sessions without an engine ("bare") on the same packets in as many
+processes. All wearers walk for the same time, so that lines can be compared: a sample of standing or of the first
+strides takes another time.
 """
 
 from __future__ import annotations
@@ -23,10 +24,10 @@ COLUMNS = (
     "wearers", "samples", "us a sample: engine", "us: bare session", "share, %", "wearers a core", "kB a wearer",
     "snapshots",
 )  # fmt: skip
-MOST_ALONE = 1000
-"""Largest number of bare sessions that are run; sessions are independent, so more of them cost the same each."""
-RATE = 2 * 100.0
-"""Samples a second of two feet."""
+MAX_BARE_SESSIONS = 1000
+"""Largest number of bare sessions that are run; sessions are independent, so each costs the same in a larger number."""
+SAMPLE_RATE = 2 * 100.0
+"""Samples of both feet a second, Hz."""
 NOTE = """\
 Wearers of the six walks of `solepath fleet-demo`, {seconds} s each and sent by the second, as fast as it goes,
 a snapshot every {every} s (bytewax's own: 10 s) and one at the end.
@@ -35,30 +36,30 @@ that bare sessions reach in as many processes. Wearers a core: both feet at 100 
 kB a wearer: memory, with packets on their way; for a few wearers the engine's own would be most of it."""
 
 
-def line(plan: DemoPlan) -> list[str]:
-    """Return the row of one run beside that of bare sessions."""
+def measure_row(plan: DemoPlan) -> list[str]:
+    """Return the row of one run of the engine and of bare sessions."""
     with tempfile.TemporaryDirectory(prefix="solepath-fleet-") as directory:
         stage = DemoStage(Path(directory), plan)
         stage.prepare()
         samples = sum(stage.samples)
         engine = stage.uninterrupted()
-        bare, alone = (stage.bare(), samples) if plan.wearers <= MOST_ALONE else _alone(plan)
+        bare, n_bare_samples = (stage.bare(), samples) if plan.wearers <= MAX_BARE_SESSIONS else _run_bare(plan)
     rate = samples / engine.seconds
     return [
         str(plan.wearers),
         str(samples),
         number(1e6 * engine.cpu / samples, 1),
-        number(1e6 * bare.cpu / alone, 1),
+        number(1e6 * bare.cpu / n_bare_samples, 1),
         percent(rate / bare.rate, 0),
-        number(rate / plan.parts / RATE, 0),
+        number(rate / plan.parts / SAMPLE_RATE, 0),
         number(None if stage.memory is None else stage.memory / 1e3, 0),
         str(engine.snapshots),
     ]
 
 
-def _alone(plan: DemoPlan) -> tuple[Bare, int]:
+def _run_bare(plan: DemoPlan) -> tuple[Bare, int]:
     with tempfile.TemporaryDirectory(prefix="solepath-fleet-") as directory:
-        fewer = DemoStage(Path(directory), evolve(plan, wearers=MOST_ALONE))
+        fewer = DemoStage(Path(directory), evolve(plan, wearers=MAX_BARE_SESSIONS))
         fewer.prepare()
         return fewer.bare(), sum(fewer.samples)
 
@@ -75,7 +76,7 @@ def main() -> None:
         DemoPlan(n, options.seconds, recipe=options.recipe, parts=options.processes, every=options.every)
         for n in options.sizes
     ]
-    rows = [line(plan) for plan in plans]
+    rows = [measure_row(plan) for plan in plans]
     print(f"{machine()}, {options.processes} processes of bytewax\n\n{table(COLUMNS, rows)}\n")
     print(NOTE.format(every=f"{options.every:g}", seconds=f"{options.seconds:g}"))
 

@@ -1,7 +1,7 @@
-"""Measures questions to a floor plan: `python tests/bench/floorplan.py`. Prints a table; asserts nothing.
+"""Measures the tests of moves against a floor plan: `python tests/bench/floorplan.py`. Prints a table; asserts nothing.
 
-Medians of five runs in one process on one core, with the garbage collector off while the clock runs. The last column
-is the time as a share of testing all walls of the level, one after the other, with the plain formula.
+Times are medians of five runs in one process on one core, with the garbage collector off. The last column is the time
+as a share of that of testing a move against all walls of the level, one after the other.
 """
 
 from __future__ import annotations
@@ -20,15 +20,16 @@ from solepath.floorplan.importers.reading import plan_of_bytes
 from solepath.floorplan.index import IndexedPlan
 from solepath.floorplan.plan import Door, FloorPlan, Level, Wall
 
-STEP = 0.7
-"""Length of a step, m."""
+STEP_LENGTH = 0.7
+"""Length of a move of one step, m."""
 PARTICLES = 1000
 
 Move = tuple[float, float, float, float]
+"""Start (x, y) and end (x, y) of a move, m."""
 
 
 def office(walls: int) -> FloorPlan:
-    """Return rooms of 3.5 m by 4.4 m, each with a door to the east and one to the north, with at least `walls` walls.
+    """Return a plan of rooms of 3.5 m by 4.4 m, each with two doors, with at least `walls` walls.
 
     500 walls are 56 m by 44 m.
     """
@@ -50,8 +51,8 @@ def office(walls: int) -> FloorPlan:
     return FloorPlan("office", (level,))
 
 
-def moves(plan: FloorPlan, count: int, length: float, random: Random) -> list[Move]:
-    """Return moves in all directions from anywhere within the walls."""
+def random_moves(plan: FloorPlan, count: int, length: float, random: Random) -> list[Move]:
+    """Return `count` moves of `length` m in random directions from random points within the walls."""
     xs = [wall.end[0] for wall in plan.levels[0].walls]
     ys = [wall.end[1] for wall in plan.levels[0].walls]
     found = []
@@ -61,8 +62,8 @@ def moves(plan: FloorPlan, count: int, length: float, random: Random) -> list[Mo
     return found
 
 
-def all_walls(plan: FloorPlan) -> Callable[[float, float, float, float], bool]:
-    """Return the usual test, wall by wall."""
+def wall_by_wall(plan: FloorPlan) -> Callable[[float, float, float, float], bool]:
+    """Return the function that tests a move against one wall after the other."""
     lines = [(*wall.start, *wall.end) for wall in plan.levels[0].walls]
 
     def crosses(x0: float, y0: float, x1: float, y1: float) -> bool:
@@ -86,15 +87,15 @@ def main() -> None:
     for walls in (500, 10_000):
         plan = office(walls)
         index = IndexedPlan(plan)
-        steps, strides = moves(plan, PARTICLES, STEP, random), moves(plan, PARTICLES, 4.0, random)
-        slow, few = all_walls(plan), steps[: 50_000 // walls]
-        naive = seconds(lambda f=slow, some=few: [f(*move) for move in some]) / len(few)  # type: ignore[misc]
+        steps, strides = random_moves(plan, PARTICLES, STEP_LENGTH, random), random_moves(plan, PARTICLES, 4.0, random)
+        plain_test, first_moves = wall_by_wall(plan), steps[: 50_000 // walls]
+        plain_time = seconds(lambda f=plain_test, some=first_moves: [f(*move) for move in some]) / len(first_moves)  # type: ignore[misc]
         name, n = f"{len(plan.levels[0].walls)} walls: ", PARTICLES
 
-        def add(what: str, took: float, naive: float = naive, name: str = name) -> None:
-            rows.append((name + what, took * 1e6, "us", f"{took / naive:.3f}"))
+        def add(what: str, duration: float, plain_time: float = plain_time, name: str = name) -> None:
+            rows.append((name + what, duration * 1e6, "us", f"{duration / plain_time:.3f}"))
 
-        add("every wall, plain formula", naive)
+        add("every wall, plain formula", plain_time)
         add("a step of 0.7 m", seconds(lambda i=index, s=steps: [i.crosses(0, *move) for move in s]) / n)  # type: ignore[misc]
         free = [move for move in steps if not index.crosses(0, *move)]
         add("a step that is free", seconds(lambda i=index, s=free: [i.crosses(0, *move) for move in s]) / len(free))  # type: ignore[misc]
@@ -104,7 +105,7 @@ def main() -> None:
         rows.append((name + "made ready", seconds(lambda p=plan: IndexedPlan(p)) * 1e3, "ms", ""))  # type: ignore[misc]
 
     plan = office(500)
-    index, crowd = IndexedPlan(plan), moves(plan, PARTICLES, STEP, random)
+    index, crowd = IndexedPlan(plan), random_moves(plan, PARTICLES, STEP_LENGTH, random)
     one_step = seconds(lambda: [index.crosses(0, x0, y0, x1, y1) for x0, y0, x1, y1 in crowd])
     rows.append((f"{PARTICLES} particles, {len(plan.levels[0].walls)} walls, one step", one_step * 1e3, "ms", ""))
     text = text_of(BUILDING).encode()

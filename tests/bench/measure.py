@@ -19,7 +19,7 @@ def machine() -> str:
 
 
 @contextmanager
-def uncollected() -> Iterator[None]:
+def no_garbage_collection() -> Iterator[None]:
     """Run the garbage collector and then switch it off in the block, as timeit does."""
     gc.collect()
     gc.disable()
@@ -29,23 +29,23 @@ def uncollected() -> Iterator[None]:
 
 def seconds(work: Callable[[], object]) -> float:
     """Return the median time of RUNS runs, s."""
-    found = []
+    times = []
     for _ in range(RUNS):
-        with uncollected():
+        with no_garbage_collection():
             started_at = perf_counter()
             work()
-            found.append(perf_counter() - started_at)
-    return median(found)
+            times.append(perf_counter() - started_at)
+    return median(times)
 
 
-def held(make: Callable[[], object]) -> int:
-    """Return the bytes of memory that the made object holds."""
+def measure_memory(make: Callable[[], object]) -> int:
+    """Return the bytes of memory that the object made by `make` holds."""
     gc.collect()
     tracemalloc.start()
     before = tracemalloc.get_traced_memory()[0]
     made = make()
     gc.collect()
-    found = tracemalloc.get_traced_memory()[0] - before
+    size = tracemalloc.get_traced_memory()[0] - before
     tracemalloc.stop()
     del made
-    return found
+    return size

@@ -1,8 +1,8 @@
 """Measures the size of a session's state: `python tests/bench/packed.py [--fields N]`. Prints tables; asserts nothing.
 
-A session is packed every 50 packets of a walk. Then all these sessions are unpacked, and packed, one after the other,
-as an engine does with those of many wearers. Times are the processor's, in microseconds, with the garbage collector
-off meanwhile. `--fields N` also prints the N fields that take the most bytes at the end.
+A session is packed (`Session.pack`) after every 50 packets of a walk. Then all these states are unpacked and packed
+again, one after the other, as a stream engine does with those of many wearers. Times are processor times in
+microseconds, with the garbage collector off. `--fields N` also prints the N fields that take the most bytes.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ from solepath.session.packed import STATE
 ROUTE = Route().stand(2.0).walk(40.0, 1.3).turn(1.57, radius=1.5).walk(20.0).turn(-0.8, radius=2.0).walk(10.0).stop(2.0)
 """A walk of about a minute."""
 RADIO = Radio(loss=0.01, duplicate=0.002, latency=0.01, jitter=0.03)
-EVERY = 50
+PACK_INTERVAL = 50
 
 WALKS: dict[str, tuple[Recipe, Callable[[], Any]]] = {
     "default, two insoles of 48 cells": (recipes.DEFAULT, partial(Insole, cells=48)),
@@ -63,28 +63,30 @@ def microseconds(work: Callable[[], Any]) -> tuple[Any, float]:
     """Return the result of `work`, and its time in microseconds."""
     gc.disable()
     started_at = thread_time()
-    given = work()
-    took = (thread_time() - started_at) * 1e6
+    result = work()
+    duration = (thread_time() - started_at) * 1e6
     gc.enable()
-    return given, took
+    return result, duration
 
 
-def nearly_most(values: list[float]) -> float:
+def percentile_95(values: list[float]) -> float:
     """Return the value below which 95 % lie."""
     return quantiles(values, n=20, method="inclusive")[-1]
 
 
-def walked(name: str) -> Session:
-    """Print the figures of the session of this walk, and return it."""
+def measure_walk(name: str) -> Session:
+    """Print the sizes and times of the session of this walk, and return the session."""
     recipe, device = WALKS[name]
-    session, moments = Session(recipe), list[bytes]()
+    session, saved_states = Session(recipe), list[bytes]()
     for i, packet in enumerate(packets(device)):
         session.feed(packet)
-        if i % EVERY == 0:
-            moments.append(session.pack())
-    show(name, moments, partial(Session.unpack, recipe=recipe), Session.pack)
-    texts = [json.dumps(Session.unpack(data, recipe).snapshot()) for data in moments[::10]]
-    show("  as JSON", texts, lambda text: Session.restore(json.loads(text)), lambda one: json.dumps(one.snapshot()))
+        if i % PACK_INTERVAL == 0:
+            saved_states.append(session.pack())
+    print_row(name, saved_states, partial(Session.unpack, recipe=recipe), Session.pack)
+    texts = [json.dumps(Session.unpack(data, recipe).snapshot()) for data in saved_states[::10]]
+    print_row(
+        "  as JSON", texts, lambda text: Session.restore(json.loads(text)), lambda one: json.dumps(one.snapshot())
+    )
     return session
 
 
@@ -93,83 +95,91 @@ COLUMNS = (
 )  # fmt: skip
 
 
-def show(name: str, moments: list[Any], load: Callable[[Any], Session], save: Callable[[Session], Any]) -> None:
-    """Print the sizes and the times of all sessions, one after the other, after a round that is not counted."""
+def print_row(
+    name: str, saved_states: list[Any], load: Callable[[Any], Session], save: Callable[[Session], Any]
+) -> None:
+    """Print sizes and times of all states. The first of two rounds is not counted."""
     for _ in range(2):
-        loaded = [microseconds(partial(load, saved)) for saved in moments]
+        loaded = [microseconds(partial(load, saved)) for saved in saved_states]
         packed = [microseconds(partial(save, session)) for session, _ in loaded]
-    if [saved for saved, _ in packed] != moments:
+    if [saved for saved, _ in packed] != saved_states:
         raise SystemExit(f"{name}: what was unpacked is packed in other bytes")
-    sizes, packing, unpacking = [len(saved) for saved in moments], [took for _, took in packed], [t for _, t in loaded]
+    sizes, packing, unpacking = (
+        [len(saved) for saved in saved_states],
+        [duration for _, duration in packed],
+        [t for _, t in loaded],
+    )
     figures = (
         *(mean(sizes), max(sizes)),
-        *(median(packing), nearly_most(packing), max(packing)),
-        *(median(unpacking), nearly_most(unpacking)),
+        *(median(packing), percentile_95(packing), max(packing)),
+        *(median(unpacking), percentile_95(unpacking)),
     )
     cells = [f"{value:{len(column)}.0f}" for column, value in zip(COLUMNS, figures, strict=True)]
     print(f"{name:34}  " + "  ".join(cells), flush=True)
 
 
 class Account:
-    """Sums bytes by field."""
+    """Sums the bytes of a packed state by field."""
 
     def __init__(self) -> None:
         self.bytes: Counter[str] = Counter()
         self.counts: Counter[str] = Counter()
 
-    def add(self, at: str, bits: float) -> None:
-        self.bytes[at] += bits / 8.0
-        self.counts[at] += 1
+    def add(self, field_name: str, bits: float) -> None:
+        self.bytes[field_name] += bits / 8.0
+        self.counts[field_name] += 1
 
-    def value(self, node: Node, value: Any, at: str) -> None:
+    def value(self, node: Node, value: Any, field_name: str) -> None:
         match node:
             case RecordNode(cls, _, fields):
                 for field, inner in fields.items():
                     self.value(inner, getattr(value, field), f"{cls.__name__}.{field}")
             case ScalarNode(kind):
-                self.scalar(kind, value, at)
+                self.scalar(kind, value, field_name)
             case EnumNode():
-                self.add(at, 10)
+                self.add(field_name, 10)
             case OpenNode():
-                self.add(at, 10)
-                self.value(record_in(node, type(value)), value, at)
+                self.add(field_name, 10)
+                self.value(record_in(node, type(value)), value, field_name)
             case MaybeNode(of):
-                self.add(at, 1)
+                self.add(field_name, 1)
                 if value is not None:
-                    self.value(of, value, at)
+                    self.value(of, value, field_name)
             case TupleNode(items):
-                for item, held in zip(items, value, strict=True):
-                    self.value(item, held, at)
+                for item, item_value in zip(items, value, strict=True):
+                    self.value(item, item_value, field_name)
             case RowNode(_, of):
-                self.add(at, 10)
-                for held in value:
-                    self.value(of, held, at)
+                self.add(field_name, 10)
+                for item_value in value:
+                    self.value(of, item_value, field_name)
             case DictNode(key, of):
-                self.add(at, 10)
-                for name, held in value.items():
-                    self.value(key, name, at)
-                    self.value(of, held, at)
+                self.add(field_name, 10)
+                for name, item_value in value.items():
+                    self.value(key, name, field_name)
+                    self.value(of, item_value, field_name)
 
-    def scalar(self, kind: type, value: Any, at: str) -> None:
+    def scalar(self, kind: type, value: Any, field_name: str) -> None:
         if kind is float:
-            self.add(at, 3 + 8 * (len(to_bytes([value], [], [], [], (0.05000000074505806, 0.0))) - NOTHING - 3))
+            self.add(
+                field_name, 3 + 8 * (len(to_bytes([value], [], [], [], (0.05000000074505806, 0.0))) - EMPTY_SIZE - 3)
+            )
         elif kind is int:
-            self.add(at, 8 * (len(to_bytes([], [value], [], [], (0.0, 0.0))) - NOTHING - 2) + 2)
+            self.add(field_name, 8 * (len(to_bytes([], [value], [], [], (0.0, 0.0))) - EMPTY_SIZE - 2) + 2)
         elif kind is bool:
-            self.add(at, 1)
+            self.add(field_name, 1)
         else:
-            self.add(at, 8 * len(value) + 10)
+            self.add(field_name, 8 * len(value) + 10)
 
 
-NOTHING = len(to_bytes([], [], [], [], (0.0, 0.0)))
+EMPTY_SIZE = len(to_bytes([], [], [], [], (0.0, 0.0)))
 
 
-def fields(session: Session, most: int) -> None:
+def fields(session: Session, count: int) -> None:
     """Print the fields that take the most bytes."""
     account = Account()
     account.value(STATE, session._state, "")
-    for at, size in account.bytes.most_common(most):
-        print(f"{size:8.0f} bytes, {account.counts[at]:4} items   {at}")
+    for field_name, size in account.bytes.most_common(count):
+        print(f"{size:8.0f} bytes, {account.counts[field_name]:4} items   {field_name}")
 
 
 def main() -> None:
@@ -179,7 +189,7 @@ def main() -> None:
     print(f"{machine()}, one used; bytes of a state, us to pack and unpack")
     print(f"{'':34}  " + "  ".join(COLUMNS))
     for name in WALKS:
-        session = walked(name)
+        session = measure_walk(name)
         if arguments.fields:
             fields(session, arguments.fields)
 

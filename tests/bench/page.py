@@ -1,9 +1,9 @@
 """Measures the cost of the page: `python tests/bench/page.py [--minutes 10]`. Prints tables; asserts nothing.
 
-A separate process feeds a session with two insoles of 96 cells at 100 Hz, in real time: without a page, with a page
-that nobody watches, with one in a browser (Chromium, 1280 x 900), and with one whose watcher has stopped reading. Each
-case takes `--minutes`. The share of a core is the processor time of that process from the first packet to the last,
-the server's included and the browser's not.
+A separate process feeds a session with two insoles of 96 cells at 100 Hz, in real time. There are four cases: no page,
+a page without a client, a page in a browser (Chromium, 1280 x 900), and a page whose client has stopped reading. Each
+takes `--minutes`. The share of a core is the processor time of that process from the first packet to the last. It
+includes the page's server and not the browser.
 """
 
 from __future__ import annotations
@@ -34,23 +34,23 @@ from solepath import Session  # noqa: E402
 from solepath.show.page.scene.scene import Scene  # noqa: E402
 from solepath.show.page.server.server import Page  # noqa: E402
 
-WAYS = {
+CASES = {
     "without": "no page",
     "alone": "a page, nobody watching",
     "browser": "a browser",
     "stalled": "a watcher that reads nothing",
 }
 MINUTE = 60.0
-ROUND = 40.0
-"""Shortest time of a square, s."""
-SETTLED = 1.0
-"""Time of the first measurement of the page's memory, minutes."""
+SQUARE_DURATION = 40.0
+"""Shortest time in which the emulated wearer walks a square, s."""
+SETTLING_MINUTES = 1.0
+"""Time from the start to the first measurement of the page's memory, minutes."""
 
 
-async def serve(way: str, seconds: float) -> None:
+async def serve(case: str, seconds: float) -> None:
     """Print the page's address, wait for a line, feed the session, and print the processor time in s."""
-    packets = [packet for packet in walked(squares(int(seconds / ROUND) + 1)) if packet.t <= seconds]
-    page = None if way == "without" else Page(Scene("a walk of the benchmark", "default", "live"), port=0)
+    packets = [packet for packet in walked(squares(int(seconds / SQUARE_DURATION) + 1)) if packet.t <= seconds]
+    page = None if case == "without" else Page(Scene("a walk of the benchmark", "default", "live"), port=0)
     session = Session(poses=True) if page is None else Session(poses=True, pressures=True)
     loop = asyncio.get_running_loop()
     async with AsyncExitStack() as stack:
@@ -70,8 +70,8 @@ async def serve(way: str, seconds: float) -> None:
 
 
 @contextmanager
-def serving(way: str, seconds: float) -> Iterator[subprocess.Popen[str]]:
-    command = [sys.executable, __file__, "--serve", way, "--minutes", str(seconds / MINUTE)]
+def serving(case: str, seconds: float) -> Iterator[subprocess.Popen[str]]:
+    command = [sys.executable, __file__, "--serve", case, "--minutes", str(seconds / MINUTE)]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
         try:
             yield process
@@ -80,15 +80,16 @@ def serving(way: str, seconds: float) -> Iterator[subprocess.Popen[str]]:
 
 
 @define
-class Watched:
-    """Measurements of a browser.
+class BrowserMeasurements:
+    """The measurements of a browser.
 
-    `sizes` are the bytes of the received messages. `early` and `late` are bytes of the scripts' heap, elements of the
-    document, and bytes of the process, after SETTLED and at the end.
+    `early` and `late` are the bytes of the scripts' heap, the elements of the document and the bytes of the process,
+    after SETTLING_MINUTES and at the end.
     """
 
     sizes: list[int] = field(factory=list)
-    drawn: float = 0.0
+    """Sizes of the received messages, bytes."""
+    frame_rate: float = 0.0
     """Frames a second."""
     work_share: float = 0.0
     """Share of the time in which the page's thread works."""
@@ -96,26 +97,28 @@ class Watched:
     late: tuple[int, int, int] = (0, 0, 0)
 
 
-def watch(browser: Browsing, url: str, process: subprocess.Popen[str], seconds: float) -> Watched:
-    async def main(chromium: Browser) -> Watched:
-        found = Watched()
+def watch(browser: Browsing, url: str, process: subprocess.Popen[str], seconds: float) -> BrowserMeasurements:
+    async def main(chromium: Browser) -> BrowserMeasurements:
+        measurements = BrowserMeasurements()
         async with window(chromium, "about:blank") as view:
-            view.tab.on("websocket", lambda link: link.on("framereceived", lambda data: found.sizes.append(len(data))))
+            view.tab.on(
+                "websocket", lambda link: link.on("framereceived", lambda data: measurements.sizes.append(len(data)))
+            )
             await view.devtools.send("Performance.enable")
             await view.tab.goto(url)
             await asyncio.sleep(1.0)
             start(process)
-            found.sizes.clear()
-            worked, drawn, spent = await work_time(view), await frames(view), 0.0
-            if seconds > SETTLED * MINUTE:
-                spent = SETTLED * MINUTE
+            measurements.sizes.clear()
+            worked, n_frames, spent = await work_time(view), await frames(view), 0.0
+            if seconds > SETTLING_MINUTES * MINUTE:
+                spent = SETTLING_MINUTES * MINUTE
                 await asyncio.sleep(spent)
-                found.early = (*await view.memory(), await resident(chromium))
+                measurements.early = (*await view.memory(), await resident(chromium))
             await asyncio.sleep(seconds - 1.0 - spent)
-            found.drawn = (await frames(view) - drawn) / (seconds - 1.0)
-            found.work_share = (await work_time(view) - worked) / (seconds - 1.0)
-            found.late = (*await view.memory(), await resident(chromium))
-            return found
+            measurements.frame_rate = (await frames(view) - n_frames) / (seconds - 1.0)
+            measurements.work_share = (await work_time(view) - worked) / (seconds - 1.0)
+            measurements.late = (*await view.memory(), await resident(chromium))
+            return measurements
 
     return browser.run(main, longest=seconds + 2.0 * MINUTE)
 
@@ -133,9 +136,9 @@ async def work_time(view: Window) -> float:
 
 
 async def resident(browser: Browser) -> int:
-    """Return the bytes of memory of the browser's page processes, with a share of what they share with others.
+    """Return the memory of the browser's page processes, bytes, with their part of memory shared with other processes.
 
-    It is 0 where the system does not tell.
+    It is 0 where the system does not report it.
     """
     devtools = await browser.new_browser_cdp_session()
     processes = (await devtools.send("SystemInfo.getProcessInfo"))["processInfo"]
@@ -151,7 +154,7 @@ def start(process: subprocess.Popen[str]) -> None:
 
 
 def stall(url: str) -> socket.socket:
-    """Return the socket of a watcher that has requested everything and reads nothing."""
+    """Return the socket of a client that requests the events of the page and reads nothing."""
     parts = urlsplit(url)
     token = parts.fragment.removeprefix("token=")
     link = socket.socket()
@@ -172,7 +175,7 @@ def spent(process: subprocess.Popen[str]) -> float:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--minutes", type=float, default=1.0, help="of each of the four (default: 1)")
-    parser.add_argument("--serve", choices=WAYS, help=argparse.SUPPRESS)
+    parser.add_argument("--serve", choices=CASES, help=argparse.SUPPRESS)
     options = parser.parse_args()
     seconds = options.minutes * MINUTE
     if options.serve is not None:
@@ -183,33 +186,34 @@ def main() -> None:
         sys.exit(reason)
     print(f"Python {platform.python_version()}, {os.cpu_count()} cores, {program()}; {options.minutes:g} min each\n")
     print(f"{'the session, and':30} {'of a core':>10} {'more':>8}")
-    alone: float | None = None
-    watched = Watched()
-    for way, name in WAYS.items():
-        with serving(way, seconds) as process:
+    base_share: float | None = None
+    measurements = BrowserMeasurements()
+    for case, name in CASES.items():
+        with serving(case, seconds) as process:
             assert process.stdout is not None
             url = process.stdout.readline().strip()
-            if way == "browser":
+            if case == "browser":
                 with browsing() as browser:
-                    watched = watch(browser, url, process, seconds)
+                    measurements = watch(browser, url, process, seconds)
                     share = spent(process) / seconds
             else:
-                held = stall(url) if way == "stalled" else None
+                stalled_link = stall(url) if case == "stalled" else None
                 start(process)
                 share = spent(process) / seconds
-                if held is not None:
-                    held.close()
-        alone = share if alone is None else alone
-        print(f"{name:30} {100 * share:8.1f} % {100 * (share - alone):6.1f} %", flush=True)
-    sizes = watched.sizes
+                if stalled_link is not None:
+                    stalled_link.close()
+        base_share = share if base_share is None else base_share
+        print(f"{name:30} {100 * share:8.1f} % {100 * (share - base_share):6.1f} %", flush=True)
+    sizes = measurements.sizes
     print(
-        f"\nthe page draws {watched.drawn:.1f} frames a second; its thread works {100 * watched.work_share:.0f} % of it"
+        f"\nthe page draws {measurements.frame_rate:.1f} frames a second; "
+        f"its thread works {100 * measurements.work_share:.0f} % of it"
     )
     print(
         f"{len(sizes) / seconds:.1f} messages a second, {sum(sizes) / seconds / 1000:.1f} kB/s; "
         f"bytes of one: median {median(sizes):.0f}, p99 {quantiles(sizes, n=100)[98]:.0f}, most {max(sizes)}"
     )
-    for when, memory in ((SETTLED, watched.early), (options.minutes, watched.late)):
+    for when, memory in ((SETTLING_MINUTES, measurements.early), (options.minutes, measurements.late)):
         if memory is not None:
             heap, elements, process = memory
             print(

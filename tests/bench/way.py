@@ -1,12 +1,13 @@
 """Counts the calls of a packet, and what is loaded for it: `python tests/bench/way.py`. Prints; asserts nothing.
 
-First the calls: one frame of an insole with 96 cells, both feet at 100 Hz, is fed to a session. Every call of a
-function whose file is in src/solepath is counted, with the number of files and of changes from one folder ("room") of
-src/solepath to another. Generated code (attrs) and other packages do not count; a generator counts each time that it
-continues. A quiet frame causes no event; the other kind ends a stride. Medians over a walk.
+First come the calls. Frames of two insoles with 96 cells at 100 Hz are fed to a session. For each frame every call of a
+function in src/solepath is counted, with the number of files and of changes from one folder ("room") of src/solepath to
+another. Generated code (attrs) and other packages do not count. A generator counts each time that it continues. A quiet
+frame causes no event; frames of the other kind end a stride. Numbers are medians over a walk.
 
-Then what `import solepath; Session(...)` loads: modules of ours, their lines, and the processor time beside that of
-`import attrs, construct`, in fresh processes; medians too. `--calls` lists the functions of a frame of each kind.
+Then come the modules of solepath that `import solepath; Session(...)` loads: their number, their lines, and the
+processor time beside that of `import attrs, construct`. They are medians over new processes. `--calls` lists the
+functions of one frame of each kind.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ RUNS = 7
 
 
 @frozen
-class Way:
+class FrameCalls:
     """The calls of one frame, in order."""
 
     codes: tuple[CodeType, ...]
@@ -48,82 +49,87 @@ class Way:
         return len({code.co_filename for code in self.codes})
 
     @property
-    def rooms(self) -> list[str]:
-        return [room(code) for code in self.codes]
+    def folders(self) -> list[str]:
+        return [folder_of(code) for code in self.codes]
 
     @property
     def changes(self) -> int:
-        rooms = self.rooms
-        return sum(one != other for one, other in zip(rooms, rooms[1:], strict=False))
+        folders = self.folders
+        return sum(one != other for one, other in zip(folders, folders[1:], strict=False))
 
 
-def room(code: CodeType) -> str:
-    """Return the folder of src/solepath of a function, or its file when that is in none."""
+def folder_of(code: CodeType) -> str:
+    """Return the folder of src/solepath that has the function, or its file when it is in none of the folders."""
     return code.co_filename.removeprefix(OURS).partition("/")[0]
 
 
-def way_of(session: Session, packet: Packet) -> tuple[Way, list[Any]]:
+def calls_of(session: Session, packet: Packet) -> tuple[FrameCalls, list[Any]]:
     """Return the calls of one packet, and its events."""
     codes: list[CodeType] = []
 
-    def called(frame: FrameType, event: str, _: object) -> None:
+    def on_call(frame: FrameType, event: str, _: object) -> None:
         if event == "call" and frame.f_code.co_filename.startswith(OURS):
             codes.append(frame.f_code)
 
-    sys.setprofile(called)
+    sys.setprofile(on_call)
     try:
         events = session.feed(packet)
     finally:
         sys.setprofile(None)
-    return Way(tuple(codes)), events
+    return FrameCalls(tuple(codes)), events
 
 
-def ways(packets: tuple[Packet, ...]) -> tuple[list[Way], list[Way]]:
+def collect_calls(packets: tuple[Packet, ...]) -> tuple[list[FrameCalls], list[FrameCalls]]:
     """Return the calls of the frames without events and of those that end a stride."""
     session = Session()
-    idle, ending = [], []
+    frames_without_events, stride_frames = [], []
     for packet in packets:
-        way, events = way_of(session, packet)
+        frame_calls, events = calls_of(session, packet)
         if packet.channel != "insole/frame":
             continue
         if not events:
-            idle.append(way)
+            frames_without_events.append(frame_calls)
         elif any(isinstance(event, StrideTaken) for event in events):
-            ending.append(way)
-    return idle, ending
+            stride_frames.append(frame_calls)
+    return frames_without_events, stride_frames
 
 
-def show(name: str, found: list[Way], calls: bool) -> None:
-    middle = median_low([len(way.codes) for way in found])
-    files, changes = median([way.files for way in found]), median([way.changes for way in found])
-    print(f"{name} ({len(found)}): {middle} calls, {files:.0f} files, {changes:.0f} changes of room")
+def print_calls(name: str, frames: list[FrameCalls], calls: bool) -> None:
+    median_count = median_low([len(frame_calls.codes) for frame_calls in frames])
+    files, changes = (
+        median([frame_calls.files for frame_calls in frames]),
+        median([frame_calls.changes for frame_calls in frames]),
+    )
+    print(f"{name} ({len(frames)}): {median_count} calls, {files:.0f} files, {changes:.0f} changes of room")
     named = Counter[str]()
-    for way in found:
-        named.update(set(way.rooms))
-    each = {one: median([way.rooms.count(one) for way in found]) for one, _ in named.most_common()}
-    most = sorted(each.items(), key=lambda item: (-item[1], item[0]))
-    print("  " + ", ".join(f"{one} {count:.0f}" for one, count in most if count))
+    for frame_calls in frames:
+        named.update(set(frame_calls.folders))
+    medians = {
+        one: median([frame_calls.folders.count(one) for frame_calls in frames]) for one, _ in named.most_common()
+    }
+    folder_counts = sorted(medians.items(), key=lambda item: (-item[1], item[0]))
+    print("  " + ", ".join(f"{one} {count:.0f}" for one, count in folder_counts if count))
     if calls:
-        way = next(way for way in found if len(way.codes) == middle)
-        for code in way.codes:
+        frame_calls = next(frame_calls for frame_calls in frames if len(frame_calls.codes) == median_count)
+        for code in frame_calls.codes:
             print(f"    {code.co_filename.removeprefix(OURS):45} {code.co_qualname}")
 
 
-def fresh(program: str) -> str:
-    """Return what a program prints in a separate process, which keeps its bytecode as an installed package does."""
+def run_fresh(program: str) -> str:
+    """Return the output of a program in a new process, which keeps its bytecode as an installed package does."""
     keeping = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     words = [sys.executable, "-c", program]
     return subprocess.run(words, env=keeping, capture_output=True, text=True, check=True).stdout
 
 
-TIMED = """
+TIMED_PROGRAM = """
 from time import process_time
 began = process_time()
 {work}
 print(process_time() - began)
 """
-START = "from solepath import Session, recipes; Session(recipes.by_name({name!r}))"
-LOADED = """
+START_STATEMENT = "from solepath import Session, recipes; Session(recipes.by_name({name!r}))"
+MODULES_PROGRAM = """
 import sys
 {work}
 import solepath
@@ -134,23 +140,26 @@ print(len(files), sum(len(Path(file).read_text("utf-8").splitlines()) for file i
 """
 
 
-def loading() -> None:
-    """Time each kind of process in rotation, so that a machine that slows down slows them all."""
-    works = {"attrs, construct": "import attrs, construct", **{name: START.format(name=name) for name in RECIPES}}
-    took: dict[str, list[float]] = {name: [] for name in works}
+def print_loading() -> None:
+    """Print the times of each kind of process, run in rotation so that a slower machine slows down all of them."""
+    works = {
+        "attrs, construct": "import attrs, construct",
+        **{name: START_STATEMENT.format(name=name) for name in RECIPES},
+    }
+    times: dict[str, list[float]] = {name: [] for name in works}
     for work in works.values():
-        fresh(work)
+        run_fresh(work)
     for _ in range(RUNS):
         for name, work in works.items():
-            took[name].append(float(fresh(TIMED.format(work=work))))
-    yard = median(took["attrs, construct"])
-    print(f"import attrs, construct: {yard * 1e3:.0f} ms")
+            times[name].append(float(run_fresh(TIMED_PROGRAM.format(work=work))))
+    reference_time = median(times["attrs, construct"])
+    print(f"import attrs, construct: {reference_time * 1e3:.0f} ms")
     for name in RECIPES:
-        modules, lines = fresh(LOADED.format(work=works[name])).split()
-        seconds = median(took[name])
+        modules, lines = run_fresh(MODULES_PROGRAM.format(work=works[name])).split()
+        seconds = median(times[name])
         print(
             f"import solepath; Session({name}): {modules} modules, {lines} lines, "
-            f"{seconds * 1e3:.0f} ms, {seconds / yard:.1f} times attrs and construct"
+            f"{seconds * 1e3:.0f} ms, {seconds / reference_time:.1f} times attrs and construct"
         )
 
 
@@ -159,11 +168,11 @@ def main() -> None:
     parser.add_argument("--calls", action="store_true", help="list the functions of one frame of each kind")
     parser.add_argument("--no-import", action="store_true", help="the way alone")
     options = parser.parse_args()
-    idle, ending = ways(emulate(ROUTE, radio=CLEAN, seed=1).packets)
-    show("a quiet frame", idle, options.calls)
-    show("a frame that ends a stride", ending, options.calls)
+    frames_without_events, stride_frames = collect_calls(emulate(ROUTE, radio=CLEAN, seed=1).packets)
+    print_calls("a quiet frame", frames_without_events, options.calls)
+    print_calls("a frame that ends a stride", stride_frames, options.calls)
     if not options.no_import:
-        loading()
+        print_loading()
 
 
 if __name__ == "__main__":

@@ -1,14 +1,14 @@
-"""Yardsticks for the benchmark: a foot-mounted error-state filter with SHOE in numpy, written the usual way and tuned.
+"""Two yardsticks for the benchmark: a foot-mounted error-state filter with SHOE in numpy, in the usual style and tuned.
 
-Both are the textbook arrangement of Foxlin (2005) and Skog et al. (2010), one sample at a time: nine error states
-(position, velocity, attitude), SHOE over five samples, a zero-velocity update whenever its statistic is below the gate.
-They agree to rounding, and do nothing else of a session: no gaps, calibration, phases, steps, pressure, activities.
+Both are the textbook method of Foxlin (2005) and Skog et al. (2010), one sample at a time: nine error states (position,
+velocity, attitude), SHOE over five samples, and a zero-velocity update when its statistic is below STATISTIC_LIMIT.
+Their results agree to rounding. They have no gaps, calibration, phases, strides, pressure or activities.
 
-`Usual` is how published research code is written (OpenShoe's functions and what came after it in Python): a function
-for each equation, arrays in and out, F and G put together anew for every sample, a quaternion turned into a matrix
-where one is needed, the gain by an inverse, SHOE as a loop over the window. Nothing is slowed down on purpose.
+`UsualFilter` has the style of published research code, of OpenShoe and its successors in Python. It has a function for
+each equation, with arrays as arguments and results. F and G are built for every sample, a quaternion is converted to a
+matrix wherever one is needed, the gain uses an inverse, and SHOE is a loop. Nothing is slowed down on purpose.
 
-`Tuned` does the same with matrices made once where they can be, rotation matrices, and SHOE as one expression.
+`TunedFilter` does the same with rotation matrices, constant matrices built once, and SHOE as one expression.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ from solepath.types.vector import GRAVITY
 
 Array = NDArray[np.float64]
 
-WINDOW = 5
-GATE = 3e5
+WINDOW_SIZE = 5
+STATISTIC_LIMIT = 3e5
 SIGMA_ACC, SIGMA_GYRO = 0.01, np.radians(0.1)
 ACC_NOISE, GYRO_NOISE, ZERO_VELOCITY = 0.5, np.radians(0.5), 0.01
-"""Noise of acceleration, m/s^2, and of angular rate, rad/s, and deviation of the zero velocity, m/s."""
-FIRST = (1e-5, 1e-2, 1e-3**0.5)
-"""Deviations of position, m, velocity, m/s, and attitude, rad, at the beginning."""
+"""Standard deviations of acceleration, m/s^2, of angular rate, rad/s, and of the zero velocity, m/s."""
+INITIAL_DEVIATIONS = (1e-5, 1e-2, 1e-3**0.5)
+"""Standard deviations of position, m, velocity, m/s, and attitude, rad, at the start."""
 
 
 def cross_matrix(v: Array) -> Array:
@@ -37,7 +37,7 @@ def cross_matrix(v: Array) -> Array:
 
 
 def quaternion_of(r: Array) -> Array:
-    """Return (w, x, y, z) of the turn by |r| rad about r."""
+    """Return the quaternion (w, x, y, z) of the rotation by |r| rad about r."""
     angle = np.linalg.norm(r)
     if angle == 0.0:
         return np.array([1.0, 0.0, 0.0, 0.0])
@@ -45,20 +45,20 @@ def quaternion_of(r: Array) -> Array:
 
 
 def product(p: Array, q: Array) -> Array:
-    """Return Hamilton's product."""
+    """Return the Hamilton product of two quaternions."""
     w, x, y, z = p
     matrix = np.array([[w, -x, -y, -z], [x, w, -z, y], [y, z, w, -x], [z, -y, x, w]])
     return matrix @ q
 
 
 def matrix_of(q: Array) -> Array:
-    """Rotation matrix of a unit quaternion."""
+    """Return the rotation matrix of a unit quaternion."""
     w, v = q[0], q[1:]
     return (w**2 - v @ v) * np.eye(3) + 2.0 * np.outer(v, v) + 2.0 * w * cross_matrix(v)
 
 
 def state_matrices(attitude: Array, acc: Array, dt: float) -> tuple[Array, Array]:
-    """F of the error states and G, through which the noise of acc and gyro enters: I + dt Fc and dt Gc."""
+    """Return F = I + dt Fc of the error states, and G = dt Gc, through which the noise of acc and gyro enters."""
     zero, one, turn = np.zeros((3, 3)), np.eye(3), matrix_of(attitude)
     force = turn @ acc
     fc = np.block([[zero, one, zero], [zero, zero, -cross_matrix(force)], [zero, zero, zero]])
@@ -67,26 +67,26 @@ def state_matrices(attitude: Array, acc: Array, dt: float) -> tuple[Array, Array
 
 
 def shoe(window: deque[tuple[Array, Array]]) -> float:
-    """The statistic: how little the window looks like a sensor that stands still."""
+    """Return the SHOE statistic of the window; smaller is more still."""
     mean = np.mean([acc for acc, _ in window], axis=0)
     up = mean / np.linalg.norm(mean)
     total = 0.0
     for acc, gyro in window:
-        off = acc - GRAVITY * up
-        total += off @ off / SIGMA_ACC**2 + gyro @ gyro / SIGMA_GYRO**2
+        residual = acc - GRAVITY * up
+        total += residual @ residual / SIGMA_ACC**2 + gyro @ gyro / SIGMA_GYRO**2
     return float(total) / len(window)
 
 
-class Usual:
-    """Feed it the samples of one foot; `position` is where it is, m."""
+class UsualFilter:
+    """A filter in the usual style. `feed` takes the samples of one foot; `position` is the foot's position, m."""
 
     def __init__(self) -> None:
         self.position = np.zeros(3)
         self.velocity = np.zeros(3)
         self.attitude: Array | None = None
-        self.covariance = np.diag(np.repeat(FIRST, 3) ** 2)
+        self.covariance = np.diag(np.repeat(INITIAL_DEVIATIONS, 3) ** 2)
         self.noise = np.diag([ACC_NOISE**2] * 3 + [GYRO_NOISE**2] * 3)
-        self.window: deque[tuple[Array, Array]] = deque(maxlen=WINDOW)
+        self.window: deque[tuple[Array, Array]] = deque(maxlen=WINDOW_SIZE)
         self.t = 0.0
 
     def feed(self, sample: Sample) -> None:
@@ -94,10 +94,10 @@ class Usual:
         dt, self.t = sample.t - self.t, sample.t
         self.window.append((acc, gyro))
         if self.attitude is None:
-            self.attitude = quaternion_of(_levelling(acc))
+            self.attitude = quaternion_of(_levelling_rotation(acc))
         else:
             self.attitude = self._predict(self.attitude, dt, acc, gyro)
-        if len(self.window) == WINDOW and shoe(self.window) < GATE:
+        if len(self.window) == WINDOW_SIZE and shoe(self.window) < STATISTIC_LIMIT:
             self.attitude = self._correct(self.attitude)
 
     def _predict(self, attitude: Array, dt: float, acc: Array, gyro: Array) -> Array:
@@ -126,7 +126,7 @@ class Usual:
 
 
 def rotation(r: Array) -> Array:
-    """The matrix that turns by |r| rad about r (Rodrigues)."""
+    """Return the matrix of the rotation by |r| rad about r (Rodrigues)."""
     angle = float(np.linalg.norm(r))
     if angle < 1e-12:
         return np.eye(3)
@@ -134,33 +134,33 @@ def rotation(r: Array) -> Array:
     return np.eye(3) + np.sin(angle) * k + (1.0 - np.cos(angle)) * (k @ k)
 
 
-class Tuned:
-    """Does the same as `Usual` with fewer matrices."""
+class TunedFilter:
+    """A filter with the same results as `UsualFilter` and fewer matrices."""
 
     def __init__(self) -> None:
         self.position = np.zeros(3)
         self.velocity = np.zeros(3)
         self.attitude: Array | None = None
-        self.covariance = np.diag(np.repeat(FIRST, 3) ** 2)
-        self.acc = np.zeros((WINDOW, 3))
-        self.gyro = np.zeros((WINDOW, 3))
+        self.covariance = np.diag(np.repeat(INITIAL_DEVIATIONS, 3) ** 2)
+        self.acc = np.zeros((WINDOW_SIZE, 3))
+        self.gyro = np.zeros((WINDOW_SIZE, 3))
         self.count = 0
         self.t = 0.0
         self.process = np.diag([0.0] * 3 + [ACC_NOISE**2] * 3 + [GYRO_NOISE**2] * 3)
-        self.measure = np.hstack([np.zeros((3, 3)), np.eye(3), np.zeros((3, 3))])
+        self.measurement_matrix = np.hstack([np.zeros((3, 3)), np.eye(3), np.zeros((3, 3))])
         self.noise = ZERO_VELOCITY**2 * np.eye(3)
         self.gravity = np.array([0.0, 0.0, GRAVITY])
 
     def feed(self, sample: Sample) -> None:
         acc, gyro = np.array(sample.acc), np.array(sample.gyro)
-        self.acc[self.count % WINDOW], self.gyro[self.count % WINDOW] = acc, gyro
+        self.acc[self.count % WINDOW_SIZE], self.gyro[self.count % WINDOW_SIZE] = acc, gyro
         self.count += 1
         dt, self.t = sample.t - self.t, sample.t
         if self.attitude is None:
-            self.attitude = rotation(_levelling(acc))
+            self.attitude = rotation(_levelling_rotation(acc))
         else:
             self._predict(dt, acc, gyro)
-        if self.count >= WINDOW and self._statistic() < GATE:
+        if self.count >= WINDOW_SIZE and self._statistic() < STATISTIC_LIMIT:
             self._correct()
 
     def _predict(self, dt: float, acc: Array, gyro: Array) -> None:
@@ -176,11 +176,11 @@ class Tuned:
 
     def _statistic(self) -> float:
         mean = self.acc.mean(axis=0)
-        off = self.acc - GRAVITY * mean / np.linalg.norm(mean)
-        return float(((off**2).sum() / SIGMA_ACC**2 + (self.gyro**2).sum() / SIGMA_GYRO**2) / WINDOW)
+        residual = self.acc - GRAVITY * mean / np.linalg.norm(mean)
+        return float(((residual**2).sum() / SIGMA_ACC**2 + (self.gyro**2).sum() / SIGMA_GYRO**2) / WINDOW_SIZE)
 
     def _correct(self) -> None:
-        h, p = self.measure, self.covariance
+        h, p = self.measurement_matrix, self.covariance
         gain = p @ h.T @ np.linalg.inv(h @ p @ h.T + self.noise)
         error = gain @ -self.velocity
         self.covariance = (np.eye(9) - gain @ h) @ p
@@ -189,8 +189,8 @@ class Tuned:
         self.attitude = rotation(error[6:]) @ self.attitude
 
 
-def _levelling(acc: Array) -> Array:
-    """Rotation vector that takes the specific force at rest to straight up."""
+def _levelling_rotation(acc: Array) -> Array:
+    """Return the rotation vector, rad, that turns the specific force at rest to the vertical."""
     up = acc / np.linalg.norm(acc)
     axis = np.cross(up, [0.0, 0.0, 1.0])
     sine = np.linalg.norm(axis)

@@ -9,18 +9,18 @@ from solepath.lab.train.activities_course import LabelledCourse, chances, change
 from solepath.lab.train.hugadb import spans
 from solepath.types import Activity
 
-STOOD, WALKED, CLIMBED = Activity.STANDING, Activity.WALKING, Activity.STAIRS_UP
+STANDING, WALKING, STAIRS = Activity.STANDING, Activity.WALKING, Activity.STAIRS_UP
 
 
 def test_labels_become_spans_and_a_gap_parts_them() -> None:
     t = [0.0, 0.1, 0.2, 0.3, 5.0, 5.1]
-    done = spans(t, [STOOD, STOOD, WALKED, WALKED, WALKED, None])
-    assert done == [(0.0, 0.1, STOOD), (0.2, 0.3, WALKED), (5.0, 5.0, WALKED)]
-    assert changes(done) == [(0.2, STOOD, WALKED)]
+    done = spans(t, [STANDING, STANDING, WALKING, WALKING, WALKING, None])
+    assert done == [(0.0, 0.1, STANDING), (0.2, 0.3, WALKING), (5.0, 5.0, WALKING)]
+    assert changes(done) == [(0.2, STANDING, WALKING)]
 
 
 def test_frequent_climbing_makes_stairs_likelier() -> None:
-    done = [(10.0 * k, 10.0 * k + 10.0, (WALKED, CLIMBED)[k % 2]) for k in range(100)]
+    done = [(10.0 * k, 10.0 * k + 10.0, (WALKING, STAIRS)[k % 2]) for k in range(100)]
     learnt = chances([LabelledCourse(0.0, {}, tuple(done))])
     assert all(isclose(sum(row), 1.0, abs_tol=1e-4) for row in learnt)
     assert DEFAULT_CHANCES[WALK][UP] < learnt[WALK][UP] < 1.0 / 20.0 + 1e-3  # ten seconds are twenty blocks

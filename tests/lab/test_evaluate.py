@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 
 from solepath.lab.measures.alignment import Alignment, align, at_times, rms_distance, track_error
 from solepath.lab.measures.contacts import merged, switch_contacts
-from solepath.lab.measures.legs import leg_errors, leg_lengths, turned_about
+from solepath.lab.measures.legs import leg_errors, leg_lengths, turn_times
 from solepath.lab.measures.matching import Errors, Matching, interval_errors, match
 from solepath.lab.measures.score import Scored, summarise
 from solepath.lab.measures.strides import StrideScore, marker_stances, position_errors, stride_score, surveyed_score
@@ -219,7 +219,7 @@ def test_a_leg_is_the_distance_between_its_ends():
 
 def test_a_track_to_and_fro_is_cut_where_it_turns_about():
     t, positions, _ = to_and_fro(0.0, 10.0, 0.5, 9.5, -0.2)
-    assert_allclose(leg_lengths(turned_about(t, positions, 4), t, positions), [10.0, 9.5, 9.0, 9.7], atol=0.06)
+    assert_allclose(leg_lengths(turn_times(t, positions, 4), t, positions), [10.0, 9.5, 9.0, 9.7], atol=0.06)
 
 
 def test_errors_of_stride_times_are_of_events_that_follow_each_other():

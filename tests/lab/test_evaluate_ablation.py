@@ -4,7 +4,7 @@ import pytest
 
 from solepath.emulate.routes.route import Route
 from solepath.emulate.walk import sampled
-from solepath.lab.evaluate.ablation import COLUMNS, WITHOUT, recipes
+from solepath.lab.evaluate.ablation import ABLATED_RECIPES, COLUMNS, recipes
 from solepath.lab.evaluate.changes import BETTER
 from solepath.lab.evaluate.datasets import DATASETS, EMULATED
 from solepath.lab.evaluate.report import Result
@@ -28,7 +28,7 @@ def results(recipe, height, offset):
 
 def test_every_row_differs_from_the_default_and_from_every_other():
     first, *rows = recipes()
-    assert first is DEFAULT and [row.name for row in rows] == list(WITHOUT)
+    assert first is DEFAULT and [row.name for row in rows] == list(ABLATED_RECIPES)
     parts = [(row.detector, row.corrector, row.cues, row.insole, row.parts) for row in (first, *rows)]
     assert all(one != other for k, one in enumerate(parts) for other in parts[:k])
 
@@ -54,8 +54,8 @@ def samples():
     return sampled(Route().stand(1.0).walk(2.0).stop(0.5), seed=101).samples
 
 
-@pytest.mark.parametrize("without", WITHOUT)
+@pytest.mark.parametrize("without", ABLATED_RECIPES)
 def test_whatever_is_missing_the_wearer_is_somewhere(without, samples):
-    session = Session(WITHOUT[without])
+    session = Session(ABLATED_RECIPES[without])
     session.feed(samples)
     assert all(abs(part) < 10.0 for part in session.position.position)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from solepath import recipes
 from solepath.events import ActivityChanged, LiftRidden
 from solepath.lab.evaluate import learning
-from solepath.lab.evaluate.activity import CLIMBED, score_rides, score_samples, score_windows, stairs_figures
+from solepath.lab.evaluate.activity import STAIR_SPANS, score_rides, score_samples, score_windows, stairs_figures
 from solepath.lab.evaluate.jobs import evaluate
 from solepath.lab.evaluate.learning import Learner, TrainingSource, part_for, train_parts, training_sources
 from solepath.lab.measures.confusion import CLASSES, ActivityScore
@@ -157,7 +157,7 @@ def test_every_wearer_of_the_recordings_has_a_fold(data_dir):
 
 def test_stairs_are_in_two_folders(data_dir):
     (stairs,) = evaluate(data_dir, [recipes.by_name("footstep-tracker")], only=["stairs"])
-    assert {scored.recording for scored in stairs.scores} == set(CLIMBED)
+    assert {scored.recording for scored in stairs.scores} == set(STAIR_SPANS)
     (summary,) = stairs.summaries
     assert (summary.mean["stairs_called"] or 0.0) > 0.5 and (summary.mean["level_called"] or 0.0) < 0.1
 

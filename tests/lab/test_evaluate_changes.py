@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from solepath.lab.evaluate.changes import BETTER, Verdict, compare_scores, missing, read_scores, verdict
+from solepath.lab.evaluate.changes import BETTER, Verdict, compare_scores, names_missing, read_scores, verdict
 from solepath.lab.evaluate.datasets import DATASETS, EMULATED
 from solepath.lab.tables.scores import comparison_tables
 from solepath.recording import RecordingError
@@ -56,26 +56,26 @@ def test_what_cannot_be_seen_in_the_digits_shown_is_the_same():
     assert verdict("end_error", None, 1.0) is verdict("path", 60.0, 61.0) is Verdict.CHANGED
 
 
-@given(figure=st.sampled_from(sorted(BETTER)), was=st.floats(-1e6, 1e6), now=st.floats(-1e6, 1e6))
-def test_swapping_the_two_evaluations_reverses_the_verdict(figure, was, now):
+@given(figure=st.sampled_from(sorted(BETTER)), earlier=st.floats(-1e6, 1e6), present=st.floats(-1e6, 1e6))
+def test_swapping_the_two_evaluations_reverses_the_verdict(figure, earlier, present):
     opposite = {Verdict.BETTER: Verdict.WORSE, Verdict.WORSE: Verdict.BETTER, Verdict.SAME: Verdict.SAME}
-    assert verdict(figure, now, was) is opposite[verdict(figure, was, now)]
+    assert verdict(figure, present, earlier) is opposite[verdict(figure, earlier, present)]
 
 
 def test_recordings_and_data_sets_on_one_side_only_are_listed():
-    now = copy.deepcopy(OLD)
-    loops = now["default"]["loops"]
+    present = copy.deepcopy(OLD)
+    loops = present["default"]["loops"]
     loops["recordings"]["c"] = loops["recordings"].pop("b")
     loops["recordings"]["a"]["end_error"] = 0.5
     loops["summary"]["all"]["together"]["heel_strike_bias"] = 0.03
-    now["default"]["climbs"] = now["default"].pop("walks")
-    (changes,) = [found for found in compare_scores(OLD, now) if found.data_set == "loops"]
+    present["default"]["climbs"] = present["default"].pop("walks")
+    (changes,) = [found for found in compare_scores(OLD, present) if found.data_set == "loops"]
     assert (changes.removed, changes.new) == (("b",), ("c",))
-    assert {(c.what, c.figure, c.verdict) for c in changes.changes if c.verdict is not Verdict.SAME} == {
+    assert {(c.row, c.figure, c.verdict) for c in changes.changes if c.verdict is not Verdict.SAME} == {
         ("a", "end_error", Verdict.BETTER), ("together", "heel_strike_bias", Verdict.WORSE),
     }  # fmt: skip
-    assert missing(OLD, now) == ["default: walks"] and missing(now, OLD) == ["default: climbs"]
-    tables = comparison_tables(OLD, now)
+    assert names_missing(OLD, present) == ["default: walks"] and names_missing(present, OLD) == ["default: climbs"]
+    tables = comparison_tables(OLD, present)
     assert "loops, default, compared: 1 better, 1 worse, 5 the same" in tables
     assert "scored then and not now: b\nnot scored then: c" in tables
     assert "evaluated then and not now: default: walks" in tables and "not evaluated then: default: climbs" in tables

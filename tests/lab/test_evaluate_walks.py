@@ -8,7 +8,15 @@ from numpy.testing import assert_allclose
 
 from solepath.emulate.routes.route import Stairs, Stand, TurnAction
 from solepath.emulate.wearers.walker import Walker
-from solepath.lab.emulated.walks import FLOORS, HALF_HOUR, four_floors, half_hour, long_way, middle, place_figures
+from solepath.lab.emulated.walks import (
+    HALF_HOUR,
+    STOREYS,
+    four_floors,
+    half_hour_walk,
+    long_walk,
+    mean_position,
+    place_figures,
+)
 from solepath.types import Foot
 
 
@@ -39,17 +47,17 @@ def test_a_heading_error_counts_over_the_rest_of_the_walk():
 
 def test_ways_are_as_long_as_they_are_called():
     for seed in (101, 102, 103):
-        route = long_way(seed)
+        route = long_walk(seed)
         assert 500.0 <= route.length <= 540.0
         assert sum(isinstance(action, TurnAction) for action in route.actions) >= 10
-        stood = sum(action.duration for action in half_hour(seed).actions if isinstance(action, Stand))
-        assert 0.9 * HALF_HOUR <= stood + half_hour(seed).length / half_hour(seed).speed <= 1.05 * HALF_HOUR
+        stood = sum(action.duration for action in half_hour_walk(seed).actions if isinstance(action, Stand))
+        assert 0.9 * HALF_HOUR <= stood + half_hour_walk(seed).length / half_hour_walk(seed).speed <= 1.05 * HALF_HOUR
 
 
 def test_four_floors_lead_up_and_down_again():
     actions = four_floors(101).actions
     heights = np.cumsum([action.steps * action.rise for action in actions if isinstance(action, Stairs)])
-    assert heights.max() == pytest.approx(FLOORS * 3.2) and heights[-1] == pytest.approx(0.0)
+    assert heights.max() == pytest.approx(STOREYS * 3.2) and heights[-1] == pytest.approx(0.0)
     turned = sum(action.angle for action in actions if isinstance(action, TurnAction))
     assert remainder(turned, pi) == pytest.approx(0.0, abs=1e-9)
 
@@ -57,7 +65,7 @@ def test_four_floors_lead_up_and_down_again():
 def test_the_truth_is_the_mean_of_both_feet():
     walker = Walker(four_floors(101), seed=101)
     t = np.array([0.0, 60.0, walker.duration])
-    place = middle(walker.truth(), t)
+    place = mean_position(walker.truth(), t)
     assert_allclose(place[0], 0.0, atol=1e-9)
     feet = [walker.truth().pose(foot, t).position for foot in Foot]
     assert_allclose(place, 0.5 * (feet[0] + feet[1]))

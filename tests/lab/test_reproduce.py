@@ -14,10 +14,10 @@ from solepath.lab.processes import run_jobs
 from solepath.lab.reproduce import footstep_walks, kupt_dfpc, pressure_contour, shoe_walks, walking_modes
 from solepath.lab.reproduce.published import CORNERS, KUPT_DFPC, LOOPS, PRESSURE_CONTOUR, WALKING_MODES, corner_row
 from solepath.lab.reproduce.tables import (
-    Boxes,
-    Drawn,
+    BoxPlots,
+    DrawStyle,
     FigureRow,
-    Floor,
+    FloorPanel,
     PictureTrack,
     Reproduction,
     Statistics,
@@ -68,19 +68,19 @@ def test_table_four_of_the_walking_modes_has_two_axes_of_four_methods_at_four_co
 TWO_ROWS = Reproduction(
     name="kupt-dfpc",
     paper_title="a paper, table I",
-    walked="2 walks",
+    emulation="2 walks",
     unit="m",
     rows=(
         FigureRow("ZUPT-L", (19.0, 21.0), Statistics(20.97, 1.84, 19.74, 21.17, 22.56)),
         FigureRow("other", (1.0,), Statistics(3.0)),
     ),
     panels=(
-        Boxes("distances", ("ZUPT-L", "other"), "m", 20.0),
-        Floor(
+        BoxPlots("distances", ("ZUPT-L", "other"), "m", 20.0),
+        FloorPanel(
             "the way",
             (
-                PictureTrack("true", ((0.0, 0.0), (1.0, 0.0)), Drawn.TRUTH),
-                PictureTrack("ours", ((0.0, 0.1),), Drawn.DOTS),
+                PictureTrack("true", ((0.0, 0.0), (1.0, 0.0)), DrawStyle.TRUTH),
+                PictureTrack("ours", ((0.0, 0.1),), DrawStyle.DOTS),
                 PictureTrack("line", ((0.0, 0.0), (1.0, 0.1))),
             ),
             marks=(("start", 0.0, 0.0),),
@@ -129,16 +129,16 @@ LONGEST = "footstep-tracker"
 )
 def test_the_fewest_walks_give_a_table_json_and_a_figure(tmp_path, name, monkeypatch):
     pytest.importorskip("matplotlib")
-    monkeypatch.setattr(pressure_contour, "LASTING", 60.0)
-    monkeypatch.setattr(pressure_contour, "LAPS", 3)
-    monkeypatch.setattr(walking_modes, "STEPS", 10)
-    monkeypatch.setattr(walking_modes, "REPEATS", 1)
-    monkeypatch.setattr(footstep_walks, "PER_CLASS", 1)
-    monkeypatch.setattr(footstep_walks, "INCREMENTS", footstep_walks.INCREMENTS[:2])
-    monkeypatch.setattr(kupt_dfpc, "CORRIDOR", 30.0)
+    monkeypatch.setattr(pressure_contour, "WALK_DURATION", 60.0)
+    monkeypatch.setattr(pressure_contour, "CALIBRATION_LAPS", 3)
+    monkeypatch.setattr(walking_modes, "MARKED_STEPS", 10)
+    monkeypatch.setattr(walking_modes, "MARKED_REPEATS", 1)
+    monkeypatch.setattr(footstep_walks, "TURNS_PER_CLASS", 1)
+    monkeypatch.setattr(footstep_walks, "TURN_ANGLES", footstep_walks.TURN_ANGLES[:2])
+    monkeypatch.setattr(kupt_dfpc, "CORRIDOR_LENGTH", 30.0)
     monkeypatch.setattr(shoe_walks, "STEPS", 30)
     monkeypatch.setattr(shoe_walks, "LAPS", 1)
-    monkeypatch.setattr(emulated, "TIMES", 1)
+    monkeypatch.setattr(emulated, "REPEATS", 1)
     monkeypatch.setattr(ways, "FEWEST", 1)
     monkeypatch.setattr(ways, "MOST", 1)
     monkeypatch.chdir(tmp_path)

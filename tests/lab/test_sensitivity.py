@@ -12,11 +12,11 @@ from solepath.foot.cues import inertial
 from solepath.foot.settings import CycleSettings, ErrorStateSettings
 from solepath.lab.evaluate.jobs import EvaluationJob
 from solepath.lab.evaluate.run import Meta, RunSettings
-from solepath.lab.evaluate.sensitivity import SHOWN, SensitivityJob, numbers, table
+from solepath.lab.evaluate.sensitivity import TABLE_COLUMNS, SensitivityJob, numbers, table
 from solepath.lab.measures.score import Scored
 from solepath.recipes import DEFAULT
 
-NUMBERS = {one.name: one for one in numbers()}
+NUMBERS = {number.name: number for number in numbers()}
 
 
 def test_every_number_of_detector_and_filter_is_in_the_table_with_its_meaning() -> None:
@@ -27,12 +27,12 @@ def test_every_number_of_detector_and_filter_is_in_the_table_with_its_meaning() 
 
 
 def test_a_setting_at_twice_its_value_is_a_recipe_of_its_own() -> None:
-    recipe, constants = NUMBERS["innovation_gate"].at(2.0)
+    recipe, constants = NUMBERS["innovation_gate"].scale(2.0)
     assert recipe.corrector.settings == ErrorStateSettings(innovation_gate=2.0 * ErrorStateSettings().innovation_gate)
     assert (recipe.detector, constants) == (DEFAULT.detector, {})
 
 
-def score(path: Path, meta: Meta, how: RunSettings) -> Scored:
+def score(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     """The value of the constant while a recording is scored."""
     return Scored(path.name, {"past_peak": inertial.PAST_PEAK})
 
@@ -40,7 +40,7 @@ def score(path: Path, meta: Meta, how: RunSettings) -> Scored:
 @pytest.mark.parametrize("factor", [0.5, 2.0])
 def test_a_constant_is_changed_while_a_recording_is_scored_and_then_as_before(factor: float) -> None:
     before = inertial.PAST_PEAK
-    recipe, constants = NUMBERS["PAST_PEAK"].at(factor)
+    recipe, constants = NUMBERS["PAST_PEAK"].scale(factor)
     job = SensitivityJob(EvaluationJob(score, RunSettings(recipe, Calibration(), None), Path("walk"), {}), constants)
     scored = job.run()
     assert isinstance(scored, Scored) and scored.figures == {"past_peak": factor * before}
@@ -49,9 +49,9 @@ def test_a_constant_is_changed_while_a_recording_is_scored_and_then_as_before(fa
 
 
 def test_a_line_has_the_change_at_half_and_at_twice_the_value() -> None:
-    one = NUMBERS["PAST_PEAK"]
-    shown = [column for column in SHOWN if column.title in ("strides", "HS F1", "ipol HS")]
+    number = NUMBERS["PAST_PEAK"]
+    columns = [column for column in TABLE_COLUMNS if column.title in ("strides", "HS F1", "ipol HS")]
     default, half, double = [0.02, 0.98, 0.010], [0.021, 0.95, 0.0104], [0.02, 0.98, -0.020]
-    lines = list(table(iter([(None, 1.0, default), (one, 0.5, half), (one, 2.0, double)]), shown))
+    lines = list(table(iter([(None, 1.0, default), (number, 0.5, half), (number, 2.0, double)]), columns))
     assert [cell.strip() for cell in lines[2].split("|")][4:-1] == ["2 %", "0.98", "10 ms"]
     assert [cell.strip() for cell in lines[3].split("|")][4:-1] == ["+5 % / 0", "-0.03 / 0", "0 / -30 ms"]

@@ -8,28 +8,28 @@ from contextlib import ExitStack
 from typing import TypeVar
 
 Job = TypeVar("Job")
-Done = TypeVar("Done")
+JobResult = TypeVar("JobResult")
 
 Progress = Callable[[int, int], None]
-"""Function that is called with (jobs done, number of all jobs)."""
+"""Function that is called with (number of jobs done, number of all jobs)."""
 
 
 def run_jobs(
-    work: Callable[[Job], Done],
+    work: Callable[[Job], JobResult],
     jobs: Sequence[Job],
     *,
     processes: int = 1,
     progress: Progress | None = None,
     before: int = 0,
     after: int = 0,
-) -> Iterator[Done]:
-    """Yield the result of `work`, a function of a module, for every job, in the order of the jobs.
+) -> Iterator[JobResult]:
+    """Yield the result of the module-level function `work` for every job, in the order of the jobs.
 
-    `before` and `after` are the numbers of jobs of other work that the progress counts before and after these."""
+    `before` and `after` are numbers of other jobs, done before and after these, which `progress` counts as well."""
     with ExitStack() as stack:
-        many = processes > 1 and len(jobs) > 1
-        pool = stack.enter_context(ProcessPoolExecutor(min(processes, len(jobs)))) if many else None
-        for done, outcome in enumerate((map if pool is None else pool.map)(work, jobs), before + 1):
+        parallel = processes > 1 and len(jobs) > 1
+        pool = stack.enter_context(ProcessPoolExecutor(min(processes, len(jobs)))) if parallel else None
+        for job_number, outcome in enumerate((map if pool is None else pool.map)(work, jobs), before + 1):
             if progress is not None:
-                progress(done, before + len(jobs) + after)
+                progress(job_number, before + len(jobs) + after)
             yield outcome

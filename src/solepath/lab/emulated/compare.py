@@ -14,15 +14,15 @@ from ..evaluate.gathered import FootRun
 from ..measures.matching import Errors, Matching, match, pairs
 from ..measures.strides import position_errors
 
-STEP_TOLERANCE = 0.4
-"""Largest time between the ends of a true and a found stride, s: less than half the shortest stride."""
-ALWAYS = ((-1e12, 1e12),)
-"""Labelled window that covers the whole walk, s, so that every found event is judged."""
+STRIDE_TOLERANCE = 0.4
+"""Largest time between the ends of a true stride and a found one that match, s: below half the shortest stride."""
+WHOLE_WALK = ((-1e12, 1e12),)
+"""Window of time that contains every walk, s, so that every found event is counted."""
 
 
 @frozen
 class FootComparison:
-    """The strides and events of one foot in one walk, compared with the truth."""
+    """The comparison of the strides and events of one foot in one walk with the truth."""
 
     foot: Foot
     steps_true: int
@@ -32,11 +32,13 @@ class FootComparison:
     steps_invented: int
     """Number of found strides that match no true one."""
     length_errors: Errors
-    """Relative error of each stride length, ours less the true one (0.01 is 1 %)."""
+    """Relative error of each stride length, found minus true (0.01 is 1 %)."""
     events: dict[str, Matching]
     """Matched events by kind: heel_strike, foot_flat, heel_off, toe_off."""
     end_error: float | None
-    """Horizontal distance of the last position from the true one, m, after alignment over the first two metres."""
+    """Horizontal distance of the last position from the true one, m, after alignment over the first two metres.
+
+    None for a foot without a track or with fewer than two true strides."""
 
 
 def compare(truth: Truth, feet: Mapping[Foot, FootRun]) -> list[FootComparison]:
@@ -45,19 +47,19 @@ def compare(truth: Truth, feet: Mapping[Foot, FootRun]) -> list[FootComparison]:
 
 
 def _compare(truth: FootTruth, run: FootRun) -> FootComparison:
-    matched = pairs([s.t_end for s in truth.steps], [s.t_end for s in run.steps], STEP_TOLERANCE)
-    errors = [run.steps[j].length / truth.steps[i].length - 1.0 for i, j in matched if truth.steps[i].length > 0]
+    matched = pairs([s.t_end for s in truth.steps], [s.t_end for s in run.strides], STRIDE_TOLERANCE)
+    errors = [run.strides[j].length / truth.steps[i].length - 1.0 for i, j in matched if truth.steps[i].length > 0]
     return FootComparison(
         foot=truth.foot,
         steps_true=len(truth.steps),
         steps_found=len(matched),
-        steps_invented=len(run.steps) - len(matched),
+        steps_invented=len(run.strides) - len(matched),
         length_errors=Errors(tuple(errors)),
         events={
-            "heel_strike": match(truth.heel_strikes, run.times[HeelStrike], windows=ALWAYS),
-            "foot_flat": match(truth.foot_flats, run.times[FootFlat], windows=ALWAYS),
-            "heel_off": match(truth.heel_offs, run.times[HeelOff], windows=ALWAYS),
-            "toe_off": match(truth.toe_offs, run.times[ToeOff], windows=ALWAYS),
+            "heel_strike": match(truth.heel_strikes, run.times[HeelStrike], windows=WHOLE_WALK),
+            "foot_flat": match(truth.foot_flats, run.times[FootFlat], windows=WHOLE_WALK),
+            "heel_off": match(truth.heel_offs, run.times[HeelOff], windows=WHOLE_WALK),
+            "toe_off": match(truth.toe_offs, run.times[ToeOff], windows=WHOLE_WALK),
         },
         end_error=_end_error(truth, run),
     )
@@ -67,5 +69,5 @@ def _end_error(truth: FootTruth, run: FootRun) -> float | None:
     if len(truth.steps) < 2 or not len(run.t):
         return None
     t_stances = np.array([truth.steps[0].t_start, *(step.t_end for step in truth.steps), run.t[-1]])
-    places = truth.pose(t_stances).position[:, :2]
-    return float(position_errors(t_stances, places, run.t, run.positions)[-1])
+    true_positions = truth.pose(t_stances).position[:, :2]
+    return float(position_errors(t_stances, true_positions, run.t, run.positions)[-1])

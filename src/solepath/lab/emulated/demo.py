@@ -26,18 +26,18 @@ from .place import PlaceScore, score
 class Demo:
     """An emulated walk and the session that receives it.
 
-    `play` goes on packet by packet, so that the caller sets the pace. A caller who feeds `session`, or a session like
-    it, passes the results to `add_events`."""
+    `play` yields after each packet, so that the caller sets the pace. A caller who feeds `session` without `play`
+    passes the events to `add_events`."""
 
     walk: EmulatedWalk
     session: Session
     way: BuildingWalk | None = None
-    """BuildingWalk through the emulated building; None when the walk is not in the building."""
+    """Walk through the emulated building; None when the walk is not in the building."""
     plan: IndexedPlan | None = None
-    """Floor plan of that building; None when the walk is not in the building."""
+    """FloorPanel plan of that building; None when the walk is not in the building."""
     observer: Observer = field(factory=Observer)
     gathering: Gathering = field(factory=Gathering)
-    _placed: list[Event] = field(factory=list)
+    _place_events: list[Event] = field(factory=list)
 
     @property
     def duration(self) -> float:
@@ -57,26 +57,27 @@ class Demo:
         for event in events:
             self.gathering.add(event)
             if isinstance(event, Placed | PlaceLost | TurnMade):
-                self._placed.append(event)
+                self._place_events.append(event)
 
     def comparison(self) -> list[FootComparison]:
-        """Return the comparison of the session with the truth. Call it after `play` has finished."""
+        """Return the comparison of both feet with the truth. Call it after `play` has finished."""
         return compare(self.walk.truth, {foot: self.gathering.foot(foot) for foot in Foot})
 
     def place(self) -> PlaceScore | None:
         """Return the score of the position on the floor plan; None without a plan."""
-        return None if self.way is None else score(self.way, self.walk.walker, self.walk.truth, self._placed)
+        return None if self.way is None else score(self.way, self.walk.walker, self.walk.truth, self._place_events)
 
 
 def make_demo(seed: int, route: Route = ROUTE, radio: Radio = RADIO, *, pressures: bool = False) -> Demo:
-    """Return the walk of this seed, not yet played. `pressures`: its session emits FootPressed."""
+    """Return the walk of this seed, not yet played. With `pressures` the session emits FootPressed."""
     return Demo(emulate(route, radio=radio, seed=seed), Session(poses=True, pressures=pressures))
 
 
 def make_indoors(seed: int, radio: Radio = RADIO, *, pressures: bool = False) -> Demo:
-    """Return the walk of this seed in the emulated building, not yet played. `pressures` as in `make_demo`.
+    """Return the walk of this seed in the emulated building, not yet played.
 
-    The session has the floor plan, but not the position on it from which the wearer starts."""
+    The session has the floor plan, but not the position from which the wearer starts. With `pressures` it emits
+    FootPressed."""
     way, plan = wandering(WAY), IndexedPlan(BUILDING)
     session = Session(poses=True, pressures=pressures, floorplan=plan)
     return Demo(emulate(way.route, radio=radio, seed=seed), session, way, plan)

@@ -1,7 +1,7 @@
 """Scores the position on the floor plan for a wearer in the emulated building.
 
-A stride is scored while its wearer is on a floor. Stairs and lifts are left out, because the level is neither of the
-two floors there, and so is the time `PAUSE` after them, within which no method can know that they are over."""
+Only strides on a floor are scored. Stairs and elevator rides are left out, because the wearer is on neither of the two
+levels there. The next `UNSCORED_TIME` is left out as well, because no method can know at once that they are over."""
 
 from __future__ import annotations
 
@@ -17,39 +17,39 @@ from ...emulate.wearers.truth import Truth
 from ...emulate.wearers.walker import Walker
 from ...events import Event, Placed, PlaceLost, TurnMade
 
-PAUSE = 5.0
-"""Time after stairs or a lift in which no stride is scored, s."""
-NEAR = 3.0
-"""Largest distance of the true candidate from the wearer, on the right level, m."""
+UNSCORED_TIME = 5.0
+"""Time after stairs or an elevator ride in which no stride is scored, s."""
+NEAR_DISTANCE = 3.0
+"""Horizontal distance from the wearer, on the right level, below which a candidate counts as the true one, m."""
 FIRST_SCORED_TURN = 2
-"""Number of the turn from which positions are scored.
+"""Number of the turn, counted from 1, from which positions are scored.
 
 Liu et al. 2015 score places "started from the second turn" (fig. 13 g)."""
 
 Points = tuple[tuple[float, float], ...]
+"""Positions (x, y) on the floor plan, m."""
 
 
 @frozen
 class PlaceScore:
-    """Score of the positions on the floor plan in one walk."""
+    """The score of the positions on the floor plan in one walk."""
 
     off: tuple[float, ...]
-    """Position error after each scored stride from the second turn on, m. A wrong level counts with its height above or
-    below the right one."""
+    """3D position error after each scored stride from the second turn on, m; a wrong level adds a height error."""
     decided: int | None
-    """Number of strides on the plan until the true candidate was the only one; None when that never happened."""
+    """Number of placed strides until the true candidate was the only one; None when that never happened."""
     dropped: int
-    """Number of scored strides after the first placed one that had no candidate, or not the true one."""
+    """Number of scored strides, after the first placed one, without the true candidate."""
     wrong: int
-    """Number of scored strides whose only candidate was not the true one."""
+    """Number of scored strides with a single candidate that was not the true one."""
     steps: int
     """Number of scored strides that were placed."""
     path: Points = field(default=(), repr=False)
-    """True positions of the wearer, (x, y), m."""
+    """True positions of the wearer."""
     track: Points = field(default=(), repr=False)
-    """Estimated positions once there was one candidate, (x, y), m."""
+    """Estimated positions from the first time on at which the true candidate was the only one."""
     before: Points = field(default=(), repr=False)
-    """All candidates of the time before there was one candidate, (x, y), m."""
+    """All candidates before that time."""
 
 
 def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Event]) -> PlaceScore:
@@ -57,7 +57,7 @@ def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Even
     placed = [event for event in events if isinstance(event, Placed)]
     lost = [event.t for event in events if isinstance(event, PlaceLost) and placed and event.t > placed[0].t]
     heights = {level.id: level.elevation for level in BUILDING.levels}
-    second = _second_turn(events)
+    t_second_turn = _second_turn(events)
     off: list[float] = []
     track: list[tuple[float, float]] = []
     before: list[tuple[float, float]] = []
@@ -65,34 +65,36 @@ def score(way: BuildingWalk, walker: Walker, truth: Truth, events: Sequence[Even
     dropped = wrong = steps = 0
     places = way.places(walker, np.array([one.t for one in placed])) if placed else []
     for k, (one, (level, x, y)) in enumerate(zip(placed, places, strict=True)):
-        near = [c.level == level and hypot(c.position[0] - x, c.position[1] - y) < NEAR for c in one.candidates]
-        if decided is None and near == [True]:
+        is_true = [
+            c.level == level and hypot(c.position[0] - x, c.position[1] - y) < NEAR_DISTANCE for c in one.candidates
+        ]
+        if decided is None and is_true == [True]:
             decided = k + 1
         if decided is None:
             before += [(c.position[0], c.position[1]) for c in one.candidates]
         else:
             track.append((one.position[0], one.position[1]))
-        if not on_a_floor(truth, one.t):
+        if not is_on_floor(truth, one.t):
             continue
         steps += 1
-        dropped += not any(near)
-        wrong += near == [False]
-        if one.t >= second:
-            up = heights[one.level] - heights[level]
-            off.append(hypot(one.position[0] - x, one.position[1] - y, up))
-    dropped += sum([on_a_floor(truth, t) for t in lost])
+        dropped += not any(is_true)
+        wrong += is_true == [False]
+        if one.t >= t_second_turn:
+            height_error = heights[one.level] - heights[level]
+            off.append(hypot(one.position[0] - x, one.position[1] - y, height_error))
+    dropped += sum([is_on_floor(truth, t) for t in lost])
     path = tuple((x, y) for _, x, y in places)
     return PlaceScore(tuple(off), decided, dropped, wrong, steps, path, tuple(track), tuple(before))
 
 
-def on_a_floor(truth: Truth, t: float) -> bool:
-    """Return whether a stride at `t` s is scored."""
-    moved = [(one.start, one.end) for one in truth.flights] + [(one.start, one.end) for one in truth.rides]
-    return not any([start <= t <= end + PAUSE for start, end in moved])
+def is_on_floor(truth: Truth, t: float) -> bool:
+    """Return whether the wearer at `t` s is on a floor: not on stairs, in an elevator, or in the time after them."""
+    climbs = [(one.start, one.end) for one in truth.flights] + [(one.start, one.end) for one in truth.rides]
+    return not any([start <= t <= end + UNSCORED_TIME for start, end in climbs])
 
 
 def _second_turn(events: Sequence[Event]) -> float:
-    """Return the end of the second turn on the plan, s; infinity when there was none."""
+    """Return the end of the second turn after the first placed stride, s; infinity when there was none."""
     first = next((event.t for event in events if isinstance(event, Placed)), float("inf"))
     turns = [event.t for event in events if isinstance(event, TurnMade) and event.turn is not None and event.t > first]
     return turns[FIRST_SCORED_TURN - 1] if len(turns) >= FIRST_SCORED_TURN else float("inf")

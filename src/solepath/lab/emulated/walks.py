@@ -1,16 +1,17 @@
 """Scores the session's position after long walks of emulated wearers. Scorers have the form that datasets.py describes.
 
-Both feet wear insoles of 96 cells (odd seeds) or 24 (even ones) with the errors of an LSM6DSOX, at 100 Hz; the session
-receives their samples as over a perfect link. Route, gait and devices are all drawn from the seed. Score seeds from 1
-to 50; tune on seeds from 101 on.
+Both feet wear insoles of 96 cells (odd seeds) or 24 cells (even seeds) with the errors of an LSM6DSOX, at 100 Hz. The
+session receives all their samples, without a radio link. Route, gait and devices are drawn from the seed. Seeds 1 to 50
+are for scores, seeds from 101 on for tuning.
 
-The position is `session.position`, twice a second, compared with the mean of the true positions of both sensors. A
-track has its own heading and origin, so one turn about the vertical and one shift, by least squares over the first
-ALIGNED m, align it with the truth. Then `position_end` is the horizontal distance at the end and `position_max` the
-largest one, in m; `end_relative` and `largest_relative` are the same two as shares of the path length. So the heading
-error after ALIGNED m counts over the rest of the walk. `rms_2d` is what remains after the best turn and shift over the
-whole walk, as for a VICON track. Heights are compared as they are, from the first: `height_end` is the error at the
-end, `height_max` the largest one."""
+`session.position` is read twice a second and compared with the mean of the true positions of both sensors. Heading and
+origin of a track are arbitrary, so the track is turned about the vertical and shifted to fit the truth by least squares
+over the first ALIGNED_LENGTH m. A heading error after that counts over the rest of the walk. The figures are:
+
+- `position_end`, `position_max`: horizontal distance from the truth at the end, and the largest one, m
+- `end_relative`, `largest_relative`: the same two distances as shares of the path length
+- `rms_2d`: horizontal RMS error after the best turn and shift over the whole walk, m, as for a VICON track
+- `height_end`, `height_max`: error at the end, and the largest error, of the height above the first position, m"""
 
 from __future__ import annotations
 
@@ -35,79 +36,81 @@ from ..measures.score import Figures, Scored
 from ..measures.strides import StrideScore
 from .compare import compare
 
-ALIGNED = 10.0
+ALIGNED_LENGTH = 10.0
 """Length of path over which a track is aligned with the truth, m."""
-EVERY = 0.5
+POSITION_INTERVAL = 0.5
 """Interval between positions, s."""
-LONG_WAY = 500.0
+LONG_WALK = 500.0
 """Shortest length of the long walk, m."""
 HALF_HOUR = 1800.0
 """Shortest duration of the half-hour walk, s."""
-STILL = 3.0
+STANDING_TIME = 3.0
 """Duration of standing at the start, at the end, and at every halt, s."""
-BETWEEN_HALTS = 150.0
+HALT_DISTANCE = 150.0
 """Approximate distance between two halts, m."""
-FLOORS = 4
+STOREYS = 4
 RISERS, RISE, GOING = 10, 0.16, 0.30
-"""Number, height (m) and depth (m) of the steps in each of a storey's two flights: 3.2 m from floor to floor."""
-LANDING = 1.0
-"""Length of a landing before and after its turn, m; the turn's radius is 0.7 of it."""
+"""Number, height (m) and depth (m) of the stairs in a flight. Two flights make a storey of 3.2 m."""
+LANDING_LENGTH = 1.0
+"""Length of the straight walk on a landing before and after the turn, m. The turn's radius is 0.7 of that."""
 
 
-def long_way(seed: int) -> Route:
-    """Return a route of 500 m plus the rest of its last straight: straights of 8 to 40 m between turns."""
-    return _wandered(seed, lambda length, seconds: length >= LONG_WAY)
+def long_walk(seed: int) -> Route:
+    """Return a route of straights of 8 to 40 m and turns that ends with the first straight after 500 m."""
+    return _random_route(seed, lambda length, seconds: length >= LONG_WALK)
 
 
-def half_hour(seed: int) -> Route:
+def half_hour_walk(seed: int) -> Route:
     """Return a route of straights and turns for thirty minutes of walking and halts, about 2 km."""
-    return _wandered(seed, lambda length, seconds: seconds >= HALF_HOUR)
+    return _random_route(seed, lambda length, seconds: seconds >= HALF_HOUR)
 
 
 def four_floors(seed: int) -> Route:
-    """Return a route up four storeys, to and fro along a corridor, and down; two flights and a landing a storey."""
+    """Return a route up four storeys, to and fro along a corridor, and down again."""
     rng = np.random.default_rng([seed, 11])
     side = 0.5 * pi if rng.uniform() < 0.5 else -0.5 * pi
     speed = float(rng.uniform(1.1, 1.4))
-    route = Route(speed=speed).stand(STILL).walk(12.0)
+    route = Route(speed=speed).stand(STANDING_TIME).walk(12.0)
     for up in (True, False):
-        for _ in range(FLOORS):
+        for _ in range(STOREYS):
             for _ in range(2):
-                route = route.walk(LANDING).stairs(RISERS, up, RISE, GOING).walk(LANDING + ahead(up, GOING))
-                route = route.turn(2.0 * side, 0.7 * LANDING)
+                route = (
+                    route.walk(LANDING_LENGTH).stairs(RISERS, up, RISE, GOING).walk(LANDING_LENGTH + ahead(up, GOING))
+                )
+                route = route.turn(2.0 * side, 0.7 * LANDING_LENGTH)
         if up:
             route = route.walk(10.0).turn(pi).walk(10.0)
-    return route.walk(6.0).stop(STILL)
+    return route.walk(6.0).stop(STANDING_TIME)
 
 
-def _wandered(seed: int, enough: Callable[[float, float], bool]) -> Route:
+def _random_route(seed: int, is_complete: Callable[[float, float], bool]) -> Route:
     rng = np.random.default_rng([seed, 10])
     speed = float(rng.uniform(1.1, 1.5))
-    route, length, seconds, halted = Route(speed=speed).stand(STILL), 0.0, STILL, 0.0
+    route, length, seconds, last_halt = Route(speed=speed).stand(STANDING_TIME), 0.0, STANDING_TIME, 0.0
     while True:
         straight = float(rng.uniform(8.0, 40.0))
         route, length, seconds = route.walk(straight), length + straight, seconds + straight / speed
-        if enough(length, seconds):
-            return route.stop(STILL)
-        if length - halted > BETWEEN_HALTS:
-            route, seconds, halted = route.stand(STILL), seconds + STILL, length
+        if is_complete(length, seconds):
+            return route.stop(STANDING_TIME)
+        if length - last_halt > HALT_DISTANCE:
+            route, seconds, last_halt = route.stand(STANDING_TIME), seconds + STANDING_TIME, length
         angle = float(rng.choice((0.5, 0.25, 1.0), p=(0.6, 0.2, 0.2)) * rng.choice((pi, -pi)))
         radius = float(rng.uniform(0.6, 2.5))
         route, length = route.turn(angle, radius), length + abs(angle) * radius
         seconds += abs(angle) * radius / (speed if radius >= 1.0 else min(speed, 0.8))
 
 
-def worn(seed: int) -> dict[Site, Insole]:
+def insoles_of(seed: int) -> dict[Site, Insole]:
     """Return the insoles of a seed's wearer."""
     return {SITE_OF_FOOT[foot]: Insole(cells=96 if seed % 2 else 24) for foot in Foot}
 
 
-def score_way(way: Callable[[int], Route], path: Path, meta: Meta, settings: RunSettings) -> Scored:
-    """Score the route of the seed in the entry `meta`; `way` is one of the routes above."""
+def score_route(make_route: Callable[[int], Route], path: Path, meta: Meta, settings: RunSettings) -> Scored:
+    """Score the route that `make_route`, one of the functions above, draws from the seed in the entry `meta`."""
     seed: int = meta["seed"]
-    walked = sampled(way(seed), wearer=Wearer(), insoles=worn(seed), seed=seed)
-    session, truth = Session(settings.recipe, calibration=settings.calibration), walked.truth
-    gathering, track, seconds = run_timed(session, walked.samples, EVERY)
+    walk = sampled(make_route(seed), wearer=Wearer(), insoles=insoles_of(seed), seed=seed)
+    session, truth = Session(settings.recipe, calibration=settings.calibration), walk.truth
+    gathering, track, seconds = run_timed(session, walk.samples, POSITION_INTERVAL)
     heel_strike, toe_off, strides = Matching(), Matching(), StrideScore()
     for foot in compare(truth, {foot: gathering.foot(foot) for foot in Foot}):
         heel_strike += foot.events["heel_strike"]
@@ -115,34 +118,34 @@ def score_way(way: Callable[[int], Route], path: Path, meta: Meta, settings: Run
         strides += StrideScore(foot.steps_true, foot.steps_found, foot.steps_invented, foot.length_errors)
     return Scored(
         path.stem,
-        figures={} if track is None else place_figures(track.t, track.positions, middle(truth, track.t)),
+        figures={} if track is None else place_figures(track.t, track.positions, mean_position(truth, track.t)),
         events={"heel_strike": heel_strike, "toe_off": toe_off},
         strides=strides,
-        samples=len(walked.samples),
+        samples=len(walk.samples),
         seconds=seconds,
     )
 
 
-def middle(truth: Truth, t: Floats) -> Floats:
-    """Return the mean of both sensors' true positions at `t` (n,), relative to that at 0: (n,3), m."""
+def mean_position(truth: Truth, t: Floats) -> Floats:
+    """Return the mean of both sensors' true positions at `t` (n,), s, relative to the mean at 0 s: (n,3), m."""
     feet = [truth.pose(foot, t).position for foot in Foot]
     return np.asarray(0.5 * (feet[0] + feet[1]), dtype=np.float64)
 
 
 def place_figures(t: Floats, positions: Floats, truth: Floats) -> Figures:
-    """Return the figures of `positions` (n,3) at `t` (n,) against `truth` (n,3); the module docstring defines them."""
+    """Return the figures of `positions` (n,3), m, at `t` (n,), s, against `truth` (n,3); the module defines them."""
     if len(t) < 2:
         return {}
-    off = np.linalg.norm(aligned_at_start(positions, truth, ALIGNED)[:, :2] - truth[:, :2], axis=1)
-    higher = np.abs((positions[:, 2] - positions[0, 2]) - (truth[:, 2] - truth[0, 2]))
+    errors = np.linalg.norm(aligned_at_start(positions, truth, ALIGNED_LENGTH)[:, :2] - truth[:, :2], axis=1)
+    height_errors = np.abs((positions[:, 2] - positions[0, 2]) - (truth[:, 2] - truth[0, 2]))
     path = float(distances(truth)[-1])
     return {
         "rms_2d": track_error(positions, truth).rms_2d,
-        "position_end": float(off[-1]),
-        "end_relative": float(off[-1]) / path,
-        "position_max": float(np.max(off)),
-        "largest_relative": float(np.max(off)) / path,
-        "height_end": float(higher[-1]),
-        "height_max": float(np.max(higher)),
+        "position_end": float(errors[-1]),
+        "end_relative": float(errors[-1]) / path,
+        "position_max": float(np.max(errors)),
+        "largest_relative": float(np.max(errors)) / path,
+        "height_end": float(height_errors[-1]),
+        "height_max": float(np.max(height_errors)),
         "path": path,
     }

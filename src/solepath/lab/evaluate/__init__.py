@@ -1,3 +1,3 @@
-"""Scores recipes on recorded data with a truth, by the same rules for all recipes.
+"""Scores recipes on recorded data with a reference ("truth"), by the same rules for all recipes.
 
-`jobs.evaluate` runs the whole evaluation; alignment, matching, strides and contacts are the rules, on plain arrays."""
+`jobs.evaluate` runs the whole evaluation. The rules are in lab/measures."""

@@ -1,7 +1,7 @@
 """Ablation: the main figures of the default recipe without each of its parts.
 
-A row is the default recipe with one part switched off by its settings, or replaced by the simpler one that it
-superseded. COLUMNS lists the main figures."""
+Each row of the table is the default recipe with one part switched off by its settings, or replaced by the simpler part
+that came before it. COLUMNS lists the main figures."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ from ...foot.stance.cycle import Cycle
 from ...recipes import DEFAULT, Recipe
 from .report import Result
 
-NEVER = 1e12
-"""Limit that nothing exceeds."""
-FIXED = 1e6
-"""Fixed threshold of SHOE's statistic: of 8e4, 2e5, 4e5 and 1e6 the one with the best results on recorded walks."""
+UNREACHABLE_LIMIT = 1e12
+"""Limit that no statistic, duration or innovation exceeds; it switches a test off."""
+FIXED_THRESHOLD = 1e6
+"""Fixed threshold of the SHOE statistic, no unit: the best of 8e4, 2e5, 4e5 and 1e6 on recorded walks."""
 
 
 def _cycle(**settings: Any) -> Recipe:
@@ -33,13 +33,13 @@ def _filter(**settings: Any) -> Recipe:
     return evolve(DEFAULT, corrector=ErrorStateFilter(ErrorStateSettings(**settings)))
 
 
-WITHOUT: dict[str, Recipe] = {
-    "one threshold for all, no wearer's own cycle": _cycle(floor=FIXED, ceiling=FIXED),
+ABLATED_RECIPES: dict[str, Recipe] = {
+    "one threshold for all, no wearer's own cycle": _cycle(floor=FIXED_THRESHOLD, ceiling=FIXED_THRESHOLD),
     "evidence of one noise, whatever the motion": _cycle(arm=0.0, arm2=0.0, off_gravity=0.0, off_gravity2=0.0),
     "zero velocity, no rolling foot": _cycle(rolls=False),
     "no extra noise of a foot that is braked": _cycle(off_gravity2=0.0),
-    "no refusal of unlikely evidence": _filter(innovation_gate=NEVER),
-    "no recovery of what was refused": _filter(patience=NEVER, lasting=NEVER),
+    "no refusal of unlikely evidence": _filter(innovation_gate=UNREACHABLE_LIMIT),
+    "no recovery of what was refused": _filter(patience=UNREACHABLE_LIMIT, lasting=UNREACHABLE_LIMIT),
     "no level, slope or stair": _filter(level=False),
     "no tilt aiding": _filter(tilt_rate=0.0),
     "no noise of what lies between samples": _filter(between=0.0),
@@ -47,30 +47,30 @@ WITHOUT: dict[str, Recipe] = {
     "each foot by itself": DEFAULT.exchanged(TrackPart, MeanOfFeet()),
     "no heights of lifts and of the air": DEFAULT.exchanged(Altitude, None),
 }
-"""Recipes by the name of what they lack."""
+"""Recipes by the name of the part or step that each of them lacks."""
 
 
 def recipes() -> list[Recipe]:
-    """Return the default recipe and then one for every row, each named by what it lacks."""
-    return [DEFAULT, *(evolve(recipe, name=name) for name, recipe in WITHOUT.items())]
+    """Return the default recipe, then the recipes of ABLATED_RECIPES with their keys as names."""
+    return [DEFAULT, *(evolve(recipe, name=name) for name, recipe in ABLATED_RECIPES.items())]
 
 
 @frozen
 class Column:
-    """A main figure of one group of a data set.
-
-    `figure` is taken from the mean over the group or, when `pooled`, from all that was pooled. `unit` is m, %, ms or
-    empty."""
+    """A column of the table: one main figure of one group of recordings of a data set."""
 
     title: str
     data_set: str
     figure: str
+    """Name of the figure in JSON."""
     unit: str = "m"
+    """Unit in which the table shows the figure: m, %, ms, or empty for F1."""
     pooled: bool = False
+    """True for a figure over the pooled events of all recordings, False for the mean of the recordings' figures."""
     group: str = "all"
 
-    def of(self, results: Sequence[Result], recipe: str) -> float | None:
-        """Return the figure of one recipe; None where it was not scored."""
+    def find_figure(self, results: Sequence[Result], recipe: str) -> float | None:
+        """Return the figure of one recipe in SI units; None when the recipe was not scored."""
         for result in results:
             if (result.data_set.name, result.recipe) == (self.data_set, recipe):
                 for summary in result.summaries:

@@ -1,8 +1,8 @@
 """Compares every figure with an earlier evaluation, which is read from its JSON file.
 
-The better direction is a property of the figure: smaller for errors, spreads and inventions, nearer to zero for biases,
-larger for F1 and shares found. Counts of true events, path lengths and the figures of others have no better direction.
-Two figures that agree in DIGITS significant digits are the same."""
+The better direction depends on the figure. Errors, spreads and numbers of invented events should be small. Biases
+should be near zero. F1 and shares found should be large. Numbers of true events, path lengths and other people's
+results have no better direction. Two figures that agree in DIGITS significant digits are the same."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from ...recording import RecordingError
 from ..measures.confusion import CLASSES
 
 DIGITS = 3
-"""Number of significant digits in which equal figures agree."""
+"""Number of significant digits to which figures are compared."""
 
 
 class Better(Enum):
@@ -48,7 +48,7 @@ BETTER: dict[str, Better] = {
     **dict.fromkeys(_NEARER_ZERO, Better.NEARER_ZERO),
     **dict.fromkeys(_MORE, Better.MORE),
 }
-"""Better direction by a figure's name in JSON; a figure that is absent has none."""
+"""Better direction by the figure's name in JSON. Figures that are not listed have no better direction."""
 
 
 class Verdict(Enum):
@@ -58,40 +58,43 @@ class Verdict(Enum):
     WORSE = "worse"
     SAME = "the same"
     CHANGED = "changed"
-    """The figure changed and has no better direction, or it is known on one side only."""
+    """The figure changed and has no better direction, or only one of the two evaluations has it."""
 
 
-def verdict(figure: str, was: float | None, now: float | None) -> Verdict:
+def verdict(figure: str, earlier: float | None, present: float | None) -> Verdict:
     """Return the verdict on one figure; None stands for a figure that could not be measured."""
-    if was is None or now is None:
-        return Verdict.SAME if was is now else Verdict.CHANGED
+    if earlier is None or present is None:
+        return Verdict.SAME if earlier is present else Verdict.CHANGED
     direction = BETTER.get(figure)
     if direction is Better.NEARER_ZERO:
-        was, now = abs(was), abs(now)
-    if f"{was:.{DIGITS}g}" == f"{now:.{DIGITS}g}":
+        earlier, present = abs(earlier), abs(present)
+    if f"{earlier:.{DIGITS}g}" == f"{present:.{DIGITS}g}":
         return Verdict.SAME
     if direction is None:
         return Verdict.CHANGED
-    return Verdict.BETTER if (now > was) is (direction is Better.MORE) else Verdict.WORSE
+    return Verdict.BETTER if (present > earlier) is (direction is Better.MORE) else Verdict.WORSE
 
 
 @frozen
 class Change:
-    """Earlier and present value of one figure of `what`: a recording, or a group's mean, median or pooled figures."""
+    """The earlier and present value of one figure."""
 
-    what: str
+    row: str
+    """Name of a recording, or "mean", "median" or "together" (pooled figures) with the name of a group."""
     figure: str
-    was: float | None
-    now: float | None
+    """Name of the figure in JSON."""
+    earlier: float | None
+    present: float | None
 
     @property
     def verdict(self) -> Verdict:
-        return verdict(self.figure, self.was, self.now)
+        """Verdict on the present value."""
+        return verdict(self.figure, self.earlier, self.present)
 
 
 @frozen
 class Changes:
-    """Changes of the figures of one recipe on one data set."""
+    """The changes of the figures of one recipe on one data set."""
 
     recipe: str
     data_set: str
@@ -127,7 +130,7 @@ def read_scores(path: Path) -> Scores:
 
 
 def _rows(part: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, float | None]]]:
-    """Yield (name, figures) of one data set: first the groups, then the recordings."""
+    """Yield name and figures of each row of one data set: first the groups, then the recordings."""
     for group, summary in part["summary"].items():
         of = "" if group == "all" else f" {group}"
         for kind in ("mean", "median", "together"):
@@ -135,20 +138,20 @@ def _rows(part: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, float | N
     yield from part["recordings"].items()
 
 
-def compare_scores(was: Scores, now: Scores) -> list[Changes]:
-    """Return the changes of each data set of each recipe that is in both evaluations, in the order of `now`."""
+def compare_scores(earlier: Scores, present: Scores) -> list[Changes]:
+    """Return the changes of each data set of each recipe that is in both evaluations, in the order of `present`."""
     found: list[Changes] = []
-    for recipe, data_sets in now.items():
+    for recipe, data_sets in present.items():
         for name, part in data_sets.items():
-            before = was.get(recipe, {}).get(name)
+            before = earlier.get(recipe, {}).get(name)
             if before is None:
                 continue
             old = dict(_rows(before))
             changes = [
-                Change(what, figure, old[what].get(figure), figures.get(figure))
-                for what, figures in _rows(part)
-                if what in old
-                for figure in dict.fromkeys([*figures, *old[what]])
+                Change(row, figure, old[row].get(figure), figures.get(figure))
+                for row, figures in _rows(part)
+                if row in old
+                for figure in dict.fromkeys([*figures, *old[row]])
             ]
             then, today = before["recordings"], part["recordings"]
             removed, new = (tuple(x for x in a if x not in b) for a, b in ((then, today), (today, then)))
@@ -156,7 +159,7 @@ def compare_scores(was: Scores, now: Scores) -> list[Changes]:
     return found
 
 
-def missing(of: Scores, other: Scores) -> list[str]:
+def names_missing(of: Scores, other: Scores) -> list[str]:
     """Return the recipes and data sets of `of` that `other` lacks, as `recipe` or `recipe: data set`."""
     found: list[str] = []
     for recipe, data_sets in of.items():

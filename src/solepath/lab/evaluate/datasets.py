@@ -1,4 +1,4 @@
-"""Recorded data sets with a truth, and the scorer of each. The README in the data folder names their sources.
+"""The data sets with a reference ("truth"), and the scorer of each. The README in the data folder names their sources.
 
 Every scorer takes the recording's path, its entry in dataset.json and the settings of the run. The session receives
 only the samples. For emulated data the path is only a name, and the entry has the seed."""
@@ -12,10 +12,10 @@ from pathlib import Path
 from attrs import frozen
 
 from ...recipes import Recipe
-from ..emulated.walks import four_floors, half_hour, long_way, score_way
+from ..emulated.walks import four_floors, half_hour_walk, long_walk, score_route
 from ..measures.confusion import CLASSES
 from ..measures.score import Scored
-from .activity import CLIMBED, score_labelled, score_stairs
+from .activity import STAIR_SPANS, score_labelled, score_stairs
 from .run import Meta, RunSettings
 from .timing import score_borders, score_force, score_pressed, score_swings, score_switches, score_treadmill
 from .tracking import score_counted, score_loop, score_optitrack, score_surveyed, score_vicon
@@ -23,58 +23,58 @@ from .tracking import score_counted, score_loop, score_optitrack, score_surveyed
 
 @frozen
 class DataSet:
-    """A data set, its scorer and the figures of its table.
-
-    `figures` are shown in this order. `folders` are names below the data directory, where they differ from the set's
-    own name. `has_truth` takes a recording's name and entry."""
+    """A data set, its scorer and the figures of its table."""
 
     name: str
     title: str
     score: Callable[[Path, Meta, RunSettings], Scored]
     figures: tuple[str, ...]
+    """Names of the figures in JSON, in the order of the table's columns."""
     folders: tuple[str, ...] = ()
+    """Names of the folders below the data directory; empty when the only folder has the name of the data set."""
     has_truth: Callable[[str, Meta], bool] = lambda name, meta: True
-    each: bool = True
+    """Function of a recording's name and entry that returns whether the recording has a reference."""
+    lists_recordings: bool = True
     """True when the table has a line for every recording."""
-    pressed: bool = False
-    """True when the session receives pressure."""
+    has_pressure: bool = False
+    """True when the session receives the pressure of the soles."""
     folds: bool = False
-    """True when the activity part is trained on other wearers' recordings of this data set (learning.py)."""
+    """True when the data set is divided by wearer, and activity parts are trained on other wearers (learning.py)."""
 
     def suits(self, recipe: Recipe) -> bool:
-        """Return whether the recipe can be scored on these data."""
-        return self.pressed or not recipe.needs_pressure
+        """Return whether the recipe can be scored on these data: pressure recipes need data with pressure."""
+        return self.has_pressure or not recipe.needs_pressure
 
 
-def _surveyed(name: str, meta: Meta) -> bool:
+def _is_surveyed(name: str, meta: Meta) -> bool:
     return bool(meta.get("every_stride_surveyed"))
 
 
-TRACK = ("armse_2d", "rms_2d", "rms_3d", "rms_z", "path", "relative")
-STRIDES = ("strides_found", "strides_true", "strides_invented", "stride_error", "stride_error_median")
-HEEL_STRIKE = (
+TRACK_FIGURES = ("armse_2d", "rms_2d", "rms_3d", "rms_z", "path", "relative")
+STRIDE_FIGURES = ("strides_found", "strides_true", "strides_invented", "stride_error", "stride_error_median")
+HEEL_STRIKE_FIGURES = (
     "heel_strike_true", "heel_strike_found", "heel_strike_f1", "heel_strike_bias", "heel_strike_mad", "heel_strike_off",
 )  # fmt: skip
-ACTIVITIES = ("accuracy", "most_frequent", *(f"f1_{activity.value.lower()}" for activity in CLASSES))
-RIDES = ("rides_true", "rides_found", "rides_invented")
-TOE_OFF = ("toe_off_true", "toe_off_found", "toe_off_f1", "toe_off_bias", "toe_off_mad", "toe_off_off")
-LEGS = ("leg_error_median", "leg_error", "leg_bias")
-BODY_LEGS = ("body_leg_error_median", "body_leg_error", "body_leg_bias")
-STRIDE_TIME = ("stride_time_error_median", "stride_time_error", "stride_time_bias")
+ACTIVITY_FIGURES = ("accuracy", "most_frequent", *(f"f1_{activity.value.lower()}" for activity in CLASSES))
+RIDE_FIGURES = ("rides_true", "rides_found", "rides_invented")
+TOE_OFF_FIGURES = ("toe_off_true", "toe_off_found", "toe_off_f1", "toe_off_bias", "toe_off_mad", "toe_off_off")
+LEG_FIGURES = ("leg_error_median", "leg_error", "leg_bias")
+BODY_LEG_FIGURES = ("body_leg_error_median", "body_leg_error", "body_leg_bias")
+STRIDE_TIME_FIGURES = ("stride_time_error_median", "stride_time_error", "stride_time_bias")
 
 DATASETS = (
-    DataSet("pyshoe_vicon", "VICON tracks, one shoe", score_vicon, TRACK + STRIDES[:4]),
+    DataSet("pyshoe_vicon", "VICON tracks, one shoe", score_vicon, TRACK_FIGURES + STRIDE_FIGURES[:4]),
     DataSet(
         "gumushane_surveyed", "every footprint surveyed, one shoe", score_surveyed,
-        ("position_mean", "position_max", "authors", "authors_beaten", "rms_z", "path", "relative", *STRIDES,
+        ("position_mean", "position_max", "authors", "authors_beaten", "rms_z", "path", "relative", *STRIDE_FIGURES,
          "stride_error_track"),
-        folders=("gumushane_gcp",), has_truth=_surveyed,
+        folders=("gumushane_gcp",), has_truth=_is_surveyed,
     ),
     DataSet(
         "gumushane_counted", "strides counted, some corners surveyed, one shoe", score_counted,
-        (*STRIDES[:3], *LEGS, "end_error_2d", "end_height"),
+        (*STRIDE_FIGURES[:3], *LEG_FIGURES, "end_error_2d", "end_height"),
         folders=("gumushane_gcp",),
-        has_truth=lambda name, meta: "n_true_strides" in meta and not _surveyed(name, meta),
+        has_truth=lambda name, meta: "n_true_strides" in meta and not _is_surveyed(name, meta),
     ),
     DataSet(
         "xio_closed_walks", "a closed loop, one shoe", score_loop,
@@ -82,54 +82,56 @@ DATASETS = (
         has_truth=lambda name, meta: bool(meta.get("closed_loop")),
     ),
     DataSet(
-        "smart_insole_35", "OptiTrack tracks, one insole", score_optitrack, TRACK + STRIDES,
-        has_truth=lambda name, meta: bool(meta.get("optitrack")), pressed=True,
+        "smart_insole_35", "OptiTrack tracks, one insole", score_optitrack, TRACK_FIGURES + STRIDE_FIGURES,
+        has_truth=lambda name, meta: bool(meta.get("optitrack")), has_pressure=True,
     ),
     DataSet(
         "ipol_10m_uturn", "10 m and back, both feet, radio losses", score_swings,
-        (*HEEL_STRIKE, *TOE_OFF, *STRIDE_TIME, *LEGS, *BODY_LEGS, "end_error_2d", "end_height", "uturn_found",
-         "uturn_angle", "uturn_invented"),
-        each=False,
+        (*HEEL_STRIKE_FIGURES, *TOE_OFF_FIGURES, *STRIDE_TIME_FIGURES, *LEG_FIGURES, *BODY_LEG_FIGURES,
+         "end_error_2d", "end_height", "uturn_found", "uturn_angle", "uturn_invented"),
+        lists_recordings=False,
     ),
     DataSet(
-        "tripod_treadmill", "a treadmill, both feet", score_treadmill, HEEL_STRIKE + TOE_OFF + STRIDE_TIME + STRIDES,
+        "tripod_treadmill", "a treadmill, both feet", score_treadmill,
+        HEEL_STRIKE_FIGURES + TOE_OFF_FIGURES + STRIDE_TIME_FIGURES + STRIDE_FIGURES,
     ),
     DataSet(
         "gaitmap_examples", "4 x 10 m, both feet", score_borders,
-        (*HEEL_STRIKE, *STRIDE_TIME, *LEGS, *BODY_LEGS, "leg_spread", "end_error_2d", "end_height"),
+        (*HEEL_STRIKE_FIGURES, *STRIDE_TIME_FIGURES, *LEG_FIGURES, *BODY_LEG_FIGURES, "leg_spread",
+         "end_error_2d", "end_height"),
         has_truth=lambda name, meta: "gt_borders_left" in meta["keys"],
     ),
     DataSet(
         "marpino_heel_toe", "heel and toe switches, both feet, inertial samples only", score_switches,
-        HEEL_STRIKE + TOE_OFF + LEGS,
+        HEEL_STRIKE_FIGURES + TOE_OFF_FIGURES + LEG_FIGURES,
     ),
     DataSet(
         "marpino_pressed", "heel and toe switches as an insole of two cells, both feet", score_pressed,
-        HEEL_STRIKE + TOE_OFF + LEGS, folders=("marpino_heel_toe",), pressed=True,
+        HEEL_STRIKE_FIGURES + TOE_OFF_FIGURES + LEG_FIGURES, folders=("marpino_heel_toe",), has_pressure=True,
     ),
     DataSet(
-        "gaitpdb_vgrf", "eight force sensors below each foot and nothing else", score_force, HEEL_STRIKE + TOE_OFF,
-        pressed=True,
+        "gaitpdb_vgrf", "eight force sensors below each foot and nothing else", score_force,
+        HEEL_STRIKE_FIGURES + TOE_OFF_FIGURES, has_pressure=True,
     ),
     DataSet(
-        "hugadb", "activities, both feet, five folds by wearer", score_labelled, ACTIVITIES + RIDES,
-        each=False, folds=True,
+        "hugadb", "activities, both feet, five folds by wearer", score_labelled, ACTIVITY_FIGURES + RIDE_FIGURES,
+        lists_recordings=False, folds=True,
     ),
     DataSet(
         "stairs", "stairs and level ways, and what of them is called stairs", score_stairs,
         ("stairs_called", "stairs_direction", "level_called"),
-        folders=("gaitmap_examples", "xio_closed_walks"), has_truth=lambda name, meta: name in CLIMBED,
+        folders=("gaitmap_examples", "xio_closed_walks"), has_truth=lambda name, meta: name in STAIR_SPANS,
     ),
 )  # fmt: skip
 
-WALKED = (
+WALK_FIGURES = (
     "rms_2d", "position_end", "end_relative", "position_max", "largest_relative", "height_end", "height_max", "path",
 )  # fmt: skip
 EMULATED = tuple(
-    DataSet(name, title, partial(score_way, way), WALKED + STRIDES, pressed=True)
+    DataSet(name, title, partial(score_route, way), WALK_FIGURES + STRIDE_FIGURES, has_pressure=True)
     for name, title, way in (
-        ("emulated_long_way", "500 m with turns, emulated insoles on both feet", long_way),
-        ("emulated_half_hour", "30 minutes with turns, emulated insoles on both feet", half_hour),
+        ("emulated_long_way", "500 m with turns, emulated insoles on both feet", long_walk),
+        ("emulated_half_hour", "30 minutes with turns, emulated insoles on both feet", half_hour_walk),
         ("emulated_four_floors", "four floors of stairs up and down, emulated insoles on both feet", four_floors),
     )
 )

@@ -23,63 +23,63 @@ from ...show.timeline import Timeline
 from ...types import Foot, Vec3
 from ..measures.alignment import Floats
 
-PHASES: tuple[type[Event], ...] = (HeelStrike, FootFlat, HeelOff, ToeOff)
+GAIT_EVENTS: tuple[type[Event], ...] = (HeelStrike, FootFlat, HeelOff, ToeOff)
 
 
 @frozen(eq=False)
 class FootRun:
-    """Events of one foot: live track, strides and times of gait events.
-
-    `positions` (n,3) in m is the track at `t` (n,) s."""
+    """The live track, strides and times of gait events of one foot."""
 
     t: Floats
+    """Times of `positions`, (n,), s."""
     positions: Floats
-    steps: tuple[StrideTaken, ...] = ()
+    """Live positions of the sensor in the world frame, (n,3), m."""
+    strides: tuple[StrideTaken, ...] = ()
     times: Mapping[type[Event], Sequence[float]] = field(factory=dict)
     """Times of HeelStrike, FootFlat, HeelOff and ToeOff, s."""
 
     @property
-    def step_lengths(self) -> list[tuple[float, float]]:
-        """(t_end, stride_length) of each stride."""
-        return [(step.t_end, step.length) for step in self.steps]
+    def stride_lengths(self) -> list[tuple[float, float]]:
+        """Pairs of the end of each stride, s, and its length, m."""
+        return [(stride.t_end, stride.length) for stride in self.strides]
 
 
 @define
-class _FootGathered:
+class _FootEvents:
     t: list[float] = field(factory=list)
     positions: list[Vec3] = field(factory=list)
-    steps: list[StrideTaken] = field(factory=list)
-    times: dict[type[Event], list[float]] = field(factory=lambda: {kind: [] for kind in PHASES})
+    strides: list[StrideTaken] = field(factory=list)
+    times: dict[type[Event], list[float]] = field(factory=lambda: {kind: [] for kind in GAIT_EVENTS})
 
 
 @define
 class Gathering:
-    """Collects events as they arrive; `foot` returns those of one foot, which are empty when it has no events."""
+    """Collects the events of a session as they arrive."""
 
     timeline: Timeline = field(factory=Timeline)
     rides: list[LiftRidden] = field(factory=list)
     turns: list[TurnMade] = field(factory=list)
-    _feet: dict[Foot, _FootGathered] = field(factory=dict)
+    _feet: dict[Foot, _FootEvents] = field(factory=dict)
 
     @classmethod
     def of(cls, events: Iterable[Event]) -> Gathering:
-        """Return the collection of these events."""
+        """Return a collection with these events."""
         gathering = cls()
         for event in events:
             gathering.add(event)
         return gathering
 
     def add(self, event: Event) -> None:
-        """Add one event. Positions and activities always count, other events only when they are final."""
+        """Add one event. Positions and activities are always kept, other events only when they are final."""
         match event:
             case FootMoved(foot=foot, t=t, position=position):
-                one = self._of(foot)
-                one.t.append(t)
-                one.positions.append(position)
+                foot_events = self._events_of(foot)
+                foot_events.t.append(t)
+                foot_events.positions.append(position)
             case StrideTaken(foot=foot, final=True):
-                self._of(foot).steps.append(event)
+                self._events_of(foot).strides.append(event)
             case HeelStrike(final=True) | FootFlat(final=True) | HeelOff(final=True) | ToeOff(final=True):
-                self._of(event.foot).times[type(event)].append(event.t)
+                self._events_of(event.foot).times[type(event)].append(event.t)
             case ActivityChanged():
                 self.timeline.add(event)
             case LiftRidden(final=True):
@@ -89,15 +89,15 @@ class Gathering:
             case _:
                 pass
 
-    def _of(self, foot: Foot) -> _FootGathered:
-        return self._feet.setdefault(foot, _FootGathered())
+    def _events_of(self, foot: Foot) -> _FootEvents:
+        return self._feet.setdefault(foot, _FootEvents())
 
     def foot(self, foot: Foot) -> FootRun:
-        """Return the collected events of one foot."""
-        one = self._of(foot)
+        """Return the collected events of one foot; all fields are empty when it has none."""
+        foot_events = self._events_of(foot)
         return FootRun(
-            t=np.array(one.t, dtype=np.float64),
-            positions=np.array(one.positions, dtype=np.float64).reshape(len(one.t), 3),
-            steps=tuple(one.steps),
-            times=one.times,
+            t=np.array(foot_events.t, dtype=np.float64),
+            positions=np.array(foot_events.positions, dtype=np.float64).reshape(len(foot_events.t), 3),
+            strides=tuple(foot_events.strides),
+            times=foot_events.times,
         )

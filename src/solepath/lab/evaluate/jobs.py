@@ -1,4 +1,4 @@
-"""Runs every recipe on every recording that has a truth."""
+"""Runs every recipe on every recording that has a reference ("truth")."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class EvaluationJob:
     meta: Meta
 
     def run(self) -> Scored | str:
-        """Return the scores, or the sentence that says why there are none."""
+        """Return the scores, or the reason for which the recording cannot be scored."""
         try:
             return self.score(self.path, self.meta, self.settings)
         except RecordingError as error:
@@ -38,44 +38,45 @@ class EvaluationJob:
 
 
 def find(folder: Path, only: Sequence[str] = ()) -> list[DataSet]:
-    """Return the data sets in `folder`. Raise RecordingError when it has none, or not one of those named in `only`."""
+    """Return the data sets in `folder`. Raise RecordingError when it has none, or lacks a data set of `only`."""
     if not folder.is_dir():
         raise RecordingError(folder, "is not a directory of recorded data")
     known = [data_set.name for data_set in DATASETS]
     for name in only:
         if name not in known:
             raise RecordingError(folder, f"{name} is not one of the data sets {', '.join(known)}")
-    present = [d for d in DATASETS if _abouts(folder, d) and (not only or d.name in only)]
+    present = [d for d in DATASETS if _description_files(folder, d) and (not only or d.name in only)]
     missing = set(only) - {data_set.name for data_set in present}
     if missing or not present:
-        what = ", ".join(sorted(missing)) or "any of the data sets " + ", ".join(known)
-        raise RecordingError(folder, f"does not hold {what}")
+        names = ", ".join(sorted(missing)) or "any of the data sets " + ", ".join(known)
+        raise RecordingError(folder, f"does not hold {names}")
     return present
 
 
-def _abouts(folder: Path, data_set: DataSet) -> list[Path]:
-    """Return the existing dataset.json files of a data set's folders."""
-    abouts = [folder / name / "dataset.json" for name in data_set.folders or (data_set.name,)]
-    return [about for about in abouts if about.is_file()]
+def _description_files(folder: Path, data_set: DataSet) -> list[Path]:
+    """Return the paths of the dataset.json files that exist in the folders of a data set."""
+    files = [folder / name / "dataset.json" for name in data_set.folders or (data_set.name,)]
+    return [file for file in files if file.is_file()]
 
 
 def recordings(folder: Path, data_set: DataSet) -> list[tuple[Path, Meta]]:
-    """Return the recordings of a data set that have a truth, with their entries."""
-    found: list[tuple[Path, Meta]] = []
-    for about in _abouts(folder, data_set):
+    """Return the recordings of a data set that have a reference, with their entries in dataset.json."""
+    recordings_found: list[tuple[Path, Meta]] = []
+    for file in _description_files(folder, data_set):
         try:
-            entries: dict[str, Meta] = json.loads(about.read_text(encoding="utf-8"))["recordings"]
-            found += [
-                (about.with_name(f"{name}.npz"), entries[name])
+            entries: dict[str, Meta] = json.loads(file.read_text(encoding="utf-8"))["recordings"]
+            recordings_found += [
+                (file.with_name(f"{name}.npz"), entries[name])
                 for name in sorted(entries)
                 if data_set.has_truth(name, entries[name])
             ]
         except (OSError, ValueError, KeyError, TypeError) as error:
-            raise RecordingError(about, "does not say which recordings there are") from error
-    return [(path, meta) for path, meta in found if path.is_file()]
+            raise RecordingError(file, "does not say which recordings there are") from error
+    return [(path, meta) for path, meta in recordings_found if path.is_file()]
 
 
 Plan = list[tuple[DataSet, Recipe, list[tuple[Path, Meta]]]]
+"""Recordings to score for each pair of data set and recipe."""
 
 
 def evaluate(
@@ -87,13 +88,13 @@ def evaluate(
     processes: int = 1,
     progress: Progress | None = None,
 ) -> Iterator[Result]:
-    """Yield the result of each recipe on each data set of `folder` as it is done.
+    """Yield the result of each recipe on each data set of `folder` as soon as it is complete.
 
-    `calibration` is used for every recording, and `progress` is called with (done, all)."""
+    `calibration` is used for every recording. `progress` is called with (number of jobs done, number of all jobs)."""
     data_sets = find(folder, only)
     plan = [(d, recipe, recordings(folder, d)) for recipe in recipes for d in data_sets if d.suits(recipe)]
-    to_learn = training_sources(folder, recipes) if any(data_set.folds for data_set in data_sets) else []
-    return _scored(plan, to_learn, calibration, processes, progress)
+    sources = training_sources(folder, recipes) if any(data_set.folds for data_set in data_sets) else []
+    return _scored(plan, sources, calibration, processes, progress)
 
 
 def evaluate_emulated(
@@ -105,7 +106,7 @@ def evaluate_emulated(
     processes: int = 1,
     progress: Progress | None = None,
 ) -> Iterator[Result]:
-    """Yield the result of each recipe on the emulated walks of `seeds`, of all kinds or of those named in `only`."""
+    """Yield the result of each recipe on the emulated walks of `seeds`: all data sets, or those named in `only`."""
     walks: list[tuple[Path, Meta]] = [(Path(f"seed {seed}"), {"seed": seed}) for seed in seeds]
     plan = [(d, recipe, walks) for recipe in recipes for d in EMULATED if not only or d.name in only]
     return _scored(plan, [], calibration, processes, progress)
@@ -113,24 +114,24 @@ def evaluate_emulated(
 
 def _scored(
     plan: Plan,
-    to_learn: list[TrainingSource],
+    sources: list[TrainingSource],
     calibration: Calibration | None,
     processes: int,
     progress: Progress | None,
 ) -> Iterator[Result]:
     known = Calibration() if calibration is None else calibration
     count = sum(len(part) for _, _, part in plan)
-    learnt = run_jobs(TrainingSource.features, to_learn, processes=processes, progress=progress, after=count)
-    parts = train_parts(to_learn, list(learnt))
-    everything = [
+    features = run_jobs(TrainingSource.features, sources, processes=processes, progress=progress, after=count)
+    parts = train_parts(sources, list(features))
+    jobs = [
         EvaluationJob(
             d.score, RunSettings(recipe, known, part_for(recipe, meta, parts) if d.folds else None), path, meta
         )
         for d, recipe, part in plan
         for path, meta in part
     ]
-    outcomes = run_jobs(EvaluationJob.run, everything, processes=processes, progress=progress, before=len(to_learn))
+    outcomes = run_jobs(EvaluationJob.run, jobs, processes=processes, progress=progress, before=len(sources))
     for data_set, recipe, part in plan:
-        done = list(islice(outcomes, len(part)))
-        scores = tuple([one for one in done if isinstance(one, Scored)])
-        yield Result(data_set, recipe.name, scores, tuple([one for one in done if isinstance(one, str)]))
+        outcomes_of_set = list(islice(outcomes, len(part)))
+        scores = tuple([one for one in outcomes_of_set if isinstance(one, Scored)])
+        yield Result(data_set, recipe.name, scores, tuple([one for one in outcomes_of_set if isinstance(one, str)]))

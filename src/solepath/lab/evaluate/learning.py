@@ -1,7 +1,7 @@
-"""Trains activity parts on some wearers' recordings, to be scored on the other wearers'.
+"""Trains activity parts on the recordings of some wearers, so that they can be scored on the other wearers.
 
-A part that learns has a `Learner` here. It computes the features of one source, which takes the time and does not
-depend on the wearers left out, and trains the part on the features of several sources."""
+Each class of trained parts has a `Learner` here. It computes the features of each source once, which is slow. Then it
+trains one part for each fold, on the features of all sources without the wearers of that fold."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ from ..train.hugadb import FOLDS, fold_of, recordings
 from .run import Meta
 
 Sources = Sequence[tuple[Any, int | None]]
-"""Sources with the wearer of each. None stands for data of no wearer of hugadb, which serve every fold."""
+"""Pairs of a source of training data and its wearer in hugadb; None for other data, which are used in every fold."""
 
 
 @frozen
 class Learner:
-    """Describes how one kind of part is trained."""
+    """The functions that train one class of parts."""
 
     sources: Callable[[Path], Sources]
     """Function that returns the sources in the data directory."""
     features: Callable[[Any], Any]
-    """Function of a module that returns a source's features, in another process. It raises RecordingError."""
+    """Module-level function, run in another process, that returns a source's features or raises RecordingError."""
     train: Callable[[Sequence[Any]], ActivityPart]
     """Function that returns the part trained on the features of several sources."""
 
@@ -39,24 +39,24 @@ class Learner:
 WEARERS = frozenset().union(*FOLDS)
 
 
-def _everyone(folder: Path) -> Sources:
-    """Return the wearers, the level walks and the emulated wearers from which `activities` learns."""
+def _activity_sources(folder: Path) -> Sources:
+    """Return the sources of train/activities.py: the wearers of hugadb, level walks and emulated wearers."""
     wearers = [(("wearer", folder, wearer), wearer) for wearer in sorted(WEARERS)]
     emulated = [(("emulated", folder, seed), None) for seed in activities.EMULATED]
     return [*wearers, (("level", folder, 0), None), *emulated]
 
 
 def _blocks(source: tuple[str, Path, int]) -> list[activities.Blocks]:
-    """Return the blocks of one of these sources."""
-    what, folder, number = source
-    if what == "wearer":
+    """Return the blocks of one source of `_activity_sources`."""
+    source_kind, folder, number = source
+    if source_kind == "wearer":
         return list(activities.hugadb(folder / "hugadb", WEARERS - {number}))
-    return list(activities.level_walks(folder) if what == "level" else activities.emulated_walks([number]))
+    return list(activities.level_walks(folder) if source_kind == "level" else activities.emulated_walks([number]))
 
 
 LEARNERS: dict[type, Learner] = {
     Activities: Learner(
-        _everyone,
+        _activity_sources,
         _blocks,
         lambda features: Activities(
             ActivitiesSettings(activities.fit_model([one for blocks in features for one in blocks], "the other folds"))
@@ -72,14 +72,16 @@ LEARNERS: dict[type, Learner] = {
 
 @frozen
 class TrainingSource:
-    """One source for one kind of part."""
+    """One source of training data for one class of parts."""
 
     kind: type
+    """Class of the part."""
     source: Any
     subject: int | None
+    """Number of the wearer in hugadb; None for other data."""
 
     def features(self) -> Any:
-        """Return the source's features; None when it cannot be read, which the scoring reports."""
+        """Return the source's features; None when it cannot be read, which is reported when it is scored."""
         try:
             return LEARNERS[self.kind].features(self.source)
         except RecordingError:
@@ -87,7 +89,7 @@ class TrainingSource:
 
 
 def training_sources(folder: Path, recipes: Sequence[Recipe]) -> list[TrainingSource]:
-    """Return all sources in the data directory that the recipes' parts learn from."""
+    """Return all sources in the data directory from which the activity parts of the recipes are trained."""
     kinds = dict.fromkeys(kind for recipe in recipes if (kind := kind_of(recipe)) is not None)
     return [
         TrainingSource(kind, source, subject) for kind in kinds for source, subject in LEARNERS[kind].sources(folder)
@@ -95,28 +97,30 @@ def training_sources(folder: Path, recipes: Sequence[Recipe]) -> list[TrainingSo
 
 
 TrainedParts = dict[tuple[type, int], ActivityPart]
-"""Trained parts by kind and by the number of the fold that was left out."""
+"""Trained parts by class and by the number of the fold that was left out."""
 
 
 def kind_of(recipe: Recipe) -> type | None:
-    """Return the kind of the recipe's activity part; None when it does not learn."""
+    """Return the class of the recipe's activity part; None when that class is not trained."""
     kind = type(next(part for part in recipe.parts if isinstance(part, ActivityPart)))
     return kind if kind in LEARNERS else None
 
 
 def train_parts(training_sources: Sequence[TrainingSource], features: Sequence[Any]) -> TrainedParts:
-    """Return a part for each kind and fold, trained on `features` of the lessons of the other folds."""
-    found: TrainedParts = {}
-    known = [(source, what) for source, what in zip(training_sources, features, strict=True) if what is not None]
+    """Return a part for each class and fold, trained on the `features` of the sources without that fold's wearers."""
+    parts: TrainedParts = {}
+    readable = [
+        (source, values) for source, values in zip(training_sources, features, strict=True) if values is not None
+    ]
     for kind in dict.fromkeys(source.kind for source in training_sources):
-        own = [(source.subject, what) for source, what in known if source.kind is kind]
+        of_kind = [(source.subject, values) for source, values in readable if source.kind is kind]
         for number in range(len(FOLDS)):
-            others = [what for subject, what in own if subject is None or fold_of(subject) != number]
-            found[kind, number] = LEARNERS[kind].train(others)
-    return found
+            others = [values for subject, values in of_kind if subject is None or fold_of(subject) != number]
+            parts[kind, number] = LEARNERS[kind].train(others)
+    return parts
 
 
 def part_for(recipe: Recipe, meta: Meta, parts: TrainedParts) -> ActivityPart | None:
-    """Return the part trained without this recording's wearer; None when the recipe's part does not learn."""
+    """Return the part trained without this recording's wearer; None when the recipe's part is not trained."""
     kind = kind_of(recipe)
     return None if kind is None else parts[kind, fold_of(meta["subject"])]

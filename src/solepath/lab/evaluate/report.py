@@ -24,6 +24,7 @@ class Result:
 
     @property
     def summaries(self) -> list[Summary]:
+        """Summary of each group of recordings, in the order in which the groups first appear."""
         groups = dict.fromkeys(group for score in self.scores for group in score.groups)
         return [summarise(self.scores, group) for group in groups]
 
@@ -31,7 +32,7 @@ class Result:
 def as_json(results: Sequence[Result]) -> dict[str, Any]:
     """Return {recipe: {data set: {"recordings": {name: figures}, "summary": {group: ...}, "failures": [...]}}}.
 
-    Figures are in SI units, shares are fractions of one, and null stands for what could not be measured."""
+    Figures are in SI units, and shares are fractions of one. Null stands for a figure that could not be measured."""
     document: dict[str, Any] = {}
     for result in results:
         document.setdefault(result.recipe, {})[result.data_set.name] = {

@@ -1,7 +1,6 @@
-"""Runs one recording through one session and collects what the scores need.
+"""Runs one recording through one session and collects the events that are scored.
 
-Only the values that `samples` reads (t, acc, gyro, pressure) reach the session; the truth in the same file never does.
-"""
+The session receives only t, acc, gyro and pressure from the file, never the truth that is in the same file."""
 
 from __future__ import annotations
 
@@ -28,30 +27,32 @@ from .gathered import FootRun, Gathering
 
 @frozen
 class RunSettings:
-    """Settings of a run: the recipe, and the calibration known beforehand.
-
-    `activity` replaces the recipe's own part by the same part trained on other recordings."""
+    """The recipe of a run, and the calibration that is known beforehand."""
 
     recipe: Recipe
     calibration: Calibration = Calibration()
     activity: ActivityPart | None = None
+    """Activity part that replaces the recipe's own: the same part trained on other wearers."""
 
 
 @frozen(eq=False)
 class ScoredTrack:
-    """Positions (n,3) in m at `t` (n,) s."""
+    """The wearer's positions at successive times."""
 
     t: Floats
+    """Times, (n,), s."""
     positions: Floats
+    """Positions in the world frame, (n,3), m."""
 
 
 @frozen(eq=False)
 class RecordingRun:
-    """Results of one recording: events by foot, samples and time."""
+    """The events of the session that processed a recording, and the time that it took."""
 
     feet: dict[Foot, FootRun]
     gathering: Gathering
     samples: int
+    """Number of samples."""
     seconds: float
     """Wall time that the session took, s."""
     body: ScoredTrack | None = None
@@ -69,8 +70,8 @@ def run(
 ) -> RecordingRun:
     """Run the recording at `path` through a session, sample by sample.
 
-    `without_pressure` leaves the pressure out, because the truth was made of it. `calibration` has the positions of the
-    cells. `poses` requests the live position at every sample, `body` that of the wearer."""
+    `without_pressure` hides the pressure from the session where the truth was made from it. `calibration` has the
+    positions of the cells. `poses` requests each foot's live position at every sample, `body` the wearer's position."""
     known = settings.calibration if calibration is None else merged(settings.calibration, calibration)
     recipe = (
         settings.recipe if settings.activity is None else settings.recipe.exchanged(ActivityPart, settings.activity)
@@ -86,36 +87,37 @@ def run(
 
 
 def run_timed(
-    session: Session, samples: Iterable[Sample], every: float | None
+    session: Session, samples: Iterable[Sample], interval: float | None
 ) -> tuple[Gathering, ScoredTrack | None, float]:
     """Return the session's events for the samples, the wearer's track and the wall time, s.
 
-    The track is sampled every `every` s: 0 stands for every sample, None for never."""
+    The track has a position every `interval` s. With 0 it has one after every sample, with None there is no track."""
     outputs: list[list[Event]] = []
-    places: list[tuple[float, Vec3]] = []
+    positions: list[tuple[float, Vec3]] = []
     started_at = perf_counter()
     for sample in samples:
         outputs.append(session.feed(sample))
-        due = every is not None and (every == 0.0 or sample.t >= len(places) * every)
+        due = interval is not None and (interval == 0.0 or sample.t >= len(positions) * interval)
         if due and (position := session.position) is not None:
-            places.append((position.t, position.position))
+            positions.append((position.t, position.position))
     outputs.append(session.finish())
     seconds = perf_counter() - started_at
-    track = ScoredTrack(np.array([t for t, _ in places]), np.array([at for _, at in places]).reshape(-1, 3))
-    return Gathering.of(event for events in outputs for event in events), track if places else None, seconds
+    track = ScoredTrack(np.array([t for t, _ in positions]), np.array([at for _, at in positions]).reshape(-1, 3))
+    return Gathering.of(event for events in outputs for event in events), track if positions else None, seconds
 
 
 Meta = dict[str, Any]
 """A recording's entry in dataset.json."""
 Arrays = dict[str, Any]
+"""Arrays of a recording's file by name."""
 
 
 def truth_of(path: Path) -> Arrays:
-    """Return the arrays of the truth in a recording's file, with its times and pressure."""
+    """Return the arrays of the truth (names with gt_), the times and the pressure in a recording's file."""
     with np.load(path, allow_pickle=False) as archive:
         return {key: archive[key] for key in archive.files if key == "t" or key.startswith(("t_", "gt_", "pressure"))}
 
 
-def scored(path: Path, result: RecordingRun, **parts: Any) -> Scored:
+def scored(path: Path, result: RecordingRun, **scores: Any) -> Scored:
     """Return the scores of a run with its name, number of samples and wall time."""
-    return Scored(path.stem, samples=result.samples, seconds=result.seconds, **parts)
+    return Scored(path.stem, samples=result.samples, seconds=result.seconds, **scores)

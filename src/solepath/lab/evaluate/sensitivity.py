@@ -3,8 +3,8 @@
     python -m solepath.lab.evaluate.sensitivity DIR [--processes N] [--only NAME]
 
 prints the table of docs/settings.md as Markdown. DIR holds recorded data with a reference. The numbers are the settings
-of the detector (`CycleSettings`) and the filter (`ErrorStateSettings`) and the constants of the inertial cues. It takes
-about 45 minutes on two processors."""
+of the detector (`CycleSettings`), the settings of the filter (`ErrorStateSettings`) and the constants of the inertial
+cues (foot/cues/inertial.py). The run takes about 45 minutes on two processors."""
 
 from __future__ import annotations
 
@@ -36,10 +36,20 @@ from .report import Result
 from .run import RunSettings
 
 FACTORS = (0.5, 2.0)
-FIGURES = ("pyshoe ARMSE2d", "gumushane position", "strides", "xio end", "ipol legs", "HS F1", "TO F1", "gaitmap HS")
-"""Titles of the columns of the ablation that are shown."""
-SHOWN = (
-    *(column for column in COLUMNS if column.title in FIGURES),
+"""Factors by which each number is multiplied."""
+ABLATION_TITLES = (
+    "pyshoe ARMSE2d",
+    "gumushane position",
+    "strides",
+    "xio end",
+    "ipol legs",
+    "HS F1",
+    "TO F1",
+    "gaitmap HS",
+)
+"""Titles of the columns of ablation.COLUMNS that this table has too."""
+TABLE_COLUMNS = (
+    *(column for column in COLUMNS if column.title in ABLATION_TITLES),
     Column("ipol HS", "ipol_10m_uturn", "heel_strike_bias", "ms", pooled=True),
     Column("ipol TO", "ipol_10m_uturn", "toe_off_bias", "ms", pooled=True),
 )
@@ -48,11 +58,11 @@ PARTS: dict[str, tuple[Any, Any]] = {
     "detector": (CycleSettings, Cycle),
     "corrector": (ErrorStateSettings, ErrorStateFilter),
 }
-"""Settings and class of the parts of the default recipe, by the field of the recipe."""
-FLAT = 0.005
-"""A relative change, or one of F1, below this is shown as none."""
-HALF_MS = 0.5
-"""A change of an offset below this is shown as none, ms."""
+"""Settings class and class of two parts of the default recipe, by the recipe's field."""
+UNCHANGED_SHARE = 0.005
+"""Relative change of an error, or absolute change of F1, below which the table shows 0."""
+UNCHANGED_OFFSET = 0.5
+"""Change of an offset below which the table shows 0, ms."""
 
 
 @frozen
@@ -62,88 +72,89 @@ class Number:
     name: str
     value: float
     meaning: str
-    """First sentence of its docstring, with its unit."""
+    """First paragraph of the number's docstring, which names its unit."""
     part: str
-    """Field of the recipe that has it: "detector", "corrector" or "cues"."""
+    """Field of the recipe that the number belongs to: "detector", "corrector" or "cues"."""
 
-    def at(self, factor: float) -> tuple[Recipe, dict[str, float]]:
-        """Return the default recipe with this number times `factor`, and the constants to change for it."""
+    def scale(self, factor: float) -> tuple[Recipe, dict[str, float]]:
+        """Return the default recipe with this number times `factor`, and the module constants to change for it."""
         value = factor * self.value
         name = f"{self.name} x {factor:g}"
         if self.part not in PARTS:
             return evolve(DEFAULT, name=name), {self.name: value}
-        made, cls = PARTS[self.part]
-        change: dict[str, Any] = {self.part: cls(made(**{self.name: value}))}
+        settings_class, part_class = PARTS[self.part]
+        change: dict[str, Any] = {self.part: part_class(settings_class(**{self.name: value}))}
         return evolve(DEFAULT, name=name, **change), {}
 
 
 def _meanings(module: ModuleType, cls: type | None = None) -> dict[str, str]:
-    """Return the docstrings of the constants of a module, or of the fields of one of its classes."""
+    """Return the docstrings of a module's constants, or of the fields of one of its classes, by name."""
     body: Sequence[ast.stmt] = ast.parse(inspect.getsource(module)).body
     if cls is not None:
         (body,) = [node.body for node in body if isinstance(node, ast.ClassDef) and node.name == cls.__name__]
-    found: dict[str, str] = {}
-    for before, node in zip(body, body[1:], strict=False):
-        target = before.targets[0] if isinstance(before, ast.Assign) else getattr(before, "target", None)
+    meanings: dict[str, str] = {}
+    for assignment, node in zip(body, body[1:], strict=False):
+        target = assignment.targets[0] if isinstance(assignment, ast.Assign) else getattr(assignment, "target", None)
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant) and isinstance(target, ast.Name):
-            found[target.id] = " ".join(str(node.value.value).split("\n\n")[0].split())
-    return found
+            meanings[target.id] = " ".join(str(node.value.value).split("\n\n")[0].split())
+    return meanings
 
 
 def numbers() -> list[Number]:
     """Return the numbers of the default detector, filter and inertial cues, in the order of their definition."""
-    found: list[Number] = []
-    for part, (made, _) in PARTS.items():
-        meanings = _meanings(settings, made)
-        default = made()
-        for field in attrs.fields(made):
+    numbers: list[Number] = []
+    for part, (settings_class, _) in PARTS.items():
+        meanings = _meanings(settings, settings_class)
+        default = settings_class()
+        for field in attrs.fields(settings_class):
             value = getattr(default, field.name)
             if isinstance(value, float):
-                found.append(Number(field.name, value, meanings.get(field.name, ""), part))
+                numbers.append(Number(field.name, value, meanings.get(field.name, ""), part))
     meanings = _meanings(inertial)
     for name, value in vars(inertial).items():
         if name in meanings and name.isupper() and isinstance(value, float | int):
-            found.append(Number(name, value, meanings[name], "cues"))
-    return found
+            numbers.append(Number(name, value, meanings[name], "cues"))
+    return numbers
 
 
 @frozen
 class SensitivityJob:
-    """One recording with one number changed."""
+    """A recording to score with one number changed."""
 
     job: EvaluationJob
     constants: dict[str, float]
+    """Values of the constants of foot/cues/inertial.py to change, by name."""
 
     def run(self) -> Scored | str:
-        """Score the recording with the constants changed in this process meanwhile."""
-        kept = {name: getattr(inertial, name) for name in self.constants}
+        """Score the recording while the constants are changed in this process."""
+        defaults = {name: getattr(inertial, name) for name in self.constants}
         for name, value in self.constants.items():
-            setattr(inertial, name, type(kept[name])(value))
+            setattr(inertial, name, type(defaults[name])(value))
         try:
             return self.job.run()
         finally:
-            for name, value in kept.items():
+            for name, value in defaults.items():
                 setattr(inertial, name, value)
 
 
 def columns(names: Sequence[str] = ()) -> list[Column]:
-    """Return the columns of the table, of all data sets or of those named."""
-    return [column for column in SHOWN if not names or column.data_set in names]
+    """Return the columns of the table: those of the data sets `names`, or all when it is empty."""
+    return [column for column in TABLE_COLUMNS if not names or column.data_set in names]
 
 
 def evaluate(
     folder: Path, chosen: Sequence[Number], names: Sequence[str], processes: int
 ) -> Iterator[tuple[Number | None, float, list[float | None]]]:
-    """Yield number, factor and figures: first the default's, with None for the number; then those of each number."""
+    """Yield number, factor and figures: first the default recipe with None as number, then each number and factor."""
     shown = columns(names)
     data_sets = [(one, recordings(folder, one)) for one in find(folder, sorted({column.data_set for column in shown}))]
     variants: list[tuple[Number | None, float]] = [(None, 1.0), *((one, k) for one in chosen for k in FACTORS)]
     jobs: list[SensitivityJob] = []
     for number, factor in variants:
-        recipe, constants = (DEFAULT, {}) if number is None else number.at(factor)
-        how = RunSettings(recipe, Calibration(), None)
+        recipe, constants = (DEFAULT, {}) if number is None else number.scale(factor)
+        run_settings = RunSettings(recipe, Calibration(), None)
         jobs += [
-            SensitivityJob(EvaluationJob(data_set.score, how, path, meta), constants)
+            SensitivityJob(EvaluationJob(data_set.score, run_settings, path, meta), constants)
             for data_set, part in data_sets
             for path, meta in part
         ]
@@ -151,31 +162,31 @@ def evaluate(
     for number, factor in variants:
         results = []
         for data_set, part in data_sets:
-            done = list(islice(outcomes, len(part)))
-            scores = tuple([one for one in done if isinstance(one, Scored)])
+            outcomes_of_set = list(islice(outcomes, len(part)))
+            scores = tuple([one for one in outcomes_of_set if isinstance(one, Scored)])
             results.append(Result(data_set, "", scores, ()))
-        yield number, factor, [column.of(results, "") for column in shown]
+        yield number, factor, [column.find_figure(results, "") for column in shown]
 
 
 SCALES = {"": 1.0, "m": 1.0, "%": 100.0, "ms": 1000.0}
-"""Factor of each unit of a column; results are in SI units."""
+"""Factor from SI units to each unit of a column."""
 
 
 def _change(column: Column, value: float | None, default: float | None) -> str:
-    """Format a figure against the default's: relative for errors, absolute for F1 and offsets."""
+    """Format the change from the `default`: relative for errors, absolute for F1 and offsets."""
     if value is None or default is None:
         return "-"
-    off = SCALES[column.unit] * (value - default)
+    difference = SCALES[column.unit] * (value - default)
     if column.unit == "ms":
-        return "0" if abs(off) < HALF_MS else f"{off:+.0f} ms"
+        return "0" if abs(difference) < UNCHANGED_OFFSET else f"{difference:+.0f} ms"
     if not column.unit:
-        return "0" if abs(off) < FLAT else f"{off:+.2f}"
+        return "0" if abs(difference) < UNCHANGED_SHARE else f"{difference:+.2f}"
     relative = value / default - 1.0 if default else 0.0
-    return "0" if abs(relative) < FLAT else f"{100.0 * relative:+.0f} %"
+    return "0" if abs(relative) < UNCHANGED_SHARE else f"{100.0 * relative:+.0f} %"
 
 
 def table(rows: Iterator[tuple[Number | None, float, list[float | None]]], shown: Sequence[Column]) -> Iterator[str]:
-    """Yield the lines of the Markdown table: for each number what half and double of it change."""
+    """Yield the lines of the Markdown table: for each number the changes at half and at twice its value."""
     _, _, default = next(rows)
     yield f"| number | default | meaning | {' | '.join(column.title for column in shown)} |"
     yield "|" + "---|" * (3 + len(shown))
@@ -186,11 +197,11 @@ def table(rows: Iterator[tuple[Number | None, float, list[float | None]]], shown
     yield f"| (default recipe) |  |  | {cells} |"
     for (number, _, half), (_, _, double) in zip(rows, rows, strict=True):
         assert number is not None
-        both = [
+        changes = [
             f"{_change(column, a, base)} / {_change(column, b, base)}"
             for column, a, b, base in zip(shown, half, double, default, strict=True)
         ]
-        yield f"| {number.part} `{number.name}` | {number.value:g} | {number.meaning} | {' | '.join(both)} |"
+        yield f"| {number.part} `{number.name}` | {number.value:g} | {number.meaning} | {' | '.join(changes)} |"
 
 
 def main() -> None:

@@ -1,4 +1,4 @@
-"""Scores tracks and strides against markers, surveys and closed loops. Scorers have the form of datasets.py."""
+"""Scores tracks and strides against markers, surveys and closed loops; datasets.py describes what a scorer is."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ def score_vicon(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     truth, result = truth_of(path), run(path, settings)
     foot = result.feet[Foot.RIGHT]
     bipedal = meta.get("llio_tag") == 1
-    strides = _surveyed(truth, foot) if bipedal and "gt_stride_xy" in truth else None
+    strides = _survey_score(truth, foot) if bipedal and "gt_stride_xy" in truth else None
     figures = _track_figures(foot, truth["t"], truth["gt_pos"])
     return scored(path, result, figures=figures, strides=strides, groups=("all", "bipedal") if bipedal else ("all",))
 
 
 def score_optitrack(path: Path, meta: Meta, settings: RunSettings) -> Scored:
-    """Score against a marker with its own clock and time span, over the time when both are known."""
+    """Score against a marker with its own clock, over the time in which both marker and samples were recorded."""
     truth, result = truth_of(path), run(path, settings, calibration=in_dataset(path))
-    both = (truth["gt_t"] >= truth["t"][0]) & (truth["gt_t"] <= truth["t"][-1])
-    t, places, foot = truth["gt_t"][both], truth["gt_pos"][both], result.feet[Foot.RIGHT]
+    in_both = (truth["gt_t"] >= truth["t"][0]) & (truth["gt_t"] <= truth["t"][-1])
+    t, places, foot = truth["gt_t"][in_both], truth["gt_pos"][in_both], result.feet[Foot.RIGHT]
     times, stances = marker_stances(t, places)
-    strides = surveyed_score(times, stances, foot.t, foot.positions, foot.step_lengths)
+    strides = surveyed_score(times, stances, foot.t, foot.positions, foot.stride_lengths)
     return scored(path, result, figures=_track_figures(foot, t, places), strides=strides)
 
 
@@ -53,32 +53,32 @@ def _track_figures(foot: FootRun, t: Any, truth: Any) -> Figures:
 
 
 def score_loop(path: Path, meta: Meta, settings: RunSettings) -> Scored:
-    """Score the distance from the last live position to the first: the foot ends where it started."""
+    """Score the distance between the first and the last live position of a foot that ends where it started."""
     result = run(path, settings)
     foot = result.feet[Foot.RIGHT]
     figures: Figures = {}
     if len(foot.t):
-        figures = _closed(foot.positions[0], foot.positions[-1])
+        figures = _closing_errors(foot.positions[0], foot.positions[-1])
         figures["path"] = float(meta["path_m_about"])
         figures["relative"] = (figures["end_error"] or 0.0) / float(meta["path_m_about"])
     return scored(path, result, figures=figures)
 
 
-def _closed(first: Any, last: Any) -> Figures:
-    """Return the errors of a walk that ends where it started."""
-    away = last - first
+def _closing_errors(first: Any, last: Any) -> Figures:
+    """Return the distances, m, between the positions at the start and the end of a closed walk."""
+    displacement = last - first
     return {
-        "end_error": float(np.linalg.norm(away)),
-        "end_error_2d": float(np.linalg.norm(away[:2])),
-        "end_height": abs(float(away[2])),
+        "end_error": float(np.linalg.norm(displacement)),
+        "end_error_2d": float(np.linalg.norm(displacement[:2])),
+        "end_height": abs(float(displacement[2])),
     }
 
 
-AUTHORS = {"exp31": 0.31, "exp33": 1.17, "exp37": 2.31, "exp39": 1.11, "exp41": 0.94, "exp45": 1.80}
+AUTHORS_ERRORS = {"exp31": 0.31, "exp33": 1.17, "exp37": 2.31, "exp39": 1.11, "exp41": 0.94, "exp45": 1.80}
 """Mean position error of the authors' own system at the surveyed strides, m.
 
-The system is an INS with an LSTM as zero-velocity detector (log in the repository mtahakoroglu/LLIO-aided-iPyShoe). It
-lost strides of the other trials."""
+The system is an INS with an LSTM as zero-velocity detector (log in the repository mtahakoroglu/LLIO-aided-iPyShoe).
+Trials of which it lost strides are not listed."""
 
 
 def score_surveyed(path: Path, meta: Meta, settings: RunSettings) -> Scored:
@@ -87,7 +87,7 @@ def score_surveyed(path: Path, meta: Meta, settings: RunSettings) -> Scored:
     foot = result.feet[Foot.RIGHT]
     figures: Figures = {}
     if len(foot.t):
-        times, authors = truth["t"][truth["gt_stride_index"]], AUTHORS.get(path.stem)
+        times, authors = truth["t"][truth["gt_stride_index"]], AUTHORS_ERRORS.get(path.stem)
         errors = position_errors(times, truth["gt_stride_xy"], foot.t, foot.positions)
         heights = np.interp(times, foot.t, foot.positions[:, 2])
         surveyed = path_length(truth["gt_stride_xy"])
@@ -100,24 +100,24 @@ def score_surveyed(path: Path, meta: Meta, settings: RunSettings) -> Scored:
             "path": surveyed,
             "relative": float(np.mean(errors)) / surveyed,
         }
-    return scored(path, result, figures=figures, strides=_surveyed(truth, foot))
+    return scored(path, result, figures=figures, strides=_survey_score(truth, foot))
 
 
-def _surveyed(truth: Arrays, foot: FootRun) -> StrideScore:
+def _survey_score(truth: Arrays, foot: FootRun) -> StrideScore:
     times, places = truth["t"][truth["gt_stride_index"]], truth["gt_stride_xy"]
     if not len(foot.t):
         return StrideScore(n_true=len(times) - 1)
-    return surveyed_score(times, places, foot.t, foot.positions, foot.step_lengths)
+    return surveyed_score(times, places, foot.t, foot.positions, foot.stride_lengths)
 
 
 def score_counted(path: Path, meta: Meta, settings: RunSettings) -> Scored:
-    """Score the number of strides against a count, and the legs between surveyed corners.
+    """Score the number of strides against a count, and the lengths of the legs between surveyed corners.
 
-    Only some corners have surveyed positions; the ways between them are legs. A walk that ends at the corner where it
-    started is a closed loop on one level."""
+    Only some corners have surveyed positions, and a leg is the straight line from one of them to the next. A walk that
+    ends at the corner where it started is a closed loop on one level."""
     truth, result = truth_of(path), run(path, settings)
     foot = result.feet[Foot.RIGHT]
-    true, found = int(meta["n_true_strides"]), len(foot.steps)
+    true, found = int(meta["n_true_strides"]), len(foot.strides)
     strides = StrideScore(true, min(true, found), max(0, found - true))
     if not meta["corner_points_valid"] or not len(foot.t):
         return scored(path, result, strides=strides)
@@ -128,5 +128,5 @@ def score_counted(path: Path, meta: Meta, settings: RunSettings) -> Scored:
         legs = leg_errors(times, np.linalg.norm(np.diff(corners, axis=0), axis=1).tolist(), foot.t, foot.positions)
     if float(np.linalg.norm(corners[-1] - corners[0])) == 0.0:
         first, last = at_times(foot.t, foot.positions, ends[[0, -1]])
-        figures = _closed(first, last)
+        figures = _closing_errors(first, last)
     return scored(path, result, figures=figures, strides=strides, errors={"leg": legs})

@@ -1,7 +1,7 @@
 """Aligns a track with the truth and measures the distance between them.
 
-A foot's own track has its own heading and origin, so a turn about the vertical and a shift are removed before an error
-is measured. A scale or a mirror image is never removed."""
+The heading and origin of a track are arbitrary, so the track is turned about the vertical and shifted to fit the truth
+before an error is measured. It is never scaled or mirrored."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Floats = NDArray[np.float64]
 
 @frozen
 class Alignment:
-    """A turn by `yaw` rad about z (counter-clockwise), then a shift by `x`, `y` m."""
+    """A turn by `yaw` rad about z (counter-clockwise seen from above), then a shift by `x`, `y` m."""
 
     yaw: float
     x: float
@@ -35,8 +35,8 @@ class Alignment:
 def align(track: NDArray[Any], truth: NDArray[Any]) -> Alignment:
     """Return the turn and shift that bring the horizontal points of `track` nearest to `truth` by least squares.
 
-    Both are (n,2) or (n,3), row by row the same instants. Closed form: with both centred on their means, the sum of
-    squared distances is smallest at yaw = atan2(sum of cross products, sum of dot products)."""
+    Both are (n,2) or (n,3), m; equal rows are the same instant. With both centred on their means, the sum of squared
+    distances is smallest at yaw = atan2(sum of cross products, sum of dot products)."""
     ours, theirs = np.asarray(track, np.float64)[:, :2], np.asarray(truth, np.float64)[:, :2]
     our_mean, their_mean = ours.mean(axis=0), theirs.mean(axis=0)
     a, b = ours - our_mean, theirs - their_mean
@@ -51,20 +51,18 @@ def rms_distance(track: NDArray[Any], truth: NDArray[Any]) -> float:
 
 
 def path_length(points: NDArray[Any]) -> float:
-    """Return the length of the line through the points, m."""
+    """Return the length of the polyline through the points, m."""
     return float(np.sum(np.linalg.norm(np.diff(np.asarray(points, np.float64), axis=0), axis=1)))
 
 
 def distances(points: NDArray[Any]) -> Floats:
-    """Return the distance of each of `points` (n,2 or more) along the horizontal line through them, m."""
+    """Return the horizontal distance from the first of `points` to each, along the polyline through them, m."""
     steps = np.linalg.norm(np.diff(np.asarray(points, np.float64)[:, :2], axis=0), axis=1)
     return np.concatenate([[0.0], np.cumsum(steps)])
 
 
 def aligned_at_start(track: NDArray[Any], truth: NDArray[Any], over: float) -> Floats:
-    """Return `track` turned and shifted so that it fits `truth` best over the first `over` m.
-
-    The fit ends with the first point that is `over` m along the truth."""
+    """Return `track` turned and shifted so that it fits `truth` best over the first `over` m along the truth."""
     first = max(2, int(np.searchsorted(distances(truth), over)) + 1)
     return align(track[:first], truth[:first]).apply(track)
 
@@ -76,18 +74,18 @@ class TrackError:
     rms_2d: float
     """Root mean square of the horizontal Euclidean distance, m."""
     rms_3d: float
-    """Root mean square of the distance in space, m, after the mean height difference is removed."""
+    """Root mean square of the 3D distance, m, after the mean height difference is removed."""
     rms_z: float
     """Root mean square of the height error, m, after the mean height difference is removed."""
 
     @property
     def armse_2d(self) -> float:
-        """The figure of pyshoe, m: root mean square over samples and both axes, the Euclidean one / sqrt 2."""
+        """Horizontal error as the data set pyshoe gives it, m: RMS over samples and both axes, `rms_2d` / sqrt 2."""
         return self.rms_2d / sqrt(2.0)
 
 
 def track_error(track: NDArray[Any], truth: NDArray[Any]) -> TrackError:
-    """Return the error of `track` (n,3) against `truth` (n,3), row by row the same instants."""
+    """Return the error of `track` (n,3) against `truth` (n,3), m; equal rows are the same instant."""
     moved = align(track, truth).apply(track)
     moved[:, 2] += float(np.mean(truth[:, 2] - moved[:, 2]))
     return TrackError(
@@ -98,5 +96,5 @@ def track_error(track: NDArray[Any], truth: NDArray[Any]) -> TrackError:
 
 
 def at_times(t: Floats, positions: Floats, times: NDArray[Any]) -> Floats:
-    """Return `positions` (n,3) known at `t` (n,) at `times` (m,): linear between, constant before and after."""
+    """Return positions at `times` (m,), linear between `positions` (n,3) at `t` (n,), constant before and after."""
     return np.column_stack([np.interp(times, t, positions[:, axis]) for axis in range(positions.shape[1])])

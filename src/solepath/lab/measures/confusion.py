@@ -1,4 +1,4 @@
-"""Counts of reported activity by true activity, and lift rides found."""
+"""Counts of reported activities by true activity, and of elevator rides that were found."""
 
 from __future__ import annotations
 
@@ -10,11 +10,12 @@ from attrs import field, frozen
 from ...types import Activity
 
 CLASSES = tuple(activity for activity in Activity if activity is not Activity.UNKNOWN)
+"""Activities that a label can have."""
 
 
 @frozen
 class ActivityScore:
-    """Counts of labelled samples and of rides. Scores of several recordings can be added."""
+    """The counts of labelled samples and of elevator rides. Scores of several recordings can be added."""
 
     samples: Mapping[tuple[Activity, Activity], int] = field(factory=dict)
     """Number of samples by (true activity, reported activity)."""
@@ -47,18 +48,18 @@ class ActivityScore:
     @property
     def accuracy(self) -> float | None:
         """Share of labelled samples for which the right activity was reported."""
-        every = sum(self.samples.values())
+        total = sum(self.samples.values())
         return (
-            sum([count for (was, reported), count in self.samples.items() if was is reported]) / every
-            if every
+            sum([count for (was, reported), count in self.samples.items() if was is reported]) / total
+            if total
             else None
         )
 
     @property
     def most_frequent(self) -> float | None:
         """Accuracy of a method that always reports the most frequent activity."""
-        every = sum(self.samples.values())
-        return max([sum(self.reported_for(activity).values()) for activity in Activity]) / every if every else None
+        total = sum(self.samples.values())
+        return max([sum(self.reported_for(activity).values()) for activity in Activity]) / total if total else None
 
     @property
     def figures(self) -> dict[str, float | None]:

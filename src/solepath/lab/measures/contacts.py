@@ -1,4 +1,6 @@
-"""Finds true heel-strikes and toe-offs in labels and in the signals of contact switches."""
+"""Finds true contacts of a foot with the ground in the signals of switches and force sensors, and joins labels.
+
+The thresholds were chosen by hand; no sweep of them is recorded."""
 
 from __future__ import annotations
 
@@ -8,58 +10,57 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-LEAST_RANGE = 150.0
-"""Smallest range of a working switch between unloaded and loaded, counts; less is dead or too weak."""
-CLOSES, OPENS = 0.20, 0.10
-"""Shares of a switch's range at which contact starts and ends: well above its unloaded level, early in its slope."""
-FORCE = 20.0
+MIN_SWITCH_RANGE = 150.0
+"""Smallest difference between a working switch's loaded and unloaded reading, counts of its converter."""
+CLOSING_SHARE, OPENING_SHARE = 0.20, 0.10
+"""Shares of a switch's range at which contact starts and ends: above the noise, and early in the rise."""
+CONTACT_FORCE = 20.0
 """Smallest force of a foot on the ground, N."""
-SHORTEST = 0.15
-"""Shortest contact or flight, s; a shorter one is a bounce of the switch."""
+SHORTEST_SPAN = 0.15
+"""Shortest time on the ground or in the air, s; a shorter one is a bounce of the switch."""
 
 
 def switch_contacts(t: NDArray[Any], counts: NDArray[Any]) -> list[tuple[float, float]] | None:
-    """Return the spans of contact [start, end] in s of one pressure switch; None when it is dead.
+    """Return the spans of contact (start, end), s, of one pressure switch; None when the switch does not work.
 
-    `counts` (n,) are its readings at `t` (n,). The spans in which the recording starts and ends are left out, because
-    one of their edges is not seen."""
+    `counts` (n,) are the readings at `t` (n,), s. Spans that are cut off at an end of the recording are left out."""
     unloaded, loaded = np.percentile(counts, [2.0, 97.0])
-    if loaded - unloaded < LEAST_RANGE:
+    if loaded - unloaded < MIN_SWITCH_RANGE:
         return None
-    closes, opens = (unloaded + share * (loaded - unloaded) for share in (CLOSES, OPENS))
+    closing_level, opening_level = (unloaded + share * (loaded - unloaded) for share in (CLOSING_SHARE, OPENING_SHARE))
     edges: list[tuple[float, bool]] = []
-    closed = bool(counts[0] > closes)
+    closed = bool(counts[0] > closing_level)
     for at, count in zip(t.tolist(), counts.tolist(), strict=True):
-        if closed and count < opens or not closed and count > closes:
+        if closed and count < opening_level or not closed and count > closing_level:
             closed = not closed
             edges.append((at, closed))
-    edges = without_bounces(edges)
+    edges = remove_bounces(edges)
     return [(a, b) for (a, on), (b, _) in zip(edges, edges[1:], strict=False) if on]
 
 
 def force_contacts(t: NDArray[Any], force: NDArray[Any]) -> list[tuple[float, float]]:
-    """Return the whole spans of contact [start, end] in s of a force (n,), N, at `t` (n,).
+    """Return the spans of contact (start, end), s, of a foot with the `force` (n,), N, at `t` (n,), s.
 
-    Spans cut off at an end of the recording are left out."""
-    closed = force > FORCE
-    turns = np.flatnonzero(closed[1:] != closed[:-1]) + 1
-    edges = without_bounces([(float(t[k]), bool(closed[k])) for k in turns])
+    Spans that are cut off at an end of the recording are left out."""
+    closed = force > CONTACT_FORCE
+    changes = np.flatnonzero(closed[1:] != closed[:-1]) + 1
+    edges = remove_bounces([(float(t[k]), bool(closed[k])) for k in changes])
     return [(a, b) for (a, on), (b, _) in zip(edges, edges[1:], strict=False) if on]
 
 
-def without_bounces(edges: Sequence[tuple[float, bool]]) -> list[tuple[float, bool]]:
-    """Return the edges without the pairs that are closer together than a contact or a flight can be."""
-    kept: list[tuple[float, bool]] = []
+def remove_bounces(edges: Sequence[tuple[float, bool]]) -> list[tuple[float, bool]]:
+    """Return the edges (time, s; closed) without pairs of edges that are less than SHORTEST_SPAN apart."""
+    true_edges: list[tuple[float, bool]] = []
     for edge in edges:
-        if kept and edge[0] - kept[-1][0] < SHORTEST:
-            kept.pop()
+        if true_edges and edge[0] - true_edges[-1][0] < SHORTEST_SPAN:
+            true_edges.pop()
         else:
-            kept.append(edge)
-    return kept
+            true_edges.append(edge)
+    return true_edges
 
 
 def merged(spans: Sequence[tuple[float, float]], gap: float = 1e-3) -> list[tuple[float, float]]:
-    """Return the spans in order of time, with spans joined that touch within `gap` s."""
+    """Return the spans in order of time, with spans joined that overlap or are at most `gap` s apart."""
     joined: list[tuple[float, float]] = []
     for start, end in sorted(spans):
         if joined and start <= joined[-1][1] + gap:

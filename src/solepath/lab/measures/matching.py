@@ -1,4 +1,4 @@
-"""Matches found events with true ones, one to one within 250 ms: F1, median offset, its spread, and signed errors."""
+"""Matches found events one to one with true ones at most 250 ms away, and counts, offsets and errors of the matches."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from attrs import frozen
 
 @frozen
 class Errors:
-    """Signed errors, ours less the true value: relative for legs (0.01 is 1 %), in s for stride times."""
+    """The signed errors, measured minus true value: relative for legs (0.01 is 1 %), in s for stride times."""
 
     values: tuple[float, ...] = ()
 
@@ -30,21 +30,22 @@ class Errors:
 
     @property
     def bias(self) -> float | None:
-        """Signed median of the errors: positive when ours are too long."""
+        """Signed median of the errors: positive when the measured values are too large."""
         return float(np.median(self.values)) if self.values else None
 
 
 TOLERANCE = 0.25
-"""Largest distance of a match, s; design: "matched within 250 ms"."""
+"""Largest time between the events of a match, s; design: "matched within 250 ms"."""
 
 
 @frozen
 class Matching:
-    """Numbers of true and found events of one kind; `offsets`: found minus true, s, of each match."""
+    """The numbers of true and found events of one kind, and the offsets of their matches."""
 
     n_true: int = 0
     n_found: int = 0
     offsets: tuple[float, ...] = ()
+    """Time of the found event minus that of the true one, s, for each match."""
 
     def __add__(self, other: Matching) -> Matching:
         return Matching(self.n_true + other.n_true, self.n_found + other.n_found, self.offsets + other.offsets)
@@ -61,7 +62,7 @@ class Matching:
         return float(np.median(self.offsets)) if self.offsets else None
 
     @property
-    def off(self) -> float | None:
+    def median_magnitude(self) -> float | None:
         """Median magnitude of the offsets, s."""
         return float(np.median(np.abs(self.offsets))) if self.offsets else None
 
@@ -74,10 +75,10 @@ class Matching:
 def match(
     true: Iterable[float], found: Iterable[float], *, windows: Sequence[tuple[float, float]] | None = None
 ) -> Matching:
-    """Match true and found times, the closest first, each used once, none further apart than TOLERANCE.
+    """Match true and found times, s, at most TOLERANCE apart. The closest pairs are taken first, each time once.
 
-    `windows` are the labelled spans of time, s. A found event outside all of them, each widened by the tolerance, is
-    neither right nor wrong and is left out. None stands for the span from the first to the last true event."""
+    `windows` are the labelled spans of time, s; None stands for the span from the first to the last true event. Found
+    events more than TOLERANCE outside all windows are left out, because nobody knows whether they are right."""
     truth = sorted(true)
     if windows is None:
         windows = [(truth[0], truth[-1])] if truth else []
@@ -89,15 +90,15 @@ def match(
 def pairs(true: Sequence[float], found: Sequence[float], tolerance: float) -> list[tuple[int, int]]:
     """Return (index in `true`, index in `found`) of the pairs within `tolerance`, in the order of `true`.
 
-    The closest pairs are taken first and each time is used once. Both inputs are in order of time."""
-    near: list[tuple[float, int, int]] = []
+    The closest pairs are taken first and each time is used once. Both inputs must be in order of time."""
+    candidates: list[tuple[float, int, int]] = []
     for i, t in enumerate(true):
         around = range(bisect_left(found, t - 2.0 * tolerance), bisect_right(found, t + 2.0 * tolerance))
-        near += [(abs(found[j] - t), i, j) for j in around if abs(found[j] - t) <= tolerance]
-    near.sort()
+        candidates += [(abs(found[j] - t), i, j) for j in around if abs(found[j] - t) <= tolerance]
+    candidates.sort()
     free_true, free_found = set(range(len(true))), set(range(len(found)))
     chosen: list[tuple[int, int]] = []
-    for _, i, j in near:
+    for _, i, j in candidates:
         if i in free_true and j in free_found:
             free_true.discard(i)
             free_found.discard(j)
@@ -106,11 +107,11 @@ def pairs(true: Sequence[float], found: Sequence[float], tolerance: float) -> li
 
 
 def interval_errors(true: Iterable[float], found: Iterable[float], *, longest: float) -> Errors:
-    """Return the errors, s, of the intervals between found events that match consecutive true events.
+    """Return the errors, s, of the times between consecutive events: found minus true.
 
-    Only true events that follow each other within `longest` s and are both matched count."""
+    Only pairs of consecutive true events count that are at most `longest` s apart and both matched."""
     truth, ours = sorted(true), sorted(found)
     by_true = dict(pairs(truth, ours, TOLERANCE))
-    both = [k for k in range(len(truth) - 1) if k in by_true and k + 1 in by_true]
-    lasted = [(ours[by_true[k + 1]] - ours[by_true[k]], truth[k + 1] - truth[k]) for k in both]
-    return Errors(tuple([took - should for took, should in lasted if should <= longest]))
+    matched = [k for k in range(len(truth) - 1) if k in by_true and k + 1 in by_true]
+    durations = [(ours[by_true[k + 1]] - ours[by_true[k]], truth[k + 1] - truth[k]) for k in matched]
+    return Errors(tuple([took - should for took, should in durations if should <= longest]))

@@ -14,11 +14,12 @@ from .matching import Errors, Matching
 from .strides import StrideScore
 
 Figures = dict[str, float | None]
+"""Figures by name, in SI units; None for a figure that could not be measured."""
 
 
 @frozen
 class Scored:
-    """Scores of one recording. `figures` are averaged over recordings, everything else is pooled."""
+    """The scores of one recording. `figures` are averaged over recordings; the other scores are pooled."""
 
     recording: str
     figures: Figures = field(factory=dict)
@@ -45,7 +46,7 @@ class Scored:
                 f"{kind}_f1": matching.f1,
                 f"{kind}_bias": matching.bias,
                 f"{kind}_mad": matching.mad,
-                f"{kind}_off": matching.off,
+                f"{kind}_off": matching.median_magnitude,
             }
         if self.strides is not None:
             flat |= {

@@ -1,10 +1,10 @@
 """Chen et al. 2019: 20 walks of 20 m, and 91 m through a building, with two smart insoles at 30 Hz.
 
-Each walk has another pair of insoles, and the shoe is measured again in five postures, three times each (section
-III-C). A recording is 20 s of walking for the pressure noise (section III-B), a halt, and then the 20 m; the sessions
-receive the samples after the halt. Distances are the sums of stride lengths, as in section IV-B. For the corridor the
-drift of that sum counts, as in section IV-C. The paper does not give the corridor's shape; here it is once around the
-inner block of a floor (emulate/routes/laps.py)."""
+Each walk has another pair of insoles, for which the shoe is measured in five postures, three times each (section
+III-C). A recording has 20 s of walking to measure the pressure noise (section III-B), a halt, and then the 20 m. The
+sessions receive only the samples after the halt. Distances are the sums of stride lengths, as in section IV-B. In the
+corridor the drift is the error of that sum, as in section IV-C. The paper does not give the corridor's shape; here it
+goes once around the inner block of a floor (emulate/routes/laps.py)."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ from ...types import SITE_OF_FOOT, Foot
 from ..measures.alignment import Floats
 from ..processes import Progress, run_jobs
 from . import published
-from .tables import Boxes, Drawn, FigureRow, Floor, PictureTrack, Reproduction, row_of, statistics
-from .walks import align_track, cut, join_routes, rest_after, run_session, thin_out
+from .tables import BoxPlots, DrawStyle, FigureRow, FloorPanel, PictureTrack, Reproduction, row_of, statistics
+from .walks import align_track, cut_walk, find_halt, join_routes, run_session, thin_out
 
 NAME = KUPT_DFPC.name
 WALKS = 20
@@ -38,79 +38,84 @@ RATE = 30.0
 """Sampling rate, Hz (section III-A)."""
 SPEED = 1.3
 """Comfortable walking speed, m/s."""
-DISTANCE = 20.0
+WALK_LENGTH = 20.0
 """Length of a walk, m."""
-CORRIDOR = 91.0
+CORRIDOR_LENGTH = 91.0
 """Length of the corridor walk, m (section IV-C)."""
-EVERY = 4
-"""Number of walks of 20 m for each corridor walk. The paper has one corridor walk, which is too few."""
+WALKS_PER_CORRIDOR = 4
+"""Number of walks of 20 m for each corridor walk. The paper has a single corridor walk, too few for a mean."""
 NOISE_WALK = straight(20.0 * SPEED, SPEED).stand(4.0)
-"""Walk of 20 s for the pressure noise, and a halt."""
-FEET = {Foot.LEFT: "L", Foot.RIGHT: "R"}
+"""Route of 20 s of walking to measure the pressure noise, and a halt."""
+FOOT_LETTERS = {Foot.LEFT: "L", Foot.RIGHT: "R"}
 
 
 @frozen
 class KuptJob:
-    """One walk; `corridor` makes it CORRIDOR m long instead of DISTANCE."""
+    """One walk to emulate."""
 
     seed: int
     corridor: bool = False
+    """True for a walk of CORRIDOR_LENGTH, False for one of WALK_LENGTH."""
 
 
 @frozen
-class KuptWalked:
-    """Results of one walk.
-
-    `distances` has the walked distance by row and `true` the real one of each foot, m. Only a corridor walk has
-    `tracks`, the positions at which strides ended with the true path first, and `closing`, the distance of each end
-    from its start, m."""
+class KuptResults:
+    """The results of one walk."""
 
     distances: dict[str, float]
+    """Measured distance by row, m."""
     true: dict[Foot, float]
+    """True distance of each foot, m."""
     tracks: tuple[PictureTrack, ...] = ()
-    closing: dict[str, float] = field(factory=dict)
+    """True path and then the stride ends by each method; only of a corridor walk."""
+    end_distances: dict[str, float] = field(factory=dict)
+    """Distance from the start to the end of each track, m; only of a corridor walk, which is a closed loop."""
 
 
 def reproduce(
     walks: int | None = None, seed: int = 1, *, processes: int = 1, progress: Progress | None = None
 ) -> Reproduction:
-    """Return the results of `walks` walks of 20 m, with one corridor walk for every EVERY of them, at least one."""
+    """Return the results of `walks` walks of 20 m, and of one corridor walk for every WALKS_PER_CORRIDOR of them."""
     count = WALKS if walks is None else walks
-    corridors = max(1, count // EVERY)
+    corridors = max(1, count // WALKS_PER_CORRIDOR)
     jobs = [KuptJob(1000 * seed + 500 + k, corridor=True) for k in range(corridors)]
     jobs += [KuptJob(1000 * seed + k) for k in range(1, count + 1)]
-    done = list(run_jobs(walk, jobs, processes=processes, progress=progress))
-    long, short = done[:corridors], done[corridors:]
+    results = list(run_jobs(walk, jobs, processes=processes, progress=progress))
+    corridor_walks, short_walks = results[:corridors], results[corridors:]
     paper = published.KUPT_DFPC
-    rows = tuple([row_of(paper, name, [one.distances[name] for one in short]) for name in paper])
+    rows = tuple([row_of(paper, name, [one.distances[name] for one in short_walks]) for name in paper])
     return Reproduction(
         name=NAME,
         paper_title=published.KUPT_DFPC_TITLE,
-        walked=f"{count} walks of {DISTANCE:g} m at {RATE:g} Hz, another pair of insoles each time",
+        emulation=f"{count} walks of {WALK_LENGTH:g} m at {RATE:g} Hz, another pair of insoles each time",
         unit="m",
         rows=rows,
         panels=(
-            Boxes(f"distance of {count} walks of {DISTANCE:g} m (fig. 12)", tuple(paper), "m", DISTANCE),
-            Floor(f"{CORRIDOR:g} m of corridors (fig. 13)", long[0].tracks, marks=(("start", 0.0, 0.0),)),
+            BoxPlots(f"distance of {count} walks of {WALK_LENGTH:g} m (fig. 12)", tuple(paper), "m", WALK_LENGTH),
+            FloorPanel(
+                f"{CORRIDOR_LENGTH:g} m of corridors (fig. 13)", corridor_walks[0].tracks, (("start", 0.0, 0.0),)
+            ),
         ),
-        notes=_notes(rows, short, long),
+        notes=_notes(rows, short_walks, corridor_walks),
     )
 
 
-def _notes(rows: tuple[FigureRow, ...], short: list[KuptWalked], long: list[KuptWalked]) -> tuple[str, ...]:
-    squares = {row.name: np.mean([(value - DISTANCE) ** 2 for value in row.values]) for row in rows}
+def _notes(
+    rows: tuple[FigureRow, ...], short_walks: list[KuptResults], corridor_walks: list[KuptResults]
+) -> tuple[str, ...]:
+    squares = {row.name: np.mean([(value - WALK_LENGTH) ** 2 for value in row.values]) for row in rows}
     off = ", ".join(f"{name} {float(np.sqrt(square)):.2f}" for name, square in squares.items())
-    paths = statistics([one.true[foot] for one in short for foot in Foot])
-    lines = [f"Root mean square of the error of {len(short)} walks, m: {off}."]
+    paths = statistics([one.true[foot] for one in short_walks for foot in Foot])
+    lines = [f"Root mean square of the error of {len(short_walks)} walks, m: {off}."]
     lines.append(f"The feet really went {paths.mean:.2f} m on average.")
     for name, drift in published.CORRIDOR_DRIFT.items():
-        off_by = [one.distances[name] - _true_distance(one, name) for one in long]
-        share = 100.0 * float(np.mean(np.abs(off_by))) / CORRIDOR
-        ends = float(np.mean([one.closing[name] for one in long]))
+        off_by = [one.distances[name] - _true_distance(one, name) for one in corridor_walks]
+        share = 100.0 * float(np.mean(np.abs(off_by))) / CORRIDOR_LENGTH
+        ends = float(np.mean([one.end_distances[name] for one in corridor_walks]))
         lines.append(
-            f"{CORRIDOR:g} m of corridors, {name}: distance off by {', '.join(f'{off:+.2f}' for off in off_by)} m, "
-            f"{share:.2f} % of it on average, end {ends:.2f} m from the start of this closed way; paper "
-            f"{drift:.2f} m, {100.0 * drift / CORRIDOR:.2f} %."
+            f"{CORRIDOR_LENGTH:g} m of corridors, {name}: distance off by "
+            f"{', '.join(f'{off:+.2f}' for off in off_by)} m, {share:.2f} % of it on average, end {ends:.2f} m from "
+            f"the start of this closed way; paper {drift:.2f} m, {100.0 * drift / CORRIDOR_LENGTH:.2f} %."
         )
     lines.append(
         f"The paper contradicts itself: the mean of KUPT-L is {published.KUPT_DFPC['KUPT-L'].mean} m in table I and "
@@ -119,36 +124,36 @@ def _notes(rows: tuple[FigureRow, ...], short: list[KuptWalked], long: list[Kupt
     return tuple(lines)
 
 
-def _true_distance(one: KuptWalked, name: str) -> float:
-    """Return the true distance of the foot of this row, m; the mean of both feet for a row of both."""
-    feet = [foot for foot, letter in FEET.items() if name.endswith(f"-{letter}")] or list(Foot)
+def _true_distance(one: KuptResults, name: str) -> float:
+    """Return the true distance, m, of the foot in the row's name; the mean of both feet when it names none."""
+    feet = [foot for foot, letter in FOOT_LETTERS.items() if name.endswith(f"-{letter}")] or list(Foot)
     return float(np.mean([one.true[foot] for foot in feet]))
 
 
-def walk(job: KuptJob) -> KuptWalked:
+def walk(job: KuptJob) -> KuptResults:
     """Emulate one walk, calibrate on its first part and run each recipe on the second."""
-    route = corridor(CORRIDOR, SPEED) if job.corridor else straight(DISTANCE, SPEED)
+    route = corridor(CORRIDOR_LENGTH, SPEED) if job.corridor else straight(WALK_LENGTH, SPEED)
     walked = emulate(
         join_routes(NOISE_WALK, route),
         devices={SITE_OF_FOOT[foot]: Insole(rate=RATE, cell_part=WORN_RESISTIVE) for foot in Foot},
         seed=job.seed,
     )
-    halt = rest_after(walked.walker, NOISE_WALK)
-    parts = cut(walked, halt)
-    known = merged(merged(parts.layouts, measured_shoe(job.seed)), pressure_noise(parts.before))
-    events_of = {recipe.name: run_session(recipe, parts.after, known) for recipe in (ZUPT, KUPT, KUPT_DFPC)}
+    t_halt = find_halt(walked.walker, NOISE_WALK)
+    parts = cut_walk(walked, t_halt)
+    calibration = merged(merged(parts.layouts, measured_shoe(job.seed)), pressure_noise(parts.before))
+    events_of = {recipe.name: run_session(recipe, parts.after, calibration) for recipe in (ZUPT, KUPT, KUPT_DFPC)}
     distances = {
-        f"{recipe.upper()}-{letter}": sum(s.length for s in _steps(events_of[recipe], foot))
+        f"{recipe.upper()}-{letter}": sum(s.length for s in _final_strides(events_of[recipe], foot))
         for recipe in ("zupt", "kupt")
-        for foot, letter in FEET.items()
+        for foot, letter in FOOT_LETTERS.items()
     }
     fused = [event for event in events_of[NAME] if isinstance(event, StrideFused)]
     distances["KUPT+DFPC"] = fused[-1].distance if fused else 0.0
-    true = {foot: sum(step.length for step in walked.truth.steps(foot) if step.t_heel_off > halt) for foot in Foot}
+    true = {foot: sum(step.length for step in walked.truth.steps(foot) if step.t_heel_off > t_halt) for foot in Foot}
     if not job.corridor:
-        return KuptWalked(distances, true)
-    tracks, closing = _tracks(walked.truth, halt, events_of["zupt"], fused)
-    return KuptWalked(distances, true, tracks, closing)
+        return KuptResults(distances, true)
+    tracks, end_distances = _tracks(walked.truth, t_halt, events_of["zupt"], fused)
+    return KuptResults(distances, true, tracks, end_distances)
 
 
 def measured_shoe(seed: int) -> Calibration:
@@ -159,41 +164,44 @@ def measured_shoe(seed: int) -> Calibration:
         return fit_shoe(file).calibration
 
 
-def _steps(events: list[Event], foot: Foot) -> list[StrideTaken]:
+def _final_strides(events: list[Event], foot: Foot) -> list[StrideTaken]:
     return [event for event in events if isinstance(event, StrideTaken) and event.final and event.foot is foot]
 
 
 def _tracks(
-    truth: Truth, halt: float, zupt: list[Event], fused: list[StrideFused]
+    truth: Truth, t_halt: float, zupt: list[Event], fused: list[StrideFused]
 ) -> tuple[tuple[PictureTrack, ...], dict[str, float]]:
-    """Return tracks of stride ends, aligned over their first two metres, and each end's distance from its start, m."""
-    ends = {f"ZUPT-{FEET[foot]}": [(step.t_end, foot, step.position) for step in _steps(zupt, foot)] for foot in Foot}
-    # the position after a stride is the end of the chosen foot's path, which does not change between its own strides
+    """Return tracks of stride ends, aligned with the truth over two metres, and distances from start to end, m."""
+    ends = {
+        f"ZUPT-{letter}": [(stride.t_end, foot, stride.position) for stride in _final_strides(zupt, foot)]
+        for foot, letter in FOOT_LETTERS.items()
+    }
+    # after each stride the position is the end of the chosen foot's path, which changes only at that foot's strides
     ends["KUPT+DFPC"] = [(one.t, one.foot, one.position) for one in fused if one.foot is one.chosen]
-    path = _true_path(truth, halt)
+    path = _true_path(truth, t_halt)
     start = path[0].copy()
-    tracks, closing = [PictureTrack("true path", thin_out(path - start), Drawn.TRUTH)], {}
+    tracks, end_distances = [PictureTrack("true path", thin_out(path - start), DrawStyle.TRUTH)], {}
     for name, places in ends.items():
         if len(places) < 2:
             continue
         track = np.array([(0.0, 0.0), *((x, y) for _, _, (x, y, _) in places)])
         true = np.array(
-            [_true_places(truth, foot, t)[0] for t, foot in [(halt, places[0][1]), *(p[:2] for p in places)]]
+            [_true_places(truth, foot, t)[0] for t, foot in [(t_halt, places[0][1]), *(p[:2] for p in places)]]
         )
-        tracks.append(PictureTrack(name, thin_out(align_track(track, true) - start), Drawn.DOTS))
-        closing[name] = float(np.linalg.norm(track[-1] - track[0]))
-    return tuple(tracks), closing
+        tracks.append(PictureTrack(name, thin_out(align_track(track, true) - start), DrawStyle.DOTS))
+        end_distances[name] = float(np.linalg.norm(track[-1] - track[0]))
+    return tuple(tracks), end_distances
 
 
 def _true_places(truth: Truth, foot: Foot, t: float | Floats) -> Floats:
-    """Return (x, y) on the floor at each instant, (n, 2), m."""
+    """Return the true positions (x, y) of the foot's sensor on the floor at `t` s, (n, 2), m."""
     places: Floats = truth.pose(foot, t).position[:, :2] + truth.feet[foot].origin[:2]
     return places
 
 
-def _true_path(truth: Truth, halt: float) -> Floats:
-    """Return the path midway between the feet, (n, 2), m."""
-    t = np.arange(halt, truth.duration, 0.2)
+def _true_path(truth: Truth, t_halt: float) -> Floats:
+    """Return the true path midway between the feet from `t_halt` on, (n, 2), m."""
+    t = np.arange(t_halt, truth.duration, 0.2)
     left, right = (_true_places(truth, foot, t) for foot in Foot)
     middle: Floats = 0.5 * (left + right)
     return middle

@@ -23,13 +23,13 @@ KUPT_DFPC: Table = {
     "KUPT-R": Statistics(20.44, 0.5, 20.14, 20.36, 20.52),
     "KUPT+DFPC": Statistics(20.08, 0.51, 19.74, 20.06, 20.46),
 }
-"""Table I: walked distance in m of 20 walks of 20 m."""
+"""Table I: walked distance, m, in 20 walks of 20 m, by method and foot (L, R)."""
 
 KUPT_L_MEAN_IN_TEXT = 19.68
-"""Mean of KUPT-L in the text below table I, m. It differs from the table, which has the stated accuracy of 2.1 %."""
+"""Mean of KUPT-L in the text below table I, m. Only the mean in the table gives the stated error of 2.1 %."""
 
 CORRIDOR_DRIFT = {"ZUPT-L": 11.15, "ZUPT-R": 7.43, "KUPT+DFPC": 0.78}
-"""Drift of the total walking distance over about 91 m, m (section IV-C; fig. 13 draws the tracks)."""
+"""Error of the total walking distance after about 91 m, m (section IV-C; fig. 13 draws the tracks)."""
 
 
 PRESSURE_CONTOUR_TITLE = "Bebek et al. 2010, table I"
@@ -66,8 +66,8 @@ PRESSURE_CONTOUR: Table = {
 }
 """Statistics of LOOPS: loop-closing error in m and in % of the path.
 
-Means and deviations in m are those that the paper prints (4.87 +- 2.75 and 4.30 +- 3.15). Its mean percentages, 0.40
-and 0.35, are those of the mean errors over the mean distance instead."""
+Means and standard deviations in m are those that the paper prints (4.87 +- 2.75 and 4.30 +- 3.15). The paper's mean
+percentages, 0.40 and 0.35, are its mean errors divided by its mean distance instead."""
 
 
 WALKING_MODES_TITLE = "Gong et al. 2023, table 4"
@@ -101,14 +101,14 @@ CORNERS: dict[str, dict[str, tuple[XY, XY, XY]]] = {
         "IV": ((-0.0044, 0.01), (-0.0007, 0.0075), (0.0176, 0.0178)),
     },
 }
-"""Mean, median and standard deviation of the deviation in x and y by point and method, m (table 4).
+"""Mean, median and standard deviation of the position error (x, y) by corner and touchdown method, m (table 4).
 
-The table heads its columns mm. Nobody steps on a mark to some hundredths of a millimetre and no inertial sensor
+The heading of the table says mm. Nobody steps on a mark to some hundredths of a millimetre and no inertial sensor
 resolves that, so the figures are taken for m here."""
 
 
 def corner_row(point: str, method: str, axis: str) -> str:
-    """Return the row name of a point, a method and an axis (x, y)."""
+    """Return the name of the row of a corner, a touchdown method and an axis ("x" or "y")."""
     return f"{point} {method} {axis}"
 
 
@@ -134,8 +134,8 @@ FOOTSTEP_TRACKER: Table = {
 }
 """Figures in the text of sections V-C to V-F.
 
-They are 9.23 m, 9.2 m and 2.64 m off after 63 m; "a location error in 1m" on average; and "the initial location is
-determined after six steps" for one user."""
+The corridor's percentages are the printed errors of 9.23 m, 9.2 m and 2.64 m divided by 63 m. The paper also has "a
+location error in 1m" on average and "the initial location is determined after six steps" for one user."""
 
 
 SHOE_SENSING_TITLE = "Li et al. 2016, tables 1 and 2, figs. 21 to 35"
@@ -163,11 +163,11 @@ SHOE_SENSING: Table = {
 }
 """Table 1; sections 3.4.2 and 4.2.3 (figs. 13, 14, 23, 24); section 4.2.4 (figs. 26 to 32); table 2; section 4.2.5.
 
-Section 4.2.5 has figs. 33 and 34. Errors are of single steps, without their signs. The text's variance or mean square
-error is taken for the standard deviation."""
+Section 4.2.5 has figs. 33 and 34. Errors are magnitudes for single strides, which the paper calls steps. What the text
+calls variance or mean square error is taken for the standard deviation."""
 
 NORMALISED = 22.5
-"""Divisor of table 2, which has the mean error of a step over its length, divided by this number.
+"""Number by which table 2 divides the mean error of a stride relative to its length.
 
-"The accuracy of the two sensors differ 22.5-fold": 9.17 % / 22.5 = 0.41 % walking, 8.13 % jogging, 20.0 % downstairs;
-upstairs the error is that of the height, 12.5 %."""
+"The accuracy of the two sensors differ 22.5-fold": 9.17 % / 22.5 = 0.41 % for walking. The other errors before the
+division are 8.13 % jogging, 20.0 % downstairs and, of the height instead of the length, 12.5 % upstairs."""

@@ -1,8 +1,8 @@
 """Li et al. 2016: walking, jogging, stairs and five minutes in a building with an MPU-6050 on one shoe at 100 Hz.
 
-Twenty wearers take a hundred steps at a walk and at a jog, two flights of stairs upwards and two downwards, and walk
-for five minutes (shoe_walks.py). Rows are of single steps, all wearers together, unless stated otherwise. The paper
-draws figures 21 and 22 and does not print their values."""
+Twenty wearers take a hundred strides at a walk and at a jog, two flights of stairs upwards and two downwards, and walk
+for five minutes (shoe_walks.py). The values of a row are the single strides of all wearers, unless stated otherwise.
+The paper calls strides steps, and so do the rows. It draws figures 21 and 22 and does not print their values."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from ...papers.shoe_sensing.recipe import SHOE_SENSING
 from ..measures.matching import Errors
 from ..processes import Progress, run_jobs
 from . import published
-from .shoe_walks import STATES, ShoeWalked, walked
-from .tables import Drawn, FigureRow, Floor, PictureTrack, Reproduction, row_of
+from .shoe_walks import STATES, ShoeResults, walked
+from .tables import DrawStyle, FigureRow, FloorPanel, PictureTrack, Reproduction, row_of
 
 NAME = SHOE_SENSING.name
 WALKS = 20
 """Number of wearers; section 4.2.1: "20 rounds"."""
-ON_STAIRS = ("upstairs", "downstairs")
+STAIR_STATES = ("upstairs", "downstairs")
 
 
 def reproduce(
@@ -29,101 +29,110 @@ def reproduce(
 ) -> Reproduction:
     """Return the results of `walks` wearers, each of whom walks every experiment."""
     count = WALKS if walks is None else walks
-    done = list(run_jobs(walked, [1000 * seed + k for k in range(count)], processes=processes, progress=progress))
+    results = list(run_jobs(walked, [1000 * seed + k for k in range(count)], processes=processes, progress=progress))
     return Reproduction(
         name=NAME,
         paper_title=published.SHOE_SENSING_TITLE,
-        walked=f"{count} wearers with an MPU-6050 on one shoe at 100 Hz, another one each time",
+        emulation=f"{count} wearers with an MPU-6050 on one shoe at 100 Hz, another one each time",
         unit="as named",
-        rows=tuple([row for part in PARTS for row in part(done)]),
-        panels=_panels(done),
-        notes=_notes(done),
+        rows=tuple([row for part in ROW_FUNCTIONS for row in part(results)]),
+        panels=_panels(results),
+        notes=_notes(results),
     )
 
 
 _row = partial(row_of, published.SHOE_SENSING, digits=3)
 
 
-def _extraction(done: Sequence[ShoeWalked]) -> list[FigureRow]:
-    """Return the rows of figs. 21 and 22, by wearer."""
+def _extraction(results: Sequence[ShoeResults]) -> list[FigureRow]:
+    """Return the rows of figs. 21 and 22, with one value for each wearer."""
     rows = []
     for state in STATES:
-        rows.append(_row(f"{state}, steps by energy %", [one.energy[state].extracted for one in done], digits=1))
-        rows.append(_row(f"{state}, steps by magnitude %", [one.magnitude[state].extracted for one in done], digits=1))
+        rows.append(_row(f"{state}, steps by energy %", [one.energy[state].stride_f1 for one in results], digits=1))
+        rows.append(
+            _row(f"{state}, steps by magnitude %", [one.magnitude[state].stride_f1 for one in results], digits=1)
+        )
     rows += [
-        _row(f"{state}, state right %", [one.energy[state].judged_right for one in done], digits=1) for state in STATES
+        _row(f"{state}, state right %", [one.energy[state].right_share for one in results], digits=1)
+        for state in STATES
     ]
     return rows
 
 
-def _table_1(done: Sequence[ShoeWalked]) -> list[FigureRow]:
-    """Return the rows of table 1, of strides whose heights are not corrected, as the paper's must have been."""
-    plane = [a for one in done for state in STATES[:2] for a in one.before[state].angles]
-    stairs = [_row(f"{state} deg/m", [a for one in done for a in one.before[state].angles]) for state in ON_STAIRS]
+def _table_1(results: Sequence[ShoeResults]) -> list[FigureRow]:
+    """Return the rows of table 1 for strides without height correction, as those of the paper must have been."""
+    plane = [a for one in results for state in STATES[:2] for a in one.before[state].angles]
+    stairs = [
+        _row(f"{state} deg/m", [a for one in results for a in one.before[state].angles]) for state in STAIR_STATES
+    ]
     return [_row("plane deg/m", plane), *stairs]
 
 
-def _heights(done: Sequence[ShoeWalked]) -> list[FigureRow]:
+def _heights(results: Sequence[ShoeResults]) -> list[FigureRow]:
     rows = []
     for state in STATES[:2]:
-        steps = {"before": [one.before[state] for one in done], "after": [one.energy[state] for one in done]}
-        for name, of in steps.items():
-            rows.append(_row(f"{state}, height {name} m", [abs(error) for one in of for error, _ in one.heights]))
-            rows.append(_row(f"{state}, height of 100 steps {name} m", [abs(one.height) for one in of]))
+        by_name = {"before": [one.before[state] for one in results], "after": [one.energy[state] for one in results]}
+        for name, scores in by_name.items():
+            rows.append(_row(f"{state}, height {name} m", [abs(error) for one in scores for error, _ in one.heights]))
+            rows.append(_row(f"{state}, height of 100 steps {name} m", [abs(one.height) for one in scores]))
     return rows
 
 
-def _lengths(done: Sequence[ShoeWalked]) -> list[FigureRow]:
+def _lengths(results: Sequence[ShoeResults]) -> list[FigureRow]:
     rows = []
     for state in STATES:
-        steps = [one.energy[state] for one in done]
-        rows.append(_row(f"{state}, length m", [abs(error) for one in steps for error, _ in one.lengths]))
-        if state in ON_STAIRS:
-            rows.append(_row(f"{state}, height m", [abs(error) for one in steps for error, _ in one.heights]))
+        stride_errors = [one.energy[state] for one in results]
+        rows.append(_row(f"{state}, length m", [abs(error) for one in stride_errors for error, _ in one.lengths]))
+        if state in STAIR_STATES:
+            rows.append(_row(f"{state}, height m", [abs(error) for one in stride_errors for error, _ in one.heights]))
     for state in STATES:
-        steps = [one.energy[state] for one in done]
-        errors = [one.heights if state == "upstairs" else one.lengths for one in steps if one.found]
+        stride_errors = [one.energy[state] for one in results]
+        errors = [one.heights if state == "upstairs" else one.lengths for one in stride_errors if one.found]
         rows.append(_row(f"{state}, table 2 %", [100.0 * _relative(of) / published.NORMALISED for of in errors]))
     return rows
 
 
 def _relative(errors: Sequence[tuple[float, float]]) -> float:
-    """Return the mean unsigned error over the mean true value, as the paper computes it."""
+    """Return the mean magnitude of the error over the mean true value, as the paper computes it."""
     off, true = (Errors(values).mean for values in zip(*errors, strict=True))
     return off / true if off is not None and true else 0.0
 
 
-def _course_rows(done: Sequence[ShoeWalked]) -> list[FigureRow]:
+def _course_rows(results: Sequence[ShoeResults]) -> list[FigureRow]:
     return [
         *[
-            _row(f"{state}, course deg", [abs(off) for one in done for off in one.energy[state].courses], digits=2)
+            _row(
+                f"{state}, course deg",
+                [abs(off) for one in results for off in one.energy[state].course_errors],
+                digits=2,
+            )
             for state in STATES[:2]
         ],
-        _row("five minutes, end off m", [one.tour.off for one in done], digits=2),
-        _row("five minutes, height off m", [abs(one.tour.height) for one in done], digits=2),
+        _row("five minutes, end off m", [one.tour.end_error for one in results], digits=2),
+        _row("five minutes, height off m", [abs(one.tour.height_error) for one in results], digits=2),
     ]
 
 
-PARTS = (_extraction, _table_1, _heights, _lengths, _course_rows)
+ROW_FUNCTIONS = (_extraction, _table_1, _heights, _lengths, _course_rows)
 
 
-def _panels(done: Sequence[ShoeWalked]) -> tuple[Floor, ...]:
+def _panels(results: Sequence[ShoeResults]) -> tuple[FloorPanel, ...]:
     """Return fig. 35 from above and from the side, for the first wearer."""
-    tour = done[0].tour
-    views = (("five minutes (fig. 35), from above", tour.above), ("height over the way", tour.aside))
+    tour = results[0].tour
+    views = (("five minutes (fig. 35), from above", tour.top_view), ("height over the way", tour.side_view))
     return tuple(
         [
-            Floor(title, (PictureTrack("true path", true, Drawn.TRUTH), PictureTrack(NAME, ours)))
+            FloorPanel(title, (PictureTrack("true path", true, DrawStyle.TRUTH), PictureTrack(NAME, ours)))
             for title, (ours, true) in views
         ]
     )
 
 
-def _notes(done: Sequence[ShoeWalked]) -> tuple[str, ...]:
-    return (*DEFINED, *_length_notes(done), *_height_notes(done), *_tour_notes(done), *PAPER)
+def _notes(results: Sequence[ShoeResults]) -> tuple[str, ...]:
+    return (*DEFINITIONS, *_length_notes(results), *_height_notes(results), *_tour_notes(results), *PAPER_NOTES)
 
 
-DEFINED = (
+DEFINITIONS = (
     'Rows: length and height are errors of single steps without their signs, all wearers together; "height of 100 '
     'steps" is what the track of a whole level walk gained, one figure a wearer; course is the direction of single '
     "steps over the first 19.2 m, the first two metres laid on the truth; steps by energy or magnitude is F1 of steps "
@@ -133,27 +142,27 @@ DEFINED = (
     "Table 1 is of steps before their heights are corrected. What theta' is made of is in body/activity/steepness.py; "
     "the paper's words for it do not fit its figures.",
 )
-PAPER = (
+PAPER_NOTES = (
     "The paper: lengths right to 90.8 % walking, 91.9 % jogging, 90.8 % upstairs and 80.0 % downstairs, at worst "
     "off by 0.34, 0.49, 0.32 and 0.38 m; heights of level steps after elimination at worst off by 0.26 m walking and "
     "0.61 m jogging; states above 95 %, steps nearly 100 %; of the five minutes it has a picture and no figure.",
 )
 
 
-def _length_notes(done: Sequence[ShoeWalked]) -> list[str]:
+def _length_notes(results: Sequence[ShoeResults]) -> list[str]:
     lines = []
     for state in STATES:
-        steps = [one.energy[state] for one in done]
-        lengths = [pair for one in steps for pair in one.lengths]
+        stride_errors = [one.energy[state] for one in results]
+        lengths = [pair for one in stride_errors for pair in one.lengths]
         if not lengths:
             continue
-        merged, split = sum([one.merged for one in steps]), sum([one.split for one in steps])
+        merged, split = sum([one.merged for one in stride_errors]), sum([one.split for one in stride_errors])
         worst = max([abs(error) for error, _ in lengths])
         line = (
             f"{state.capitalize()}: steps of {np.mean([true for _, true in lengths]):.2f} m on average, lengths right "
             f"to {100.0 * (1.0 - _relative(lengths)):.1f} %, at worst off by {worst:.2f} m"
         )
-        others = [abs(error) for one in steps for error in one.whole]
+        others = [abs(error) for one in stride_errors for error in one.whole]
         if merged + split and others:
             line += (
                 f"; of {len(lengths)} steps {merged} were joined with the step before, whose stance was missed, "
@@ -163,18 +172,19 @@ def _length_notes(done: Sequence[ShoeWalked]) -> list[str]:
     return lines
 
 
-def _height_notes(done: Sequence[ShoeWalked]) -> list[str]:
+def _height_notes(results: Sequence[ShoeResults]) -> list[str]:
     lines = [
         "Heights after elimination say little: a step that is judged level ends exactly as high as it began, by "
         "construction, on any floor, a ramp too. What is left comes of level steps that were not judged so."
     ]
     for state in STATES[:2]:
-        before = [abs(one.before[state].height) for one in done]
-        after = [abs(one.energy[state].height) for one in done]
+        before = [abs(one.before[state].height) for one in results]
+        after = [abs(one.energy[state].height) for one in results]
+        n_level = sum([height < 1e-6 for height in after])
         lines.append(
-            f"{state.capitalize()} 100 steps on the level: {sum([height < 1e-6 for height in after])} of {len(done)} "
-            f"tracks end exactly as high as they began, at worst {max(after):.2f} m off; without elimination they "
-            f"drift by {np.mean(before):.2f} m on average and {max(before):.2f} m at worst."
+            f"{state.capitalize()} 100 steps on the level: {n_level} of {len(results)} tracks end exactly as high "
+            f"as they began, at worst {max(after):.2f} m off; without elimination they drift by "
+            f"{np.mean(before):.2f} m on average and {max(before):.2f} m at worst."
         )
     lines.append(
         'The paper\'s heights before elimination (0.12 m walking, 0.17 m jogging) are of "100 sets of data", and it '
@@ -185,18 +195,18 @@ def _height_notes(done: Sequence[ShoeWalked]) -> list[str]:
     return lines
 
 
-def _tour_notes(done: Sequence[ShoeWalked]) -> list[str]:
-    tours = [one.tour for one in done]
-    off = [one.off for one in tours]
-    share = 100.0 * sum(off) / sum([one.way for one in tours])
-    turned = [abs(one.heading) for one in tours]
-    heights = [abs(one.height) for one in tours]
+def _tour_notes(results: Sequence[ShoeResults]) -> list[str]:
+    tours = [one.tour for one in results]
+    errors = [one.end_error for one in tours]
+    share = 100.0 * sum(errors) / sum([one.path_length for one in tours])
+    headings = [abs(one.heading_error) for one in tours]
+    heights = [abs(one.height_error) for one in tours]
+    n_exact = sum([one.reported == one.true for one in tours])
     return [
-        f"Five minutes: flights reported exactly in {sum([one.reported == one.true for one in tours])} of {len(done)} "
-        "walks; "
-        f"the end is off by {np.mean(off):.1f} m on average, {share:.1f} % of the way, and by {max(off):.1f} m at "
-        f"worst, its height by {np.mean(heights):.2f} m and {max(heights):.2f} m.",
-        f"The heading of the five minutes' last steps is off by {np.mean(turned):.0f} degrees on average and "
-        f"{max(turned):.0f} at worst: it is integrated from the gyroscope, and nothing in the method corrects it. The "
-        "way goes round and back, which hides much of that at its end.",
+        f"Five minutes: flights reported exactly in {n_exact} of {len(results)} walks; the end is off by "
+        f"{np.mean(errors):.1f} m on average, {share:.1f} % of the way, and by {max(errors):.1f} m at worst, its "
+        f"height by {np.mean(heights):.2f} m and {max(heights):.2f} m.",
+        f"The heading of the five minutes' last steps is off by {np.mean(headings):.0f} degrees on average and "
+        f"{max(headings):.0f} at worst: it is integrated from the gyroscope, and nothing in the method corrects it. "
+        "The way goes round and back, which hides much of that at its end.",
     ]

@@ -1,7 +1,7 @@
 """Walks of one wearer of the shoe-sensing experiments: walking, jogging, up and down the stairs, five minutes.
 
-One MPU-6050 sits on the laces of the right shoe and samples at 100 Hz without a wire. Every walk has another part and
-other footsteps."""
+One MPU-6050 sits on the laces of the right shoe and samples at 100 Hz, without radio losses. Every walk has other
+sensor errors and other strides. The paper's "step" is the stride of one foot."""
 
 from __future__ import annotations
 
@@ -23,106 +23,114 @@ from ...papers.shoe_sensing.recipe import SHOE_MAGNITUDE, SHOE_SENSING
 from ...types import Foot, Sample
 from ..measures.alignment import Floats, align, distances
 from ..measures.matching import pairs
-from ..measures.strides import ALIGNED_OVER
+from ..measures.strides import ALIGNMENT_LENGTH
 from .walks import align_track, run_session, thin_out
 
 FOOT = Foot.RIGHT
 """Foot that wears the sensor ("attached to one of the user's shoes"); the side is assumed."""
-WALKING, JOGGING = 1.0, 2.1
-"""Walking and jogging speed, m/s (assumed): strides of about the paper's 1.20 m and 1.60 m."""
+WALKING_SPEED, JOGGING_SPEED = 1.0, 2.1
+"""Walking and jogging speed, m/s: assumed, so that strides are about as long as the paper's 1.20 m and 1.60 m."""
 STEPS = 100
 """Number of strides of each level walk (section 4.2.3)."""
-STRAIGHT = 19.2
-"""Length over which a heading is compared, m (section 4.2.5)."""
+HEADING_LENGTH = 19.2
+"""Length over which the directions of strides are compared, m (section 4.2.5)."""
 RISERS = 11
-"""Number of steps in a flight (assumed); 0.16 m by 0.30 m each, as the paper's."""
+"""Number of stairs in a flight (assumed). Each is 0.16 m high and 0.30 m deep, as in the paper."""
 LAPS = 2
-"""Number of rounds of the corridors of each storey, for five minutes in all."""
-SAME = 0.3
-"""Largest time between the ends of a stride and its true one, s."""
+"""Number of laps of the corridors of each storey, so that the walk takes five minutes."""
+MATCHING_TIME = 0.3
+"""Largest time between the ends of a found stride and the true one that it matches, s."""
 STATES = ("walking", "jogging", "upstairs", "downstairs")
-LAST = 9
-"""Number of strides at the end whose directions give the heading error."""
-TO_HALT = 1.5
-"""Length of the partial strides at the start and end of a walk, in whole strides."""
+LAST_STRIDES = 9
+"""Number of strides at the end of a walk whose directions give the heading error."""
+PARTIAL_STRIDES = 1.5
+"""Length of the shorter strides at the start and the end of a walk together, in whole strides."""
 
 
 @frozen
 class StrideErrors:
-    """Strides of one session on one walk, compared with the truth.
-
-    By true stride that was found: `angles` (degrees/m), pairs of error and true value of length and of height (m),
-    `courses` (error of the direction, degrees, over the first 19.2 m), `right` (whether the state is right) and `late`
-    (start less the true start, s). `found`, `not_found` and `invented` are numbers of strides. `height` is the height
-    error of the track over the whole walk, m."""
+    """The comparison of the strides of one session on one walk with the truth; errors are estimated minus true."""
 
     angles: tuple[float, ...]
+    """Angle per metre of each matched stride (body/activity/steepness.py), degrees/m, positive upwards."""
     lengths: tuple[tuple[float, float], ...]
+    """Error and true value of the length of each matched stride, m."""
     heights: tuple[tuple[float, float], ...]
-    courses: tuple[float, ...]
+    """Error and true value of the height change of each matched stride, m."""
+    course_errors: tuple[float, ...]
+    """Direction error of each matched stride in the first HEADING_LENGTH m, degrees; empty on stairs."""
     right: tuple[bool, ...]
-    late: tuple[float, ...]
+    """True for each matched stride whose state (level, upstairs, downstairs) is right."""
+    start_offsets: tuple[float, ...]
+    """Start of each matched stride minus the true start, s."""
     found: int
+    """Number of matched strides."""
     not_found: int
+    """Number of true strides without a match."""
     invented: int
+    """Number of reported strides without a match."""
     height: float
+    """Height error of the track at the end of the walk, m."""
 
     @property
     def merged(self) -> int:
         """Number of strides that were reported as one with the stride before, whose end was not found."""
-        return sum([late < -SAME for late in self.late])
+        return sum([offset < -MATCHING_TIME for offset in self.start_offsets])
 
     @property
     def split(self) -> int:
         """Number of strides that were reported in two pieces, of which the last counts as found."""
-        return sum([late > SAME for late in self.late])
+        return sum([offset > MATCHING_TIME for offset in self.start_offsets])
 
     @property
     def whole(self) -> tuple[float, ...]:
         """Length errors of the strides that are neither merged nor split, m."""
-        both = zip(self.lengths, self.late, strict=True)
-        return tuple(error for (error, _), late in both if abs(late) <= SAME)
+        pairs = zip(self.lengths, self.start_offsets, strict=True)
+        return tuple(error for (error, _), offset in pairs if abs(offset) <= MATCHING_TIME)
 
     @property
-    def judged_right(self) -> float:
+    def right_share(self) -> float:
         """Percentage of strides whose state is right."""
         return 100.0 * sum(self.right) / max(1, len(self.right))
 
     @property
-    def extracted(self) -> float:
-        """F1 of the strides, per cent: twice those found over all true and all reported ones."""
+    def stride_f1(self) -> float:
+        """F1 of the strides, %: 2 x found / (true + reported)."""
         return 100.0 * self.found / max(1.0, self.found + 0.5 * (self.not_found + self.invented))
 
 
 @frozen
 class TourErrors:
-    """A walk of five minutes in a building, compared with the truth."""
+    """The comparison of a walk of five minutes in a building with the truth."""
 
-    off: float
-    """Horizontal error of the end, m."""
-    way: float
-    """Length of the true path along the floor, m."""
-    heading: float
-    """Error of the direction of the last strides, degrees."""
-    height: float
-    """Height error of the end, m."""
+    end_error: float
+    """Horizontal distance between estimated and true end, m."""
+    path_length: float
+    """Horizontal length of the true path, m."""
+    heading_error: float
+    """Median error of the direction of the last strides, degrees, positive to the left."""
+    height_error: float
+    """Estimated minus true height of the end, m."""
     reported: tuple[bool, ...]
     """Direction of each flight that was reported: True for up."""
     true: tuple[bool, ...]
     """Direction of each flight that was climbed: True for up."""
-    above: tuple[tuple[tuple[float, float], ...], tuple[tuple[float, float], ...]]
+    top_view: tuple[tuple[tuple[float, float], ...], tuple[tuple[float, float], ...]]
     """Estimated and true track seen from above, (x, y), m."""
-    aside: tuple[tuple[tuple[float, float], ...], tuple[tuple[float, float], ...]]
+    side_view: tuple[tuple[tuple[float, float], ...], tuple[tuple[float, float], ...]]
     """Estimated and true track seen from the side: (distance along the floor, height), m."""
 
 
 @frozen
-class ShoeWalked:
-    """Results of one wearer by state: by the recipe, without the elimination of heights, and by the magnitude."""
+class ShoeResults:
+    """The results of one wearer, by state of STATES."""
 
     energy: dict[str, StrideErrors]
+    """Results of the recipe, which finds strides by energy."""
     before: dict[str, StrideErrors]
+    """Results of the recipe without the elimination of height errors."""
     magnitude: dict[str, StrideErrors]
+    """Results of the variant that finds strides by the magnitude of the specific force."""
     tour: TourErrors
 
 
@@ -130,9 +138,9 @@ def route_of(state: str) -> Route:
     """Return a hundred strides on the level, or two flights with a landing between."""
     route = Route().stand(4.0)
     if state == "walking":
-        return route.walk((STEPS + TO_HALT) * 1.22, WALKING).stop(2.0)
+        return route.walk((STEPS + PARTIAL_STRIDES) * 1.22, WALKING_SPEED).stop(2.0)
     if state == "jogging":
-        return route.jog((STEPS + TO_HALT) * 1.60, JOGGING).stop(2.0)
+        return route.jog((STEPS + PARTIAL_STRIDES) * 1.60, JOGGING_SPEED).stop(2.0)
     up = state == "upstairs"
     route = route.walk(4.0, 1.2)
     return route.stairs(RISERS, up=up).turn(radians(180), 0.7).stairs(RISERS, up=up).walk(4.0).stop(2.0)
@@ -150,7 +158,7 @@ def tour_route() -> Route:
     return route.stop(3.0)
 
 
-def walked(seed: int) -> ShoeWalked:
+def walked(seed: int) -> ShoeResults:
     """Return the results of all walks of one wearer."""
     plain = evolve(SHOE_SENSING, corrector=ShoeSensing(ShoeSensingSettings(eliminate=False)))
     energy, before, magnitude = {}, {}, {}
@@ -159,83 +167,88 @@ def walked(seed: int) -> ShoeWalked:
         energy[state] = score_strides(run_session(SHOE_SENSING, samples), truth, state)
         before[state] = score_strides(run_session(plain, samples), truth, state)
         magnitude[state] = score_strides(run_session(SHOE_MAGNITUDE, samples), truth, state)
-    return ShoeWalked(energy, before, magnitude, score_tour(10 * seed + len(STATES)))
+    return ShoeResults(energy, before, magnitude, score_tour(10 * seed + len(STATES)))
 
 
 def worn(route: Route, seed: int) -> tuple[list[Sample], Truth]:
-    """Return the samples of the sensor, and the truth."""
+    """Return the samples of the sensor on a walk along `route`, and the truth."""
     walker = Walker(route, seed=seed)
     return walker.samples(FOOT, 100.0, MPU6050, mounting=ON_INSTEP), walker.truth({FOOT: ON_INSTEP})
 
 
 def score_strides(events: Sequence[Event], truth: Truth, state: str) -> StrideErrors:
-    """Score found strides against the true ones. On stairs only strides that climb two risers count."""
-    steps = [event for event in events if isinstance(event, StrideTaken)]
-    together = matched(steps, truth.steps(FOOT))
+    """Score found strides against the true ones. On stairs only strides over two risers count."""
+    strides = [event for event in events if isinstance(event, StrideTaken)]
+    matches = matched(strides, truth.steps(FOOT))
     stairs = state in ("upstairs", "downstairs")
-    way = {"upstairs": 1, "downstairs": -1}.get(state, 0)
-    counted = [(step, true) for step, true in together if not stairs or abs(true.displacement[2]) > 0.25]
+    direction = {"upstairs": 1, "downstairs": -1}.get(state, 0)
+    counted = [(stride, true) for stride, true in matches if not stairs or abs(true.displacement[2]) > 0.25]
     expected = [true for true in truth.steps(FOOT) if not stairs or abs(true.displacement[2]) > 0.25]
-    taken = [step for step, _ in together]
-    during = [step for step in steps if not stairs or any(true.t_start < step.t < true.t_end for true in expected)]
+    matched_strides = [stride for stride, _ in matches]
+    counted_strides = [
+        stride for stride in strides if not stairs or any(true.t_start < stride.t < true.t_end for true in expected)
+    ]
     return StrideErrors(
-        angles=tuple(degrees(angle_per_metre(step.length, step.height_change)) for step, _ in counted),
-        lengths=tuple((step.length - true.length, true.length) for step, true in counted),
-        heights=tuple((step.height_change - true.displacement[2], true.displacement[2]) for step, true in counted),
-        courses=() if stairs else _courses(together),
-        right=tuple(steepness(step.length, step.height_change) == way for step, _ in counted),
-        late=tuple(step.t_start - true.t_start for step, true in counted),
+        angles=tuple(degrees(angle_per_metre(stride.length, stride.height_change)) for stride, _ in counted),
+        lengths=tuple((stride.length - true.length, true.length) for stride, true in counted),
+        heights=tuple((stride.height_change - true.displacement[2], true.displacement[2]) for stride, true in counted),
+        course_errors=() if stairs else _courses(matches),
+        right=tuple(steepness(stride.length, stride.height_change) == direction for stride, _ in counted),
+        start_offsets=tuple(stride.t_start - true.t_start for stride, true in counted),
         found=len(counted),
         not_found=len(expected) - len(counted),
-        invented=sum([step not in taken for step in during]),
-        height=steps[-1].position[2] - sum([true.displacement[2] for true in truth.steps(FOOT)]) if steps else 0.0,
+        invented=sum([stride not in matched_strides for stride in counted_strides]),
+        height=strides[-1].position[2] - sum([true.displacement[2] for true in truth.steps(FOOT)]) if strides else 0.0,
     )
 
 
 def matched(steps: Sequence[StrideTaken], true: Sequence[TrueStride]) -> list[tuple[StrideTaken, TrueStride]]:
-    """Return pairs of a found stride and the true one that ends nearest to it, one to one."""
+    """Return the pairs of a found and a true stride whose ends are at most MATCHING_TIME apart, one to one."""
     ends = [one.t_end for one in true], [step.t_end for step in steps]
-    return [(steps[j], true[i]) for i, j in pairs(*ends, SAME)]
+    return [(steps[j], true[i]) for i, j in pairs(*ends, MATCHING_TIME)]
 
 
-def _courses(together: Sequence[tuple[StrideTaken, TrueStride]]) -> tuple[float, ...]:
-    """Return the direction of each stride less the true one, degrees, after alignment over the first two metres."""
-    if len(together) < 2:
+def _courses(matches: Sequence[tuple[StrideTaken, TrueStride]]) -> tuple[float, ...]:
+    """Return the direction of each stride minus the true one, degrees, after alignment over the first two metres."""
+    if len(matches) < 2:
         return ()
-    ours = np.cumsum([step.displacement[:2] for step, _ in together], axis=0)
-    true = np.cumsum([one.displacement[:2] for _, one in together], axis=0)
+    ours = np.cumsum([step.displacement[:2] for step, _ in matches], axis=0)
+    true = np.cumsum([one.displacement[:2] for _, one in matches], axis=0)
     far = np.linalg.norm(true, axis=1)
-    ours, true = (np.vstack([np.zeros(2), track[far < STRAIGHT]]) for track in (ours, true))
-    count = 2 + int(np.sum(far < ALIGNED_OVER))
+    ours, true = (np.vstack([np.zeros(2), track[far < HEADING_LENGTH]]) for track in (ours, true))
+    count = 2 + int(np.sum(far < ALIGNMENT_LENGTH))
     ours = align(ours[:count], true[:count]).apply(ours)
-    return tuple(_directions_off(ours, true).tolist())
+    return tuple(_direction_errors(ours, true).tolist())
 
 
-def _directions_off(ours: Floats, true: Floats) -> Floats:
-    """Return the direction from each row to the next less the true one, degrees, in (-180, 180]."""
-    angles = [np.arctan2(way[:, 1], way[:, 0]) for way in (np.diff(ours, axis=0), np.diff(true, axis=0))]
-    off = angles[0] - angles[1]
-    degrees_off: Floats = np.degrees(np.arctan2(np.sin(off), np.cos(off)))
-    return degrees_off
+def _direction_errors(ours: Floats, true: Floats) -> Floats:
+    """Return the direction from each row to the next minus the true one, degrees, positive to the left, within 180."""
+    angles = [np.arctan2(d[:, 1], d[:, 0]) for d in (np.diff(ours, axis=0), np.diff(true, axis=0))]
+    errors = angles[0] - angles[1]
+    errors_degrees: Floats = np.degrees(np.arctan2(np.sin(errors), np.cos(errors)))
+    return errors_degrees
 
 
 def score_tour(seed: int) -> TourErrors:
-    """Score the walk of five minutes with the recipe."""
+    """Score the recipe on the walk of five minutes."""
     samples, truth = worn(tour_route(), seed)
     events = run_session(SHOE_SENSING, samples)
-    steps = [event for event in events if isinstance(event, StrideTaken)]
-    ours = np.array([(0.0, 0.0, 0.0), *(step.position for step in steps)])
-    true = truth.pose(FOOT, np.array([0.0, *(step.t_end for step in steps)])).position
+    strides = [event for event in events if isinstance(event, StrideTaken)]
+    ours = np.array([(0.0, 0.0, 0.0), *(stride.position for stride in strides)])
+    true = truth.pose(FOOT, np.array([0.0, *(stride.t_end for stride in strides)])).position
     true = true - true[0]
-    flat = align_track(ours[:, :2], true[:, :2])
+    horizontal = align_track(ours[:, :2], true[:, :2])
     travelled = distances(true)
     return TourErrors(
-        off=hypot(*(flat[-1] - true[-1, :2])),
-        way=float(travelled[-1]),
-        heading=float(np.median(_directions_off(flat, true[:, :2])[-LAST:])),
-        height=float(ours[-1, 2] - true[-1, 2]),
+        end_error=hypot(*(horizontal[-1] - true[-1, :2])),
+        path_length=float(travelled[-1]),
+        heading_error=float(np.median(_direction_errors(horizontal, true[:, :2])[-LAST_STRIDES:])),
+        height_error=float(ours[-1, 2] - true[-1, 2]),
         reported=tuple(event.up for event in events if isinstance(event, FlightClimbed)),
         true=tuple(flight.up for flight in truth.flights),
-        above=(thin_out(flat), thin_out(true)),
-        aside=(thin_out(np.column_stack([travelled, ours[:, 2]])), thin_out(np.column_stack([travelled, true[:, 2]]))),
+        top_view=(thin_out(horizontal), thin_out(true)),
+        side_view=(
+            thin_out(np.column_stack([travelled, ours[:, 2]])),
+            thin_out(np.column_stack([travelled, true[:, 2]])),
+        ),
     )

@@ -1,4 +1,4 @@
-"""Tables of an experiment: a row of five statistics for each figure that was measured walk by walk."""
+"""The results of an experiment: a table with a row of five statistics for each figure, panels to draw, and notes."""
 
 from __future__ import annotations
 
@@ -11,26 +11,27 @@ import numpy as np
 from attrs import frozen
 
 
-class Drawn(Enum):
-    """Style in which points are drawn."""
+class DrawStyle(Enum):
+    """The style in which points are drawn."""
 
-    TRUTH = "truth"  # a dashed line in the background
+    TRUTH = "truth"
+    """Dashed line in the background."""
     LINE = "line"
     DOTS = "dots"
 
 
 @frozen
 class PictureTrack:
-    """Named places on a floor, `points` (x, y) in m, in the order in which they were walked."""
+    """A track or a cloud of points to draw, with its name. `points` are (x, y) in m, in order of time."""
 
     name: str
     points: tuple[tuple[float, float], ...]
-    drawn: Drawn = Drawn.LINE
+    style: DrawStyle = DrawStyle.LINE
 
 
 @frozen
-class Floor:
-    """Tracks or clouds of points seen from above. `marks`: named places (name, x, y)."""
+class FloorPanel:
+    """A panel with tracks or clouds of points seen from above. `marks` are named places (name, x, y), m."""
 
     title: str
     tracks: tuple[PictureTrack, ...]
@@ -38,8 +39,8 @@ class Floor:
 
 
 @frozen
-class Boxes:
-    """Box plots of table rows, with the paper's box beside ours where it has quartiles; `target` is the true value."""
+class BoxPlots:
+    """A panel with box plots of the table's `rows`, ours beside the paper's; `target` is the true value."""
 
     title: str
     rows: tuple[str, ...]
@@ -47,12 +48,12 @@ class Boxes:
     target: float | None = None
 
 
-Panel = Floor | Boxes
+Panel = FloorPanel | BoxPlots
 
 
 @frozen
 class Statistics:
-    """The columns of table I of Chen et al. 2019; None for too few values, or where a paper has none."""
+    """The columns of table I of Chen et al. 2019; None when there are too few values or the paper does not print it."""
 
     mean: float | None = None
     std: float | None = None
@@ -70,8 +71,8 @@ Table = dict[str, Statistics]
 def statistics(values: Sequence[float]) -> Statistics:
     """Return the statistics of one figure over walks.
 
-    `std` divides by n - 1: so table I of Bebek et al. 2010 gets its mean and deviation from its six walks. Quartiles
-    are interpolated linearly between the ordered values; no paper states its rule."""
+    `std` divides by n - 1, which gives the deviations that table I of Bebek et al. 2010 prints for its six walks.
+    Quartiles are interpolated linearly between the ordered values, because no paper states another rule."""
     if not values:
         return Statistics()
     q1, median, q3 = (float(q) for q in np.quantile(values, [0.25, 0.5, 0.75]))
@@ -81,7 +82,7 @@ def statistics(values: Sequence[float]) -> Statistics:
 
 @frozen
 class FigureRow:
-    """One figure of an experiment: `values` of ours, one for each walk, and `paper`, the printed statistics."""
+    """One figure of an experiment: our `values`, one for each walk, and the statistics that the `paper` prints."""
 
     name: str
     values: tuple[float, ...]
@@ -91,7 +92,7 @@ class FigureRow:
 
 
 def row_of(paper: Table, name: str, values: Iterable[float], digits: int = 2) -> FigureRow:
-    """Return the row of `values` beside the entry of the paper's table under the same name, if any."""
+    """Return the row of our `values` and of the entry with the same name in the paper's table, if there is one."""
     return FigureRow(name, tuple(values), paper.get(name, Statistics()), digits)
 
 
@@ -104,8 +105,8 @@ class Reproduction:
 
     name: str
     paper_title: str
-    walked: str
-    """Description of what was emulated, a sentence without its full stop."""
+    emulation: str
+    """Description of the emulated walks: a sentence without its full stop."""
     unit: str
     rows: tuple[FigureRow, ...]
     panels: tuple[Panel, ...] = ()
@@ -114,20 +115,22 @@ class Reproduction:
 
     @property
     def table(self) -> Table:
+        """Statistics of our values by row."""
         return {row.name: statistics(row.values) for row in self.rows}
 
     @property
     def paper(self) -> Table:
+        """Statistics that the paper prints, by row."""
         return {row.name: row.paper for row in self.rows}
 
 
-def as_json(done: Reproduction) -> dict[str, Any]:
+def as_json(reproduction: Reproduction) -> dict[str, Any]:
     """Return {"name", "emulated": true, "table": {row: {"mean", "std", "q1", "median", "q3"}}, "paper": ...}.
 
     "paper" has the form of "table". Null stands for a statistic of too few walks, or one that is not in the paper."""
     return {
-        "name": done.name,
+        "name": reproduction.name,
         "emulated": True,
-        "table": {row: attrs.asdict(of) for row, of in done.table.items()},
-        "paper": {row: attrs.asdict(of) for row, of in done.paper.items()},
+        "table": {row: attrs.asdict(of) for row, of in reproduction.table.items()},
+        "paper": {row: attrs.asdict(of) for row, of in reproduction.paper.items()},
     }

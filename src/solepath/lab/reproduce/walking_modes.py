@@ -1,13 +1,13 @@
 """Gong et al. 2023: 40 rectangles of 2.8 m by 4.0 m by touchdown methods I to IV.
 
 Four wearers walk ten rectangles each, with seven attitude sensors and two insoles of 99 cells at 50 Hz. The wearers are
-those of table 3 (emulate/wearers/gait.py). They walk from A over B, C and D back to A, turning left without a halt. At
-each corner every foot has a step that comes down nearest to it. A deviation is the session's position of these two
-touchdowns less the true footprints, averaged over both.
+those of table 3 (emulate/wearers/gait.py). They walk from A over B, C and D back to A, turning left without a halt. Of
+each foot one touchdown is nearest to a corner. The deviation at a corner is the error of the session's positions of
+these two touchdowns, averaged over both feet: estimated minus true footprint.
 
-The floor is surveyed, as the paper's was: sessions know the direction of the first side relative to the sensors' common
-north. Method IV compensates by the errors of each wearer's own marked walks (section 3.3) on another day: other walks,
-with sensors strapped on again."""
+The floor is surveyed, as in the paper: sessions know the direction of the first side relative to the sensors' common
+north. Method IV compensates with the errors of the same wearer's marked walks (section 3.3). These are other walks, for
+which the sensors were strapped on again. The four touchdown methods are those of papers/walking_modes."""
 
 from __future__ import annotations
 
@@ -35,28 +35,28 @@ from ...types.vector import GRAVITY
 from ..processes import Progress, run_jobs
 from . import published
 from .published import corner_row
-from .tables import Drawn, Floor, PictureTrack, Reproduction, row_of, statistics
+from .tables import DrawStyle, FloorPanel, PictureTrack, Reproduction, row_of, statistics
 from .walks import run_session
 
 NAME = WALKING_MODES.name
 WALKS = 40
 RATE = 50.0
 """Sampling rate, Hz (section 3.1)."""
-CELLS = 99
-STEPS, REPEATS = 50, 3
-"""Number of steps of a marked walk, and number of its repeats.
+CELL_COUNT = 99
+MARKED_STEPS, MARKED_REPEATS = 50, 3
+"""Number of steps of a marked walk, and number of its repetitions.
 
 Section 3.3: "50 steps at a time and repeated this three times along each path"."""
 METHODS = {"I": TOUCHDOWN_HEIGHT, "II": TOUCHDOWN_ACCELERATION, "III": TOUCHDOWN_PRESSURE, "IV": WALKING_MODES}
-PLACES = {"A": (0.0, 0.0), "B": (ALONG, 0.0), "C": (ALONG, ACROSS), "D": (0.0, ACROSS)}
-"""Positions of the corners, m; the walk starts and ends at A."""
-NEAR = 0.4
-"""Largest distance of a touchdown from the true one, s; without one the latest touchdown before gives the place."""
+CORNER_POSITIONS = {"A": (0.0, 0.0), "B": (ALONG, 0.0), "C": (ALONG, ACROSS), "D": (0.0, ACROSS)}
+"""Positions (x, y) of the corners, m; x along the first side, y to the left. The walk starts and ends at A."""
+MAX_TIME_DIFFERENCE = 0.4
+"""Largest time between a reported touchdown and the true one that it matches, s."""
 
 
 @frozen
 class ModesJob:
-    """One rectangle of one wearer."""
+    """One rectangle to emulate, with the wearer's number in SUBJECTS and calibration."""
 
     subject: int
     seed: int
@@ -65,7 +65,7 @@ class ModesJob:
 
 @frozen
 class MarkedWalks:
-    """The marked walks of one wearer: `steps` steps in each mode, `repeats` times."""
+    """The marked walks of one wearer to emulate: `steps` steps in each mode, `repeats` times."""
 
     subject: int
     seed: int
@@ -74,11 +74,11 @@ class MarkedWalks:
 
 
 @frozen
-class ModesWalked:
-    """Results of one rectangle."""
+class ModesResults:
+    """The results of one rectangle."""
 
-    off: dict[str, dict[str, tuple[float, float]]]
-    """Error (x, y) of the wearer's position by method and corner, m."""
+    deviations: dict[str, dict[str, tuple[float, float]]]
+    """Deviation (x, y) by method and corner, m."""
 
 
 def reproduce(
@@ -87,55 +87,64 @@ def reproduce(
     """Return the results of `walks` rectangles, walked by the four wearers in turn."""
     count = WALKS if walks is None else walks
     wearers = list(range(min(count, len(SUBJECTS))))
-    learning = [MarkedWalks(subject, 1000 * seed + 500 + 10 * subject, STEPS, REPEATS) for subject in wearers]
-    known = list(run_jobs(learn, learning, processes=processes, progress=progress, after=count))
+    marked_walks = [
+        MarkedWalks(subject, 1000 * seed + 500 + 10 * subject, MARKED_STEPS, MARKED_REPEATS) for subject in wearers
+    ]
+    known = list(run_jobs(learn, marked_walks, processes=processes, progress=progress, after=count))
     jobs = [ModesJob(k % len(known), 1000 * seed + k, known[k % len(known)]) for k in range(count)]
-    done = list(run_jobs(walk, jobs, processes=processes, progress=progress, before=len(wearers)))
+    results = list(run_jobs(walk, jobs, processes=processes, progress=progress, before=len(wearers)))
     rows = tuple(
-        row_of(published.WALKING_MODES, corner_row(point, method, axis), [one.off[method][point][k] for one in done], 4)
-        for point in PLACES
+        row_of(
+            published.WALKING_MODES,
+            corner_row(point, method, axis),
+            [one.deviations[method][point][k] for one in results],
+            4,
+        )
+        for point in CORNER_POSITIONS
         for method in METHODS
         for k, axis in enumerate("xy")
     )
     return Reproduction(
         name=NAME,
         paper_title=published.WALKING_MODES_TITLE,
-        walked=f"{count} rectangles of {ALONG} m by {ACROSS} m by {len(wearers)} wearers at {RATE:g} Hz",
+        emulation=f"{count} rectangles of {ALONG} m by {ACROSS} m by {len(wearers)} wearers at {RATE:g} Hz",
         unit="m",
         rows=rows,
-        panels=_panels(done),
-        notes=_notes(done),
+        panels=_panels(results),
+        notes=_notes(results),
     )
 
 
-def _panels(done: Sequence[ModesWalked]) -> tuple[Floor, Floor]:
-    corners = [PLACES[point] for point in "ABCDA"]
-    absolute = [PictureTrack("rectangle", tuple(corners), Drawn.TRUTH)]
-    net = []
+def _panels(results: Sequence[ModesResults]) -> tuple[FloorPanel, FloorPanel]:
+    corners = [CORNER_POSITIONS[point] for point in "ABCDA"]
+    tracks = [PictureTrack("rectangle", tuple(corners), DrawStyle.TRUTH)]
+    origin_tracks = []
     for method in METHODS:
-        off = [(point, one.off[method][point]) for one in done for point in PLACES]
-        there = tuple((PLACES[point][0] + dx, PLACES[point][1] + dy) for point, (dx, dy) in off)
-        absolute.append(PictureTrack(method, there, Drawn.DOTS))
-        net.append(PictureTrack(method, tuple(place for _, place in off), Drawn.DOTS))
-    marks = tuple((point, x, y) for point, (x, y) in PLACES.items())
+        deviations = [(point, one.deviations[method][point]) for one in results for point in CORNER_POSITIONS]
+        estimated_positions = tuple(
+            (CORNER_POSITIONS[point][0] + dx, CORNER_POSITIONS[point][1] + dy) for point, (dx, dy) in deviations
+        )
+        tracks.append(PictureTrack(method, estimated_positions, DrawStyle.DOTS))
+        origin_tracks.append(PictureTrack(method, tuple(place for _, place in deviations), DrawStyle.DOTS))
+    marks = tuple((point, x, y) for point, (x, y) in CORNER_POSITIONS.items())
     return (
-        Floor("where four methods have the corners (fig. 15a)", tuple(absolute), marks),
-        Floor("deviations at all corners (fig. 15b)", tuple(net), (("", 0.0, 0.0),)),
+        FloorPanel("where four methods have the corners (fig. 15a)", tuple(tracks), marks),
+        FloorPanel("deviations at all corners (fig. 15b)", tuple(origin_tracks), (("", 0.0, 0.0),)),
     )
 
 
-def _notes(done: Sequence[ModesWalked]) -> tuple[str, ...]:
+def _notes(results: Sequence[ModesResults]) -> tuple[str, ...]:
     lines = []
-    for point in PLACES:
-        ours, theirs = [], []
+    for point in CORNER_POSITIONS:
+        our_texts, paper_texts = [], []
         for method in METHODS:
-            lengths = [float(np.hypot(*one.off[method][point])) for one in done]
-            ours.append(f"{method} {100.0 * (statistics(lengths).mean or 0.0):.1f}")
+            lengths = [float(np.hypot(*one.deviations[method][point])) for one in results]
+            our_texts.append(f"{method} {100.0 * (statistics(lengths).mean or 0.0):.1f}")
             mean, _, _ = published.CORNERS[point][method]
-            theirs.append(f"{method} {100.0 * float(np.hypot(*mean)):.1f}")
+            paper_texts.append(f"{method} {100.0 * float(np.hypot(*mean)):.1f}")
         lines.append(
-            f"{point}: ours is off by {', '.join(ours)} cm on average; the paper's means are off by "
-            f"{', '.join(theirs)} cm."
+            f"{point}: ours is off by {', '.join(our_texts)} cm on average; the paper's means are off by "
+            f"{', '.join(paper_texts)} cm."
         )
     lines.append(
         "IV compensates each wearer by what the wearer's own marked walks showed; the table that the recipe ships, the "
@@ -149,73 +158,78 @@ def _notes(done: Sequence[ModesWalked]) -> tuple[str, ...]:
 
 
 def known_calibration(wearer: Wearer) -> Calibration:
-    """Return the calibration that a tape measure, scales and the maker of the insoles give."""
+    """Return the calibration that is known from a tape measure, scales and the data of the insoles."""
     shoe = wearer.shoe
-    insoles = {foot: InsoleCalibration(layout=layout(CELLS, foot, shoe.length, shoe.width)) for foot in Foot}
+    insoles = {foot: InsoleCalibration(layout=layout(CELL_COUNT, foot, shoe.length, shoe.width)) for foot in Foot}
     return Calibration(insoles=insoles, limbs=wearer.limbs, weight=GRAVITY * wearer.mass)
 
 
-def worn(walker: Walker, known: Calibration, seed: int) -> list[Sample]:
-    """Return the samples of the seven sensors and both insoles; `seed` draws their errors and their mounting."""
+def sample_wearer(walker: Walker, known: Calibration, seed: int) -> list[Sample]:
+    """Return the samples of the seven sensors and both insoles, whose errors and mounting are drawn from `seed`."""
     layouts = {SITE_OF_FOOT[foot]: one.layout for foot, one in known.insoles.items() if one.layout is not None}
     return limb_samples(walker, RATE, seed=seed, layouts=layouts, cell_part=WORN_RESISTIVE)
 
 
 def learn(job: MarkedWalks) -> Calibration:
-    """Return a wearer's calibration after marked walks in every mode, with sensors strapped on again for each round."""
+    """Return a wearer's calibration after marked walks in every mode; each repetition has the sensors mounted again."""
     wearer = SUBJECTS[job.subject]
     known = known_calibration(wearer)
     errors = []
-    for strapped in range(job.seed, job.seed + job.repeats):
+    for round_seed in range(job.seed, job.seed + job.repeats):
         for k, mode in enumerate(MODES):
-            walker = Walker(marked(mode, job.steps), wearer, 10 * strapped + k)
+            walker = Walker(marked(mode, job.steps), wearer, 10 * round_seed + k)
             marks = [
                 ModeMark(f"mark {n}", mark.foot, mark.x, mark.y, mark.mode, t=mark.t)
                 for n, mark in enumerate(marks_of(walker), 1)
                 if mark.mode is mode
             ]
-            down = touchdowns(DecodedRecording(tuple(worn(walker, known, strapped)), {}), known, heading=0.0)
-            errors += step_errors(marks, down)
+            recording = DecodedRecording(tuple(sample_wearer(walker, known, round_seed)), {})
+            touchdown_events = touchdowns(recording, known, heading=0.0)
+            errors += step_errors(marks, touchdown_events)
     return merged(known, Calibration(modes=mean_errors(errors)))
 
 
-def walk(job: ModesJob) -> ModesWalked:
-    """Run all methods on one rectangle."""
+def walk(job: ModesJob) -> ModesResults:
+    """Emulate one rectangle and run all methods on it."""
     walker = Walker(rectangle(), SUBJECTS[job.subject], job.seed)
-    samples = worn(walker, job.calibration, job.seed)
-    passed = corners(walker)
-    off = {}
+    samples = sample_wearer(walker, job.calibration, job.seed)
+    corner_passes = corners(walker)
+    deviations = {}
     for method, recipe in METHODS.items():
-        down = _touchdowns(recipe, samples, job.calibration)
-        off[method] = {corner.name: _deviation(walker, corner, down) for corner in passed}
-    return ModesWalked(off)
+        touchdown_events = _touchdowns(recipe, samples, job.calibration)
+        deviations[method] = {corner.name: _deviation(walker, corner, touchdown_events) for corner in corner_passes}
+    return ModesResults(deviations)
 
 
 def _touchdowns(recipe: Recipe, samples: Sequence[Sample], calibration: Calibration) -> dict[Foot, list[TouchedDown]]:
-    """Return the touchdowns by foot of a session that knows the direction of the rectangle's first side."""
+    """Return the final touchdowns by foot of a session that knows the direction of the rectangle's first side."""
     modes = next(part for part in recipe.parts if isinstance(part, Modes))
     known = evolve(modes, settings=evolve(modes.settings, heading=0.0))
     events = run_session(recipe.exchanged(Modes, known), samples, calibration)
     return {foot: [e for e in events if isinstance(e, TouchedDown) and e.final and e.foot is foot] for foot in Foot}
 
 
-def _deviation(walker: Walker, corner: LapCorner, down: dict[Foot, list[TouchedDown]]) -> tuple[float, float]:
-    """Return the deviation of the middle between the two footprints at a corner, m."""
+def _deviation(
+    walker: Walker, corner: LapCorner, touchdown_events: dict[Foot, list[TouchedDown]]
+) -> tuple[float, float]:
+    """Return the deviation (x, y) at a corner, m."""
     dx = dy = 0.0
     for foot in Foot:
-        x, y = _place(walker, foot, walker.plan.strides[foot][corner.steps[foot] - 1].heel_strike, down[foot])
+        x, y = _place(
+            walker, foot, walker.plan.strides[foot][corner.steps[foot] - 1].heel_strike, touchdown_events[foot]
+        )
         dx += 0.5 * (x - corner.feet[foot][0])
         dy += 0.5 * (y - corner.feet[foot][1])
     return dx, dy
 
 
-def _place(walker: Walker, foot: Foot, t: float, down: Sequence[TouchedDown]) -> tuple[float, float]:
-    """Return the place where the foot came down at `t` s, or where it stood when no touchdown was found."""
-    near = [one for one in down if abs(one.t - t) < NEAR]
+def _place(walker: Walker, foot: Foot, t: float, touchdown_events: Sequence[TouchedDown]) -> tuple[float, float]:
+    """Return the position, m, of the touchdown nearest to `t` s, or else of the last one before it or of the start."""
+    near = [one for one in touchdown_events if abs(one.t - t) < MAX_TIME_DIFFERENCE]
     if near:
         x, y, _ = min(near, key=lambda one: abs(one.t - t)).position
         return x, y
-    before = [one for one in down if one.t < t]
+    before = [one for one in touchdown_events if one.t < t]
     if before:
         x, y, _ = before[-1].position
         return x, y

@@ -1,4 +1,4 @@
-"""Shared steps of the experiments: emulated walks, cut in two where a wearer stands, and sessions that receive them."""
+"""Functions that the experiments share: to join routes, to cut walks in two at a halt, and to run sessions on them."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ from ...recording.decoded import decode_recording
 from ...session import Session
 from ...types import Packet, Sample
 from ..measures.alignment import Floats, align
-from ..measures.strides import ALIGNED_OVER
+from ..measures.strides import ALIGNMENT_LENGTH
 
 
 def join_routes(first: Route, second: Route) -> Route:
-    """Return both routes in sequence; the second starts where the first ends, in its direction."""
+    """Return a route that continues with `second` at the end of `first`, in the direction there."""
     return evolve(first, actions=(*first.actions, *second.actions), speed=second.speed)
 
 
-def rest_after(walker: Walker, first: Route) -> float:
-    """Return the middle of the stand that ends `first`, the beginning of the walker's route, s."""
+def find_halt(walker: Walker, first: Route) -> float:
+    """Return the middle of the halt, s, that ends the first part `first` of the walker's route."""
     walked = [not isinstance(action, Stand) for action in first.actions]
     stretches = sum(now and not before for before, now in zip([False, *walked], walked, strict=False))
     bouts = walker.plan.bouts
@@ -36,17 +36,16 @@ def rest_after(walker: Walker, first: Route) -> float:
 
 @frozen(eq=False)
 class WalkParts:
-    """A decoded walk cut in two: samples `before` and `after`, and `layouts`, the positions of the cells.
-
-    An app that is connected to the devices from the start has the positions of the cells too."""
+    """The samples of a walk that is cut in two."""
 
     before: tuple[Sample, ...]
     after: tuple[Sample, ...]
     layouts: Calibration
+    """Positions of the cells, which an app receives when it connects to the insoles."""
 
 
-def cut(walk: EmulatedWalk, t: float) -> WalkParts:
-    """Return the samples of a walk's packets, measured before and after `t` s."""
+def cut_walk(walk: EmulatedWalk, t: float) -> WalkParts:
+    """Return the samples of a walk before and after `t` s."""
     decoded = decode_recording(walk.packets)
     insoles = {foot: InsoleCalibration(layout=layout) for foot, layout in decoded.layouts.items()}
     before, after = (tuple([one for one in decoded.samples if (one.t < t) is first]) for first in (True, False))
@@ -64,17 +63,17 @@ def run_session(
     return session.feed(items) + session.finish()
 
 
-def align_track(track: Floats, truth: Floats, over: float = ALIGNED_OVER) -> Floats:
-    """Return `track` (n, 2) turned and shifted to fit `truth` (n, 2) best over the first `over` metres.
+def align_track(track: Floats, truth: Floats, over: float = ALIGNMENT_LENGTH) -> Floats:
+    """Return `track` (n, 2) turned and shifted to fit `truth` (n, 2) best, m; equal rows are the same instant.
 
-    Rows of both are the same instants."""
+    The fit ends with the first row that is more than `over` m away from the start."""
     far = np.linalg.norm(truth - truth[0], axis=1) > over
     count = int(np.argmax(far)) + 1 if far.any() else len(truth)
     return align(track[:count], truth[:count]).apply(track)
 
 
-def thin_out(points: Iterable[Sequence[float]], most: int = 4000) -> tuple[tuple[float, float], ...]:
-    """Return (x, y) of at most `most` of these points, evenly chosen, the last one among them."""
-    all_of = [(float(p[0]), float(p[1])) for p in points]
-    every = -(-len(all_of) // most) or 1
-    return tuple(all_of[::-1][::every][::-1])
+def thin_out(points: Iterable[Sequence[float]], max_points: int = 4000) -> tuple[tuple[float, float], ...]:
+    """Return (x, y) of at most `max_points` of these points at equal intervals, the last point included."""
+    positions = [(float(p[0]), float(p[1])) for p in points]
+    interval = -(-len(positions) // max_points) or 1
+    return tuple(positions[::-1][::interval][::-1])

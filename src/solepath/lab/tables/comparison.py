@@ -14,7 +14,7 @@ EVENTS = {"heel_strike": "heel-strike", "foot_flat": "foot-flat", "heel_off": "h
 
 
 def comparison_table(comparisons: Sequence[FootComparison]) -> str:
-    """Return the table of both feet's strides and events against the truth."""
+    """Return the table of the strides and events of both feet compared with the truth."""
     rows = [
         ["steps walked", *(str(c.steps_true) for c in comparisons)],
         ["steps found", *(str(c.steps_found) for c in comparisons)],
@@ -30,7 +30,7 @@ def comparison_table(comparisons: Sequence[FootComparison]) -> str:
 
 
 def place_table(score: PlaceScore) -> str:
-    """Return the table of positions on the floor plan, for strides while the wearer is on a floor."""
+    """Return the table of the score of positions on the floor plan."""
     rows = [
         ["steps placed", str(score.steps)],
         ["one candidate, the true one, after steps", "-" if score.decided is None else str(score.decided)],
@@ -41,13 +41,16 @@ def place_table(score: PlaceScore) -> str:
     return table(["place against the truth", "wearer"], rows)
 
 
-def reproduced(done: Reproduction) -> str:
-    """Return the table of our figures beside the paper's, and the notes, a sentence a line."""
+def reproduced(reproduction: Reproduction) -> str:
+    """Return the table of our figures beside the paper's, and below it the notes, one sentence on a line."""
     first, *others = STATISTICS
-    header = [done.unit, f"ours: {first}", *others, f"paper: {first}", *others]
-    rows = [[row.name, *_cells(statistics(row.values), row), *_cells(row.paper, row)] for row in done.rows]
-    title = f"{done.name}: ours is emulated ({done.walked}), theirs was walked ({done.paper_title})."
-    return "\n".join([title, "", table(header, rows), *([""] if done.notes else []), *done.notes])
+    header = [reproduction.unit, f"ours: {first}", *others, f"paper: {first}", *others]
+    rows = [[row.name, *_cells(statistics(row.values), row), *_cells(row.paper, row)] for row in reproduction.rows]
+    title = (
+        f"{reproduction.name}: ours is emulated ({reproduction.emulation}), "
+        f"theirs was walked ({reproduction.paper_title})."
+    )
+    return "\n".join([title, "", table(header, rows), *([""] if reproduction.notes else []), *reproduction.notes])
 
 
 def _cells(of: Statistics, row: FigureRow) -> list[str]:

@@ -9,13 +9,13 @@ from matplotlib.backend_bases import FigureCanvasBase
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from ..reproduce.tables import Boxes, Drawn, Floor, PictureTrack, Reproduction, Statistics
+from ..reproduce.tables import BoxPlots, DrawStyle, FloorPanel, PictureTrack, Reproduction, Statistics
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00")
 """Colours that colour-blind readers can distinguish (Okabe and Ito 2008)."""
 MARKERS = ("o", "s", "^", "D", "v")
 GREY = "0.55"
-INCHES = 5.4
+PANEL_SIZE = 5.4
 """Side of a panel, inches."""
 
 
@@ -24,27 +24,27 @@ def formats() -> list[str]:
     return sorted(FigureCanvasBase.get_supported_filetypes())
 
 
-def draw(done: Reproduction, path: Path) -> None:
-    """Draw the panels side by side into a file, in the format of its extension. OSError is raised when that fails."""
-    figure = Figure(figsize=(INCHES * max(1, len(done.panels)), INCHES), layout="constrained")
-    axes = figure.subplots(1, max(1, len(done.panels)), squeeze=False)[0]
-    for ax, panel in zip(axes, done.panels, strict=False):
-        if isinstance(panel, Boxes):
-            _boxes(ax, panel, done)
+def draw(reproduction: Reproduction, path: Path) -> None:
+    """Draw the panels side by side into a file, in the format of its extension. Raise OSError when that fails."""
+    figure = Figure(figsize=(PANEL_SIZE * max(1, len(reproduction.panels)), PANEL_SIZE), layout="constrained")
+    axes = figure.subplots(1, max(1, len(reproduction.panels)), squeeze=False)[0]
+    for ax, panel in zip(axes, reproduction.panels, strict=False):
+        if isinstance(panel, BoxPlots):
+            _draw_boxes(ax, panel, reproduction)
         else:
-            _floor(ax, panel)
+            _draw_floor(ax, panel)
         ax.set_title(panel.title, fontsize=10)
-    figure.suptitle(f"{done.name}, emulated ({done.paper_title})", fontsize=11)
+    figure.suptitle(f"{reproduction.name}, emulated ({reproduction.paper_title})", fontsize=11)
     figure.savefig(path, dpi=120)
 
 
-def _boxes(ax: Axes, panel: Boxes, done: Reproduction) -> None:
-    rows = {row.name: row for row in done.rows}
-    chosen = [rows[name] for name in panel.rows]
-    at = range(1, len(chosen) + 1)
+def _draw_boxes(ax: Axes, panel: BoxPlots, reproduction: Reproduction) -> None:
+    rows = {row.name: row for row in reproduction.rows}
+    box_rows = [rows[name] for name in panel.rows]
+    box_positions = range(1, len(box_rows) + 1)
     ax.boxplot(
-        [list(row.values) for row in chosen],
-        positions=[k - 0.18 for k in at],
+        [list(row.values) for row in box_rows],
+        positions=[k - 0.18 for k in box_positions],
         widths=0.3,
         manage_ticks=False,
         patch_artist=True,
@@ -52,20 +52,20 @@ def _boxes(ax: Axes, panel: Boxes, done: Reproduction) -> None:
         medianprops={"color": COLOURS[1], "linewidth": 2},
         flierprops={"marker": "+", "markeredgecolor": COLOURS[0]},
     )
-    for k, row in zip(at, chosen, strict=True):
-        _printed_box(ax, k + 0.04, row.paper)
+    for k, row in zip(box_positions, box_rows, strict=True):
+        _draw_paper_box(ax, k + 0.04, row.paper)
     if panel.target is not None:
         ax.axhline(panel.target, color=GREY, linestyle="--", linewidth=1, zorder=0)
-    ax.set_xticks(list(at), [row.name for row in chosen])
-    ax.set_xlim(0.4, len(chosen) + 0.6)
+    ax.set_xticks(list(box_positions), [row.name for row in box_rows])
+    ax.set_xlim(0.4, len(box_rows) + 0.6)
     ax.set_ylabel(panel.label)
     ours = Rectangle((0, 0), 1, 1, facecolor="#a6cee3", edgecolor=COLOURS[0])
     theirs = Rectangle((0, 0), 1, 1, facecolor="0.9", edgecolor=GREY)
     ax.legend([ours, theirs], ["ours, emulated", "paper: quartiles and median"], fontsize=8)
 
 
-def _printed_box(ax: Axes, left: float, paper: Statistics) -> None:
-    """Draw a paper's box from quartiles and median, which are all that a paper prints."""
+def _draw_paper_box(ax: Axes, left: float, paper: Statistics) -> None:
+    """Draw the paper's box without whiskers, because papers print only quartiles and median."""
     if paper.q1 is None or paper.q3 is None or paper.median is None:
         return
     ax.add_patch(Rectangle((left, paper.q1), 0.3, paper.q3 - paper.q1, facecolor="0.9", edgecolor=GREY))
@@ -74,15 +74,15 @@ def _printed_box(ax: Axes, left: float, paper: Statistics) -> None:
     ax.autoscale_view()
 
 
-def _floor(ax: Axes, panel: Floor) -> None:
-    shown = 0
+def _draw_floor(ax: Axes, panel: FloorPanel) -> None:
+    n_drawn = 0
     for track in panel.tracks:
-        if track.drawn is Drawn.TRUTH:
+        if track.style is DrawStyle.TRUTH:
             ax.plot(*_columns(track), color="0.3", linestyle="--", linewidth=1.0, label=track.name, zorder=3)
             continue
-        colour, marker = COLOURS[shown % len(COLOURS)], MARKERS[shown % len(MARKERS)]
-        shown += 1
-        if track.drawn is Drawn.DOTS:
+        colour, marker = COLOURS[n_drawn % len(COLOURS)], MARKERS[n_drawn % len(MARKERS)]
+        n_drawn += 1
+        if track.style is DrawStyle.DOTS:
             ax.scatter(*_columns(track), s=14, color=colour, marker=marker, alpha=0.7, label=track.name, zorder=2)
         else:
             ax.plot(*_columns(track), color=colour, linewidth=0.9, label=track.name, zorder=2)

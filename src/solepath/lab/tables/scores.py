@@ -1,4 +1,4 @@
-"""Scores as text tables: of recorded data, of the default recipe without each of its parts, beside earlier ones."""
+"""Text tables of scores: of each data set, of the ablation, and of the changes since an earlier evaluation."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ...show.tables.table import milliseconds, number, percent, table
 from ...types import Activity
 from ..evaluate.ablation import COLUMNS as MAIN_FIGURES
 from ..evaluate.ablation import Column
-from ..evaluate.changes import DIGITS, Changes, Scores, Verdict, compare_scores, missing
+from ..evaluate.changes import DIGITS, Changes, Scores, Verdict, compare_scores, names_missing
 from ..evaluate.report import Result
 from ..measures.confusion import CLASSES
 from ..measures.score import Figures, Summary
@@ -25,7 +25,7 @@ def _degrees(value: float | None) -> str:
     return number(None if value is None else degrees(value), 1)
 
 
-def _short(activity: Activity) -> str:
+def _activity_name(activity: Activity) -> str:
     """Return the activity's name as in `stairs up`, `lift down`."""
     return activity.value.lower().replace("_", " ").replace("elevator", "lift")
 
@@ -82,7 +82,7 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
     "uturn_invented": ("invented", _share),
     "accuracy": ("right %", percent),
     "most_frequent": ("most freq %", percent),
-    **{f"f1_{activity.value.lower()}": (f"F1 {_short(activity)}", _share) for activity in CLASSES},
+    **{f"f1_{activity.value.lower()}": (f"F1 {_activity_name(activity)}", _share) for activity in CLASSES},
     "rides_true": ("rides", _count),
     "rides_found": ("found", _count),
     "rides_invented": ("invented", _count),
@@ -94,11 +94,11 @@ COLUMNS: dict[str, tuple[str, Callable[[float | None], str]]] = {
 
 
 def score_table(result: Result) -> str:
-    """Return title, table and failures. The table has a line a recording (when there are few) and the averages."""
+    """Return title, table and failures of a data set. The table may list recordings, and always has the averages."""
     data_set = result.data_set
     header = ["recording", *(COLUMNS[key][0] for key in data_set.figures)]
     rows: list[Sequence[str]] = []
-    if data_set.each:
+    if data_set.lists_recordings:
         rows += [_row(score.recording, score.flat(), data_set.figures) for score in result.scores]
         rows.append([])
     for summary in result.summaries:
@@ -117,16 +117,16 @@ def score_table(result: Result) -> str:
 
 
 def _confusion(summary: Summary) -> str:
-    """Return the table of reported activities for the labelled samples of each activity, %."""
+    """Return the confusion matrix: the share of each reported activity in the samples of each true one, %."""
     counts = summary.confusion or {}
     reported = [activity for activity in Activity if any(activity.value in row for row in counts.values())]
     rows = []
     for activity in CLASSES:
         if (row := counts.get(activity.value)) is not None:
-            every = sum(row.values())
-            shares = [percent(row.get(other.value, 0) / every) for other in reported]
-            rows.append([_short(activity), *shares, number(float(every), 0)])
-    return table(["% of the true activity, reported as", *map(_short, reported), "samples"], rows)
+            total = sum(row.values())
+            shares = [percent(row.get(other.value, 0) / total) for other in reported]
+            rows.append([_activity_name(activity), *shares, number(float(total), 0)])
+    return table(["% of the true activity, reported as", *map(_activity_name, reported), "samples"], rows)
 
 
 def _row(name: str, figures: Figures, keys: Sequence[str]) -> list[str]:
@@ -139,7 +139,10 @@ def ablation_table(results: Sequence[Result], markdown: bool = False) -> str:
     scored = {result.data_set.name for result in results}
     columns = [column for column in MAIN_FIGURES if column.data_set in scored]
     header = ["", *(f"{column.title} {column.unit}".strip() for column in columns)]
-    rows = [[recipe, *(_main_figure(column, column.of(results, recipe)) for column in columns)] for recipe in recipes]
+    rows = [
+        [recipe, *(_main_figure(column, column.find_figure(results, recipe)) for column in columns)]
+        for recipe in recipes
+    ]
     if not markdown:
         return table(header, rows)
     lines = [header, ["---", *("---:" for _ in columns)], *rows]
@@ -161,12 +164,17 @@ GROUPS = ("mean", "median", "together")
 
 
 def changes_table(changes: Changes) -> str:
-    """Return every figure of the groups, the figures of recordings that changed, and what is on one side only."""
+    """Return the table of the groups' figures and of changed figures of recordings, and the names of new recordings."""
     rows: list[Sequence[str]] = []
     for change in changes.changes:
-        if change.what.split()[0] in GROUPS or change.verdict is not Verdict.SAME:
+        if change.row.split()[0] in GROUPS or change.verdict is not Verdict.SAME:
             rows.append(
-                (f"{change.figure} ({change.what})", _digits(change.was), _digits(change.now), change.verdict.value)
+                (
+                    f"{change.figure} ({change.row})",
+                    _format(change.earlier),
+                    _format(change.present),
+                    change.verdict.value,
+                )
             )
     counts = [
         f"{sum(change.verdict is which for change in changes.changes)} {which.value}"
@@ -182,10 +190,10 @@ def changes_table(changes: Changes) -> str:
     return "\n".join(lines)
 
 
-def comparison_tables(was: Scores, now: Scores) -> str:
-    """Return a table for each data set that is in both evaluations, and the names that are in one only."""
-    parts = [changes_table(changes) for changes in compare_scores(was, now)]
-    removed, new = missing(was, now), missing(now, was)
+def comparison_tables(earlier: Scores, present: Scores) -> str:
+    """Return a table for each data set that is in both evaluations, and the data sets that only one of them has."""
+    parts = [changes_table(changes) for changes in compare_scores(earlier, present)]
+    removed, new = names_missing(earlier, present), names_missing(present, earlier)
     if removed:
         parts.append(f"evaluated then and not now: {', '.join(removed)}")
     if new:
@@ -193,5 +201,5 @@ def comparison_tables(was: Scores, now: Scores) -> str:
     return "\n\n".join(parts)
 
 
-def _digits(value: float | None) -> str:
+def _format(value: float | None) -> str:
     return "-" if value is None else f"{value:.{DIGITS}g}"

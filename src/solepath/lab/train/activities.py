@@ -3,11 +3,11 @@
     python -m solepath.lab.train.activities DATA_DIR [--out FILE] [--without FOLD]
 
 writes activities.json beside the part, or FILE. The same data give the same file. `--without` leaves out the wearers of
-a fold of hugadb (hugadb.py, from 0), for scoring on them.
+a fold of hugadb (numbers from 0, as in hugadb.py), so that the part can be scored on them.
 
-The data are hugadb, as recorded and at other rates; level walks of other wearers, sensors and mountings (only walking
-is known of them, so only blocks with a step count); and emulated wearers with seeds from 101. The recorded stairs of
-gaitmap_examples and xio_closed_walks are not among them."""
+The training data are hugadb, as recorded and at other rates; level walks of other wearers, sensors and mountings; and
+emulated wearers with seeds from 101. In the level walks the wearers also stood, unlabelled, so only blocks with a
+stride are used. The recorded stairs of gaitmap_examples and xio_closed_walks are not training data."""
 
 from __future__ import annotations
 
@@ -47,15 +47,15 @@ from ...types import SITE_OF_FOOT, Activity, Foot, Sample, Site
 from ...types.vector import TIE, ZERO
 from . import emulated
 from .activities_course import FootEvidence, LabelledCourse, chances, shifts
-from .activities_net import CLASSES, networks, usual
+from .activities_net import CLASSES, feature_statistics, fit_networks
 from .hugadb import FOLDS, Span, labels, recordings, spans
 
 Floats = NDArray[np.float64]
 Label = Callable[[float], Activity | None]
 
 STRAPDOWN = Recipe("strapdown", ShoeDetector(), LinearDedrift())
-"""Recipe of a plain zero-velocity method, because the features of a step must not depend on one recipe."""
-WAYS: tuple[tuple[float | None, Recipe], ...] = (
+"""Recipe of a plain zero-velocity method, so that the model does not depend on the strides of one recipe."""
+VARIANTS: tuple[tuple[float | None, Recipe], ...] = (
     (None, recipes.DEFAULT),
     (100.0, recipes.DEFAULT),
     (20.0, recipes.DEFAULT),
@@ -65,13 +65,13 @@ WAYS: tuple[tuple[float | None, Recipe], ...] = (
 )
 """Rate in Hz (None: as recorded) and recipe with which each recording is processed."""
 MISLABELLED = ("various_03_05", "various_03_06")
-"""Recordings whose labels are taken for mistakes, so that nothing is learnt from them.
+"""Recordings that are left out because their labels are taken for mistakes.
 
-They are labelled as going down, but each stride rises by 0.4 m and swings as two steps up at a time do with other
-wearers."""
+They are labelled as stairs down, but each stride rises by 0.4 m, and its swing looks like those of other wearers who
+climb two stairs at a time."""
 LEVEL_WALKS = ("ipol_10m_uturn", "gumushane_gcp", "felius_2min_walk", "tripod_treadmill")
 EMULATED = range(emulated.FIRST_TO_LEARN_FROM, emulated.FIRST_TO_LEARN_FROM + 16)
-WORN: tuple[tuple[float, Imu, Mounting] | CC2650 | CC2541, ...] = (
+DEVICES: tuple[tuple[float, Imu, Mounting] | CC2650 | CC2541, ...] = (
     (100.0, LSM6DSOX, IN_SOLE),
     CC2650(),
     (20.0, MPU6050, IN_SOLE),
@@ -82,25 +82,28 @@ WORN: tuple[tuple[float, Imu, Mounting] | CC2650 | CC2541, ...] = (
     (10.0, MPU9250, IN_SOLE),
 )
 """Sensors of the emulated wearers, in rotation: rate in Hz, inertial sensor and mounting, or a device as it is sold."""
-EMULATOR = 2000
-"""Wearer number of all emulated wearers together."""
-AFOOT = 0.0
-"""Limit of feature 1 (the stillest block of five) for a foot that walks all the time.
+EMULATED_WEARER = 2000
+"""Wearer number that all emulated wearers share."""
+STILLNESS_LIMIT = 0.0
+"""Value of feature 1 (log variance of |acc| in the stillest of five blocks) above which a foot walks all the time.
 
-It stands for a variance of |acc| above 1 (m/s^2)^2."""
-PURE = 0.9
-"""Smallest share of one label in a block that is used."""
+0 stands for a variance of 1 (m/s^2)^2."""
+MIN_LABEL_SHARE = 0.9
+"""Smallest share of a block that its most frequent label must have for the block to be used."""
 
 
 @frozen(eq=False)
 class Blocks:
-    """Features (n, COUNT), classes (n) and wearers (n): a number for each wearer and source."""
+    """The features, classes and wearers of blocks of half a second."""
 
     features: Floats
+    """Features, (n, COUNT)."""
     classes: NDArray[np.int64]
+    """Numbers of activities_net.CLASSES, (n,)."""
     wearers: NDArray[np.int64]
+    """Wearer numbers, (n,); other data sets than hugadb have one number each."""
     course: LabelledCourse | None = None
-    """The whole recording, when the sequence of activities is learnt from it."""
+    """The whole recording, when its sequence of activities is learnt too."""
 
 
 def blocks_of(
@@ -108,27 +111,28 @@ def blocks_of(
     label: Label,
     recipe: Recipe,
     wearer: int,
-    only_steps: bool = False,
-    followed: Sequence[Span] | None = None,
+    only_strides: bool = False,
+    course_spans: Sequence[Span] | None = None,
 ) -> Blocks:
     """Return the labelled blocks of both feet.
 
-    `only_steps` keeps the blocks with a step in them. `followed` has the true activities of a recording from which the
-    sequence of activities is learnt."""
+    `only_strides` leaves out blocks without a stride. `course_spans` are the true activities of a recording from which
+    the sequence of activities is learnt too."""
     rows: list[list[float]] = []
     classes: list[int] = []
     t_start = samples[0].t
-    seen: dict[int, dict[Foot, FootEvidence]] = {}
+    evidence: dict[int, dict[Foot, FootEvidence]] = {}
     for foot in Foot:
-        own = [sample for sample in samples if sample.site.foot is foot and sample.acc is not None]
-        for index, features, force in _features(foot, own, t_start, recipe):
-            seen.setdefault(index, {})[foot] = features, force
-            now = _pure(label, t_start + index * BLOCK)
-            if now is not None and (not only_steps or (features[STRIDE] and features[1] > AFOOT)):
+        foot_samples = [sample for sample in samples if sample.site.foot is foot and sample.acc is not None]
+        for index, features, force in _features(foot, foot_samples, t_start, recipe):
+            evidence.setdefault(index, {})[foot] = features, force
+            activity = _block_label(label, t_start + index * BLOCK)
+            if activity is not None and (not only_strides or (features[STRIDE] and features[1] > STILLNESS_LIMIT)):
                 rows.append(features)
-                classes.append(CLASSES[now])
+                classes.append(CLASSES[activity])
     n = len(rows)
-    course = None if followed is None else LabelledCourse(t_start, seen, tuple(followed), wearer != EMULATOR)
+    by_hand = wearer != EMULATED_WEARER
+    course = None if course_spans is None else LabelledCourse(t_start, evidence, tuple(course_spans), by_hand)
     return Blocks(np.array(rows).reshape(n, COUNT), np.array(classes, dtype=np.int64), np.full(n, wearer), course)
 
 
@@ -144,10 +148,10 @@ def _features(
         if window.index is None or index > window.index:
             if window.index is not None:
                 window.close()
-                judged = window.index - REACH
-                found = window.features(judged, t_start + (judged + 0.5) * BLOCK)
-                if found is not None:
-                    yield judged, found, block_force(window.block(judged), window.resolution)
+                complete = window.index - REACH
+                features = window.features(complete, t_start + (complete + 0.5) * BLOCK)
+                if features is not None:
+                    yield complete, features, block_force(window.block(complete), window.resolution)
             rest = tracker.rest
             window.start_block(index, rest.bias, rest.grain if rest.count else 0.0)
         if sample.acc is not None:
@@ -156,53 +160,55 @@ def _features(
             window.add_events(events, tracker.corrector.position[2])
 
 
-def _pure(label: Label, t_start: float) -> Activity | None:
-    """Return the label of at least the share PURE of the block that starts at `t_start` s; None when there is none."""
+def _block_label(label: Label, t_start: float) -> Activity | None:
+    """Return the label of the block that starts at `t_start` s; None when no label has the share MIN_LABEL_SHARE."""
     n = 20
-    found = [label(t_start + BLOCK * (k + 0.5) / n) for k in range(n)]
-    most = max(set(found), key=found.count)
-    return most if found.count(most) >= PURE * n else None
+    block_labels = [label(t_start + BLOCK * (k + 0.5) / n) for k in range(n)]
+    most_frequent = max(set(block_labels), key=block_labels.count)
+    return most_frequent if block_labels.count(most_frequent) >= MIN_LABEL_SHARE * n else None
 
 
 def hugadb(folder: Path, without: frozenset[int]) -> Iterator[Blocks]:
-    """Yield the blocks of all wearers but `without`, with every entry of `WAYS`."""
+    """Yield the blocks of all wearers of hugadb but `without`, once for every entry of VARIANTS."""
     for one in recordings(folder):
         if one.subject in without or one.path.stem in MISLABELLED:
             continue
-        times, known = labels(one.path)
-        at = np.array(times)
+        times, activities = labels(one.path)
+        label_times = np.array(times)
 
-        def label(t: float, at: Floats = at, known: list[Activity | None] = known) -> Activity | None:
-            k = int(np.searchsorted(at, t))
-            return known[k] if k < len(known) else None
+        def label(
+            t: float, label_times: Floats = label_times, activities: list[Activity | None] = activities
+        ) -> Activity | None:
+            k = int(np.searchsorted(label_times, t))
+            return activities[k] if k < len(activities) else None
 
         samples = list(load_samples(one.path))
-        done = spans(times, known)
-        for rate, recipe in WAYS:
-            seen = samples if rate is None else resampled(samples, rate)
-            followed = done if (rate, recipe) == WAYS[0] else None
-            yield blocks_of(seen, label, recipe, one.subject, followed=followed)
+        activity_spans = spans(times, activities)
+        for rate, recipe in VARIANTS:
+            variant = samples if rate is None else resampled(samples, rate)
+            course_spans = activity_spans if (rate, recipe) == VARIANTS[0] else None
+            yield blocks_of(variant, label, recipe, one.subject, course_spans=course_spans)
 
 
 def level_walks(data: Path) -> Iterator[Blocks]:
-    """Yield the blocks of every other recorded walk without stairs."""
+    """Yield the blocks of every second recording of LEVEL_WALKS."""
     for number, folder in enumerate(LEVEL_WALKS):
         for path in sorted((data / folder).glob("*.npz"))[::2]:
             samples = sorted(load_samples(path), key=attrgetter("t"))
-            yield blocks_of(samples, lambda t: Activity.WALKING, recipes.DEFAULT, 1000 + number, only_steps=True)
+            yield blocks_of(samples, lambda t: Activity.WALKING, recipes.DEFAULT, 1000 + number, only_strides=True)
 
 
 def emulated_walks(seeds: Iterable[int] = EMULATED) -> Iterator[Blocks]:
     """Yield the blocks of each emulated walk; every seed has another wearer."""
     for seed in seeds:
         walker = emulated.walker(seed, jogging=True)
-        samples = _worn(walker, WORN[seed % len(WORN)], seed)
+        samples = _sample_walk(walker, DEVICES[seed % len(DEVICES)], seed)
         truth = walker.truth()
-        yield blocks_of(samples, truth.activity, recipes.DEFAULT, EMULATOR, followed=truth.activities)
-        yield blocks_of(samples, truth.activity, STRAPDOWN, EMULATOR)
+        yield blocks_of(samples, truth.activity, recipes.DEFAULT, EMULATED_WEARER, course_spans=truth.activities)
+        yield blocks_of(samples, truth.activity, STRAPDOWN, EMULATED_WEARER)
 
 
-def _worn(walker: Walker, device: tuple[float, Imu, Mounting] | CC2650 | CC2541, seed: int) -> list[Sample]:
+def _sample_walk(walker: Walker, device: tuple[float, Imu, Mounting] | CC2650 | CC2541, seed: int) -> list[Sample]:
     if isinstance(device, tuple):
         rate, part, mounting = device
         found = [one for foot in Foot for one in walker.samples(foot, rate, part, mounting=mounting)]
@@ -220,39 +226,42 @@ def _worn(walker: Walker, device: tuple[float, Imu, Mounting] | CC2650 | CC2541,
 def resampled(samples: Sequence[Sample], rate: float) -> list[Sample]:
     """Return the samples at another rate, Hz, interpolated linearly between samples.
 
-    They are first smoothed over half an interval where that is longer, as sensors do."""
+    They are first averaged over half an interval of the new rate, as a sensor at a low rate does, unless that is
+    shorter than an old interval."""
     found: list[Sample] = []
     for foot in Foot:
-        own = [one for one in samples if one.site.foot is foot and one.acc is not None]
-        if len(own) < 2:
+        foot_samples = [one for one in samples if one.site.foot is foot and one.acc is not None]
+        if len(foot_samples) < 2:
             continue
-        t = np.array([one.t for one in own])
+        t = np.array([one.t for one in foot_samples])
         width = max(1, round(0.5 / rate / float(np.median(np.diff(t)))))
-        when = np.arange(t[0], t[-1], 1.0 / rate)
+        new_times = np.arange(t[0], t[-1], 1.0 / rate)
 
-        turns = all([one.gyro is not None for one in own])
-        held = np.array([(*(one.acc or ZERO), *((one.gyro or ZERO) if turns else ())) for one in own])
-        smooth = [np.convolve(channel, np.ones(width) / width, "same") for channel in held.T]
-        rows = np.column_stack([np.interp(when, t, channel) for channel in smooth]).tolist()
-        for at, (x, y, z, *turn) in zip(when.tolist(), rows, strict=True):
-            found.append(attrs.evolve(own[0], t=at, acc=(x, y, z), gyro=(turn[0], turn[1], turn[2]) if turns else None))
+        has_gyro = all([one.gyro is not None for one in foot_samples])
+        values = np.array([(*(one.acc or ZERO), *((one.gyro or ZERO) if has_gyro else ())) for one in foot_samples])
+        smooth = [np.convolve(channel, np.ones(width) / width, "same") for channel in values.T]
+        rows = np.column_stack([np.interp(new_times, t, channel) for channel in smooth]).tolist()
+        for time, (x, y, z, *turn) in zip(new_times.tolist(), rows, strict=True):
+            gyro = (turn[0], turn[1], turn[2]) if has_gyro else None
+            found.append(attrs.evolve(foot_samples[0], t=time, acc=(x, y, z), gyro=gyro))
     return sorted(found, key=attrgetter("t"))
 
 
 def fit_model(parts: Iterable[Blocks], note: str) -> MotionModel:
-    """Return the model that is learnt from all these blocks."""
-    held = [part for part in parts if len(part.classes)]
-    features = np.concatenate([part.features for part in held])
-    classes = np.concatenate([part.classes for part in held])
-    whole, alone = networks(features, classes, np.concatenate([part.wearers for part in held]))
-    means, deviations = usual(features, classes)
-    courses = [part.course for part in held if part.course is not None]
-    model = MotionModel(note, whole, alone, means, deviations, chances(courses), ())
+    """Return the model that is fitted to all these blocks; `note` states the training data."""
+    used = [part for part in parts if len(part.classes)]
+    features = np.concatenate([part.features for part in used])
+    classes = np.concatenate([part.classes for part in used])
+    wearers = np.concatenate([part.wearers for part in used])
+    full_network, accelerometer_network = fit_networks(features, classes, wearers)
+    means, deviations = feature_statistics(features, classes)
+    courses = [part.course for part in used if part.course is not None]
+    model = MotionModel(note, full_network, accelerometer_network, means, deviations, chances(courses), ())
     return attrs.evolve(model, shifts=shifts(courses, model))
 
 
 def train_model(data: Path, without: int | None) -> MotionModel:
-    """Return the model without the wearers of the fold `without`."""
+    """Return the model that is fitted to all training data but the wearers of the fold `without`."""
     left_out = frozenset[int]() if without is None else FOLDS[without]
     fold = "all wearers" if without is None else f"the wearers but {sorted(left_out)}"
     note = (

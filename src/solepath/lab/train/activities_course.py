@@ -1,7 +1,10 @@
-"""Learns for `Activities` how activities follow each other: the chances of a change, and its time.
+"""Learns for `Activities` how activities follow each other: the chances of each change, and the shift of its time.
 
-A change is seen in the half second whose window looks more like the new activity. The people who labelled it dated it
-by other signs (the foot on the first tread, the doors of the lift), so the median of the difference is learnt."""
+`Activities` detects a change in the block of half a second in which the samples fit the new activity better. People
+label the same change by other signs (the foot on the first stair, the doors of the elevator). The time shift of a
+change is the median of the difference. A course is the sequence of activities in a recording.
+
+Numbers without a source were chosen by hand; no sweep of them is recorded."""
 
 from __future__ import annotations
 
@@ -20,85 +23,95 @@ from ...body.activity.ride import BlockForce
 from ...body.activity.votes import motion_votes
 from ...types import Activity, Foot
 from .activities_net import CLASSES
-from .hugadb import APART, Span
+from .hugadb import SPAN_GAP, Span
 
 FootEvidence = tuple[list[float], BlockForce | None]
-"""Features of a foot in a block, and the forces in which a lift can be detected."""
+"""Features of a foot in a block, and its vertical forces, in which an elevator ride can be detected."""
 
-WORTH = 0.5
-"""Weight of `DEFAULT_CHANCES` beside the observed chances, which must hold for other wearers too."""
-NEAR = 4.0
-"""Largest time between a detected change and a labelled one, s."""
-FEWEST = 8
+DEFAULT_WEIGHT = 0.5
+"""Weight of `DEFAULT_CHANCES` in a chance; the rest is the observed chance, which may not hold for other wearers."""
+MATCHING_TIME = 4.0
+"""Largest time between a detected change and the labelled one that it matches, s."""
+MIN_CHANGES = 8
 """Smallest number of changes from which a time shift is learnt."""
-FINEST = 0.05
+SHIFT_RESOLUTION = 0.05
 """Resolution of a time shift, s."""
 
 
 @frozen(eq=False)
 class LabelledCourse:
-    """A recording in blocks from `t_start` s on, with each foot's evidence in each block, and the true activities."""
+    """A recording that is divided into blocks, with the evidence of each block and the true activities."""
 
     t_start: float
-    seen: Mapping[int, Mapping[Foot, FootEvidence]]
-    done: tuple[Span, ...]
+    """Start of block 0, s."""
+    evidence: Mapping[int, Mapping[Foot, FootEvidence]]
+    """Evidence by the number of the block and by foot."""
+    activities: tuple[Span, ...]
     by_hand: bool = True
-    """True when people labelled the times, False for an emulator."""
+    """True when people labelled the activities, False when the emulator did."""
 
 
-def changes(done: Sequence[Span]) -> list[tuple[float, Activity, Activity]]:
-    """Return (time, activity before, activity after) of each change."""
-    return [(after[0], before[2], after[2]) for before, after in pairwise(done) if after[0] - before[1] < APART]
+def changes(activities: Sequence[Span]) -> list[tuple[float, Activity, Activity]]:
+    """Return time (s), activity before and activity after each change of activity."""
+    return [
+        (after[0], before[2], after[2]) for before, after in pairwise(activities) if after[0] - before[1] < SPAN_GAP
+    ]
 
 
 def chances(courses: Sequence[LabelledCourse]) -> Chances:
-    """Return the chance of each change within a block."""
+    """Return the probability of each change from one block to the next."""
     counts = [[1e-6 * chance for chance in row] for row in DEFAULT_CHANCES]
     for course in courses:
-        for t_start, end, activity in course.done:
+        for t_start, end, activity in course.activities:
             counts[CLASSES[activity]][CLASSES[activity]] += (end - t_start) / BLOCK
-        for _, before, after in changes(course.done):
+        for _, before, after in changes(course.activities):
             counts[CLASSES[before]][CLASSES[after]] += 1.0
     return tuple(
         [
-            tuple([round(WORTH * a + (1.0 - WORTH) * b / sum(row), 5) for a, b in zip(supposed, row, strict=True)])
+            tuple(
+                [
+                    round(DEFAULT_WEIGHT * a + (1.0 - DEFAULT_WEIGHT) * b / sum(row), 5)
+                    for a, b in zip(supposed, row, strict=True)
+                ]
+            )
             for supposed, row in zip(DEFAULT_CHANCES, counts, strict=True)
         ]
     )
 
 
 def shifts(courses: Sequence[LabelledCourse], model: MotionModel) -> Shifts:
-    """Return the time by which each change is labelled later than detected, s.
+    """Return the time by which each change is labelled later than it is detected, s.
 
-    It is the median for changes labelled by hand and that for emulated ones, or the mean of both medians where there
-    are enough changes of either kind."""
-    later: dict[tuple[Activity, Activity], dict[bool, list[float]]] = {}
+    Changes labelled by people and emulated changes have a median each, if there are at least MIN_CHANGES of them. The
+    shift is the mean of these medians."""
+    delays: dict[tuple[Activity, Activity], dict[bool, list[float]]] = {}
     for course in courses:
-        seen = changes(followed(course, model))
-        for at, before, after in changes(course.done):
-            offs = [at - t for t, a, b in seen if a is before and b is after and abs(at - t) < NEAR]
-            if offs:
-                kind = later.setdefault((before, after), {})
-                kind.setdefault(course.by_hand, []).append(min(offs, key=abs))
-    found = []
+        detected = changes(report_spans(course, model))
+        for time, before, after in changes(course.activities):
+            near = [time - t for t, a, b in detected if a is before and b is after and abs(time - t) < MATCHING_TIME]
+            if near:
+                kind = delays.setdefault((before, after), {})
+                kind.setdefault(course.by_hand, []).append(min(near, key=abs))
+    shifts = []
     for before in Activity:
         for after in Activity:
-            enough = [median(offs) for offs in later.get((before, after), {}).values() if len(offs) >= FEWEST]
-            if enough:
-                found.append((before, after, round(FINEST * round(sum(enough) / len(enough) / FINEST), 2)))
-    return tuple(found)
+            medians = [median(times) for times in delays.get((before, after), {}).values() if len(times) >= MIN_CHANGES]
+            if medians:
+                n_units = round(sum(medians) / len(medians) / SHIFT_RESOLUTION)
+                shifts.append((before, after, round(SHIFT_RESOLUTION * n_units, 2)))
+    return tuple(shifts)
 
 
-def followed(course: LabelledCourse, model: MotionModel) -> list[Span]:
-    """Return the spans that the part reports for the recording."""
-    courses = Hypotheses()
+def report_spans(course: LabelledCourse, model: MotionModel) -> list[Span]:
+    """Return the spans that `Activities` with this model reports for the recording."""
+    hypotheses = Hypotheses()
     starts: list[tuple[float, Activity]] = []
-    last = max(course.seen, default=-1)
+    last = max(course.evidence, default=-1)
     for index in range(last + 1):
-        feet = course.seen.get(index, {})
+        feet = course.evidence.get(index, {})
         evidence = [feet.get(foot) for foot in Foot]
         t = course.t_start + index * BLOCK
-        courses.update(
+        hypotheses.update(
             BlockEvidence(
                 t=t,
                 motions=motion_votes(model, [None if one is None else one[0] for one in evidence]),
@@ -109,6 +122,6 @@ def followed(course: LabelledCourse, model: MotionModel) -> list[Span]:
             ),
             model.chain,
         )
-        starts += [(segment.t, segment.activity) for segment, _, _ in courses.settle(t if index < last else 1e9)]
+        starts += [(segment.t, segment.activity) for segment, _, _ in hypotheses.settle(t if index < last else 1e9)]
     ends = [*[t for t, _ in starts[1:]], course.t_start + (last + 1) * BLOCK]
     return [(t, end, activity) for (t, activity), end in zip(starts, ends, strict=True)]

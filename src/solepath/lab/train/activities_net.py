@@ -1,7 +1,9 @@
 """The small networks of `Activities`: one hidden layer, fitted by stochastic gradient descent (Adam: Kingma, Ba 2015).
 
-The features of the track and of the steps are hidden from the network for some blocks in every pass, so that it works
-without them. The features of the steps are also disturbed by as much as tracks of clipping accelerometers are wrong."""
+In every epoch the features of the track and of the strides are set to 0 in some blocks, so that the network works
+without them. Noise as large as the errors of tracks with a clipping accelerometer is added to the features of strides.
+
+Numbers without a source were chosen by hand; no sweep of them is recorded."""
 
 from __future__ import annotations
 
@@ -24,110 +26,111 @@ CLASSES: dict[Activity, int] = {
     Activity.STAIRS_UP: 3,
     Activity.STAIRS_DOWN: 4,
 }
-"""Output of the network for each activity: a foot in a lift stands."""
-HIDDEN = 24
+"""Number of the network's output for each activity. In an elevator a foot stands."""
+HIDDEN_UNITS = 24
 EPOCHS = 15
-BATCH = 512
-RATE = 3e-3
-DECAY = 1e-3
-WITHOUT_TRACK, WITHOUT_STEP = 0.1, 0.2
-"""Shares of blocks in a pass without the features of the track, and without those of the step."""
-LEAST_SPREAD = 0.02
+BATCH_SIZE = 512
+LEARNING_RATE = 3e-3
+WEIGHT_DECAY = 1e-3
+TRACK_DROPOUT, STRIDE_DROPOUT = 0.1, 0.2
+"""Shares of the blocks in an epoch without the features of the track, and without those of the stride."""
+MIN_DEVIATION = 0.02
+"""Smallest standard deviation of a feature that the model states, in the feature's unit."""
 
 
 def weights(classes: Numbers, wearers: Numbers) -> Floats:
-    """Return the weight of each block: 1 over the root of the number of blocks of its class and wearer.
+    """Return the weight of each block, which is proportional to 1 / sqrt(number of blocks of its class and wearer).
 
-    So a class of a wearer counts by that root, and neither the rare nor the frequent classes alone decide."""
-    found = np.ones(len(classes))
+    So all blocks of one class and wearer together weigh sqrt(number): neither rare nor frequent classes dominate."""
+    block_weights = np.ones(len(classes))
     for wearer in np.unique(wearers):
         for k in range(len(MOTIONS)):
-            those = (wearers == wearer) & (classes == k)
-            if those.any():
-                found[those] = 1.0 / np.sqrt(those.sum())
-    return np.asarray(found / found.mean())
+            members = (wearers == wearer) & (classes == k)
+            if members.any():
+                block_weights[members] = 1.0 / np.sqrt(members.sum())
+    return np.asarray(block_weights / block_weights.mean())
 
 
-def networks(features: Floats, classes: Numbers, wearers: Numbers) -> tuple[Network, Network]:
-    """Return the network of feet with a gyroscope, and that of the accelerometer alone.
+def fit_networks(features: Floats, classes: Numbers, wearers: Numbers) -> tuple[Network, Network]:
+    """Return the network for feet with a gyroscope, and the network that needs only the accelerometer.
 
-    `features` are (n, COUNT), `classes` (n) as in CLASSES, `wearers` (n)."""
-    turned = features[:, GYRO] > 0.0
-    whole = learn(features[turned], classes[turned], wearers[turned])
-    return whole, learn(features[:, :GYRO], classes, wearers)
+    `features` (n, COUNT), `classes` (n,) (numbers of CLASSES) and `wearers` (n,) have a row for each block."""
+    has_gyro = features[:, GYRO] > 0.0
+    full_network = fit_network(features[has_gyro], classes[has_gyro], wearers[has_gyro])
+    return full_network, fit_network(features[:, :GYRO], classes, wearers)
 
 
-def learn(features: Floats, classes: Numbers, wearers: Numbers, seed: int = 0) -> Network:
-    """Return the network that is fitted to these blocks."""
+def fit_network(features: Floats, classes: Numbers, wearers: Numbers, seed: int = 0) -> Network:
+    """Return a network that is fitted to the blocks with these features, classes and wearers."""
     rng = np.random.default_rng(seed)
     weight = weights(classes, wearers)
-    mean, spread = features.mean(0), features.std(0) + 0.01
+    mean, deviation = features.mean(0), features.std(0) + 0.01
     inputs = features.shape[1]
-    shapes = ((inputs, HIDDEN), (HIDDEN,), (HIDDEN, len(MOTIONS)), (len(MOTIONS),))
-    held = [rng.normal(0.0, shape[0] ** -0.5, shape) if len(shape) == 2 else np.zeros(shape) for shape in shapes]
-    first, second = [np.zeros(shape) for shape in shapes], [np.zeros(shape) for shape in shapes]
+    shapes = ((inputs, HIDDEN_UNITS), (HIDDEN_UNITS,), (HIDDEN_UNITS, len(MOTIONS)), (len(MOTIONS),))
+    parameters = [rng.normal(0.0, shape[0] ** -0.5, shape) if len(shape) == 2 else np.zeros(shape) for shape in shapes]
+    mean_slopes, mean_squares = [np.zeros(shape) for shape in shapes], [np.zeros(shape) for shape in shapes]
     count = 0
     for epoch in range(EPOCHS):
-        seen = ((disturbed(features, rng) if inputs > GYRO else features) - mean) / spread
-        rate = RATE * 0.5 * (1.0 + np.cos(np.pi * epoch / EPOCHS))
-        order = rng.permutation(len(seen))
-        for start in range(0, len(order), BATCH):
-            batch = order[start : start + BATCH]
+        rows = ((disturb(features, rng) if inputs > GYRO else features) - mean) / deviation
+        rate = LEARNING_RATE * 0.5 * (1.0 + np.cos(np.pi * epoch / EPOCHS))
+        order = rng.permutation(len(rows))
+        for start in range(0, len(order), BATCH_SIZE):
+            batch = order[start : start + BATCH_SIZE]
             count += 1
-            for k, slope in enumerate(_slopes(held, seen[batch], classes[batch], weight[batch])):
-                first[k] += 0.1 * (slope - first[k])
-                second[k] += 0.001 * (slope**2 - second[k])
-                step = first[k] / (1.0 - 0.9**count) / (np.sqrt(second[k] / (1.0 - 0.999**count)) + 1e-8)
-                held[k] -= rate * step
-    hidden = held[0] / spread[:, None]
+            for k, slope in enumerate(_slopes(parameters, rows[batch], classes[batch], weight[batch])):
+                mean_slopes[k] += 0.1 * (slope - mean_slopes[k])
+                mean_squares[k] += 0.001 * (slope**2 - mean_squares[k])
+                step = mean_slopes[k] / (1.0 - 0.9**count) / (np.sqrt(mean_squares[k] / (1.0 - 0.999**count)) + 1e-8)
+                parameters[k] -= rate * step
+    hidden = parameters[0] / deviation[:, None]
     return Network(
-        hidden=tuple([row_of(row) for row in hidden.T]),
-        hidden_bias=row_of(held[1] - mean @ hidden),
-        output=tuple([row_of(row) for row in held[2].T]),
-        output_bias=row_of(held[3]),
+        hidden=tuple([rounded_row(row) for row in hidden.T]),
+        hidden_bias=rounded_row(parameters[1] - mean @ hidden),
+        output=tuple([rounded_row(row) for row in parameters[2].T]),
+        output_bias=rounded_row(parameters[3]),
     )
 
 
-def usual(features: Floats, classes: Numbers) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
-    """Return mean and deviation of the features of the accelerometer, for each of MOTIONS."""
-    alone = [features[classes == k][:, :GYRO] for k in range(len(MOTIONS))]
+def feature_statistics(features: Floats, classes: Numbers) -> tuple[tuple[Row, ...], tuple[Row, ...]]:
+    """Return mean and standard deviation of each accelerometer feature, for each of MOTIONS."""
+    accelerometer_rows = [features[classes == k][:, :GYRO] for k in range(len(MOTIONS))]
     return (
-        tuple([row_of(one.mean(0)) for one in alone]),
-        tuple([row_of(np.maximum(one.std(0), LEAST_SPREAD)) for one in alone]),
+        tuple([rounded_row(one.mean(0)) for one in accelerometer_rows]),
+        tuple([rounded_row(np.maximum(one.std(0), MIN_DEVIATION)) for one in accelerometer_rows]),
     )
 
 
-def _slopes(held: list[Floats], x: Floats, y: Numbers, weight: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-    """Return the gradient of the weighted cross-entropy and of the decay of the weights."""
-    inner = np.tanh(x @ held[0] + held[1])
-    outer = inner @ held[2] + held[3]
-    likely = np.exp(outer - outer.max(1, keepdims=True))
-    likely /= likely.sum(1, keepdims=True)
-    likely[np.arange(len(y)), y] -= 1.0
-    likely *= weight[:, None] / len(y)
-    back = (likely @ held[2].T) * (1.0 - inner**2)
+def _slopes(parameters: list[Floats], x: Floats, y: Numbers, weight: Floats) -> tuple[Floats, Floats, Floats, Floats]:
+    """Return the gradient of the weighted cross-entropy plus weight decay, for each of the four parameter arrays."""
+    inner = np.tanh(x @ parameters[0] + parameters[1])
+    outer = inner @ parameters[2] + parameters[3]
+    probabilities = np.exp(outer - outer.max(1, keepdims=True))
+    probabilities /= probabilities.sum(1, keepdims=True)
+    probabilities[np.arange(len(y)), y] -= 1.0
+    probabilities *= weight[:, None] / len(y)
+    hidden_slopes = (probabilities @ parameters[2].T) * (1.0 - inner**2)
     return (
-        np.asarray(x.T @ back + DECAY * held[0]),
-        np.asarray(back.sum(0)),
-        np.asarray(inner.T @ likely + DECAY * held[2]),
-        np.asarray(likely.sum(0)),
+        np.asarray(x.T @ hidden_slopes + WEIGHT_DECAY * parameters[0]),
+        np.asarray(hidden_slopes.sum(0)),
+        np.asarray(inner.T @ probabilities + WEIGHT_DECAY * parameters[2]),
+        np.asarray(probabilities.sum(0)),
     )
 
 
-def disturbed(features: Floats, rng: np.random.Generator) -> Floats:
-    """Return the features with errors as other sensors might have them."""
-    found = features.copy()
-    n = len(found)
-    stepped = found[:, STRIDE] > 0.0
+def disturb(features: Floats, rng: np.random.Generator) -> Floats:
+    """Return the features with noise and gaps as other sensors might have them."""
+    noisy = features.copy()
+    n = len(noisy)
+    has_stride = noisy[:, STRIDE] > 0.0
     for column, size in ((2, 0.12), (5, 0.06), (6, 0.05)):
-        found[stepped, STRIDE + column] *= np.exp(rng.normal(0.0, size, n))[stepped]
+        noisy[has_stride, STRIDE + column] *= np.exp(rng.normal(0.0, size, n))[has_stride]
     for column, size in ((3, 0.08), (4, 0.05), (8, 0.05), (9, 0.05), (10, 0.05)):
-        found[stepped, STRIDE + column] += rng.normal(0.0, size, n)[stepped]
-    found[rng.random(n) < WITHOUT_STEP, STRIDE:] = 0.0
-    found[rng.random(n) < WITHOUT_TRACK, TRACK:] = 0.0
-    return found
+        noisy[has_stride, STRIDE + column] += rng.normal(0.0, size, n)[has_stride]
+    noisy[rng.random(n) < STRIDE_DROPOUT, STRIDE:] = 0.0
+    noisy[rng.random(n) < TRACK_DROPOUT, TRACK:] = 0.0
+    return noisy
 
 
-def row_of(values: Floats) -> Row:
+def rounded_row(values: Floats) -> Row:
     """Return the values rounded as in the file of the model."""
     return tuple([float(f"{value:.5g}") for value in values.tolist()])

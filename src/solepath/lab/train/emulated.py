@@ -1,8 +1,7 @@
-"""Emulated wearers who stand, walk, climb stairs and take lifts, at 20 Hz with sensors in the soles.
+"""Emulated wearers who stand, walk, climb stairs and take elevators, with sensors in the soles at 20 Hz.
 
 Each seed is another wearer. As in Liu et al. 2015, section V.C, they "ascend/descend the stairs, walk and take
-elevator". Seeds from `FIRST_TO_LEARN_FROM` up to `LAST_TO_LEARN_FROM` are for training; scored walks have other seeds.
-"""
+elevator". Seeds `FIRST_TO_LEARN_FROM` to `LAST_TO_LEARN_FROM` are for training. Scored walks have other seeds."""
 
 from __future__ import annotations
 
@@ -26,55 +25,55 @@ RATE = 20.0
 FIRST_TO_LEARN_FROM = 101
 LAST_TO_LEARN_FROM = 999
 
-TIMES = 2
-"""Number of times that each way to another level is taken."""
+REPEATS = 2
+"""Number of times that each of stairs up, stairs down, elevator up and elevator down is in a route."""
 
-_Part = Callable[[Route, np.random.Generator], Route]
+RouteStretch = Callable[[Route, np.random.Generator], Route]
 
 
-def of_seed(seed: int, *, jogging: bool = False) -> tuple[Route, Wearer]:
-    """Return a route of four or five minutes through a house, and its wearer. `jogging`: some of it at a run."""
+def draw_route(seed: int, *, jogging: bool = False) -> tuple[Route, Wearer]:
+    """Return a route of four or five minutes through a house, and its wearer. With `jogging` some of it is run."""
     rng = np.random.default_rng([seed, 5])
-    who, _ = random_wearer(rng)
+    wearer, _ = random_wearer(rng)
     route = Route(speed=float(rng.uniform(0.9, 1.5))).stand(_uniform(rng, 3.0, 8.0))
-    levels = [_stairs(True), _stairs(False), _lift(True), _lift(False)]
-    parts = [*levels * TIMES, _along, _along, _along, *[_jog] * jogging]
-    for k in rng.permutation(len(parts)):
-        route = parts[k](route, rng)
+    levels = [_make_stairs(True), _make_stairs(False), _make_elevator(True), _make_elevator(False)]
+    stretches = [*levels * REPEATS, _add_corridor, _add_corridor, _add_corridor, *[_add_jog] * jogging]
+    for k in rng.permutation(len(stretches)):
+        route = stretches[k](route, rng)
         if rng.uniform() < 0.6:
             route = route.stand(_uniform(rng, 3.0, 10.0))
-    return route.stand(4.0), who
+    return route.stand(4.0), wearer
 
 
 def walker(seed: int, *, jogging: bool = False) -> Walker:
-    """Return the walker of the route of `of_seed`, for any sensors or none."""
-    route, who = of_seed(seed, jogging=jogging)
-    return Walker(route, who, seed)
+    """Return the walker of the route of `draw_route`, from which samples of any sensor can be made."""
+    route, wearer = draw_route(seed, jogging=jogging)
+    return Walker(route, wearer, seed)
 
 
 def walk(seed: int, *, jogging: bool = False) -> EmulatedWalk:
-    """Return the walk with two CC2650 in the soles whose inertial sensor is as noisy as an MPU-6050."""
-    route, who = of_seed(seed, jogging=jogging)
+    """Return the walk with a CC2650 in each sole whose inertial sensor is as noisy as an MPU-6050."""
+    route, wearer = draw_route(seed, jogging=jogging)
     tag = CC2650(rate=RATE, part=MPU6050, mounting=IN_SOLE)
-    return emulate(route, wearer=who, devices={SITE_OF_FOOT[foot]: evolve(tag) for foot in Foot}, seed=seed)
+    return emulate(route, wearer=wearer, devices={SITE_OF_FOOT[foot]: evolve(tag) for foot in Foot}, seed=seed)
 
 
 def _uniform(rng: np.random.Generator, low: float, high: float) -> float:
     return float(rng.uniform(low, high))
 
 
-def _along(route: Route, rng: np.random.Generator) -> Route:
+def _add_corridor(route: Route, rng: np.random.Generator) -> Route:
     """Add a corridor with a corner."""
     corner = pi / 2.0 if rng.uniform() < 0.5 else -pi / 2.0
     return route.walk(_uniform(rng, 8.0, 20.0)).turn(corner, _uniform(rng, 0.0, 1.5)).walk(_uniform(rng, 6.0, 15.0))
 
 
-def _jog(route: Route, rng: np.random.Generator) -> Route:
+def _add_jog(route: Route, rng: np.random.Generator) -> Route:
     return route.stand(2.0).jog(_uniform(rng, 25.0, 40.0), _uniform(rng, 2.3, 3.2)).stand(2.0)
 
 
-def _stairs(up: bool) -> _Part:
-    def part(route: Route, rng: np.random.Generator) -> Route:
+def _make_stairs(up: bool) -> RouteStretch:
+    def add_stairs(route: Route, rng: np.random.Generator) -> Route:
         """Add two flights and the landing between them, from corridor to corridor."""
         rise, going = _uniform(rng, 0.14, 0.18), _uniform(rng, 0.27, 0.32)
         for flight in range(2):
@@ -84,15 +83,15 @@ def _stairs(up: bool) -> _Part:
                 route = route.turn(pi, 0.6)
         return route.walk(_uniform(rng, 3.0, 6.0))
 
-    return part
+    return add_stairs
 
 
-def _lift(up: bool) -> _Part:
-    def part(route: Route, rng: np.random.Generator) -> Route:
-        """Add a lift ride: in, turn round, up or down one to four storeys, and out."""
+def _make_elevator(up: bool) -> RouteStretch:
+    def add_elevator(route: Route, rng: np.random.Generator) -> Route:
+        """Add an elevator ride: in, turn round, up or down one to four storeys, and out."""
         height = 3.4 * float(rng.integers(1, 5))
-        into = route.walk(_uniform(rng, 3.0, 6.0)).turn(pi)
-        ridden = into.lift(
+        entered = route.walk(_uniform(rng, 3.0, 6.0)).turn(pi)
+        ridden = entered.lift(
             height if up else -height,
             speed=_uniform(rng, 0.9, 1.8),
             acceleration=_uniform(rng, 0.6, 1.1),
@@ -100,4 +99,4 @@ def _lift(up: bool) -> _Part:
         )
         return ridden.walk(_uniform(rng, 3.0, 6.0))
 
-    return part
+    return add_elevator

@@ -4,10 +4,12 @@
 
 writes footstep_activity.json beside the part. The same data give the same file.
 
-Liu et al. 2015 take the thresholds from cumulative distributions (fig. 6). Here a threshold is where the two curves are
-furthest apart, so that the sum of two shares is smallest: of what should be below and is not, and of what should be
-above and is not. The mixture has one component for each activity and source of data. Running is a component of walking,
-because it is none of the paper's activities."""
+Liu et al. 2015 take the thresholds from cumulative distributions (fig. 6). Here a threshold is the value at which the
+two distributions are furthest apart. So the sum of two shares is smallest: the values of the lower class above it, and
+the values of the upper class below it. The mixture of Gaussians of an activity has one component for each source of
+data. Running is a component of walking, because it is none of the paper's activities.
+
+Numbers without a source were chosen by hand; no sweep of them is recorded."""
 
 from __future__ import annotations
 
@@ -33,26 +35,27 @@ from ...types import Activity, Foot, Sample
 from . import emulated
 from .hugadb import labels, recordings
 
-LIFTS = (Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN)
-SHRUNK = 0.1
-"""Share of the common covariance in that of each class, because few windows determine it badly."""
-AROUND = 10
-"""Number of windows on either side whose median is the local mean of standing."""
-BESIDE = 4
-"""Number of windows before and after a ride that may hold its pulses; labels pressed by hand are about a second off."""
-EDGE = 0.5
-"""Time at both ends of a label that is not used, s, because labels are pressed by hand."""
+ELEVATOR_RIDES = (Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN)
+SHRINKAGE = 0.1
+"""Share of the common covariance in the covariance of each component, which few windows determine badly."""
+MEDIAN_REACH = 10
+"""Number of windows before and after a standing window whose median is subtracted from its mean of a_z."""
+RIDE_MARGIN = 4
+"""Number of windows before and after an elevator ride that may have its pulses, because labels are about 1 s off."""
+LABEL_MARGIN = 0.5
+"""Time at both ends of a label that is not used, s, because the labels were made by pressing keys."""
 WALKS = 12
 """Number of emulated walks."""
 STILL_VARIANCE = 10.0
-"""Variance of a_z, m^2/s^4, above which nobody stands still; used only to learn the other threshold."""
+"""Variance of a_z, m^2/s^4, above which nobody stands; used only to learn the threshold of elevator pulses."""
 
 
 @frozen
 class LabelledWindow:
-    """One window of the feet that have samples."""
+    """The windows of both feet, or of the one with samples, at the same time."""
 
     index: int
+    """Number of the window in the recording."""
     activity: Activity | None
     """Activity during the whole window; None when it changes or is not labelled."""
     middle: Activity | None
@@ -62,7 +65,7 @@ class LabelledWindow:
 
 @frozen
 class RecordingWindows:
-    """The windows of one recording. `source`: the kind of data that it is of."""
+    """The windows of one recording. `source` names the data set."""
 
     source: str
     windows: tuple[LabelledWindow, ...]
@@ -71,7 +74,7 @@ class RecordingWindows:
 def features(
     source: str, samples: Iterable[Sample], t: NDArray[Any], activities: Sequence[Activity | None]
 ) -> RecordingWindows:
-    """Return the windows of a recording, whose activities are `activities` at `t` (n,), s."""
+    """Return the windows of a recording with the labels `activities` (n,) at `t` (n,), s."""
     feet: dict[Foot, FootWindows] = {}
     origin: float | None = None
     found: dict[int, list[FootWindow]] = {}
@@ -86,7 +89,7 @@ def features(
     labelled = []
     for index, windows in sorted(found.items()):
         end = (origin or 0.0) + (index + 1) * HOP
-        first, middle, last = np.searchsorted(t, [end - WINDOW - EDGE, end - 0.5 * WINDOW, end + EDGE])
+        first, middle, last = np.searchsorted(t, [end - WINDOW - LABEL_MARGIN, end - 0.5 * WINDOW, end + LABEL_MARGIN])
         during = set(activities[first:last])
         at = activities[min(int(middle), len(activities) - 1)]
         labelled.append(LabelledWindow(index, during.pop() if len(during) == 1 else None, at, tuple(windows)))
@@ -94,20 +97,20 @@ def features(
 
 
 def of_recording(path: Path) -> RecordingWindows:
-    """Return the windows of one of hugadb's recordings."""
+    """Return the windows of the recording of hugadb at `path`."""
     t, activities = labels(path)
     return features("hugadb", load_samples(path), np.array(t), activities)
 
 
 def train(examples: Sequence[RecordingWindows], trained_on: str) -> WindowModel:
-    """Return the model of those windows. Raise ValueError when they lack an activity of the paper."""
+    """Return the model that is fitted to these recordings. Raise ValueError when they lack an activity of the paper."""
     still, moving = [], []
     for labelled in (labelled for one in examples for labelled in one.windows):
-        level = _level(labelled)
-        if labelled.activity is Activity.STANDING or labelled.activity in LIFTS:
-            still.append(level)
+        log_variance = _log_variance(labelled)
+        if labelled.activity is Activity.STANDING or labelled.activity in ELEVATOR_RIDES:
+            still.append(log_variance)
         elif labelled.activity is not None:
-            moving.append(level)
+            moving.append(log_variance)
     if not still or not moving:
         raise ValueError("there are no windows of standing, or none of walking")
     standing, riding = _pulses(examples)
@@ -124,40 +127,43 @@ def train(examples: Sequence[RecordingWindows], trained_on: str) -> WindowModel:
 
 
 def threshold(below: Sequence[float], above: Sequence[float]) -> float:
-    """Return the value at which the cumulative distributions are furthest apart: the middle of all such values."""
+    """Return the value at which the two cumulative distributions are furthest apart; the middle one of several."""
     low, high = np.sort(below), np.sort(above)
     places = np.unique(np.concatenate([low, high]))
-    between = 0.5 * (places[1:] + places[:-1])
-    too_high = 1.0 - np.searchsorted(low, between) / len(low)
-    too_low = np.searchsorted(high, between) / len(high)
-    wrong = too_high + too_low
-    best = np.flatnonzero(wrong <= wrong.min() + 1e-12)
+    middles = 0.5 * (places[1:] + places[:-1])
+    too_high = 1.0 - np.searchsorted(low, middles) / len(low)
+    too_low = np.searchsorted(high, middles) / len(high)
+    error_shares = too_high + too_low
+    best = np.flatnonzero(error_shares <= error_shares.min() + 1e-12)
     return float(0.5 * (places[best[0]] + places[best[-1] + 1]))
 
 
-def _level(labelled: LabelledWindow) -> float:
-    """Return the logarithm of the mean variance of the feet."""
+def _log_variance(labelled: LabelledWindow) -> float:
+    """Return the logarithm of the variance of a_z, averaged over the feet."""
     return float(np.log(np.mean([window.variance for window in labelled.feet]) + LEAST_VARIANCE))
 
 
 def _pulses(examples: Sequence[RecordingWindows]) -> tuple[list[float], list[float]]:
-    """Return how far each standing window's mean is from its neighbours', and the weaker pulse of each lift ride."""
+    """Return each standing window's deviation from its neighbours, and each elevator ride's weaker pulse, m/s^2."""
     standing: list[float] = []
     riding: list[float] = []
     for one in examples:
-        still_windows = [labelled for labelled in one.windows if _level(labelled) < np.log(STILL_VARIANCE)]
+        still_windows = [labelled for labelled in one.windows if _log_variance(labelled) < np.log(STILL_VARIANCE)]
         means = np.array([np.mean([window.mean for window in labelled.feet]) for labelled in still_windows])
-        off = [
-            mean - float(np.median(means[max(0, k - AROUND) : k + AROUND + 1])) for k, mean in enumerate(means.tolist())
+        deviations = [
+            mean - float(np.median(means[max(0, k - MEDIAN_REACH) : k + MEDIAN_REACH + 1]))
+            for k, mean in enumerate(means.tolist())
         ]
-        of_ride = [labelled.middle in LIFTS for labelled in still_windows]
+        of_ride = [labelled.middle in ELEVATOR_RIDES for labelled in still_windows]
         for k, labelled in enumerate(still_windows):
-            if labelled.activity is Activity.STANDING and not any(of_ride[max(0, k - BESIDE) : k + BESIDE + 1]):
-                standing.append(abs(off[k]))
+            if labelled.activity is Activity.STANDING and not any(
+                of_ride[max(0, k - RIDE_MARGIN) : k + RIDE_MARGIN + 1]
+            ):
+                standing.append(abs(deviations[k]))
         for activity, ride in groupby(range(len(still_windows)), key=lambda k: still_windows[k].middle):
-            if activity in LIFTS:
-                numbers = list(ride)
-                values = off[max(0, numbers[0] - BESIDE) : numbers[-1] + BESIDE + 1]
+            if activity in ELEVATOR_RIDES:
+                ride_indices = list(ride)
+                values = deviations[max(0, ride_indices[0] - RIDE_MARGIN) : ride_indices[-1] + RIDE_MARGIN + 1]
                 riding.append(min(max(values), -min(values)))
     return standing, riding or [1.0]
 
@@ -168,28 +174,34 @@ def _mixtures(examples: Sequence[RecordingWindows]) -> dict[Activity, tuple[Gaus
     for one in examples:
         for labelled in one.windows:
             if labelled.activity in MOVING or labelled.activity is Activity.RUNNING:
-                whole = [x for x in map(window_features, labelled.feet) if len(x) == len(window_model.FEATURES)]
-                groups.setdefault((labelled.activity, one.source), []).extend(whole)
-    fit = {key: np.array(rows) for key, rows in groups.items() if len(rows) > 2 * len(window_model.FEATURES)}
-    every, size = sum(map(len, fit.values())), len(window_model.FEATURES)
-    common = sum((np.cov(rows.T) * len(rows) for rows in fit.values()), np.zeros((size, size))) / max(every, 1)
+                complete_rows = [x for x in map(window_features, labelled.feet) if len(x) == len(window_model.FEATURES)]
+                groups.setdefault((labelled.activity, one.source), []).extend(complete_rows)
+    component_rows = {key: np.array(rows) for key, rows in groups.items() if len(rows) > 2 * len(window_model.FEATURES)}
+    n_rows, size = sum(map(len, component_rows.values())), len(window_model.FEATURES)
+    common = sum((np.cov(rows.T) * len(rows) for rows in component_rows.values()), np.zeros((size, size))) / max(
+        n_rows, 1
+    )
     mixtures: dict[Activity, tuple[Gaussian, ...]] = {}
     for state in MOVING:
-        own = [key for key in fit if key[0] is state or state is Activity.WALKING and key[0] is Activity.RUNNING]
-        if not own:
+        component_keys = [
+            key for key in component_rows if key[0] is state or state is Activity.WALKING and key[0] is Activity.RUNNING
+        ]
+        if not component_keys:
             raise ValueError(f"there are no windows of {state.value}")
-        mixtures[state] = tuple([_gaussian(fit[key], common, 1.0 / len(own)) for key in own])
+        mixtures[state] = tuple(
+            [_gaussian(component_rows[key], common, 1.0 / len(component_keys)) for key in component_keys]
+        )
     return mixtures
 
 
 def _gaussian(rows: NDArray[Any], common: NDArray[Any], weight: float) -> Gaussian:
-    factor = np.linalg.cholesky((1.0 - SHRUNK) * np.cov(rows.T) + SHRUNK * common)
+    factor = np.linalg.cholesky((1.0 - SHRINKAGE) * np.cov(rows.T) + SHRINKAGE * common)
     triangle = tuple([tuple([_rounded(value) for value in row[: k + 1]]) for k, row in enumerate(factor.tolist())])
     return Gaussian(_rounded(weight), tuple([_rounded(value) for value in rows.mean(axis=0).tolist()]), triangle)
 
 
 def _transitions(examples: Sequence[RecordingWindows]) -> tuple[tuple[float, ...], ...]:
-    """Return the transition probabilities from one window to the next, counted, with one more count for each."""
+    """Return the transition probabilities from one window to the next: counts plus one, over their sum."""
     counts = np.ones((3, 3))
     for one in examples:
         for before, after in zip(one.windows, one.windows[1:], strict=False):
@@ -212,7 +224,7 @@ def of_emulated(seed: int) -> RecordingWindows:
 
 
 def main(folder: Path) -> None:
-    """Write the model of all data beside the part that reads it."""
+    """Write the model that is fitted to all data beside the part that reads it."""
     examples = [of_recording(one.path) for one in recordings(folder)]
     first, last = emulated.FIRST_TO_LEARN_FROM, emulated.FIRST_TO_LEARN_FROM + WALKS - 1
     examples += [of_emulated(seed) for seed in range(first, last + 1)]

@@ -1,9 +1,8 @@
-"""The recordings of hugadb with the activity of each sample, as the experimenter labelled it by pressing a key.
+"""The recordings of hugadb with the activity of each sample, which the experimenter labelled by pressing keys.
 
 Chereshnev, Kertesz-Farkas, "HuGaDB: Human Gait Database for Activity Recognition from Wearable Inertial Sensor
-Networks", AIST 2017. Sitting counts as standing, because a foot on the ground cannot distinguish them. Sitting down and
-standing up are between two of our activities, and bicycling and driving are none of them: those samples have no label.
-"""
+Networks", AIST 2017. Sitting counts as standing, because a foot on the ground moves in neither of them. Sitting down,
+standing up, bicycling and driving are none of the activities of this library, so these samples have no label."""
 
 from __future__ import annotations
 
@@ -27,13 +26,13 @@ LABELS: dict[int, Activity] = {
     10: Activity.ELEVATOR_UP,
     11: Activity.ELEVATOR_DOWN,
 }
-"""Activity of each label code of hugadb; 6, 7, 9 and 12 are left out."""
+"""Activity of each label code of hugadb; codes 6, 7, 9 and 12 have no activity."""
 
 
 Span = tuple[float, float, Activity]
 """Start (s), end (s) and activity of a span of time."""
-APART = 0.5
-"""Time between two labelled samples that separates two spans, s."""
+SPAN_GAP = 0.5
+"""Time between two samples of the same activity from which they belong to two spans, s."""
 
 
 @frozen
@@ -45,7 +44,7 @@ class Labelled:
 
 
 def recordings(folder: Path) -> list[Labelled]:
-    """Return the recordings in the folder of hugadb, by name. Raise RecordingError when it does not hold them."""
+    """Return the recordings in the folder of hugadb, sorted by name. Raise RecordingError when they are not listed."""
     about = folder / "dataset.json"
     try:
         entries = json.loads(about.read_text(encoding="utf-8"))["recordings"]
@@ -56,7 +55,7 @@ def recordings(folder: Path) -> list[Labelled]:
 
 
 def labels(path: Path) -> tuple[Sequence[float], list[Activity | None]]:
-    """Return the times of the samples, s, and the activity at each; None where it has no label of ours."""
+    """Return the times of the samples, s, and the activity of each; None for a sample without one of LABELS."""
     with np.load(path, allow_pickle=False) as archive:
         times: list[float] = archive["t"].tolist()
         codes: list[int] = archive["activity"].tolist()
@@ -64,12 +63,12 @@ def labels(path: Path) -> tuple[Sequence[float], list[Activity | None]]:
 
 
 FOLDS: tuple[frozenset[int], ...] = tuple(frozenset(wearers) for wearers in ((1, 12), (3, 15), (6,), (8,), (10,)))
-"""The wearers (`subject` in dataset.json) of each fold; scores on a fold come from training on the other four.
+"""Wearers (`subject` in dataset.json) of each fold. Scores on a fold come from training on the other four.
 
-A wearer is never in two folds, because a gait that was learnt is easily recognised. Five of the wearers have all but 46
-s of the recordings, so each fold has one of them. The two others (one lift ride down, 30 s of sitting and standing) are
-in the folds where they weigh least: wearer 12 with wearer 1, who rides no lift, wearer 15 with wearer 3, who has the
-fewest minutes after wearer 10. The folds are fixed, so that figures of two days and of two methods compare."""
+No wearer is in two folds, because a part recognises a gait that it was trained on too easily. Five wearers have all but
+46 s of the recordings, so each fold has one of them. The other two are added where they change least. Wearer 12, with
+one elevator ride down, is with wearer 1, who takes no elevator. Wearer 15, with 30 s of sitting and standing, is with
+wearer 3, who has the fewest minutes after wearer 10. The folds are fixed, so that later scores can be compared."""
 
 
 def fold_of(subject: int) -> int:
@@ -81,10 +80,10 @@ def fold_of(subject: int) -> int:
 
 
 def spans(t: Sequence[float], labels: Sequence[Activity | None]) -> list[Span]:
-    """Return the labelled samples as spans, each up to its last sample."""
+    """Return the spans from the first to the last of consecutive samples with the same label."""
     found: list[Span] = []
-    for k, (at, activity) in enumerate(zip(t, labels, strict=True)):
+    for k, (time, activity) in enumerate(zip(t, labels, strict=True)):
         if activity is not None:
-            goes_on = k > 0 and labels[k - 1] is activity and at - t[k - 1] < APART
-            found.append((found.pop()[0] if goes_on else at, at, activity))
+            continues = k > 0 and labels[k - 1] is activity and time - t[k - 1] < SPAN_GAP
+            found.append((found.pop()[0] if continues else time, time, activity))
     return found

@@ -1,10 +1,11 @@
 """The classifier of turns (body/gait/turns.py): `python -m solepath.lab.train.turns` prints its weights.
 
 As in Liu et al. 2015 (IEEE MASS), section V.E, wearers turn 30 times to the left, to the right and about, and a linear
-SVM learns to classify the turns by the angles of both feet. The turns are emulated (turns.csv beside this file has one
-a line: seed, class, angle of the left foot and of the right one in degrees). A wearer of some size with a 20 Hz
-SensorTag in either sole walks 4 m, turns on the spot or along an arc of up to 1.2 m, and walks on. The angles are those
-that the recipe footstep-tracker measured. `--emulate` writes turns.csv again, from seeds that nothing is scored on."""
+SVM learns to classify the turns by the angles of both feet. The turns are emulated. A wearer of random stature with a
+20 Hz SensorTag in each sole walks 4 m, turns on the spot or along an arc with a radius up to 1.2 m, and walks on. Each
+line of turns.csv beside this file is a turn: seed, class, and the angles of the left and right foot, degrees, positive
+to the left, as the recipe footstep-tracker measured them. `--emulate` writes turns.csv again. Nothing is scored on its
+seeds."""
 
 from __future__ import annotations
 
@@ -29,22 +30,23 @@ from ...papers.footstep_tracker.recipe import FOOTSTEP_TRACKER
 from ...session import Session
 from ...types import SITE_OF_FOOT, Turn
 
-DATA = Path(__file__).with_name("turns.csv")
+TURNS_FILE = Path(__file__).with_name("turns.csv")
 FIRST_TRAINING_SEED = 101
 TURNS_PER_CLASS = 30
 """Number of turns of each class (section V.E)."""
 WEARERS = 3
 ANGLES = {Turn.LEFT: 90.0, Turn.RIGHT: -90.0, Turn.ABOUT: 180.0}
-SPREAD = 15.0
+"""Mean turn angle of each class, degrees, positive to the left."""
+TURN_SPREAD = 15.0
 """Standard deviation of the turn angle, degrees, because nobody turns by exactly 90 degrees."""
-ROUNDS = 20_000
+ITERATIONS = 20_000
 REGULARISATION = 1e-3
 """Weight of the squared length of the weights against the mean hinge loss (lambda of Pegasos); chosen by hand."""
 
 
 @frozen
 class Example:
-    """One turn: its class, and the angle of each foot, degrees."""
+    """One turn: its class, and the angle of each foot, degrees, positive to the left."""
 
     seed: int
     turn: Turn
@@ -53,9 +55,9 @@ class Example:
 
 
 def walk(seed: int, turn: Turn) -> EmulatedWalk:
-    """Return a walk with one turn; the same for the same seed."""
+    """Return a walk with one turn. The same seed and class always give the same walk."""
     rng = np.random.default_rng([seed, 7, list(Turn).index(turn)])
-    angle = radians(float(rng.normal(ANGLES[turn], SPREAD)))
+    angle = radians(float(rng.normal(ANGLES[turn], TURN_SPREAD)))
     if turn is Turn.ABOUT and rng.uniform() < 0.5:
         angle = -angle
     radius = 0.0 if rng.uniform() < 0.3 else float(rng.uniform(0.3, 1.2))
@@ -68,17 +70,17 @@ def walk(seed: int, turn: Turn) -> EmulatedWalk:
 
 def largest_turn(walked: EmulatedWalk) -> TurnProcess | None:
     """Return the largest turn that the recipe finds in a walk."""
-    session, direction = Session(FOOTSTEP_TRACKER), TurnDetector()
-    steps = [event for packet in walked.packets for event in session.feed(packet) if isinstance(event, StrideTaken)]
-    found = [direction.add_stride(step) for step in steps]
-    if steps:
-        found.append(direction.advance(steps[-1].t_end + 1e3))
+    session, detector = Session(FOOTSTEP_TRACKER), TurnDetector()
+    strides = [event for packet in walked.packets for event in session.feed(packet) if isinstance(event, StrideTaken)]
+    found = [detector.add_stride(stride) for stride in strides]
+    if strides:
+        found.append(detector.advance(strides[-1].t_end + 1e3))
     turns = [one for one in found if one is not None]
     return max(turns, key=lambda one: abs(one.angle), default=None)
 
 
 def emulated_examples(seeds: Iterable[int]) -> list[Example]:
-    """Return a turn of each class for every seed, without those in which the recipe finds no turn."""
+    """Return a turn of each class for every seed, without the walks in which the recipe finds no turn of both feet."""
     examples = []
     for seed in seeds:
         for turn in ANGLES:
@@ -89,24 +91,24 @@ def emulated_examples(seeds: Iterable[int]) -> list[Example]:
 
 
 def train_weights(examples: list[Example]) -> dict[Turn, tuple[float, ...]]:
-    """Return one linear function for each class against the others.
+    """Return the weights w of one linear function for each class against the others.
 
-    It minimises REGULARISATION |w|^2 / 2 + mean hinge loss by subgradient steps over all examples at once
-    (Shalev-Shwartz et al. 2011, Pegasos), and averages the second half of the steps."""
+    They minimise REGULARISATION |w|^2 / 2 + mean hinge loss by subgradient descent over all examples at once
+    (Shalev-Shwartz et al. 2011, Pegasos). The result is the mean of the second half of the iterations."""
     examples = [*examples, *(_mirrored(one) for one in examples)]
     x = np.array([features(radians(one.left), radians(one.right)) for one in examples])
-    found: dict[Turn, tuple[float, ...]] = {}
+    weights: dict[Turn, tuple[float, ...]] = {}
     for turn in ANGLES:
         y = np.array([1.0 if one.turn is turn else -1.0 for one in examples])
         share = np.where(y > 0.0, 0.5 / np.sum(y > 0.0), 0.5 / np.sum(y < 0.0))
         w, mean = np.zeros(x.shape[1]), np.zeros(x.shape[1])
-        for k in range(1, ROUNDS + 1):
+        for k in range(1, ITERATIONS + 1):
             wrong = y * (x @ w) < 1.0
             w = w - (REGULARISATION * w - (share * y * wrong) @ x) / (REGULARISATION * (k + 100.0))
-            if 2 * k > ROUNDS:
-                mean += w / (ROUNDS - ROUNDS // 2)
-        found[turn] = tuple(round(float(value), 2) for value in mean)
-    return found
+            if 2 * k > ITERATIONS:
+                mean += w / (ITERATIONS - ITERATIONS // 2)
+        weights[turn] = tuple(round(float(value), 2) for value in mean)
+    return weights
 
 
 def _mirrored(one: Example) -> Example:
@@ -115,14 +117,14 @@ def _mirrored(one: Example) -> Example:
     return Example(one.seed, other[one.turn], -one.right, -one.left)
 
 
-def read(path: Path = DATA) -> list[Example]:
+def read(path: Path = TURNS_FILE) -> list[Example]:
     """Return the turns in a file."""
     with path.open(encoding="utf-8", newline="") as file:
         rows = list(csv.DictReader(file))
     return [Example(int(r["seed"]), Turn[r["class"]], float(r["left"]), float(r["right"])) for r in rows]
 
 
-def write(examples: list[Example], path: Path = DATA) -> None:
+def write(examples: list[Example], path: Path = TURNS_FILE) -> None:
     """Write the turns to a file."""
     with path.open("w", encoding="utf-8", newline="") as file:
         rows = csv.writer(file, lineterminator="\n")
