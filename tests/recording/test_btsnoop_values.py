@@ -35,7 +35,7 @@ from snooped import (
 from solepath import Site
 from solepath.recording.btsnoop import open_btsnoop
 from solepath.recording.btsnoop.att import AttOperation
-from solepath.recording.btsnoop.values import Value, ValueListener
+from solepath.recording.btsnoop.values import LoggedValue, ValueListener
 from solepath.types import Foot
 from solepath.wire.insole_info import build_info, parse_info
 
@@ -133,7 +133,7 @@ def notified_by_us(path: Path) -> list[tuple[int, int, int, bytes]]:
     values = [
         item
         for item in listener.listen()
-        if isinstance(item, Value) and item.att_value.operation is AttOperation.NOTIFIED
+        if isinstance(item, LoggedValue) and item.att_value.operation is AttOperation.NOTIFIED
     ]
     assert not listener.flaws
     return [(value.t, value.link.handle, value.att_value.handle, value.att_value.value) for value in values]
@@ -196,7 +196,7 @@ def values_by_tshark(path: Path) -> list[tuple[AttOperation, int, bytes]]:
 
 
 def values_by_us(path: Path) -> list[tuple[AttOperation, int, bytes]]:
-    values = [item for item in ValueListener(path, pytest.fail).listen() if isinstance(item, Value)]
+    values = [item for item in ValueListener(path, pytest.fail).listen() if isinstance(item, LoggedValue)]
     return [
         (value.att_value.operation, value.att_value.handle, value.att_value.value)
         for value in values
