@@ -34,7 +34,7 @@ class Resend:
 
 
 Command = StartSampling | StopSampling | SetInterval | Resend
-"""Any command."""
+"""Any command of the control characteristic."""
 
 _FORMATS: dict[int, tuple[type[Command], Fields]] = {
     1: (StartSampling, Fields("<B")),

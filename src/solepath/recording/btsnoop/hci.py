@@ -50,7 +50,7 @@ FIRST_DYNAMIC_CHANNEL = 0x40
 
 @define
 class HciConnection:
-    """One connection.
+    """The record of one connection.
 
     `number`: position among the connections of the log, from 0. `adapter`: number of the host's Bluetooth adapter.
     `handle`: connection handle. `address`: address of the peer; "" if the connection is older than the log."""
