@@ -113,8 +113,7 @@ def test_the_samples_in_it_are_what_the_link_made_of_the_packets(exported):
 
 
 def test_the_samples_in_it_are_those_that_a_session_uses_when_a_site_falls_silent(tmp_path):
-    """A sample that waits for a lost packet of a silent site is used when time passes with the other site's packets, not
-    at the end."""
+    """A sample that waits for a lost packet of a silent site is used when the other site's packets let time pass."""
     packets = walks.packets()["cc2541"]
     end = packets[len(packets) // 2].t
     ends = {"cc2541/gyroscope": end - 0.15}  # of its last accelerations the gyroscope's part is missing

@@ -133,7 +133,7 @@ FAULTY = {
     "no cells": (idle() | {"pressure": np.ones((20, 0))}, "pressure: has the shape (20, 0)"),
     "t of two columns": (idle() | {"t": np.ones((20, 2))}, "t: has the shape (20, 2) instead of (n,)"),
     "t a number": (idle() | {"t": np.float64(1.0)}, "t: has the shape () instead of (n,)"),
-    "one gyro row less": (idle() | {"gyro": standing(19)["gyro"]}, "gyro: has 19 rows but t has 20"),
+    "one gyro row less": (idle() | {"gyro": idle(19)["gyro"]}, "gyro: has 19 rows but t has 20"),
     "words": (idle() | {"acc": np.full((20, 3), "x")}, "acc: holds <U1, not numbers"),
     "complex": (idle() | {"acc": np.full((20, 3), 1j)}, "acc: holds complex128, not numbers"),
     "no rows": ({k: v[:0] for k, v in idle().items()}, "t: holds no samples"),
