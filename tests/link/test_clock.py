@@ -1,4 +1,4 @@
-"""Device ticks to host seconds, against emulated radios with a seeded generator."""
+"""Conversion of device ticks to host seconds, with emulated radios from a seeded generator."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 
 from solepath.link.clock import MAX_WINDOWS, Clock
 from solepath.link.periodic import PeriodicClock, make_periodic_clock
-from solepath.saving import codec as machine
+from solepath.saving import codec
 
 RATE = 32768
 INTERVAL = 328
-STEP = INTERVAL / RATE
+SAMPLE_INTERVAL = INTERVAL / RATE
 
 
 def arrivals(
@@ -27,25 +27,25 @@ def arrivals(
     seed: int = 1,
     in_order: bool = False,
 ) -> list[tuple[float, int, float]]:
-    """(true time, ticks, arrival) of a device at 100 Hz, in order of arrival; overtaken packets are left out."""
+    """Return (true time, ticks, arrival) of a device at 100 Hz, in order of arrival without overtaken packets."""
     random, packets, newest = Random(seed), [], 0.0
-    for k in range(int(seconds / STEP)):
-        true = k * STEP / (1.0 + drift)
+    for k in range(int(seconds / SAMPLE_INTERVAL)):
+        true = k * SAMPLE_INTERVAL / (1.0 + drift)
         if random.random() < loss:
             continue
         arrival = true + (random.expovariate(1.0 / jitter) if jitter else 0.0)
         newest = max(newest, arrival)
         packets.append((true, k * INTERVAL, newest if in_order else arrival))
     packets.sort(key=lambda packet: packet[2])
-    kept: list[tuple[float, int, float]] = []
+    packets_in_order: list[tuple[float, int, float]] = []
     for packet in packets:
-        if not kept or packet[1] > kept[-1][1]:
-            kept.append(packet)
-    return kept
+        if not packets_in_order or packet[1] > packets_in_order[-1][1]:
+            packets_in_order.append(packet)
+    return packets_in_order
 
 
-def assigned(packets: list[tuple[float, int, float]], clock: Clock) -> list[tuple[float, float]]:
-    """(true time, time assigned) of each."""
+def assign_times(packets: list[tuple[float, int, float]], clock: Clock) -> list[tuple[float, float]]:
+    """Return (true time, assigned time) of each packet."""
     out = []
     for true, ticks, arrival in packets:
         assert not clock.contradicts(ticks, arrival)
@@ -55,28 +55,28 @@ def assigned(packets: list[tuple[float, int, float]], clock: Clock) -> list[tupl
 
 
 def error_at(times: list[tuple[float, float]], second: float) -> float:
-    near = [abs(t - true) for true, t in times if abs(true - second) < 0.5]
-    return sum(near) / len(near)
+    errors = [abs(t - true) for true, t in times if abs(true - second) < 0.5]
+    return sum(errors) / len(errors)
 
 
-def worst_step(times: list[tuple[float, float]]) -> float:
-    """Largest relative error of the time between two neighbouring samples."""
+def worst_interval_error(times: list[tuple[float, float]]) -> float:
+    """Return the largest relative error of the time between two neighbouring samples."""
     return max(abs((b[1] - a[1]) / (b[0] - a[0]) - 1.0) for a, b in zip(times, times[1:], strict=False))
 
 
 @pytest.mark.parametrize("seed", range(5))
 def test_radio_jitter_of_50_ms_does_not_reach_sample_times(seed: int) -> None:
-    times = assigned(arrivals(90.0, drift=40e-6, seed=seed), Clock(RATE))
+    times = assign_times(arrivals(90.0, drift=40e-6, seed=seed), Clock(RATE))
     assert error_at(times, 20.0) < 0.025
     assert error_at(times, 60.0) < 0.001
     settled = [(true, t) for true, t in times if true > 30.0]
-    assert worst_step(settled) < 1e-3
-    assert worst_step(times) < 0.0075
+    assert worst_interval_error(settled) < 1e-3
+    assert worst_interval_error(times) < 0.0075
 
 
 def test_the_drift_of_a_crystal_is_learnt_over_an_hour() -> None:
     clock = Clock(RATE)
-    times = assigned(arrivals(3600.0, drift=40e-6), clock)
+    times = assign_times(arrivals(3600.0, drift=40e-6), clock)
     assert clock.drift == pytest.approx(-40e-6, abs=1e-6)
     assert error_at(times, 3599.0) < 0.0003
 
@@ -84,20 +84,20 @@ def test_the_drift_of_a_crystal_is_learnt_over_an_hour() -> None:
 @pytest.mark.parametrize("drift", [-1e-3, 1e-3, 0.04, -0.04])
 def test_a_sloppy_clock_is_learnt_within_seconds(drift: float) -> None:
     clock = Clock(RATE)
-    times = assigned(arrivals(60.0, drift=drift), clock)
+    times = assign_times(arrivals(60.0, drift=drift), clock)
     assert clock.drift == pytest.approx(1.0 / (1.0 + drift) - 1.0, abs=2e-5)
     assert error_at(times, 55.0) < 0.001
-    assert worst_step([(true, t) for true, t in times if true > 5.0]) < 0.01
+    assert worst_interval_error([(true, t) for true, t in times if true > 5.0]) < 0.01
 
 
 def test_a_queue_that_keeps_order_only_makes_the_fit_slower() -> None:
-    times = assigned(arrivals(120.0, in_order=True), Clock(RATE))
+    times = assign_times(arrivals(120.0, in_order=True), Clock(RATE))
     assert error_at(times, 110.0) < 0.01
-    assert worst_step(times) < 0.015
+    assert worst_interval_error(times) < 0.015
 
 
 def test_without_jitter_times_are_ticks() -> None:
-    times = assigned(arrivals(10.0, jitter=0.0), Clock(RATE))
+    times = assign_times(arrivals(10.0, jitter=0.0), Clock(RATE))
     assert max(abs(t - true) for true, t in times) < 1e-6
 
 
@@ -105,9 +105,9 @@ def test_a_late_first_packet_is_slewed_away_at_half_a_percent() -> None:
     packets = arrivals(40.0, jitter=0.0, loss=0.0)
     packets[0] = (packets[0][0], packets[0][1], 0.0099)
     late = [(true, ticks, max(arrival, 0.05)) for true, ticks, arrival in packets[:6]] + packets[6:]
-    times = assigned(late, Clock(RATE))
+    times = assign_times(late, Clock(RATE))
     assert times[0][1] == 0.05
-    assert worst_step(times) <= 0.00501
+    assert worst_interval_error(times) <= 0.00501
     assert error_at(times, 30.0) < 1e-4
 
 
@@ -121,7 +121,7 @@ def test_a_packet_half_a_minute_late_is_of_another_clock_at_once() -> None:
 
 def test_a_packet_before_its_measurement_means_that_the_clock_jumped() -> None:
     clock = Clock(RATE)
-    assigned(arrivals(10.0), clock)
+    assign_times(arrivals(10.0), clock)
     ticks = round(10.0 * RATE)
     assert not clock.contradicts(ticks, 10.0)
     assert clock.contradicts(ticks + 2 * RATE, 10.0)
@@ -129,7 +129,7 @@ def test_a_packet_before_its_measurement_means_that_the_clock_jumped() -> None:
 
 def test_a_delay_is_not_a_jump_until_it_stays() -> None:
     clock = Clock(RATE)
-    assigned(arrivals(10.0), clock)
+    assign_times(arrivals(10.0), clock)
     for second in range(10, 29):
         assert not clock.contradicts(second * RATE, second + 3.0)
         clock.observe(second * RATE, second + 3.0)
@@ -141,11 +141,11 @@ def test_memory_does_not_grow() -> None:
     clock = Clock(RATE)
     sizes = []
     for k in range(0, 100 * 3600, 7):
-        clock.observe(k * INTERVAL, k * STEP + 0.001 * (k % 13))
+        clock.observe(k * INTERVAL, k * SAMPLE_INTERVAL + 0.001 * (k % 13))
         clock.assign_time(k * INTERVAL)
-        sizes.append(len(clock.xs))
+        sizes.append(len(clock.window_times))
     assert max(sizes) <= MAX_WINDOWS + 1
-    assert len(json.dumps(machine.save(clock))) < 3000
+    assert len(json.dumps(codec.save(clock))) < 3000
 
 
 @given(
@@ -158,49 +158,49 @@ def test_times_strictly_increase_whatever_arrives_when(moves: list[tuple[int, fl
     for step, pause in moves:
         ticks, arrival = ticks + step, arrival + pause
         clock.observe(ticks, arrival)
-        foreseen = clock.preview_time(ticks)
+        preview = clock.preview_time(ticks)
         t = clock.assign_time(ticks)
         assert t > newest
-        assert t == foreseen or t == pytest.approx(newest + 1e-6)
+        assert t == preview or t == pytest.approx(newest + 1e-6)
         newest = t
 
 
 @pytest.mark.parametrize("jitter", [0.005, 0.02, 0.05])
 @pytest.mark.parametrize("seed", range(1, 6))
 def test_two_settled_clocks_agree_within_5_ms(seed: int, jitter: float) -> None:
-    """Each arrival up to `jitter` late; the other device has a late first half second, as after a new connection."""
-    random, apart = Random(seed), []
+    """Arrivals are up to `jitter` late; one device starts late, as after a new connection."""
+    random, differences = Random(seed), []
     feet = [(Clock(RATE), random.gauss(0.0, 30e-6), late) for late in (0.0, 0.1)]
     newest = [0.0, 0.0]
     for k in range(6000):
         errors: list[float] = []
         for n, (clock, drift, late) in enumerate(feet):
-            true = k * STEP / (1.0 + drift)
+            true = k * SAMPLE_INTERVAL / (1.0 + drift)
             newest[n] = max(newest[n], true + jitter * random.random(), late if k < 10 else 0.0)
             clock.observe(k * INTERVAL, newest[n])
             t = clock.assign_time(k * INTERVAL)
             if clock.unsettled_until is not None and clock.unsettled_until < t:
                 errors.append(t - true)
         if len(errors) == 2:
-            apart.append(abs(errors[0] - errors[1]))
-    assert len(apart) > 2000
-    assert max(apart) < 0.005
+            differences.append(abs(errors[0] - errors[1]))
+    assert len(differences) > 2000
+    assert max(differences) < 0.005
 
 
 def test_a_clock_is_unsettled_for_5_s_and_while_a_late_start_is_slewed_away() -> None:
     good, late = Clock(RATE), Clock(RATE)
     for k in range(4000):
-        for clock, arrival in ((good, k * STEP), (late, max(k * STEP, 0.1))):
+        for clock, arrival in ((good, k * SAMPLE_INTERVAL), (late, max(k * SAMPLE_INTERVAL, 0.1))):
             clock.observe(k * INTERVAL, arrival)
             clock.assign_time(k * INTERVAL)
-    assert good.unsettled_until == pytest.approx(5.0, abs=2 * STEP)
+    assert good.unsettled_until == pytest.approx(5.0, abs=2 * SAMPLE_INTERVAL)
     assert late.unsettled_until is not None and 20.0 < late.unsettled_until < 30.0  # 95 ms at 5 ms a second, and 5 s
 
 
-def slots(
+def make_slots(
     seconds: float, period: float, *, jitter: float = 0.005, loss: float = 0.05, drift: float = 0.0, seed: int = 1
 ) -> list[tuple[float, float]]:
-    """(true time, arrival), in order."""
+    """Return (true time, arrival) of each packet, in order."""
     random, out, newest = Random(seed), [], 0.0
     for k in range(int(seconds / period)):
         true = k * period * (1.0 + drift)
@@ -211,35 +211,35 @@ def slots(
     return out
 
 
-def timed(packets: list[tuple[float, float]], stream: PeriodicClock) -> tuple[list[float], int]:
-    """Errors of the times, and losses counted."""
-    errors, lost = [], 0
+def time_packets(packets: list[tuple[float, float]], stream: PeriodicClock) -> tuple[list[float], int]:
+    """Return the errors of the assigned times, and the number of reported losses."""
+    errors, lost_count = [], 0
     for true, arrival in packets:
-        found = stream.add_packet(arrival)
-        errors.append(found.times[0] - true)
-        lost += found.lost
-    return errors, lost
+        sample_times = stream.add_packet(arrival)
+        errors.append(sample_times.times[0] - true)
+        lost_count += sample_times.lost_count
+    return errors, lost_count
 
 
 @pytest.mark.parametrize("period", [0.1, 0.05])
 @pytest.mark.parametrize("drift", [0.0, 0.001, 0.04, -0.04])
 def test_losses_without_counters_are_counted_by_their_holes(period: float, drift: float) -> None:
-    packets = slots(60.0, period, drift=drift)
-    errors, lost = timed(packets, make_periodic_clock(period))
-    assert lost == int(60.0 / period) - len(packets)
+    packets = make_slots(60.0, period, drift=drift)
+    errors, lost_count = time_packets(packets, make_periodic_clock(period))
+    assert lost_count == int(60.0 / period) - len(packets)
     assert max(abs(e) for e in errors[len(errors) // 2 :]) < 0.003
 
 
 def test_lateness_of_less_than_a_period_is_no_loss() -> None:
-    errors, lost = timed(slots(120.0, 0.1, jitter=0.01, loss=0.0), make_periodic_clock(0.1))
-    assert lost == 0
+    errors, lost_count = time_packets(make_slots(120.0, 0.1, jitter=0.01, loss=0.0), make_periodic_clock(0.1))
+    assert lost_count == 0
     assert max(abs(e) for e in errors[600:]) < 0.003
 
 
 @pytest.mark.parametrize(("true", "assumed"), [(0.05, 0.1), (0.17, 0.1), (1.0, 0.1), (0.1, 0.05)])
 def test_a_period_that_was_never_written_is_found(true: float, assumed: float) -> None:
     stream = make_periodic_clock(assumed)
-    timed(slots(60.0, true, loss=0.02), stream)
+    time_packets(make_slots(60.0, true, loss=0.02), stream)
     assert stream.period == pytest.approx(true, rel=0.04)
 
 
@@ -249,7 +249,7 @@ def test_times_without_counters_strictly_increase(pauses: list[float]) -> None:
     stream, arrival, newest = make_periodic_clock(0.1), 5.0, -1.0
     for pause in pauses:
         arrival += pause
-        found = stream.add_packet(arrival)
-        assert found.times[0] > newest
-        assert found.lost >= 0
-        newest = found.times[0]
+        sample_times = stream.add_packet(arrival)
+        assert sample_times.times[0] > newest
+        assert sample_times.lost_count >= 0
+        newest = sample_times.times[0]

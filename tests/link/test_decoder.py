@@ -6,7 +6,17 @@ import json
 from math import inf, isfinite, nan
 
 import pytest
-from decoded import LEFT, STEP, feed, frame_packet, info, insole_frame, movement, packet, walked
+from decoded import (
+    LEFT,
+    SAMPLE_INTERVAL,
+    fed_decoder,
+    feed,
+    frame_packet,
+    info_value,
+    insole_frame,
+    movement_packet,
+    packet,
+)
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from walks import of
@@ -15,7 +25,7 @@ from solepath.events import BatteryLevel, ClockReset, PacketRejected, Rejection,
 from solepath.link.catalogue import PROFILES
 from solepath.link.decoder import SET_BACK_PACKETS, Decoder
 from solepath.recipes import part_class
-from solepath.saving import codec as machine
+from solepath.saving import codec
 from solepath.types import Foot, Packet, Sample, Site
 from solepath.wire.insole import InsoleFrame, InsoleSample, build_frame
 
@@ -39,7 +49,7 @@ def rejected_packets() -> dict[str, tuple[Packet, Rejection]]:
         "unknown standard value": (packet(t, "device/colour", b"\x01"), Rejection.UNKNOWN_CHANNEL),
         "another site": (packet(t, "insole/frame", good, Site.RIGHT_FOOT), Rejection.WRONG_SITE),
         "the other foot's frame": (frame_packet(5, foot=Foot.RIGHT), Rejection.WRONG_SITE),
-        "the other foot's INFO": (packet(t, "insole/info", info(foot=Foot.RIGHT)), Rejection.WRONG_SITE),
+        "the other foot's INFO": (packet(t, "insole/info", info_value(foot=Foot.RIGHT)), Rejection.WRONG_SITE),
         "another layout": (frame_packet(5, layout=2), Rejection.WRONG_LAYOUT),
         "another number of cells": (frame_packet(5, cells=(1, 2, 3)), Rejection.WRONG_LAYOUT),
         "the newest again": (packet(t, "insole/frame", insole_frame(4)), Rejection.DUPLICATE),
@@ -53,10 +63,10 @@ def rejected_packets() -> dict[str, tuple[Packet, Rejection]]:
             packet(t, "insole/frame", insole_frame(-1, ticks=2**32 - 328, retransmitted=True)),
             Rejection.LATE,
         ),
-        "absurd acceleration": (packet(t, "insole/info", info(acc_scale=1e6)), Rejection.ABSURD),
-        "absurd angular rate": (packet(t, "insole/info", info(gyro_scale=1e-9)), Rejection.ABSURD),
-        "absurd pressure": (packet(t, "insole/info", info(pressure_scale=1e9)), Rejection.ABSURD),
-        "absurd ticks": (packet(t, "insole/info", info(tick_rate=3)), Rejection.ABSURD),
+        "absurd acceleration": (packet(t, "insole/info", info_value(acc_scale=1e6)), Rejection.ABSURD),
+        "absurd angular rate": (packet(t, "insole/info", info_value(gyro_scale=1e-9)), Rejection.ABSURD),
+        "absurd pressure": (packet(t, "insole/info", info_value(pressure_scale=1e9)), Rejection.ABSURD),
+        "absurd ticks": (packet(t, "insole/info", info_value(tick_rate=3)), Rejection.ABSURD),
         "arrival nan": (packet(nan, "insole/frame", good), Rejection.NOT_FINITE),
         "arrival inf": (packet(inf, "insole/frame", good), Rejection.NOT_FINITE),
         "arrival in the year 1e300": (packet(1e300, "insole/frame", good), Rejection.ABSURD),
@@ -68,14 +78,14 @@ def rejected_packets() -> dict[str, tuple[Packet, Rejection]]:
 @pytest.mark.parametrize("name", rejected_packets())
 def test_a_rejected_packet_gives_one_event_and_changes_nothing(name: str) -> None:
     bad, reason = rejected_packets()[name]
-    decoder = walked()
-    before = machine.save(decoder)
+    decoder = fed_decoder()
+    before = codec.save(decoder)
     outputs = decoder.feed(bad)
     assert [type(output) for output in outputs] == [PacketRejected]
     assert outputs[0].reason is reason
     assert outputs[0].channel == bad.channel
     assert isfinite(outputs[0].t) and outputs[0].known_at >= outputs[0].t
-    assert machine.save(decoder) == before
+    assert codec.save(decoder) == before
 
 
 @pytest.mark.parametrize("channel", CHANNELS)
@@ -84,7 +94,7 @@ def test_bytes_of_no_format_are_rejected_on_every_channel_and_do_not_bind_the_de
     [rejected] = decoder.feed(packet(9.0, channel, b"\xff" * 9))
     assert isinstance(rejected, PacketRejected)
     assert decoder == Decoder(site=LEFT)
-    assert of(Sample, feed(decoder, movement(0)))
+    assert of(Sample, feed(decoder, movement_packet(0)))
 
 
 _FRAMES = st.builds(
@@ -114,15 +124,15 @@ _PACKETS = st.one_of(
 def test_any_sequence_of_packets_keeps_order_and_survives_being_saved_at_any_cut(
     moves: list[tuple[float, tuple[str, bytes]]], cut: int
 ) -> None:
-    straight, t = Decoder(site=LEFT), 100.0
-    restored = straight
+    unsaved, t = Decoder(site=LEFT), 100.0
+    restored = unsaved
     newest: float | None = None
     for number, (pause, (channel, data)) in enumerate(moves):
         t += pause
         if number == cut:
-            saved = json.loads(json.dumps(machine.save(straight), allow_nan=False))
-            restored = machine.load(Decoder, saved, part_class)
-        outputs = straight.feed(packet(t, channel, data)) + straight.advance(t + 0.5)
+            saved = json.loads(json.dumps(codec.save(unsaved), allow_nan=False))
+            restored = codec.load(Decoder, saved, part_class)
+        outputs = unsaved.feed(packet(t, channel, data)) + unsaved.advance(t + 0.5)
         if number >= cut:
             assert restored.feed(packet(t, channel, data)) + restored.advance(t + 0.5) == outputs
         for output in outputs:
@@ -132,21 +142,21 @@ def test_any_sequence_of_packets_keeps_order_and_survives_being_saved_at_any_cut
             elif isinstance(output, Sample):
                 assert newest is None or output.t > newest
                 newest = output.t
-    assert len(json.dumps(machine.save(straight), allow_nan=False)) < 20_000
-    straight.finish()
+    assert len(json.dumps(codec.save(unsaved), allow_nan=False)) < 20_000
+    unsaved.finish()
 
 
 def test_one_wild_arrival_time_is_survived() -> None:
-    decoder = walked()
+    decoder = fed_decoder()
     decoder.feed(packet(1e9, "device/battery", b"\x32"))
     outputs = feed(decoder, *[frame_packet(k) for k in range(5, 60)])
     assert len(of(Sample, outputs)) == 55 - SET_BACK_PACKETS + 1
-    assert of(Sample, outputs)[-1].t == pytest.approx(10.0 + 59 * STEP, abs=1e-3)
+    assert of(Sample, outputs)[-1].t == pytest.approx(10.0 + 59 * SAMPLE_INTERVAL, abs=1e-3)
 
 
 def test_silence_is_reported_once_and_ended_by_the_next_frame() -> None:
-    decoder = walked()
-    last = 10.0 + 4 * STEP
+    decoder = fed_decoder()
+    last = 10.0 + 4 * SAMPLE_INTERVAL
     assert decoder.advance(last + 0.9) == []
     [stale] = decoder.advance(last + 1.5)
     assert isinstance(stale, StreamStale)
@@ -154,16 +164,16 @@ def test_silence_is_reported_once_and_ended_by_the_next_frame() -> None:
     assert decoder.advance(last + 3.0) == []
     assert decoder.advance(nan) == []
     outputs = decoder.feed(frame_packet(1000))
-    assert [event.silent_for for event in of(StreamResumed, outputs)] == pytest.approx([996 * STEP])
+    assert [event.silent_for for event in of(StreamResumed, outputs)] == pytest.approx([996 * SAMPLE_INTERVAL])
 
 
 def test_silence_is_noticed_by_other_packets_of_the_site() -> None:
-    decoder = walked()
+    decoder = fed_decoder()
     outputs = feed(decoder, packet(20.0, "device/battery", b"\x32"), packet(21.0, "device/battery", b"\x31"))
     assert [type(output) for output in outputs] == [StreamStale, BatteryLevel, BatteryLevel]
 
 
 def test_nothing_is_stale_before_it_started() -> None:
     decoder = Decoder(site=LEFT)
-    feed(decoder, packet(1.0, "insole/info", info()))
+    feed(decoder, packet(1.0, "insole/info", info_value()))
     assert decoder.advance(1000.0) == []

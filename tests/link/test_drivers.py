@@ -23,9 +23,9 @@ from solepath.link.profile import Write
 
 
 def test_a_driver_that_does_not_fit_together_is_rejected() -> None:
-    other = (evolve(PROFILE.channels[0], name="other/data"), *PROFILE.channels[1:])
-    elsewhere = evolve(PROFILE, channels=other, streams=("other/data",))
-    for wrong in (
+    other_driver = (evolve(PROFILE.channels[0], name="other/data"), *PROFILE.channels[1:])
+    elsewhere = evolve(PROFILE, channels=other_driver, streams=("other/data",))
+    for changes in (
         {"formats": {"toy/data": FORMATS["toy/data"]}},
         {"readers": {"toy/nothing": data}},
         {"profile": elsewhere, "formats": {**FORMATS, "other/data": FORMATS["toy/data"]}},
@@ -42,11 +42,11 @@ def test_a_driver_that_does_not_fit_together_is_rejected() -> None:
         {"acc_range": inf},
     ):
         with pytest.raises(ValueError, match="toy: "):
-            evolve(BASE, **wrong)
+            evolve(BASE, **changes)
 
 
 @pytest.mark.parametrize(
-    "wrong",
+    "changes",
     [
         {"name": ""},
         {"name": "toy/one"},
@@ -66,16 +66,16 @@ def test_a_driver_that_does_not_fit_together_is_rejected() -> None:
     ],
     ids=str,
 )
-def test_a_profile_that_does_not_fit_together_is_rejected(wrong: dict[str, Any]) -> None:
+def test_a_profile_that_does_not_fit_together_is_rejected(changes: dict[str, Any]) -> None:
     with pytest.raises(ValueError, match="^a profile|^toy: "):
-        evolve(PROFILE, **wrong)
+        evolve(PROFILE, **changes)
 
 
 def test_a_reader_that_is_wrong_itself_is_not_hidden() -> None:
-    def wrong(sent: Any, known: Any) -> Reading:
+    def changes(sent: Any, known: Any) -> Reading:
         return sent.nothing  # type: ignore[no-any-return]
 
-    device = toy(evolve(BASE, readers={"toy/data": wrong}))
+    device = toy(evolve(BASE, readers={"toy/data": changes}))
     with pytest.raises(AttributeError):
         device.send_data(1.0)
 
@@ -85,25 +85,25 @@ def test_an_app_adds_devices_and_may_replace_declared_ones_but_not_ours() -> Non
         kind = BUILT_IN_KINDS.get(profile.name.removesuffix("-20hz"))
         assert kind is not None and kind.profile in PROFILES
     assert BUILT_IN_KINDS.get("toy") is None and make_kinds([NUMBERED]).get("toy") is not None
-    other = evolve(orphe.DRIVER, limitation="")
-    assert not of(Limitation, Session(profiles=[other]).feed(mode_four()))
-    assert of(Limitation, Session().feed(mode_four()))
+    other_driver = evolve(orphe.DRIVER, limitation="")
+    assert not of(Limitation, Session(profiles=[other_driver]).feed(mode_4_packet()))
+    assert of(Limitation, Session().feed(mode_4_packet()))
     first = (evolve(PROFILE.channels[0], name="insole/data"),)
     named = evolve(PROFILE, name="insole", channels=first, streams=("insole/data",), setup=())
-    ours = Driver(named, {"insole/data": FORMATS["toy/data"]}, {"insole/data": data})
-    for taken in ([ours], [NUMBERED, TICKING]):
+    own_driver = Driver(named, {"insole/data": FORMATS["toy/data"]}, {"insole/data": data})
+    for drivers in ([own_driver], [NUMBERED, TICKING]):
         with pytest.raises(ValueError, match="already"):
-            Session(profiles=taken)
+            Session(profiles=drivers)
     with pytest.raises(TypeError, match="Driver"):
         Session(profiles=[PROFILE])  # type: ignore[list-item]
 
 
-def mode_four() -> Packet:
+def mode_4_packet() -> Packet:
     value = bytes([56]) + bytes(103)
     return Packet(1.0, LEFT, "orphe/values", value)
 
 
-def toys(first: int, last: int) -> list[Packet]:
+def toy_packets(first: int, last: int) -> list[Packet]:
     fields: dict[str, Any] = {"ticks": 0, "count": 1, "up": [9.80665]}
     return [
         Packet(1.0 + 0.01 * k, LEFT, "toy/data", NUMBERED.write("toy/data", {"number": k, **fields}))
@@ -111,28 +111,28 @@ def toys(first: int, last: int) -> list[Packet]:
     ]
 
 
-def kept(session: Session) -> list[Callable[..., Session]]:
-    """The ways to take it up again, from what was saved of it."""
+def restorers(session: Session) -> list[Callable[..., Session]]:
+    """Return functions that restore the session from its snapshot and from its packed state."""
     saved = json.loads(json.dumps(session.snapshot(), allow_nan=False))
     return [partial(Session.restore, saved), partial(Session.unpack, session.pack())]
 
 
 def test_a_session_with_a_device_of_its_own_is_restored_with_it_and_not_without() -> None:
     session = Session(poses=True, profiles=[NUMBERED])
-    session.feed(toys(0, 100))
-    ways = kept(session)
-    on = [session.feed(toys(103, 150)), session.advance(9.0)]
-    assert [] not in on
-    for taken_up in ways:
-        again = taken_up(profiles=[NUMBERED])
-        assert [again.feed(toys(103, 150)), again.advance(9.0)] == on
-        assert json.dumps(again.snapshot()) == json.dumps(session.snapshot())
+    session.feed(toy_packets(0, 100))
+    restore_functions = restorers(session)
+    events = [session.feed(toy_packets(103, 150)), session.advance(9.0)]
+    assert [] not in events
+    for restore in restore_functions:
+        restored = restore(profiles=[NUMBERED])
+        assert [restored.feed(toy_packets(103, 150)), restored.advance(9.0)] == events
+        assert json.dumps(restored.snapshot()) == json.dumps(session.snapshot())
         with pytest.raises(SnapshotError, match="toy"):
-            taken_up()
+            restore()
 
 
 @pytest.mark.parametrize(
-    "other",
+    "other_driver",
     [
         evolve(NUMBERED, sequence=0),
         evolve(NUMBERED, sequence=1 << 15),
@@ -143,24 +143,24 @@ def test_a_session_with_a_device_of_its_own_is_restored_with_it_and_not_without(
     ],
     ids=["no numbers", "other numbers", "ticks", "coarse ticks", "another range", "another rate"],
 )
-def test_a_session_is_not_restored_with_a_driver_of_the_same_name_that_counts_otherwise(other: Driver) -> None:
+def test_a_session_is_not_restored_with_a_driver_of_the_same_name_that_counts_otherwise(other_driver: Driver) -> None:
     session = Session(profiles=[NUMBERED])
-    session.feed(toys(1, 2))
-    for taken_up in kept(session):
+    session.feed(toy_packets(1, 2))
+    for restore in restorers(session):
         with pytest.raises(SnapshotError, match="toy.*another driver"):
-            taken_up(profiles=[other])
-        again = taken_up(profiles=[evolve(NUMBERED, limitation="it is a toy")])
-        assert again.snapshot() == session.snapshot()
+            restore(profiles=[other_driver])
+        restored = restore(profiles=[evolve(NUMBERED, limitation="it is a toy")])
+        assert restored.snapshot() == session.snapshot()
 
 
 def test_what_an_app_put_in_our_place_is_restored_with_it_and_not_with_ours() -> None:
-    replaced, ours = evolve(orphe.DRIVER, limitation=""), Session()
+    replaced, own_driver = evolve(orphe.DRIVER, limitation=""), Session()
     session = Session(profiles=[replaced])
-    session.feed(mode_four())
-    ours.feed(mode_four())
+    session.feed(mode_4_packet())
+    own_driver.feed(mode_4_packet())
     with pytest.raises(SnapshotError, match="orphe.*another driver"):
         Session.restore(session.snapshot())
     with pytest.raises(SnapshotError, match="orphe.*another driver"):
-        Session.restore(ours.snapshot(), profiles=[replaced])
+        Session.restore(own_driver.snapshot(), profiles=[replaced])
     assert Session.restore(session.snapshot(), profiles=[replaced]).snapshot() == session.snapshot()
-    assert Session.restore(ours.snapshot()).snapshot() == ours.snapshot()
+    assert Session.restore(own_driver.snapshot()).snapshot() == own_driver.snapshot()

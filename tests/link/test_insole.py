@@ -1,4 +1,4 @@
-"""Frames and fragments of an insole to samples in SI units, with packets lost or repeated and with restarts."""
+"""Decoding of frames and fragments of an insole to samples in SI units, with losses, duplicates and restarts."""
 
 from __future__ import annotations
 
@@ -8,12 +8,22 @@ from random import Random
 
 import pytest
 from attrs import evolve
-from decoded import LEFT, STEP, feed, fragments, frame_packet, info, insole_frame, packet, walked
+from decoded import (
+    LEFT,
+    SAMPLE_INTERVAL,
+    fed_decoder,
+    feed,
+    fragment_packets,
+    frame_packet,
+    info_value,
+    insole_frame,
+    packet,
+)
 from walks import of
 
 from solepath.events import ClockReset, LayoutKnown, Limitation, PacketRejected, PacketsLost, Rejection, ScaleSuspect
 from solepath.link.decoder import Decoder
-from solepath.saving import codec as machine
+from solepath.saving import codec
 from solepath.types import Sample, Site
 from solepath.types.vector import GRAVITY
 from solepath.wire.insole import InsoleSample
@@ -21,7 +31,7 @@ from solepath.wire.insole import InsoleSample
 
 def test_samples_are_in_si_units_by_the_scales_of_info() -> None:
     decoder = Decoder(site=LEFT)
-    [known] = feed(decoder, packet(9.0, "insole/info", info()))
+    [known] = feed(decoder, packet(9.0, "insole/info", info_value()))
     assert isinstance(known, LayoutKnown)
     assert known.layout.scale == pytest.approx(0.05)
     assert known.layout.full_scale == pytest.approx(4095 * 0.05)
@@ -49,7 +59,7 @@ def test_before_info_16_g_and_2000_degrees_per_second_are_assumed_and_reported_o
 
 def test_scales_of_zero_mean_no_such_sensor_and_pressure_in_counts() -> None:
     decoder = Decoder(site=LEFT)
-    data = info(acc_scale=0.0, gyro_scale=0.0, pressure_scale=0.0)
+    data = info_value(acc_scale=0.0, gyro_scale=0.0, pressure_scale=0.0)
     [known, sample] = feed(decoder, packet(9.0, "insole/info", data), frame_packet(0))
     assert known.layout.scale is None
     assert (sample.acc, sample.gyro, sample.pressure) == (None, None, (100.0, 200.0))
@@ -60,7 +70,7 @@ def test_without_info_the_first_layout_is_the_only_one() -> None:
     feed(decoder, frame_packet(0))
     [rejected] = feed(decoder, frame_packet(1, layout=9))
     assert rejected.reason is Rejection.WRONG_LAYOUT
-    feed(decoder, packet(11.0, "insole/info", info(layout=9)))
+    feed(decoder, packet(11.0, "insole/info", info_value(layout=9)))
     assert len(of(Sample, feed(decoder, packet(11.1, "insole/frame", insole_frame(2, layout=9))))) == 1
 
 
@@ -71,23 +81,23 @@ def test_a_site_without_a_foot_takes_no_insole() -> None:
 
 
 def test_another_tick_rate_is_another_clock() -> None:
-    decoder = walked()
-    feed(decoder, packet(10.06, "insole/info", info(tick_rate=1000, interval=10)))
+    decoder = fed_decoder()
+    feed(decoder, packet(10.06, "insole/info", info_value(tick_rate=1000, interval=10)))
     reset, sample = feed(decoder, packet(10.07, "insole/frame", insole_frame(5)))
     assert isinstance(reset, ClockReset) and not reset.restarted
     assert sample.t == pytest.approx(10.07, abs=1e-6)
 
 
 def test_frames_lost_over_a_whole_round_of_the_sequence_are_counted_by_ticks() -> None:
-    decoder = walked()
-    away = 3 * 65536 + 10
-    lost = of(PacketsLost, decoder.feed(frame_packet(4 + away)))
-    assert [event.count for event in lost] == [away - 1]
-    assert lost[0].t == pytest.approx(10.0 + 5 * STEP)
+    decoder = fed_decoder()
+    lost_frames = 3 * 65536 + 10
+    lost = of(PacketsLost, decoder.feed(frame_packet(4 + lost_frames)))
+    assert [event.count for event in lost] == [lost_frames - 1]
+    assert lost[0].t == pytest.approx(10.0 + 5 * SAMPLE_INTERVAL)
 
 
 def test_a_device_that_samples_again_after_a_pause_has_lost_nothing() -> None:
-    decoder = walked()
+    decoder = fed_decoder()
     pause = packet(20.0, "insole/frame", insole_frame(5, ticks=round(10.0 * 32768)))
     outputs = decoder.feed(pause)
     assert of(PacketsLost, outputs) == []
@@ -95,7 +105,7 @@ def test_a_device_that_samples_again_after_a_pause_has_lost_nothing() -> None:
 
 
 def test_a_restart_within_two_seconds_is_known_by_its_delay() -> None:
-    decoder = walked(100)
+    decoder = fed_decoder(100)
     outputs = feed(
         decoder, packet(13.5, "insole/frame", insole_frame(0)), packet(13.51, "insole/frame", insole_frame(1))
     )
@@ -104,28 +114,30 @@ def test_a_restart_within_two_seconds_is_known_by_its_delay() -> None:
 
 
 def test_times_keep_their_order_across_a_reset() -> None:
-    decoder = walked(10)
+    decoder = fed_decoder(10)
     newest = decoder.feed(frame_packet(10))[-1].t
-    many = (InsoleSample((100, 200), (0, 0, 4096, 0, 0, 0)),) * 10
-    outputs = decoder.feed(packet(10.11, "insole/frame", insole_frame(0, ticks=2_000_000_000, samples=many)))
+    ten_samples = (InsoleSample((100, 200), (0, 0, 4096, 0, 0, 0)),) * 10
+    outputs = decoder.feed(packet(10.11, "insole/frame", insole_frame(0, ticks=2_000_000_000, samples=ten_samples)))
     times = [newest] + [sample.t for sample in of(Sample, outputs)]
     assert all(b > a for a, b in zip(times, times[1:], strict=False))
 
 
 def test_fragments_make_the_frame_that_they_were_cut_from() -> None:
-    whole, cut = Decoder(site=LEFT), Decoder(site=LEFT)
+    whole_decoder, fragment_decoder = Decoder(site=LEFT), Decoder(site=LEFT)
     raw = InsoleSample(tuple(range(24)), (0, 0, 2048, 0, 0, 0))
     for k in range(10):
-        assert feed(cut, *fragments(k, k % 7)) == feed(whole, frame_packet(k, samples=(raw,)))
+        assert feed(fragment_decoder, *fragment_packets(k, k % 7)) == feed(
+            whole_decoder, frame_packet(k, samples=(raw,))
+        )
 
 
 @pytest.mark.parametrize("missing", range(4))
 def test_a_lost_fragment_costs_its_frame_and_no_other(missing: int) -> None:
     decoder = Decoder(site=LEFT)
-    feed(decoder, *fragments(0, 0))
-    broken = fragments(1, 1)
-    del broken[missing]
-    outputs = feed(decoder, *broken, *fragments(2, 2), *fragments(3, 3))
+    feed(decoder, *fragment_packets(0, 0))
+    incomplete_frame = fragment_packets(1, 1)
+    del incomplete_frame[missing]
+    outputs = feed(decoder, *incomplete_frame, *fragment_packets(2, 2), *fragment_packets(3, 3))
     assert [event.reason for event in of(PacketRejected, outputs)] == [Rejection.TRUNCATED]
     assert [event.count for event in of(PacketsLost, outputs)] == [1]
     assert len(of(Sample, outputs)) == 2
@@ -133,16 +145,16 @@ def test_a_lost_fragment_costs_its_frame_and_no_other(missing: int) -> None:
 
 def test_the_last_fragment_that_comes_twice_is_a_duplicate() -> None:
     decoder = Decoder(site=LEFT)
-    pieces = fragments(0, 0)
+    pieces = fragment_packets(0, 0)
     feed(decoder, *pieces)
     [rejected] = decoder.feed(pieces[-1])
     assert rejected.reason is Rejection.DUPLICATE
-    assert len(of(Sample, feed(decoder, *fragments(1, 1)))) == 1
+    assert len(of(Sample, feed(decoder, *fragment_packets(1, 1)))) == 1
 
 
 def test_an_end_of_a_fragment_is_not_that_fragment() -> None:
     decoder = Decoder(site=LEFT)
-    first, second, third, last = fragments(0, 0)
+    first, second, third, last = fragment_packets(0, 0)
     feed(decoder, first, second)
     [rejected] = decoder.feed(evolve(second, data=second.data[:1] + second.data[-3:]))
     assert rejected.reason is Rejection.TRUNCATED
@@ -154,12 +166,12 @@ def test_fragments_without_end_do_not_fill_the_memory() -> None:
     for k in range(3000):
         decoder.feed(packet(float(k) / 100, "insole/frame", bytes([(k % 5) << 5 | k % 16]) + bytes(400)))
         assert decoder.link is not None
-        assert len(json.dumps(machine.save(decoder))) < 5000
+        assert len(json.dumps(codec.save(decoder))) < 5000
 
 
 def test_an_insole_of_the_wrong_scale_is_suspected_once() -> None:
     decoder = Decoder(site=LEFT)
-    feed(decoder, packet(9.0, "insole/info", info()))
+    feed(decoder, packet(9.0, "insole/info", info_value()))
     outputs = feed(decoder, *[frame_packet(k, acc=2048) for k in range(400)])
     [suspect] = of(ScaleSuspect, outputs)
     assert suspect.magnitude == pytest.approx(GRAVITY / 2)
@@ -168,6 +180,6 @@ def test_an_insole_of_the_wrong_scale_is_suspected_once() -> None:
 
 def test_a_foot_that_moves_is_not_at_rest() -> None:
     decoder, random = Decoder(site=LEFT), Random(1)
-    feed(decoder, packet(9.0, "insole/info", info()))
+    feed(decoder, packet(9.0, "insole/info", info_value()))
     outputs = feed(decoder, *[frame_packet(k, acc=random.randrange(0, 4000)) for k in range(600)])
     assert of(ScaleSuspect, outputs) == []

@@ -1,4 +1,4 @@
-"""Profiles agree with the tables of protocol/*.md, and their setup writes are what the decoder expects."""
+"""Agreement of profiles with the tables of protocol/*.md, and of setup writes with the decoder."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def short(uuid: str) -> str:
 
 
 def table(document: str, first_header: str) -> list[list[str]]:
-    """The rows of the table whose header starts with `first_header`."""
+    """Return the rows of the table whose header starts with `first_header`."""
     lines = (PROTOCOL / document).read_text().splitlines()
     start = next(i for i, line in enumerate(lines) if line.startswith(f"| {first_header} |"))
     rows = []
@@ -38,24 +38,24 @@ def table(document: str, first_header: str) -> list[list[str]]:
 
 
 def documented_channels() -> dict[str, str]:
-    """Channel name -> short number of its characteristic, from protocol/README.md."""
-    found: dict[str, str] = {}
+    """Return the short number of each channel's characteristic, from protocol/README.md."""
+    channel_numbers: dict[str, str] = {}
     for names, characteristics, *_ in table("README.md", "channel"):
         if characteristics == "none":
-            continue  # of the receiver itself
+            continue  # a channel of the receiver
         whole, *others = re.findall(r"`([^`]+)`", names)
         channels = [whole] + [other if "/" in other else whole + other for other in others]
         numbers = re.findall(r"\b([0-9A-F]{4})\b", characteristics)
         assert len(channels) == len(numbers), names
-        found.update(zip(channels, numbers, strict=True))
-    return found
+        channel_numbers.update(zip(channels, numbers, strict=True))
+    return channel_numbers
 
 
 @pytest.mark.parametrize("profile", PROFILES, ids=lambda profile: profile.name)
 def test_every_channel_of_a_profile_is_in_the_protocol(profile: Profile) -> None:
-    documented = documented_channels()
+    documented_numbers = documented_channels()
     for channel in profile.channels:
-        assert short(channel.characteristic) == documented[channel.name].zfill(4), channel.name
+        assert short(channel.characteristic) == documented_numbers[channel.name].zfill(4), channel.name
 
 
 def test_every_documented_channel_has_a_profile() -> None:
@@ -79,7 +79,7 @@ def test_the_insole_has_the_documented_uuids() -> None:
 @pytest.mark.parametrize(("profile", "document"), [(CC2650, "cc2650.md"), (CC2541, "cc2541.md")])
 def test_sensortag_sensors_are_at_the_uuids_of_the_tables(profile: Profile, document: str) -> None:
     suffixes = ["", "-config", "-period"]
-    seen = set()
+    checked_channels = set()
     for sensor, *cells in table(document, "sensor"):
         numbers = [re.search(r"[0-9A-F]{4}", cell) for cell in cells]
         service = cells[0]
@@ -89,8 +89,8 @@ def test_sensortag_sensors_are_at_the_uuids_of_the_tables(profile: Profile, docu
             channel = profile.channel(f"{profile.name}/{sensor}{suffix}")
             assert short(channel.characteristic) == number[0]
             assert short(channel.service) == service
-            seen.add(channel.name)
-    assert len(seen) >= 6
+            checked_channels.add(channel.name)
+    assert len(checked_channels) >= 6
 
 
 def test_advertised_names_are_in_the_documents() -> None:
@@ -102,8 +102,10 @@ def test_advertised_names_are_in_the_documents() -> None:
 
 
 def test_a_device_is_known_by_its_whole_name_or_its_prefix() -> None:
-    known = {name: [p.name for p in PROFILES if p.matches_name(name)] for name in ("INS0123", "Thingy", "Thingy 2", "")}
-    assert known == {"INS0123": ["orphe"], "Thingy": ["thingy"], "Thingy 2": [], "": []}
+    matching_profiles = {
+        name: [p.name for p in PROFILES if p.matches_name(name)] for name in ("INS0123", "Thingy", "Thingy 2", "")
+    }
+    assert matching_profiles == {"INS0123": ["orphe"], "Thingy": ["thingy"], "Thingy 2": [], "": []}
 
 
 @pytest.mark.parametrize(
@@ -145,13 +147,13 @@ def test_a_profile_refers_only_to_its_own_channels_and_uses_them_as_they_can_be_
     ids=[profile.name for profile in PROFILES],
 )
 def test_setup_is_the_table_of_the_document_write_for_write(profile: Profile, document: str) -> None:
-    documented = []
+    documented_numbers = []
     for number, (order, channel, value, then_read, meaning) in enumerate(table(document, "order"), 1):
         values = re.findall(r"`([0-9a-f]+)`", value)
         assert order == str(number) and values and meaning
         written = bytes.fromhex(values[-1] if profile is CC2541_20HZ else values[0])
-        documented.append(Write(channel.strip("`"), written, tuple(re.findall(r"`([^`]+)`", then_read))))
-    assert tuple(documented) == profile.setup
+        documented_numbers.append(Write(channel.strip("`"), written, tuple(re.findall(r"`([^`]+)`", then_read))))
+    assert tuple(documented_numbers) == profile.setup
 
 
 @pytest.mark.parametrize("profile", PROFILES, ids=lambda profile: profile.name)

@@ -15,26 +15,26 @@ from toys import BOTH, FORMATS, LEFT, TICKING, Toy, data, more, toy
 from solepath import Packet, Session
 from solepath.events import PacketRejected, Rejection
 from solepath.link.driver import Measured, Reading
-from solepath.saving import codec as machine
+from solepath.saving import codec
 
-UP = (0.0, 0.0, 9.80665)
+ACC_AT_REST = (0.0, 0.0, 9.80665)
 HUGE = 10**400
 ABSURD, MALFORMED = Rejection.ABSURD, Rejection.MALFORMED
 
 
 def one(**values: Any) -> Reading:
-    return Reading((Measured(**{"acc": UP, **values}),), sequence=6, ticks=2**32 - 1_940_000)
+    return Reading((Measured(**{"acc": ACC_AT_REST, **values}),), sequence=6, ticks=2**32 - 1_940_000)
 
 
 def numbered(**values: Any) -> Reading:
     return evolve(one(), **values)
 
 
-READ: dict[str, tuple[Any, Rejection]] = {
+READINGS: dict[str, tuple[Any, Rejection]] = {
     "no reading": (None, MALFORMED),
     "samples that are a number": (Reading(5), MALFORMED),  # type: ignore[arg-type]
-    "a sample that is none": (Reading((UP,)), MALFORMED),  # type: ignore[arg-type]
-    "more samples than bytes": (numbered(samples=(Measured(UP),) * 1000), ABSURD),
+    "a sample that is none": (Reading((ACC_AT_REST,)), MALFORMED),  # type: ignore[arg-type]
+    "more samples than bytes": (numbered(samples=(Measured(ACC_AT_REST),) * 1000), ABSURD),
     "a huge integer": (one(acc=(HUGE, 0, 0)), ABSURD),
     "a full battery in atoms": (Reading(battery=HUGE), ABSURD),
     "two axes": (one(acc=(0.0, 9.8)), MALFORMED),
@@ -72,11 +72,11 @@ READ: dict[str, tuple[Any, Rejection]] = {
 }
 
 
-def assert_rejected(device: Toy, value: bytes, reason: Rejection, which: str = "data") -> None:
-    before = machine.save(device.decoder)
-    (reported,) = device.receive(10.06, which, value)
+def assert_rejected(device: Toy, value: bytes, reason: Rejection, channel_name: str = "data") -> None:
+    before = codec.save(device.decoder)
+    (reported,) = device.receive(10.06, channel_name, value)
     assert isinstance(reported, PacketRejected) and reported.reason is reason, reported
-    assert machine.save(device.decoder) == before
+    assert codec.save(device.decoder) == before
 
 
 REJECTED = {
@@ -98,16 +98,16 @@ REJECTED = {
 
 @pytest.mark.parametrize("name", REJECTED)
 def test_an_unusable_value_is_rejected_and_changes_nothing(name: str) -> None:
-    which, value, reason = REJECTED[name]
+    channel_name, value, reason = REJECTED[name]
     device = toy(BOTH)
     for k in range(5):
         device.packet(k)
-    assert_rejected(device, value, reason, which)
+    assert_rejected(device, value, reason, channel_name)
 
 
-@pytest.mark.parametrize("name", READ)
+@pytest.mark.parametrize("name", READINGS)
 def test_a_reading_that_is_none_is_rejected_and_changes_nothing(name: str) -> None:
-    reading, reason = READ[name]
+    reading, reason = READINGS[name]
 
     def reader(sent: Any, known: Any) -> Reading:
         return reading if sent.number == 0 else data(sent, known)  # type: ignore[no-any-return]
@@ -121,21 +121,25 @@ def test_a_reading_that_is_none_is_rejected_and_changes_nothing(name: str) -> No
     assert isinstance(reported, PacketRejected) and first.decoder.link is None
 
 
-def ratio(value: Any, context: Any) -> bool:
+def is_positive_reciprocal(value: Any, context: Any) -> bool:
     return 1 / value > 0
 
 
-def chosen(value: Any, context: Any) -> Any:
+def choose(value: Any, context: Any) -> Any:
     return ("one", "two")[value]
 
 
-def worded(value: Any, context: Any) -> Any:
+def fail(value: Any, context: Any) -> Any:
     return float(f"{value} apples")
 
 
 @pytest.mark.parametrize(
     "part",
-    [ExprValidator(Int8ub, ratio), ExprAdapter(Int8ub, chosen, chosen), ExprAdapter(Int8ub, worded, worded)],
+    [
+        ExprValidator(Int8ub, is_positive_reciprocal),
+        ExprAdapter(Int8ub, choose, choose),
+        ExprAdapter(Int8ub, fail, fail),
+    ],
     ids=["divides", "has no such item", "reads no number"],
 )
 @pytest.mark.parametrize("first", [True, False])
@@ -152,19 +156,19 @@ def test_a_construct_that_needs_a_missing_field_rejects_all() -> None:
 
 
 def test_bytes_left_over_are_rejected_though_the_construct_does_not_end_in_terminated() -> None:
-    loose = {**FORMATS, "toy/more": Struct("what" / Int8ub), "toy/start": GreedyBytes}
-    device = toy(evolve(TICKING, formats=loose, readers={}))
+    formats = {**FORMATS, "toy/more": Struct("what" / Int8ub), "toy/start": GreedyBytes}
+    device = toy(evolve(TICKING, formats=formats, readers={}))
     (reported,) = device.receive(10.0, "more", b"\x01\x02")
     assert isinstance(reported, PacketRejected) and reported.reason is Rejection.OVERSIZED
     assert device.receive(10.0, "more", b"\x01") == device.receive(10.0, "start", b"all of it") == []
 
 
 def test_a_reader_cannot_change_what_is_known() -> None:
-    def meddling(sent: Any, known: Any) -> Reading:
+    def reader(sent: Any, known: Any) -> Reading:
         known["times"] = 3.0
         return Reading()
 
-    device = toy(evolve(TICKING, readers={"toy/data": meddling}))
+    device = toy(evolve(TICKING, readers={"toy/data": reader}))
     with pytest.raises(TypeError):
         device.packet(0)
 
@@ -179,12 +183,12 @@ def test_what_a_construct_calls_an_integer_can_be_saved() -> None:
     device = toy(evolve(BOTH, readers={"toy/data": reader}))
     reported = [device.packet(k) for k in range(3)]
     assert all(reported) and not any([isinstance(one, PacketRejected) for some in reported for one in some])
-    json.dumps(machine.save(device.decoder))
+    json.dumps(codec.save(device.decoder))
 
 
 def test_a_clock_of_nanoseconds_since_1970_goes_on_the_same_after_it_was_saved() -> None:
     def reader(sent: Any, known: Any) -> Reading:
-        return Reading((Measured(UP),), ticks=1_800_000_000_123_456_789 + 1000 * sent.ticks)
+        return Reading((Measured(ACC_AT_REST),), ticks=1_800_000_000_123_456_789 + 1000 * sent.ticks)
 
     driver = evolve(TICKING, readers={"toy/data": reader}, tick_rate=1e9, tick_modulus=1 << 64)
 
@@ -196,5 +200,5 @@ def test_a_clock_of_nanoseconds_since_1970_goes_on_the_same_after_it_was_saved()
 
     session = Session(poses=True, profiles=[driver])
     session.feed(packets(0, 60))
-    again = Session.restore(json.loads(json.dumps(session.snapshot())), profiles=[driver])
-    assert again.feed(packets(60, 120)) == session.feed(packets(60, 120)) != []
+    restored = Session.restore(json.loads(json.dumps(session.snapshot())), profiles=[driver])
+    assert restored.feed(packets(60, 120)) == session.feed(packets(60, 120)) != []

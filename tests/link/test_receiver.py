@@ -33,14 +33,14 @@ def packet(t: float, channel: str, data: bytes = b"", device: str = "") -> Packe
 
 def test_receiver_packets_become_events() -> None:
     session = Session()
-    fields_reads = [
+    values = [
         ("receiver/connected", build_connected(ConnectionFrame("solepath L", -61))),
         ("receiver/trouble", build_text("the battery is low")),
         ("receiver/dropped", build_dropped(7)),
         ("receiver/restarted", build_text("insole/frame")),
         ("receiver/disconnected", b""),
     ]
-    events = session.feed([packet(float(t), *one, device="F0:01") for t, one in enumerate(fields_reads)])
+    events = session.feed([packet(float(t), *item, device="F0:01") for t, item in enumerate(values)])
     assert events == [
         Connected(t=0.0, known_at=0.0, site=LEFT, device="F0:01", name="solepath L", signal=-61),
         LinkTrouble(t=1.0, known_at=1.0, site=LEFT, what="the battery is low"),
@@ -51,10 +51,10 @@ def test_receiver_packets_become_events() -> None:
 
 
 def test_a_tick_lets_a_silence_become_known_as_advance_does() -> None:
-    reported, ticked = Session(), Session()
-    for session in (reported, ticked):
+    advanced_session, ticked_session = Session(), Session()
+    for session in (advanced_session, ticked_session):
         session.feed(packet(0.0, "insole/frame", insole_frame(1, ticks=0)))
-    assert reported.advance(5.0) == ticked.feed(packet(5.0, "receiver/tick")) != []
+    assert advanced_session.advance(5.0) == ticked_session.feed(packet(5.0, "receiver/tick")) != []
 
 
 @pytest.mark.parametrize("channel", ["receiver/tock", "receiver/", "receiver"])
@@ -64,12 +64,12 @@ def test_invalid_receiver_packets_are_rejected(channel: str) -> None:
 
 
 def reasons(session: Session, *packets: Packet) -> list[Rejection | None]:
-    """Return the reason why each was rejected, None where it was not."""
-    found = []
-    for one in packets:
-        rejected = [event for event in session.feed(one) if isinstance(event, PacketRejected)]
-        found.append(rejected[0].reason if rejected else None)
-    return found
+    """Return the reason why each packet was rejected, None for an accepted packet."""
+    reasons_found = []
+    for item in packets:
+        rejected = [event for event in session.feed(item) if isinstance(event, PacketRejected)]
+        reasons_found.append(rejected[0].reason if rejected else None)
+    return reasons_found
 
 
 def test_a_site_is_bound_to_the_first_device_it_receives() -> None:
@@ -80,15 +80,15 @@ def test_a_site_is_bound_to_the_first_device_it_receives() -> None:
         packet(3.0, "device/battery", CHARGED),
         packet(4.0, "device/battery", CHARGED, "F0:01"),
     ]
-    wrong = Rejection.WRONG_DEVICE
-    assert reasons(Session(), *sent_packets) == [None, None, wrong, wrong, None]
+    wrong_device = Rejection.WRONG_DEVICE
+    assert reasons(Session(), *sent_packets) == [None, None, wrong_device, wrong_device, None]
 
 
 def test_a_site_that_was_bound_beforehand_accepts_no_other_device() -> None:
     session = Session(devices={LEFT: "F0:02"})
     sent_packets = [packet(float(t), "device/battery", CHARGED, f"F0:0{t}") for t in (1, 2, 3)]
-    wrong = Rejection.WRONG_DEVICE
-    assert reasons(session, *sent_packets) == [wrong, None, wrong]
+    wrong_device = Rejection.WRONG_DEVICE
+    assert reasons(session, *sent_packets) == [wrong_device, None, wrong_device]
     assert reasons(Session(), Packet(0.0, Site.RIGHT_FOOT, "device/battery", CHARGED, "F0:01")) == [None]
 
 
@@ -124,7 +124,7 @@ def test_an_insole_that_restarts_soon_after_its_start_is_not_taken_for_late() ->
     decoder.feed(packet(0.9, "receiver/connected", build_connected(ConnectionFrame("", None))))
     first, *rest = decoder.feed(packet(1.0, "insole/frame", insole_frame(0)))
     assert isinstance(first, ClockReset) and first.restarted
-    assert [type(one) for one in rest] == [Sample]
+    assert [type(item) for item in rest] == [Sample]
     [sample] = decoder.feed(packet(1.01, "insole/frame", insole_frame(1)))
     assert isinstance(sample, Sample)
 

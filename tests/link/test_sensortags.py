@@ -1,11 +1,11 @@
-"""SensorTag packets to samples in SI units: the CC2650 by its configuration, the CC2541 by its firmware."""
+"""Decoding of SensorTag packets to samples in SI units, by the CC2650's configuration and the CC2541's firmware."""
 
 from __future__ import annotations
 
 from math import radians
 
 import pytest
-from decoded import LEFT, acc_packet, config, feed, gyro_packet, new_tag, old_tag, packet
+from decoded import LEFT, acc_packet, cc2541_packet, cc2650_config_packet, cc2650_value, feed, gyro_packet, packet
 from walks import of
 
 from solepath.events import BatteryLevel, KeysChanged, Limitation, ScaleSuspect
@@ -18,23 +18,23 @@ from solepath.wire.device import build_battery, build_firmware
 
 def test_a_cc2650_is_scaled_by_its_configuration() -> None:
     decoder = Decoder(site=LEFT)
-    raw = new_tag("movement", gyro=(131, 0, -131), acc=(0, 0, 4096), mag=(0, 32760, 0))
+    raw = cc2650_value("movement", gyro=(131, 0, -131), acc=(0, 0, 4096), mag=(0, 32760, 0))
     [at_8g] = feed(decoder, packet(1.0, "cc2650/movement", raw))
     assert at_8g.acc == pytest.approx((0.0, 0.0, GRAVITY))
     assert at_8g.gyro == pytest.approx((radians(131 * 500 / 65536), 0.0, -radians(131 * 500 / 65536)))
     assert at_8g.mag == pytest.approx((4912e-6, 0.0, 0.0))
-    reported = config(16, mag=False, gyro_axes=(True, False, True))
-    [at_16g] = feed(decoder, reported, packet(1.1, "cc2650/movement", raw))
+    config_packet = cc2650_config_packet(16, mag=False, gyro_axes=(True, False, True))
+    [at_16g] = feed(decoder, config_packet, packet(1.1, "cc2650/movement", raw))
     assert at_16g.acc == pytest.approx((0.0, 0.0, 2 * GRAVITY))
     assert at_16g.gyro is None
     assert at_16g.mag is None
 
 
 def test_keys_are_named_and_differ_between_the_tags() -> None:
-    new, old = Decoder(site=LEFT), Decoder(site=LEFT)
-    [pressed] = new.feed(packet(1.0, "cc2650/keys", b"\x01"))
+    cc2650_decoder, cc2541_decoder = Decoder(site=LEFT), Decoder(site=LEFT)
+    [pressed] = cc2650_decoder.feed(packet(1.0, "cc2650/keys", b"\x01"))
     assert pressed == KeysChanged(t=1.0, known_at=1.0, site=LEFT, down=("left",))
-    [pressed] = old.feed(packet(1.0, "cc2541/keys", b"\x05"))
+    [pressed] = cc2541_decoder.feed(packet(1.0, "cc2541/keys", b"\x05"))
     assert pressed.down == ("right", "side")
 
 
@@ -123,7 +123,7 @@ def test_a_barometer_without_calibration_is_reported_once() -> None:
 
 def test_a_cc2541_keeps_the_axes_as_they_were_sent() -> None:
     decoder = Decoder(site=LEFT)
-    mag = old_tag(0.9, "magnetometer", mag=(1, 2, 3))
+    mag = cc2541_packet(0.9, "magnetometer", mag=(1, 2, 3))
     [sample] = feed(decoder, mag, acc_packet(1.0, (16, 32, -16)), gyro_packet(1.05, (1000, 2000, 3000)))
     scale = radians(500 / 65536)
     assert sample.acc == pytest.approx((GRAVITY, 2 * GRAVITY, -GRAVITY))

@@ -1,4 +1,4 @@
-"""protocol/stories: packets in order with their arrivals, and what a receiver makes of them."""
+"""The files of protocol/stories: packets with their arrivals, and the samples and events that a decoder gives."""
 
 from __future__ import annotations
 
@@ -21,12 +21,12 @@ from solepath.events import (
 )
 from solepath.link.decoder import Decoder
 from solepath.recipes import part_class
-from solepath.saving import codec as machine
+from solepath.saving import codec
 from solepath.types import Packet, Sample, Site
 
 STORIES = sorted((PROTOCOL / "stories").glob("*.json"))
 
-WHAT = {
+KIND_OF_OUTPUT = {
     Sample: "sample",
     PacketsLost: "lost",
     PacketRejected: "rejected",
@@ -39,38 +39,38 @@ WHAT = {
 }
 
 
-def listen(decoder: Decoder, site: Site, line: dict[str, Any]) -> list[Any]:
+def feed_line(decoder: Decoder, site: Site, line: dict[str, Any]) -> list[Any]:
     if "channel" not in line:
         return decoder.advance(line["t"])
     return decoder.feed(Packet(line["t"], site, line["channel"], bytes.fromhex(line["data"])))
 
 
-def as_expected(output: Any, expected: dict[str, Any]) -> dict[str, Any]:
-    """Return the output in the words of the stories, with the keys that `expected` has."""
-    words: dict[str, Any] = {"what": WHAT[type(output)]}
+def describe(output: Any, expected: dict[str, Any]) -> dict[str, Any]:
+    """Return the output in the form of the stories, with the keys that `expected` has."""
+    fields: dict[str, Any] = {"what": KIND_OF_OUTPUT[type(output)]}
     for key in expected.keys() - {"what"}:
         if isinstance(output, LayoutKnown):
             layout = output.layout
-            words[key] = {"layout": layout.id, "cells": len(layout.cells), "length": layout.length}[key]
+            fields[key] = {"layout": layout.id, "cells": len(layout.cells), "length": layout.length}[key]
         elif isinstance(output, PacketRejected):
-            words[key] = output.reason.value
+            fields[key] = output.reason.value
         else:
             value = getattr(output, key)
-            words[key] = list(value) if isinstance(value, tuple) else value
-    return words
+            fields[key] = list(value) if isinstance(value, tuple) else value
+    return fields
 
 
 def check(outputs: list[Any], expected: list[dict[str, Any]], tolerance: float, where: str) -> None:
-    assert [WHAT.get(type(o)) for o in outputs] == [e["what"] for e in expected], f"{where}: {outputs}"
-    for output, words in zip(outputs, expected, strict=True):
-        found = as_expected(output, words)
-        for key, value in words.items():
+    assert [KIND_OF_OUTPUT.get(type(o)) for o in outputs] == [e["what"] for e in expected], f"{where}: {outputs}"
+    for output, fields in zip(outputs, expected, strict=True):
+        description = describe(output, fields)
+        for key, value in fields.items():
             if key == "t":
-                assert found[key] == pytest.approx(value, rel=0, abs=tolerance), where
+                assert description[key] == pytest.approx(value, rel=0, abs=tolerance), where
             elif isinstance(value, float | list):
-                assert found[key] == pytest.approx(value, rel=1e-5, abs=1e-12), where
+                assert description[key] == pytest.approx(value, rel=1e-5, abs=1e-12), where
             else:
-                assert found[key] == value, where
+                assert description[key] == value, where
 
 
 @pytest.mark.parametrize("path", STORIES, ids=lambda path: path.stem)
@@ -78,7 +78,7 @@ def test_a_decoder_gives_the_output_of_the_story(path: Path) -> None:
     story = json.loads(path.read_text())
     decoder = Decoder(site=Site(story["site"]))
     for number, line in enumerate(story["packets"]):
-        outputs = listen(decoder, Site(story["site"]), line)
+        outputs = feed_line(decoder, Site(story["site"]), line)
         check(outputs, line["gives"], story["tolerance"], f"{path.stem}, packet {number}")
         assert all(output.known_at >= max(output.t, line["t"]) for output in outputs), "known before it was, or arrived"
 
@@ -87,12 +87,12 @@ def test_a_decoder_gives_the_output_of_the_story(path: Path) -> None:
 def test_a_receiver_saved_and_restored_before_every_packet_goes_on_the_same(path: Path) -> None:
     story = json.loads(path.read_text())
     site = Site(story["site"])
-    straight, restored = Decoder(site=site), Decoder(site=site)
+    unsaved, restored = Decoder(site=site), Decoder(site=site)
     for line in story["packets"]:
-        restored = machine.load(Decoder, json.loads(json.dumps(machine.save(restored), allow_nan=False)), part_class)
-        assert listen(restored, site, line) == listen(straight, site, line)
-    assert restored == straight
-    assert restored.finish() == straight.finish()
+        restored = codec.load(Decoder, json.loads(json.dumps(codec.save(restored), allow_nan=False)), part_class)
+        assert feed_line(restored, site, line) == feed_line(unsaved, site, line)
+    assert restored == unsaved
+    assert restored.finish() == unsaved.finish()
 
 
 @pytest.mark.parametrize("path", STORIES, ids=lambda path: path.stem)
@@ -103,10 +103,10 @@ def test_a_story_has_the_form_that_the_readme_describes(path: Path) -> None:
     assert story["count"] == len(story["packets"])
     times = [line["t"] for line in story["packets"]]
     assert times == sorted(times) or path.stem == "host-clock-set-back"
-    assert all(given["what"] in WHAT.values() for line in story["packets"] for given in line["gives"])
+    assert all(given["what"] in KIND_OF_OUTPUT.values() for line in story["packets"] for given in line["gives"])
 
 
-RULES = """
+RULE_STORIES = """
     sequence-wrap tick-wrap duplicate late retransmitted fragment-twice loss restart clock-jump jitter
     four-samples-a-frame fragments-mtu-23 info-then-frames cc2541-10hz cc2541-20hz cc2650-hole cc2650-lateness silence
     host-clock-set-back
@@ -114,4 +114,4 @@ RULES = """
 
 
 def test_the_stories_cover_every_rule_of_the_clock() -> None:
-    assert {path.stem for path in STORIES} >= set(RULES.split())
+    assert {path.stem for path in STORIES} >= set(RULE_STORIES.split())

@@ -1,4 +1,4 @@
-"""Declared devices: sample times, lost and late packets, restarts, and other values."""
+"""Sample times, lost and late packets, restarts, and other values of declared devices."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ from solepath.link.decoder import Decoder
 from solepath.link.driver import TimeAxis
 from solepath.link.kinds import make_kinds
 from solepath.recipes import part_class
-from solepath.saving import codec as machine
+from solepath.saving import codec
 
 
 def test_the_axis_is_the_best_that_a_device_has() -> None:
@@ -62,49 +62,49 @@ def test_samples_are_as_far_apart_as_they_were_taken_whatever_the_radio_does(nam
         arrival = max(arrival, t + 0.03 * random.random() ** 2)
         output += device.packet(k, arrival - t + 1e-9, count=count)
     assert not of(PacketRejected, output) and not of(PacketsLost, output) and not of(ClockReset, output)
-    found = times(output)
-    assert len(found) == 2000 // count * count
-    apart = [b - a for a, b in zip(found[500:], found[501:], strict=False)]
-    assert min(apart) > 0.0099 and max(apart) < 0.0101
-    assert found[-1] == pytest.approx(10.0 + (2000 // count - 1) * count / 100, abs=0.012)
+    sample_times = times(output)
+    assert len(sample_times) == 2000 // count * count
+    intervals = [b - a for a, b in zip(sample_times[500:], sample_times[501:], strict=False)]
+    assert min(intervals) > 0.0099 and max(intervals) < 0.0101
+    assert sample_times[-1] == pytest.approx(10.0 + (2000 // count - 1) * count / 100, abs=0.012)
 
 
 @pytest.mark.parametrize("name", ["number", "coarse"])
-@pytest.mark.parametrize("true", [96.0, 104.0])
-def test_a_device_that_counts_at_another_rate_than_nominal_is_followed(name: str, true: float) -> None:
+@pytest.mark.parametrize("true_rate", [96.0, 104.0])
+def test_a_device_that_counts_at_another_rate_than_nominal_is_followed(name: str, true_rate: float) -> None:
     device = toy(KIND[name])
-    found = times([one for k in range(1500) for one in device.packet(k, true=true)])
-    assert (found[1400] - found[900]) / 500 == pytest.approx(1.0 / true, rel=1e-3)
-    assert found[-1] == pytest.approx(10.0 + 1499 / true, abs=0.02)
+    sample_times = times([item for k in range(1500) for item in device.packet(k, true_rate=true_rate)])
+    assert (sample_times[1400] - sample_times[900]) / 500 == pytest.approx(1.0 / true_rate, rel=1e-3)
+    assert sample_times[-1] == pytest.approx(10.0 + 1499 / true_rate, abs=0.02)
 
 
 @pytest.mark.parametrize("name", ["number", "ticks", "both", "coarse"])
 def test_lost_late_or_repeated_packets_are_reported_and_the_others_keep_their_times(name: str) -> None:
     device = toy(KIND[name])
-    output = [one for k in (*range(8), 10, 11) for one in device.packet(k)]
+    output = [item for k in (*range(8), 10, 11) for item in device.packet(k)]
     (lost,) = of(PacketsLost, output)
     assert lost.count == 2 and lost.t == pytest.approx(10.08, abs=1e-3) and lost.channel == "toy/data"
     assert times(output) == pytest.approx([10.0 + 0.01 * k for k in (*range(8), 10, 11)], abs=1e-3)
-    before = machine.save(device.decoder)
+    before = codec.save(device.decoder)
     (again,), (late,) = device.packet(11, 0.001), device.packet(9, 0.021)
     assert (again.reason, late.reason) == (Rejection.DUPLICATE, Rejection.LATE)
     (before_last,) = device.packet(10, 0.021)
     assert before_last.reason is Rejection.DUPLICATE
-    assert machine.save(device.decoder) == before
+    assert codec.save(device.decoder) == before
 
 
 @pytest.mark.parametrize("name", ["number", "ticks", "both", "coarse"])
 def test_a_device_that_restarts_gets_a_new_fit_and_times_go_on(name: str) -> None:
     device = toy(KIND[name])
-    output = [one for k in range(400) for one in device.packet(k)]
+    output = [item for k in range(400) for item in device.packet(k)]
     for k in range(300):
         output += device.send_data(17.0 + 0.01 * k, 5 + k, 77 + round((10_000 if name != "coarse" else 10) * k))
     (reset,) = of(ClockReset, output)
     assert reset.restarted and reset.t == pytest.approx(17.0, abs=0.02)
     assert not of(PacketsLost, output) and not of(PacketRejected, output)
-    found = times(output)
-    assert found == sorted(found) and len(set(found)) == 700
-    assert found[-1] == pytest.approx(17.0 + 2.99, abs=0.02)
+    sample_times = times(output)
+    assert sample_times == sorted(sample_times) and len(set(sample_times)) == 700
+    assert sample_times[-1] == pytest.approx(17.0 + 2.99, abs=0.02)
 
 
 def test_right_after_a_new_connection_nothing_is_overtaken() -> None:
@@ -120,61 +120,63 @@ def test_right_after_a_new_connection_nothing_is_overtaken() -> None:
 def test_a_pause_shows_in_a_coarse_clock_and_after_a_long_silence_without_one() -> None:
     for name, pause, resets in (("coarse", 0.8, 0), ("coarse", 40.0, 0), ("number", 6.0, 1)):
         device = toy(KIND[name])
-        output = [one for k in range(300) for one in device.packet(k)]
+        output = [item for k in range(300) for item in device.packet(k)]
         for k in range(300, 600):
             output += device.send_data(
                 10.0 + 0.01 * k + pause, 65_530 + k, 86_400_000 - 2000 + 10 * k + round(1000 * pause)
             )
         assert len(of(ClockReset, output)) == resets and not of(PacketsLost, output)
-        found = times(output)
-        assert found[300] - found[299] == pytest.approx(0.01 + pause, abs=0.02)
-        assert found[-1] == pytest.approx(15.99 + pause, abs=0.02)
+        sample_times = times(output)
+        assert sample_times[300] - sample_times[299] == pytest.approx(0.01 + pause, abs=0.02)
+        assert sample_times[-1] == pytest.approx(15.99 + pause, abs=0.02)
 
 
 def test_a_coarse_clock_that_is_set_changes_nothing() -> None:
-    for by in (600, 1500, 3_600_000, -1500):
+    for offset in (600, 1500, 3_600_000, -1500):
         device = toy(COARSE)
-        output = [one for k in range(300) for one in device.packet(k)]
+        output = [item for k in range(300) for item in device.packet(k)]
         for k in range(300, 600):
-            output += device.send_data(10.0 + 0.01 * k, 65_530 + k, 86_398_000 + 10 * k + by)
-        assert [one for one in output if not isinstance(one, Sample)] == []
-        assert times(output) == pytest.approx([10.0 + 0.01 * k for k in range(600)], abs=2e-3), by
+            output += device.send_data(10.0 + 0.01 * k, 65_530 + k, 86_398_000 + 10 * k + offset)
+        assert [item for item in output if not isinstance(item, Sample)] == []
+        assert times(output) == pytest.approx([10.0 + 0.01 * k for k in range(600)], abs=2e-3), offset
 
 
-@pytest.mark.parametrize("true", [50.0, 200.0])
-def test_ticks_show_that_the_rate_is_another(true: float) -> None:
+@pytest.mark.parametrize("true_rate", [50.0, 200.0])
+def test_ticks_show_that_the_rate_is_another(true_rate: float) -> None:
     device = toy(TICKING)
-    output = [device.packet(k, true=true) for k in range(60)]
-    assert len([one for some in output for one in of(PacketsLost, some)]) <= 6
-    assert not [one for some in output[8:] for one in of(PacketsLost, some)]
-    assert device.decoder.link is not None and device.decoder.link.rate == pytest.approx(true)
-    assert times([one for some in output for one in some]) == pytest.approx(
-        [10.0 + k / true for k in range(60)], abs=1e-3
+    output = [device.packet(k, true_rate=true_rate) for k in range(60)]
+    assert len([item for items in output for item in of(PacketsLost, items)]) <= 6
+    assert not [item for items in output[8:] for item in of(PacketsLost, items)]
+    assert device.decoder.link is not None and device.decoder.link.rate == pytest.approx(true_rate)
+    assert times([item for items in output for item in items]) == pytest.approx(
+        [10.0 + k / true_rate for k in range(60)], abs=1e-3
     )
-    (lost,) = of(PacketsLost, device.packet(63, true=true))
+    (lost,) = of(PacketsLost, device.packet(63, true_rate=true_rate))
     assert lost.count == 3
 
 
 MILLISECONDS = evolve(BASE, tick_rate=1000.0, tick_modulus=1 << 32)
 
 
-@pytest.mark.parametrize("true", [300.0, 380.0, 400.0, 420.0, 450.0, 500.0])
+@pytest.mark.parametrize("true_rate", [300.0, 380.0, 400.0, 420.0, 450.0, 500.0])
 @pytest.mark.parametrize("count", [1, 4])
-def test_a_clock_of_few_ticks_a_sample_reports_no_false_losses(true: float, count: int) -> None:
-    driver = evolve(MILLISECONDS, profile=evolve(PROFILE, nominal_rate=min(500.0, max(333.0, round(true, -2)))))
+def test_a_clock_of_few_ticks_a_sample_reports_no_false_losses(true_rate: float, count: int) -> None:
+    driver = evolve(MILLISECONDS, profile=evolve(PROFILE, nominal_rate=min(500.0, max(333.0, round(true_rate, -2)))))
     assert driver.axis is TimeAxis.TICKS
     device, output = toy(driver), []
     for k in range(1500):
         if 1400 <= k < 1403:
             continue
-        t = 10.0 + k * count / true
+        t = 10.0 + k * count / true_rate
         output += device.send_data(t + 0.01, ticks=int(1000 * t), count=count)
         if k == 1300:
-            assert {type(one) for one in output} == {Sample}
-    (lost,) = [one for one in output if not isinstance(one, Sample)]
+            assert {type(item) for item in output} == {Sample}
+    (lost,) = [item for item in output if not isinstance(item, Sample)]
     assert isinstance(lost, PacketsLost) and lost.count == 3
-    found = times(output)
-    assert found == sorted(set(found)) and found[-1] == pytest.approx(10.01 + 1499 * count / true, abs=0.012)
+    sample_times = times(output)
+    assert sample_times == sorted(set(sample_times)) and sample_times[-1] == pytest.approx(
+        10.01 + 1499 * count / true_rate, abs=0.012
+    )
 
 
 def test_a_clock_too_coarse_for_the_samples_is_not_what_times_are_made_of() -> None:
@@ -187,11 +189,11 @@ def test_a_clock_too_coarse_for_the_samples_is_not_what_times_are_made_of() -> N
         assert driver.axis is axis
         device = toy(driver)
         output = [
-            one
+            item
             for k in range(300)
-            for one in device.send_data(5.01 + k / rate, ticks=int(tick_rate * (5.0 + k / rate)))
+            for item in device.send_data(5.01 + k / rate, ticks=int(tick_rate * (5.0 + k / rate)))
         ]
-        assert {type(one) for one in output} == {Sample}, (tick_rate, rate)
+        assert {type(item) for item in output} == {Sample}, (tick_rate, rate)
     device = toy(MILLISECONDS)
     (output,) = device.send_more(1.0, 1, 600.0)
     assert isinstance(output, PacketRejected) and "600" in output.detail
@@ -201,7 +203,7 @@ def test_losses_are_counted_at_the_rate_that_the_device_reported() -> None:
     for name in ("arrival", "ticks"):
         device = toy(KIND[name])
         output = device.send_more(9.9, 1, 20.0)
-        output += [one for k in (*range(50), 52) for one in device.packet(k, true=20.0)]
+        output += [item for k in (*range(50), 52) for item in device.packet(k, true_rate=20.0)]
         (lost,) = of(PacketsLost, output)
         assert lost.count == 2, name
 
@@ -219,11 +221,11 @@ def test_an_insole_that_is_set_to_another_mode_goes_on_at_another_rate() -> None
         output += decoder.feed(Packet(5.0 + 4 * k / 208, LEFT, "orphe/values", data))
     (reset,) = of(ClockReset, output)
     assert not reset.restarted and not of(PacketsLost, output)
-    found = times(output)
-    assert len(found) == 100 * 2 + 100 * 4 and found == sorted(set(found))
-    assert found[199] - found[198] == pytest.approx(1 / 104, abs=1e-4)
-    assert found[-1] - found[-2] == pytest.approx(1 / 208, abs=1e-4)
-    assert found[-1] == pytest.approx(5.0 + 4 * 199 / 208, abs=0.01)
+    sample_times = times(output)
+    assert len(sample_times) == 100 * 2 + 100 * 4 and sample_times == sorted(set(sample_times))
+    assert sample_times[199] - sample_times[198] == pytest.approx(1 / 104, abs=1e-4)
+    assert sample_times[-1] - sample_times[-2] == pytest.approx(1 / 208, abs=1e-4)
+    assert sample_times[-1] == pytest.approx(5.0 + 4 * 199 / 208, abs=0.01)
 
 
 def test_what_is_no_sample_becomes_an_event_or_is_remembered() -> None:
@@ -257,7 +259,7 @@ def test_silence_is_an_event_unless_the_device_reported_that_it_may_be_silent() 
 
 def test_a_limitation_is_reported_once_and_a_wrong_range_is_suspected() -> None:
     device = toy(evolve(NUMBERED, limitation="it is a toy"))
-    output = [one for k in range(300) for one in device.send_data(1.0 + 0.01 * k, k, up=4.9)]
+    output = [item for k in range(300) for item in device.send_data(1.0 + 0.01 * k, k, up=4.9)]
     (limitation,), (suspect,) = of(Limitation, output), of(ScaleSuspect, output)
     assert limitation.what == "it is a toy" and output.index(limitation) == 0
     assert "8 g would fit" not in suspect.suggestion and "0.50 g at rest with 16 g" in suspect.suggestion
@@ -276,12 +278,12 @@ def test_any_bytes_at_any_time_give_events_and_a_state_that_can_be_saved(name: s
         now += wait
         for k in range(2):
             value = value if k else value.ljust(11 if which == "data" else 9, b"\1")
-            for one in device.receive(now, which, value):
-                assert one.known_at >= one.t
-                if isinstance(one, ClockReset) and not one.restarted:
+            for item in device.receive(now, which, value):
+                assert item.known_at >= item.t
+                if isinstance(item, ClockReset) and not item.restarted:
                     newest = -inf
-                if isinstance(one, Sample):
-                    assert one.t > newest
-                    newest = one.t
-        saved = json.dumps(machine.save(device.decoder), allow_nan=False)
-        device = Toy(device.driver, machine.load(Decoder, json.loads(saved), part_class))
+                if isinstance(item, Sample):
+                    assert item.t > newest
+                    newest = item.t
+        saved = json.dumps(codec.save(device.decoder), allow_nan=False)
+        device = Toy(device.driver, codec.load(Decoder, json.loads(saved), part_class))

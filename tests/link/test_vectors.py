@@ -1,4 +1,4 @@
-"""A mistake in a vector file is reported in a sentence, whatever it is."""
+"""Reports of mistakes in a vector file, each in one sentence."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from toys import NUMBERED, more
 from solepath.link.driver import Measured, Reading
 from solepath.testing.vectors import disagreements
 
-FINE = "0006000000640141200000"
+VALID_HEX = "0006000000640141200000"
 FILE: dict[str, Any] = {
     "schema": "solepath vectors 1",
     "channel": "toy/data",
@@ -25,12 +25,12 @@ FILE: dict[str, Any] = {
         {
             "id": "fine",
             "result": "valid",
-            "hex": FINE,
+            "hex": VALID_HEX,
             "fields": {"number": 6, "ticks": 100, "count": 1, "up": [10.0]},
             "physical": {"tolerance": 1e-9, "sequence": 6, "samples": [{"acc": [0, 0, 10]}]},
         },
-        {"id": "cut", "result": "invalid", "hex": FINE[2:], "reason": "truncated"},
-        {"id": "no-number", "result": "invalid", "hex": FINE[:-8] + "7fc00000", "reason": "not finite"},
+        {"id": "cut", "result": "invalid", "hex": VALID_HEX[2:], "reason": "truncated"},
+        {"id": "no-number", "result": "invalid", "hex": VALID_HEX[:-8] + "7fc00000", "reason": "not finite"},
     ],
 }
 
@@ -64,7 +64,7 @@ MISTAKES: dict[str, tuple[tuple[Any, ...], Any, str]] = {
     "another value": (("vectors", 0, "physical", "sequence"), 7, "fine: sequence is 6"),
     "physical that is none": (("vectors", 0, "physical"), 7, "fine: .*physical"),
     "known by a word": (("vectors", 0, "physical", "known"), {"times": "two"}, "fine: .*known"),
-    "taken though it is fine": (("vectors", 1, "hex"), FINE, "cut: taken"),
+    "taken though it is fine": (("vectors", 1, "hex"), VALID_HEX, "cut: taken"),
 }
 
 
@@ -72,15 +72,15 @@ MISTAKES: dict[str, tuple[tuple[Any, ...], Any, str]] = {
 def test_a_mistake_is_reported_in_a_sentence(name: str) -> None:
     (*path, last), value, reported = MISTAKES[name]
     file = deepcopy(FILE)
-    place: Any = file
+    container: Any = file
     for step in path:
-        place = place[step]
+        container = container[step]
     if value is None:
-        del place[last]
+        del container[last]
     else:
-        place[last] = value
-    found = disagreements(NUMBERED, file)
-    assert found and any([re.search(reported, one) for one in found]), found
+        container[last] = value
+    reports = disagreements(NUMBERED, file)
+    assert reports and any([re.search(reported, report) for report in reports]), reports
     assert disagreements(NUMBERED, FILE) == []
 
 
@@ -89,10 +89,10 @@ def test_what_no_device_can_mean_is_an_invalid_vector() -> None:
         return Reading((Measured((0.0, 9.8)),))  # type: ignore[arg-type]
 
     driver = evolve(NUMBERED, readers={"toy/data": flat, "toy/more": more})
-    wrong = {"id": "flat", "result": "invalid", "hex": FINE, "reason": "malformed"}
-    assert disagreements(driver, {**FILE, "count": 1, "vectors": [wrong]}) == []
-    absurd = {"id": "star", "result": "invalid", "hex": "037fe0000000000000", "reason": "absurd value"}
-    assert disagreements(driver, {**FILE, "channel": "toy/more", "count": 1, "vectors": [absurd]}) == []
+    vector = {"id": "flat", "result": "invalid", "hex": VALID_HEX, "reason": "malformed"}
+    assert disagreements(driver, {**FILE, "count": 1, "vectors": [vector]}) == []
+    absurd_vector = {"id": "star", "result": "invalid", "hex": "037fe0000000000000", "reason": "absurd value"}
+    assert disagreements(driver, {**FILE, "channel": "toy/more", "count": 1, "vectors": [absurd_vector]}) == []
 
 
 def test_a_file_without_vectors_is_reported() -> None:

@@ -1,4 +1,4 @@
-"""btsnoop logs: what a phone's HCI snoop log holds, against tshark, against bumble, and against what may be wrong."""
+"""Import of btsnoop logs: devices, sites and channels of a phone's log."""
 
 from __future__ import annotations
 
@@ -51,19 +51,19 @@ def test_a_walk_in_two_insoles_gives_the_same_steps_as_the_walk_itself(tmp_path)
                 log.add_request(handles[packet.site], blob, b"\x0d" + packet.data[offset : offset + 246])
     path = log.save(tmp_path / "phone.log")
 
-    def steps(packets) -> list[tuple[Foot, int, float]]:
-        taken = walks.of(StrideTaken, walks.run_session(packets))
-        return [(step.foot, step.number, round(step.length, 2)) for step in taken]
+    def stride_values(packets) -> list[tuple[Foot, int, float]]:
+        strides = walks.of(StrideTaken, walks.run_session(packets))
+        return [(stride.foot, stride.number, round(stride.length, 2)) for stride in strides]
 
-    assert steps(open_btsnoop(path, report=pytest.fail)) == steps(walk.packets) != []
+    assert stride_values(open_btsnoop(path, report=pytest.fail)) == stride_values(walk.packets) != []
 
 
 def test_an_insole_reports_its_own_foot_unless_the_caller_names_it(tmp_path):
     log = start_connection(Log(), address=LEFT)
     log.notify(0x40, FRAME, frames(Site.RIGHT_FOOT)[0])
     assert {site for _, site, _, _ in read(log, tmp_path)[0]} == {"right_foot"}
-    there = {LEFT.lower(): Site.LEFT_FOOT}
-    assert {site for _, site, _, _ in read(log, tmp_path, sites=there)[0]} == {"left_foot"}
+    site_by_address = {LEFT.lower(): Site.LEFT_FOOT}
+    assert {site for _, site, _, _ in read(log, tmp_path, sites=site_by_address)[0]} == {"left_foot"}
 
 
 ORPHE = {0x12: "f3f9c7ce-46ee-4205-89ac-abe64e626c0f", 0x15: "24354f22-1c46-430e-a4ab-a1eeabbcdfc0"}
@@ -84,10 +84,10 @@ def orphe(characteristics: dict[int, str] = ORPHE, info: bytes = ORPHE_INFO) -> 
 def test_one_characteristic_is_one_channel_where_it_is_read_and_another_where_it_is_written(tmp_path):
     handles_given = {("", 0x12): "orphe/values", ("", 0x15): "orphe/mode"}
     for discovered, handles in ((ORPHE, {}), ({}, handles_given), ({}, handles_given | {("", 0x15): "orphe/info"})):
-        found, reports = read(orphe(discovered), tmp_path, sites={TAG: Site.RIGHT_FOOT}, handles=handles)
-        assert data_of(found, "orphe/info", TAG) == [ORPHE_INFO]
-        assert data_of(found, "orphe/mode", TAG) == [b"\x0d\x04"]
-        assert len(data_of(found, "orphe/values", TAG)) == 30 and reports == []
+        packets, reports = read(orphe(discovered), tmp_path, sites={TAG: Site.RIGHT_FOOT}, handles=handles)
+        assert data_of(packets, "orphe/info", TAG) == [ORPHE_INFO]
+        assert data_of(packets, "orphe/mode", TAG) == [b"\x0d\x04"]
+        assert len(data_of(packets, "orphe/values", TAG)) == 30 and reports == []
 
 
 def test_the_foot_and_the_ranges_of_another_makers_insole_are_those_that_it_reports(tmp_path):
@@ -102,16 +102,16 @@ def test_the_foot_and_the_ranges_of_another_makers_insole_are_those_that_it_repo
 
 
 def test_sensortags_share_characteristics_and_differ_in_the_others(tmp_path):
-    old = {0x31: full(0xAA11), 0x34: full(0xAA41), 0x38: full(0xAA51), 0x3B: full(0xAA52)}
-    new = {0x31: full(0xAA81), 0x34: full(0xAA82), 0x37: full(0xAA41)}
-    log = start_connection(start_connection(Log(), 0x40, LEFT, old), 0x41, RIGHT, new)
+    cc2541 = {0x31: full(0xAA11), 0x34: full(0xAA41), 0x38: full(0xAA51), 0x3B: full(0xAA52)}
+    cc2650 = {0x31: full(0xAA81), 0x34: full(0xAA82), 0x37: full(0xAA41)}
+    log = start_connection(start_connection(Log(), 0x40, LEFT, cc2541), 0x41, RIGHT, cc2650)
     log.add_request(0x40, "123b0007", "13")
     log.notify(0x40, 0x31, b"\x01\x02\x03")
     log.notify(0x40, 0x34, b"\xb2\xee\xc5\x84")
     log.notify(0x41, 0x31, MOVEMENT)
     log.notify(0x41, 0x37, bytes(6))
-    found, reports = read(log, tmp_path, sites={LEFT: Site.LEFT_FOOT, RIGHT: Site.RIGHT_FOOT})
-    assert [(site, channel) for _, site, channel, _ in found if not channel.startswith("receiver/")] == [
+    packets, reports = read(log, tmp_path, sites={LEFT: Site.LEFT_FOOT, RIGHT: Site.RIGHT_FOOT})
+    assert [(site, channel) for _, site, channel, _ in packets if not channel.startswith("receiver/")] == [
         *(("left_foot", f"cc2541/{name}") for name in ("gyroscope-config", "accelerometer", "barometer")),
         *(("right_foot", f"cc2650/{name}") for name in ("movement", "barometer")),
     ]
@@ -122,8 +122,8 @@ def test_a_device_whose_place_nobody_knows_is_left_out_and_named(tmp_path):
     log = start_connection(start_connection(Log()), 0x41, TAG, {0x31: full(0xAA81)})
     log.notify(0x40, FRAME, frames()[0])
     log.notify(0x41, 0x31, MOVEMENT)
-    found, reports = read(log, tmp_path)
-    assert {device for device, *_ in found} == {LEFT}
+    packets, reports = read(log, tmp_path)
+    assert {device for device, *_ in packets} == {LEFT}
     assert reports == [f"1 value of {TAG}, a cc2650, left out: nobody says where it was worn"]
     alone = start_connection(Log(), 0x41, TAG, {0x31: full(0xAA81)})
     alone.notify(0x41, 0x31, MOVEMENT)
@@ -136,8 +136,8 @@ def test_other_peoples_devices_are_counted_not_described(tmp_path):
     log.notify(0x40, FRAME, frames()[0])
     log.notify(0x41, 0x10, b"\x00\x48")
     log.notify(0x41, 0x12, b"\x48")
-    found, reports = read(log, tmp_path)
-    assert {device for device, *_ in found} == {LEFT}
+    packets, reports = read(log, tmp_path)
+    assert {device for device, *_ in packets} == {LEFT}
     assert reports == ["1 other device left out"]
 
 
@@ -161,10 +161,10 @@ def test_a_handle_is_given_to_another_device_and_what_was_discovered_stays_with_
     log.connect(0x40, LEFT)  # phones remember, and do not discover again
     log.notify(0x40, FRAME, frames()[1])
     log.notify(0x40, BATTERY, b"\x42")
-    found, reports = read(log, tmp_path)
-    assert data_of(found, "insole/frame") == [*frames()[:2]]
-    assert data_of(found, "device/battery") == [b"\x42"]
-    assert [channel for _, _, channel, _ in found if channel.startswith("receiver/")] == [
+    packets, reports = read(log, tmp_path)
+    assert data_of(packets, "insole/frame") == [*frames()[:2]]
+    assert data_of(packets, "device/battery") == [b"\x42"]
+    assert [channel for _, _, channel, _ in packets if channel.startswith("receiver/")] == [
         "receiver/connected", "receiver/disconnected", "receiver/connected",
     ]  # fmt: skip
     assert reports == [f"1 value of {OTHER} left out: no discovery says what is 0x0012 (11 bytes)"]
@@ -172,16 +172,16 @@ def test_a_handle_is_given_to_another_device_and_what_was_discovered_stays_with_
 
 @pytest.mark.parametrize("payload", [244, 20])
 def test_an_insole_is_known_by_its_frames_without_discovery(tmp_path, payload):
-    """As whole frames, and in fragments of an MTU of 23."""
+    """Frames are whole, or in fragments of an MTU of 23."""
     log = Log()
     for k, frame in enumerate(frames()[:40]):
         for piece in split(frame, payload, k % 7):
             log.notify(0x40, 0x33, piece)
-    found, reports = read(log, tmp_path)
-    assert {(device, site, channel) for device, site, channel, _ in found} == {
+    packets, reports = read(log, tmp_path)
+    assert {(device, site, channel) for device, site, channel, _ in packets} == {
         ("connection-0x0040", "left_foot", "insole/frame")
     }
-    assert len(found) == sum(len(split(frame, payload, 0)) for frame in frames()[:40])
+    assert len(packets) == sum(len(split(frame, payload, 0)) for frame in frames()[:40])
     assert reports == []
 
 
@@ -194,8 +194,8 @@ def test_unknown_attributes_may_be_named_by_the_caller(tmp_path):
         read(log, tmp_path)
     sites = {"connection-0x0040": Site.LEFT_FOOT, "connection-0x0041": Site.RIGHT_FOOT}
     for handles in ({("", 0x2B): "cc2650/movement"}, {(name, 0x2B): "cc2650/movement" for name in sites}):
-        found, reports = read(log, tmp_path, sites=sites, handles=handles)
-        assert [(site, channel) for _, site, channel, _ in found] == [
+        packets, reports = read(log, tmp_path, sites=sites, handles=handles)
+        assert [(site, channel) for _, site, channel, _ in packets] == [
             ("left_foot", "cc2650/movement"), ("right_foot", "cc2650/movement"),
         ] * 3  # fmt: skip
         assert reports == []
@@ -210,14 +210,14 @@ def test_no_word_makes_one_device_or_attribute_of_another(tmp_path):
     log.notify(0x40, 0x30, b"\x63")
     log.notify(0x40, 0x33, b"\x63")
     for address in (LEFT, ""):
-        for handle, channel, of in (
+        for handle, channel, expected in (
             (FRAME, "cc2650/movement", "insole/frame"),
             (FRAME, "device/battery", "insole/frame"),
             (0x33, "cc2650/movement", "of an insole"),
         ):
-            complaint = f"{handle:#06x} of {LEFT} is {of}, as its discovery says, not {channel}$"
+            complaint = f"{handle:#06x} of {LEFT} is {expected}, as its discovery says, not {channel}$"
             with pytest.raises(RecordingError, match=complaint):
                 read(log, tmp_path, handles={(address, handle): channel})
     assert len(read(log, tmp_path, handles={("", FRAME): "insole/frame"})[0]) == 2
-    wishes = {(LEFT, 0x30): "device/battery", ("", 0x33): "device/battery"}
-    assert data_of(read(log, tmp_path, handles=wishes)[0], "device/battery") == [b"\x63"] * 2
+    handles = {(LEFT, 0x30): "device/battery", ("", 0x33): "device/battery"}
+    assert data_of(read(log, tmp_path, handles=handles)[0], "device/battery") == [b"\x63"] * 2

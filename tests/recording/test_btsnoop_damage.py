@@ -1,4 +1,4 @@
-"""btsnoop logs that are torn, damaged or of anything: what is left of them, and one sentence about the rest."""
+"""Import of btsnoop logs that are cut off, damaged or arbitrary bytes, with one sentence about what is left out."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ def test_pieces_that_were_not_logged_cost_their_packet_and_are_counted(tmp_path)
     log.notify(0x40, FRAME, frames()[2])
     log.notify(0x40, FRAME, frames()[3], keep=slice(1, None))  # the beginning is
     log.notify(0x40, FRAME, frames()[4])
-    found, reports = read(log, tmp_path)
-    assert data_of(found, "insole/frame") == [frames()[0], frames()[2], frames()[4]]
+    packets, reports = read(log, tmp_path)
+    assert data_of(packets, "insole/frame") == [frames()[0], frames()[2], frames()[4]]
     assert reports == ["packets of which a piece is missing: 1", "pieces of packets whose beginning is missing: 3"]
 
 
@@ -33,8 +33,8 @@ def test_packets_of_other_channels_are_counted_where_they_might_have_been_ours(t
     log.acl(0x40, b"\x0b\x01", sent=False, channel=6)  # pairing
     log.acl(0x40, b"\x1b\x12\0", sent=False, channel=0x41)
     log.acl(0x0B, b"music", sent=True, channel=0x42)  # of a connection that is not LE
-    found, reports = read(log, tmp_path)
-    assert data_of(found, "insole/frame") == [frames()[0]]
+    packets, reports = read(log, tmp_path)
+    assert data_of(packets, "insole/frame") == [frames()[0]]
     assert reports == ["packets of channels that are not followed (EATT perhaps): 1"]
 
 
@@ -44,8 +44,8 @@ def test_records_that_the_logger_cut_short_or_dropped_are_counted(tmp_path):
     log.record(2, struct.pack("<HHHHBH", 0x2040, 184, 180, 4, 0x1B, FRAME) + b"\xf5", sent=False, original=189)
     log.drops = 7
     log.notify(0x40, FRAME, frames()[1])
-    found, reports = read(log, tmp_path)
-    assert data_of(found, "insole/frame") == [*frames()[:2]]
+    packets, reports = read(log, tmp_path)
+    assert data_of(packets, "insole/frame") == [*frames()[:2]]
     assert reports == ["records that the logger cut short: 1", "records that the logger says it dropped: 7"]
 
 
@@ -109,7 +109,7 @@ def test_an_unsupported_log_is_rejected(tmp_path, content, complaint):
         open_btsnoop(path)
 
 
-def _eventful() -> Log:
+def log_with_events() -> Log:
     log = start_connection(Log(piece=40))
     log.add_request(0x40, "0a1500", b"\x0b" + info()[:60])
     log.add_request(0x40, "1217000a", "13")
@@ -138,24 +138,24 @@ PDUS = st.builds(lambda *parts: b"".join(parts), OPCODES, SIZES, SIZES, st.binar
 )
 @example(changes=[], records=[], pdus=[], t=2**62)
 def test_whatever_bytes_a_log_holds_only_a_recording_error_comes_of_it(tmp_path_factory, changes, records, pdus, t):
-    log = _eventful()
-    for kind, data, sent, at in records:
+    log = log_with_events()
+    for kind, data, sent, position in records:
         log.record(kind, data, sent)
-        log.records.insert(at % len(log.records), log.records.pop())
-    for data, sent, at in pdus:
+        log.records.insert(position % len(log.records), log.records.pop())
+    for data, sent, position in pdus:
         log.acl(0x40, data, sent, keep=slice(0, 1))
-        log.records.insert(at % len(log.records), log.records.pop())
+        log.records.insert(position % len(log.records), log.records.pop())
     log.t = t
     log.notify(0x41, 0x10, b"")
     content = bytearray(log.bytes())
-    for at, bits in changes:
-        content[16 + at % (len(content) - 16)] ^= bits
+    for position, bits in changes:
+        content[16 + position % (len(content) - 16)] ^= bits
     path = tmp_path_factory.mktemp("hostile") / "phone.log"
     path.write_bytes(content)
     try:
-        found = open_btsnoop(path, sites={}, report=str)
-        header = found.header
+        packets = open_btsnoop(path, sites={}, report=str)
+        header = packets.header
         assert header["source"] == "btsnoop"
-        Session().feed(found)
+        Session().feed(packets)
     except RecordingError as error:
         assert str(error).isprintable()

@@ -1,4 +1,4 @@
-"""btsnoop logs: values against tshark and bumble, and however they were read, written or discovered."""
+"""Values of btsnoop logs compared with tshark and bumble, for all ways to discover, read, write and notify them."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from snooped import (
 from solepath import Site
 from solepath.recording.btsnoop import open_btsnoop
 from solepath.recording.btsnoop.att import AttOperation
-from solepath.recording.btsnoop.values import Value, ValueListener
+from solepath.recording.btsnoop.values import LoggedValue, ValueListener
 from solepath.types import Foot
 from solepath.wire.insole_info import build_info, parse_info
 
@@ -108,16 +108,16 @@ def test_other_ways_to_discover_to_read_and_to_notify(tmp_path):
 needs_tshark = pytest.mark.skipif(shutil.which("tshark") is None, reason="tshark is not installed (apt install tshark)")
 
 
-def tshark(path: Path, only: str, fields: Iterable[str]) -> list[list[str]]:
+def tshark(path: Path, display_filter: str, fields: Iterable[str]) -> list[list[str]]:
     """Return these fields of every record that passes the filter, as tshark prints them."""
     fields_option = [word for name in fields for word in ("-e", name)]
-    command = ["tshark", "-r", path, "-Y", only, "-T", "fields", *fields_option]
+    command = ["tshark", "-r", path, "-Y", display_filter, "-T", "fields", *fields_option]
     output = subprocess.run(command, capture_output=True, text=True, check=True).stdout
     return [line.split("\t") for line in output.splitlines()]
 
 
 def notified_by_tshark(path: Path) -> list[tuple[int, int, int, bytes]]:
-    """(us since 1970, connection handle, attribute handle, value) of every notification."""
+    """Return (us since 1970, connection handle, attribute handle, value) of every notification."""
     fields = ("frame.time_epoch", "bthci_acl.chandle", "btatt.handle", "btatt.value", "btatt.battery_level")
     notified = []
     for t, connection, attribute, value, battery in tshark(path, "btatt.opcode == 0x1b", fields):
@@ -133,7 +133,7 @@ def notified_by_us(path: Path) -> list[tuple[int, int, int, bytes]]:
     values = [
         item
         for item in listener.listen()
-        if isinstance(item, Value) and item.att_value.operation is AttOperation.NOTIFIED
+        if isinstance(item, LoggedValue) and item.att_value.operation is AttOperation.NOTIFIED
     ]
     assert not listener.flaws
     return [(value.t, value.link.handle, value.att_value.handle, value.att_value.value) for value in values]
@@ -142,7 +142,7 @@ def notified_by_us(path: Path) -> list[tuple[int, int, int, bytes]]:
 @needs_tshark
 @pytest.mark.parametrize(("datalink", "piece"), [(H4, 251), (H4, 27), (H1, 251), (MONITOR, 100)])
 def test_every_notification_agrees_with_tshark(tmp_path, datalink, piece):
-    """Two insoles with an end and a new beginning under the same handle, and ACL packets in pieces of two links."""
+    """Two insoles, of which one reconnects under the same handle, with ACL packets in pieces of both links."""
     log = Log(datalink, piece=piece)
     start_connection(log, 0x40, LEFT)
     log.connect(0x41, RIGHT, subevent=0x0A)
@@ -158,21 +158,21 @@ def test_every_notification_agrees_with_tshark(tmp_path, datalink, piece):
         if k % 50 == 0:
             log.notify(0x40, BATTERY, bytes([k % 101]))
     path = log.save(tmp_path / "phone.log")
-    ours, theirs = notified_by_us(path), notified_by_tshark(path)
-    assert len(ours) > 1200
-    assert ours == theirs
+    own_values, tshark_values = notified_by_us(path), notified_by_tshark(path)
+    assert len(own_values) > 1200
+    assert own_values == tshark_values
 
 
 def values_by_tshark(path: Path) -> list[tuple[AttOperation, int, bytes]]:
-    """(how, attribute handle, value) of every value that was read, joined by the offsets, and every one that was
-    written and taken. Of each PDU by itself tshark says handle, offset and value; values that it knows have a field of
-    their own."""
+    """Return (operation, attribute handle, value) of every value that was read, or written and accepted.
+
+    tshark gives handle, offset and value of each PDU, so parts of a value are joined by their offsets."""
     fields = ("opcode", "handle", "value", "offset", "battery_level", "firmware_revision_string")
     fields += ("characteristic_configuration_client",)
-    only = "btatt.opcode in {0x0a, 0x0b, 0x0c, 0x0d, 0x12, 0x13, 0x52}"
+    display_filter = "btatt.opcode in {0x0a, 0x0b, 0x0c, 0x0d, 0x12, 0x13, 0x52}"
     transfers: list[tuple[AttOperation, int, bytes]] = []
     offset, pending = 0, b""
-    for row in tshark(path, only, [f"btatt.{name}" for name in fields]):
+    for row in tshark(path, display_filter, [f"btatt.{name}" for name in fields]):
         opcode, attribute, plain, at, battery, firmware, client = row
         data = bytes.fromhex(plain) + firmware.encode()
         data += bytes([int(battery)]) if battery else struct.pack("<H", int(client, 16)) if client else b""
@@ -196,7 +196,7 @@ def values_by_tshark(path: Path) -> list[tuple[AttOperation, int, bytes]]:
 
 
 def values_by_us(path: Path) -> list[tuple[AttOperation, int, bytes]]:
-    values = [item for item in ValueListener(path, pytest.fail).listen() if isinstance(item, Value)]
+    values = [item for item in ValueListener(path, pytest.fail).listen() if isinstance(item, LoggedValue)]
     return [
         (value.att_value.operation, value.att_value.handle, value.att_value.value)
         for value in values
@@ -205,8 +205,7 @@ def values_by_us(path: Path) -> list[tuple[AttOperation, int, bytes]]:
 
 
 async def snooped_by_bumble(central_log: Path, device_log: Path) -> list[bytes]:
-    """A host discovers an emulated insole over bumble's virtual controllers, reads, writes and subscribes; what it
-    got. Both hosts keep a log."""
+    """Return the notifications that a host gets from an emulated insole over bumble; both hosts write a log."""
     from bumble.controller import Controller
     from bumble.core import UUID
     from bumble.device import Device, Peer
@@ -219,8 +218,8 @@ async def snooped_by_bumble(central_log: Path, device_log: Path) -> list[bytes]:
 
     link = LocalLink()
     ends = []
-    with central_log.open("wb") as ours, device_log.open("wb") as theirs:
-        for name, address, file in (("phone", OTHER, ours), ("insole", LEFT, theirs)):
+    with central_log.open("wb") as own_values, device_log.open("wb") as tshark_values:
+        for name, address, file in (("phone", OTHER, own_values), ("insole", LEFT, tshark_values)):
             controller = Controller(name, link=link)
             host = Host(controller, AsyncPipeSink(controller))
             host.snooper = BtSnooper(file)
@@ -233,7 +232,7 @@ async def snooped_by_bumble(central_log: Path, device_log: Path) -> list[bytes]:
         battery = Characteristic(UUID("2a19"), properties.NOTIFY | properties.READ, Characteristic.READABLE, b"\x5a")
         insole.add_service(Service(insole_uuid(1), [frame, about, control]))
         insole.add_service(Service(UUID("180f"), [battery]))
-        got: list[bytes] = []
+        received: list[bytes] = []
         for end in ends:
             await end.power_on()
         for _ in range(2):
@@ -247,17 +246,17 @@ async def snooped_by_bumble(central_log: Path, device_log: Path) -> list[bytes]:
             (read,) = peer.get_characteristics_by_uuid(about.uuid)
             (written,) = peer.get_characteristics_by_uuid(control.uuid)
             assert await read.read_value() == info()
-            await there.subscribe(got.append)
+            await there.subscribe(received.append)
             await written.write_value(b"\x01", with_response=True)
             for data in frames()[:150]:
                 await insole.notify_subscribers(frame, data)
                 await asyncio.sleep(0)
-            while len(got) % 150:
+            while len(received) % 150:
                 await asyncio.sleep(0.001)
             await connection.disconnect()
         for end in ends:
             await end.power_off()
-    return got
+    return received
 
 
 @pytest.fixture(scope="module")
@@ -265,30 +264,30 @@ def bumble_logs(tmp_path_factory) -> tuple[Path, Path, list[bytes]]:
     pytest.importorskip("bumble")
     folder = tmp_path_factory.mktemp("bumble")
     central, device = folder / "phone.log", folder / "insole.log"
-    got = asyncio.run(asyncio.wait_for(snooped_by_bumble(central, device), 30))
-    assert len(got) == 300
-    return central, device, got
+    received = asyncio.run(asyncio.wait_for(snooped_by_bumble(central, device), 30))
+    assert len(received) == 300
+    return central, device, received
 
 
 @needs_tshark
 def test_every_value_of_a_hosts_real_traffic_agrees_with_tshark(bumble_logs):
     for path in bumble_logs[:2]:
-        ours = notified_by_us(path)
-        assert len(ours) == 300 and ours == notified_by_tshark(path)
+        own_values = notified_by_us(path)
+        assert len(own_values) == 300 and own_values == notified_by_tshark(path)
         transfers = values_by_us(path)
         assert (AttOperation.READ, info()) in [(operation, data) for operation, _, data in transfers]
         assert transfers == values_by_tshark(path)
 
 
 def test_the_log_of_the_host_that_listens_and_of_the_one_that_sends_give_the_same_packets(bumble_logs):
-    central, device, got = bumble_logs
+    central, device, received = bumble_logs
     transfers = []
     for path in (central, device):
         packets = list(open_btsnoop(path, report=pytest.fail))
         assert {(p.device, p.site) for p in packets} == {(LEFT, Site.LEFT_FOOT)}
         transfers.append([(p.channel, p.data) for p in packets if not p.channel.startswith("receiver/")])
     assert transfers[0] == transfers[1]
-    assert [data for channel, data in transfers[0] if channel == "insole/frame"] == got
+    assert [data for channel, data in transfers[0] if channel == "insole/frame"] == received
     assert transfers[0][:2] == [("insole/info", info()), ("insole/control", b"\x01")], (
         "read over several answers, written"
     )

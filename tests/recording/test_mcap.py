@@ -1,4 +1,4 @@
-"""MCAP: what is written is read back with the library's own reader, packets byte for byte, events as a session's."""
+"""Export to MCAP: the library's reader gets the same packets, samples and events as a session."""
 
 import io
 import json
@@ -29,13 +29,13 @@ from mcap.stream_reader import StreamReader  # noqa: E402
 from solepath.recording.mcap import McapWriter  # noqa: E402
 
 START = {"began": "2026-11-21T09:30:00.25Z", "began_t": 2.0}
-AT_ZERO = int(datetime(2026, 11, 21, 9, 29, 58, 250_000, UTC).timestamp() * 1000) * 1_000_000
-"""ns since 1970 at t = 0."""
+TIME_AT_ZERO = int(datetime(2026, 11, 21, 9, 29, 58, 250_000, UTC).timestamp() * 1000) * 1_000_000
+"""Time since 1970 at t = 0, ns."""
 LEFT = Site.LEFT_FOOT
 MAGIC = b"\x89MCAP0\r\n"
 
 
-def written(path: Path, packets: Iterable[Packet], **header) -> Path:
+def write_mcap(path: Path, packets: Iterable[Packet], **header) -> Path:
     with McapWriter(path, header) as writer:
         for packet in packets:
             writer.write(packet)
@@ -43,39 +43,39 @@ def written(path: Path, packets: Iterable[Packet], **header) -> Path:
 
 
 def messages(path: Path) -> dict[str, list[tuple[int, int, dict]]]:
-    """Topic -> (log time, publish time, content), in the order of the file."""
-    found: dict[str, list[tuple[int, int, dict]]] = {}
+    """Return (log time, publish time, content) of each message by topic, in the order of the file."""
+    content_by_topic: dict[str, list[tuple[int, int, dict]]] = {}
     with path.open("rb") as file:
         for schema, channel, message in make_reader(file, validate_crcs=True).iter_messages(log_time_order=False):
             assert (schema.encoding, channel.message_encoding) == ("jsonschema", "json")
             content = json.loads(message.data)
-            fits(content, json.loads(schema.data))
-            found.setdefault(channel.topic, []).append((message.log_time, message.publish_time, content))
-    return found
+            check_schema(content, json.loads(schema.data))
+            content_by_topic.setdefault(channel.topic, []).append((message.log_time, message.publish_time, content))
+    return content_by_topic
 
 
-KINDS = {"number": (int, float), "string": str, "integer": int, "boolean": bool, "object": dict}
+PYTHON_TYPES = {"number": (int, float), "string": str, "integer": int, "boolean": bool, "object": dict}
 
 
-def fits(value: object, schema: dict) -> None:
+def check_schema(value: object, schema: dict) -> None:
     """Check the part of JSON Schema used here: every key of the schema has the type that it declares."""
-    assert isinstance(value, KINDS[schema["type"]])
+    assert isinstance(value, PYTHON_TYPES[schema["type"]])
     if isinstance(value, dict):
         assert value.keys() & schema["properties"].keys()
         for key, inner in schema["properties"].items():
             if key in value:
-                fits(value[key], inner)
+                check_schema(value[key], inner)
 
 
 @pytest.fixture(scope="module")
 def exported(tmp_path_factory) -> dict[str, list[tuple[int, int, dict]]]:
-    return messages(written(tmp_path_factory.mktemp("mcap") / "walk.mcap", walks.insoles().packets, **START))
+    return messages(write_mcap(tmp_path_factory.mktemp("mcap") / "walk.mcap", walks.insoles().packets, **START))
 
 
 @pytest.mark.parametrize("name", walks.DEVICES)
 def test_the_packets_in_it_are_those_that_were_recorded_in_their_order(tmp_path, name):
     packets = [Packet(p.t, p.site, p.channel, p.data, f"F0:{p.site.value}") for p in walks.packets()[name]]
-    path = written(tmp_path / "walk.mcap", packets)
+    path = write_mcap(tmp_path / "walk.mcap", packets)
     read = []
     with path.open("rb") as file:
         for _, channel, message in make_reader(file).iter_messages(log_time_order=False):
@@ -90,12 +90,12 @@ def test_the_packets_in_it_are_those_that_were_recorded_in_their_order(tmp_path,
 def test_log_times_are_those_of_the_wall_where_the_recording_knows_it(exported, tmp_path):
     packets = walks.insoles().packets
     first = next(p for p in packets if p.site is LEFT and p.channel == "insole/frame")
-    assert exported["/left_foot/packets/insole/frame"][0][0] == AT_ZERO + round(first.t * 1e9)
-    plain = messages(written(tmp_path / "plain.mcap", packets[:20]))
+    assert exported["/left_foot/packets/insole/frame"][0][0] == TIME_AT_ZERO + round(first.t * 1e9)
+    plain = messages(write_mcap(tmp_path / "plain.mcap", packets[:20]))
     assert {round(t * 1e-9, 6) for rows in plain.values() for t, _, _ in rows} >= {round(p.t, 6) for p in packets[:20]}
     start = {"began": "2026-11-21T09:29:58.25Z"}
-    later = messages(written(tmp_path / "first.mcap", packets[:20], **start))
-    assert min(t for name, rows in later.items() if "packets" in name for t, _, _ in rows) == AT_ZERO
+    later = messages(write_mcap(tmp_path / "first.mcap", packets[:20], **start))
+    assert min(t for name, rows in later.items() if "packets" in name for t, _, _ in rows) == TIME_AT_ZERO
 
 
 def test_the_samples_in_it_are_what_the_link_made_of_the_packets(exported):
@@ -106,15 +106,14 @@ def test_the_samples_in_it_are_what_the_link_made_of_the_packets(exported):
     rows = exported["/left_foot/samples"]
     assert len(rows) == len(samples) > 700
     for (log_time, publish_time, fields), sample in zip(rows, samples, strict=True):
-        assert fields["t"] == sample.t and log_time == AT_ZERO + round(sample.t * 1e9)
-        assert publish_time == AT_ZERO + round(sample.known_at * 1e9)
+        assert fields["t"] == sample.t and log_time == TIME_AT_ZERO + round(sample.t * 1e9)
+        assert publish_time == TIME_AT_ZERO + round(sample.known_at * 1e9)
         assert tuple(fields["acc"].values()) == sample.acc and tuple(fields["gyro"].values()) == sample.gyro
         assert fields["pressure"] == sum(sample.pressure)
 
 
 def test_the_samples_in_it_are_those_that_a_session_uses_when_a_site_falls_silent(tmp_path):
-    """At a site that is silent time passes with the packets of the others: what waited there for a packet that never
-    came is used then, and not when the walk has ended."""
+    """A sample that waits for a lost packet of a silent site is used when the other site's packets let time pass."""
     packets = walks.packets()["cc2541"]
     end = packets[len(packets) // 2].t
     ends = {"cc2541/gyroscope": end - 0.15}  # of its last accelerations the gyroscope's part is missing
@@ -126,11 +125,11 @@ def test_the_samples_in_it_are_those_that_a_session_uses_when_a_site_falls_silen
         items = [i for site, d in decoders.items() if site is not packet.site for i in d.advance(packet.t)] + items
         used += items
     used += [item for decoder in decoders.values() for item in decoder.finish()]
-    found = messages(written(tmp_path / "walk.mcap", packets, **START))
+    content_by_topic = messages(write_mcap(tmp_path / "walk.mcap", packets, **START))
     for site in decoders:
-        rows = [(fields["t"], publish) for _, publish, fields in found[f"/{site.value}/samples"]]
+        rows = [(fields["t"], publish) for _, publish, fields in content_by_topic[f"/{site.value}/samples"]]
         samples = [item for item in used if isinstance(item, Sample) and item.site is site]
-        assert rows == [(s.t, AT_ZERO + round(s.known_at * 1e9)) for s in samples]
+        assert rows == [(s.t, TIME_AT_ZERO + round(s.known_at * 1e9)) for s in samples]
 
 
 def test_the_events_in_it_are_a_sessions(exported):
@@ -142,10 +141,10 @@ def test_the_events_in_it_are_a_sessions(exported):
     assert {(fields["phase"], fields["phase_number"]) for _, _, fields in exported["/left_foot/pose"]} == {
         ("LOADING", 0), ("STATIONARY", 1), ("PUSH_OFF", 2), ("SWING", 3),
     }  # fmt: skip
-    steps = [e for e in events if isinstance(e, StrideTaken) and e.final and e.foot.value == "left"]
+    strides = [e for e in events if isinstance(e, StrideTaken) and e.final and e.foot.value == "left"]
     rows = exported["/left_foot/steps"]
     assert [(fields["number"], fields["stride_length"]) for _, _, fields in rows] == [
-        (step.number, step.length) for step in steps
+        (stride.number, stride.length) for stride in strides
     ] != []  # fmt: skip
     gait = Counter(fields["event"] for _, _, fields in exported["/left_foot/gait"])
     assert gait == Counter(
@@ -157,29 +156,29 @@ def test_the_events_in_it_are_a_sessions(exported):
 
 def test_of_a_torn_file_all_but_the_last_chunk_is_read(tmp_path):
     """Cut anywhere, the file holds the messages of every chunk that is whole, in their order."""
-    content = written(tmp_path / "walk.mcap", walks.insoles().packets).read_bytes()
+    content = write_mcap(tmp_path / "walk.mcap", walks.insoles().packets).read_bytes()
     whole = [record for record in StreamReader(io.BytesIO(content)).records if isinstance(record, Message)]
-    ends, counts, at = [0], [0], len(MAGIC)
-    while at + 9 <= len(content) - len(MAGIC):  # opcode, length, and what they are of
-        opcode, size = struct.unpack_from("<BQ", content, at)
+    ends, counts, offset = [0], [0], len(MAGIC)
+    while offset + 9 <= len(content) - len(MAGIC):  # opcode, length, and what they are of
+        opcode, size = struct.unpack_from("<BQ", content, offset)
         if opcode == Opcode.CHUNK:
-            chunk = StreamReader(io.BytesIO(MAGIC + content[at : at + 9 + size]), skip_magic=False)
-            ends.append(at + 9 + size)
+            chunk = StreamReader(io.BytesIO(MAGIC + content[offset : offset + 9 + size]), skip_magic=False)
+            ends.append(offset + 9 + size)
             counts.append(counts[-1] + messages_in(chunk))
-        at += 9 + size
+        offset += 9 + size
     assert len(ends) > 20 and counts[-1] == len(whole)
     for number in (1, len(ends) // 2, len(ends) - 1):
         for cut in (ends[number] - 1, ends[number], ends[number] + 5):
-            kept = []
+            messages_read = []
             with pytest.raises(Exception):  # noqa: B017 - whatever the library says of an end in the middle
                 for record in StreamReader(io.BytesIO(content[:cut])).records:
                     if isinstance(record, Message):
-                        kept.append(record)
-            assert kept == whole[: counts[number if cut >= ends[number] else number - 1]]
+                        messages_read.append(record)
+            assert messages_read == whole[: counts[number if cut >= ends[number] else number - 1]]
 
 
 def messages_in(reader: StreamReader) -> int:
-    """Up to the end of what there is, which is no end of a file."""
+    """Return the number of messages up to the end of the data, which is no end of a file."""
     count = 0
     with suppress(EndOfFile):
         for record in reader.records:
@@ -187,7 +186,7 @@ def messages_in(reader: StreamReader) -> int:
     return count
 
 
-ODD = [
+ODD_PACKETS = [
     Packet(-5.0, LEFT, "insole/frame", b""),
     Packet(1e300, LEFT, "\ud800/x", b"\xff", "\udfff"),
     Packet(0.5, Site.PELVIS, "", b"\x00"),
@@ -198,14 +197,14 @@ ODD = [
 def test_whatever_a_recording_holds_can_be_exported(tmp_path):
     path = tmp_path / "odd.mcap"
     with McapWriter(path, {"began": "never", "\ud800": "\ud800"}) as writer:
-        for packet in ODD:
+        for packet in ODD_PACKETS:
             writer.write(packet)
         with pytest.raises(ValueError, match="a packet at nan s cannot be recorded"):
             writer.write(Packet(float("nan"), LEFT, "insole/frame", b""))
-    assert writer.count == len(ODD) and writer.outside > 0
-    found = messages(path)
-    assert sum(len(rows) for topic, rows in found.items() if "/packets" in topic) == len(ODD)
-    assert 1000 <= len(found) < 1010
+    assert writer.count == len(ODD_PACKETS) and writer.outside > 0
+    content_by_topic = messages(path)
+    assert sum(len(rows) for topic, rows in content_by_topic.items() if "/packets" in topic) == len(ODD_PACKETS)
+    assert 1000 <= len(content_by_topic) < 1010
 
 
 def test_what_cannot_be_written_is_one_clear_error(tmp_path):
@@ -214,7 +213,7 @@ def test_what_cannot_be_written_is_one_clear_error(tmp_path):
     if not Path("/dev/full").is_char_device():
         pytest.skip("no /dev/full on this system")
     with pytest.raises(RecordingError, match=r"/dev/full: no space left on device; \d+ packets were taken"):
-        written(Path("/dev/full"), walks.insoles().packets)
+        write_mcap(Path("/dev/full"), walks.insoles().packets)
 
 
 def test_a_device_of_an_app_s_own_is_exported_with_its_samples_and_events(tmp_path) -> None:
@@ -229,6 +228,6 @@ def test_a_device_of_an_app_s_own_is_exported_with_its_samples_and_events(tmp_pa
     with McapWriter(path, profiles=iter([NUMBERED])) as writer:
         for packet in [*packets(0, 50), *packets(53, 60)]:
             writer.write(packet)
-    found = messages(path)
-    assert len(found["/left_foot/samples"]) == 57
-    assert "PacketsLost" in {content["event"] for _, _, content in found["/events"]}
+    content_by_topic = messages(path)
+    assert len(content_by_topic["/left_foot/samples"]) == 57
+    assert "PacketsLost" in {content["event"] for _, _, content in content_by_topic["/events"]}

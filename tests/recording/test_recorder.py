@@ -1,4 +1,4 @@
-"""A recorder that dies or whose disk is full, and the header with the time of day."""
+"""Recording when the process is killed or the disk is full, and the start time in the header."""
 
 import asyncio
 import os
@@ -13,7 +13,7 @@ from recordings import PACKETS, recorded
 from solepath.recording import PacketWriter, RecordingError, read_header, read_packets, read_start_time
 from solepath.types import Packet
 
-LIVE = """
+LIVE_RECORDER = """
 import os, sys, time
 from solepath.recording import PacketWriter
 from solepath.types import Packet, Site
@@ -28,28 +28,28 @@ with PacketWriter(sys.argv[1]) as writer:
 
 
 def test_a_recorder_killed_in_mid_walk_loses_at_most_the_packet_in_its_hand(tmp_path):
-    """Two insoles at 100 Hz in real time: 5 ms, where 200 would be allowed."""
+    """Two insoles at 100 Hz in real time: one packet is 5 ms, and a loss of 200 ms is allowed."""
     path = tmp_path / "walk.jsonl"
-    recorder = subprocess.Popen([sys.executable, "-c", LIVE, str(path)], stdout=subprocess.PIPE)
+    recorder = subprocess.Popen([sys.executable, "-c", LIVE_RECORDER, str(path)], stdout=subprocess.PIPE)
     try:
         assert recorder.stdout is not None
-        diary = b""
-        while diary.count(b"!") < 300 and (more := recorder.stdout.read1()):
-            diary += more
+        output = b""
+        while output.count(b"!") < 300 and (more := recorder.stdout.read1()):
+            output += more
         recorder.send_signal(signal.SIGKILL)
-        diary += recorder.stdout.read()
+        output += recorder.stdout.read()
     finally:
         recorder.kill()
         assert recorder.wait() == -signal.SIGKILL
         recorder.stdout.close()
     flaws = []
     packets = list(read_packets(path, report=flaws.append))
-    assert 300 <= diary.count(b"!") <= len(packets) <= diary.count(b"?") and len(flaws) <= 1
+    assert 300 <= output.count(b"!") <= len(packets) <= output.count(b"?") and len(flaws) <= 1
     assert [packet.data[0] for packet in packets] == [k % 256 for k in range(len(packets))], "none is missing within"
-    assert diary.count(b"?") / 200 - packets[-1].t < 0.2
+    assert output.count(b"?") / 200 - packets[-1].t < 0.2
 
 
-FULL = """
+FULL_DISK_RECORDER = """
 import resource, sys
 from solepath.recording import PacketWriter, RecordingError
 from solepath.types import Packet, Site
@@ -71,10 +71,12 @@ print(writer.count)
 
 @pytest.mark.parametrize("limit", [4096, 4097, 4150, 5000])
 def test_a_file_that_may_not_grow_ends_with_its_last_whole_packet_and_the_error_counts_them(tmp_path, limit):
-    """The kernel takes the part of the line that fits and then fails, as on a full disk."""
+    """The kernel writes the part of the line that fits and then fails, as on a full disk."""
     path = tmp_path / "walk.jsonl"
-    done = subprocess.run([sys.executable, "-c", FULL, path, str(limit)], capture_output=True, text=True, check=True)
-    sentence, count = done.stdout.splitlines()
+    process = subprocess.run(
+        [sys.executable, "-c", FULL_DISK_RECORDER, path, str(limit)], capture_output=True, text=True, check=True
+    )
+    sentence, count = process.stdout.splitlines()
     packets = list(read_packets(path, report=pytest.fail))
     assert len(packets) == int(count) > 30
     assert [packet.t for packet in packets] == [k * 0.01 for k in range(len(packets))]
@@ -85,9 +87,11 @@ def test_a_file_that_may_not_grow_ends_with_its_last_whole_packet_and_the_error_
 
 def test_once_there_is_room_again_writing_goes_on(tmp_path):
     path = tmp_path / "walk.jsonl"
-    done = subprocess.run([sys.executable, "-c", FULL, path, "4100", "x"], capture_output=True, text=True, check=True)
+    process = subprocess.run(
+        [sys.executable, "-c", FULL_DISK_RECORDER, path, "4100", "x"], capture_output=True, text=True, check=True
+    )
     packets = list(read_packets(path, report=pytest.fail))
-    assert len(packets) == int(done.stdout.splitlines()[-1])
+    assert len(packets) == int(process.stdout.splitlines()[-1])
     assert packets[-1].t == 99.0 and packets[-2].t == (len(packets) - 2) * 0.01
 
 
@@ -122,10 +126,10 @@ def test_a_header_may_hold_the_time_of_day(tmp_path, keys, moment):
 
 def test_the_header_of_one_recording_can_be_that_of_another_whatever_its_keys(tmp_path):
     keys = {"path": "x", "self": 1, "header": {"a": [None]}, "": "T\ud800r", "began": "never"}
-    one = recorded(tmp_path / "one.jsonl", [], keys)
-    assert read_header(one) == {"format": "solepath-packets", "version": 1, **keys}
-    other = recorded(tmp_path / "other.jsonl", [], read_header(one))
-    assert other.read_bytes() == one.read_bytes()
+    first_path = recorded(tmp_path / "one.jsonl", [], keys)
+    assert read_header(first_path) == {"format": "solepath-packets", "version": 1, **keys}
+    second_path = recorded(tmp_path / "other.jsonl", [], read_header(first_path))
+    assert second_path.read_bytes() == first_path.read_bytes()
 
 
 def test_what_is_recorded_live_may_have_anothers_header_but_its_own_beginning(tmp_path):

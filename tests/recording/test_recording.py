@@ -1,4 +1,4 @@
-"""Recordings of packets: protocol/recording.md, clause by clause."""
+"""Reading and writing of recordings of packets, clause by clause of protocol/recording.md."""
 
 import json
 from datetime import UTC, datetime
@@ -17,8 +17,8 @@ from solepath.types import Packet, Site
 HEADER = '{"format": "solepath-packets", "version": 1}\n'
 
 
-def file(tmp_path: Path, text: str) -> Path:
-    """A recording of this text."""
+def recording_file(tmp_path: Path, text: str) -> Path:
+    """Write a recording with this text."""
     path = tmp_path / "walk.jsonl"
     path.write_text(text)
     return path
@@ -28,8 +28,8 @@ def line_of(**fields) -> str:
     return json.dumps({"t": 1.0, "site": "left_foot", "channel": "insole/frame", "data": "f5"} | fields) + "\n"
 
 
-def read_what_there_is(path: Path) -> tuple[list[Packet], str]:
-    """The packets before the damage, and the one sentence about it."""
+def read_until_damage(path: Path) -> tuple[list[Packet], str]:
+    """Return the packets before the damage, and the sentence of the error."""
     packets = []
     with pytest.raises(RecordingError) as caught:
         for packet in read_packets(path):
@@ -60,7 +60,7 @@ def test_any_packets_survive_writing_and_reading(tmp_path_factory, times, conten
 
 def test_the_example_of_the_specification_is_read(tmp_path):
     text = (PROTOCOL / "recording.md").read_text()
-    path = file(tmp_path, text.split("## Example")[1].split("```")[1].strip() + "\n")
+    path = recording_file(tmp_path, text.split("## Example")[1].split("```")[1].strip() + "\n")
     battery, keys = read_packets(path)
     assert battery == Packet(12.5, Site.LEFT_FOOT, "device/battery", b"c")
     assert keys == Packet(12.75, Site.RIGHT_FOOT, "cc2650/keys", b"\x01", "C3:9F:02:5E:71:AA")
@@ -76,27 +76,29 @@ def test_every_line_is_on_its_way_to_the_disk_before_the_next_packet(tmp_path):
 
 
 def test_unknown_keys_are_ignored_in_header_and_packets(tmp_path):
-    path = file(tmp_path, '{"version": 1, "note": "x", "format": "solepath-packets"}\n' + line_of(rssi=-60, t=2))
+    path = recording_file(
+        tmp_path, '{"version": 1, "note": "x", "format": "solepath-packets"}\n' + line_of(rssi=-60, t=2)
+    )
     assert list(read_packets(path)) == [Packet(2.0, Site.LEFT_FOOT, "insole/frame", b"\xf5")]
 
 
 def test_upper_case_digits_and_blank_lines_are_read(tmp_path):
-    path = file(tmp_path, HEADER + "\n  \n" + line_of(data="F5aB"))
+    path = recording_file(tmp_path, HEADER + "\n  \n" + line_of(data="F5aB"))
     assert [packet.data for packet in read_packets(path)] == [b"\xf5\xab"]
 
 
 @given(cut=st.integers(min_value=1, max_value=10_000))
 def test_cut_anywhere_after_the_header_no_packet_before_the_cut_is_lost(tmp_path_factory, cut):
     path = recorded(tmp_path_factory.mktemp("recordings") / "walk.jsonl", PACKETS)
-    whole = path.read_bytes()
-    first = whole.index(b"\n") + 1
-    kept = whole[: first + cut % (len(whole) - first)]
-    path.write_bytes(kept)
+    whole_bytes = path.read_bytes()
+    first = whole_bytes.index(b"\n") + 1
+    cut_bytes = whole_bytes[: first + cut % (len(whole_bytes) - first)]
+    path.write_bytes(cut_bytes)
     reports = []
     packets = list(read_packets(path, report=reports.append))
-    whole_lines = sum(line.endswith(b"}") for line in kept[first:].split(b"\n"))
+    whole_lines = sum(line.endswith(b"}") for line in cut_bytes[first:].split(b"\n"))
     assert packets == PACKETS[:whole_lines]
-    torn = not kept.endswith((b"\n", b"}"))
+    torn = not cut_bytes.endswith((b"\n", b"}"))
     assert len(reports) == torn
     if torn:
         assert f"line {whole_lines + 2}: cut off" in reports[0]
@@ -126,7 +128,7 @@ def test_cut_anywhere_after_the_header_no_packet_before_the_cut_is_lost(tmp_path
     ],
 )
 def test_a_bad_line_is_named_after_everything_before_it_was_read(tmp_path, line, complaint):
-    packets, sentence = read_what_there_is(file(tmp_path, HEADER + line_of(t=0.5) + line + line_of(t=9.0)))
+    packets, sentence = read_until_damage(recording_file(tmp_path, HEADER + line_of(t=0.5) + line + line_of(t=9.0)))
     assert [packet.t for packet in packets] == [0.5]
     assert f": line 3: {complaint}" in sentence
     assert sentence.isprintable() and len(sentence) < 400
@@ -135,34 +137,34 @@ def test_a_bad_line_is_named_after_everything_before_it_was_read(tmp_path, line,
 def test_bytes_that_are_not_text_are_named(tmp_path):
     path = tmp_path / "walk.jsonl"
     path.write_bytes(HEADER.encode() + b'{"t": \xff}\n')
-    assert "line 2: is not text" in read_what_there_is(path)[1]
+    assert "line 2: is not text" in read_until_damage(path)[1]
 
 
 @pytest.mark.parametrize("version", [2, 0, "1", 1.0, True, None])
 def test_an_unknown_version_is_rejected(tmp_path, version):
     header = json.dumps({"format": "solepath-packets", "version": version})
-    packets, sentence = read_what_there_is(file(tmp_path, f"{header}\n{line_of()}"))
+    packets, sentence = read_until_damage(recording_file(tmp_path, f"{header}\n{line_of()}"))
     assert packets == []
     assert f"line 1: is of version {json.dumps(version)}; this release reads version 1" in sentence
 
 
 @pytest.mark.parametrize("first", ['{"format": "solepath-pack', line_of(), "hello", '"x"\n'])
 def test_a_file_without_a_whole_header_is_rejected(tmp_path, first):
-    assert "line 1: " in read_what_there_is(file(tmp_path, first))[1]
+    assert "line 1: " in read_until_damage(recording_file(tmp_path, first))[1]
 
 
 @pytest.mark.parametrize("nothing", ["", "\n\n"])
 def test_an_empty_file_is_called_empty(tmp_path, nothing):
-    assert read_what_there_is(file(tmp_path, nothing))[1].endswith("is empty")
+    assert read_until_damage(recording_file(tmp_path, nothing))[1].endswith("is empty")
 
 
 def test_a_missing_file_and_a_directory_are_named(tmp_path):
-    assert read_what_there_is(tmp_path / "none.jsonl")[1].endswith("no such file or directory")
-    assert read_what_there_is(tmp_path)[1].endswith("is a directory, not a recording")
+    assert read_until_damage(tmp_path / "none.jsonl")[1].endswith("no such file or directory")
+    assert read_until_damage(tmp_path)[1].endswith("is a directory, not a recording")
 
 
 def test_a_receivers_clock_that_was_set_back_is_left_to_the_decoder(tmp_path):
-    path = file(tmp_path, HEADER + line_of(t=9.0) + line_of(t=0.5))
+    path = recording_file(tmp_path, HEADER + line_of(t=9.0) + line_of(t=0.5))
     assert [packet.t for packet in read_packets(path)] == [9.0, 0.5]
 
 
@@ -196,7 +198,7 @@ def test_a_device_that_nobody_knows_is_not_written(tmp_path):
 
 @pytest.mark.parametrize("name", walks.DEVICES)
 def test_a_recording_gives_the_same_events_bit_for_bit(tmp_path, name):
-    """Packets of both feet, with losses, duplicates, damaged packets and packets about the receiver."""
+    """The packets are of both feet, with losses, duplicates, damaged packets and packets of the receiver."""
     packets = [Packet(p.t, p.site, p.channel, p.data, f"F0:{p.site.value}") for p in walks.packets()[name]]
     end = packets[-1].t
     packets[40:40] = [

@@ -1,4 +1,4 @@
-"""Recorded samples: what is read from .npz and .csv, and the one sentence about each thing that cannot be."""
+"""Reading of samples from .npz and .csv files, and one sentence about each thing that cannot be read."""
 
 import io
 import pickle
@@ -15,8 +15,8 @@ from solepath.recording.samples import load_samples
 from solepath.types import Foot, Sample, Site
 
 
-def still(n=20, rate=100.0, start=0.0) -> dict[str, np.ndarray]:
-    """A foot at rest, with two cells under it."""
+def idle(n=20, rate=100.0, start=0.0) -> dict[str, np.ndarray]:
+    """Return the columns of a foot at rest with two pressure cells."""
     return {
         "t": start + np.arange(n) / rate,
         "acc": np.tile([0.25, -0.5, 9.75], (n, 1)),
@@ -25,16 +25,16 @@ def still(n=20, rate=100.0, start=0.0) -> dict[str, np.ndarray]:
     }
 
 
-def named(columns: dict[str, np.ndarray], foot: str) -> dict[str, np.ndarray]:
+def name_foot(columns: dict[str, np.ndarray], foot: str) -> dict[str, np.ndarray]:
     return {f"{key}_{foot}": value for key, value in columns.items()}
 
 
-def npz(path: Path, **columns) -> Path:
+def write_npz(path: Path, **columns) -> Path:
     np.savez(path, **columns)
     return path
 
 
-def sheet(path: Path, columns: dict[str, np.ndarray]) -> Path:
+def write_csv(path: Path, columns: dict[str, np.ndarray]) -> Path:
     names, values = [], []
     for key, value in columns.items():
         if value.ndim == 1:
@@ -52,7 +52,7 @@ def sheet(path: Path, columns: dict[str, np.ndarray]) -> Path:
 
 
 def read_until_error(path: Path, foot: Foot | None = None) -> tuple[list[Sample], str]:
-    """The samples that came before the fault, and the one sentence about it."""
+    """Return the samples before the fault, and the sentence of the error."""
     samples: list[Sample] = []
     with pytest.raises(RecordingError) as caught:
         for sample in read_samples(path, foot):
@@ -64,8 +64,8 @@ def read_until_error(path: Path, foot: Foot | None = None) -> tuple[list[Sample]
 
 @pytest.mark.parametrize("kind", ["npz", "csv"])
 def test_one_foot_is_the_right_one_unless_named_otherwise(tmp_path, kind):
-    columns = still() | {"gt_pos": np.zeros((20, 3)), "activity": np.zeros(20)}
-    path = npz(tmp_path / "one.npz", **columns) if kind == "npz" else sheet(tmp_path / "one.csv", columns)
+    columns = idle() | {"gt_pos": np.zeros((20, 3)), "activity": np.zeros(20)}
+    path = write_npz(tmp_path / "one.npz", **columns) if kind == "npz" else write_csv(tmp_path / "one.csv", columns)
     expected = Sample(0.01, Site.RIGHT_FOOT, (0.25, -0.5, 9.75), (0.125, 0.0, -0.0625), (100.0, 200.0))
     samples = list(read_samples(path))
     assert len(samples) == len(load_samples(path)) == 20 and samples[1] == expected
@@ -74,9 +74,9 @@ def test_one_foot_is_the_right_one_unless_named_otherwise(tmp_path, kind):
 
 @pytest.mark.parametrize("kind", ["npz", "csv"])
 def test_both_feet_on_a_shared_clock_come_left_then_right_at_each_instant(tmp_path, kind):
-    columns = {"t": still()["t"], **named(still(), "left"), **named(still(), "right")}
+    columns = {"t": idle()["t"], **name_foot(idle(), "left"), **name_foot(idle(), "right")}
     del columns["t_left"], columns["t_right"]
-    path = npz(tmp_path / "two.npz", **columns) if kind == "npz" else sheet(tmp_path / "two.csv", columns)
+    path = write_npz(tmp_path / "two.npz", **columns) if kind == "npz" else write_csv(tmp_path / "two.csv", columns)
     samples = list(read_samples(path))
     assert [s.site for s in samples[:4]] == [Site.LEFT_FOOT, Site.RIGHT_FOOT] * 2
     assert [s.t for s in samples] == sorted(s.t for s in samples)
@@ -102,7 +102,7 @@ def test_a_sheet_may_put_the_foot_before_the_axis_and_number_the_axes(tmp_path):
 def test_a_sheet_and_an_archive_of_the_same_numbers_give_the_same_samples(tmp_path_factory, acc, steps):
     folder = tmp_path_factory.mktemp("same")
     columns = {"t": np.cumsum(steps), "acc": acc}
-    archive, table = npz(folder / "a.npz", **columns), sheet(folder / "a.csv", columns)
+    archive, table = write_npz(folder / "a.npz", **columns), write_csv(folder / "a.csv", columns)
     assert list(read_samples(archive)) == list(read_samples(table))
 
 
@@ -122,46 +122,47 @@ def without(columns: dict[str, np.ndarray], *keys: str) -> dict[str, np.ndarray]
 
 
 FAULTY = {
-    "no t": (without(still(), "t"), 'has no key "t"'),
-    "no t of a foot": (without(named(still(), "left"), "t_left"), 'has no key "t" and no key t_left'),
-    "nothing measured": ({"t": still()["t"], "mag": np.ones((20, 3))}, "has no key acc or pressure"),
-    "gyro alone": (without(still(), "acc"), "has the key gyro but no key acc"),
-    "both kinds of name": (still() | named(still(), "left"), "holds both acc and acc_left"),
-    "acc of two axes": (still() | {"acc": np.ones((20, 2))}, "acc: has the shape (20, 2) instead of (n, 3)"),
-    "acc lying down": (still() | {"acc": np.ones((3, 20))}, "acc: has the shape (3, 20) instead of (n, 3)"),
-    "flat pressure": (still() | {"pressure": np.ones(20)}, "pressure: has the shape (20,) instead of (n, cells)"),
-    "no cells": (still() | {"pressure": np.ones((20, 0))}, "pressure: has the shape (20, 0)"),
-    "t of two columns": (still() | {"t": np.ones((20, 2))}, "t: has the shape (20, 2) instead of (n,)"),
-    "t a number": (still() | {"t": np.float64(1.0)}, "t: has the shape () instead of (n,)"),
-    "one gyro row less": (still() | {"gyro": still(19)["gyro"]}, "gyro: has 19 rows but t has 20"),
-    "words": (still() | {"acc": np.full((20, 3), "x")}, "acc: holds <U1, not numbers"),
-    "complex": (still() | {"acc": np.full((20, 3), 1j)}, "acc: holds complex128, not numbers"),
-    "no rows": ({k: v[:0] for k, v in still().items()}, "t: holds no samples"),
-    "first row not finite": (still() | {"acc": np.full((20, 3), np.nan)}, "acc, row 0: is nan, not a finite number"),
-    "g": (still() | {"acc": still()["acc"] / 9.81}, "|acc| is 0.996 m/s^2, not 9.8: this looks like g"),
-    "repeated": (still() | {"t": np.repeat(still()["t"][::2], 2)[: len(still()["t"])]}, "is 0 s: times repeat"),
-    "milli-g": (still() | {"acc": still()["acc"] * 102.0}, "this looks like milli-g"),
-    "counts": (still() | {"acc": still()["acc"] * 1670.0}, "this looks like raw counts"),
-    "huge": (still() | {"acc": still()["acc"] * 1e300}, "this looks like raw counts"),
-    "no gravity": (still() | {"acc": still()["acc"] * 0.0}, "gravity removed?"),
-    "deg/s": (still() | {"gyro": np.full((20, 3), 57.3)}, "gyro: |gyro| reaches 99.2 rad/s, faster than a foot turns"),
-    "gyro counts": (still() | {"gyro": np.full((20, 3), 9000.0)}, "gyro: |gyro| reaches 1.56e+04 rad/s"),
-    "milliseconds": (still() | {"t": still()["t"] * 1000.0}, "between samples is 10 s: this looks like milliseconds"),
-    "time stands still": (still() | {"t": np.zeros(20)}, "t: the median time between samples is 0 s"),
+    "no t": (without(idle(), "t"), 'has no key "t"'),
+    "no t of a foot": (without(name_foot(idle(), "left"), "t_left"), 'has no key "t" and no key t_left'),
+    "nothing measured": ({"t": idle()["t"], "mag": np.ones((20, 3))}, "has no key acc or pressure"),
+    "gyro alone": (without(idle(), "acc"), "has the key gyro but no key acc"),
+    "both kinds of name": (idle() | name_foot(idle(), "left"), "holds both acc and acc_left"),
+    "acc of two axes": (idle() | {"acc": np.ones((20, 2))}, "acc: has the shape (20, 2) instead of (n, 3)"),
+    "acc lying down": (idle() | {"acc": np.ones((3, 20))}, "acc: has the shape (3, 20) instead of (n, 3)"),
+    "flat pressure": (idle() | {"pressure": np.ones(20)}, "pressure: has the shape (20,) instead of (n, cells)"),
+    "no cells": (idle() | {"pressure": np.ones((20, 0))}, "pressure: has the shape (20, 0)"),
+    "t of two columns": (idle() | {"t": np.ones((20, 2))}, "t: has the shape (20, 2) instead of (n,)"),
+    "t a number": (idle() | {"t": np.float64(1.0)}, "t: has the shape () instead of (n,)"),
+    "one gyro row less": (idle() | {"gyro": idle(19)["gyro"]}, "gyro: has 19 rows but t has 20"),
+    "words": (idle() | {"acc": np.full((20, 3), "x")}, "acc: holds <U1, not numbers"),
+    "complex": (idle() | {"acc": np.full((20, 3), 1j)}, "acc: holds complex128, not numbers"),
+    "no rows": ({k: v[:0] for k, v in idle().items()}, "t: holds no samples"),
+    "first row not finite": (idle() | {"acc": np.full((20, 3), np.nan)}, "acc, row 0: is nan, not a finite number"),
+    "g": (idle() | {"acc": idle()["acc"] / 9.81}, "|acc| is 0.996 m/s^2, not 9.8: this looks like g"),
+    "repeated": (idle() | {"t": np.repeat(idle()["t"][::2], 2)[: len(idle()["t"])]}, "is 0 s: times repeat"),
+    "milli-g": (idle() | {"acc": idle()["acc"] * 102.0}, "this looks like milli-g"),
+    "counts": (idle() | {"acc": idle()["acc"] * 1670.0}, "this looks like raw counts"),
+    "huge": (idle() | {"acc": idle()["acc"] * 1e300}, "this looks like raw counts"),
+    "no gravity": (idle() | {"acc": idle()["acc"] * 0.0}, "gravity removed?"),
+    "deg/s": (idle() | {"gyro": np.full((20, 3), 57.3)}, "gyro: |gyro| reaches 99.2 rad/s, faster than a foot turns"),
+    "gyro counts": (idle() | {"gyro": np.full((20, 3), 9000.0)}, "gyro: |gyro| reaches 1.56e+04 rad/s"),
+    "milliseconds": (idle() | {"t": idle()["t"] * 1000.0}, "between samples is 10 s: this looks like milliseconds"),
+    "time stands still": (idle() | {"t": np.zeros(20)}, "t: the median time between samples is 0 s"),
 }  # fmt: skip
 
 
 @pytest.mark.parametrize("fault", FAULTY)
 def test_an_archive_with_a_fault_of_the_whole_is_rejected_in_one_sentence(tmp_path, fault):
     columns, complaint = FAULTY[fault]
-    samples, sentence = read_until_error(npz(tmp_path / "bad.npz", **columns))
+    samples, sentence = read_until_error(write_npz(tmp_path / "bad.npz", **columns))
     assert samples == [] and complaint in sentence
 
 
 def test_pickled_arrays_are_not_loaded(tmp_path):
     acc = np.array([[{"a": 1}] * 3] * 20, dtype=object)
     assert (
-        "acc: cannot be read (Object arrays" in read_until_error(npz(tmp_path / "bad.npz", **still() | {"acc": acc}))[1]
+        "acc: cannot be read (Object arrays"
+        in read_until_error(write_npz(tmp_path / "bad.npz", **idle() | {"acc": acc}))[1]
     )
     path = tmp_path / "pickle.npz"
     path.write_bytes(pickle.dumps({"t": [0.0]}))
@@ -170,7 +171,7 @@ def test_pickled_arrays_are_not_loaded(tmp_path):
 
 @pytest.mark.parametrize("share", [0.02, 0.3, 0.9, 0.999])
 def test_an_archive_cut_off_is_rejected(tmp_path, share):
-    path = npz(tmp_path / "bad.npz", **still())
+    path = write_npz(tmp_path / "bad.npz", **idle())
     data = path.read_bytes()
     path.write_bytes(data[: int(len(data) * share)])
     assert "is not a whole .npz archive" in read_until_error(path)[1]
@@ -179,7 +180,7 @@ def test_an_archive_cut_off_is_rejected(tmp_path, share):
 @given(damage=st.lists(st.tuples(st.integers(0, 5000), st.integers(0, 255)), min_size=1, max_size=5))
 def test_whatever_bytes_of_an_archive_are_damaged_only_recording_error_is_raised(tmp_path_factory, damage):
     stream = io.BytesIO()
-    np.savez_compressed(stream, **still())
+    np.savez_compressed(stream, **idle())
     data = bytearray(stream.getvalue())
     for place, value in damage:
         data[place % len(data)] = value
@@ -203,7 +204,7 @@ def test_a_missing_or_empty_file_and_a_directory_are_named(tmp_path, name):
 
 
 def test_a_foot_that_is_not_in_the_file_is_reported(tmp_path):
-    path = npz(tmp_path / "left.npz", **named(still(), "left"))
+    path = write_npz(tmp_path / "left.npz", **name_foot(idle(), "left"))
     assert read_until_error(path, Foot.RIGHT)[1].endswith("holds nothing of the right foot")
 
 
@@ -233,9 +234,9 @@ def test_a_sheet_with_a_fault_of_the_whole_is_rejected_in_one_sentence(tmp_path,
 
 @pytest.mark.parametrize("kind", ["npz", "csv"])
 def test_a_pressure_cell_without_a_number_is_a_missing_cell_and_ends_no_file(tmp_path, kind):
-    columns = still()
+    columns = idle()
     columns["pressure"][7, 1] = np.nan
-    path = npz(tmp_path / "cell.npz", **columns) if kind == "npz" else sheet(tmp_path / "cell.csv", columns)
+    path = write_npz(tmp_path / "cell.npz", **columns) if kind == "npz" else write_csv(tmp_path / "cell.csv", columns)
     samples = list(load_samples(path))
     assert len(samples) == len(columns["t"])
     assert np.isnan(samples[7].pressure[1]) and np.isfinite(samples[7].pressure[0])
@@ -247,9 +248,9 @@ def test_a_pressure_cell_without_a_number_is_a_missing_cell_and_ends_no_file(tmp
 )
 @pytest.mark.parametrize("kind", ["npz", "csv"])
 def test_a_value_that_is_not_finite_is_named_after_the_rows_before_it(tmp_path, kind, quantity, value):
-    columns = still()
+    columns = idle()
     columns[quantity][7, 1] = value
-    path = npz(tmp_path / "bad.npz", **columns) if kind == "npz" else sheet(tmp_path / "bad.csv", columns)
+    path = write_npz(tmp_path / "bad.npz", **columns) if kind == "npz" else write_csv(tmp_path / "bad.csv", columns)
     samples, sentence = read_until_error(path)
     assert len(samples) == 7
     place = f"{quantity}, row 7" if kind == "npz" else f"line 9, {quantity}"
@@ -257,9 +258,9 @@ def test_a_value_that_is_not_finite_is_named_after_the_rows_before_it(tmp_path, 
 
 
 def test_time_that_runs_backwards_is_named_after_the_rows_before_it(tmp_path):
-    columns = still()
+    columns = idle()
     columns["t"][7:] -= 0.05
-    samples, sentence = read_until_error(npz(tmp_path / "bad.npz", **columns))
+    samples, sentence = read_until_error(write_npz(tmp_path / "bad.npz", **columns))
     assert len(samples) == 7
     assert "t, row 7: time runs backwards, from 0.06 s to 0.02" in sentence
 
@@ -276,15 +277,15 @@ def test_time_that_runs_backwards_is_named_after_the_rows_before_it(tmp_path):
 )
 def test_a_row_that_is_no_row_is_named_after_the_rows_before_it(tmp_path, row, complaint):
     path = tmp_path / "bad.csv"
-    good = [f"{0.01 * n:.2f},0,0,9.8" for n in range(6)]
-    good[3] = row
-    path.write_text("\n".join(["t,acc_x,acc_y,acc_z", *good]) + "\n")
+    rows = [f"{0.01 * n:.2f},0,0,9.8" for n in range(6)]
+    rows[3] = row
+    path.write_text("\n".join(["t,acc_x,acc_y,acc_z", *rows]) + "\n")
     samples, sentence = read_until_error(path)
     assert [s.t for s in samples] == [0.0, 0.01, 0.02] and complaint in sentence
 
 
 def test_a_sheet_cut_in_the_middle_of_a_line_keeps_every_line_before(tmp_path):
-    path = sheet(tmp_path / "cut.csv", still())
+    path = write_csv(tmp_path / "cut.csv", idle())
     path.write_bytes(path.read_bytes()[:-12])
     with pytest.warns(RecordingWarning, match="line 21: cut off in the middle; everything before it is used"):
         assert len(list(read_samples(path))) == 19

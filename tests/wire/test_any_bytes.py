@@ -1,4 +1,4 @@
-"""Properties of the wire formats for all bytes and for all records."""
+"""Properties of the wire formats for any bytes and any records."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from solepath.wire import cells, fragment, insole, insole_control, insole_info, 
 from solepath.wire.envelope import MAGIC
 from solepath.wire.error import WireError
 
-CODECS = {name: (one.parse, one.build) for name, one in FORMATS.items()}
+CODECS = {name: (wire_format.parse, wire_format.build) for name, wire_format in FORMATS.items()}
 
 
 def packets_of(name: str) -> list[bytes]:
@@ -30,23 +30,23 @@ SEEDS = {name: packets_of(name) for name in CODECS}
 
 @st.composite
 def damaged(draw: st.DrawFn, seeds: list[bytes], resealed: bool) -> bytes:
-    """A packet with some bytes changed, cut or lengthened; `resealed` gives it the CRC that fits the damage."""
+    """Draw a packet with some bytes changed, cut or appended; with `resealed` its CRC fits the damaged bytes."""
     data = bytearray(draw(st.sampled_from(seeds)))
     for position, value in draw(st.lists(st.tuples(st.integers(0, 599), st.integers(0, 255)), max_size=4)):
         if position < len(data):
             data[position] = value
-    end = draw(st.sampled_from(["as it is", "cut", "lengthened"]))
-    if end == "cut":
+    ending = draw(st.sampled_from(["as it is", "cut", "lengthened"]))
+    if ending == "cut":
         del data[draw(st.integers(0, len(data))) :]
-    elif end == "lengthened":
+    elif ending == "lengthened":
         data += draw(st.binary(max_size=20))
     if resealed and len(data) >= 2:
         data[-2:] = crc_hqx(bytes(data[:-2]), 0xFFFF).to_bytes(2, "little")
     return bytes(data)
 
 
-def read(name: str, data: bytes) -> None:
-    """`data` is a record that is written as the same bytes, or a WireError; nothing else may come of it."""
+def check_bytes(name: str, data: bytes) -> None:
+    """Check that `data` is parsed to a record that builds the same bytes, or raises WireError."""
     parse, build = CODECS[name]
     try:
         record = parse(data)
@@ -58,20 +58,20 @@ def read(name: str, data: bytes) -> None:
 @pytest.mark.parametrize("name", CODECS)
 @given(data=st.binary(max_size=600))
 def test_any_bytes_are_a_record_or_a_wire_error(name: str, data: bytes) -> None:
-    read(name, data)
+    check_bytes(name, data)
 
 
 @pytest.mark.parametrize("name", CODECS)
 @settings(max_examples=40)
 @given(data=st.data())
 def test_any_damaged_packet_is_a_record_or_a_wire_error(name: str, data: st.DataObject) -> None:
-    read(name, data.draw(damaged(SEEDS[name], resealed=False)))
+    check_bytes(name, data.draw(damaged(SEEDS[name], resealed=False)))
 
 
 @pytest.mark.parametrize("name", ["insole-frame", "insole-info"])
 @given(data=st.data())
 def test_damage_under_a_right_crc_is_a_record_or_a_wire_error(name: str, data: st.DataObject) -> None:
-    read(name, data.draw(damaged(SEEDS[name], resealed=True)))
+    check_bytes(name, data.draw(damaged(SEEDS[name], resealed=True)))
 
 
 @pytest.mark.parametrize("name", CODECS)
@@ -108,10 +108,10 @@ def frames(draw: st.DrawFn) -> insole.InsoleFrame:
         imu=st.tuples(*[I16] * 6) if imu else st.none(),
         quat=st.tuples(*[I16] * 4) if quat else st.none(),
     )
-    most = min(255, (512 - 16) // size)
-    samples = draw(st.lists(sample, min_size=1, max_size=min(most, 4)))
+    max_samples = min(255, (512 - 16) // size)
+    samples = draw(st.lists(sample, min_size=1, max_size=min(max_samples, 4)))
     if draw(st.booleans()):
-        samples = (samples * most)[:most]
+        samples = (samples * max_samples)[:max_samples]
     return insole.InsoleFrame(
         draw(FOOT),
         draw(U8),
@@ -222,11 +222,11 @@ def test_each_cell_is_at_the_bits_of_its_number(values: list[int], data: st.Data
 
 
 def test_a_fragment_never_starts_as_a_frame_does() -> None:
-    heads = {
+    first_bytes = {
         fragment.build_fragment(fragment.Fragment(frame_id, last, index, b"x"))[0]
         for frame_id in range(fragment.FRAME_IDS)
         for last in (False, True)
         for index in range(fragment.MAX_FRAGMENTS)
     }
-    assert len(heads) == fragment.FRAME_IDS * 2 * fragment.MAX_FRAGMENTS
-    assert MAGIC not in heads
+    assert len(first_bytes) == fragment.FRAME_IDS * 2 * fragment.MAX_FRAGMENTS
+    assert MAGIC not in first_bytes

@@ -1,4 +1,4 @@
-"""Records that do not fit a format: ValueError before a byte is sent."""
+"""Rejection of records that do not fit a format, by ValueError when they are built."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def frame_of(*samples: insole.InsoleSample) -> insole.InsoleFrame:
 
 
 def tag(channel: str, **fields: Any) -> tuple[Callable[[Any], bytes], Any]:
-    """Packets that no SensorTag sends."""
+    """Return the function that builds a value of a SensorTag's channel, and its fields."""
     return partial(build_whole, {**cc2541.FORMATS, **cc2650.FORMATS}[channel]), fields
 
 

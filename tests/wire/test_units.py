@@ -1,4 +1,4 @@
-"""The physical values that the vectors name, against the scales that the link applies to counts."""
+"""Comparison of the vectors' physical values with the scales that the link applies to counts."""
 
 from __future__ import annotations
 
@@ -9,8 +9,7 @@ from typing import Any
 import pytest
 from here import PROTOCOL
 
-from solepath.link.devices import cc2541 as old_tag
-from solepath.link.devices import cc2650 as new_tag
+from solepath.link.devices import cc2541, cc2650
 from solepath.wire.fields import parse_whole
 
 VECTORS = PROTOCOL / "vectors"
@@ -21,19 +20,22 @@ def physical(name: str) -> list[Any]:
 
 
 def counts_of(name: str, vector: Any) -> Any:
-    return parse_whole(old_tag.FORMATS[f"cc2541/{name}"], bytes.fromhex(vector["hex"]))
+    return parse_whole(cc2541.FORMATS[f"cc2541/{name}"], bytes.fromhex(vector["hex"]))
 
 
-def near(expected: list[float], tolerance: float) -> Any:
+def approx_values(expected: list[float], tolerance: float) -> Any:
     return pytest.approx(tuple(expected), abs=tolerance)
 
 
 def test_both_tags_count_angular_rate_alike() -> None:
-    assert old_tag.GYRO == new_tag.GYRO
+    assert cc2541.GYRO_SCALE == cc2650.GYRO_SCALE
 
 
-AXES = {"gyroscope": ("gyro", degrees(old_tag.GYRO), "gyro_dps"), "magnetometer": ("mag", 1e6 * old_tag.MAG, "mag_ut")}
-"""Sensor -> its field, what a count is worth, and the quantity in the vector."""
+AXES = {
+    "gyroscope": ("gyro", degrees(cc2541.GYRO_SCALE), "gyro_dps"),
+    "magnetometer": ("mag", 1e6 * cc2541.MAG_SCALE, "mag_ut"),
+}
+"""Field, value of a count, and quantity in the vector, by sensor."""
 
 
 @pytest.mark.parametrize("sensor", AXES)
@@ -41,7 +43,7 @@ def test_scales_of_an_old_tag_agree_with_the_vectors(sensor: str) -> None:
     field, unit, quantity = AXES[sensor]
     for vector in physical(f"cc2541-{sensor}"):
         counts, values = getattr(counts_of(sensor, vector), field), vector["physical"]
-        assert tuple(unit * c for c in counts) == near(values[quantity], values["tolerance"]), vector["id"]
+        assert tuple(unit * c for c in counts) == approx_values(values[quantity], values["tolerance"]), vector["id"]
 
 
 @pytest.mark.parametrize(
@@ -52,5 +54,5 @@ def test_an_old_tags_acceleration_depends_on_firmware_and_range(
     vector: Any, firmware: str, code: int, key: str
 ) -> None:
     counts = counts_of("accelerometer", vector).acc
-    values, per_g = vector["physical"], old_tag.counts_per_g(firmware, code)
-    assert tuple(c / per_g for c in counts) == near(values[f"acc_g_at_{key}"], values["tolerance"])
+    values, per_g = vector["physical"], cc2541.counts_per_g(firmware, code)
+    assert tuple(c / per_g for c in counts) == approx_values(values[f"acc_g_at_{key}"], values["tolerance"])

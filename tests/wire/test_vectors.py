@@ -1,4 +1,4 @@
-"""The vectors of protocol/ against the wire, in both directions. They were made without it."""
+"""Comparison of the wire package with the vectors of protocol/, which were made without it, in both directions."""
 
 from __future__ import annotations
 
@@ -101,11 +101,11 @@ def test_every_format_has_a_vector_file_and_the_other_way_round() -> None:
 
 def test_every_channel_has_a_vector_file() -> None:
     channels = {channel.name for profile in PROFILES for channel in profile.channels}
-    others = {name for name in channels if not name.endswith("-period")}
-    devices = {file["channel"] for file in FILES.values() if not file["channel"].startswith("receiver/")}
-    assert devices - {"cc2650/movement-period"} == others
+    non_period_channels = {name for name in channels if not name.endswith("-period")}
+    file_channels = {file["channel"] for file in FILES.values() if not file["channel"].startswith("receiver/")}
+    assert file_channels - {"cc2650/movement-period"} == non_period_channels
     files = {name for name in FILES if not name.startswith("receiver-")}
-    assert {name.replace("/", "-") for name in others} | {"sensortag-period", "insole-fragment"} == files
+    assert {name.replace("/", "-") for name in non_period_channels} | {"sensortag-period", "insole-fragment"} == files
 
 
 def test_the_crc_is_ccitt_false() -> None:

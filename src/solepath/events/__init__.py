@@ -1,8 +1,8 @@
 """All events of a session.
 
-Every event is frozen, compares with == and has the same three times: `t`, when it happened (s, sample clock);
-`known_at`, when it was known (s, arrival of the packet that settled it); `final`, whether no later event may revise it.
-Final events never change, however much data follows."""
+Every event is frozen and compares with ==. `t` is the time at which it happened (s, sample clock). `known_at` is the
+time at which it was reported (s, arrival of the packet that showed it). `final` is True if no later event revises it.
+Latency is `known_at` minus `t`; the docstring of each event states it."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ __all__ = [
 ]  # fmt: skip
 
 GaitEvent = HeelStrike | FootFlat | HeelOff | ToeOff | StrideTaken
-"""Events of one foot's gait."""
+"""Gait events and strides of one foot."""
 LinkEvent = (
     PacketRejected
     | SampleRejected
@@ -74,8 +74,8 @@ ActivityEvent = ActivityChanged | LiftRidden | FlightClimbed | TurnMade
 PlaceEvent = Placed | PlaceLost
 """Events of the wearer's place on a floor plan."""
 WearEvent = CellsFailed | InsoleNeverUnloads | FeetSwapped | FootSilent | FootResumed
-"""Events of how sensors are worn."""
+"""Events of faults in how sensors are worn."""
 LiveEvent = FootMoved | FootPressed | WearerMoved
-"""Events at every sample or step, for drawing, not for keeping; only on request."""
+"""Events of every sample or stride for live display, which are emitted only on request."""
 Event = GaitEvent | LinkEvent | BodyEvent | ActivityEvent | PlaceEvent | WearEvent | LiveEvent
 """Any event of a session."""

@@ -1,4 +1,4 @@
-"""Events of the wearer's activity: activities, lift rides, flights of stairs, turns."""
+"""Events of the wearer's activity: activities, elevator rides, flights of stairs, turns."""
 
 from __future__ import annotations
 
@@ -9,28 +9,28 @@ from .happening import Happening
 
 @frozen(kw_only=True)
 class ActivityChanged(Happening):
-    """The wearer does `activity` from `t` on, by the recipe's activity part.
+    """The wearer's activity is `activity` from `t` on, as the recipe's activity part reports it.
 
-    An event that is not final may be replaced by a later one, which names it in `revises`; a final one never is. The
-    wearer's activity at some time is that of the last event with `t` up to then, without those that were replaced.
+    An event that is not final may be replaced by a later event, which names it in `revises`. The activity at a time is
+    that of the newest event with `t` at or before it, leaving out replaced events.
 
-    Latency of the default: reported 1 to 1.5 s after `t`, final mostly seconds later; standing that may be a ride in a
-    lift stays open for up to a minute. Other recipes: see the docstrings of their parts."""
+    The default recipe reports an activity 1 to 1.5 s after `t`. It becomes final mostly some seconds later; standing
+    that may be an elevator ride becomes final after up to a minute. Parts of other recipes state their own latency."""
 
     activity: Activity
     """The new activity."""
     probability: float | None
-    """Probability of the activity against all others when it was reported; None where a method has no probabilities."""
+    """Probability of the activity when it was reported, 0 to 1; None for a method without probabilities."""
     revises: float | None = None
-    """`t` of the event that this one replaces, with all that came after it, s; None when it replaces none."""
+    """Time `t` of the event that this event replaces, with all events after it, s; None when it replaces none."""
 
 
 @frozen(kw_only=True)
 class LiftRidden(Happening):
-    """A ride in a lift ended; `t` is when the lift came to rest.
+    """An elevator ride ended; `t` is the time at which the elevator stopped.
 
-    Known with the default once it is settled that this was its end, mostly seconds after `t` and up to 12 s; with
-    `footstep-tracker` as soon as the jolt of its braking is over. Final."""
+    The default recipe reports it when the end is certain: mostly some seconds after `t`, at most 12 s. The recipe
+    `footstep-tracker` reports it as soon as the acceleration of the braking is over. The event is final."""
 
     t_start: float
     """Start of the ride, s."""
@@ -44,30 +44,30 @@ class LiftRidden(Happening):
 class FlightClimbed(Happening):
     """A flight of stairs was climbed or descended; `t` is the end of its last stride.
 
-    Known when as many level strides as there are feet with data have followed it, about a second after `t`, with the
-    first stride the other way, or when both feet have stood at one height for 3 s; where activities are reported later
-    than strides (the default: by 1 to 1.5 s), as much later. Final."""
+    It is reported after as many level strides as there are feet with data (about 1 s after `t`), after the first stride
+    in the other vertical direction, or when both feet have stood at one height for 3 s. If the recipe reports
+    activities later than strides (by 1 to 1.5 s in the default), it is reported that much later. The event is final."""
 
     t_start: float
-    """Start of its first stride, s."""
+    """Start of the flight's first stride, s."""
     up: bool
     """True for a flight upwards."""
     steps: int
-    """Number of strides of all feet with data."""
+    """Number of strides of all feet with data on the flight."""
     height: float
-    """Height of the flight by the wearer's own track, m, positive upwards."""
+    """Height of the flight as the feet's tracks measure it, m, positive upwards."""
 
 
 @frozen(kw_only=True)
 class TurnMade(Happening):
-    """The wearer turned, over one stride or several in a row; `t` is the end of the last of them.
+    """The wearer turned during one stride or several strides in a row; `t` is the end of the last of them.
 
-    Source: Liu et al. 2015, IEEE MASS, section IV.D. Known when the feet have gone straight on for three strides (two
-    where only one foot has data), or when no foot has touched down for 2 to 4 s. Final."""
+    Source: Liu et al. 2015, IEEE MASS, section IV.D. It is reported after three straight strides (two if only one foot
+    has data), or when no foot has touched down for 2 to 4 s. The event is final."""
 
     t_start: float
     """Start of the first stride, s."""
     angle: float
-    """Angle of the turn, counter-clockwise positive, rad; more than pi for a longer turn."""
+    """Angle of the turn about the vertical, counter-clockwise positive, rad; it may be larger than pi."""
     turn: Turn | None
-    """Class of the turn; None for a bend that is too slight for one."""
+    """Class of the turn; None for a turn that is too slight for any class."""

@@ -1,4 +1,4 @@
-"""Events of both feet together: fused strides, touchdowns, walking modes."""
+"""Events that are measured from both feet: fused strides, touchdowns, walking modes."""
 
 from __future__ import annotations
 
@@ -9,59 +9,59 @@ from .happening import Happening
 
 @frozen(kw_only=True)
 class StrideFused(Happening):
-    """The stride of one foot, calibrated by the other foot's.
+    """The stride of one foot, whose length is calibrated by the other foot's stride.
 
-    It names the foot whose path is the wearer's from now on (Chen et al. 2019, IEEE Internet of Things Journal,
-    equations (9) to (13)). Known with the StrideTaken of the stride; `t` is the same, the foot-flat that ends it."""
+    Source: Chen et al. 2019, IEEE Internet of Things Journal, equations (9) to (13), to which the numbers in brackets
+    refer. `t` is the foot-flat that ends the stride. It is reported with the StrideTaken of the stride."""
 
     foot: Foot
     """Foot that took the stride."""
     number: int
     """Number of the stride (StrideTaken.number)."""
     stride_length: float
-    """Calibrated stride length, D of (12), m."""
+    """Calibrated stride length D of (12), m."""
     own_length: float
-    """Stride length by this foot alone, d, m."""
+    """Stride length d that this foot alone measured, m."""
     similarity: float | None
-    """Similarity r of (9); None when there was no stride of the other foot to compare with."""
+    """Similarity r of (9) of both feet's strides; None without a stride of the other foot to compare with."""
     error_index: float | None
-    """Error index EI of (10), m/s; None for an abnormal stride, which neither is calibrated nor calibrates."""
+    """Error index EI of (10), m/s; None for an abnormal stride, which is not used for calibration."""
     coefficient: float
-    """Share of the foot's own length in the calibrated length, (11)."""
+    """Share of `own_length` in `stride_length` by (11), 0 to 1."""
     chosen: Foot
-    """Foot whose path is the wearer's after this stride, by (13)."""
+    """Foot whose path is the wearer's path after this stride, by (13)."""
     distance: float
     """Sum of the calibrated stride lengths of the chosen foot, m."""
     position: Vec3
-    """End of the chosen foot's calibrated path, world frame, m."""
+    """Position at the end of the chosen foot's calibrated path, world frame, m."""
 
 
 @frozen(kw_only=True)
 class TouchedDown(Happening):
-    """A foot touched down and bears load from now on; the other foot is measured from it.
+    """A foot touched down and bears load; the position of the other foot is measured from it until it touches down.
 
-    Source: Gong et al. 2023, Sensors 23, 5417, equations (1) to (3) and (8). Known with the sample that shows it, which
-    is `t`; with sensors above the ankles up to 0.06 s later, when their attitudes of that moment are there. Not final
-    before the wearer's first heading is settled, after 1.5 m of walking; later ones are."""
+    Source: Gong et al. 2023, Sensors 23, 5417, equations (1) to (3) and (8). `t` is the sample that shows it. It is
+    reported with that sample, or up to 0.06 s later if the attitudes of limb sensors at `t` are still missing. It is
+    final once the wearer's first heading is known, after 1.5 m of walking."""
 
     foot: Foot
     """Foot that touched down."""
     position: Vec3
-    """Compensated place of the touchdown, world frame, m."""
+    """Position of the touchdown with `compensation` added, world frame, m."""
     mode: WalkingMode
-    """Walking mode of the compensation."""
+    """Walking mode for which the compensation holds."""
     compensation: Vec3
-    """Vector added to the measured place, world frame, m."""
+    """Vector added to the measured position, world frame, m."""
 
 
 @frozen(kw_only=True)
 class WalkingModeChanged(Happening):
     """The walking mode changed (Gong et al. 2023, section 3.3).
 
-    Known with the sample that ends the contact which shows it, which is `t`: most of a second after that foot's
-    touchdown. Final."""
+    The stance of one foot shows it. `t` is the sample that ends that stance, most of a second after the touchdown, and
+    it is reported with that sample. The event is final."""
 
     mode: WalkingMode
     """The new walking mode."""
     foot: Foot
-    """Foot whose contact showed the change."""
+    """Foot whose stance showed the change."""

@@ -1,7 +1,8 @@
-"""Events that the keyed step of a fleet reports beside those of the session, which cannot know them.
+"""Events of a fleet, which runs one session per wearer on items that phones send (protocol/fleet.md).
 
-They are not part of `solepath.Event`, since an app with one session never sees them. Their time is that of the newest
-packet that was used before, 0 before any."""
+They are not part of `solepath.Event`, because a session never reports them. An item is one Sent: a packet, a tick or an
+end, with its wearer, the run of the phone's app and a number that counts the items of that run from 0. The time of an
+event is that of the newest packet used before it, or 0."""
 
 from __future__ import annotations
 
@@ -12,26 +13,27 @@ from .happening import Happening
 
 
 class SentRejection(Enum):
-    """Reason why an item that was sent is not used."""
+    """Reason why an item is not used."""
 
     UNREADABLE = "unreadable"
     """The row does not follow protocol/fleet.md."""
     NOT_SENT = "not sent"
-    """The item is no Sent, is of another wearer, or has an impossible number or run."""
+    """The item is not an object of the class Sent, is of another wearer, or has an impossible number or run."""
     MALFORMED = "malformed"
     """The item has a field of a wrong type."""
     OVERSIZED = "oversized"
     NOT_FINITE = "not finite"
     LATE = "late"
-    """The number was given up before the item came, or its run was left."""
+    """The item came after its number was reported missing, or after an item of a later run was used."""
     AFTER_END = "after the end"
 
 
 @frozen(kw_only=True)
 class StateRejected(Happening):
-    """The state of a wearer cannot be used: it is damaged, of a later release, of another recipe or floor plan.
+    """The saved state of a wearer cannot be used, so a fresh session starts.
 
-    A fresh session follows. Known with the first item that is sent after it."""
+    It is damaged, or was saved by a later release, or with another recipe or floor plan. The event is reported with the
+    first item after it."""
 
     detail: str
     """Reason in words."""
@@ -39,10 +41,10 @@ class StateRejected(Happening):
 
 @frozen(kw_only=True)
 class NumbersMissing(Happening):
-    """Items with these numbers never came and are no longer waited for. Known when too much waits behind them."""
+    """Items with these numbers never came; it is reported when too many later items wait for them."""
 
     run: int
-    """Run of the phone, which counts from 0 in each."""
+    """Run of the phone's app; numbers count from 0 in each run."""
     first: int
     """First number that is missing."""
     count: int
@@ -51,30 +53,30 @@ class NumbersMissing(Happening):
 
 @frozen(kw_only=True)
 class SentRejected(Happening):
-    """An item that was sent is not used; it changed nothing.
+    """An item is not used, and changed nothing.
 
-    Known in its turn, or as soon as it comes where it has none. A packet that its own format forbids is a
-    PacketRejected."""
+    It is reported in the order of the items' numbers, or at once for an item without a usable number. A packet that
+    does not fit its format is reported as PacketRejected instead."""
 
     reason: SentRejection
-    """Reason in one word."""
+    """Kind of fault."""
     run: int | None = None
-    """Run of the phone; None where it cannot be read."""
+    """Run of the phone's app; None when it cannot be read."""
     number: int | None = None
-    """Number of the item in its run; None where it cannot be read."""
+    """Number of the item in its run; None when it cannot be read."""
     detail: str = ""
     """Reason in words."""
     count: int = 1
-    """Number of items of this run rejected as LATE or AFTER_END so far, with this one; 1 for other reasons. The first,
-    the second, the fourth, the eighth are reported, and so on, until an item of another run is late."""
+    """Number of items of this run that were rejected as LATE or AFTER_END so far, with this one; 1 for other reasons.
+    Only numbers 1, 2, 4, 8 and so on are reported, until an item of another run is late."""
 
 
 @frozen(kw_only=True)
 class WearerFailed(Happening):
-    """A reader or a detector of the app raised an exception, or held data that could not be saved.
+    """A reader or a detector of the app raised an exception, or held data that cannot be saved.
 
-    This wearer restarts with a fresh session; no other wearer is affected. Known with the packet that caused it, or the
-    first after the state was taken."""
+    A fresh session starts for this wearer; other wearers are not affected. It is reported with the packet that caused
+    it, or with the first packet after the state was taken."""
 
     detail: str
     """Description of the failure."""

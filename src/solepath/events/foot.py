@@ -1,4 +1,4 @@
-"""Events of one foot: phases and strides."""
+"""Events of one foot: gait events, which start its phases, and strides."""
 
 from __future__ import annotations
 
@@ -12,47 +12,48 @@ class _Phase(Happening):
     foot: Foot
     """Foot of the event."""
     inferred: bool = False
-    """True when no sample showed the event: it follows from this foot's usual stride, dated within a gap."""
+    """True when the event lies in a gap, so that its time comes from the stride template and not from samples."""
 
 
 @frozen(kw_only=True)
 class HeelStrike(_Phase):
-    """The foot touched the ground; LOADING starts. `t` is the middle of the impact, or when cells show load.
+    """The foot touched the ground; LOADING starts. `t` is the middle of the impact, or the time when cells show load.
 
-    Latency with the default cues: one sample with pressure cells, some 40 ms without; until the foot is still where no
-    impact shows."""
+    Latency with the default cues: one sample with pressure cells, about 40 ms without; if no impact shows, the time
+    until the foot is still."""
 
 
 @frozen(kw_only=True)
 class FootFlat(_Phase):
-    """The whole sole is on the ground and still; STATIONARY starts and a stride may end. Latency: about 40 ms."""
+    """The whole sole is on the ground and still; STATIONARY starts, and a stride may end. Latency: about 40 ms."""
 
 
 @frozen(kw_only=True)
 class HeelOff(_Phase):
-    """The heel lifted; PUSH_OFF starts. The heel lifts slowly, so the event is dated back.
+    """The heel left the ground; PUSH_OFF starts.
 
-    Latency: 40 to 140 ms, in slow walking up to 320 ms."""
+    The heel lifts slowly, so `t` is earlier than the sample that shows it. Latency: 40 to 140 ms, in slow walking up to
+    320 ms."""
 
 
 @frozen(kw_only=True)
 class ToeOff(_Phase):
-    """The toe left the ground; SWING starts. Latency: one sample, once this foot has pushed off the first time."""
+    """The toe left the ground; SWING starts. Latency: one sample, after the first push-off of this foot."""
 
 
 @frozen
 class StrideFeatures:
-    """Measurements along one stride, for comparing strides; None where the sensors cannot measure one.
+    """Measurements of one stride; a field that the sensors cannot measure is None.
 
-    `clearance`: highest rise of the sensor above the higher end of the stride, m. `peak_speed`: m/s. `swing_pitch`:
-    range of the pitch angle over the stride, rad. `contact_load`: mean load from foot-flat to toe-off, in the unit of
-    the samples. `cop`: centre-of-pressure path (x, y) in the foot frame over the same time, m, at most 32 points evenly
-    spaced in samples. `error_index`: difference of the integrated velocity from the known one at toe-off and
-    heel-strike, m/s (Chen et al. 2019, equation (10)); None where the velocity of the rolling shoe was not used.
-    `toe_off_angle`: angle by which the heel is up at toe-off, against the sole lying flat before, rad;
-    `heel_strike_angle`: angle by which the toe is up at heel-strike, against the sole lying flat after it, rad. Both
-    are about the axis to the wearer's left, which a foot shows by its first push-off. `rise`: height of the stride as
-    integrated, before the decision whether the stride was level, m."""
+    `clearance`: highest rise of the sensor above the higher end of the stride, m. `peak_speed`: largest speed, m/s.
+    `swing_pitch`: range of the pitch angle over the stride, rad. `contact_load`: mean load from foot-flat to toe-off,
+    in the unit of the samples. `cop`: path (x, y) of the centre of pressure from foot-flat to toe-off, foot frame, m,
+    at most 32 points at equal intervals of samples. `error_index`: difference of the integrated velocity from the known
+    velocity at toe-off and heel-strike, m/s (Chen et al. 2019, equation (10)); None if the velocity of the rolling shoe
+    was not used. `toe_off_angle`: pitch at toe-off against the foot-flat before, rad, positive with the heel up.
+    `heel_strike_angle`: pitch at heel-strike against the foot-flat after, rad, positive with the toe up. Both angles
+    are about the axis to the wearer's left, which is known after the foot's first push-off. `rise`: height of the
+    stride's end above its start, m, as integrated, before a level stride's height is set to 0."""
 
     clearance: float
     peak_speed: float
@@ -67,9 +68,9 @@ class StrideFeatures:
 
 @frozen(kw_only=True)
 class StrideTaken(Happening):
-    """One foot went from foot-flat to its next foot-flat (clinically: a stride). Known at the second foot-flat.
+    """One stride: a foot went from a foot-flat to its next foot-flat.
 
-    `t` is the second foot-flat. Vectors are in the world frame (z up, x along the first heading, y left), m."""
+    `t` is the second foot-flat, at which it is reported. Vectors are in the world frame, m."""
 
     foot: Foot
     """Foot that took the stride."""
@@ -82,22 +83,21 @@ class StrideTaken(Happening):
     displacement: Vec3
     """Vector from the first to the second foot-flat, m."""
     position: Vec3
-    """Position of the foot after the stride, m. A body that returns corrections to the feet (BothFeet) moves a track
-    between two strides: this stride started at `position` - `displacement`, which is not always where the last one
-    ended."""
+    """Position of the foot after the stride, m. This stride started at `position` - `displacement`. That may differ
+    from the end of the previous stride, because a body part that corrects the feet (BothFeet) moves their tracks."""
     length: float
     """Horizontal length of `displacement`, m."""
     heading_change: float
     """Turn of the foot about the vertical between the two foot-flats, rad, counter-clockwise positive, in (-pi, pi]."""
     height_change: float
-    """Vertical part of `displacement`, m."""
+    """Vertical component of `displacement`, m, positive upwards."""
     covariance: tuple[float, float, float, float, float, float]
-    """Covariance of `displacement`: xx, xy, xz, yy, yz, zz in m^2."""
+    """Covariance of `displacement`: xx, xy, xz, yy, yz, zz, m^2."""
     t_toe_off: float | None = None
-    """Toe-off of this foot within the stride, s; None where none was found."""
+    """Time of this foot's toe-off within the stride, s; None when none was detected."""
     t_heel_strike: float | None = None
-    """Heel-strike of this foot within the stride, s; None where none was found."""
+    """Time of this foot's heel-strike within the stride, s; None when none was detected."""
     degraded: bool = False
     """True when samples were missing or saturated within the stride."""
     features: StrideFeatures
-    """Measurements along the stride."""
+    """Further measurements of the stride."""

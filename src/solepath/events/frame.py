@@ -8,16 +8,16 @@ from typing import Any
 from .happening import Happening
 
 AXES = {"position": "xyz", "velocity": "xyz", "displacement": "xyz", "compensation": "xyz", "centre": "xy"}
-"""Fields that are vectors: one column for each of their components."""
+"""Components of each field that is a vector; each component becomes a column."""
 
 
 def to_frame(events: Iterable[Happening]) -> Any:
-    """Return a data frame with one row per event, of pandas where that is installed, else of polars.
+    """Return a data frame with one row per event, of pandas if that is installed, else of polars.
 
-    Its columns are the keys of `to_dict`, in the order in which they first come: a vector is one column a component
-    (position_x, position_y, position_z, m), a record within an event one column a field (features_clearance, m), any
-    other list one column that holds lists. A value that an event does not have is missing in its row. ImportError where
-    neither library is installed."""
+    Its columns are the keys of `to_dict`, in the order of their first occurrence. A vector has one column for each
+    component (position_x, position_y, position_z, m). A record within an event has one column for each field
+    (features_clearance, m). Any other list is one column of lists. A value that an event does not have is missing in
+    its row. ImportError when neither library is installed."""
     rows = [_flat(event.to_dict()) for event in events]
     names = {name: None for row in rows for name in row}
     columns = {name: [row.get(name) for row in rows] for name in names}
@@ -35,7 +35,7 @@ def to_frame(events: Iterable[Happening]) -> Any:
 
 
 def _flat(record: dict[str, Any]) -> dict[str, Any]:
-    """Return the record with its vectors and the records within it as separate columns."""
+    """Return `record` with a key for each component of a vector and each field of a record within it."""
     flat: dict[str, Any] = {}
     for name, value in record.items():
         if isinstance(value, dict):

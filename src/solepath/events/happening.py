@@ -17,21 +17,21 @@ FIRST_KEYS = ("t", "known_at", "final", "foot")
 
 @frozen(kw_only=True)
 class Happening:
-    """The base of every event, with its three times."""
+    """The base class of every event."""
 
     t: float
-    """Time at which it happened, s."""
+    """Time at which the event happened, s."""
     known_at: float
-    """Time at which it was known, s; never earlier than `t`."""
+    """Time at which the event could be reported, s; never earlier than `t`."""
     final: bool = True
-    """False only for an event that a later event may revise."""
+    """True if no later event revises this event."""
 
     def to_dict(self) -> dict[str, Any]:
-        """Return the event as plain data for strict JSON, the same as its line of events.jsonl.
+        """Return the event as plain data for strict JSON, as in its line of events.jsonl.
 
-        Keys are `event` (the class's name), `t`, `known_at`, `final`, `foot` where it has one (also where an event of a
-        link has a foot's site), then its other fields in SI units; enums by their values, null for a number that is not
-        finite."""
+        The first keys are `event` (name of the class), `t`, `known_at`, `final`, and `foot` if the event has a foot or
+        the site of a foot. The other fields follow, in SI units. Enums are written by their values, numbers that are
+        not finite as null."""
         values = json_ready(self)
         site = getattr(self, "site", None)
         if isinstance(site, Site) and site.foot is not None:
@@ -43,7 +43,8 @@ class Happening:
 def json_ready(value: Any) -> Any:
     """Return `value` in the types of strict JSON.
 
-    Records become objects, enums their values, tuples lists, bytes hex digits, and numbers that are not finite null."""
+    A record becomes an object, an enum its value, a tuple a list, bytes a text of hexadecimal digits, and a number that
+    is not finite null."""
     match value:
         case Enum():
             return json_ready(value.value)

@@ -1,4 +1,4 @@
-"""Events of the links: packets and samples that were lost or rejected, and reports of the devices."""
+"""Events of the links: packets and samples that were lost or rejected, connections, and values of the devices."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Rejection(Enum):
 
 @frozen(kw_only=True)
 class PacketRejected(Happening):
-    """A packet could not be used; it changed nothing. Known when it is fed; `t` is its arrival."""
+    """A packet could not be used, and changed nothing; `t` is its arrival, with which it is reported."""
 
     site: Site
     channel: str
@@ -42,9 +42,9 @@ class PacketRejected(Happening):
 
 @frozen(kw_only=True)
 class SampleRejected(Happening):
-    """A sample that was fed could not be used; it changed nothing.
+    """A sample could not be used, and changed nothing.
 
-    Known when it is fed; `t` is the sample's, or that of the one before where its own time cannot be used."""
+    It is reported at once. `t` is the sample's time, or the previous sample's if the sample's time cannot be used."""
 
     site: Site
     reason: Rejection
@@ -53,9 +53,9 @@ class SampleRejected(Happening):
 
 @frozen(kw_only=True)
 class PacketsLost(Happening):
-    """Packets never arrived, by the device's counter, or by the time between arrivals where it has none.
+    """Packets never arrived, as the device's counters show, or the times of arrival for a device without counters.
 
-    `t` is the time of the first missing one. Known at the arrival of the first packet after them."""
+    `t` is the time of the first missing packet. It is reported at the arrival of the first packet after them."""
 
     site: Site
     channel: str
@@ -65,41 +65,42 @@ class PacketsLost(Happening):
 
 @frozen(kw_only=True)
 class SampleGap(Happening):
-    """No samples came for longer than the sensor's rate allows; the stride that this falls in is marked degraded.
+    """No samples came for longer than the sensor's rate allows; the stride with the gap is marked degraded.
 
-    `t` is the last sample before the gap. Known with the first sample after it."""
+    `t` is the last sample before the gap. It is reported with the first sample after the gap."""
 
     site: Site
     duration: float
-    """Time from the sample before the gap to the one after it, s."""
+    """Time from the last sample before the gap to the first sample after it, s."""
 
 
 @frozen(kw_only=True)
 class ClockReset(Happening):
     """The device's clock jumped or the device restarted; sample times start from a new fit.
 
-    `t` is the start of the new fit. Known at the arrival of the packet that shows it."""
+    A fit converts the device's ticks to time (link/clock.py). `t` is the first time of the new fit. It is reported at
+    the arrival of the packet that shows it."""
 
     site: Site
     restarted: bool
-    """True when the device's sequence restarted as well."""
+    """True when the device's sequence numbers restarted as well."""
 
 
 @frozen(kw_only=True)
 class StreamStale(Happening):
     """Nothing came from a site for longer than its link allows (1 or 2 s, `Profile.stale_after`).
 
-    `t` is the end of that time. Known with the first `Session.advance` or packet of the site after that, so the latency
-    is the interval between these calls."""
+    `t` is the end of the allowed time. It is reported by the first `Session.advance` or packet of the site after `t`,
+    so the latency is the interval between these calls."""
 
     site: Site
     silent_for: float
-    """Time from the arrival of the last data until the event was known, s."""
+    """Time from the arrival of the last data until the event was reported, s."""
 
 
 @frozen(kw_only=True)
 class StreamResumed(Happening):
-    """Data came again after StreamStale. `t` is the arrival of the packet that ends the silence; known with it."""
+    """Data came again after StreamStale; `t` is the arrival of the first packet, with which it is reported."""
 
     site: Site
     silent_for: float
@@ -108,9 +109,9 @@ class StreamResumed(Happening):
 
 @frozen(kw_only=True)
 class Connected(Happening):
-    """The receiver connected to a device, for the first time or again; the device is about to be set up.
+    """The receiver connected to a device, for the first time or again, and sets it up next.
 
-    `t` is the time by the receiver's clock; known at once."""
+    `t` is the time of the connection on the receiver's clock. It is reported at once."""
 
     site: Site
     device: str
@@ -125,28 +126,29 @@ class Connected(Happening):
 class Disconnected(Happening):
     """The connection to the device is lost; the receiver searches for it.
 
-    `t` is when the receiver noticed, seconds after the device went out of reach; known at once."""
+    `t` is the time at which the receiver noticed it, seconds after the device went out of reach. It is reported at
+    once."""
 
     site: Site
 
 
 @frozen(kw_only=True)
 class PacketsDropped(Happening):
-    """Packets arrived and were dropped, the oldest first, because they were not taken in time.
+    """Packets arrived and were dropped, the oldest first, because the app did not take them in time.
 
-    Known when the next one is taken; `t` is the arrival of the newest of the site that was dropped by then."""
+    It is reported when the next packet is taken. `t` is the arrival of the site's newest dropped packet."""
 
     site: Site
     count: int
-    """Number of packets, at least 1."""
+    """Number of dropped packets, at least 1."""
 
 
 @frozen(kw_only=True)
 class StreamRestarted(Happening):
-    """A stream stopped although the connection stands, and the receiver set the device up again.
+    """A stream stopped while the device stayed connected, and the receiver set the device up again.
 
-    `t` is the time of the restart; known at once, after the silence that the device's profile allows
-    (`Profile.stale_after`, s)."""
+    `t` is the time of that setup, after the silence that the device's profile allows (`Profile.stale_after`, s). It is
+    reported at once."""
 
     site: Site
     channel: str
@@ -155,20 +157,21 @@ class StreamRestarted(Happening):
 
 @frozen(kw_only=True)
 class LinkTrouble(Happening):
-    """The receiver cannot do its work; `what` is a sentence for a person who can help.
+    """The receiver cannot work, and a person has to help.
 
-    `t` is when the trouble was noticed; known at once."""
+    `t` is the time at which the receiver noticed it. It is reported at once."""
 
     site: Site
     what: str
-    """Description in one sentence."""
+    """Description in one sentence for that person."""
 
 
 @frozen(kw_only=True)
 class ScaleSuspect(Happening):
-    """The accelerometer does not read 1 g at rest, but 15 % more or less: its assumed range or scale is wrong.
+    """The accelerometer reads over 15 % more or less than 1 g at rest, so the assumed range or scale is wrong.
 
-    Reported once. Known at the end of a rest, which `t` is: of 1.5 s in packets, of 0.5 s in samples."""
+    It is reported once. `t` is the end of a rest of 1.5 s (in packets) or 0.5 s (in samples), at which it is
+    reported."""
 
     site: Site
     magnitude: float
@@ -179,10 +182,10 @@ class ScaleSuspect(Happening):
 
 @frozen(kw_only=True)
 class LayoutKnown(Happening):
-    """The layout of the pressure cells is known, from the device or from the calibration.
+    """The layout of the pressure cells is known from the device or from the calibration.
 
-    A layout of the calibration applies when samples have as many cells. Known with the packet that has it or the first
-    such sample, whose time `t` is."""
+    A layout of the calibration is used if the samples have as many cells. `t` is the time of the packet with the
+    layout, or of the first such sample, with which it is reported."""
 
     site: Site
     layout: Layout
@@ -191,7 +194,7 @@ class LayoutKnown(Happening):
 
 @frozen(kw_only=True)
 class BatteryLevel(Happening):
-    """The device reported its battery level. Known with that packet, whose arrival `t` is."""
+    """The device reported its battery level; `t` is the arrival of the packet, with which it is reported."""
 
     site: Site
     level: float
@@ -200,7 +203,7 @@ class BatteryLevel(Happening):
 
 @frozen(kw_only=True)
 class KeysChanged(Happening):
-    """The keys of the device that are down changed. Known with the packet that reports it, whose arrival `t` is."""
+    """A key of the device was pressed or released; `t` is the arrival of the packet, with which it is reported."""
 
     site: Site
     down: tuple[str, ...]
@@ -209,12 +212,12 @@ class KeysChanged(Happening):
 
 @frozen(kw_only=True)
 class Limitation(Happening):
-    """A limitation of the session by the sensors that it has, reported once.
+    """The session cannot measure something with the sensors that it has; it is reported once.
 
-    Known with the packet or sample that shows it, whose time `t` is; a value of a sample counts as missing when it has
-    been missing for a while."""
+    `t` is the time of the packet or sample that shows it, with which it is reported. A value that is missing in samples
+    is reported only after it was missing for some time."""
 
     site: Site | None
-    """Site whose sensor is the reason; None for the whole session."""
+    """Site whose sensor causes the limitation; None for the whole session."""
     what: str
     """Description in one sentence."""

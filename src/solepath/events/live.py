@@ -1,4 +1,4 @@
-"""Events of present positions, for drawing: never final, and only on request."""
+"""Events of the newest positions and pressures for live display; they are never final, and emitted only on request."""
 
 from __future__ import annotations
 
@@ -9,10 +9,9 @@ from .happening import Happening
 
 @frozen(kw_only=True)
 class FootMoved(Happening):
-    """The position of a foot after one sample; only from a session made with `poses=True`.
+    """The position of a foot after one sample, reported with that sample; only from a session with `poses=True`.
 
-    Known with that sample. Live, so never final: the stride that it belongs to has the foot's final path. World frame,
-    m and m/s."""
+    It is never final: the StrideTaken of the stride has the foot's final displacement."""
 
     foot: Foot
     position: Vec3
@@ -26,31 +25,31 @@ class FootMoved(Happening):
 
 @frozen(kw_only=True)
 class WearerMoved(Happening):
-    """The position of the wearer after a stride, the same as `Session.position`; only with `poses=True`.
+    """The position of the wearer after a stride, as in `Session.position`; only from a session with `poses=True`.
 
-    `t` is the newest sample of either foot. Known once with each sample that ends a stride, after its StrideTaken.
-    Live, so never final: later strides may move earlier positions as well. World frame."""
+    `t` is the newest sample of either foot. It is reported once for each sample that ends a stride, after the
+    StrideTaken. It is never final, because later strides may move earlier positions as well."""
 
     position: Vec3
     """Position of the wearer, world frame, m."""
     covariance: tuple[float, float, float, float, float, float]
-    """Covariance of `position`: xx, xy, xz, yy, yz, zz in m^2."""
+    """Covariance of `position`: xx, xy, xz, yy, yz, zz, m^2."""
     final: bool = False
 
 
 @frozen(kw_only=True)
 class FootPressed(Happening):
-    """The values of an insole's cells in one sample; only from a session made with `pressures=True`.
+    """The values of an insole's cells in one sample; only from a session with `pressures=True`.
 
-    One for each sample with cells that can be used, from the first on, and known with it. Live, so never final."""
+    It is reported with every sample that has usable cells. It is never final."""
 
     foot: Foot
     values: tuple[float, ...]
-    """Value of each cell, in the layout's order and the unit of the samples (N if a calibration turns counts into N).
-    Its noise is subtracted and, once the foot has been in the air, its value there; 0 where a cell has failed."""
+    """Value of each cell in the layout's order, in the unit of the samples (N if a calibration converts counts to N).
+    The cell's noise is subtracted, and after the first swing also its value in swing. A failed cell has 0."""
     force: float
     """Sum of `values`, in their unit."""
     centre: tuple[float, float] | None
-    """Centre of pressure, the mean of the cells' places weighted by `values`, foot frame, m. None while there is hardly
-    any load, and as long as neither the device nor a calibration has given the places of the cells (LayoutKnown)."""
+    """Centre of pressure: mean position of the cells weighted by `values`, foot frame, m. None while there is hardly
+    any load, and while the positions of the cells are not known from the device or a calibration (LayoutKnown)."""
     final: bool = False

@@ -1,4 +1,6 @@
-"""Events of the wearer's place on the floor plan."""
+"""Events of the wearer's place, which is level and position on a floor plan.
+
+Plan frame: x and y in the plan's plane, z up, right handed, m (protocol/floorplan.md)."""
 
 from __future__ import annotations
 
@@ -12,41 +14,41 @@ class Candidate:
     """One place at which the wearer may be."""
 
     level: str
-    """Level.id of the plan."""
+    """Level of the candidate, a `Level.id` of the plan."""
     position: Vec3
-    """Position in the plan frame, m; z is the height above the plan's zero, or the track's own if that is unknown."""
+    """Position in the plan frame, m; z is the height above the plan's zero, or the track's z if that is unknown."""
     heading: float | None
-    """Direction of the track's x axis in the plan frame, rad; None while unknown. Counter-clockwise from the plan's x
-    axis."""
+    """Direction of the track's x axis in the plan frame, rad, counter-clockwise from the plan's x axis; None if
+    unknown."""
     weight: float
-    """Share of the probability, 0 to 1; the weights of all candidates add up to 1."""
+    """Probability of the candidate, 0 to 1; the weights of all candidates add up to 1."""
     origin: str
-    """Name of the stairs, lift or start that it came from."""
+    """Name of the stairs, elevator or start position from which the candidate was derived."""
 
 
 @frozen(kw_only=True)
 class Placed(Happening):
-    """The wearer's place on the plan after a stride, or after stairs or a lift.
+    """The wearer's place on the plan after a stride, or on arrival by stairs or elevator.
 
-    Source: Liu et al. 2015, IEEE MASS, section IV.E. Known with the StrideTaken, or the event that reports the arrival;
-    `t` is the newest sample then. Live: later strides may show another place."""
+    Source: Liu et al. 2015, IEEE MASS, section IV.E. It is reported with the StrideTaken, or with the event of the
+    arrival. `t` is the newest sample at that moment. It is never final: later strides may show another place."""
 
     level: str
     """Level of the best candidate."""
     position: Vec3
-    """Mean of the best candidate, plan frame, m."""
+    """Mean position of the best candidate, plan frame, m."""
     spread: float
-    """Root mean square distance of all candidates' probability from `position`, m."""
+    """Root mean square distance from `position`, weighted by the probability of all candidates, m."""
     candidates: tuple[Candidate, ...]
-    """Candidates, the heaviest first; only one when the place is certain."""
+    """Candidates, the most probable first; one candidate when the place is certain."""
     final: bool = False
 
 
 @frozen(kw_only=True)
 class PlaceLost(Happening):
-    """The place on the plan is unknown from here on; the track goes on without the plan.
+    """The place on the plan is unknown from `t` on, until a later Placed; the track continues without the plan.
 
-    Known with the sample or stride that shows it; `t` is the newest sample then. A later Placed ends it."""
+    It is reported with the sample or stride that shows it. `t` is the newest sample at that moment."""
 
     what: str
     """Reason in one sentence."""

@@ -1,4 +1,4 @@
-"""Events of faults in how sensors are worn, or in their cells. The rest of the session goes on."""
+"""Events of sensors that are worn wrongly or whose cells fail; the session continues without the faulty data."""
 
 from __future__ import annotations
 
@@ -12,18 +12,22 @@ from .happening import Happening
 class CellFault(Enum):
     """Fault of a pressure cell."""
 
-    DEAD = "dead"  # it shows no load where its neighbours do
-    STUCK = "stuck"  # it shows one value, whatever happens
-    SATURATED = "saturated"  # it stays at the end of its range
-    MISSING = "missing"  # no number comes from it
+    DEAD = "dead"
+    """The cell shows no load although its neighbours do."""
+    STUCK = "stuck"
+    """The cell's value never changes."""
+    SATURATED = "saturated"
+    """The cell's value stays at the end of its range."""
+    MISSING = "missing"
+    """The cell's value is not a number."""
 
 
 @frozen(kw_only=True)
 class CellsFailed(Happening):
-    """Some cells are left out from now on. Reported once for each fault and set of cells.
+    """Some cells have a fault and are not used from `t` on; it is reported once for each fault and set of cells.
 
-    Known at the end of the second window of walking in a row that shows it (four swings each and 3 s at least), which
-    `t` is; MISSING after 1 s."""
+    `t` is the end of the second window of walking in a row that shows the fault, at which it is reported; a window has
+    at least four swings and 3 s. MISSING is reported after 1 s."""
 
     site: Site
     fault: CellFault
@@ -34,10 +38,10 @@ class CellsFailed(Happening):
 
 @frozen(kw_only=True)
 class InsoleNeverUnloads(Happening):
-    """The foot walks and its insole shows load all the time: it is jammed, or the shoe presses on it too hard.
+    """The insole shows load all the time while the foot walks: it is jammed, or the shoe presses on it too hard.
 
-    Phases come from the inertial sensor as long as that lasts. Known at the end of the second window of walking in a
-    row in which the load never ended (four swings each and 3 s at least), which `t` is."""
+    While that lasts, phases come from the inertial sensor. `t` is the end of the second window of walking in a row in
+    which the load never ended, at which it is reported; a window has at least four swings and 3 s."""
 
     site: Site
     seconds: float
@@ -46,30 +50,31 @@ class InsoleNeverUnloads(Happening):
 
 @frozen(kw_only=True)
 class FeetSwapped(Happening):
-    """The data of the left foot look like a right foot's, and the other way round. Reported once; it changes nothing.
+    """The data of the left foot look like those of a right foot, and those of the right foot like a left foot's.
 
-    Known once the layouts of both insoles show it, else after 8 strides or more of each foot, by how they roll or how
-    load moves over them; late or never for a wearer who hardly rolls the feet. `t` is that time."""
+    It is reported once, and the session does not exchange the feet. `t` is the time at which it is reported: when the
+    layouts of both insoles show it, else after at least 8 strides of each foot, by the way in which the feet roll or
+    load moves over the soles. It is reported late or never for a wearer who hardly rolls the feet."""
 
 
 @frozen(kw_only=True)
 class FootSilent(Happening):
-    """One foot walks on and no data come from the other.
+    """One foot continues to walk while no data come from the other foot.
 
-    Known with the walking foot's sample by which it has taken three strides and 3 s have passed since the silent foot's
-    last sample, which `t` is."""
+    `t` is the walking foot's first sample after three of its strides and 3 s without a sample of the silent foot. It is
+    reported with that sample."""
 
     foot: Foot
-    """The silent foot."""
+    """Foot without data."""
     silent_for: float
-    """Time since its last sample, s."""
+    """Time since the last sample of `foot`, s."""
 
 
 @frozen(kw_only=True)
 class FootResumed(Happening):
-    """Samples of this foot came again after FootSilent. Known with the first of them, which `t` is."""
+    """Samples of a foot came again after FootSilent; `t` is the first of them, with which it is reported."""
 
     foot: Foot
-    """The foot that was silent."""
+    """Foot that was silent."""
     silent_for: float
-    """Time from its last sample before the silence to the first after it, s."""
+    """Time from the last sample of `foot` before the silence to the first sample after it, s."""

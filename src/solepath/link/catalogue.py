@@ -1,4 +1,4 @@
-"""Every built-in device, for code that searches for devices or names them; importing it loads all of them."""
+"""The tables of all built-in devices, for code that searches for devices; importing this module loads all of them."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from .devices import cc2541, cc2650, dot, dot_orientation, insole, orphe, thingy
 from .driver import Driver
 
 DECLARED: tuple[Driver, ...] = (cc2650.DRIVER, orphe.DRIVER, dot.DRIVER, dot_orientation.DRIVER, thingy.DRIVER)
+"""Drivers of the devices that are declared by data alone (driver.py)."""
 PROFILES = (
     insole.PROFILE,
     cc2650.PROFILE,

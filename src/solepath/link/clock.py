@@ -1,23 +1,22 @@
 """Conversion of device ticks to host seconds, with a line fitted below the packet arrivals.
 
-A packet arrives at `offset + slope * ticks + delay`, and radio delay is only ever positive. Therefore the fitted line
-does not pass through the middle of the arrivals: it stays below all of them. Of all lines under the points, the fit is
-the one with the least sum of distances. It is the edge of the lower convex hull above the points' mean (S. Moon, P.
-Skelly, D. Towsley, "Estimation and removal of clock skew from network delay measurements", 1999).
+A packet arrives at `offset + slope * ticks + delay`, and a radio's delay is always positive. Therefore the fitted line
+lies below all arrivals. Among the lines below them, it is the one with the least sum of vertical distances: the edge of
+the lower convex hull that spans the points' mean time (S. Moon, P. Skelly, D. Towsley, "Estimation and removal of clock
+skew from network delay measurements", 1999). The numbers below are those of protocol/clock.md.
 
-Memory is bounded. The fit keeps only the earliest arrival of each window of device time, and at most 32 windows. When
-there are more, windows are merged in pairs until a window is 16 s long; from then on the oldest window is dropped.
+Memory is bounded. Device time is cut into windows. The fit keeps only the earliest arrival of each window, and at most
+32 windows. When there are more, they are merged in pairs until windows are 16 s long; then the oldest is dropped.
 
-Times are assigned once and never revised. They follow the line by slewing, so that the time between two neighbouring
-samples stays true within 0.5 % (the cost: a first packet that came 50 ms late is corrected over 10 s), unless the error
-is above 0.25 s, when up to 2 % is allowed. Times strictly increase.
+A time is assigned once and never revised. Assigned times approach the line slowly (slewing): the time between two
+neighbouring samples is changed by at most 0.5 %, so a first packet that came 50 ms late is corrected over 10 s. While
+the error is above 0.25 s, up to 2 % is allowed. Assigned times strictly increase.
 
-Two clocks are comparable only when both are settled. A fit that starts with a late packet, as at the start of a stream
-or after a device restart, lags until slewing has removed the delay. A clock is settled when its times have been within
-5 ms of the line for 5 s of device time. Over radios of up to 50 ms of jitter, or connection intervals up to 50 ms, two
-settled clocks of 100 packets a second then agree within 5 ms. A delay that *every* packet of one device has cannot be
-seen at the receiving end. Where packets are nearly as far apart as the radio's connection events, that delay is up to
-one interval, until the two have drifted past one another."""
+The times of two clocks are comparable only when both clocks are settled. A fit that starts with a late packet is behind
+until slewing has removed the delay. A clock is settled when its times have been within 5 ms of the line for 5 s of
+device time. Then two clocks of 100 packets a second agree within 5 ms, with up to 50 ms of radio jitter or connection
+interval. A delay that *every* packet of one device has cannot be measured by the receiver. If packets are nearly as far
+apart as the radio's connection events, that delay is up to one connection interval until the two drift apart."""
 
 from __future__ import annotations
 
@@ -25,186 +24,188 @@ from copy import copy
 
 from ..types.attrs import define, field
 
-FIRST_WINDOW = 0.25
-"""Length of a window while the fit is young, device seconds; only its earliest arrival is kept."""
-LAST_WINDOW = 16.0
-"""Length of a window once the fit is old, device seconds.
+FIRST_WINDOW_LENGTH = 0.25
+"""Length of a window when the fit starts, device seconds."""
+LAST_WINDOW_LENGTH = 16.0
+"""Largest length of a window, device seconds.
 
-32 of them are about eight minutes, which is short beside a change of temperature."""
+32 windows of this length cover about eight minutes, in which a crystal's temperature hardly changes."""
 MAX_WINDOWS = 32
-"""Number of windows that the fit keeps at most."""
+"""Largest number of windows that the fit keeps."""
 MAX_DRIFT = 0.06
-"""Largest deviation of the slope from nominal that the fit accepts (some insoles run 4 % fast by design)."""
-MAX_SLEW, MAX_SLEW_FAR, FAR_OFF = 0.005, 0.02, 0.25
-"""Largest relative slew, the largest slew far off the line, and the error (s) above which the latter holds."""
+"""Largest relative deviation of the slope from nominal (some insoles run 4 % fast by design)."""
+MAX_SLEW, MAX_FAST_SLEW, LARGE_ERROR = 0.005, 0.02, 0.25
+"""Largest relative slew, largest relative slew for a large error, and smallest large error (s)."""
 SLEW_TIME = 2.0
-"""Time constant in s with which a small error is slewed away."""
-MAX_AHEAD = 0.5
-"""Time by which a packet may seem to arrive before it was measured, s.
+"""Time constant with which a small error is corrected, s."""
+MAX_EARLY_ARRIVAL = 0.5
+"""Largest error of the fit, s: a packet may seem to arrive this long before it was measured."""
+SETTLED_ERROR, SETTLING_TIME = 0.005, 5.0
+"""Largest distance of a settled clock's times from the line (s), and the time for which it must hold (device s)."""
+JUMP_DELAY, STOPPED_DELAY, STOPPED_DURATION = 30.0, 1.0, 20.0
+"""Delay that shows that the clock jumped, and delay and duration that show that the clock stood still, s.
 
-A packet cannot arrive before it was measured, but the fit may be wrong by this much, not more."""
-SETTLED_ERROR, SETTLED_FOR = 0.005, 5.0
-"""Largest distance of a settled clock's times from the line, s, and device seconds for which it must hold."""
-JUMP_DELAY, STOPPED_DELAY, STOPPED_FOR = 30.0, 1.0, 20.0
-"""Delay (s) that no device buffers; and the delay and duration (s) that show a clock that stood still.
-
-A packet later than JUMP_DELAY belongs to another clock. So does one when every packet for STOPPED_FOR seconds was later
-than STOPPED_DELAY."""
+No device holds packets back for JUMP_DELAY. The clock stood still when every packet of STOPPED_DURATION seconds came
+later than STOPPED_DELAY."""
 
 
 @define
 class Clock:
     """The fit of one device clock to packet arrivals.
 
-    The caller unwraps the ticks. After `observe(ticks, arrival)` for a packet, `assign_time(ticks)` gives the time of
-    each of its samples in order. Latency none. The error is 5 ms once the first packet's delay is slewed away, plus the
-    constant part of the radio's delay, which cannot be seen from one end."""
+    The caller unwraps the ticks. It calls `observe` once for each packet, then `assign_time` for each of the packet's
+    samples in order. There is no latency. The error of a settled clock is 5 ms plus the constant part of the radio's
+    delay, which the receiver cannot measure."""
 
     rate: float
     """Nominal ticks per second."""
     origin: float = 0.0
-    """Arrival of the first packet, s; residuals are taken from here to keep numbers small."""
+    """Arrival of the first packet, s; residuals are relative to it, so that they keep all their digits."""
     first_tick: float = 0.0
     """Ticks of the first packet."""
-    xs: list[float] = field(factory=list)
+    window_times: list[float] = field(factory=list)
     """Time of each window's earliest arrival, device seconds since the first packet."""
-    rs: list[float] = field(factory=list)
+    window_residuals: list[float] = field(factory=list)
     """Residual of each window's earliest arrival: arrival minus device time, s."""
-    window: float = FIRST_WINDOW
-    """Present length of a window, device seconds."""
+    window_length: float = FIRST_WINDOW_LENGTH
+    """Length of a window now, device seconds."""
     window_start: float = 0.0
     """Device second at which the newest window starts."""
     drift: float = 0.0
-    """Slope of the line minus 1."""
+    """Slope of the line minus 1; positive when the device's clock is slow."""
     offset: float = 0.0
-    """Height of the line at x = 0, s."""
+    """Height of the line at the first packet, relative to `origin`, s."""
     behind_since: float | None = None
-    """Arrival since which every packet was more than STOPPED_DELAY late, s; None when the newest was not."""
-    last_x: float | None = None
-    """Device seconds of the newest time assigned."""
+    """Arrival of the first of the newest packets that all came later than STOPPED_DELAY, s; None without any."""
+    last_device_time: float | None = None
+    """Newest sample that was assigned a time, device seconds since the first packet."""
     last_t: float = 0.0
-    """The newest time assigned, s."""
-    last_off_line: float = 0.0
-    """Device seconds of the newest time that was further than SETTLED_ERROR from the line, or of the first time."""
+    """Newest assigned time, s."""
+    last_off_line_time: float = 0.0
+    """Newest sample whose time was further than SETTLED_ERROR from the line, or the first sample, device seconds."""
     unsettled_until: float | None = None
     """Newest time assigned while the clock was unsettled, s; times up to it are not comparable with other clocks."""
     t_min: float | None = None
-    """Lower bound of the first time assigned, s; a fit that follows another keeps the order of times."""
+    """Lower bound of the first assigned time, s; it keeps times in order when a fit follows another one."""
 
     def fit_time(self, ticks: float) -> float:
-        """Return the time of `ticks` on the fitted line, s; it is not slewed and may still change."""
+        """Return the time of `ticks` on the fitted line, s, without slewing; a later packet may change it."""
         x = (ticks - self.first_tick) / self.rate
         return self.origin + self.offset + x * (1.0 + self.drift)
 
     def contradicts(self, ticks: float, arrival: float) -> bool:
-        """Return whether a packet measured at `ticks` that arrived at `arrival` (s) belongs to another clock.
-
-        Changes nothing."""
-        if not self.xs:
+        """Return whether a packet measured at `ticks` that arrived at `arrival` (s) belongs to another clock."""
+        if not self.window_times:
             return False
         x = (ticks - self.first_tick) / self.rate
         delay = arrival - (self.origin + self.offset + x * (1.0 + self.drift))
         if delay < 0.0:
-            return delay < -(MAX_AHEAD + 0.01 * max(0.0, x - self.xs[-1]))
+            return delay < -(MAX_EARLY_ARRIVAL + 0.01 * max(0.0, x - self.window_times[-1]))
         if delay > JUMP_DELAY:
             return True
-        return delay > STOPPED_DELAY and self.behind_since is not None and arrival - self.behind_since > STOPPED_FOR
+        return (
+            delay > STOPPED_DELAY and self.behind_since is not None and arrival - self.behind_since > STOPPED_DURATION
+        )
 
     def observe(self, ticks: float, arrival: float) -> None:
-        """Update the fit with a packet whose newest sample is of `ticks` and that arrived at `arrival` (s)."""
-        if not self.xs:
-            self.origin, self.first_tick = arrival, float(ticks)  # a float, as it is saved: a count may have 64 bits
-            self.xs, self.rs = [0.0], [0.0]
+        """Update the fit with a packet whose last sample was measured at `ticks` and that arrived at `arrival` (s)."""
+        if not self.window_times:
+            self.origin, self.first_tick = arrival, float(ticks)  # saved as a float; a 64-bit count would be rounded
+            self.window_times, self.window_residuals = [0.0], [0.0]
             return
         x = (ticks - self.first_tick) / self.rate
         r = arrival - self.origin - x
-        above = r - self.offset - self.drift * x
-        if above > STOPPED_DELAY:
+        height = r - self.offset - self.drift * x
+        if height > STOPPED_DELAY:
             if self.behind_since is None:
                 self.behind_since = arrival
         else:
             self.behind_since = None
-        if x >= self.window_start + self.window:
+        if x >= self.window_start + self.window_length:
             self.window_start = x
-            self.xs.append(x)
-            self.rs.append(r)
-            if len(self.xs) > MAX_WINDOWS:
-                self._thin()
+            self.window_times.append(x)
+            self.window_residuals.append(r)
+            if len(self.window_times) > MAX_WINDOWS:
+                self._merge_windows()
             self._fit()
-        elif above < self.rs[-1] - self.offset - self.drift * self.xs[-1]:
-            self.xs[-1], self.rs[-1] = x, r
-            if above < 0.0:
+        elif height < self.window_residuals[-1] - self.offset - self.drift * self.window_times[-1]:
+            self.window_times[-1], self.window_residuals[-1] = x, r
+            if height < 0.0:
                 self._fit()
 
     def assign_time(self, ticks: float) -> float:
         """Return the time of a sample measured at `ticks`, s; call it once per sample, in order of ticks."""
         x = (ticks - self.first_tick) / self.rate
         fitted = self.origin + self.offset + x * (1.0 + self.drift)
-        if self.last_x is None:
+        if self.last_device_time is None:
             t = fitted if self.t_min is None else max(fitted, self.t_min)
         else:
-            dx = x - self.last_x
+            dx = x - self.last_device_time
             t_unslewed = self.last_t + dx * (1.0 + self.drift)
             error = fitted - t_unslewed
-            limit = dx * (MAX_SLEW if -FAR_OFF < error < FAR_OFF else MAX_SLEW_FAR)
+            max_slew = dx * (MAX_SLEW if -LARGE_ERROR < error < LARGE_ERROR else MAX_FAST_SLEW)
             slew = error * (dx / SLEW_TIME) if dx < SLEW_TIME else error
-            t = t_unslewed + max(-limit, min(limit, slew))
-            if t <= self.last_t:  # below float resolution, or ticks that stand still
+            t = t_unslewed + max(-max_slew, min(max_slew, slew))
+            if t <= self.last_t:  # the step is below float resolution, or the ticks stand still
                 t = self.last_t + 1e-6
-        if self.last_x is None or not -SETTLED_ERROR <= fitted - t <= SETTLED_ERROR:
-            self.last_off_line = x
-        if x - self.last_off_line < SETTLED_FOR:
+        if self.last_device_time is None or not -SETTLED_ERROR <= fitted - t <= SETTLED_ERROR:
+            self.last_off_line_time = x
+        if x - self.last_off_line_time < SETTLING_TIME:
             self.unsettled_until = t
-        self.last_x, self.last_t = x, t
+        self.last_device_time, self.last_t = x, t
         return t
 
     def preview_time(self, ticks: float) -> float:
-        """Return the time that `assign_time(ticks)` would assign, s. Changes nothing."""
+        """Return the time that `assign_time(ticks)` would assign, s, without assigning it."""
         return copy(self).assign_time(ticks)
 
-    def _thin(self) -> None:
-        """Merge the windows in pairs, or drop the oldest when windows have their last length."""
-        if self.window >= LAST_WINDOW:
-            del self.xs[0], self.rs[0]
+    def _merge_windows(self) -> None:
+        """Merge the windows in pairs, or drop the oldest window when windows have their largest length."""
+        if self.window_length >= LAST_WINDOW_LENGTH:
+            del self.window_times[0], self.window_residuals[0]
             return
-        self.window *= 2.0
-        heights = [r - self.drift * x for x, r in zip(self.xs, self.rs, strict=True)]
-        lower = [i if heights[i] <= heights[i + 1] else i + 1 for i in range(0, len(heights) - 1, 2)]
+        self.window_length *= 2.0
+        heights = [r - self.drift * x for x, r in zip(self.window_times, self.window_residuals, strict=True)]
+        lowest = [i if heights[i] <= heights[i + 1] else i + 1 for i in range(0, len(heights) - 1, 2)]
         if len(heights) % 2:
-            lower.append(len(heights) - 1)
-        self.xs = [self.xs[i] for i in lower]
-        self.rs = [self.rs[i] for i in lower]
+            lowest.append(len(heights) - 1)
+        self.window_times = [self.window_times[i] for i in lowest]
+        self.window_residuals = [self.window_residuals[i] for i in lowest]
 
     def _fit(self) -> None:
         """Fit the line to the windows' earliest arrivals."""
-        xs, rs = self.xs, self.rs
-        span = xs[-1] - xs[0]
-        drift = max(-MAX_DRIFT, min(MAX_DRIFT, _support_slope(xs, rs)))
-        heights = [r - drift * x for x, r in zip(xs, rs, strict=True)]
-        # Uncertainty of the slope: the minima's mean height over the line, tilted across the span. Few points lie
-        # close to any line, hence `free`. A drift no larger than its uncertainty stays near nominal; a device that is
-        # 4 % off is followed within about two seconds.
-        free = len(xs) - 4
+        times, residuals = self.window_times, self.window_residuals
+        span = times[-1] - times[0]
+        drift = max(-MAX_DRIFT, min(MAX_DRIFT, _support_slope(times, residuals)))
+        heights = [r - drift * x for x, r in zip(times, residuals, strict=True)]
+        # The uncertainty of the slope is the points' mean height over the line, divided by the span of their times. Few
+        # points always lie close to a line, hence `spare_points`. A drift below its uncertainty is reduced towards 0; a
+        # drift of 4 % is followed within about two seconds.
+        spare_points = len(times) - 4
         drift_error = (
-            4.0 * (sum(heights) / len(heights) - min(heights)) / span * (1.0 + 8.0 / free) if free > 0 else 0.0
+            4.0 * (sum(heights) / len(heights) - min(heights)) / span * (1.0 + 8.0 / spare_points)
+            if spare_points > 0
+            else 0.0
         )
-        drift *= drift * drift / (drift * drift + drift_error * drift_error) if free > 0 and drift != 0.0 else 0.0
-        heights = [r - drift * x for x, r in zip(xs, rs, strict=True)]
+        drift *= (
+            drift * drift / (drift * drift + drift_error * drift_error) if spare_points > 0 and drift != 0.0 else 0.0
+        )
+        heights = [r - drift * x for x, r in zip(times, residuals, strict=True)]
         self.drift, self.offset = drift, min(heights)
 
 
-def _support_slope(xs: list[float], rs: list[float]) -> float:
-    """Return the slope of the edge of the points' lower convex hull above their mean x. xs must increase."""
+def _support_slope(times: list[float], residuals: list[float]) -> float:
+    """Return the slope of the edge of the points' lower convex hull that spans their mean time; `times` increase."""
     hull: list[int] = []
-    for i, (x, r) in enumerate(zip(xs, rs, strict=True)):
+    for i, (x, r) in enumerate(zip(times, residuals, strict=True)):
         while len(hull) >= 2:
             a, b = hull[-2], hull[-1]
-            if (rs[b] - rs[a]) * (x - xs[a]) < (r - rs[a]) * (xs[b] - xs[a]):
+            if (residuals[b] - residuals[a]) * (x - times[a]) < (r - residuals[a]) * (times[b] - times[a]):
                 break
             hull.pop()
         hull.append(i)
-    middle = sum(xs) / len(xs)
+    middle = sum(times) / len(times)
     for a, b in zip(hull, hull[1:], strict=False):
-        if xs[b] >= middle:
-            return (rs[b] - rs[a]) / (xs[b] - xs[a])
+        if times[b] >= middle:
+            return (residuals[b] - residuals[a]) / (times[b] - times[a])
     return 0.0

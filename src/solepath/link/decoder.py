@@ -1,17 +1,17 @@
-"""The link of one site: packets in, samples and link events out.
+"""The link of one site, which turns packets into samples and link events.
 
-The channel's prefix identifies the device, the first time that a packet of it can be used. This file does what all
-devices have in common: it checks the arrival time and the device's address, and handles silence, battery and firmware.
-Bytes and clocks are handled by devices/ and, for declared devices, by stream.py; kinds.py has the table of all. An app
-that adds devices passes its own table with every call: the table holds functions, and a decoder is data.
+This module does the work that is the same for all devices: it checks the arrival time and the device's address, and it
+handles silence, battery and firmware. The first usable packet shows the kind of device by its channel's prefix.
+Bytes and clocks are handled in devices/ and, for declared devices, in stream.py; kinds.py has the table of all kinds.
+An app that adds devices passes its own table with every call, because the table holds functions and a decoder is data.
 
-A site is bound to the first device whose packets have its address (`Packet.device`), or to the one that it was made
-for. From then on packets of other devices, and packets without an address, are rejected; upper and lower case are one
-address. Packets about the receiver itself belong to no device and are always accepted.
+A site is bound to the first device whose address (`Packet.device`) a packet has, unless it was bound when it was made.
+From then on, packets of other devices and packets without an address are rejected. Upper and lower case are the same
+address. A packet of a channel receiver/... may be without an address, because it is about the receiver itself.
 
-Arrival time must not run backwards: such packets are rejected. But a receiver's clock that was set back for good must
-not end the stream, so the twentieth such packet in a row gives ClockReset, and times restart there, before the old
-ones. That count is the only thing that a rejected packet changes."""
+A packet is rejected when it arrived before the newest one. If twenty such packets come in a row, the receiver's clock
+was set back: the twentieth gives ClockReset, and times restart earlier than before. The count of these packets is the
+only thing that a rejected packet changes. The twenty are those of protocol/clock.md."""
 
 from __future__ import annotations
 
@@ -26,92 +26,98 @@ from .device_link import DeviceLink, Output
 from .kinds import BUILT_IN_KINDS, DeviceKinds
 
 SET_BACK_PACKETS = 20
-"""Number of packets in a row from before the newest arrival that show that the receiver's clock was set back."""
-MAX_TIME = 1e11
-"""Largest magnitude of an arrival time, s; a packet beyond it is rejected."""
+"""Number of packets in a row with earlier arrivals that shows that the receiver's clock was set back."""
+MAX_ARRIVAL_TIME = 1e11
+"""Largest magnitude of an arrival time, s."""
 
 
 @define
 class Decoder:
     """The link of one site.
 
-    `feed` is total: any packet gives events, never an exception, and a rejected one changes nothing (except the count
-    of packets whose time runs backwards). Sample times strictly increase from one ClockReset to the next; `known_at` is
-    the arrival that settled the sample, or `t` where that is later."""
+    `feed` never raises an exception, whatever the packet. A rejected packet changes nothing except `backward_packets`.
+    Sample times strictly increase from one ClockReset to the next. A sample's `known_at` is the arrival of the packet
+    that completed it, or `t` if that is later."""
 
     site: Site
     """Site whose packets are decoded."""
     device: str = ""
-    """Address of the device that the site is bound to; "" until one is known."""
+    """Address of the device that the site is bound to; "" before it is bound."""
     link: DeviceLink | None = None
-    """Link of the device; None until a packet of it was used."""
+    """Link of the device; None until one of its packets was used."""
     firmware: str = ""
     """Firmware revision of the device; "" until it is known."""
-    arrived: float | None = None
-    """Newest arrival of a packet that was used, s."""
-    backwards: int = 0
-    """Number of packets rejected in a row because their arrival was before the newest."""
-    stream_arrived: float | None = None
-    """Newest arrival on a channel that must not fall silent, s."""
+    newest_arrival: float | None = None
+    """Arrival of the newest packet that was used, s."""
+    backward_packets: int = 0
+    """Number of packets rejected in a row because they arrived before the newest one."""
+    newest_stream_arrival: float | None = None
+    """Arrival of the newest packet of a channel that must not fall silent, s."""
     stale: bool = False
-    """True if the stream is silent and StreamStale was reported."""
+    """True from StreamStale until StreamResumed."""
 
     def feed(self, packet: Packet, kinds: DeviceKinds = BUILT_IN_KINDS) -> Output:
         """Return the samples and events of one packet, in the order in which they become known."""
         t = packet.t
         if not isfinite(t):
             return self._reject(packet, Rejection.NOT_FINITE, f"arrival time {t}")
-        if not -MAX_TIME <= t <= MAX_TIME:
+        if not -MAX_ARRIVAL_TIME <= t <= MAX_ARRIVAL_TIME:
             return self._reject(packet, Rejection.ABSURD, f"arrival time {t:g} s")
         if packet.site is not self.site:
             return self._reject(packet, Rejection.WRONG_SITE, f"of {packet.site.value}, not {self.site.value}")
         if packet.device != self.device and self._is_other_device(packet):
             return self._reject(packet, Rejection.WRONG_DEVICE, f"of {packet.device or 'nobody'}, not {self.device}")
-        if self.arrived is not None and t < self.arrived:
-            if self.backwards + 1 < SET_BACK_PACKETS:
-                self.backwards += 1
-                return self._reject(packet, Rejection.TIME_BACKWARDS, f"{self.arrived - t:.6g} s before the newest")
+        if self.newest_arrival is not None and t < self.newest_arrival:
+            if self.backward_packets + 1 < SET_BACK_PACKETS:
+                self.backward_packets += 1
+                return self._reject(
+                    packet, Rejection.TIME_BACKWARDS, f"{self.newest_arrival - t:.6g} s before the newest"
+                )
             return self._restart(packet, kinds)
         try:
-            return self._use(packet, kinds)
+            return self._use_packet(packet, kinds)
         except WireError as error:
             return self._reject(packet, error.reason, error.detail)
 
     def advance(self, now: float, kinds: DeviceKinds = BUILT_IN_KINDS) -> Output:
-        """Let time pass to `now`, s, with nothing arriving. A time that is not finite is ignored."""
-        link, stream_arrived = self.link, self.stream_arrived
-        if link is None or stream_arrived is None or self.stale or link.may_be_silent or not isfinite(now):
+        """Return the events of time that passes until `now`, s, without packets; ignore a time that is not finite."""
+        link, newest_stream_arrival = self.link, self.newest_stream_arrival
+        if link is None or newest_stream_arrival is None or self.stale or link.may_be_silent or not isfinite(now):
             return []
         kind = kinds.loaded.get(link.name) or kinds.get(link.name)
-        if kind is None or now - stream_arrived <= kind.profile.stale_after:
+        if kind is None or now - newest_stream_arrival <= kind.profile.stale_after:
             return []
         limit = kind.profile.stale_after
         self.stale = True
         out = link.flush(now)
-        out.append(StreamStale(t=stream_arrived + limit, known_at=now, site=self.site, silent_for=now - stream_arrived))
+        out.append(
+            StreamStale(
+                t=newest_stream_arrival + limit, known_at=now, site=self.site, silent_for=now - newest_stream_arrival
+            )
+        )
         return out
 
     def finish(self) -> Output:
-        """Return the samples that still wait, at the end of all data."""
-        return [] if self.link is None or self.arrived is None else self.link.flush(self.arrived)
+        """Return the samples that still wait for other data; call it at the end of all data."""
+        return [] if self.link is None or self.newest_arrival is None else self.link.flush(self.newest_arrival)
 
     def is_bound_to(self, device: str) -> bool:
-        """Return whether the site is bound to just this address, in any case; "" asks whether it is bound to none."""
+        """Return whether the site is bound to this address, in upper or lower case; for "", whether it is not bound."""
         return device == self.device or device.upper() == self.device.upper()
 
     def _is_other_device(self, packet: Packet) -> bool:
-        """Return whether a packet is of another device than the site is bound to. The receiver itself is of none."""
+        """Return whether a packet is of another device than the one that the site is bound to."""
         if self.device == "" or self.is_bound_to(packet.device):
             return False
         return packet.device != "" or packet.channel.partition("/")[0] != "receiver"
 
-    def _use(self, packet: Packet, kinds: DeviceKinds) -> Output:
-        """Use a packet. WireError, before anything has changed, when the packet cannot be used."""
+    def _use_packet(self, packet: Packet, kinds: DeviceKinds) -> Output:
+        """Return the samples and events of a packet; one that cannot be used raises WireError and changes nothing."""
         prefix = packet.channel.partition("/")[0]
         if prefix == "device" or prefix == "receiver":
             out = self._read_standard(packet) if prefix == "device" else self._read_receiver(packet)
             self.device = self.device or packet.device
-            self.arrived, self.backwards = packet.t, 0
+            self.newest_arrival, self.backward_packets = packet.t, 0
             return self.advance(packet.t, kinds) + out
         kind = kinds.loaded.get(prefix) or kinds.get(prefix)
         if kind is None or packet.channel not in kind.profile.channel_names:
@@ -125,14 +131,14 @@ class Decoder:
         out = kind.feed(link, packet.channel, packet.data, packet.t)
         self.link = link
         self.device = self.device or packet.device
-        self.arrived, self.backwards = packet.t, 0
+        self.newest_arrival, self.backward_packets = packet.t, 0
         if packet.channel not in kind.profile.streams:
             return self.advance(packet.t, kinds) + out
         if self.stale or (
-            self.stream_arrived is not None and packet.t - self.stream_arrived > kind.profile.stale_after
+            self.newest_stream_arrival is not None and packet.t - self.newest_stream_arrival > kind.profile.stale_after
         ):
             out = self._end_silence(packet.t, kind.profile.stale_after) + out
-        self.stream_arrived = packet.t
+        self.newest_stream_arrival = packet.t
         return out
 
     def _read_receiver(self, packet: Packet) -> Output:
@@ -160,12 +166,12 @@ class Decoder:
     def _end_silence(self, t: float, limit: float) -> Output:
         """Return the events for a stream packet that arrived at `t` after more than `limit` s without any."""
         out: Output = []
-        if self.stream_arrived is None or self.link is None:
+        if self.newest_stream_arrival is None or self.link is None:
             return out
-        silent_for = t - self.stream_arrived
+        silent_for = t - self.newest_stream_arrival
         if not self.stale and not self.link.may_be_silent:
             self.stale = True
-            t_stale = self.stream_arrived + limit
+            t_stale = self.newest_stream_arrival + limit
             out.append(StreamStale(t=t_stale, known_at=t, site=self.site, silent_for=silent_for))
         if self.stale:
             self.stale = False
@@ -173,11 +179,11 @@ class Decoder:
         return out
 
     def _restart(self, packet: Packet, kinds: DeviceKinds) -> Output:
-        """Restart times, because the receiver's clock was set back. If the packet cannot be used, nothing changes."""
+        """Restart times with this packet, because the receiver's clock was set back, unless it cannot be used."""
         trial = deepcopy(self)
         out = trial._reset_times(packet.t)
         try:
-            out = out + trial._use(packet, kinds)
+            out = out + trial._use_packet(packet, kinds)
         except WireError as error:
             return self._reject(packet, error.reason, error.detail)
         for attribute in fields(Decoder):
@@ -185,14 +191,14 @@ class Decoder:
         return out
 
     def _reset_times(self, t: float) -> Output:
-        self.arrived, self.stream_arrived, self.stale, self.backwards = None, None, False, 0
+        self.newest_arrival, self.newest_stream_arrival, self.stale, self.backward_packets = None, None, False, 0
         if self.link is not None:
             self.link.restart_clock()
         return [ClockReset(t=t, known_at=t, site=self.site, restarted=False)]
 
     def _reject(self, packet: Packet, reason: Rejection, detail: str) -> Output:
-        newest = 0.0 if self.arrived is None else self.arrived
-        t = packet.t if -MAX_TIME <= packet.t <= MAX_TIME else newest
+        newest = 0.0 if self.newest_arrival is None else self.newest_arrival
+        t = packet.t if -MAX_ARRIVAL_TIME <= packet.t <= MAX_ARRIVAL_TIME else newest
         return [
             PacketRejected(
                 t=t, known_at=max(t, newest), site=packet.site, channel=packet.channel, reason=reason, detail=detail

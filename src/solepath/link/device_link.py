@@ -12,7 +12,7 @@ Output = list[Sample | LinkEvent]
 
 
 class DeviceLink(Protocol):
-    """A link of one device at one site: values of its channels in, samples on one clock out. A plain record."""
+    """A plain record that turns the values of one device's channels into samples on one clock."""
 
     @property
     def name(self) -> str:
@@ -20,25 +20,25 @@ class DeviceLink(Protocol):
 
     @property
     def may_be_silent(self) -> bool:
-        """True if the device may send nothing for long."""
+        """True if the device may send nothing for a long time, which is then no StreamStale."""
 
     @property
     def unsettled_until(self) -> float | None:
-        """Time up to which sample times are not comparable with another device's, s; None where all are."""
+        """Time up to which sample times are not comparable with another device's, s; None when all are comparable."""
 
     def flush(self, known_at: float) -> Output:
-        """Return the samples that still wait for data which will not come."""
+        """Return the samples that still wait for other data, as known at `known_at`, s."""
 
     def restart_clock(self) -> None:
         """Discard the clock fit, because the receiver's clock was set back."""
 
     def handle_reconnection(self) -> None:
-        """Prepare for counters that restarted, because the device was connected again."""
+        """Prepare for counters that may have restarted, because the device was connected again."""
 
     def set_firmware(self, firmware: str) -> None:
-        """Set the firmware revision that the device reported; most links do not use it."""
+        """Set the firmware revision that the device reported, which most links ignore."""
         return
 
     def driver_signature(self) -> Any:
-        """Return the `Driver.signature` that a saved link must find again; None for devices without a driver."""
+        """Return the signature of the driver that the link was made with; None for devices without a driver."""
         return None

@@ -1,14 +1,15 @@
-"""Declaration of a device by data: its profile, and the construct and the meaning in SI units of each channel's values.
+"""Declaration of a device by data: its profile, and the format and the meaning in SI units of each channel's values.
 
-A declared device sends plain numbers: a notification holds samples, and perhaps a sequence number and the device's own
-time. A `Driver` has, for each channel, the construct that reads and writes its values, and, where a value has a meaning
-for the link, a reader that turns it into a `Reading`. stream.py does the rest, the same for all. So a new device is one
-file of constructs and data, and a file of vectors (vectors.py checks one with the other): link/devices/ has some,
-examples/own_device.py one of an app's own, which it hands to `Session(profiles=[...])`.
+A declared device sends plain numbers. A notification holds samples, and perhaps a sequence number and the device's own
+time. For each channel a `Driver` has a construct (see construct.readthedocs.io), which reads and writes the bytes. For
+a channel whose values the link uses, it also has a reader, which turns a value into a `Reading`. stream.py does the
+work that is the same for all declared devices. A new device is therefore one file of constructs and data, and one file
+of test vectors, which solepath.testing.vectors compares with it. link/devices/ has the built-in devices, and
+examples/own_device.py shows a device of an app, which the app passes to `Session(profiles=[...])`.
 
-A driver holds functions and is never saved. A saved state holds its name and its numbers (`DriverSignature`), and the
-app supplies the driver again when it restores the state. A driver with other numbers is rejected then; whether its
-functions are the same cannot be checked."""
+A driver holds functions and is never saved. A saved state holds the driver's name and numbers (`DriverSignature`), and
+the app passes the driver again when it restores the state. A driver with other numbers is then rejected. The functions
+cannot be compared."""
 
 from __future__ import annotations
 
@@ -26,24 +27,25 @@ from ..wire.fields import Definition, build_whole, malformed, parse_whole
 from .profile import Profile, Write
 
 MAX_COUNTER = 1 << 64
-"""Number of values of a 64-bit counter; no counter of a device has more bits."""
-UNREADABLE = (ValueError, LookupError, ArithmeticError, StructError)
-"""Exceptions that a construct or a reader raises when it cannot interpret a value."""
-FINE_TICKS = 20.0
-"""Ticks per sample from which on a device's time is better than its sequence numbers."""
+"""Number of values of the largest counter, which has 64 bits."""
+READING_ERRORS = (ValueError, LookupError, ArithmeticError, StructError)
+"""Exceptions by which a construct or a reader rejects a value."""
+FINE_SAMPLE_TICKS = 20.0
+"""Ticks per sample at which a device's time becomes better than its sequence numbers (protocol/clock.md)."""
 
-MIN_TICKS = 2.0
-"""Ticks per sample from which on a device's time is better than arrivals, where it has no sequence numbers.
+MIN_SAMPLE_TICKS = 2.0
+"""Ticks per sample at which a device's time becomes better than arrivals, for a device without sequence numbers.
 
-With fewer ticks, samples would share a tick."""
+With fewer ticks, several samples would have the same tick (protocol/clock.md)."""
 
 
 @frozen
 class Measured:
-    """One sample as its device sent it, in SI units (m/s^2, rad/s, T, Pa; pressure as in types.Sample).
+    """One sample as its device sent it, sensor frame, SI units; a quantity that it does not have is None.
 
-    `quat`: sensor to world, of any length; all zero where the device does not know it. `saturated`: some sensor was at
-    the end of its range."""
+    `acc`: specific force, m/s^2. `gyro`: angular rate, rad/s. `mag`: magnetic field, T. `air_pressure`: Pa. `pressure`:
+    of each cell, as in types.Sample. `quat`: attitude, sensor to world, of any length; all zero when the device does
+    not know it. `saturated`: True when a sensor was at the end of its range."""
 
     acc: Vec3 | None = None
     gyro: Vec3 | None = None
@@ -56,16 +58,17 @@ class Measured:
 
 @frozen
 class Reading:
-    """The content of one value of a channel; what the value does not hold is None.
+    """The content of one value of a channel; a field that the value does not hold is None.
 
-    `samples`: at equal distances, the oldest first. `sequence`: number of the value among the notifications of the
-    stream. `ticks`: the device's time of the first sample; `interval`: ticks from one sample to the next, where the
-    packet has it. `mag` (T), `air_pressure` (Pa): measured beside the stream; they are attached to its next sample.
+    `samples`: samples at equal time intervals, the oldest first. `sequence`: sequence number of the notification.
+    `ticks`: the device's time of the first sample. `interval`: ticks from one sample to the next, if the packet has it.
+    `mag` (T) and `air_pressure` (Pa): values measured separately, which are attached to the next sample.
 
-    `battery`: 0 to 1. `keys`: those that are down. `foot`: foot that wears the device. `layout`: of the pressure cells.
-    `rate`: samples a second from this value on; or `period`: s from one notification to the next, where only arrivals
-    time them. `silent`: whether the device may fall silent from now on (off, or waits for motion). `known`: numbers
-    that later values are read with; "acc_range" is the accelerometer's full scale in g."""
+    `battery`: battery level, 0 to 1. `keys`: names of the keys that are down. `foot`: foot that wears the device.
+    `layout`: layout of the pressure cells. `rate`: samples a second from this value on. `period`: s from one
+    notification to the next, for a device without counters. `silent`: True when the device may be silent from now on,
+    because it is off or waits for motion. `known`: numbers that are passed to the readers of later values; "acc_range"
+    is the accelerometer's full scale in g."""
 
     samples: tuple[Measured, ...] = ()
     sequence: int | None = None
@@ -88,12 +91,12 @@ Known = Mapping[str, float]
 Reader = Callable[[Any, Known], Reading]
 """A function that turns a parsed value and the numbers of earlier values (`Reading.known`) into a Reading.
 
-It holds no state. ValueError, LookupError, ArithmeticError and struct.error mean that the value cannot be used; other
-exceptions mean that the reader is wrong, and they are not hidden. reading_check.py checks its result."""
+A reader holds no state. It raises ValueError, LookupError, ArithmeticError or struct.error for a value that cannot be
+used. Any other exception is a bug of the reader and is passed on. reading_check.py checks the Reading."""
 
 
 class TimeAxis(Enum):
-    """The source of sample times, the best that the device has."""
+    """The source of sample times; the first that the device has in sufficient resolution is used."""
 
     TICKS = "the device's time"
     COUNT = "its sequence numbers"
@@ -102,12 +105,10 @@ class TimeAxis(Enum):
 
 @frozen
 class DriverSignature:
-    """The numbers of a driver on which the state of a link depends.
-
-    It is saved with the state, which has no meaning with other numbers."""
+    """The numbers of a driver without which the saved state of a link cannot be interpreted."""
 
     built_in: bool
-    """True if the device is one of devices/, not one of an app's own."""
+    """True if the device is built in (devices/), not added by an app."""
     stream: str
     nominal_rate: float
     axis: TimeAxis
@@ -119,16 +120,16 @@ class DriverSignature:
 
 @frozen
 class Driver:
-    """One kind of device, all data but the readers.
+    """The declaration of one kind of device, which is data except for the readers.
 
-    `profile`: its name is the prefix of its own channels, and exactly one of them is a stream that carries samples.
-    `formats`: by channel, the construct of its values, for every channel but the standard ones (device/...), written
-    ones too. It takes a whole value: bytes that it leaves over are rejected, whether it ends in Terminated or not.
-    `readers`: by channel, for the channels whose values are used. `sequence`: number at which the sequence wraps (65536
-    for u16); 0 when there is none. `tick_rate`, `tick_modulus`: ticks a second of the device's time, and number at
-    which it wraps; 0 when there is none. Without a sequence, ticks of which there are fewer than two in a sample's time
-    are not used. `acc_range`: full scale of the accelerometer in g until a value says otherwise. `limitation`: what an
-    app must do without, reported once; "" for nothing. ValueError when these do not fit together."""
+    `profile`: advertisement, channels and setup; its name is the prefix of the device's channels, and exactly one of
+    them is a stream with samples. `formats`: construct of each channel's values, also of written ones, except for the
+    standard channels (device/...). A construct reads a whole value: a value with bytes left over is rejected, even if
+    the construct does not end in Terminated. `readers`: reader of each channel whose values are used. `sequence`:
+    number of values of the sequence counter (65536 for u16); 0 without one. `tick_rate`: ticks a second of the device's
+    time; 0 without one. `tick_modulus`: number of values of that time; 0 without one. `acc_range`: full scale of the
+    accelerometer, g, until a value reports another. `limitation`: sentence on what the device cannot do, which is
+    reported once; "" for none. ValueError when these contradict each other."""
 
     profile: Profile
     formats: Mapping[str, Definition]
@@ -140,13 +141,13 @@ class Driver:
     limitation: str = ""
 
     def __attrs_post_init__(self) -> None:
-        own = {c.name for c in self.profile.channels if not c.name.startswith("device/")}
-        wrong = sorted(own ^ self.formats.keys() | self.readers.keys() - own)
-        if wrong:
-            raise ValueError(f"{self.name}: without a channel, or a channel without a format: {wrong}")
-        elsewhere = sorted(name for name in own if not name.startswith(f"{self.name}/"))
-        if elsewhere:
-            raise ValueError(f"{self.name}: its channels begin with its name, not as {elsewhere}")
+        channel_names = {c.name for c in self.profile.channels if not c.name.startswith("device/")}
+        mismatched = sorted(channel_names ^ self.formats.keys() | self.readers.keys() - channel_names)
+        if mismatched:
+            raise ValueError(f"{self.name}: without a channel, or a channel without a format: {mismatched}")
+        foreign_names = sorted(name for name in channel_names if not name.startswith(f"{self.name}/"))
+        if foreign_names:
+            raise ValueError(f"{self.name}: its channels begin with its name, not as {foreign_names}")
         if len(self.profile.streams) != 1:
             raise ValueError(f"{self.name}: one channel carries the samples, not {self.profile.streams}")
         if (self.tick_rate > 0.0) is not (self.tick_modulus > 0) or not 0.0 <= self.tick_rate < inf:
@@ -172,39 +173,39 @@ class Driver:
 
     @property
     def axis(self) -> TimeAxis:
-        """Source of sample times: ticks, unless they are too coarse; else sequence numbers, else arrivals."""
-        if self.tick_rate >= (FINE_TICKS if self.sequence else MIN_TICKS) * self.profile.nominal_rate:
+        """Source of sample times: ticks if they are fine enough, else sequence numbers, else arrivals."""
+        if self.tick_rate >= (FINE_SAMPLE_TICKS if self.sequence else MIN_SAMPLE_TICKS) * self.profile.nominal_rate:
             return TimeAxis.TICKS
         return TimeAxis.COUNT if self.sequence else TimeAxis.ARRIVAL
 
     def signature(self, built_in: bool) -> DriverSignature:
-        """Return the numbers on which a saved link depends; `built_in`: the device is one of devices/."""
+        """Return the numbers on which a saved link depends; `built_in` is True for a device of devices/."""
         (stream,) = self.profile.streams
         rate, ticks = self.profile.nominal_rate, (self.tick_rate, self.tick_modulus)
         return DriverSignature(built_in, stream, rate, self.axis, self.sequence, *ticks, self.acc_range)
 
     def parse(self, channel: str, data: bytes) -> Any:
-        """Return the value that the channel's construct reads from all of `data`. WireError when it does not fit."""
+        """Return the value that the channel's construct reads from `data`; WireError when `data` does not fit it."""
         try:
             return parse_whole(self.formats[channel], data)
         except WireError:
             raise
-        except UNREADABLE as error:  # from an adapter, a validator, or an expression over values parsed before
+        except READING_ERRORS as error:  # raised by an adapter, a validator, or an expression of an app's construct
             raise malformed(str(error) or type(error).__name__) from error
 
     def read(self, channel: str, data: bytes, known: Known) -> Reading:
-        """Return the content of `data`. WireError when it cannot be read."""
+        """Return the content of `data`; WireError when it cannot be read."""
         parsed, reader = self.parse(channel, data), self.readers.get(channel)
         try:
             return Reading() if reader is None else reader(parsed, MappingProxyType(known))
         except WireError:
             raise
-        except UNREADABLE as error:
+        except READING_ERRORS as error:
             raise malformed(str(error) or type(error).__name__) from error
 
     def write(self, channel: str, value: Any) -> bytes:
-        """Return the bytes of a value, as its construct takes it. ValueError when it does not fit."""
+        """Return the bytes of a value that the channel's construct accepts; ValueError when it does not fit."""
         try:
             return build_whole(self.formats[channel], value)
-        except (TypeError, AttributeError, *UNREADABLE) as error:  # a field is missing, or of another kind
+        except (TypeError, AttributeError, *READING_ERRORS) as error:  # a field is missing or of a wrong type
             raise ValueError(str(error) or type(error).__name__) from error

@@ -1,7 +1,7 @@
 """The kinds of devices that a session knows, by the prefix of their channels.
 
-These are the devices of devices/, each loaded when the first packet of one of its channels arrives, and those that an
-app adds. The table holds functions, so nothing that is saved holds it."""
+A module of devices/ is imported when the first packet of its device arrives, so that a session loads only what it uses.
+An app may add kinds. The table holds functions, so it is never part of a saved state."""
 
 from __future__ import annotations
 
@@ -14,18 +14,18 @@ from ..types import Site
 from ..types.attrs import field, frozen
 from .device_link import DeviceLink, Output
 
-if TYPE_CHECKING:  # loaded with a device that needs them
+if TYPE_CHECKING:  # imported at run time only with a device that needs them
     from .driver import Driver, DriverSignature
     from .profile import Profile
 
 
 @frozen
 class DeviceKind:
-    """One kind of device.
+    """One kind of device: its profile and the functions that make and feed its links.
 
-    `make_link`: returns a fresh link at a site, for a device with this firmware as far as that is known. `feed`:
-    returns the samples and events of a value (link, channel, data, arrival); WireError when it cannot be used.
-    `signature`: driver numbers on which the state of its links depends; None for devices that are not declared."""
+    `make_link(site, firmware)` returns a fresh link; `firmware` is "" when it is not known. `feed(link, channel, data,
+    arrival)` returns the samples and events of a value, and raises WireError for a value that cannot be used.
+    `signature`: driver numbers on which the state of the links depends; None for a device that is not declared."""
 
     profile: Profile
     make_link: Callable[[Site, str], DeviceLink]
@@ -33,7 +33,7 @@ class DeviceKind:
     signature: DriverSignature | None = None
 
     def accepts(self, link: DeviceLink) -> bool:
-        """Return whether this saved link is one that this kind made."""
+        """Return whether a saved link was made by this kind."""
         return link.name == self.profile.name and link.driver_signature() == self.signature
 
 
@@ -53,44 +53,46 @@ _DEVICE_MODULES = {
     "orphe": "orphe",
     "thingy": "thingy",
 }
-"""File in devices/ of each device, by the device's name."""
+"""Module in devices/ of each device, by the device's name."""
 _RESERVED_NAMES = {"insole", "cc2541", "device", "receiver"}
+"""Names that an app's device cannot have."""
 
 
 @frozen
 class DeviceKinds:
-    """The table of device kinds. `loaded`: those used so far; devices of devices/ are added at first use."""
+    """The table of device kinds, by name."""
 
     loaded: dict[str, DeviceKind] = field(factory=dict)
+    """Kinds that an app added, and built-in kinds that were used before."""
 
     def get(self, name: str) -> DeviceKind | None:
-        """Return the kind of this name; None where there is none."""
+        """Return the kind of this name; None when there is none."""
         if name in _DEVICE_MODULES and name not in self.loaded:
             module = import_module(f"{__package__}.devices.{_DEVICE_MODULES[name]}")
-            own: DeviceKind | None = None
-            if hasattr(module, "LINK"):  # it has a link of its own
-                own = DeviceKind(module.PROFILE, *module.LINK)
-            self.loaded[name] = own or _declared_kind(module.DRIVER, built_in=True)
+            own_kind: DeviceKind | None = None
+            if hasattr(module, "LINK"):  # the device is not declared
+                own_kind = DeviceKind(module.PROFILE, *module.LINK)
+            self.loaded[name] = own_kind or _declared_kind(module.DRIVER, built_in=True)
         return self.loaded.get(name)
 
 
 def make_kinds(drivers: Iterable[Driver] = ()) -> DeviceKinds:
-    """Return the table with an app's own devices in it, which may replace declared ones of devices/.
+    """Return the table with an app's own devices, which may replace declared devices of devices/.
 
-    TypeError for an object that is no Driver, ValueError for a name that is taken."""
+    TypeError for an object that is no Driver, ValueError for a reserved name or a name that two drivers have."""
     table = DeviceKinds()
-    added: set[str] = set()
+    added_names: set[str] = set()
     for driver in drivers:
         from .driver import Driver
 
         if not isinstance(driver, Driver):
             raise TypeError(f"a device is added by its Driver, not by a {type(driver).__name__}")
-        if driver.name in _RESERVED_NAMES or driver.name in added:
+        if driver.name in _RESERVED_NAMES or driver.name in added_names:
             raise ValueError(f"there is a device {driver.name!r} already")
-        added.add(driver.name)
+        added_names.add(driver.name)
         table.loaded[driver.name] = _declared_kind(driver, built_in=False)
     return table
 
 
 BUILT_IN_KINDS = make_kinds()
-"""The table without any device of an app."""
+"""The table without devices of an app."""

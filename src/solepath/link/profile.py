@@ -1,10 +1,10 @@
-"""Declaration of a device before it is connected: GATT ids, channels, setup writes, rates. Only data.
+"""The profile of a device: the GATT ids, channels, setup writes and rates that a receiver needs to connect to it.
 
-Each file of devices/ has the profile of its device, as its document in protocol/ describes it. To start a device: read
-`reads`, subscribe to every required `notify` channel, then make the writes of `setup` in order, each followed by its
-own reads. The order matters, because a characteristic that is read while it is subscribed gives its value twice on some
-systems. Values read and written are recorded as packets of the same channels, so that a decoder (and a recording) knows
-the ranges and periods in force."""
+Each module of devices/ has the profile of its device, as a document in protocol/ describes it. To start a device, read
+the channels of `reads`, subscribe to every `notify` channel, then make the writes of `setup` in order. After each write
+read the channels of its `then_read`. The order matters: some systems deliver a value twice when a characteristic is
+read while it is subscribed. Values read and written are recorded as packets of the same channels, so that a decoder
+knows the ranges and periods that are set."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ..types.attrs import frozen
 
 
 class Access(Enum):
-    """The way in which a host uses a characteristic."""
+    """The operation by which a host uses a characteristic."""
 
     NOTIFY = "notify"
     READ = "read"
@@ -25,7 +25,7 @@ class Access(Enum):
 
 @frozen
 class Channel:
-    """One characteristic and the channel name of its packets. UUIDs in full, lower case."""
+    """One characteristic and the channel name of its packets; UUIDs are complete and in lower case."""
 
     name: str
     service: str
@@ -35,7 +35,7 @@ class Channel:
 
 @frozen
 class Write:
-    """One value to be written; `then_read` names channels to be read right after it."""
+    """One value to be written, and the channels to be read directly after it."""
 
     channel: str
     value: bytes
@@ -44,12 +44,13 @@ class Write:
 
 @frozen
 class Profile:
-    """One kind of device.
+    """The profile of one kind of device.
 
-    `names`, `services`: values of its advertisement (complete names; service UUIDs); `prefixes`: possible starts of its
-    name instead. `setup`: writes in order. `reads`: channels to be read once after connecting, where the device has
-    them. `nominal_rate`: samples a second after `setup`. `streams`: the channels that must not fall silent, and
-    `stale_after`: s after which one counts as silent. ValueError when these do not fit together."""
+    `name`: prefix of its channels. `names`: complete names that it may advertise. `prefixes`: starts of names that it
+    may advertise. `services`: UUIDs of the services that it advertises. `setup`: writes that start it, in order.
+    `reads`: channels to be read once after connecting, if the device has them. `nominal_rate`: samples a second after
+    `setup`. `streams`: channels that must not fall silent. `stale_after`: time after which a stream counts as silent,
+    s. ValueError when these contradict each other."""
 
     name: str
     names: tuple[str, ...]
@@ -64,7 +65,7 @@ class Profile:
 
     @cached_property
     def channel_names(self) -> frozenset[str]:
-        """Names of all its channels."""
+        """Names of all channels."""
         return frozenset(channel.name for channel in self.channels)
 
     def __attrs_post_init__(self) -> None:
@@ -72,12 +73,12 @@ class Profile:
             raise ValueError(f"a profile's name is what stands before the first '/' of its channels, not {self.name!r}")
         if len(self.channel_names) != len(self.channels):
             raise ValueError(f"{self.name}: two channels have one name")
-        named = {*self.streams, *self.reads}.union(*[(write.channel, *write.then_read) for write in self.setup])
-        if named - self.channel_names:
-            raise ValueError(f"{self.name}: no channel of its own: {sorted(named - self.channel_names)}")
-        silent = [name for name in self.streams if self.channel(name).access is not Access.NOTIFY]
-        if silent:
-            raise ValueError(f"{self.name}: a stream is notified, and {silent} are not")
+        used_names = {*self.streams, *self.reads}.union(*[(write.channel, *write.then_read) for write in self.setup])
+        if used_names - self.channel_names:
+            raise ValueError(f"{self.name}: no channel of its own: {sorted(used_names - self.channel_names)}")
+        not_notified = [name for name in self.streams if self.channel(name).access is not Access.NOTIFY]
+        if not_notified:
+            raise ValueError(f"{self.name}: a stream is notified, and {not_notified} are not")
         if not (0.0 < self.nominal_rate < inf and 0.0 < self.stale_after < inf):
             raise ValueError(f"{self.name}: nominal_rate and stale_after are finite and above 0")
 
@@ -86,7 +87,7 @@ class Profile:
         return name in self.names or (name != "" and name.startswith(self.prefixes))
 
     def channel(self, name: str) -> Channel:
-        """Return the channel of this name. KeyError when there is none."""
+        """Return the channel of this name; KeyError when there is none."""
         for channel in self.channels:
             if channel.name == name:
                 return channel
@@ -94,12 +95,12 @@ class Profile:
 
 
 def ti_uuid(short: int) -> str:
-    """Return the full UUID of a 16-bit id of Texas Instruments."""
+    """Return the complete UUID of a 16-bit id of Texas Instruments."""
     return f"f000{short:04x}-0451-4000-b000-000000000000"
 
 
 def standard_uuid(short: int) -> str:
-    """Return the full UUID of a 16-bit id that the Bluetooth SIG has assigned."""
+    """Return the complete UUID of a 16-bit id that the Bluetooth SIG has assigned."""
     return f"0000{short:04x}-0000-1000-8000-00805f9b34fb"
 
 

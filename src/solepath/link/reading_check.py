@@ -1,6 +1,4 @@
-"""Check of a Reading (driver.py) before it changes anything, because the readers of an app are not trusted.
-
-A reading must be one that a device can mean and that the core can hold."""
+"""Check of a Reading (driver.py) before it changes any state, because the readers of an app are not trusted."""
 
 from __future__ import annotations
 
@@ -14,19 +12,19 @@ from ..wire.fields import LONGEST_VALUE, malformed
 from .driver import MAX_COUNTER, Measured, Reading
 
 MAX_VALUE = 1e8
-"""Largest magnitude of a sensor value in SI units; no sensor of a foot gives more: 24 bits of Pa are 1.7e7."""
+"""Largest magnitude of a sensor value, SI units; the largest of a known device is 24 bits of Pa, which are 1.7e7."""
 MIN_RATE, MAX_RATE = 0.1, 10_000.0
-"""Smallest and largest rate, samples a second."""
+"""Smallest and largest rate that a reading may have, samples a second."""
 
 
 def check_reading(reading: object) -> Reading:
-    """Return the same reading, checked.
+    """Return `reading` unchanged after checking it.
 
-    WireError when it is no Reading, or holds values that no device can mean: other shapes than declared, numbers that
-    are not finite or beyond any sensor, an impossible rate or range."""
+    WireError when it is no Reading, or has a field of a wrong type or length, a number that is not finite or larger
+    than any sensor gives, or an impossible rate or range."""
     if not isinstance(reading, Reading):
         raise malformed(f"a reader gave a {type(reading).__name__}, not a Reading")
-    samples = _tuple("samples", reading.samples)
+    samples = _check_tuple("samples", reading.samples)
     for sample in samples:
         _check_sample(sample)
     if reading.mag is not None:
@@ -45,7 +43,7 @@ def check_reading(reading: object) -> Reading:
     if reading.period is not None:
         _check_between("period", reading.period, 1.0 / MAX_RATE, 1.0 / MIN_RATE)
     if reading.keys is not None:
-        for key in _tuple("keys", reading.keys):
+        for key in _check_tuple("keys", reading.keys):
             _check_type("keys", key, str)
     for name, value, kind in (
         ("foot", reading.foot, Foot),
@@ -87,8 +85,8 @@ def _check_known(known: object) -> None:
             raise WireError(Rejection.ABSURD, f"an acc_range of {value:g} g")
 
 
-def _tuple(name: str, values: object) -> tuple[object, ...]:
-    """Return `values` when they are a tuple of no more items than a value has bytes."""
+def _check_tuple(name: str, values: object) -> tuple[object, ...]:
+    """Return `values`; WireError unless they are a tuple of at most as many items as a value may have bytes."""
     if not isinstance(values, tuple):
         raise malformed(f"{name} is a {type(values).__name__}, not a tuple")
     if len(values) > LONGEST_VALUE:
@@ -97,7 +95,7 @@ def _tuple(name: str, values: object) -> tuple[object, ...]:
 
 
 def _check_numbers(name: str, values: object, count: int | None) -> None:
-    numbers = _tuple(name, values)
+    numbers = _check_tuple(name, values)
     if count is not None and len(numbers) != count:
         raise malformed(f"{name} has {len(numbers)} numbers, not {count}")
     for number in numbers:
@@ -108,7 +106,7 @@ def _check_numbers(name: str, values: object, count: int | None) -> None:
 def _check_number(name: str, number: object) -> None:
     if not isinstance(number, float | int):
         raise malformed(f"{name} is a {type(number).__name__}, not a number")
-    if not -MAX_VALUE <= number <= MAX_VALUE:  # an integer may be too large for a float: it is compared, not converted
+    if not -MAX_VALUE <= number <= MAX_VALUE:  # a large integer is compared, because it may be too large for a float
         if isinstance(number, float) and not isfinite(number):
             raise WireError(Rejection.NOT_FINITE, f"{name} of {number}")
         raise WireError(Rejection.ABSURD, f"{name} beyond {MAX_VALUE:g}")

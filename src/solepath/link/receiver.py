@@ -1,4 +1,4 @@
-"""Events from the packets in which the receiver reports its own state (protocol/receiver.md)."""
+"""Events from the packets in which the receiver reports on connections and on itself (protocol/receiver.md)."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from ..wire.receiver import parse_connected, parse_dropped, parse_nothing
 
 
 def parse_receiver_event(packet: Packet) -> list[LinkEvent]:
-    """Return the event of a packet of a channel receiver/..., or none for a tick.
+    """Return the event of a packet of a channel receiver/...; a tick has none.
 
-    WireError when the packet cannot be used."""
+    A tick only lets time pass while no device sends. WireError when the packet cannot be used."""
     t, site = packet.t, packet.site
     match packet.channel:
         case "receiver/tick":

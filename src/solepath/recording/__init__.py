@@ -1,4 +1,4 @@
-"""Recordings of every format: packets, samples, btsnoop logs, MCAP."""
+"""Reading and writing of recordings: packets, samples, btsnoop logs, MCAP."""
 
 from .errors import RecordingError, RecordingWarning, Report, open_file, os_error_text, printable, warn
 from .packets import FORMAT, LONGEST_LINE, VERSION, PacketWriter, read_header, read_packets, read_start_time

@@ -1,4 +1,4 @@
-"""The samples of a recording of either kind."""
+"""The samples of a recording of packets or of samples."""
 
 from __future__ import annotations
 
@@ -20,17 +20,17 @@ class DecodedRecording:
 
 
 def decode_recording(items: Iterable[Packet | Sample]) -> DecodedRecording:
-    """Return the samples of packets, decoded, and samples as they are. Packets that cannot be used are skipped."""
+    """Return the samples decoded from packets, or given as samples; packets that cannot be used are skipped."""
     samples: list[Sample] = []
     layouts: dict[Foot, Layout] = {}
     decoders: dict[Site, Decoder] = {}
 
-    def add_all(found: Iterable[object]) -> None:
-        for one in found:
-            if isinstance(one, Sample):
-                samples.append(one)
-            elif isinstance(one, LayoutKnown):
-                layouts[one.layout.foot] = one.layout
+    def add_all(outputs: Iterable[object]) -> None:
+        for output in outputs:
+            if isinstance(output, Sample):
+                samples.append(output)
+            elif isinstance(output, LayoutKnown):
+                layouts[output.layout.foot] = output.layout
 
     for item in items:
         if isinstance(item, Sample):

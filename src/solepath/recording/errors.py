@@ -1,4 +1,4 @@
-"""Errors of recordings, in one sentence; and files opened so that the sentence names them."""
+"""Errors of recordings, each with one sentence for a person, and functions for their texts."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import BinaryIO
 
 
 class RecordingError(Exception):
-    """A recording cannot be used, or not beyond a place: one sentence with the file, the place and the fault."""
+    """Error for a recording that cannot be used, or not beyond a place; its text has file, place and fault."""
 
     def __init__(self, path: Path | str, what: str, where: str = "") -> None:
         self.path, self.where, self.what = Path(path), where, what
@@ -17,7 +17,7 @@ class RecordingError(Exception):
 
 
 class RecordingWarning(UserWarning):
-    """A recording has a flaw whose only effect is missing data (a torn last line)."""
+    """Warning about a flaw that only makes data missing, such as an incomplete last line."""
 
 
 Report = Callable[[str], None]
@@ -25,25 +25,23 @@ Report = Callable[[str], None]
 
 
 def warn(sentence: str) -> None:
-    """Report a sentence as a RecordingWarning; the default report."""
+    """Issue a sentence as a RecordingWarning, as the default report does."""
     warnings.warn(sentence, RecordingWarning, stacklevel=3)
 
 
-def printable(text: str, longest: int = 200) -> str:
-    """Return `text` on one line and without control codes, whatever a file or its name holds."""
+def printable(text: str, max_length: int = 200) -> str:
+    """Return `text` on one line, without control codes and not longer than `max_length` characters."""
     clean = "".join(c if c.isprintable() else "\N{REPLACEMENT CHARACTER}" for c in text)
-    return clean if len(clean) <= longest else clean[: longest - 3] + "..."
+    return clean if len(clean) <= max_length else clean[: max_length - 3] + "..."
 
 
 def os_error_text(error: OSError) -> str:
-    """Return the system's own text of a failure, in lower case."""
+    """Return the operating system's description of a failure, in lower case."""
     return (error.strerror or str(error)).lower()
 
 
 def open_file(path: Path) -> BinaryIO:
-    """Return the file opened for reading bytes.
-
-    RecordingError when there is none, it is a directory or may not be read."""
+    """Return the file opened for reading bytes; RecordingError when it is missing, a directory, or not readable."""
     try:
         if path.is_dir():
             raise RecordingError(path, "is a directory, not a recording")

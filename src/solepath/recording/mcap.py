@@ -1,19 +1,18 @@
-"""Export to MCAP, the container of robotics recordings (mcap.dev): opens in Foxglove. Needs the extra `mcap`.
+"""Export to MCAP, a file format of robotics recordings (mcap.dev), for viewers such as Foxglove; needs `mcap`.
 
-Every message is JSON with a JSON schema, and has `t`, the exact time in s on the recording's clock. Topics:
+Every message is JSON with a JSON schema, and has `t`, the exact time on the recording's clock, s. Topics:
 
 | topic | content | log time |
 |---|---|---|
-| `/SITE/packets/CHANNEL` | the packets as they arrived, `data` in base64 | arrival |
-| `/SITE/samples` | the samples that the session took, SI units; `pressure` is the sum over the cells | when measured |
-| `/SITE/pose` | live position and velocity, world frame, phase by name and number | when measured |
-| `/SITE/gait` | heel-strikes, foot-flats, heel-offs, toe-offs | when it happened |
-| `/SITE/steps` | final strides | when the stride ended |
-| `/events` | every event as in `events.jsonl` | when it happened |
+| `/SITE/packets/CHANNEL` | packets as they arrived, `data` in base64 | arrival |
+| `/SITE/samples` | samples that the session used, SI units; `pressure` is the sum over the cells | sample time |
+| `/SITE/pose` | position and velocity at each sample, world frame; phase by name and number | sample time |
+| `/SITE/gait` | heel-strikes, foot-flats, heel-offs, toe-offs | event time |
+| `/SITE/steps` | final strides | end of the stride |
+| `/events` | every event as in `events.jsonl` | event time |
 
-The publish time is the time at which it was known. Log times count from 1970 where the recording has its start time,
-from the zero of the receiver's clock otherwise. The metadata record `solepath` holds the keys of the recording's
-header."""
+The publish time is `known_at`. Log times count from 1970 if the recording has its start time, else from the zero of the
+receiver's clock. The metadata record `solepath` holds the keys of the recording's header."""
 
 from __future__ import annotations
 
@@ -38,18 +37,14 @@ from .errors import RecordingError, os_error_text
 from .packets import FORMAT, VERSION, read_start_time
 
 CHUNK_SIZE = 8192
-"""Size of a chunk before compression, bytes.
-
-A file that is torn loses about a second of two insoles; larger chunks lose more."""
+"""Size of a chunk before compression, bytes; a file that was cut off loses one chunk, about 1 s of two insoles."""
 MAX_TOPICS = 1000
-"""Number of topics after which packets of new channels share one topic per site."""
+"""Largest number of topics; packets of further channels have one topic per site."""
 MAX_TIME = 1e11
-"""Largest magnitude of a time that a session accepts, s."""
+"""Largest magnitude of a time that a session accepts, s (decoder.MAX_ARRIVAL_TIME)."""
 MAX_LOG_TIME = 2**63 - 1
-"""Largest log time, ns.
-
-A log time is an unsigned 64-bit number, and no reader accepts the upper half."""
-PHASES = {phase: number for number, phase in enumerate(Phase)}
+"""Largest log time, ns; a log time has 64 bits without sign, but readers accept only the lower half."""
+PHASE_NUMBERS = {phase: number for number, phase in enumerate(Phase)}
 """Number of each phase."""
 EPOCH, MICROSECOND = datetime(1970, 1, 1, tzinfo=UTC), timedelta(microseconds=1)
 
@@ -90,7 +85,7 @@ SCHEMAS: dict[str, dict[str, Any]] = {
 
 
 class _SampleKeepingSession(Session):
-    """A session that keeps the samples which it takes, until they are removed from `samples`."""
+    """A session that collects the samples which it uses in `samples`, until the caller removes them."""
 
     __slots__ = ("samples",)
 
@@ -100,22 +95,22 @@ class _SampleKeepingSession(Session):
 
     def _use_items(self, site: Site, items: Iterable[Sample | Event], events: list[Event]) -> None:
         items = list(items)
-        self.samples += [item for item in items if isinstance(item, Sample)]
+        self.samples += [sample for sample in items if isinstance(sample, Sample)]
         super()._use_items(site, items, events)
 
 
 class McapWriter:
-    """Writes packets, and a session's results for them, as MCAP.
+    """Writes packets, and the samples and events that a session computes from them, as MCAP.
 
         with McapWriter("walk.mcap", read_header("walk.jsonl")) as writer:
             for packet in read_packets("walk.jsonl"):
                 writer.write(packet)
 
-    An existing file is replaced. `header`: of the recording that the packets come from. `profiles`: devices of the
-    app's own, as for Session. `count`: packets written. `outside`: number of times that no log time can hold; the
-    nearest possible one replaces each. RecordingError when the file cannot be written, ValueError for a packet whose
-    time is not finite. Results that a session holds back come with `close`; a file never closed has no index, but whole
-    chunks."""
+    An existing file is replaced. `header`: header of the recording that the packets come from. `profiles`: drivers of
+    an app's own devices, as for Session. `count`: number of packets written. `outside`: number of times outside the
+    range of log times, which were replaced by the nearest log time. RecordingError when the file cannot be written,
+    ValueError for a packet whose time is not finite. `close` writes results that were still open, and the index; a file
+    that was never closed has complete chunks but no index."""
 
     def __init__(self, path: Path | str, header: Mapping[str, Any] = {}, *, profiles: Iterable[Driver] = ()) -> None:
         self.path, self.count, self.outside = Path(path), 0, 0
@@ -124,7 +119,7 @@ class McapWriter:
         self._schemas: dict[str, int] = {}
         self._channels: dict[str, int] = {}
         self._sequences: dict[int, int] = {}
-        self._zero: int | None = None
+        self._zero_time: int | None = None
         """Time since 1970 at `t` = 0, ns; None until the first packet."""
         try:
             self._file = self.path.open("wb")  # noqa: SIM115 - this class is the context manager
@@ -133,16 +128,16 @@ class McapWriter:
         self._writer = Writer(self._file, chunk_size=CHUNK_SIZE, compression=CompressionType.ZSTD)
         with self._as_recording_error():
             self._writer.start(profile="", library=f"solepath {version('solepath')}")
-            about = {"format": FORMAT, "version": VERSION, **self._header}
-            texts = {key: value if isinstance(value, str) else json.dumps(value) for key, value in about.items()}
+            metadata = {"format": FORMAT, "version": VERSION, **self._header}
+            texts = {key: value if isinstance(value, str) else json.dumps(value) for key, value in metadata.items()}
             self._writer.add_metadata("solepath", {_valid_utf8(key): _valid_utf8(text) for key, text in texts.items()})
 
     def write(self, packet: Packet) -> None:
         """Write the packet, its samples and its events."""
         if not isfinite(packet.t):
             raise ValueError(f"a packet at {packet.t} s cannot be recorded")
-        if self._zero is None:
-            self._zero = _zero(self._header, packet.t)
+        if self._zero_time is None:
+            self._zero_time = _find_zero_time(self._header, packet.t)
         site = packet.site.value
         data: dict[str, Any] = {"t": packet.t, "data": b64encode(packet.data).decode()}
         if packet.device:
@@ -151,13 +146,13 @@ class McapWriter:
             topic = f"/{site}/packets/{_valid_utf8(packet.channel)}"
             if topic not in self._channels and len(self._channels) >= MAX_TOPICS:
                 topic = f"/{site}/packets"  # the number of channels in a damaged recording is not limited
-            about = {"site": site, "channel": _valid_utf8(packet.channel)}
-            self._put(topic, "solepath.Packet", packet.t, packet.t, data, about)
+            metadata = {"site": site, "channel": _valid_utf8(packet.channel)}
+            self._write_message(topic, "solepath.Packet", packet.t, packet.t, data, metadata)
             self.count += 1
             self._write_results(self._session.feed(packet))
 
     def close(self) -> None:
-        """Write the results that were held back, and the index."""
+        """Write the results that were still open, and the index."""
         if self._file.closed:
             return
         try:
@@ -176,64 +171,64 @@ class McapWriter:
         self.close()
 
     def _write_results(self, events: list[Event]) -> None:
-        """Write the samples that the session took from a packet, or at the end, and then its events."""
+        """Write the new samples of the session, and then its events."""
         samples, self._session.samples = self._session.samples, []
         for sample in samples:
             self._write_sample(sample)
         for event in events:
             self._write_event(event)
 
-    def _write_sample(self, item: Sample) -> None:
-        data: dict[str, Any] = {"t": item.t}
-        vectors: dict[str, Vec3 | None] = {"acc": item.acc, "gyro": item.gyro, "mag": item.mag}
-        data |= {name: _xyz(vector) for name, vector in vectors.items() if vector is not None}
-        if item.quat is not None:
-            data["quat"] = dict(zip("wxyz", item.quat, strict=True))
-        if item.pressure is not None:
-            data["pressure"] = sum(item.pressure)
-        if item.air_pressure is not None:
-            data["air_pressure"] = item.air_pressure
-        if item.saturated:
+    def _write_sample(self, sample: Sample) -> None:
+        data: dict[str, Any] = {"t": sample.t}
+        vectors: dict[str, Vec3 | None] = {"acc": sample.acc, "gyro": sample.gyro, "mag": sample.mag}
+        data |= {name: _to_xyz(vector) for name, vector in vectors.items() if vector is not None}
+        if sample.quat is not None:
+            data["quat"] = dict(zip("wxyz", sample.quat, strict=True))
+        if sample.pressure is not None:
+            data["pressure"] = sum(sample.pressure)
+        if sample.air_pressure is not None:
+            data["air_pressure"] = sample.air_pressure
+        if sample.saturated:
             data["saturated"] = True
-        self._put(f"/{item.site.value}/samples", "solepath.Sample", item.t, item.known_at, data)
+        self._write_message(f"/{sample.site.value}/samples", "solepath.Sample", sample.t, sample.known_at, data)
 
     def _write_event(self, event: Event) -> None:
         name, data = type(event).__name__, dict[str, Any](t=event.t)
         if not isinstance(event, LiveEvent):
-            self._put("/events", "solepath.Event", event.t, event.known_at, event.to_dict())
+            self._write_message("/events", "solepath.Event", event.t, event.known_at, event.to_dict())
         match event:
             case FootMoved(phase=phase):
-                data |= {"position": _xyz(event.position), "velocity": _xyz(event.velocity)}
-                data |= {"phase": phase.value, "phase_number": PHASES[phase]}
-                self._put(_topic(event.foot, "pose"), "solepath.Pose", event.t, event.known_at, data)
+                data |= {"position": _to_xyz(event.position), "velocity": _to_xyz(event.velocity)}
+                data |= {"phase": phase.value, "phase_number": PHASE_NUMBERS[phase]}
+                self._write_message(_make_topic(event.foot, "pose"), "solepath.Pose", event.t, event.known_at, data)
             case HeelStrike() | FootFlat() | HeelOff() | ToeOff():
                 data["event"] = name
-                self._put(_topic(event.foot, "gait"), "solepath.Gait", event.t, event.known_at, data)
+                self._write_message(_make_topic(event.foot, "gait"), "solepath.Gait", event.t, event.known_at, data)
             case StrideTaken(final=True):
                 data |= {"number": event.number, "t_start": event.t_start, "stride_length": event.length}
                 data |= {"heading_change": event.heading_change, "height_change": event.height_change}
-                data |= {"position": _xyz(event.position), "degraded": event.degraded}
-                self._put(_topic(event.foot, "steps"), "solepath.Step", event.t, event.known_at, data)
+                data |= {"position": _to_xyz(event.position), "degraded": event.degraded}
+                self._write_message(_make_topic(event.foot, "steps"), "solepath.Step", event.t, event.known_at, data)
 
-    def _put(
-        self, topic: str, schema: str, t: float, known_at: float, data: Any, about: dict[str, str] | None = None
+    def _write_message(
+        self, topic: str, schema: str, t: float, known_at: float, data: Any, metadata: dict[str, str] | None = None
     ) -> None:
         channel = self._channels.get(topic)
         if channel is None:
             if schema not in self._schemas:
                 definition = json.dumps({"title": schema} | SCHEMAS[schema]).encode()
                 self._schemas[schema] = self._writer.register_schema(schema, "jsonschema", definition)
-            channel = self._writer.register_channel(topic, "json", self._schemas[schema], about or {})
+            channel = self._writer.register_channel(topic, "json", self._schemas[schema], metadata or {})
             self._channels[topic] = channel
         sequence = self._sequences[channel] = (self._sequences.get(channel, 0) + 1) & 0xFFFF_FFFF
         try:
             text = json.dumps(data, allow_nan=False)
         except ValueError:  # a device may send a float that is not finite
             text = json.dumps(json_ready(data))
-        self._writer.add_message(channel, self._ns(t), text.encode(), self._ns(known_at), sequence)
+        self._writer.add_message(channel, self._to_log_time(t), text.encode(), self._to_log_time(known_at), sequence)
 
-    def _ns(self, t: float) -> int:
-        ns = (self._zero or 0) + round(max(-MAX_TIME, min(MAX_TIME, t)) * 1e9)
+    def _to_log_time(self, t: float) -> int:
+        ns = (self._zero_time or 0) + round(max(-MAX_TIME, min(MAX_TIME, t)) * 1e9)
         if 0 <= ns <= MAX_LOG_TIME:
             return ns
         self.outside += 1
@@ -241,7 +236,7 @@ class McapWriter:
 
     @contextmanager
     def _as_recording_error(self) -> Iterator[None]:
-        """Raise an error of the system as a RecordingError."""
+        """Raise an error of the operating system as a RecordingError."""
         try:
             yield
         except OSError as error:
@@ -250,23 +245,21 @@ class McapWriter:
             raise RecordingError(self.path, f"{os_error_text(error)}; {self.count} packets were taken") from error
 
 
-def _topic(foot: Foot, topic: str) -> str:
+def _make_topic(foot: Foot, topic: str) -> str:
     return f"/{SITE_OF_FOOT[foot].value}/{topic}"
 
 
-def _zero(header: Mapping[str, Any], first: float) -> int:
-    """Return the time since 1970 at `t` = 0, ns, of a recording whose first packet is at `first`, s.
-
-    0 when its header has no start time."""
-    known = read_start_time(header)
-    if known is None:
+def _find_zero_time(header: Mapping[str, Any], first_t: float) -> int:
+    """Return the time since 1970 at `t` = 0, ns, of a recording whose first packet is at `first_t`, s; 0 if unknown."""
+    start = read_start_time(header)
+    if start is None:
         return 0
-    moment, t = known
-    at = first if t is None else t
-    return (moment - EPOCH) // MICROSECOND * 1000 - round(max(-MAX_TIME, min(MAX_TIME, at)) * 1e9)
+    moment, t = start
+    t_start = first_t if t is None else t
+    return (moment - EPOCH) // MICROSECOND * 1000 - round(max(-MAX_TIME, min(MAX_TIME, t_start)) * 1e9)
 
 
-def _xyz(vector: Vec3) -> dict[str, float]:
+def _to_xyz(vector: Vec3) -> dict[str, float]:
     return {"x": vector[0], "y": vector[1], "z": vector[2]}
 
 

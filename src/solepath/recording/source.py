@@ -1,4 +1,4 @@
-"""A recording of either kind, packets or samples, as one stream for a session."""
+"""A recording of packets or of samples as one stream for a session."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from .packets import read_packets
 if TYPE_CHECKING:
     from .samples import SampleRecording
 
-SAMPLE_FILES = (".npz", ".csv")
-"""Endings of the names of files that hold samples."""
+SAMPLE_SUFFIXES = (".npz", ".csv")
+"""Suffixes of files that hold samples."""
 
 
 @define
 class Source:
-    """The content of a recording, in the order in which a session takes it.
+    """The packets or samples of a recording, in the order in which a session needs them.
 
-    Iterating raises RecordingError at data that cannot be used, after everything that came before. A recording of
-    packets that ends after its header is whole: that it is empty is reported, and no error. `done` of `total` (bytes of
-    packets, or samples) is the progress of the iteration."""
+    Iterating raises RecordingError at data that cannot be used, after all packets or samples before them. A recording
+    of packets that has only a header is no error, but is reported. `total`: number of bytes of packets, or of samples.
+    `done`: number of these that were iterated."""
 
     path: Path
     foot: Foot | None
@@ -37,33 +37,33 @@ class Source:
     """Samples of the recording; None for a recording of packets."""
 
     def __iter__(self) -> Iterator[Packet | Sample]:
-        return self._packets() if self.samples is None else self._samples(self.samples)
+        return self._iterate_packets() if self.samples is None else self._iterate_samples(self.samples)
 
-    def _samples(self, samples: SampleRecording) -> Iterator[Sample]:
+    def _iterate_samples(self, samples: SampleRecording) -> Iterator[Sample]:
         for sample in samples:
             self.done += 1
             yield sample
 
-    def _packets(self) -> Iterator[Packet]:
-        found_any = used = False
+    def _iterate_packets(self) -> Iterator[Packet]:
+        has_packets = has_used_packets = False
         for packet in read_packets(self.path, report=self.report, progress=partial(setattr, self, "done")):
-            found_any = True
+            has_packets = True
             if self.foot is None or packet.site.foot in (None, self.foot):
-                used = True
+                has_used_packets = True
                 yield packet
-        if not found_any:
+        if not has_packets:
             self.report(f"{printable(str(self.path))}: holds no packets")
-        elif self.foot is not None and not used:
+        elif self.foot is not None and not has_used_packets:
             raise RecordingError(self.path, f"holds no packets of the {self.foot.value} foot")
 
 
 def open_source(path: Path | str, foot: Foot | None = None, *, report: Report = warn) -> Source:
-    """Return the recording at `path`: samples when its name ends in .npz or .csv, packets otherwise.
+    """Return the recording at `path`, which holds samples if its name ends in .npz or .csv, else packets.
 
-    `foot`: the foot of a recording of one foot's samples (the right one when None); of any other, the only foot to use.
-    RecordingError when nothing in it can be used."""
+    `foot`: for samples that name no foot, the foot that wore the sensor (None: the right foot); for any other
+    recording, the only foot to read (None: all). RecordingError when nothing can be used."""
     path = Path(path)
-    if path.suffix.lower() in SAMPLE_FILES:
+    if path.suffix.lower() in SAMPLE_SUFFIXES:
         from .samples import load_samples  # imports numpy, which packets do not need
 
         samples = load_samples(path, foot, report=report)
@@ -73,10 +73,10 @@ def open_source(path: Path | str, foot: Foot | None = None, *, report: Report = 
 
 
 def read_samples(path: Path | str, foot: Foot | None = None, *, report: Report = warn) -> Iterator[Sample]:
-    """Return an iterator over the samples in an .npz or .csv file, merged over the feet by time.
+    """Return an iterator over the samples of an .npz or .csv file, with both feet in order of time.
 
-    `foot`: the foot of a file of one foot (the right one when None); of a file that names its feet, the only foot to
-    read. RecordingError where a row cannot be used, after everything before it, or when nothing can."""
+    `foot`: for samples that name no foot, the foot that wore the sensor (None: the right foot); else the only foot to
+    read (None: both). A row that cannot be used raises RecordingError after all rows before it."""
     from .samples import load_samples
 
     return iter(load_samples(path, foot, report=report))

@@ -1,1 +1,1 @@
-"""Bytes to records and back: one construct definition of each format does both (protocol/ is the norm)."""
+"""Conversion of bytes to records and back: one construct of each format does both (protocol/ defines the formats)."""

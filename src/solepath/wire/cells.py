@@ -1,7 +1,7 @@
 """Twelve-bit values packed least significant bit first, the format of pressure cells in a frame.
 
-Value i occupies the bits 12 i .. 12 i + 11 of the block, where bit b is bit (b mod 8) of byte b // 8. Two values share
-three bytes; an odd count leaves the high nibble of the last byte zero."""
+Value i has the bits 12 i to 12 i + 11 of the block, where bit b is bit (b mod 8) of byte b // 8. Two values have three
+bytes. If the number of values is odd, the high nibble (four bits) of the last byte is zero."""
 
 from __future__ import annotations
 
@@ -30,11 +30,9 @@ def packed_size(count: int) -> int:
 
 
 def unpack12(data: bytes, count: int) -> tuple[int, ...]:
-    """Return `count` values from the `packed_size(count)` bytes of `data`.
-
-    WireError when the unused nibble is not zero."""
-    # A pair lies in the bytes x, y, z as x | low(y) << 8 and high(y) | z << 4. All pairs are spread into 16-bit
-    # words at once by slices and translation tables: 3 us for 96 cells, where a loop over cells takes 15 us.
+    """Return `count` values from the `packed_size(count)` bytes of `data`; WireError if an unused nibble is not 0."""
+    # The bytes x, y, z hold the values x | low(y) << 8 and high(y) | z << 4. Slices and translation tables convert all
+    # pairs to 16-bit words at once, which takes 3 us for 96 cells; a loop over the cells takes 15 us.
     if count & 1:
         if data[-1] > 15:
             raise malformed(f"the unused nibble after {count} values is not zero")
@@ -53,7 +51,7 @@ def unpack12(data: bytes, count: int) -> tuple[int, ...]:
 
 
 def pack12(values: Sequence[int]) -> bytes:
-    """Return the `packed_size(len(values))` bytes of `values`, each 0 to 4095. ValueError when one is not."""
+    """Return the `packed_size(len(values))` bytes of `values`; ValueError unless each value is 0 to 4095."""
     bits = 0
     for value in reversed(values):
         if not 0 <= value <= MAX_VALUE:
@@ -63,7 +61,7 @@ def pack12(values: Sequence[int]) -> bytes:
 
 
 class Packed12(Definition):
-    """A block of 12-bit values; `count` reads their number from the context."""
+    """A construct for a block of 12-bit values; `count` returns their number from construct's context."""
 
     def __init__(self, count: Callable[[Any], int]) -> None:
         super().__init__()

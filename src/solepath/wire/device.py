@@ -10,7 +10,7 @@ _BATTERY = Struct("percent" / Int8ul, Terminated)
 
 
 def parse_battery(data: bytes) -> int:
-    """Return the battery level (2A19) in percent, 0 to 100. WireError when the bytes are not one."""
+    """Return the battery level (2A19) in percent, 0 to 100; WireError for any other bytes."""
     percent: int = parse_whole(_BATTERY, bytes(data)).percent
     if percent > 100:
         raise malformed(f"{percent} percent")
@@ -18,17 +18,17 @@ def parse_battery(data: bytes) -> int:
 
 
 def build_battery(percent: int) -> bytes:
-    """Return the bytes of a battery level. ValueError unless it is 0 to 100."""
+    """Return the bytes of a battery level in percent; ValueError unless it is 0 to 100."""
     if not 0 <= percent <= 100:
         raise ValueError(f"{percent} percent")
     return build_whole(_BATTERY, {"percent": percent})
 
 
 def parse_firmware(data: bytes) -> str:
-    """Return the firmware revision (2A26), UTF-8, as sent: a trailing NUL stays. WireError when it is none."""
+    """Return the firmware revision (2A26) as sent, with a trailing NUL if it has one; WireError if it is no UTF-8."""
     return parse_text(data)
 
 
 def build_firmware(firmware: str) -> bytes:
-    """Return the bytes of a firmware revision. ValueError when it is empty or too long."""
+    """Return the bytes of a firmware revision; ValueError when it is empty or too long."""
     return build_text(firmware)

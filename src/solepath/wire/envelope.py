@@ -1,4 +1,4 @@
-"""The envelope of every record of the insole protocol: magic, version and type in front, CRC-16 behind."""
+"""The envelope of every record of the insole protocol: magic, version and type at the start, CRC-16 at the end."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from .fields import LONGEST_VALUE, malformed
 
 MAGIC = 0xF5
 """First byte of every record."""
-FRAME = 0x10
+FRAME_TYPE = 0x10
 """Second byte of a frame: version 1, type 0."""
-INFO = 0x11
+INFO_TYPE = 0x11
 """Second byte of an INFO record: version 1, type 1."""
 
 CRC_SIZE, CRC_START = 2, 0xFFFF
@@ -22,7 +22,7 @@ CRC-16/CCITT-FALSE: polynomial 0x1021, start 0xFFFF, not reflected, no final XOR
 
 
 def check_start(data: bytes, kind: int, header_size: int) -> None:
-    """Raise WireError unless `data` starts as a record of `kind` and has its whole header."""
+    """Raise WireError unless `data` starts with the magic and the type `kind` and has a whole header."""
     if len(data) > 0 and data[0] != MAGIC:
         raise malformed(f"begins with {data[0]:#04x}, not {MAGIC:#04x}")
     if len(data) > 1 and data[1] != kind:
@@ -32,7 +32,7 @@ def check_start(data: bytes, kind: int, header_size: int) -> None:
 
 
 def check_end(data: bytes, size: int) -> None:
-    """Raise WireError unless `data` is as long as its header says and its CRC is right."""
+    """Raise WireError unless `data` has the `size` that its header states and a correct CRC."""
     if len(data) < size:
         raise WireError(Rejection.TRUNCATED, f"{len(data)} of {size} bytes")
     if len(data) > min(size, LONGEST_VALUE):
@@ -43,7 +43,7 @@ def check_end(data: bytes, size: int) -> None:
 
 
 def seal(body: bytes) -> bytes:
-    """Return `body` with its CRC. ValueError when that is longer than any attribute value may be."""
+    """Return `body` followed by its CRC; ValueError when that is longer than an attribute value may be."""
     if len(body) + CRC_SIZE > LONGEST_VALUE:
         raise ValueError(f"{len(body) + CRC_SIZE} bytes, an attribute value has at most {LONGEST_VALUE}")
     return body + crc_hqx(body, CRC_START).to_bytes(CRC_SIZE, "little")

@@ -6,7 +6,7 @@ from ..events import Rejection
 
 
 class WireError(ValueError):
-    """Error for bytes that do not fit their channel. `reason` is one word for events, `detail` says what is wrong."""
+    """Error for bytes that do not fit their channel, with the `reason` for events and a `detail` in words."""
 
     def __init__(self, reason: Rejection, detail: str) -> None:
         super().__init__(f"{reason.value}: {detail}")

@@ -1,7 +1,7 @@
-"""Additions to construct: packed fields in one call, bytes as digits, parsing of whole values.
+"""Additions to the library construct: several numbers in one call, bytes as hexadecimal digits, whole values.
 
-`Fields` is a run of plain numbers: one struct call instead of one construct per number, which makes an insole frame
-affordable at 100 Hz. `parse_whole` and `build_whole` turn construct's exceptions into WireError and ValueError."""
+`Fields` parses several plain numbers with one call of `struct`. A construct for each number would be too slow for
+insole frames at 100 Hz. `parse_whole` and `build_whole` turn construct's exceptions into WireError and ValueError."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from construct import Adapter, Construct, ConstructError, FormatFieldError, Stre
 from ..events import Rejection
 from .error import WireError
 
-if TYPE_CHECKING:  # construct's classes take type arguments in its stubs only
+if TYPE_CHECKING:  # construct's classes have type arguments in its stubs only
     from typing import IO
 
     Definition = Construct[Any, Any]
@@ -26,13 +26,13 @@ else:
     AnyAdapter = Adapter
 
 LONGEST_VALUE = 512
-"""Longest attribute value, bytes (Bluetooth Core, vol 3 part F, 3.2.9); no frame, record or string is longer."""
+"""Largest size of an attribute value, bytes (Bluetooth Core, vol 3 part F, 3.2.9); no frame or text is larger."""
 
 
 class Fields(Definition):
-    """A run of numbers in `struct` notation; parses to a tuple, or to the result of `make` for these numbers.
+    """A construct for several numbers in `struct` notation, which parses to a tuple or to `make(*numbers)`.
 
-    It builds from an attrs record when `make` is an attrs class, from a tuple otherwise."""
+    It builds bytes from a tuple or, if `make` is an attrs class, from a record of that class."""
 
     def __init__(self, layout: str, make: Callable[..., Any] | None = None) -> None:
         super().__init__()
@@ -50,7 +50,7 @@ class Fields(Definition):
         values = obj if self._make is None else attrs.astuple(obj, recurse=False)
         try:
             stream.write(self._struct.pack(*values))
-        except (struct.error, OverflowError) as error:  # OverflowError: a float beyond binary32
+        except (struct.error, OverflowError) as error:  # OverflowError: a float too large for binary32
             raise FormatFieldError(f"{values} do not fit: {error}", path=path) from error
         return obj
 
@@ -59,7 +59,7 @@ class Fields(Definition):
 
 
 class Hex(AnyAdapter):
-    """Bytes without a meaning here, kept as hexadecimal digits."""
+    """A construct that turns bytes which are not interpreted into hexadecimal digits."""
 
     def _decode(self, obj: Any, context: Any, path: str) -> str:
         return bytes(obj).hex()
@@ -69,7 +69,7 @@ class Hex(AnyAdapter):
 
 
 def parse_whole(definition: Definition, data: bytes) -> Any:
-    """Return the value that `definition` parses from all of `data`. WireError when it does not fit."""
+    """Return the value that `definition` parses from all of `data`; WireError when `data` does not fit."""
     try:
         stream = BytesIO(data)
         parsed = definition.parse_stream(stream)
@@ -79,16 +79,16 @@ def parse_whole(definition: Definition, data: bytes) -> Any:
         raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes are too many") from error
     except ConstructError as error:
         raise WireError(Rejection.MALFORMED, str(error).strip().splitlines()[-1]) from error
-    if stream.read(1):  # bytes are left when the definition does not end in Terminated
+    if stream.read(1):  # a definition that does not end in Terminated may leave bytes
         raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes are too many")
     return parsed
 
 
 def build_whole(definition: Definition, value: Any) -> bytes:
-    """Return the bytes of `value`. ValueError when it does not fit."""
+    """Return the bytes of `value`; ValueError when it does not fit."""
     try:
         return bytes(definition.build(value))
-    except (ConstructError, OverflowError) as error:  # OverflowError: an infinite number, rounded
+    except (ConstructError, OverflowError) as error:  # OverflowError: an infinite number was rounded
         raise ValueError(str(error).strip().splitlines()[-1]) from error
 
 
@@ -98,7 +98,7 @@ def malformed(detail: str) -> WireError:
 
 
 def parse_text(data: bytes) -> str:
-    """Return the text of 1 to LONGEST_VALUE bytes of UTF-8; a trailing NUL stays. WireError when it is none."""
+    """Return the text of 1 to LONGEST_VALUE bytes of UTF-8, with a trailing NUL if it has one; WireError otherwise."""
     if not data:
         raise WireError(Rejection.TRUNCATED, "no text")
     if len(data) > LONGEST_VALUE:
@@ -110,7 +110,7 @@ def parse_text(data: bytes) -> str:
 
 
 def build_text(text: str) -> bytes:
-    """Return the bytes of a text. ValueError when it is empty or too long."""
+    """Return the bytes of a text; ValueError when it is empty or too long."""
     data = text.encode("utf-8")
     if not 0 < len(data) <= LONGEST_VALUE:
         raise ValueError(f"a text of {len(data)} bytes")

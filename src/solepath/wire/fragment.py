@@ -10,16 +10,14 @@ from .error import WireError
 from .fields import LONGEST_VALUE, build_whole, malformed, parse_whole
 
 FRAME_IDS = 7
-"""Number of frame ids, which run from 0 to 6.
-
-With 7, a fragment could start with 0xF5 as a whole frame does."""
+"""Number of frame ids, which are 0 to 6: with id 7, a fragment could start with 0xF5 as a whole frame does."""
 MAX_FRAGMENTS = 16
-"""Number of fragments of a frame at most."""
+"""Largest number of fragments of a frame."""
 
 
 @frozen
 class Fragment:
-    """A part of a frame: `frame_id` 0 to 6, `index` 0 to 15, `last` on the one that ends the frame."""
+    """A part of a frame: `frame_id` 0 to 6, `index` 0 to 15, `last` True for the last fragment of the frame."""
 
     frame_id: int
     last: bool
@@ -38,7 +36,7 @@ def is_fragment(data: bytes) -> bool:
 
 
 def parse_fragment(data: bytes) -> Fragment:
-    """Return the fragment in `data`. WireError when it is not one, whatever the bytes."""
+    """Return the fragment in `data`; WireError for any other bytes."""
     data = bytes(data)
     if data and not is_fragment(data):
         raise malformed(f"frame id {data[0] >> 5}: not a fragment")
@@ -51,7 +49,7 @@ def parse_fragment(data: bytes) -> Fragment:
 
 
 def build_fragment(fragment: Fragment) -> bytes:
-    """Return the bytes of `fragment`. ValueError when it does not fit the format."""
+    """Return the bytes of `fragment`; ValueError when it does not fit the format."""
     if not 0 <= fragment.frame_id < FRAME_IDS:
         raise ValueError(f"frame id {fragment.frame_id}, 0 to {FRAME_IDS - 1} are allowed")
     if not 0 < len(fragment.body) <= LONGEST_VALUE - 1:
@@ -61,9 +59,9 @@ def build_fragment(fragment: Fragment) -> bytes:
 
 
 def split(frame: bytes, payload: int, frame_id: int) -> list[bytes]:
-    """Return `frame` as notifications of at most `payload` bytes (ATT MTU - 3): itself if it fits, else its fragments.
+    """Return `frame` as notifications of at most `payload` bytes (ATT MTU - 3): whole if it fits, else as fragments.
 
-    `frame_id` is 0 to 6 and differs from that of the frame before. ValueError when 16 fragments do not suffice."""
+    `frame_id` is 0 to 6, and not that of the previous frame. ValueError when 16 fragments do not suffice."""
     if len(frame) <= payload:
         return [frame]
     if payload < 2:

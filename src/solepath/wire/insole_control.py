@@ -1,4 +1,4 @@
-"""Commands that a host writes to an insole's control point (protocol/insole.md)."""
+"""Commands that a host writes to the control characteristic of an insole (protocol/insole.md)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .fields import Fields, build_whole, malformed, parse_whole
 
 @frozen
 class StartSampling:
-    """Command to start to sample and notify."""
+    """Command to start sampling and notifications."""
 
 
 @frozen
@@ -20,21 +20,21 @@ class StopSampling:
 
 @frozen
 class SetInterval:
-    """Command to sample every `interval` ticks (1 to 65535) from the next frame on."""
+    """Command to take a sample every `interval` ticks (1 to 65535) from the next frame on."""
 
     interval: int
 
 
 @frozen
 class Resend:
-    """Command to send `count` (1 to 255) frames from sequence `first` again, as far as the device still has them."""
+    """Command to send `count` (1 to 255) frames from sequence number `first` again, if the insole still has them."""
 
     first: int
     count: int
 
 
 Command = StartSampling | StopSampling | SetInterval | Resend
-"""Any command of the control point."""
+"""Any command of the control characteristic."""
 
 _FORMATS: dict[int, tuple[type[Command], Fields]] = {
     1: (StartSampling, Fields("<B")),
@@ -46,7 +46,7 @@ _FORMATS: dict[int, tuple[type[Command], Fields]] = {
 
 
 def parse_control(data: bytes) -> Command:
-    """Return the command in `data`. WireError when it is not one, whatever the bytes."""
+    """Return the command in `data`; WireError for any other bytes."""
     data = bytes(data)
     if not data:
         raise WireError(Rejection.TRUNCATED, "no opcode")
@@ -55,23 +55,23 @@ def parse_control(data: bytes) -> Command:
     kind, definition = _FORMATS[data[0]]
     _, *numbers = parse_whole(definition, data)
     command = kind(*numbers)
-    problem = _problem(command)
+    problem = _find_problem(command)
     if problem:
         raise malformed(problem)
     return command
 
 
 def build_control(command: Command) -> bytes:
-    """Return the bytes of `command`. ValueError when it does not fit the format."""
-    problem = _problem(command)
+    """Return the bytes of `command`; ValueError when it does not fit the format."""
+    problem = _find_problem(command)
     if problem:
         raise ValueError(problem)
     (opcode,) = [opcode for opcode, (kind, _) in _FORMATS.items() if kind is type(command)]
     return build_whole(_FORMATS[opcode][1], (opcode, *astuple(command)))
 
 
-def _problem(command: Command) -> str:
-    """Return a contradiction to the format; "" when there is none."""
+def _find_problem(command: Command) -> str:
+    """Return a description of a number that the format does not allow; "" when there is none."""
     match command:
         case SetInterval(interval=0):
             return "an interval of no ticks"

@@ -1,4 +1,4 @@
-"""The insole's INFO record (protocol/insole.md): places of the cells, scales of the counts, tick rate."""
+"""The insole's INFO record (protocol/insole.md): positions of the cells, scales of the counts, tick rate."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ from construct import Array, Bytes, Struct, Terminated
 from ..types import Cell, Foot
 from ..types.attrs import frozen
 from .cells import Packed12, packed_size
-from .envelope import CRC_SIZE, INFO, MAGIC, check_end, check_start, seal
+from .envelope import CRC_SIZE, INFO_TYPE, MAGIC, check_end, check_start, seal
 from .fields import Fields, build_whole, malformed, parse_whole
 from .insole import MAX_CELLS
 
-_RIGHT = 1
+_RIGHT_FLAG = 1
 _RESERVED_FLAGS = 0xFE
-_Y_ZERO = 2048
-_PER_METRE = 10_000  # x, y and length count 0.1 mm
-_PER_SQUARE_METRE = 10_000_000  # areas count 0.1 mm^2
+_Y_ZERO_COUNTS = 2048
+_COUNTS_PER_METRE = 10_000  # x, y and length count 0.1 mm
+_COUNTS_PER_SQUARE_METRE = 10_000_000  # areas count 0.1 mm^2
 
 
 @frozen
 class InsoleInfo:
     """The INFO record of an insole.
 
-    `tick_rate`: ticks per second, nominal. `interval`: ticks between samples. `acc_scale`: m/s^2 per count.
-    `gyro_scale`: rad/s per count. `pressure_scale`: N per count. A scale of 0 means that there is no such sensor, or
-    for pressure that it is not calibrated. `length`: heel to toe, m. `cells`: in the order of the samples, in the foot
-    frame; x 0 to 0.4095 m, y -0.2048 to 0.2047 m, area up to 6.5535e-3 m^2, 0 where unknown."""
+    `layout`: id of the cell layout. `tick_rate`: nominal ticks per second. `interval`: ticks between samples.
+    `acc_scale`: m/s^2 per count. `gyro_scale`: rad/s per count. `pressure_scale`: N per count. A scale of 0 means that
+    there is no such sensor, or that pressure is not calibrated. `length`: heel to toe, m. `cells`: cells in the order
+    of the samples, foot frame: x 0 to 0.4095 m, y -0.2048 to 0.2047 m, area up to 6.5535e-3 m^2, or 0 if unknown."""
 
     foot: Foot
     layout: int
@@ -68,7 +68,7 @@ class _InfoHeader:
 
 
 @frozen
-class _Run:
+class _AreaRun:
     """A run of neighbouring cells that have the same area."""
 
     cells: int
@@ -93,7 +93,7 @@ _HEADER_SIZE = 31
 _BODY = Struct(
     "header" / _HEADER,
     "coordinates" / Packed12(_coordinate_count),
-    "runs" / Array(_run_count, Fields("<BH", _Run)),
+    "runs" / Array(_run_count, Fields("<BH", _AreaRun)),
     "firmware" / Bytes(_firmware_size),
     Terminated,
 )
@@ -101,22 +101,22 @@ _BODY = Struct(
 
 
 def parse_info(data: bytes) -> InsoleInfo:
-    """Return the INFO record in `data`. WireError when it is not one, whatever the bytes."""
+    """Return the INFO record in `data`; WireError for any other bytes."""
     data = bytes(data)
-    check_start(data, INFO, _HEADER_SIZE)
+    check_start(data, INFO_TYPE, _HEADER_SIZE)
     header: _InfoHeader = _HEADER.parse(data)
     check_end(data, header.size)
     body = parse_whole(_BODY, data[:-CRC_SIZE])
-    problem = _problem(header, body.runs)
+    problem = _find_problem(header, body.runs)
     if problem:
         raise malformed(problem)
-    areas = [run.area / _PER_SQUARE_METRE for run in body.runs for _ in range(run.cells)]
+    areas = [run.area / _COUNTS_PER_SQUARE_METRE for run in body.runs for _ in range(run.cells)]
     try:
         firmware = body.firmware.decode("utf-8")
     except UnicodeDecodeError as error:
         raise malformed(f"the firmware name is not UTF-8: {error}") from error
     return InsoleInfo(
-        foot=Foot.RIGHT if header.flags & _RIGHT else Foot.LEFT,
+        foot=Foot.RIGHT if header.flags & _RIGHT_FLAG else Foot.LEFT,
         layout=header.layout,
         serial=header.serial,
         tick_rate=header.tick_rate,
@@ -124,9 +124,9 @@ def parse_info(data: bytes) -> InsoleInfo:
         acc_scale=header.acc_scale,
         gyro_scale=header.gyro_scale,
         pressure_scale=header.pressure_scale,
-        length=header.length / _PER_METRE,
+        length=header.length / _COUNTS_PER_METRE,
         cells=tuple(
-            Cell(x / _PER_METRE, (y - _Y_ZERO) / _PER_METRE, area)
+            Cell(x / _COUNTS_PER_METRE, (y - _Y_ZERO_COUNTS) / _COUNTS_PER_METRE, area)
             for x, y, area in zip(body.coordinates[0::2], body.coordinates[1::2], areas, strict=True)
         ),
         firmware=firmware,
@@ -134,19 +134,21 @@ def parse_info(data: bytes) -> InsoleInfo:
 
 
 def build_info(info: InsoleInfo) -> bytes:
-    """Return the bytes of `info`, the inverse of `parse_info` for values on the record's grid; others are rounded.
+    """Return the bytes of `info`, the inverse of `parse_info`; lengths are rounded to 0.1 mm, areas to 0.1 mm^2.
 
     ValueError when a value does not fit: too many cells, a cell too far out, a firmware name too long."""
     coordinates = [
-        c for cell in info.cells for c in (_counts(cell.x, _PER_METRE), _counts(cell.y, _PER_METRE) + _Y_ZERO)
+        c
+        for cell in info.cells
+        for c in (_to_counts(cell.x, _COUNTS_PER_METRE), _to_counts(cell.y, _COUNTS_PER_METRE) + _Y_ZERO_COUNTS)
     ]
-    areas = [_counts(cell.area, _PER_SQUARE_METRE) for cell in info.cells]
-    runs = [_Run(len(list(equal)), area) for area, equal in groupby(areas)]
+    areas = [_to_counts(cell.area, _COUNTS_PER_SQUARE_METRE) for cell in info.cells]
+    runs = [_AreaRun(len(list(equal)), area) for area, equal in groupby(areas)]
     firmware = info.firmware.encode("utf-8")
     header = _InfoHeader(
         MAGIC,
-        INFO,
-        _RIGHT if info.foot is Foot.RIGHT else 0,
+        INFO_TYPE,
+        _RIGHT_FLAG if info.foot is Foot.RIGHT else 0,
         info.layout,
         info.serial,
         info.tick_rate,
@@ -154,26 +156,26 @@ def build_info(info: InsoleInfo) -> bytes:
         info.acc_scale,
         info.gyro_scale,
         info.pressure_scale,
-        _counts(info.length, _PER_METRE),
+        _to_counts(info.length, _COUNTS_PER_METRE),
         len(info.cells),
         len(runs),
         len(firmware),
     )
-    problem = _problem(header, runs)
+    problem = _find_problem(header, runs)
     if problem:
         raise ValueError(problem)
     body = {"header": header, "coordinates": coordinates, "runs": runs, "firmware": firmware}
     return seal(build_whole(_BODY, body))
 
 
-def _counts(value: float, per_unit: int) -> int:
+def _to_counts(value: float, per_unit: int) -> int:
     if not isfinite(value):
         raise ValueError(f"{value} is not finite")
     return round(value * per_unit)
 
 
-def _problem(header: _InfoHeader, runs: list[_Run]) -> str:
-    """Return a contradiction to the format that length and CRC do not show; "" when there is none."""
+def _find_problem(header: _InfoHeader, runs: list[_AreaRun]) -> str:
+    """Return a description of an error that length and CRC do not show; "" when there is none."""
     scales = (header.acc_scale, header.gyro_scale, header.pressure_scale)
     if header.flags & _RESERVED_FLAGS:
         return f"reserved flags are set: {header.flags:#04x}"

@@ -1,6 +1,6 @@
-"""Packets about the receiver itself (protocol/receiver.md): connections, dropped packets, time.
+"""Packets in which the receiver reports connections, dropped packets and passing time (protocol/receiver.md).
 
-receiver/restarted (a channel's name) and receiver/trouble (a sentence) are texts, which fields.py parses and builds."""
+The values of receiver/restarted (the name of a channel) and receiver/trouble (a sentence) are texts (fields.py)."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from .error import WireError
 from .fields import build_whole, malformed, parse_whole
 
 UNKNOWN_SIGNAL = 127
-"""Value for an unknown signal strength, dBm, which no receiver measures (as in the Bluetooth HCI)."""
+"""Signal strength that means unknown, as in the Bluetooth HCI; no receiver measures 127 dBm."""
 LONGEST_NAME = 248
-"""Longest device name, bytes (Bluetooth Core, vol 3 part C, 12.1)."""
+"""Largest size of a device name, bytes (Bluetooth Core, vol 3 part C, 12.1)."""
 
 _SIGNAL = Struct("signal" / Int8sl)
 _COUNT = Struct("count" / Int32ul, Terminated)
@@ -22,14 +22,14 @@ _COUNT = Struct("count" / Int32ul, Terminated)
 
 @frozen
 class ConnectionFrame:
-    """A device that is connected and about to be set up: its name, and its newest signal strength in dBm."""
+    """A new connection to a device, which is not yet set up: name of the device, and newest signal strength, dBm."""
 
     name: str
     signal: int | None
 
 
 def parse_connected(data: bytes) -> ConnectionFrame:
-    """Return the content of receiver/connected. WireError when the bytes do not fit."""
+    """Return the content of receiver/connected; WireError when the bytes do not fit."""
     data = bytes(data)
     if not data:
         raise WireError(Rejection.TRUNCATED, "no signal strength")
@@ -44,7 +44,7 @@ def parse_connected(data: bytes) -> ConnectionFrame:
 
 
 def build_connected(connection: ConnectionFrame) -> bytes:
-    """Return the bytes of a connection. ValueError when the name is too long or the signal is no i8."""
+    """Return the bytes of a connection; ValueError when the name is too long or the signal is no i8."""
     name = connection.name.encode("utf-8")
     if len(name) > LONGEST_NAME or connection.signal == UNKNOWN_SIGNAL:
         raise ValueError(f"a name of {len(name)} bytes, a signal of {connection.signal} dBm")
@@ -53,7 +53,7 @@ def build_connected(connection: ConnectionFrame) -> bytes:
 
 
 def parse_dropped(data: bytes) -> int:
-    """Return the number of packets that receiver/dropped reports, at least 1. WireError when the bytes do not fit."""
+    """Return the number of packets that receiver/dropped reports, at least 1; WireError when the bytes do not fit."""
     count: int = parse_whole(_COUNT, bytes(data)).count
     if count == 0:
         raise malformed("nothing was dropped")
@@ -61,13 +61,13 @@ def parse_dropped(data: bytes) -> int:
 
 
 def build_dropped(count: int) -> bytes:
-    """Return the bytes of a number of dropped packets. ValueError unless it is 1 to 2^32 - 1."""
+    """Return the bytes of a number of dropped packets; ValueError unless it is 1 to 2^32 - 1."""
     if count < 1:
         raise ValueError(f"{count} packets dropped")
     return build_whole(_COUNT, {"count": count})
 
 
 def parse_nothing(data: bytes) -> None:
-    """Check that receiver/tick or receiver/disconnected has no bytes. WireError when there are some."""
+    """Check that a value of receiver/tick or receiver/disconnected is empty; WireError when it is not."""
     if data:
         raise WireError(Rejection.OVERSIZED, f"{len(data)} bytes, none expected")

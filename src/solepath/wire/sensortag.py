@@ -1,4 +1,4 @@
-"""Formats that both SensorTags share (protocol/cc2650.md, protocol/cc2541.md): a period, and sensor on or off."""
+"""Formats of both SensorTags (protocol/cc2650.md, protocol/cc2541.md): a period, and a sensor switched on or off."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from typing import Any
 from construct import ExprAdapter, Int8ul, Mapping, OneOf, Struct
 
 
-def _seconds(hundredths: int, _: Any) -> float:
+def _to_seconds(hundredths: int, _: Any) -> float:
     return hundredths / 100
 
 
-def _hundredths(seconds: float, _: Any) -> int:
+def _to_hundredths(seconds: float, _: Any) -> int:
     return round(seconds * 100)
 
 
-PERIOD = Struct("period" / ExprAdapter(OneOf(Int8ul, range(1, 256)), _seconds, _hundredths))
-"""Seconds between notifications, 0.01 to 2.55; building rounds to the nearest.
+PERIOD = Struct("period" / ExprAdapter(OneOf(Int8ul, range(1, 256)), _to_seconds, _to_hundredths))
+"""Time between notifications, 0.01 to 2.55 s; building rounds it to 0.01 s.
 
-Stock firmware takes nothing under 0.1 s; modified firmware does, so it is not rejected here."""
+Stock firmware does not accept less than 0.1 s. Modified firmware does, so a shorter period is not rejected here."""
 ON_OFF = Mapping(Int8ul, {False: 0, True: 1})
-"""One byte: 0 off, 1 on, nothing else."""
+"""One byte: 0 for off, 1 for on; other values are rejected."""

@@ -1,4 +1,4 @@
-"""Packets of insoles and SensorTags, as a decoder is fed them."""
+"""Packets of insoles and SensorTags to feed to a decoder."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from solepath.wire.insole import InsoleFrame, InsoleSample, build_frame
 from solepath.wire.insole_info import InsoleInfo, build_info
 
 LEFT = Site.LEFT_FOOT
-STEP = 328 / 32768
-"""s between two samples of the insole."""
+SAMPLE_INTERVAL = 328 / 32768
+"""Time between two samples of the insole, s."""
 
 
 def insole_frame(k: int, *, acc: int = 2048, cells: tuple[int, ...] = (100, 200), **changes: Any) -> bytes:
@@ -27,7 +27,7 @@ def insole_frame(k: int, *, acc: int = 2048, cells: tuple[int, ...] = (100, 200)
     return build_frame(evolve(frame, **changes))
 
 
-def info(**changes: Any) -> bytes:
+def info_value(**changes: Any) -> bytes:
     cells = (Cell(0.05, 0.0, 1e-4), Cell(0.2, 0.01, 1e-4))
     base = InsoleInfo(Foot.LEFT, 1, 7, 32768, 328, 8 * GRAVITY / 32768, radians(500) / 32768, 0.05, 0.26, cells, "1.0")
     return build_info(evolve(base, **changes))
@@ -38,50 +38,52 @@ def packet(t: float, channel: str, data: bytes, site: Site = LEFT) -> Packet:
 
 
 def frame_packet(k: int, **changes: Any) -> Packet:
-    return packet(10.0 + k * STEP, "insole/frame", insole_frame(k, **changes))
+    return packet(10.0 + k * SAMPLE_INTERVAL, "insole/frame", insole_frame(k, **changes))
 
 
-def new_tag(what: str, **fields: Any) -> bytes:
+def cc2650_value(what: str, **fields: Any) -> bytes:
     """Return the bytes of a packet to or from a CC2650."""
     return cc2650.DRIVER.write(f"cc2650/{what}", fields)
 
 
-def config(full_scale: int, **changes: Any) -> Packet:
+def cc2650_config_packet(full_scale: int, **changes: Any) -> Packet:
     everything = {"gyro_axes": (True,) * 3, "acc_axes": (True,) * 3, "mag": True, "wake_on_motion": False}
     fields = {**everything, "range": full_scale, **changes}
-    return packet(1.05, "cc2650/movement-config", new_tag("movement-config", **fields))
+    return packet(1.05, "cc2650/movement-config", cc2650_value("movement-config", **fields))
 
 
-def old_tag(t: float, sensor: str, **fields: Any) -> Packet:
+def cc2541_packet(t: float, sensor: str, **fields: Any) -> Packet:
     """Return a packet of a sensor of a CC2541."""
     return packet(t, f"cc2541/{sensor}", build_whole(cc2541.FORMATS[f"cc2541/{sensor}"], fields))
 
 
-def movement(k: int, *, acc: tuple[int, int, int] = (0, 0, 4096), gyro: tuple[int, int, int] = (0, 0, 0)) -> Packet:
-    return packet(10.0 + 0.1 * k, "cc2650/movement", new_tag("movement", gyro=gyro, acc=acc, mag=(0, 0, 0)))
+def movement_packet(
+    k: int, *, acc: tuple[int, int, int] = (0, 0, 4096), gyro: tuple[int, int, int] = (0, 0, 0)
+) -> Packet:
+    return packet(10.0 + 0.1 * k, "cc2650/movement", cc2650_value("movement", gyro=gyro, acc=acc, mag=(0, 0, 0)))
 
 
 def feed(decoder: Decoder, *packets: Packet) -> list[Any]:
     return [output for one in packets for output in decoder.feed(one)]
 
 
-def walked(count: int = 5) -> Decoder:
-    """A decoder that knows its insole and has had some frames."""
+def fed_decoder(count: int = 5) -> Decoder:
+    """Return a decoder that was fed INFO and the first `count` frames of an insole."""
     decoder = Decoder(site=LEFT)
-    feed(decoder, packet(9.0, "insole/info", info()), *[frame_packet(k) for k in range(count)])
+    feed(decoder, packet(9.0, "insole/info", info_value()), *[frame_packet(k) for k in range(count)])
     return decoder
 
 
-def fragments(k: int, frame_id: int) -> list[Packet]:
+def fragment_packets(k: int, frame_id: int) -> list[Packet]:
     raw = InsoleSample(tuple(range(24)), (0, 0, 2048, 0, 0, 0))
     pieces = split(insole_frame(k, samples=(raw,)), 20, frame_id)
     assert len(pieces) == 4
-    return [packet(10.0 + k * STEP, "insole/frame", piece) for piece in pieces]
+    return [packet(10.0 + k * SAMPLE_INTERVAL, "insole/frame", piece) for piece in pieces]
 
 
 def acc_packet(t: float, counts: tuple[int, int, int] = (0, 0, 16)) -> Packet:
-    return old_tag(t, "accelerometer", acc=counts)
+    return cc2541_packet(t, "accelerometer", acc=counts)
 
 
 def gyro_packet(t: float, counts: tuple[int, int, int] = (0, 0, 0)) -> Packet:
-    return old_tag(t, "gyroscope", gyro=counts)
+    return cc2541_packet(t, "gyroscope", gyro=counts)

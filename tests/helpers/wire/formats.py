@@ -12,7 +12,7 @@ from here import PROTOCOL
 
 from solepath.link.catalogue import DECLARED
 from solepath.link.devices import cc2541
-from solepath.saving import codec as machine
+from solepath.saving import codec
 from solepath.testing.vectors import plain
 from solepath.types import Cell, Foot
 from solepath.wire import device, fragment, insole, insole_control, insole_info, receiver
@@ -23,7 +23,7 @@ VECTORS = PROTOCOL / "vectors"
 
 @frozen
 class Format:
-    """Parser and builder of one vector file: bytes to record and back, record to the file's fields and back."""
+    """Functions for one vector file: bytes to record and back, record to the file's fields and back."""
 
     parse: Callable[[bytes], Any]
     build: Callable[[Any], bytes]
@@ -32,17 +32,17 @@ class Format:
 
 
 def record(cls: type, parse: Callable[[bytes], Any], build: Callable[[Any], bytes]) -> Format:
-    """A format whose fields in the file are those of the record."""
-    return Format(parse, build, machine.save, lambda fields: machine.load(cls, fields))
+    """Return a format whose fields in the file are those of the record."""
+    return Format(parse, build, codec.save, lambda fields: codec.load(cls, fields))
 
 
 def single(name: str, parse: Callable[[bytes], Any], build: Callable[[Any], bytes]) -> Format:
-    """A format of one plain value."""
+    """Return a format of one plain value."""
     return Format(parse, build, lambda value: {name: value}, lambda fields: fields[name])
 
 
 def info_fields(info: insole_info.InsoleInfo) -> Any:
-    saved: Any = machine.save(info)
+    saved: Any = codec.save(info)
     return saved | {"cells": [[c["x"], c["y"], c["area"]] for c in saved["cells"]]}
 
 
@@ -68,7 +68,7 @@ COMMANDS = {
 
 
 def command_fields(command: insole_control.Command) -> Any:
-    saved: Any = machine.save(command)
+    saved: Any = codec.save(command)
     return {"command": next(name for name, cls in COMMANDS.items() if cls is type(command))} | saved
 
 
@@ -94,16 +94,21 @@ FORMATS = {
 }
 
 PERIODS = ("cc2650/barometer-period", *[channel for channel in cc2541.FORMATS if channel.endswith("-period")])
-"""All periods are alike; one of them has the vectors of all."""
-FILE_OF = {"cc2650/movement-period": "sensortag-period"}
+"""Channels with the same format as cc2650/movement-period, whose vectors stand for all of them."""
+FILE_OF_CHANNEL = {"cc2650/movement-period": "sensortag-period"}
 DECLARED_FORMATS = {
-    FILE_OF.get(channel, channel.replace("/", "-")): (driver, one)
+    FILE_OF_CHANNEL.get(channel, channel.replace("/", "-")): (driver, definition)
     for driver in DECLARED
-    for channel, one in driver.formats.items()
+    for channel, definition in driver.formats.items()
     if channel not in PERIODS
 }
-OLD_TAG = {channel.replace("/", "-"): one for channel, one in cc2541.FORMATS.items() if channel not in PERIODS}
+CC2541_FORMATS = {
+    channel.replace("/", "-"): definition for channel, definition in cc2541.FORMATS.items() if channel not in PERIODS
+}
 FORMATS |= {
-    name: Format(partial(parse_whole, one), partial(build_whole, one), plain, lambda fields: fields)
-    for name, one in [*OLD_TAG.items(), *[(name, one) for name, (_, one) in DECLARED_FORMATS.items()]]
+    name: Format(partial(parse_whole, definition), partial(build_whole, definition), plain, lambda fields: fields)
+    for name, definition in [
+        *CC2541_FORMATS.items(),
+        *[(name, definition) for name, (_, definition) in DECLARED_FORMATS.items()],
+    ]
 }

@@ -1,5 +1,4 @@
-"""A reader of packed bodies that was written after protocol/snapshot.md alone: with the standard library, a schema as
-JSON, and none of solepath."""
+"""A reader of packed bodies that was written from protocol/snapshot.md alone, without any module of solepath."""
 
 from __future__ import annotations
 
@@ -10,20 +9,20 @@ from typing import Any
 
 
 def bits(data: bytes, width: int, count: int) -> list[int]:
-    whole = int.from_bytes(data, "little")
-    return [whole >> width * k & (1 << width) - 1 for k in range(count)]
+    whole_numbers = int.from_bytes(data, "little")
+    return [whole_numbers >> width * k & (1 << width) - 1 for k in range(count)]
 
 
 def streams(body: bytes) -> tuple[list[float], list[int], list[int], bytes]:
-    """The body's floats, ints, flags and bytes. ValueError for none."""
-    at = 0
+    """Return the body's floats, ints, flags and remaining bytes; ValueError when it is malformed."""
+    position = 0
 
     def take(length: int) -> bytes:
-        nonlocal at
-        if at + length > len(body):
+        nonlocal position
+        if position + length > len(body):
             raise ValueError("too short")
-        at += length
-        return body[at - length : at]
+        position += length
+        return body[position - length : position]
 
     floats, ints, flags, large_words, left, right = struct.unpack("<4I2d", take(32))
     classes = bits(take(-(-(floats + ints) // 8) * 3), 3, floats + ints)
@@ -33,34 +32,41 @@ def streams(body: bytes) -> tuple[list[float], list[int], list[int], bytes]:
         return iter(struct.unpack(f"<{count}{code}", take(count * struct.calcsize("<" + code))))
 
     counts, singles, doubles = numbers("h", (4, 5, 6, 7)), numbers("f", (1,)), numbers("d", (2,))
-    found: list[float] = []
-    last: float | None = None
+    numbers_found: list[float] = []
+    last_double: float | None = None
     for k in classes:
         if k == 0:
-            found.append(0.0)
+            numbers_found.append(0.0)
         elif k == 1:
-            found.append(next(singles))
+            numbers_found.append(next(singles))
         elif k in (2, 3):
-            last = next(doubles) if k == 2 else last
-            if last is None:
+            last_double = next(doubles) if k == 2 else last_double
+            if last_double is None:
                 raise ValueError("no double before")
-            found.append(last)
+            numbers_found.append(last_double)
         else:
             count = float(next(counts))
-            found.append({4: count, 5: count / 10_000, 6: count * left, 7: count * right}[k])
-    if not all([isfinite(number) for number in found]) or any([number % 1.0 for number in found[floats:]]):
+            numbers_found.append({4: count, 5: count / 10_000, 6: count * left, 7: count * right}[k])
+    if not all([isfinite(number) for number in numbers_found]) or any(
+        [number % 1.0 for number in numbers_found[floats:]]
+    ):
         raise ValueError("not finite, or not whole")
-    whole = [int(number) for number in found[floats:]]
-    true = bits(take(-(-flags // 8)), 1, flags)
-    large = [int(word) for word in take(large_words).split()]
-    if whole.count(-(2**63)) != len(large):
+    whole_numbers = [int(number) for number in numbers_found[floats:]]
+    flag_values = bits(take(-(-flags // 8)), 1, flags)
+    large_ints = [int(word) for word in take(large_words).split()]
+    if whole_numbers.count(-(2**63)) != len(large_ints):
         raise ValueError("too many large ints, or too few")
-    large.reverse()
-    return found[:floats], [large.pop() if n == -(2**63) else n for n in whole], true, body[at:]
+    large_ints.reverse()
+    return (
+        numbers_found[:floats],
+        [large_ints.pop() if n == -(2**63) else n for n in whole_numbers],
+        flag_values,
+        body[position:],
+    )
 
 
 class Tree:
-    """Reads the content of a body by its schema. `parts`: the schemas of open records, by their description."""
+    """Reads the content of a body by its schema; `parts` has the schemas of open records by description."""
 
     def __init__(self, schema: dict[str, Any], parts: dict[str, Any], body: bytes) -> None:
         self.schema, self.parts = schema, parts
@@ -73,7 +79,7 @@ class Tree:
     def record(self, name: str) -> dict[str, Any]:
         return {field: self.value(kind) for field, kind in self.schema["records"][name].items()}
 
-    def some(self, kind: Any) -> list[Any]:
+    def read_list(self, kind: Any) -> list[Any]:
         return [self.value(kind) for _ in range(self.value("int"))]
 
     def open(self, names: list[str]) -> dict[str, Any]:
@@ -81,9 +87,9 @@ class Tree:
         if k < len(names):
             return {"kind": names[k].removeprefix("state of ").split(" ")[0], "is": self.record(names[k])}
         large_words = self.value("str")
-        around, self.schema = self.schema, self.parts[large_words]
+        outer_schema, self.schema = self.schema, self.parts[large_words]
         (fields,) = self.roots()
-        self.schema = around
+        self.schema = outer_schema
         return {"kind": large_words.split(" ")[0], "is": fields}
 
     def value(self, kind: Any) -> Any:
@@ -105,13 +111,13 @@ class Tree:
             case {"tuple": items}:
                 return [self.value(item) for item in items]
             case {"row": inner} | {"list": inner}:
-                return self.some(inner)
+                return self.read_list(inner)
             case {"deque": inner}:
-                most = self.value({"maybe": "int"})
-                items = self.some(inner)
-                return items if most is None else {"maxlen": most, "is": items}
-            case {"dict": both}:
-                return {str(key): value for key, value in self.some({"tuple": both})}
+                max_length = self.value({"maybe": "int"})
+                items = self.read_list(inner)
+                return items if max_length is None else {"maxlen": max_length, "is": items}
+            case {"dict": item_types}:
+                return {str(key): value for key, value in self.read_list({"tuple": item_types})}
         raise ValueError(f"{kind} is no type")
 
     def left(self) -> Any:

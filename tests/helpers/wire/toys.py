@@ -1,4 +1,4 @@
-"""A toy that is declared (link/driver.py): numbered, ticking or neither, with further values."""
+"""A declared device (link/driver.py) for tests, with or without sequence numbers and ticks, and with other values."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from solepath.types import Cell, Foot, Layout
 from solepath.wire.fields import Fields
 
 LEFT = Site.LEFT_FOOT
-UP = (0.0, 0.0, 9.80665)
+ACC_AT_REST = (0.0, 0.0, 9.80665)
 
 
-def channel(name: str, how: Access, number: int) -> Channel:
-    return Channel(f"toy/{name}", "5d1e0001-9c60-4cf1-a1b3-1a2b3c4d5e6f", f"5d1e{number:04x}-9c60-4cf1-a1b3-0", how)
+def channel(name: str, access: Access, number: int) -> Channel:
+    return Channel(f"toy/{name}", "5d1e0001-9c60-4cf1-a1b3-1a2b3c4d5e6f", f"5d1e{number:04x}-9c60-4cf1-a1b3-0", access)
 
 
 PROFILE = Profile(
@@ -56,7 +56,7 @@ MORE: dict[int, Any] = {
     6: lambda value: Reading(keys=("left",) if value > 0.0 else ()),
     7: lambda value: Reading(layout=LAYOUT),
     8: lambda value: Reading(known={"acc_range": value, "times": 2.0}),
-    9: lambda value: Reading((Measured(UP),)),
+    9: lambda value: Reading((Measured(ACC_AT_REST),)),
     10: lambda value: Reading(battery=1.0 / value),
     11: lambda value: {}[value],
 }
@@ -86,7 +86,7 @@ KIND = {"arrival": BASE, "number": NUMBERED, "ticks": TICKING, "both": BOTH, "co
 
 @frozen
 class Toy:
-    """A decoder and the one device that it knows."""
+    """A decoder and the driver of its device."""
 
     driver: Driver
     decoder: Decoder
@@ -101,13 +101,13 @@ class Toy:
     def send_more(self, t: float, what: int, value: float) -> list[Any]:
         return self.receive(t, "more", self.driver.write("toy/more", {"what": what, "value": [value]}))
 
-    def packet(self, k: int, late: float = 0.0, true: float = 100.0, count: int = 1) -> list[Any]:
-        """Packet k of a device that starts at 10 s with counters near their wraps."""
-        t = 10.0 + k * count / true
+    def packet(self, k: int, delay: float = 0.0, true_rate: float = 100.0, count: int = 1) -> list[Any]:
+        """Feed packet k, which is `delay` s late, of a device that starts at 10 s with counters near their wraps."""
+        t = 10.0 + k * count / true_rate
         unit = 1000 if self.driver is COARSE else 1_000_000
-        first = t - (count - 1) / true
+        t_first = t - (count - 1) / true_rate
         return self.send_data(
-            t + late, 65_530 + k, round(unit * first) - 12 * unit + (86_400_000 if unit == 1000 else 0), count
+            t + delay, 65_530 + k, round(unit * t_first) - 12 * unit + (86_400_000 if unit == 1000 else 0), count
         )
 
 

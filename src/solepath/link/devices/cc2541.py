@@ -1,7 +1,7 @@
-"""TI CC2541 SensorTag (protocol/cc2541.md): five separate sensors in raw axes, each with a characteristic of its own.
+"""TI CC2541 SensorTag (protocol/cc2541.md): five sensors, each with a characteristic and the axes of its chip.
 
-It has a link of its own, no Driver: accelerometer and gyroscope are two streams on two clocks, which assembler.py
-combines, and the scale of a count depends on the firmware."""
+It has its own link class and no Driver, because accelerometer and gyroscope are two streams on two clocks, which
+assembler.py combines, and because the accelerometer's scale depends on the firmware."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from ...wire.sensortag import ON_OFF, PERIOD
 from ..device_link import DeviceLink, Output
 from ..periodic import PeriodicClock, make_periodic_clock
 from ..profile import FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_uuid
-from ..rest import RestCheck
+from ..rest_check import RestCheck
 from .assembler import Assembler
 
 STOCK_PERIOD = 0.1
-"""Period that the stock profile writes, s; 20 Hz firmware is known by its period packet, or by its arrivals."""
-GYRO = radians(500.0 / 65536.0)
+"""Period that the stock profile writes, s; a recorded period write or faster arrivals show 20 Hz firmware."""
+GYRO_SCALE = radians(500.0 / 65536.0)
 """Gyroscope scale, rad/s per count (TI, SensorTag user's guide: v * 500 / 65536 degrees/s)."""
-MAG = 2000.0 / 65536.0 * 1e-6
+MAG_SCALE = 2000.0 / 65536.0 * 1e-6
 """Magnetometer scale, T per count (TI, SensorTag user's guide: v * 2000 / 65536 uT)."""
-MAX_WAIT = 1.0
-"""Time without inertial samples after which air pressure no longer waits for one, s."""
+MAX_PRESSURE_WAIT = 1.0
+"""Time without inertial samples after which air pressure no longer waits for a sample, s."""
 
 
 def _profile(name: str, period: bytes, nominal_rate: float) -> Profile:
@@ -87,22 +87,23 @@ FORMATS: dict[str, Definition] = {
     "cc2541/magnetometer": Struct("mag" / Fields("<3h")),
     "cc2541/magnetometer-config": Struct("on" / ON_OFF),
     "cc2541/magnetometer-period": PERIOD,
-    # Raw values of the T5400, which need the calibration.
+    # Raw values of the barometer chip T5400, which its calibration converts.
     "cc2541/barometer": Struct("temperature" / Int16sl, "pressure" / Int16ul),
-    # 0 off, 1 on, 2 fetch the coefficients so that they can be read.
+    # 0 is off, 1 is on, and 2 makes the calibration coefficients readable.
     "cc2541/barometer-config": Struct("code" / OneOf(Int8ul, range(3))),
     "cc2541/barometer-calibration": Struct(
         *[f"c{n}" / Int16ul for n in range(1, 5)], *[f"c{n}" / Int16sl for n in range(5, 9)]
     ),
     "cc2541/barometer-period": PERIOD,
-    # Not the bits of the CC2650: here the right key is bit 0.
+    # The order differs from the CC2650: here the right key is bit 0.
     "cc2541/keys": BitStruct(Const(0, BitsInteger(5)), "side" / Flag, "left" / Flag, "right" / Flag),
 }
 
 COUNTS_PER_G = {
-    # (firmware revision contains, value of AA12) -> counts of the KXTJ9's 8 bits per g: protocol/cc2541.md's table.
-    # Published drivers contradict each other (16 always, 64 always, opposite tests of the revision), so the table
-    # follows the firmware: since 1.5, AA12 = 1, 2, 3 sets 2, 4, 8 g; before, it only switches on, at 2 g.
+    # (text in the firmware revision, value of AA12) -> counts per g of the 8-bit accelerometer chip KXTJ9, from the
+    # table of protocol/cc2541.md. Published drivers contradict each other (16 always, 64 always, opposite tests of the
+    # revision), so the table follows the firmware. From 1.5 on, AA12 = 1, 2, 3 sets 2, 4, 8 g. Before 1.5, each of them
+    # sets 2 g. "" stands for any other revision.
     ("1.4", 1): 64,
     ("1.4", 2): 64,
     ("1.4", 3): 64,
@@ -110,20 +111,18 @@ COUNTS_PER_G = {
     ("", 2): 32,
     ("", 3): 16,
 }
-WRITTEN_CODE = 3
-"""Value of AA12 as the profile writes it, until a packet says otherwise."""
+WRITTEN_ACC_CODE = 3
+"""Value of AA12 (accelerometer configuration) that the profile writes."""
 
 
 def counts_per_g(firmware: str, code: int) -> int:
-    """Return the accelerometer's scale by firmware revision and AA12 (1 to 3), counts per g.
-
-    "" in the table is any other revision."""
+    """Return the accelerometer's scale by firmware revision and value of AA12 (1 to 3), counts per g."""
     return COUNTS_PER_G["1.4" if "1.4" in firmware else "", code]
 
 
 @frozen
 class BarometerCalibration:
-    """The T5400's coefficients, read from AA43 after writing 2 to AA42: c1 to c4 unsigned, c5 to c8 signed."""
+    """The coefficients of the barometer chip T5400, read from AA43: c1 to c4 are unsigned, c5 to c8 signed."""
 
     c1: int
     c2: int
@@ -135,11 +134,11 @@ class BarometerCalibration:
     c8: int
 
     def celsius(self, temperature: int) -> float:
-        """Return the temperature in degrees Celsius: c1 t / 2^24 + c2 / 2^10."""
+        """Return the temperature in degrees Celsius for the raw value t: c1 t / 2^24 + c2 / 2^10."""
         return self.c1 * temperature / 2**24 + self.c2 / 2**10
 
     def pascal(self, temperature: int, pressure: int) -> float:
-        """Return the air pressure in Pa: (S p + O) / 2^14.
+        """Return the air pressure in Pa for the raw values t and p: (S p + O) / 2^14.
 
         S = c3 + c4 t / 2^17 + c5 t^2 / 2^34 and O = c6 2^14 + c7 t / 2^3 + c8 t^2 / 2^19."""
         t = temperature
@@ -152,25 +151,24 @@ class BarometerCalibration:
 class Cc2541Link(DeviceLink):
     """The link of a CC2541 at one site.
 
-    `feed` raises WireError for values that cannot be used, and then nothing has changed. Latency: see assembler.py.
-    Losses of accelerometer and gyroscope are estimated by their periods (periodic.py); those of slower channels are
-    not."""
+    `feed` raises WireError for a value that cannot be used, and changes nothing. assembler.py states the latency.
+    Losses of accelerometer and gyroscope packets are estimated from the period (periodic.py), other losses are not."""
 
     name: ClassVar[str] = "cc2541"
 
     site: Site
     assembler: Assembler
     firmware: str = ""
-    code: int = WRITTEN_CODE
-    """Newest value of AA12 that is not 0; it selects the accelerometer's scale."""
-    acc: PeriodicClock = field(factory=lambda: make_periodic_clock(STOCK_PERIOD))
-    gyro: PeriodicClock = field(factory=lambda: make_periodic_clock(STOCK_PERIOD))
+    code: int = WRITTEN_ACC_CODE
+    """Newest value of AA12 other than 0 (off); it selects the accelerometer's scale."""
+    acc_clock: PeriodicClock = field(factory=lambda: make_periodic_clock(STOCK_PERIOD))
+    gyro_clock: PeriodicClock = field(factory=lambda: make_periodic_clock(STOCK_PERIOD))
     acc_on: bool = True
     gyro_on: bool = True
     calibration: BarometerCalibration | None = None
     limitation_reported: bool = False
     """True if the Limitation about the barometer was reported."""
-    rest: RestCheck = field(factory=lambda: RestCheck(GRAVITY / COUNTS_PER_G["", WRITTEN_CODE]))
+    rest_check: RestCheck = field(factory=lambda: RestCheck(GRAVITY / COUNTS_PER_G["", WRITTEN_ACC_CODE]))
 
     @property
     def may_be_silent(self) -> bool:
@@ -178,49 +176,56 @@ class Cc2541Link(DeviceLink):
 
     @property
     def unsettled_until(self) -> float | None:
-        """Newest time that is not comparable with those of other devices (clock.py), s."""
-        return self.acc.clock.unsettled_until if self.acc.clock.last_x is not None else self.gyro.clock.unsettled_until
+        """Newest time that is not comparable with times of other devices (clock.py), s."""
+        return (
+            self.acc_clock.clock.unsettled_until
+            if self.acc_clock.clock.last_device_time is not None
+            else self.gyro_clock.clock.unsettled_until
+        )
 
     def feed(self, channel: str, data: bytes, arrival: float) -> Output:
-        sent = parse_whole(FORMATS[channel], data)
+        value = parse_whole(FORMATS[channel], data)
         match channel:
             case "cc2541/accelerometer":
-                return self._read_acc(sent.acc, arrival)
+                return self._read_acc(value.acc, arrival)
             case "cc2541/gyroscope":
-                return self._read_gyro(sent.gyro, arrival)
+                return self._read_gyro(value.gyro, arrival)
             case "cc2541/magnetometer":
-                self.assembler.mag = _scaled(sent.mag, MAG)
+                self.assembler.mag = _scale(value.mag, MAG_SCALE)
             case "cc2541/barometer":
-                return self._read_barometer(sent.temperature, sent.pressure, arrival)
+                return self._read_barometer(value.temperature, value.pressure, arrival)
             case "cc2541/barometer-calibration":
-                self.calibration = BarometerCalibration(*[sent[f"c{n}"] for n in range(1, 9)])
+                self.calibration = BarometerCalibration(*[value[f"c{n}"] for n in range(1, 9)])
             case "cc2541/accelerometer-config":
-                self._set_acc_config(sent.code)
+                self._set_acc_config(value.code)
             case "cc2541/gyroscope-config":
-                self.gyro_on = any(sent.axes)
+                self.gyro_on = any(value.axes)
             case "cc2541/accelerometer-period":
-                self._set_period(self.acc, sent.period)
+                self._set_period(self.acc_clock, value.period)
             case "cc2541/gyroscope-period":
-                self._set_period(self.gyro, sent.period)
+                self._set_period(self.gyro_clock, value.period)
             case "cc2541/keys":
-                down = tuple([name for name in ("left", "right", "side") if sent[name]])
+                down = tuple([name for name in ("left", "right", "side") if value[name]])
                 return [KeysChanged(t=arrival, known_at=arrival, site=self.site, down=down)]
         return []
 
     def set_firmware(self, firmware: str) -> None:
-        """Set the firmware revision, which decides on the accelerometer's scale."""
-        before = counts_per_g(self.firmware, self.code)
+        """Set the firmware revision, on which the accelerometer's scale depends."""
+        scale_before = counts_per_g(self.firmware, self.code)
         self.firmware = firmware
-        if counts_per_g(firmware, self.code) != before:
+        if counts_per_g(firmware, self.code) != scale_before:
             self._restart_scale_check()
 
     def restart_clock(self) -> None:
         """Restart the clock fits and the times, because the receiver's clock was set back."""
-        self.acc, self.gyro = make_periodic_clock(self.acc.period), make_periodic_clock(self.gyro.period)
+        self.acc_clock, self.gyro_clock = (
+            make_periodic_clock(self.acc_clock.period),
+            make_periodic_clock(self.gyro_clock.period),
+        )
         self.assembler = Assembler(self.site)
 
     def handle_reconnection(self) -> None:
-        """Do nothing: no state ends with the old connection."""
+        """Do nothing, because the device has no counters."""
 
     def flush(self, known_at: float) -> Output:
         return [*self.assembler.flush(known_at)]
@@ -228,13 +233,13 @@ class Cc2541Link(DeviceLink):
     def _set_acc_config(self, code: int) -> None:
         self.acc_on = code != 0
         if code and code != self.code:
-            before = counts_per_g(self.firmware, self.code)
+            scale_before = counts_per_g(self.firmware, self.code)
             self.code = code
-            if counts_per_g(self.firmware, code) != before:
+            if counts_per_g(self.firmware, code) != scale_before:
                 self._restart_scale_check()
 
     def _restart_scale_check(self) -> None:
-        self.rest = RestCheck(GRAVITY / counts_per_g(self.firmware, self.code))
+        self.rest_check = RestCheck(GRAVITY / counts_per_g(self.firmware, self.code))
 
     def _set_period(self, stream: PeriodicClock, period: float) -> None:
         if period != stream.period:
@@ -242,20 +247,20 @@ class Cc2541Link(DeviceLink):
 
     def _read_acc(self, counts: tuple[int, int, int], arrival: float) -> Output:
         per_g = counts_per_g(self.firmware, self.code)
-        acc = _scaled(counts, GRAVITY / per_g)
-        taken = self.acc.add_packet(arrival)
-        (t,) = taken.times
-        out: Output = [*taken.make_events(self.site, "cc2541/accelerometer", arrival)]
-        out += self.assembler.add_acc(t, acc, self.acc.period, arrival)
-        if not self.rest.done:
-            out += self.rest.check(Sample(t, self.site, acc, known_at=max(arrival, t)), 128.0 / per_g)
+        acc = _scale(counts, GRAVITY / per_g)
+        sample_times = self.acc_clock.add_packet(arrival)
+        (t,) = sample_times.times
+        out: Output = [*sample_times.make_events(self.site, "cc2541/accelerometer", arrival)]
+        out += self.assembler.add_acc(t, acc, self.acc_clock.period, arrival)
+        if not self.rest_check.is_finished:
+            out += self.rest_check.check(Sample(t, self.site, acc, known_at=max(arrival, t)), 128.0 / per_g)
         return out
 
     def _read_gyro(self, counts: tuple[int, int, int], arrival: float) -> Output:
-        taken = self.gyro.add_packet(arrival)
-        (t,) = taken.times
-        out: Output = [*taken.make_events(self.site, "cc2541/gyroscope", arrival)]
-        out += self.assembler.add_gyro(t, _scaled(counts, GYRO), self.gyro.period, arrival)
+        sample_times = self.gyro_clock.add_packet(arrival)
+        (t,) = sample_times.times
+        out: Output = [*sample_times.make_events(self.site, "cc2541/gyroscope", arrival)]
+        out += self.assembler.add_gyro(t, _scale(counts, GYRO_SCALE), self.gyro_clock.period, arrival)
         return out
 
     def _read_barometer(self, temperature: int, raw: int, arrival: float) -> Output:
@@ -266,13 +271,16 @@ class Cc2541Link(DeviceLink):
             what = "no barometer calibration (AA43) from the CC2541: no air pressure"
             return [Limitation(t=arrival, known_at=arrival, site=self.site, what=what)]
         pressure = self.calibration.pascal(temperature, raw)
-        if any(s.arrived is not None and arrival - s.arrived <= MAX_WAIT for s in (self.acc, self.gyro)):
+        if any(
+            s.newest_arrival is not None and arrival - s.newest_arrival <= MAX_PRESSURE_WAIT
+            for s in (self.acc_clock, self.gyro_clock)
+        ):
             self.assembler.air_pressure = pressure
             return []
         return [*self.assembler.add_pressure_alone(arrival, pressure)]
 
 
-def _scaled(counts: tuple[int, int, int], scale: float) -> Vec3:
+def _scale(counts: tuple[int, int, int], scale: float) -> Vec3:
     x, y, z = counts
     return (x * scale, y * scale, z * scale)
 
@@ -285,4 +293,4 @@ def make_cc2541_link(site: Site, firmware: str) -> Cc2541Link:
 
 
 LINK = make_cc2541_link, Cc2541Link.feed
-"""Function that makes the device's own link, and function that feeds it."""
+"""Function that makes a link, and function that feeds it (kinds.DeviceKind)."""

@@ -1,6 +1,6 @@
-"""TI CC2650 SensorTag (protocol/cc2650.md): nine axes in one notification without any counter, 10 Hz at stock firmware.
+"""TI CC2650 SensorTag (protocol/cc2650.md): nine axes in one notification without counters, 10 Hz with stock firmware.
 
-It sends air pressure and keys as well."""
+It also sends air pressure and the state of its keys."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from ..driver import Driver, Known, Measured, Reading
 from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write, standard_uuid, ti_uuid
 
 ACC_RANGE = 8.0
-"""Full scale of the accelerometer that the profile writes, g."""
-GYRO = radians(500.0 / 65536.0)
+"""Full scale of the accelerometer that the profile's setup sets, g."""
+GYRO_SCALE = radians(500.0 / 65536.0)
 """Gyroscope scale, rad/s per count: +-250 degrees/s (TI, CC2650 SensorTag user's guide)."""
-MAG = 4912.0 / 32760.0 * 1e-6
+MAG_SCALE = 4912.0 / 32760.0 * 1e-6
 """Magnetometer scale, T per count (InvenSense, MPU-9250 product specification: 4912 uT full scale, 32760 counts)."""
-END_COUNTS = 32767
-"""Counts at the end of a sensor's range."""
+RANGE_END_COUNTS = 32767
+"""Magnitude of a count at the end of a sensor's range."""
 
 PROFILE = Profile(
     name="cc2650",
@@ -53,26 +53,26 @@ PROFILE = Profile(
 )
 
 
-def _degrees(hundredths: int, _: Any) -> float:
+def _to_degrees(hundredths: int, _: Any) -> float:
     return hundredths / 100
 
 
-def _hundredths(degrees: float, _: Any) -> int:
+def _to_hundredths(degrees: float, _: Any) -> int:
     return round(degrees * 100)
 
 
-def _as_float(pascal: int, _: Any) -> float:
+def _to_float(pascal: int, _: Any) -> float:
     return float(pascal)
 
 
-def _whole(pascal: float, _: Any) -> int:
+def _to_whole(pascal: float, _: Any) -> int:
     return round(pascal)
 
 
 FORMATS: dict[str, Definition] = {
     "cc2650/movement": Struct("gyro" / Fields("<3h"), "acc" / Fields("<3h"), "mag" / Fields("<3h")),
-    # From the high bit of the second byte down to the low bit of the first; where bits above the range are set, the
-    # byte order is wrong. Axes are x, y, z, the range is in g.
+    # Bits from the high bit of the second byte to the low bit of the first byte. The six highest bits are zero, which
+    # rejects a wrong byte order. Axes are x, y, z; the range is in g.
     "cc2650/movement-config": ByteSwapped(
         BitStruct(
             Const(0, BitsInteger(6)),
@@ -86,8 +86,8 @@ FORMATS: dict[str, Definition] = {
     "cc2650/movement-period": PERIOD,
     # Degrees Celsius and Pa, compensated by the tag (BMP280).
     "cc2650/barometer": Struct(
-        "temperature" / ExprAdapter(Int24sl, _degrees, _hundredths),
-        "pressure" / ExprAdapter(Int24ul, _as_float, _whole),
+        "temperature" / ExprAdapter(Int24sl, _to_degrees, _to_hundredths),
+        "pressure" / ExprAdapter(Int24ul, _to_float, _to_whole),
     ),
     "cc2650/barometer-config": Struct("on" / ON_OFF),
     "cc2650/barometer-period": PERIOD,
@@ -96,45 +96,45 @@ FORMATS: dict[str, Definition] = {
 }
 
 
-def _movement(sent: Any, known: Known) -> Reading:
+def _movement(value: Any, known: Known) -> Reading:
     a = known.get("acc_range", ACC_RANGE) * GRAVITY / 32768
-    ax, ay, az = sent.acc
-    gx, gy, gz = sent.gyro
-    mx, my, mz = sent.mag
+    ax, ay, az = value.acc
+    gx, gy, gz = value.gyro
+    mx, my, mz = value.mag
     sample = Measured(
         acc=(ax * a, ay * a, az * a) if known.get("has_acc", True) else None,
-        gyro=(gx * GYRO, gy * GYRO, gz * GYRO) if known.get("has_gyro", True) else None,
+        gyro=(gx * GYRO_SCALE, gy * GYRO_SCALE, gz * GYRO_SCALE) if known.get("has_gyro", True) else None,
         # The MPU-9250's magnetometer has axes of its own: (y, x, -z) in those of its accelerometer and gyroscope.
-        mag=(my * MAG, mx * MAG, -mz * MAG) if known.get("has_mag", True) else None,
-        saturated=max(map(abs, (*sent.acc, *sent.gyro))) >= END_COUNTS,
+        mag=(my * MAG_SCALE, mx * MAG_SCALE, -mz * MAG_SCALE) if known.get("has_mag", True) else None,
+        saturated=max(map(abs, (*value.acc, *value.gyro))) >= RANGE_END_COUNTS,
     )
     return Reading((sample,))
 
 
-def _movement_config(sent: Any, known: Known) -> Reading:
-    """Read the configuration; with wake on motion the tag is silent while it lies still."""
-    measures = any(sent.acc_axes) or any(sent.gyro_axes) or sent.mag
+def _movement_config(value: Any, known: Known) -> Reading:
+    """Read the sensors' configuration; with wake on motion the tag sends nothing while it lies still."""
+    measures = any(value.acc_axes) or any(value.gyro_axes) or value.mag
     return Reading(
-        silent=sent.wake_on_motion or not measures,
+        silent=value.wake_on_motion or not measures,
         known={
-            "acc_range": sent.range,
-            "has_acc": all(sent.acc_axes),
-            "has_gyro": all(sent.gyro_axes),
-            "has_mag": sent.mag,
+            "acc_range": value.range,
+            "has_acc": all(value.acc_axes),
+            "has_gyro": all(value.gyro_axes),
+            "has_mag": value.mag,
         },
     )
 
 
-def _movement_period(sent: Any, known: Known) -> Reading:
-    return Reading(period=sent.period)
+def _movement_period(value: Any, known: Known) -> Reading:
+    return Reading(period=value.period)
 
 
-def _barometer(sent: Any, known: Known) -> Reading:
-    return Reading(air_pressure=sent.pressure)
+def _barometer(value: Any, known: Known) -> Reading:
+    return Reading(air_pressure=value.pressure)
 
 
-def _keys(sent: Any, known: Known) -> Reading:
-    return Reading(keys=tuple([name for name in ("left", "right", "reed") if sent[name]]))
+def _keys(value: Any, known: Known) -> Reading:
+    return Reading(keys=tuple([name for name in ("left", "right", "reed") if value[name]]))
 
 
 DRIVER = Driver(

@@ -1,7 +1,8 @@
-"""Movella DOT, formerly Xsens DOT (protocol/dot.md), in its mode "rate quantities". Never tried on hardware.
+"""Movella DOT, formerly Xsens DOT (protocol/dot.md), in its mode "rate quantities".
 
-It sends acceleration and angular velocity at 60 Hz with the device's own microseconds. dot_orientation.py is its mode
-"orientation". Source: Movella DOT BLE Service Specification, document XD0506P, revision C, July 2023."""
+It sends acceleration and angular velocity at 60 Hz, with the device's time in us. dot_orientation.py has its mode
+"orientation". Source: Movella DOT BLE Service Specification, document XD0506P, revision C, July 2023. It was never
+tried on hardware."""
 
 from __future__ import annotations
 
@@ -15,14 +16,16 @@ from ...wire.fields import Fields, Hex
 from ..driver import Driver, Known, Measured, Reading
 from ..profile import Access, Channel, Profile, Write
 
-RATES = 21
+RATES_MODE = 21
 """Number of the payload mode: timestamp, acceleration, angular velocity."""
 OUTPUT_RATES = (1, 4, 10, 12, 15, 20, 30, 60, 120)
-"""Output rates, Hz; the last only for recording in the device."""
-VISIT_RATE = 0x10
-"""Bit that marks the output rate as a value to be set."""
-FULL_ACC, FULL_GYRO = 0.99 * 16.0 * GRAVITY, 0.99 * radians(2000.0)
-"""Ends of the ranges (Movella DOT User Manual), m/s^2 and rad/s, less what calibration may take off."""
+"""Output rates, Hz; 120 Hz is possible only for recording in the device."""
+RATE_BIT = 0x10
+"""Bit of the field `visit` that says that the output rate is set."""
+ACC_RANGE_END, GYRO_RANGE_END = 0.99 * 16.0 * GRAVITY, 0.99 * radians(2000.0)
+"""Values that count as saturated, m/s^2 and rad/s: 99 % of the range (Movella DOT User Manual).
+
+The device's calibration may reduce the value at the end of the range."""
 
 
 def uuid(short: int) -> str:
@@ -35,8 +38,8 @@ def all_finite(values: Any, _: Any) -> bool:
     return all(map(isfinite, values))
 
 
-def _rate_allowed(rate: int, context: Any) -> bool:
-    return rate in OUTPUT_RATES or not context.visit & VISIT_RATE
+def _is_rate_allowed(rate: int, context: Any) -> bool:
+    return rate in OUTPUT_RATES or not context.visit & RATE_BIT
 
 
 PROFILE = Profile(
@@ -51,7 +54,7 @@ PROFILE = Profile(
     ),
     setup=(
         Write("dot/device-control", b"\x10" + bytes(23) + b"\x3c\x00" + bytes(6)),  # 60 Hz, the most that it streams
-        Write("dot/control", bytes([1, 1, RATES])),
+        Write("dot/control", bytes([1, 1, RATES_MODE])),
     ),
     reads=("dot/battery",),
     nominal_rate=60.0,
@@ -80,7 +83,7 @@ FORMATS = {
         "timeouts" / Fields("<4B"),
         "tag_length" / Int8ul,
         "tag" / Hex(Bytes(16)),
-        "rate" / ExprValidator(Int16ul, _rate_allowed),
+        "rate" / ExprValidator(Int16ul, _is_rate_allowed),
         "filter" / Int8ul,
         "reserved" / Hex(Bytes(5)),
         Terminated,
@@ -89,25 +92,25 @@ FORMATS = {
 }
 
 
-def _rates(sent: Any, known: Known) -> Reading:
-    x, y, z = sent.gyro
+def _rates(value: Any, known: Known) -> Reading:
+    x, y, z = value.gyro
     gyro = (radians(x), radians(y), radians(z))
-    saturated = max(map(abs, sent.acc)) >= FULL_ACC or max(map(abs, gyro)) >= FULL_GYRO
-    return Reading((Measured(sent.acc, gyro, saturated=saturated),), ticks=sent.ticks)
+    saturated = max(map(abs, value.acc)) >= ACC_RANGE_END or max(map(abs, gyro)) >= GYRO_RANGE_END
+    return Reading((Measured(value.acc, gyro, saturated=saturated),), ticks=value.ticks)
 
 
-def _control(sent: Any, known: Known) -> Reading:
-    return Reading(silent=sent.action == 0 or sent.mode != RATES)
+def _control(value: Any, known: Known) -> Reading:
+    return Reading(silent=value.action == 0 or value.mode != RATES_MODE)
 
 
-def device_control(sent: Any, known: Known) -> Reading:
-    """Read the output rate, where the value sets it."""
-    return Reading(rate=float(sent.rate)) if sent.visit & VISIT_RATE else Reading()
+def device_control(value: Any, known: Known) -> Reading:
+    """Return a Reading with the output rate, if the value sets it."""
+    return Reading(rate=float(value.rate)) if value.visit & RATE_BIT else Reading()
 
 
-def battery(sent: Any, known: Known) -> Reading:
-    """Read the battery level."""
-    return Reading(battery=sent.percent / 100.0)
+def battery(value: Any, known: Known) -> Reading:
+    """Return a Reading with the battery level."""
+    return Reading(battery=value.percent / 100.0)
 
 
 DRIVER = Driver(

@@ -1,7 +1,7 @@
-"""Movella DOT (dot.py) in its mode "orientation (quaternion)": its own attitude at 60 Hz. Never tried on hardware.
+"""Movella DOT (dot.py) in its mode "orientation (quaternion)", which sends the attitude at 60 Hz.
 
-It serves the sites of a lower-limb chain, which needs only attitudes (protocol/dot-orientation.md). Source: Movella DOT
-BLE Service Specification, document XD0506P, revision C, July 2023."""
+It is for sensors on pelvis, thighs and shanks, whose recipe needs only attitudes (protocol/dot-orientation.md). Source:
+Movella DOT BLE Service Specification, document XD0506P, revision C, July 2023. It was never tried on hardware."""
 
 from __future__ import annotations
 
@@ -15,20 +15,18 @@ from ..driver import Driver, Known, Measured, Reading
 from ..profile import Access, Channel, Write
 from . import dot
 
-QUATERNION = 5
+QUATERNION_MODE = 5
 """Number of the payload mode: timestamp, orientation as a quaternion."""
 NAME = "dot-orientation"
-LENGTH_ERROR = 0.01
-"""Largest deviation of a quaternion's length from 1.
-
-Rounding to binary32 stays within it; the numbers of another mode do not."""
+MAX_LENGTH_ERROR = 0.01
+"""Largest deviation of a quaternion's length from 1; values of another mode are rejected by it."""
 
 
-def _of_length_one(quat: tuple[float, ...], _: Any) -> bool:
-    return dot.all_finite(quat, None) and abs(sum([part * part for part in quat]) - 1.0) < 2.0 * LENGTH_ERROR
+def _has_length_one(quat: tuple[float, ...], _: Any) -> bool:
+    return dot.all_finite(quat, None) and abs(sum([part * part for part in quat]) - 1.0) < 2.0 * MAX_LENGTH_ERROR
 
 
-def _named(channel: str) -> str:
+def _rename_channel(channel: str) -> str:
     """Return the name of a channel of dot.py under this profile's name."""
     return channel.replace(dot.PROFILE.name, NAME, 1)
 
@@ -39,14 +37,14 @@ PROFILE = evolve(
     channels=(
         Channel("dot-orientation/quaternion", dot.uuid(0x2000), dot.uuid(0x2004), Access.NOTIFY),
         *[
-            evolve(channel, name=_named(channel.name))
+            evolve(channel, name=_rename_channel(channel.name))
             for channel in dot.PROFILE.channels
             if channel.name != "dot/rates"
         ],
     ),
     setup=(
         Write("dot-orientation/device-control", dot.PROFILE.setup[0].value),
-        Write("dot-orientation/control", bytes([1, 1, QUATERNION])),
+        Write("dot-orientation/control", bytes([1, 1, QUATERNION_MODE])),
     ),
     reads=("dot-orientation/battery",),
     streams=("dot-orientation/quaternion",),
@@ -54,7 +52,7 @@ PROFILE = evolve(
 
 FORMATS = {
     "dot-orientation/quaternion": Struct(
-        "ticks" / Int32ul, "quat" / ExprValidator(Fields("<4f"), _of_length_one), Terminated
+        "ticks" / Int32ul, "quat" / ExprValidator(Fields("<4f"), _has_length_one), Terminated
     ),
     "dot-orientation/control": dot.FORMATS["dot/control"],
     "dot-orientation/device-control": dot.FORMATS["dot/device-control"],
@@ -62,12 +60,12 @@ FORMATS = {
 }
 
 
-def _quaternion(sent: Any, known: Known) -> Reading:
-    return Reading((Measured(quat=sent.quat),), ticks=sent.ticks)
+def _quaternion(value: Any, known: Known) -> Reading:
+    return Reading((Measured(quat=value.quat),), ticks=value.ticks)
 
 
-def _control(sent: Any, known: Known) -> Reading:
-    return Reading(silent=sent.action == 0 or sent.mode != QUATERNION)
+def _control(value: Any, known: Known) -> Reading:
+    return Reading(silent=value.action == 0 or value.mode != QUATERNION_MODE)
 
 
 DRIVER = Driver(

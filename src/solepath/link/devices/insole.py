@@ -1,6 +1,6 @@
-"""The insole (protocol/insole.md): frames to samples, by the rules of protocol/clock.md; INFO to scales and layout.
+"""The insole (protocol/insole.md): frames become samples (protocol/clock.md), INFO gives scales and cell layout.
 
-It has a link of its own, no Driver: frames come in fragments, and each must be of the layout that INFO describes."""
+It has its own link class and no Driver, because frames may come in fragments and must have the layout of INFO."""
 
 from __future__ import annotations
 
@@ -23,23 +23,23 @@ from ...wire.insole_info import InsoleInfo, parse_info
 from ..counters import PacketPosition, PacketRun
 from ..device_link import DeviceLink, Output
 from ..profile import BATTERY, FIRMWARE, Access, Channel, Profile, Write
-from ..rest import RestCheck
+from ..rest_check import RestCheck
 from .reassembly import Reassembly
 
 FULL_SCALE_COUNTS = 32768
-"""Counts of a full scale of the inertial sensor."""
-ASSUMED_ACC = 16.0 * GRAVITY / FULL_SCALE_COUNTS
-"""Accelerometer scale until INFO says otherwise, m/s^2 per count."""
-ASSUMED_GYRO = radians(2000.0) / FULL_SCALE_COUNTS
-"""Gyroscope scale until INFO says otherwise, rad/s per count."""
+"""Counts that are the full scale of accelerometer and gyroscope."""
+ASSUMED_ACC_SCALE = 16.0 * GRAVITY / FULL_SCALE_COUNTS
+"""Accelerometer scale before INFO comes, m/s^2 per count: 16 g full scale."""
+ASSUMED_GYRO_SCALE = radians(2000.0) / FULL_SCALE_COUNTS
+"""Gyroscope scale before INFO comes, rad/s per count: 2000 degrees/s full scale."""
 TICK_RATE = 32768
-"""Ticks per second until INFO says otherwise."""
+"""Ticks per second before INFO comes (protocol/clock.md)."""
 SEQUENCE_MODULUS, TICK_MODULUS = 1 << 16, 1 << 32
-"""Number of values of the two counters of a frame, at which they wrap."""
-WHOLE_FRAME = bytes([MAGIC])
+"""Numbers of values of a frame's sequence and ticks."""
+WHOLE_FRAME_START = bytes([MAGIC])
 """First byte of a frame that is not fragmented."""
-FULL_PRESSURE = 4095.0
-"""Counts of a cell at full scale."""
+FULL_PRESSURE_COUNTS = 4095.0
+"""Counts of a pressure cell at full scale."""
 
 
 def _uuid(short: int) -> str:
@@ -69,64 +69,68 @@ PROFILE = Profile(
 class InsoleLink(DeviceLink):
     """The link of an insole: channels insole/frame, insole/info and insole/control of one foot.
 
-    `feed` raises WireError for values that cannot be used, and then nothing has changed but the fragments under way.
-    Latency none. Before INFO comes, counts are taken for 16 g and 2000 degrees/s full scale and pressure stays in
-    counts; the layout of the first frame is then the only one accepted."""
+    `feed` raises WireError for a value that cannot be used, and changes only the incomplete frame. There is no latency.
+    Before INFO comes, full scales of 16 g and 2000 degrees/s are assumed, pressure stays in counts, and only frames
+    with the layout of the first frame are accepted."""
 
     name: ClassVar[str] = "insole"
     may_be_silent: ClassVar[bool] = False
 
     site: Site
     info_digest: bytes = b""
-    """Digest (eight bytes) of the INFO record in force; empty before the first."""
+    """Digest (eight bytes) of the newest INFO record; empty before the first."""
     layout: int | None = None
+    """Id of the cell layout; None before INFO or a frame."""
     cells: int = 0
+    """Number of pressure cells."""
     rate: int = TICK_RATE
-    acc_scale: float = ASSUMED_ACC
-    gyro_scale: float = ASSUMED_GYRO
+    """Ticks per second."""
+    acc_scale: float = ASSUMED_ACC_SCALE
+    gyro_scale: float = ASSUMED_GYRO_SCALE
     pressure_scale: float = 0.0
+    """Force of one count, N; 0 while pressure stays in counts."""
     limitation_reported: bool = False
-    """True if the Limitation was reported."""
-    run: PacketRun = field(factory=PacketRun)
-    fragments: Reassembly = field(factory=Reassembly)
-    rest: RestCheck = field(factory=lambda: RestCheck(ASSUMED_ACC))
+    """True if the Limitation about missing INFO was reported."""
+    packet_run: PacketRun = field(factory=PacketRun)
+    reassembly: Reassembly = field(factory=Reassembly)
+    rest_check: RestCheck = field(factory=lambda: RestCheck(ASSUMED_ACC_SCALE))
 
     @property
     def unsettled_until(self) -> float | None:
-        """Newest time that is not comparable with those of other devices (clock.py), s."""
-        return None if self.run.clock is None else self.run.clock.unsettled_until
+        """Newest time that is not comparable with times of other devices (clock.py), s."""
+        return None if self.packet_run.clock is None else self.packet_run.clock.unsettled_until
 
     def feed(self, channel: str, data: bytes, arrival: float) -> Output:
         if channel == "insole/frame":
-            if data[:1] != WHOLE_FRAME and is_fragment(data):
+            if data[:1] != WHOLE_FRAME_START and is_fragment(data):
                 return self._read_fragment(data, arrival)
             out = self._read_frame(parse_frame(data), arrival)
-            if self.fragments.newest is None:
+            if self.reassembly.newest_fragment is None:
                 return out
-            return self._report_dropped(self.fragments.drop(), arrival) + out
+            return self._report_dropped(self.reassembly.drop(), arrival) + out
         if channel == "insole/info":
             return self._read_info(data, arrival)
-        parse_control(data)  # insole/control as written: its effect shows in frames and INFO
+        parse_control(data)  # a command to the insole, whose effect shows in frames and INFO
         return []
 
     def restart_clock(self) -> None:
         """Discard the clock fit, because the receiver's clock was set back."""
-        self.run.clock = None
+        self.packet_run.clock = None
 
     def handle_reconnection(self) -> None:
-        """Discard an incomplete frame in fragments; after a new connection nothing can be overtaken."""
-        self.fragments.drop()
-        self.run.after_reconnection = True
+        """Discard an incomplete frame, and prepare for counters that restarted."""
+        self.reassembly.drop()
+        self.packet_run.after_reconnection = True
 
     def flush(self, known_at: float) -> Output:
         return []
 
     def _read_fragment(self, data: bytes, arrival: float) -> Output:
-        whole, dropped = self.fragments.feed(parse_fragment(data))
-        out = self._report_dropped(dropped, arrival)
-        if whole is not None:
+        frame_data, drop_reason = self.reassembly.feed(parse_fragment(data))
+        out = self._report_dropped(drop_reason, arrival)
+        if frame_data is not None:
             try:
-                out += self._read_frame(parse_frame(whole), arrival)
+                out += self._read_frame(parse_frame(frame_data), arrival)
             except WireError as error:
                 out.append(self._report_rejected(error.reason, error.detail, arrival))
         return out
@@ -150,16 +154,16 @@ class InsoleLink(DeviceLink):
         self.info_digest = digest
         self.layout, self.cells, self.rate = info.layout, len(info.cells), info.tick_rate
         if info.acc_scale != self.acc_scale:
-            self.rest = RestCheck(info.acc_scale)
+            self.rest_check = RestCheck(info.acc_scale)
         self.acc_scale, self.gyro_scale, self.pressure_scale = info.acc_scale, info.gyro_scale, info.pressure_scale
-        known = info.pressure_scale > 0.0
+        is_calibrated = info.pressure_scale > 0.0
         layout = Layout(
             id=info.layout,
             foot=info.foot,
             cells=info.cells,
             length=info.length,
-            scale=info.pressure_scale if known else None,
-            full_scale=FULL_PRESSURE * info.pressure_scale if known else FULL_PRESSURE,
+            scale=info.pressure_scale if is_calibrated else None,
+            full_scale=FULL_PRESSURE_COUNTS * info.pressure_scale if is_calibrated else FULL_PRESSURE_COUNTS,
         )
         return [LayoutKnown(t=arrival, known_at=arrival, site=self.site, layout=shared(layout))]
 
@@ -172,16 +176,25 @@ class InsoleLink(DeviceLink):
                 Rejection.WRONG_LAYOUT,
                 f"layout {frame.layout} of {cells} cells, not layout {self.layout} of {self.cells}",
             )
-        run = self.run
-        e = (frame.ticks - run.ticks + TICK_MODULUS // 2) % TICK_MODULUS - TICK_MODULUS // 2  # nearest to zero
-        d, m = run.count_packets(frame.sequence, SEQUENCE_MODULUS, e / run.packet_ticks)
-        counted = PacketPosition(
-            frame.sequence, frame.ticks, frame.interval, len(frame.samples), d, m, e, frame.retransmitted
+        run = self.packet_run
+        ticks_after = (
+            frame.ticks - run.ticks + TICK_MODULUS // 2
+        ) % TICK_MODULUS - TICK_MODULUS // 2  # nearest to zero
+        difference, packets = run.count_packets(frame.sequence, SEQUENCE_MODULUS, ticks_after / run.packet_ticks)
+        position = PacketPosition(
+            frame.sequence,
+            frame.ticks,
+            frame.interval,
+            len(frame.samples),
+            difference,
+            packets,
+            ticks_after,
+            frame.retransmitted,
         )
-        taken = run.accept(counted, float(self.rate), arrival)
+        sample_times = run.accept(position, float(self.rate), arrival)
         out: Output = []
-        if taken.lost or taken.restarted is not None:
-            out += taken.make_events(self.site, "insole/frame", arrival)
+        if sample_times.lost_count or sample_times.restarted is not None:
+            out += sample_times.make_events(self.site, "insole/frame", arrival)
         if self.layout is None:
             self.layout, self.cells = frame.layout, cells
         if not self.info_digest and not self.limitation_reported:
@@ -189,7 +202,7 @@ class InsoleLink(DeviceLink):
             what = "no INFO from the insole: 16 g and 2000 degrees/s full scale assumed, pressure in counts"
             out.append(Limitation(t=arrival, known_at=arrival, site=self.site, what=what))
         a, g, n = self.acc_scale, self.gyro_scale, self.pressure_scale
-        for raw, t in zip(frame.samples, taken.times, strict=True):
+        for raw, t in zip(frame.samples, sample_times.times, strict=True):
             acc = gyro = pressure = quat = None
             if raw.imu is not None:
                 ax, ay, az, gx, gy, gz = raw.imu
@@ -204,22 +217,22 @@ class InsoleLink(DeviceLink):
             known_at = arrival if arrival > t else t
             sample = Sample(t, self.site, acc, gyro, pressure, quat, known_at=known_at, saturated=frame.saturated)
             out.append(sample)
-            if acc is not None and not self.rest.done:
-                out += self.rest.check(sample, a * FULL_SCALE_COUNTS / GRAVITY)
+            if acc is not None and not self.rest_check.is_finished:
+                out += self.rest_check.check(sample, a * FULL_SCALE_COUNTS / GRAVITY)
         return out
 
 
 def _check_scales(info: InsoleInfo) -> None:
-    """Raise WireError for values that no insole has.
+    """Raise WireError for scales or a tick rate that no insole has.
 
-    Full scales must be from 1 to 1000 g and from 10 to 100,000 degrees/s, pressure up to 100 kN, the tick rate at least
-    100 Hz. Zero is legal and means that there is no such sensor, or no calibration."""
+    Full scales must be from 1 to 1000 g, from 10 to 100,000 degrees/s, and up to 100 kN a cell; the tick rate must be
+    at least 100 Hz. A scale of 0 is allowed: there is no such sensor, or pressure is not calibrated."""
     full_acc = info.acc_scale * FULL_SCALE_COUNTS / GRAVITY
     full_gyro = info.gyro_scale * FULL_SCALE_COUNTS
     if (
         (full_acc != 0.0 and not 0.99 <= full_acc <= 1000.0)
         or (full_gyro != 0.0 and not radians(10.0) <= full_gyro <= radians(1e5))
-        or info.pressure_scale * FULL_PRESSURE > 1e5
+        or info.pressure_scale * FULL_PRESSURE_COUNTS > 1e5
         or info.tick_rate < 100
     ):
         raise WireError(
@@ -235,4 +248,4 @@ def make_insole_link(site: Site, firmware: str) -> InsoleLink:
 
 
 LINK = make_insole_link, InsoleLink.feed
-"""Function that makes the device's own link, and function that feeds it."""
+"""Function that makes a link, and function that feeds it (kinds.DeviceKind)."""

@@ -1,8 +1,7 @@
-"""ORPHE INSOLE (protocol/orphe.md): inertial sensor, attitude and six pressure cells. Never tried on hardware.
+"""ORPHE INSOLE (protocol/orphe.md): inertial sensor, attitude and six pressure cells.
 
-Notifications have two or four samples and a number, at 104 or 208 Hz.
-
-Source: the maker's library ORPHE-INSOLE.js, 1.3.4 (its parser, its tests and docs/SENSOR_SPEC.md); facts only."""
+A notification has two or four samples, at 104 or 208 Hz, and a sequence number. Source: the maker's library
+ORPHE-INSOLE.js 1.3.4 (the parser, the tests and docs/SENSOR_SPEC.md), facts only. It was never tried on hardware."""
 
 from __future__ import annotations
 
@@ -30,33 +29,33 @@ from ...wire.fields import Definition, Fields, Hex
 from ..driver import Driver, Known, Measured, Reading
 from ..profile import FIRMWARE, Access, Channel, Profile, Write
 
-RATES = {50: 208.0, 54: 208.0, 55: 208.0, 56: 104.0}
-"""Samples a second by header.
+RATE_BY_HEADER = {50: 208.0, 54: 208.0, 55: 208.0, 56: 104.0}
+"""Samples a second, by the header (first byte) of a notification.
 
-The maker documents 200 and 100; the part (LSM6DSOX) has 208, which was measured too."""
+The maker documents 200 and 100, but the inertial sensor (LSM6DSOX) has 208, and 208 was measured."""
 ACC_RANGES, GYRO_RANGES = (2.0, 4.0, 8.0, 16.0), (250.0, 500.0, 1000.0, 2000.0)
-"""Full scales by the numbers in INFO, g and degrees/s."""
-GYRO = radians(35e-6)
-"""Gyroscope scale, rad/s per count and degree/s of range.
+"""Full scales by their numbers in INFO, g and degrees/s."""
+GYRO_SCALE = radians(35e-6)
+"""Gyroscope scale, rad/s per count and per degree/s of full scale.
 
-It is 70 mdps per count at 2000 (ST, LSM6DSOX), and not 2000 / 32768."""
-END_COUNTS = 32767
-"""Counts at the end of a sensor's range."""
-LONGEST_INFO = 32
-"""Longest INFO that is accepted, bytes; the maker's tests have 20."""
+At 2000 degrees/s full scale a count is 0.070 degrees/s (ST, LSM6DSOX), not 2000 / 32768."""
+RANGE_END_COUNTS = 32767
+"""Magnitude of a count at the end of a sensor's range."""
+MAX_INFO_SIZE = 32
+"""Largest size of an INFO value that is accepted, bytes; the maker's tests have 20."""
 
-_INFORMATION = "01a9d6b5-ff6e-444a-b266-0be75e85c064"
-_OTHER = "db1b7aca-cda5-4453-a49b-33a53d3f0833"
-_DEVICE_INFORMATION = "24354f22-1c46-430e-a4ab-a1eeabbcdfc0"
+_INFORMATION_SERVICE = "01a9d6b5-ff6e-444a-b266-0be75e85c064"
+_OTHER_SERVICE = "db1b7aca-cda5-4453-a49b-33a53d3f0833"
+_DEVICE_INFORMATION_ID = "24354f22-1c46-430e-a4ab-a1eeabbcdfc0"
 
 PROFILE = Profile(
     name="orphe",
     names=(),
-    services=(),  # another device of the same maker has the same
+    services=(),  # another device of the maker advertises the same services
     channels=(
-        Channel("orphe/values", _OTHER, "f3f9c7ce-46ee-4205-89ac-abe64e626c0f", Access.NOTIFY),
-        Channel("orphe/info", _INFORMATION, _DEVICE_INFORMATION, Access.READ),
-        Channel("orphe/mode", _INFORMATION, _DEVICE_INFORMATION, Access.WRITE),
+        Channel("orphe/values", _OTHER_SERVICE, "f3f9c7ce-46ee-4205-89ac-abe64e626c0f", Access.NOTIFY),
+        Channel("orphe/info", _INFORMATION_SERVICE, _DEVICE_INFORMATION_ID, Access.READ),
+        Channel("orphe/mode", _INFORMATION_SERVICE, _DEVICE_INFORMATION_ID, Access.WRITE),
         FIRMWARE,
     ),
     setup=(Write("orphe/mode", b"\x0d\x04"),),
@@ -75,15 +74,15 @@ _SAMPLES: dict[int, Definition] = {
     55: Array(4, Struct(*_IMU, _PRESSURE)),
     56: Array(2, Struct(_QUAT, *_IMU, _PRESSURE)),
 }
-_UNUSED = {50: 12, 54: 0, 55: 0, 56: 32}
+_UNUSED_SIZES = {50: 12, 54: 0, 55: 0, 56: 32}
 
 
-def _unused(context: Any) -> int:
-    return _UNUSED[context.header]
+def _unused_size(context: Any) -> int:
+    return _UNUSED_SIZES[context.header]
 
 
-def _not_too_long(rest: str, _: Any) -> bool:
-    return len(rest) <= 2 * (LONGEST_INFO - 10)
+def _is_short_enough(rest_check: str, _: Any) -> bool:
+    return len(rest_check) <= 2 * (MAX_INFO_SIZE - 10)
 
 
 FORMATS = {
@@ -95,7 +94,7 @@ FORMATS = {
         "second" / OneOf(Int8ub, range(60)),
         "millisecond" / OneOf(Int16ub, range(1000)),
         "samples" / Switch(this.header, _SAMPLES),
-        "unused" / Hex(Bytes(_unused)),
+        "unused" / Hex(Bytes(_unused_size)),
         Terminated,
     ),
     "orphe/info": Struct(
@@ -104,34 +103,34 @@ FORMATS = {
         "unknown" / Hex(Bytes(6)),
         "acc_range" / OneOf(Int8ub, range(4)),
         "gyro_range" / OneOf(Int8ub, range(4)),
-        "rest" / ExprValidator(Hex(GreedyBytes), _not_too_long),
+        "rest" / ExprValidator(Hex(GreedyBytes), _is_short_enough),
     ),
     "orphe/mode": Struct(Const(b"\x0d"), "mode" / OneOf(Int8ub, [1, 2, 3, 4]), Terminated),
 }
 
 
-def _values(sent: Any, known: Known) -> Reading:
+def _values(value: Any, known: Known) -> Reading:
     a = known.get("acc_range", 16.0) * GRAVITY / 32768
-    g = known.get("gyro_range", 2000.0) * GYRO
+    g = known.get("gyro_range", 2000.0) * GYRO_SCALE
     samples = []
-    for one in reversed(sent.samples):  # the newest stands first
-        (ax, ay, az), (gx, gy, gz) = one.acc, one.gyro
+    for sample in reversed(value.samples):  # the newest stands first
+        (ax, ay, az), (gx, gy, gz) = sample.acc, sample.gyro
         samples.append(
             Measured(
                 acc=(ax * a, ay * a, az * a),
                 gyro=(gx * g, gy * g, gz * g),
-                pressure=tuple(map(float, one.pressure)) if "pressure" in one else None,
-                quat=one.get("quat"),
-                saturated=max(map(abs, (*one.acc, *one.gyro))) >= END_COUNTS,
+                pressure=tuple(map(float, sample.pressure)) if "pressure" in sample else None,
+                quat=sample.get("quat"),
+                saturated=max(map(abs, (*sample.acc, *sample.gyro))) >= RANGE_END_COUNTS,
             )
         )
-    ms = ((sent.hour * 60 + sent.minute) * 60 + sent.second) * 1000 + sent.millisecond
-    return Reading(tuple(samples), sequence=sent.serial, ticks=ms, rate=RATES[sent.header])
+    ms = ((value.hour * 60 + value.minute) * 60 + value.second) * 1000 + value.millisecond
+    return Reading(tuple(samples), sequence=value.serial, ticks=ms, rate=RATE_BY_HEADER[value.header])
 
 
-def _info(sent: Any, known: Known) -> Reading:
-    ranges = {"acc_range": ACC_RANGES[sent.acc_range], "gyro_range": GYRO_RANGES[sent.gyro_range]}
-    return Reading(foot=Foot.RIGHT if sent.mount & 1 else Foot.LEFT, known=ranges)
+def _info(value: Any, known: Known) -> Reading:
+    ranges = {"acc_range": ACC_RANGES[value.acc_range], "gyro_range": GYRO_RANGES[value.gyro_range]}
+    return Reading(foot=Foot.RIGHT if value.mount & 1 else Foot.LEFT, known=ranges)
 
 
 DRIVER = Driver(

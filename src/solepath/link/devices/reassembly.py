@@ -11,55 +11,55 @@ from ...wire.fragment import Fragment
 
 @define
 class Reassembly:
-    """Collects the fragments of one frame; a fragment out of order drops the frame. Never more than 512 bytes."""
+    """Joins the fragments of one frame of at most 512 bytes; a fragment out of order drops the frame."""
 
     frame_id: int = 0
     """Id of the newest frame."""
-    expected: int = 0
-    """Index of the next fragment; 0 when no frame is under way."""
+    next_index: int = 0
+    """Index of the next fragment; 0 when no frame is incomplete."""
     skipping: bool = False
-    """True if the frame `frame_id` was dropped; the rest of it is then skipped without an event."""
+    """True if the frame `frame_id` was dropped; its further fragments are then skipped without an event."""
     body: bytes = b""
-    """Bytes of the frame so far."""
-    newest: Fragment | None = None
-    """Fragment joined last, as long as nothing else came."""
+    """Bytes of the incomplete frame."""
+    newest_fragment: Fragment | None = None
+    """Fragment that was joined last; None after a packet of another kind."""
 
     def drop(self) -> str | None:
-        """Drop a frame under way, because something else came; return a description of it, or None."""
-        self.newest = None
-        if self.expected == 0:
+        """Drop the incomplete frame, and return a description of the loss; None when there is no incomplete frame."""
+        self.newest_fragment = None
+        if self.next_index == 0:
             return None
-        detail = f"frame dropped: its fragment {self.expected} never came"
-        self.expected, self.body = 0, b""
+        detail = f"frame dropped: its fragment {self.next_index} never came"
+        self.next_index, self.body = 0, b""
         return detail
 
     def feed(self, fragment: Fragment) -> tuple[bytes | None, str | None]:
-        """Return the whole frame when this was its last fragment, and a description of a dropped frame; or None.
+        """Return the frame if this fragment completes it, and a description of a frame that was dropped; else None.
 
-        WireError, and nothing has changed, when the fragment is the newest one again, body and all."""
-        if fragment == self.newest:
+        The newest fragment again, with the same body, raises WireError and changes nothing."""
+        if fragment == self.newest_fragment:
             raise WireError(Rejection.DUPLICATE, f"fragment {fragment.index} again")
-        known = fragment.frame_id == self.frame_id
-        if known and self.skipping and fragment.index > 0:
+        same_frame = fragment.frame_id == self.frame_id
+        if same_frame and self.skipping and fragment.index > 0:
             return None, None
-        follows = known and self.expected > 0 and fragment.index == self.expected
-        dropped = None
+        follows = same_frame and self.next_index > 0 and fragment.index == self.next_index
+        drop_reason = None
         if not follows:
-            differs = known and self.expected > 0 and fragment.index == self.expected - 1
-            dropped = self.drop()
+            differs = same_frame and self.next_index > 0 and fragment.index == self.next_index - 1
+            drop_reason = self.drop()
             if differs:
-                dropped = f"frame dropped: its fragment {fragment.index} came twice, not the same"
+                drop_reason = f"frame dropped: its fragment {fragment.index} came twice, not the same"
             self.frame_id = fragment.frame_id
             self.skipping = fragment.index > 0
             if self.skipping:
-                return None, dropped or f"frame dropped: its fragment 0 never came, {fragment.index} did"
+                return None, drop_reason or f"frame dropped: its fragment 0 never came, {fragment.index} did"
         if len(self.body) + len(fragment.body) > LONGEST_VALUE:
-            self.expected, self.body, self.skipping, self.newest = 0, b"", True, None
+            self.next_index, self.body, self.skipping, self.newest_fragment = 0, b"", True, None
             return None, f"frame dropped: longer than {LONGEST_VALUE} bytes"
         self.body += fragment.body
-        self.newest = fragment
+        self.newest_fragment = fragment
         if fragment.last:
-            whole, self.body, self.expected = self.body, b"", 0
-            return whole, dropped
-        self.expected = fragment.index + 1
-        return None, dropped
+            frame_data, self.body, self.next_index = self.body, b"", 0
+            return frame_data, drop_reason
+        self.next_index = fragment.index + 1
+        return None, drop_reason

@@ -1,7 +1,7 @@
-"""Nordic Thingy:52 (protocol/thingy.md): nine axes at up to 200 Hz without any counter, and air pressure.
+"""Nordic Thingy:52 (protocol/thingy.md): nine axes at up to 200 Hz without counters, and air pressure.
 
-Never tried on hardware. Source: the published firmware, Nordic-Thingy52-FW 2.2.0 (m_motion.c, drv_motion.c, ble_tms.h,
-ble_tes.h)."""
+Source: the published firmware, Nordic-Thingy52-FW 2.2.0 (m_motion.c, drv_motion.c, ble_tms.h, ble_tes.h). It was never
+tried on hardware."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from ...wire.fields import Fields
 from ..driver import Driver, Known, Measured, Reading
 from ..profile import BATTERY, Access, Channel, Profile, Write
 
-ACC = GRAVITY / 1024.0
+ACC_SCALE = GRAVITY / 1024.0
 """Accelerometer scale, m/s^2 per count."""
-GYRO = radians(1.0 / 32.0)
+GYRO_SCALE = radians(1.0 / 32.0)
 """Gyroscope scale, rad/s per count."""
-MAG = 1e-6 / 16.0
+MAG_SCALE = 1e-6 / 16.0
 """Magnetometer scale, T per count."""
-END_ACC, END_GYRO = 31 << 10, 1023 << 5
-"""Counts at which the firmware limits larger values: 31 g, 1023 degrees/s."""
+ACC_END_COUNTS, GYRO_END_COUNTS = 31 << 10, 1023 << 5
+"""Largest counts that the firmware sends: 31 g and 1023 degrees/s; larger values are cut to these."""
 
 
 def _uuid(short: int) -> str:
@@ -75,26 +75,26 @@ FORMATS = {
 }
 
 
-def _motion(sent: Any, known: Known) -> Reading:
+def _motion(value: Any, known: Known) -> Reading:
     # The firmware inverts the accelerometer's signs, not the gyroscope's: accelerometer counts are positive downwards.
-    ax, ay, az = sent.acc
-    gx, gy, gz = sent.gyro
-    mx, my, mz = sent.mag
+    ax, ay, az = value.acc
+    gx, gy, gz = value.gyro
+    mx, my, mz = value.mag
     sample = Measured(
-        acc=(-ax * ACC, -ay * ACC, -az * ACC),
-        gyro=(gx * GYRO, gy * GYRO, gz * GYRO),
-        mag=(mx * MAG, my * MAG, mz * MAG),
-        saturated=max(map(abs, sent.acc)) >= END_ACC or max(map(abs, sent.gyro)) >= END_GYRO,
+        acc=(-ax * ACC_SCALE, -ay * ACC_SCALE, -az * ACC_SCALE),
+        gyro=(gx * GYRO_SCALE, gy * GYRO_SCALE, gz * GYRO_SCALE),
+        mag=(mx * MAG_SCALE, my * MAG_SCALE, mz * MAG_SCALE),
+        saturated=max(map(abs, value.acc)) >= ACC_END_COUNTS or max(map(abs, value.gyro)) >= GYRO_END_COUNTS,
     )
     return Reading((sample,))
 
 
-def _motion_config(sent: Any, known: Known) -> Reading:
-    return Reading(rate=float(sent.rate))
+def _motion_config(value: Any, known: Known) -> Reading:
+    return Reading(rate=float(value.rate))
 
 
-def _pressure(sent: Any, known: Known) -> Reading:
-    return Reading(air_pressure=100.0 * sent.hectopascal + sent.hundredths)
+def _pressure(value: Any, known: Known) -> Reading:
+    return Reading(air_pressure=100.0 * value.hectopascal + value.hundredths)
 
 
 DRIVER = Driver(

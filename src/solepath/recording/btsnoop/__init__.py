@@ -5,8 +5,8 @@
         for packet in log:
             writer.write(packet)
 
-records.py: the file; hci.py: connections and L2CAP; att.py: attributes; values.py, evidence.py, devices.py: the devices
-and their channels; log.py: the packets."""
+records.py reads the file, hci.py decodes connections and L2CAP, att.py decodes attributes, values.py joins the three,
+evidence.py and devices.py identify devices and channels, and log.py makes packets."""
 
 from .devices import LoggedDevice
 from .log import BtsnoopLog, open_btsnoop

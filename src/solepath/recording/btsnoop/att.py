@@ -1,7 +1,7 @@
-"""The attribute protocol in a log: UUIDs of the handles, and the values notified, read and written.
+"""Decoding of the attribute protocol in a log: UUIDs of the handles, and the values notified, read and written.
 
-Source: Bluetooth Core, vol 3 part F, 3.4. Either end of a link may be the server: in a phone's log the peer is, in the
-log of a device's own host the host is. Services are not needed: a characteristic's UUID is enough."""
+Source: Bluetooth Core, vol 3 part F, 3.4. In a phone's log the peer is the server; in the log of a device's own host
+the host is the server. Services are not decoded, because the UUID of a characteristic identifies it."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from ...wire.fields import LONGEST_VALUE, malformed, parse_whole
 
 
 class AttOpcode(IntEnum):
-    """First byte of a PDU; not all that exist."""
+    """First byte of a PDU (protocol data unit), as far as it is decoded here."""
 
     ERROR = 0x01
     MTU_REQUEST = 0x02
@@ -52,14 +52,14 @@ REQUESTS = frozenset({
     AttOpcode.READ, AttOpcode.READ_BLOB, AttOpcode.READ_SEVERAL, AttOpcode.READ_BY_GROUP, AttOpcode.WRITE,
     AttOpcode.PREPARE_WRITE, AttOpcode.EXECUTE_WRITE, AttOpcode.READ_SEVERAL_VARIABLE,
 })  # fmt: skip
-"""Requests: PDUs that a client sends to be answered, one at a time."""
+"""PDUs of a client that the server answers; the client waits for the answer before its next request."""
 FROM_CLIENT = REQUESTS | {AttOpcode.WRITE_COMMAND, AttOpcode.CONFIRMATION, AttOpcode.SIGNED_WRITE_COMMAND}
-"""All PDUs of a client: requests, and commands and confirmations, which are not answered."""
+"""PDUs of a client: requests, and commands and confirmations, which are not answered."""
 
 DECLARATION_TYPE = "00002803-0000-1000-8000-00805f9b34fb"
-"""Type of the attributes that declare a characteristic."""
+"""Type of an attribute that declares a characteristic."""
 SMALLEST_MTU = 23
-"""MTU of a link until another is agreed, bytes."""
+"""Largest PDU of a link before client and server agree on another, bytes."""
 
 PDU = Struct("opcode" / Int8ul, "body" / GreedyBytes)
 ERROR_RESPONSE = Struct("request" / Int8ul, "handle" / Int16ul, "code" / Int8ul, Terminated)
@@ -75,7 +75,7 @@ REQUEST_BODIES: dict[int, Any] = {
     AttOpcode.READ_BLOB: BLOB_REQUEST,
     AttOpcode.WRITE: HANDLE_VALUE,
 }
-"""Bodies of the requests whose answers are used."""
+"""Format of the bodies of the requests whose answers are used."""
 
 
 INFORMATION = Struct(
@@ -103,7 +103,7 @@ class AttOperation(Enum):
 
 @frozen
 class AttValue:
-    """One value of the attribute with this handle."""
+    """One value of an attribute, and the operation that transferred it."""
 
     operation: AttOperation
     handle: int
@@ -111,7 +111,7 @@ class AttValue:
 
 
 def uuid_text(octets: bytes) -> str:
-    """Return a UUID of 16 or 128 bits in full, lower case. WireError when it is neither."""
+    """Return a UUID of 16 or 128 bits as complete text in lower case; WireError for another size."""
     if len(octets) == 2:
         return f"0000{octets[1]:02x}{octets[0]:02x}-0000-1000-8000-00805f9b34fb"
     if len(octets) != 16:
@@ -121,10 +121,10 @@ def uuid_text(octets: bytes) -> str:
 
 @define
 class Conversation:
-    """The PDUs of one client and one server on one link.
+    """The decoder of the PDUs between one client and one server on one link.
 
-    `types`: UUID by handle as discovered, shared by all conversations with the same server. `flaws` counts PDUs that
-    were not understood."""
+    `types`: discovered UUIDs by handle, shared by all conversations with the same server. `flaws` counts PDUs that
+    could not be decoded. `mtu`: largest PDU that client and server agreed on, bytes."""
 
     types: dict[int, str]
     flaws: Counter[str]
@@ -132,11 +132,11 @@ class Conversation:
     _request: tuple[int, Any] | None = None
     """Request that waits for its answer."""
     _partial_read: AttValue | None = None
-    """Value read so far, as much as the answers held; the client may request more of it."""
+    """First part of a value that is read in several requests."""
     _values: list[AttValue] = field(factory=list)
 
     def feed(self, data: bytes) -> list[AttValue]:
-        """Return the values in one PDU, of either direction."""
+        """Return the values in one PDU of the client or the server."""
         self._values = []
         try:
             pdu = parse_whole(PDU, data)
@@ -149,7 +149,7 @@ class Conversation:
         return self._values
 
     def finish(self) -> list[AttValue]:
-        """Return the value of an unfinished read, at the end of the link; a value not read further was whole."""
+        """Return the value of a read in several requests that was still open, at the end of the link."""
         self._values = []
         self._end_read()
         return self._values
@@ -207,7 +207,7 @@ class Conversation:
                 self._values.append(AttValue(AttOperation.WRITTEN, request_body.handle, request_body.value))
 
     def _add_types(self, kind: str, answer: Any) -> None:
-        """Add declarations of characteristics, or values of the characteristics of one type."""
+        """Add the types of an answer's handles: of declared characteristics, or of values of the type `kind`."""
         for entry in answer.entries:
             if kind == DECLARATION_TYPE:
                 declared = parse_whole(DECLARATION, entry.value)
@@ -216,12 +216,12 @@ class Conversation:
                 self.types[entry.handle] = kind
                 self._values.append(AttValue(AttOperation.READ, entry.handle, entry.value))
 
-    def _add_read(self, handle: int, value: bytes, newest: int | None = None) -> None:
-        """Add an answer to a read; one that fills the MTU may not be the whole value.
+    def _add_read(self, handle: int, value: bytes, newest_size: int | None = None) -> None:
+        """Store the value read so far, and end the read unless the last answer filled the MTU.
 
-        `newest`: bytes of the last answer, when it was not the first."""
+        `newest_size`: size of the last answer, bytes; None if it was the first."""
         self._partial_read = AttValue(AttOperation.READ, handle, value)
-        size = len(value) if newest is None else newest
+        size = len(value) if newest_size is None else newest_size
         if size < self.mtu - 1 or len(value) >= LONGEST_VALUE:
             self._end_read()
 

@@ -7,15 +7,14 @@ from collections.abc import Mapping
 from attrs import define, field
 
 from ...link.catalogue import DECLARED, PROFILES
-from ...link.profile import Access as Use
-from ...link.profile import Channel, Profile
+from ...link.profile import Access, Channel, Profile
 from ...types import SITE_OF_FOOT, Foot, Site
 from ...wire.error import WireError
 from .att import AttOperation
 from .evidence import ValueEvidence
 
 Handles = Mapping[tuple[str, int], str]
-"""Channel by device (or "" for any) and attribute handle."""
+"""Channel names that the caller gives, by device address ("" for any device) and attribute handle."""
 
 CHANNELS = frozenset(channel.name for profile in PROFILES for channel in profile.channels)
 """Names of all channels of built-in devices."""
@@ -23,125 +22,129 @@ CHARACTERISTICS = frozenset(channel.characteristic for profile in PROFILES for c
 """UUIDs of all characteristics of built-in devices."""
 DRIVERS = {driver.name: driver for driver in DECLARED}
 """Declared devices by name."""
-USES = {
-    AttOperation.NOTIFIED: (Use.NOTIFY, Use.READ),
-    AttOperation.READ: (Use.READ, Use.NOTIFY, Use.WRITE),
-    AttOperation.WRITTEN: (Use.WRITE,),
+ACCESS_BY_OPERATION = {
+    AttOperation.NOTIFIED: (Access.NOTIFY, Access.READ),
+    AttOperation.READ: (Access.READ, Access.NOTIFY, Access.WRITE),
+    AttOperation.WRITTEN: (Access.WRITE,),
 }
-"""Uses of a channel that fit an operation on its value, the likeliest first.
+"""Accesses of a channel that an operation in the log may belong to, the most probable first.
 
-A characteristic may be one channel where it is read and another where it is written, and one that is subscribed or
-written may be read as well."""
+A characteristic may be one channel when it is read and another when it is written. The value of a channel for
+notification or writing may be read as well."""
 
 
 @define
 class LoggedDevice:
     """One device of a log.
 
-    `address`: or another name that identifies it. `profile`: None when its discovery is not in the log, or it is no
-    known device. `channels`: channel by attribute handle and operation."""
+    `address`: address, or the name of the connection (HciConnection.peer). `site`: None if unknown. `profile`: None if
+    the log does not hold its discovery, or for an unknown device. `channels`: channel names by attribute handle and
+    operation."""
 
     address: str
     site: Site | None = None
     profile: Profile | None = None
     channels: dict[tuple[int, AttOperation], str] = field(factory=dict)
-    seen: dict[int, ValueEvidence] = field(factory=dict)
-    """Evidence from the values, by attribute handle."""
+    evidence_by_handle: dict[int, ValueEvidence] = field(factory=dict)
+    """Summary of the values of each attribute handle."""
 
     @property
     def count(self) -> int:
-        """Number of notified values of channels."""
+        """Number of notified values on known channels."""
         return sum(
-            evidence.count for handle, evidence in self.seen.items() if (handle, AttOperation.NOTIFIED) in self.channels
+            evidence.count
+            for handle, evidence in self.evidence_by_handle.items()
+            if (handle, AttOperation.NOTIFIED) in self.channels
         )
 
 
 def name_attributes(device: LoggedDevice, types: Mapping[int, str], handles: Handles) -> set[tuple[str, int]]:
-    """Find the channels of the device's attributes: by `handles`, by discovery, by proof. Return the used `handles`.
+    """Set the device's profile and channels from `handles`, discovery and values, and return the used `handles`.
 
-    An entry for any device counts only where discovery has no type for the attribute, and no entry turns one device
-    into another."""
-    device.profile = _profile(set(types.values()))
-    used: set[tuple[str, int]] = set()
-    for handle, evidence in device.seen.items():
+    An entry of `handles` is not used if it contradicts the device's profile or a discovered channel. An entry for any
+    device is not used for an attribute that was discovered with another type."""
+    device.profile = _find_profile(set(types.values()))
+    used_handles: set[tuple[str, int]] = set()
+    for handle, evidence in device.evidence_by_handle.items():
         channel_name = None
         for hint in ((device.address.upper(), handle), ("", handle)):
             if hint in handles and _is_compatible(handles[hint], hint, device, types):
                 channel_name = channel_name or handles[hint]
-                used.add(hint)
+                used_handles.add(hint)
         if channel_name is None and handle not in types:
             channel_name = evidence.channel
         if channel_name is not None:
-            same = _same_characteristic(channel_name)
+            channels = _channels_of_characteristic(channel_name)
         elif device.profile is not None:
-            same = [each for each in device.profile.channels if each.characteristic == types.get(handle)]
+            channels = [channel for channel in device.profile.channels if channel.characteristic == types.get(handle)]
         else:
-            same = []
+            channels = []
         for operation in AttOperation:
-            channel = next((each.name for use in USES[operation] for each in same if each.access is use), None)
-            if channel is not None:
-                device.channels[handle, operation] = channel
-    return used
+            accesses = ACCESS_BY_OPERATION[operation]
+            name = next((channel.name for access in accesses for channel in channels if channel.access is access), None)
+            if name is not None:
+                device.channels[handle, operation] = name
+    return used_handles
 
 
-def _is_compatible(channel: str, hint: tuple[str, int], device: LoggedDevice, types: Mapping[int, str]) -> bool:
-    """Return whether discovery permits, or confirms, that the attribute is this channel."""
+def _is_compatible(channel_name: str, hint: tuple[str, int], device: LoggedDevice, types: Mapping[int, str]) -> bool:
+    """Return whether the attribute may be the channel of this name by its discovery."""
     address, handle = hint
-    if device.profile is not None and channel not in device.profile.channel_names:
+    if device.profile is not None and channel_name not in device.profile.channel_names:
         return False
-    same = {each.characteristic for each in _same_characteristic(channel)}
+    characteristics = {channel.characteristic for channel in _channels_of_characteristic(channel_name)}
     uuid = types.get(handle)
-    return uuid is None or uuid in same or (address != "" and uuid not in CHARACTERISTICS)
+    return uuid is None or uuid in characteristics or (address != "" and uuid not in CHARACTERISTICS)
 
 
 def explain_unused(
     hint: tuple[str, int], channel: str, devices: Mapping[str, LoggedDevice], types: Mapping[str, Mapping[int, str]]
 ) -> str:
-    """Return the reason why an entry of `handles` cannot be used, in one sentence."""
+    """Return one sentence on why an entry of `handles` is not used."""
     address, handle = hint
-    there = [device for device in devices.values() if address in ("", device.address.upper())]
-    if not there:
+    logged_devices = [device for device in devices.values() if address in ("", device.address.upper())]
+    if not logged_devices:
         return f"holds no device {address}, whose {handle:#06x} was said to be {channel}"
-    with_it = [device for device in there if handle in device.seen]
-    if not with_it:
-        of = f" of {there[0].address}" if address else ""
+    devices_with_handle = [device for device in logged_devices if handle in device.evidence_by_handle]
+    if not devices_with_handle:
+        of = f" of {logged_devices[0].address}" if address else ""
         return f"holds no value of an attribute {handle:#06x}{of}, which was said to be {channel}"
-    device = with_it[0]
+    device = devices_with_handle[0]
     uuid = types.get(device.address, {}).get(handle)
     kind = f"is of {with_article(device.profile.name)}" if device.profile is not None else f"is {uuid}"
-    found = sorted({name for (number, _), name in device.channels.items() if number == handle})
-    if uuid is not None and found:
-        kind = f"is {' and '.join(found)}"
+    channel_names = sorted({name for (number, _), name in device.channels.items() if number == handle})
+    if uuid is not None and channel_names:
+        kind = f"is {' and '.join(channel_names)}"
     return f"{handle:#06x} of {device.address} {kind}, as its discovery says, not {channel}"
 
 
-def _same_characteristic(name: str) -> list[Channel]:
-    """Return the channels, of the device that has this one, that share its characteristic."""
+def _channels_of_characteristic(name: str) -> list[Channel]:
+    """Return the channels with the same characteristic as the channel of this name, on the same device."""
     profile = next(profile for profile in PROFILES if name in profile.channel_names)
-    return [each for each in profile.channels if each.characteristic == profile.channel(name).characteristic]
+    return [channel for channel in profile.channels if channel.characteristic == profile.channel(name).characteristic]
 
 
-def _profile(uuids: set[str]) -> Profile | None:
-    """Return the device that has most of these characteristics, and at least one stream; the first of equals."""
-    best, most = None, 0
+def _find_profile(uuids: set[str]) -> Profile | None:
+    """Return the profile with at least one of its streams and most channels in `uuids`; the first of equal ones."""
+    best_profile, most_matches = None, 0
     for profile in PROFILES:
         matches = sum(channel.characteristic in uuids for channel in profile.channels)
-        if matches > most and any(profile.channel(name).characteristic in uuids for name in profile.streams):
-            best, most = profile, matches
-    return best
+        if matches > most_matches and any(profile.channel(name).characteristic in uuids for name in profile.streams):
+            best_profile, most_matches = profile, matches
+    return best_profile
 
 
-def assign_site(device: LoggedDevice, places: Mapping[str, Site]) -> None:
-    """Set the device's site: the caller's, else that of the foot that the device reports."""
-    device.site = places.get(device.address.upper())
+def assign_site(device: LoggedDevice, site_by_address: Mapping[str, Site]) -> None:
+    """Set the device's site from `site_by_address`, else from the foot that the device reports."""
+    device.site = site_by_address.get(device.address.upper())
     for (handle, operation), channel in device.channels.items():
-        foot = _foot(channel, operation, device.seen[handle])
+        foot = _read_foot(channel, operation, device.evidence_by_handle[handle])
         if device.site is None and foot is not None:
             device.site = SITE_OF_FOOT[foot]
 
 
-def _foot(channel: str, operation: AttOperation, evidence: ValueEvidence) -> Foot | None:
-    """Return the foot of the insole, where a channel's values report it."""
+def _read_foot(channel: str, operation: AttOperation, evidence: ValueEvidence) -> Foot | None:
+    """Return the foot that a channel's values report; None if they report none."""
     if channel in ("insole/frame", "insole/info"):
         return evidence.foot
     driver = DRIVERS.get(channel.partition("/")[0])

@@ -1,7 +1,7 @@
-"""Identification of an attribute without discovery, from its values, as far as they prove it.
+"""Identification of an attribute by its values, when the log does not hold its discovery.
 
-Only an insole's values do: its frames and its INFO have a magic and a CRC. Of other devices only the length is known,
-which proves nothing; the caller must name their attributes."""
+Only an insole's values prove what they are, because its frames and its INFO have a magic and a CRC. Attributes of other
+devices must be named by the caller."""
 
 from __future__ import annotations
 
@@ -17,31 +17,31 @@ from ...wire.insole import parse_frame
 from ...wire.insole_info import parse_info
 from .att import AttOperation
 
-MAX_VALUES = 300
-"""Number of values of one attribute that are examined; it covers the sixteen fragments of a frame many times."""
-PROVING_FRAMES = 2
-"""Number of frames with a correct CRC that prove an insole.
+MAX_EXAMINED_VALUES = 300
+"""Largest number of values of one attribute that are examined; a frame has at most 16 fragments."""
+MIN_PROVING_FRAMES = 2
+"""Smallest number of frames with a correct CRC that proves an insole.
 
-One in 2^16 arbitrary values that start with the magic has a correct CRC by chance."""
+Of 2^16 arbitrary values that start with the magic, about one has a correct CRC by chance."""
 
 
 @define
 class ValueEvidence:
-    """The values of one attribute: their number, their lengths, and what the first ones decode as."""
+    """A summary of the values of one attribute, which may show that it is an insole's."""
 
     count: int = 0
     """Number of values that were notified."""
     lengths: set[int] = field(factory=set)
     """Lengths of the values examined, bytes."""
-    frames: int = 0
-    """Number of values or fragments that completed an insole frame."""
+    frame_count: int = 0
+    """Number of values that are a correct insole frame or complete one."""
     foot: Foot | None = None
-    """Foot of the insole, as its values report it."""
+    """Foot that the insole reported; None without an insole."""
     is_info: bool = False
     """True if a value was an INFO record."""
     read: bytes | None = None
-    """The value that was read last."""
-    _pieces: Reassembly = field(factory=Reassembly)
+    """Newest value that was read, not notified."""
+    _reassembly: Reassembly = field(factory=Reassembly)
 
     def add_value(self, operation: AttOperation, data: bytes) -> None:
         """Add a value and examine it."""
@@ -54,20 +54,20 @@ class ValueEvidence:
                 self.is_info = True
             return
         self.count += 1
-        if self.count > MAX_VALUES:
+        if self.count > MAX_EXAMINED_VALUES:
             return
         self.lengths.add(len(data))
         with suppress(WireError):
-            whole: bytes | None = data
+            frame_data: bytes | None = data
             if is_fragment(data):
-                whole, _ = self._pieces.feed(parse_fragment(data))
-            if whole is not None:
-                self.foot = parse_frame(whole).foot
-                self.frames += 1
+                frame_data, _ = self._reassembly.feed(parse_fragment(data))
+            if frame_data is not None:
+                self.foot = parse_frame(frame_data).foot
+                self.frame_count += 1
 
     @property
     def channel(self) -> str | None:
-        """Channel that the values prove the attribute to be; None without proof."""
+        """Name of the attribute's channel; None if the values do not prove it."""
         if self.is_info:
             return "insole/info"
-        return "insole/frame" if self.frames >= PROVING_FRAMES else None
+        return "insole/frame" if self.frame_count >= MIN_PROVING_FRAMES else None

@@ -1,7 +1,7 @@
-"""The btsnoop file: a header, then records of HCI packets, each with the time at which it was logged.
+"""Reading of a btsnoop file: a header, then records of HCI packets, each with the time at which it was logged.
 
-The format is that of RFC 1761 with other datalinks, as Symbian, BlueZ and Android write it. It is big-endian, unlike
-the packets in it."""
+The format is that of RFC 1761 with other datalinks, as Symbian, BlueZ and Android write it. Its numbers are big-endian,
+while those in the packets are little-endian."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ from ..errors import RecordingError, Report, open_file, printable
 
 MAGIC = b"btsnoop\0"
 VERSION = 1
-YEAR_1970 = 0x00DCDDB30F2F8000
-"""Time from the start of the year 0, from which btsnoop counts, to that of 1970, us."""
+TIME_OF_1970 = 0x00DCDDB30F2F8000
+"""Time of the start of 1970, us; btsnoop counts from the start of the year 0."""
 MAX_RECORD_SIZE = 0x1_0000 + 64
-"""Size of a record at most, bytes: the longest ACL packet and its headers. No HCI packet is longer."""
+"""Largest size of a record, bytes: the longest HCI packet, which is an ACL packet, with its headers."""
 
 FILE_HEADER = Struct("magic" / Const(MAGIC), "version" / Int32ub, "datalink" / Int32ub)
 HEADER_SIZE = 16
@@ -33,29 +33,29 @@ class Datalink(Enum):
     """Format of the packets in the records."""
 
     H1 = 1001
-    """No wrapping: the record's flags give the kind of packet."""
+    """The record's flags give the kind of packet."""
     H4 = 1002
-    """One byte in front gives the kind: Android, bumble, hcidump."""
+    """The first byte gives the kind of packet, as Android, bumble and hcidump write it."""
     MONITOR = 2001
-    """The record's flags hold the adapter and an opcode: BlueZ's btmon."""
+    """The record's flags give the adapter and an opcode, as BlueZ's btmon writes it."""
 
 
 class RecordKind(Enum):
-    """Kind of a record's content."""
+    """Kind of the packet in a record."""
 
     COMMAND = 1
     ACL = 2
     EVENT = 4
     OTHER = 0
-    """Voice, isochronous data, or the logger's own remarks."""
+    """Voice, isochronous data, or a message of the logger."""
 
 
 @frozen
 class HciRecord:
     """One HCI packet of the log.
 
-    `t`: us since 1970, UTC, by the logger's clock. `sent`: by the host to its controller. `whole`: False when the
-    logger kept only the start of the packet."""
+    `t`: time on the logger's clock, us since 1970, UTC. `adapter`: number of the host's Bluetooth adapter. `sent`: True
+    if the host sent the packet to its controller. `whole`: False if the logger kept only the start of the packet."""
 
     t: int
     adapter: int
@@ -69,11 +69,11 @@ class HciRecord:
 class RecordHeader:
     """The header of a record.
 
-    `original`, `included`: size of the packet, and of its part in the file, bytes. `drops`: records lost since the log
-    started."""
+    `original_size`: size of the packet, bytes. `included_size`: size of its part in the file, bytes. `drops`: number of
+    records that the logger lost since the log started. `t`: us since the year 0."""
 
-    original: int
-    included: int
+    original_size: int
+    included_size: int
     flags: int
     drops: int
     t: int
@@ -82,27 +82,25 @@ class RecordHeader:
 RECORD_HEADER = Fields(">IIIIq", RecordHeader)
 RECORD_HEADER_SIZE = 24
 
-_RECEIVED, _COMMAND_OR_EVENT = 1, 2
-_MONITOR = {
+_RECEIVED_FLAG, _COMMAND_OR_EVENT_FLAG = 1, 2
+_KIND_BY_MONITOR_OPCODE = {
     2: (RecordKind.COMMAND, True),
     3: (RecordKind.EVENT, False),
     4: (RecordKind.ACL, True),
     5: (RecordKind.ACL, False),
 }
-"""Kind of a record and whether it was sent, by btmon's opcode."""
+"""Kind of a record, and True if the host sent it, by btmon's opcode."""
 
 
 def is_btsnoop(path: Path) -> bool:
-    """Return whether the file starts as a btsnoop log does.
-
-    RecordingError when it cannot be read, or only once: reading the start of a pipe would remove it."""
-    reject_pipe(path)
+    """Return whether the file starts as a btsnoop log does; RecordingError when it cannot be read, or is a pipe."""
+    reject_pipe(path)  # reading the start of a pipe would remove it
     with open_file(path) as file:
         return file.read(len(MAGIC)) == MAGIC
 
 
 def reject_pipe(path: Path) -> None:
-    """Raise RecordingError for a file that exists but can be read only once."""
+    """Raise RecordingError for a pipe or a device, which can be read only once."""
     if path.exists() and not path.is_file() and not path.is_dir():
         raise RecordingError(path, "is a pipe or a device; it is read more than once, so it has to be a file")
 
@@ -112,11 +110,11 @@ def read_records(
 ) -> Iterator[HciRecord]:
     """Yield the records of a log in order.
 
-    `report` gets a sentence about a torn last record; `flaws` counts what the logger left out. RecordingError, after
-    everything before it, for a file that is no btsnoop log and for an impossible record."""
+    `report` receives a sentence about an incomplete last record. `flaws` counts records that the logger dropped.
+    RecordingError for a file that is no btsnoop log, and for an impossible record after all records before it."""
     with open_file(path) as file:
-        datalink = _datalink(path, file.read(HEADER_SIZE))
-        number, read, drops = 0, HEADER_SIZE, 0
+        datalink = _read_datalink(path, file.read(HEADER_SIZE))
+        number, bytes_read, drops = 0, HEADER_SIZE, 0
         while start := file.read(RECORD_HEADER_SIZE):
             number += 1
             torn = f"{printable(str(path))}: record {number}: cut off in the middle; everything before it is used"
@@ -124,23 +122,23 @@ def read_records(
                 report(torn)
                 return
             header: RecordHeader = RECORD_HEADER.parse(start)
-            if header.included > min(MAX_RECORD_SIZE, header.original):
-                what = f"is damaged: it claims {header.included} of {header.original} bytes"
+            if header.included_size > min(MAX_RECORD_SIZE, header.original_size):
+                what = f"is damaged: it claims {header.included_size} of {header.original_size} bytes"
                 raise RecordingError(path, what, f"record {number}")
-            data = file.read(header.included)
-            if len(data) < header.included:
+            data = file.read(header.included_size)
+            if len(data) < header.included_size:
                 report(torn)
                 return
-            read += RECORD_HEADER_SIZE + len(data)
+            bytes_read += RECORD_HEADER_SIZE + len(data)
             if progress is not None:
-                progress(read)
+                progress(bytes_read)
             if header.drops > drops:
                 flaws["records that the logger says it dropped"] += header.drops - drops
             drops = header.drops
             yield _unwrap(datalink, header, data)
 
 
-def _datalink(path: Path, start: bytes) -> Datalink:
+def _read_datalink(path: Path, start: bytes) -> Datalink:
     if not start:
         raise RecordingError(path, "is empty")
     try:
@@ -152,24 +150,26 @@ def _datalink(path: Path, start: bytes) -> Datalink:
     try:
         return Datalink(header.datalink)
     except ValueError:
-        known = ", ".join(f"{one.value} ({one.name})" for one in Datalink)
-        raise RecordingError(path, f"is btsnoop of datalink {header.datalink}; this release reads {known}") from None
+        supported = ", ".join(f"{one.value} ({one.name})" for one in Datalink)
+        raise RecordingError(
+            path, f"is btsnoop of datalink {header.datalink}; this release reads {supported}"
+        ) from None
 
 
 def _unwrap(datalink: Datalink, header: RecordHeader, data: bytes) -> HciRecord:
-    adapter, kind, sent = 0, RecordKind.OTHER, not header.flags & _RECEIVED
+    adapter, kind, sent = 0, RecordKind.OTHER, not header.flags & _RECEIVED_FLAG
     match datalink:
         case Datalink.H4:
-            kind = _H4.get(data[0], RecordKind.OTHER) if data else RecordKind.OTHER
+            kind = _KIND_BY_H4_BYTE.get(data[0], RecordKind.OTHER) if data else RecordKind.OTHER
             data = data[1:]
-        case Datalink.H1 if header.flags & _COMMAND_OR_EVENT:
+        case Datalink.H1 if header.flags & _COMMAND_OR_EVENT_FLAG:
             kind = RecordKind.COMMAND if sent else RecordKind.EVENT
         case Datalink.H1:
             kind = RecordKind.ACL
         case Datalink.MONITOR:
             adapter = header.flags >> 16
-            kind, sent = _MONITOR.get(header.flags & 0xFFFF, (RecordKind.OTHER, False))
-    return HciRecord(header.t - YEAR_1970, adapter, kind, sent, data, header.included == header.original)
+            kind, sent = _KIND_BY_MONITOR_OPCODE.get(header.flags & 0xFFFF, (RecordKind.OTHER, False))
+    return HciRecord(header.t - TIME_OF_1970, adapter, kind, sent, data, header.included_size == header.original_size)
 
 
-_H4 = {kind.value: kind for kind in RecordKind if kind is not RecordKind.OTHER}
+_KIND_BY_H4_BYTE = {kind.value: kind for kind in RecordKind if kind is not RecordKind.OTHER}

@@ -1,4 +1,4 @@
-"""A log as values of attributes, each with its device."""
+"""Reading of a log as values of attributes, each with its device."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from .records import read_records
 
 
 @frozen
-class Value:
+class LoggedValue:
     """One value of a log.
 
-    `t`: us since 1970. `device`: the address of the server, or another name that identifies it."""
+    `t`: us since 1970. `device`: address of the server, or the name of its connection (HciConnection.peer)."""
 
     t: int
     link: HciConnection
@@ -28,22 +28,20 @@ class Value:
 
 @define
 class ValueListener:
-    """Reads all values of a log, in order, with the starts and ends of the connections.
+    """Reads all values of a log in order, with the starts and ends of the connections.
 
-    `types`: UUID by device and attribute handle, as discovered so far. It outlives a connection, since hosts remember
-    what they discovered once and do not ask again."""
+    `flaws` counts parts of the log that could not be used. `types`: discovered UUIDs by device and attribute handle.
+    They remain valid after a connection, because a host stores them and does not repeat the discovery."""
 
     path: Path
     report: Report
     flaws: Counter[str] = field(factory=Counter)
     types: dict[str, dict[int, str]] = field(factory=dict)
     _conversations: dict[tuple[int, bool], Conversation] = field(factory=dict)
-    """Conversations by connection and whether the peer is the server."""
+    """Conversations by number of the connection, and True if the peer is the server."""
 
-    def listen(self, progress: Callable[[int], None] | None = None) -> Iterator[Value | LinkChange]:
-        """Yield the values and changes of connections.
-
-        RecordingError, after everything before it, for a log that cannot be used."""
+    def listen(self, progress: Callable[[int], None] | None = None) -> Iterator[LoggedValue | LinkChange]:
+        """Yield the values and the changes of connections; RecordingError at damage, after all items before it."""
         controller = Controller(self.flaws)
         t, failure = 0, None
         try:
@@ -52,30 +50,32 @@ class ValueListener:
                 for item in controller.feed(record):
                     match item:
                         case Pdu():
-                            yield from self._pdu(item)
+                            yield from self._feed_pdu(item)
                         case LinkChange():
                             if not item.connected:
-                                yield from self._finish(t, item.link, controller.own(item.link.adapter))
+                                yield from self._finish_link(
+                                    t, item.link, controller.get_own_address(item.link.adapter)
+                                )
                             yield item
         except RecordingError as error:
             failure = error
-        for link in controller.links():
-            yield from self._finish(t, link, controller.own(link.adapter))
+        for link in controller.list_links():
+            yield from self._finish_link(t, link, controller.get_own_address(link.adapter))
         if failure is not None:
             raise failure
 
-    def _pdu(self, pdu: Pdu) -> Iterator[Value]:
-        # the peer is the server when the host sends as a client, or the peer as a server
-        of_peer = pdu.sent == (bool(pdu.data) and pdu.data[0] in FROM_CLIENT)
-        device = pdu.link.peer if of_peer else pdu.own
-        conversation = self._conversations.get((pdu.link.number, of_peer))
+    def _feed_pdu(self, pdu: Pdu) -> Iterator[LoggedValue]:
+        # the peer is the server if the host sends a PDU of a client, or the peer a PDU of a server
+        peer_is_server = pdu.sent == (bool(pdu.data) and pdu.data[0] in FROM_CLIENT)
+        device = pdu.link.peer if peer_is_server else pdu.own_address
+        conversation = self._conversations.get((pdu.link.number, peer_is_server))
         if conversation is None:
             types = self.types.setdefault(device, {})
-            conversation = self._conversations[pdu.link.number, of_peer] = Conversation(types, self.flaws)
-        yield from (Value(pdu.t, pdu.link, device, one) for one in conversation.feed(pdu.data))
+            conversation = self._conversations[pdu.link.number, peer_is_server] = Conversation(types, self.flaws)
+        yield from (LoggedValue(pdu.t, pdu.link, device, att_value) for att_value in conversation.feed(pdu.data))
 
-    def _finish(self, t: int, link: HciConnection, own: str) -> Iterator[Value]:
-        for of_peer, device in ((True, link.peer), (False, own)):
-            conversation = self._conversations.pop((link.number, of_peer), None)
+    def _finish_link(self, t: int, link: HciConnection, own_address: str) -> Iterator[LoggedValue]:
+        for peer_is_server, device in ((True, link.peer), (False, own_address)):
+            conversation = self._conversations.pop((link.number, peer_is_server), None)
             if conversation is not None:
-                yield from (Value(t, link, device, one) for one in conversation.finish())
+                yield from (LoggedValue(t, link, device, att_value) for att_value in conversation.finish())

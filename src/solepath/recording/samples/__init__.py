@@ -1,4 +1,4 @@
-"""Recorded samples: .npz and .csv files with t, acc, gyro and pressure of one foot or of both."""
+"""Reading of recorded samples: .npz and .csv files with t, acc, gyro and pressure of one foot or of both feet."""
 
 from .reader import SampleRecording, load_samples
 

@@ -1,4 +1,4 @@
-"""Samples in a NumPy archive: keys t, acc, gyro, pressure for one foot, or with _left and _right."""
+"""Reading of samples from a NumPy archive with the keys t, acc, gyro, pressure, or these with _left and _right."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from ...types import Foot
 from ..errors import RecordingError, open_file, printable
-from .table import QUANTITIES, Floats, FootTable, as_floats
+from .table import QUANTITIES, Floats, FootTable, to_floats
 
-UNREADABLE = (
+ARCHIVE_ERRORS = (
     ValueError,  # pickled objects, a header that does not fit its array
     EOFError,
     OSError,
@@ -30,13 +30,13 @@ UNREADABLE = (
     zipfile.BadZipFile,
     zlib.error,
 )
-"""Exceptions of a damaged archive."""
+"""Exceptions that numpy raises for a damaged archive."""
 
 
 def read_npz(path: Path, one_foot: Foot) -> list[FootTable]:
-    """Return the tables of the feet in the file; only their shapes are checked.
+    """Return the tables of the feet in the file, of which only the shapes are checked.
 
-    `one_foot` is the foot of a file whose keys name no foot."""
+    `one_foot`: foot of a file whose keys name no foot."""
     with open_file(path) as file:
         start = file.read(4)
     if not start:
@@ -45,47 +45,50 @@ def read_npz(path: Path, one_foot: Foot) -> list[FootTable]:
         raise RecordingError(path, "is not an .npz archive")
     try:
         archive = np.load(path, allow_pickle=False)
-    except UNREADABLE as error:
-        raise RecordingError(path, f"is not a whole .npz archive ({_reason(error)}); was it cut off?") from error
+    except ARCHIVE_ERRORS as error:
+        raise RecordingError(
+            path, f"is not a whole .npz archive ({_describe_error(error)}); was it cut off?"
+        ) from error
     with archive:
-        found = set(archive.files)
-        both = [foot for foot in Foot if any(f"{q}_{foot.value}" in found for q in QUANTITIES)]
-        bare = [q for q in QUANTITIES if q in found]
-        if bare and both:
-            named = f"{bare[0]} and {next(q for q in QUANTITIES if f'{q}_{both[0].value}' in found)}_{both[0].value}"
-            raise RecordingError(path, f"holds both {named}: is it of one foot or of two?")
-        if bare:
-            return [_table(path, archive, one_foot, "")]
-        if both:
-            return [_table(path, archive, foot, f"_{foot.value}") for foot in both]
-        keys = printable(", ".join(sorted(found)) or "nothing", 80)
+        keys_found = set(archive.files)
+        feet = [foot for foot in Foot if any(f"{q}_{foot.value}" in keys_found for q in QUANTITIES)]
+        bare_keys = [q for q in QUANTITIES if q in keys_found]
+        if bare_keys and feet:
+            named_key = next(q for q in QUANTITIES if f"{q}_{feet[0].value}" in keys_found)
+            example_keys = f"{bare_keys[0]} and {named_key}_{feet[0].value}"
+            raise RecordingError(path, f"holds both {example_keys}: is it of one foot or of two?")
+        if bare_keys:
+            return [_read_table(path, archive, one_foot, "")]
+        if feet:
+            return [_read_table(path, archive, foot, f"_{foot.value}") for foot in feet]
+        keys = printable(", ".join(sorted(keys_found)) or "nothing", 80)
         raise RecordingError(path, f"has no key acc or pressure, nor acc_left or acc_right (it holds {keys})")
 
 
-def _table(path: Path, archive: Any, foot: Foot, suffix: str) -> FootTable:
+def _read_table(path: Path, archive: Any, foot: Foot, suffix: str) -> FootTable:
     names = {q: q + suffix for q in QUANTITIES if q + suffix in archive.files}
-    time = "t" + suffix if "t" + suffix in archive.files else "t"
-    if time not in archive.files:
-        raise RecordingError(path, f'has no key "t"{suffix and f" and no key {time + suffix}"}')
+    time_key = "t" + suffix if "t" + suffix in archive.files else "t"
+    if time_key not in archive.files:
+        raise RecordingError(path, f'has no key "t"{suffix and f" and no key {time_key + suffix}"}')
     if "gyro" in names and "acc" not in names:
         raise RecordingError(path, f"has the key gyro{suffix} but no key acc{suffix}")
-    t = as_floats(path, time, _array(path, archive, time), 0)
+    t = to_floats(path, time_key, _read_array(path, archive, time_key), 0)
     columns: dict[str, Floats] = {}
     for quantity, name in names.items():
-        value = as_floats(path, name, _array(path, archive, name), None if quantity == "pressure" else 3)
-        if len(value) != len(t):
-            raise RecordingError(path, f"has {len(value)} rows but {time} has {len(t)}", name)
-        columns[quantity] = value
-    return FootTable(path, foot, {"t": time, **names}, t, columns)
+        array = to_floats(path, name, _read_array(path, archive, name), None if quantity == "pressure" else 3)
+        if len(array) != len(t):
+            raise RecordingError(path, f"has {len(array)} rows but {time_key} has {len(t)}", name)
+        columns[quantity] = array
+    return FootTable(path, foot, {"t": time_key, **names}, t, columns)
 
 
-def _array(path: Path, archive: Any, key: str) -> NDArray[Any]:
+def _read_array(path: Path, archive: Any, key: str) -> NDArray[Any]:
     try:
-        value: NDArray[Any] = archive[key]
-    except UNREADABLE as error:
-        raise RecordingError(path, f"cannot be read ({_reason(error)})", key) from error
-    return value
+        array: NDArray[Any] = archive[key]
+    except ARCHIVE_ERRORS as error:
+        raise RecordingError(path, f"cannot be read ({_describe_error(error)})", key) from error
+    return array
 
 
-def _reason(error: BaseException) -> str:
+def _describe_error(error: BaseException) -> str:
     return printable(str(error).splitlines()[0] if str(error) else type(error).__name__, 80)

@@ -1,8 +1,8 @@
 """The samples of one foot as columns, and the checks of each column.
 
-There are two kinds of fault. A fault of a whole column (its shape, its unit) is raised at once, because none of its
-values can be trusted. A fault from one row on (a value that is not finite, time that runs backwards) ends the table
-there, so that the rows before are used and the error comes after them."""
+There are two kinds of fault. A wrong shape or unit makes a whole column useless, so its error is raised at once. A
+value that is not finite, or time that runs backwards, ends the table at that row: the rows before it are used, and the
+error is raised after them."""
 
 from __future__ import annotations
 
@@ -21,23 +21,23 @@ from ..errors import RecordingError, printable
 Floats = NDArray[np.float64]
 
 QUANTITIES = ("acc", "gyro", "pressure")
-"""Quantities that a table may hold."""
+"""Quantities that a table may have."""
 BLOCK_SIZE = 4096
-"""Rows that are turned into samples at a time, so that memory holds the arrays and not a tuple for every sample."""
+"""Number of rows that are converted to samples at a time, so that not all samples are in memory."""
 
-ACC_AT_REST = (3.0, 30.0)
-"""Range of the median |acc| of any recording on a foot, m/s^2; standing, walking and running lie in 9.4 to 20."""
+MEDIAN_ACC_RANGE = (3.0, 30.0)
+"""Allowed range of the median |acc| of a foot, m/s^2; standing, walking and running have 9.4 to 20."""
 MAX_GYRO = 40.0
-"""Largest 99th percentile of |gyro|, rad/s.
+"""Largest allowed 99th percentile of |gyro|, rad/s.
 
-Feet that run reach 17; 40 rad/s is beyond the 2000 deg/s range of most sensors."""
+Running feet reach 17 rad/s, and most sensors end at 2000 degrees/s, which is 35 rad/s."""
 MAX_INTERVAL, MIN_INTERVAL = 0.5, 2e-4
-"""Range of the median time between samples, s: outside it the times are not seconds."""
+"""Allowed range of the median time between samples, s; outside it the unit of time is not s."""
 
 
 @define
 class FootTable:
-    """The columns of one foot: `t` (n,), acc and gyro (n,3) and pressure (n,k) where there are any, SI units."""
+    """The columns of one foot, SI units: `t` (n,), and those present of acc (n,3), gyro (n,3) and pressure (n,k)."""
 
     path: Path
     foot: Foot
@@ -46,19 +46,19 @@ class FootTable:
     t: Floats
     columns: dict[str, Floats]
     lines: list[int] | None = None
-    """Line of each row in a text file; None for an array file, whose rows count from 0."""
+    """Line number of each row in a text file; None for an archive, whose rows count from 0."""
     flaw: RecordingError | None = None
-    """Reason why the table ends where it ends, when that is not the end of the file."""
+    """Error of the row after the last usable row; None if all rows are usable."""
 
     def __len__(self) -> int:
         return len(self.t)
 
-    def place(self, row: int, quantity: str) -> str:
-        """Return the place of a value in the file, for a sentence."""
+    def describe_place(self, row: int, quantity: str) -> str:
+        """Return a description of a value's place in the file."""
         name = self.names[quantity]
         return f"{name}, row {row}" if self.lines is None else f"line {self.lines[row]}, {name}"
 
-    def samples(self) -> Iterator[Sample]:
+    def make_samples(self) -> Iterator[Sample]:
         """Yield every row as a Sample."""
         site = SITE_OF_FOOT[self.foot]
         empty = [None] * BLOCK_SIZE
@@ -68,14 +68,14 @@ class FootTable:
             acc, gyro, pressure = (
                 map(tuple, self.columns[q][rows].tolist()) if q in self.columns else iter(empty) for q in QUANTITIES
             )
-            for at, a, g, p in zip(t, acc, gyro, pressure, strict=False):
-                yield Sample(at, site, a, g, p)
+            for sample_t, a, g, p in zip(t, acc, gyro, pressure, strict=False):
+                yield Sample(sample_t, site, a, g, p)
 
 
-def as_floats(path: Path, name: str, value: NDArray[Any], width: int | None) -> Floats:
-    """Return `value` as float64 of shape (n,) for width 0, (n, width), or (n, any) for None.
+def to_floats(path: Path, name: str, value: NDArray[Any], width: int | None) -> Floats:
+    """Return `value` as float64; RecordingError for another type, or for another shape than `width` requires.
 
-    RecordingError for another shape or type."""
+    The shape is (n,) for a width of 0, (n, any) for None, and else (n, width)."""
     if value.dtype.kind not in "fiu":
         raise RecordingError(path, f"holds {printable(str(value.dtype), 40)}, not numbers", name)
     expected = "(n,)" if width == 0 else f"(n, {'cells' if width is None else width})"
@@ -86,66 +86,67 @@ def as_floats(path: Path, name: str, value: NDArray[Any], width: int | None) -> 
 
 
 def check_table(table: FootTable) -> FootTable:
-    """Return the table, ended before its first row that cannot be used; RecordingError when none of it can be."""
+    """Return the table, cut before its first row that cannot be used; RecordingError when no row can be used."""
     if not len(table):
         raise RecordingError(table.path, "holds no samples", table.names["t"])
-    end, what, quantity = _first_bad_row(table)
+    end, fault, quantity = _first_bad_row(table)
     if end < len(table):
-        table.flaw = RecordingError(table.path, what, table.place(end, quantity))
+        table.flaw = RecordingError(table.path, fault, table.describe_place(end, quantity))
         if end == 0:
             raise table.flaw
         table.t = table.t[:end]
         table.columns = {q: column[:end] for q, column in table.columns.items()}
-    for quantity, complaint in _complaints(table.t, table.columns):
+    for quantity, complaint in _find_wrong_units(table.t, table.columns):
         raise RecordingError(table.path, complaint, table.names[quantity])
     return table
 
 
 def _first_bad_row(table: FootTable) -> tuple[int, str, str]:
-    bad: list[tuple[int, str, str]] = [(len(table), "", "t")]
+    faults: list[tuple[int, str, str]] = [(len(table), "", "t")]
     for quantity, column in {"t": table.t, **table.columns}.items():
         values = column.reshape(len(table), -1)
-        # cells without a number are missing cells, which the session reports
-        sound = np.isfinite(values) | np.isnan(values) if quantity == "pressure" else np.isfinite(values)
-        rows = np.flatnonzero(~sound.all(axis=1))
+        # a pressure of NaN is a missing cell, which the session reports
+        is_usable = np.isfinite(values) | np.isnan(values) if quantity == "pressure" else np.isfinite(values)
+        rows = np.flatnonzero(~is_usable.all(axis=1))
         if len(rows):
-            value = next(v for v in values[rows[0], ~sound[rows[0]]].tolist())
-            when = f" (t = {table.t[rows[0]]:.6g} s)" if quantity != "t" else ""
-            bad.append((int(rows[0]), f"is {value}, not a finite number{when}", quantity))
-    decreases = np.flatnonzero(
-        np.diff(table.t) < 0.0
-    )  # false where a time is not a number; these rows were found above
+            value = next(v for v in values[rows[0], ~is_usable[rows[0]]].tolist())
+            time_text = f" (t = {table.t[rows[0]]:.6g} s)" if quantity != "t" else ""
+            faults.append((int(rows[0]), f"is {value}, not a finite number{time_text}", quantity))
+    decreases = np.flatnonzero(np.diff(table.t) < 0.0)  # false at a time that is not a number, which was found above
     if len(decreases):
         row = int(decreases[0]) + 1
         before, after = float(table.t[row - 1]), float(table.t[row])
-        bad.append((row, f"time runs backwards, from {before!r} s to {after!r} s", "t"))
-    return min(bad, key=itemgetter(0))
+        faults.append((row, f"time runs backwards, from {before!r} s to {after!r} s", "t"))
+    return min(faults, key=itemgetter(0))
 
 
-def _complaints(t: Floats, columns: Mapping[str, Floats]) -> Iterator[tuple[str, str]]:
-    """Yield the quantities whose unit is plainly not SI; with a wrong unit the track would look plausible."""
+def _find_wrong_units(t: Floats, columns: Mapping[str, Floats]) -> Iterator[tuple[str, str]]:
+    """Yield each quantity whose unit is certainly not SI, with a complaint; a wrong unit can give a plausible track."""
     if len(t) > 2:
-        step = float(np.median(np.diff(t)))
-        if not MIN_INTERVAL <= step <= MAX_INTERVAL:
-            likely = (
-                "this looks like milliseconds or sample numbers" if step > MAX_INTERVAL else "these are not seconds"
+        interval = float(np.median(np.diff(t)))
+        if not MIN_INTERVAL <= interval <= MAX_INTERVAL:
+            explanation = (
+                "this looks like milliseconds or sample numbers" if interval > MAX_INTERVAL else "these are not seconds"
             )
-            if step == 0.0:
-                likely = "times repeat"
-            yield "t", f"the median time between samples is {step:.3g} s: {likely}"
+            if interval == 0.0:
+                explanation = "times repeat"
+            yield "t", f"the median time between samples is {interval:.3g} s: {explanation}"
     if "acc" in columns:
-        median = float(np.median(_lengths(columns["acc"])))
-        low, high = ACC_AT_REST
+        median = float(np.median(_vector_lengths(columns["acc"])))
+        low, high = MEDIAN_ACC_RANGE
         if not low <= median <= high:
-            yield "acc", f"the median of |acc| is {median:.3g} m/s^2, not 9.8: this looks like {_acc_unit(median)}"
+            yield (
+                "acc",
+                f"the median of |acc| is {median:.3g} m/s^2, not 9.8: this looks like {_guess_acc_unit(median)}",
+            )
     if "gyro" in columns:
-        high = float(np.percentile(_lengths(columns["gyro"]), 99.0))
+        high = float(np.percentile(_vector_lengths(columns["gyro"]), 99.0))
         if high > MAX_GYRO:
             unit = "deg/s" if high < 4000.0 else "raw counts"
             yield "gyro", f"|gyro| reaches {high:.3g} rad/s, faster than a foot turns: this looks like {unit}"
 
 
-def _acc_unit(median: float) -> str:
+def _guess_acc_unit(median: float) -> str:
     if median < 0.3:
         return "no specific force at all (gravity removed?)"
     if median < 3.0:
@@ -153,6 +154,6 @@ def _acc_unit(median: float) -> str:
     return "milli-g" if 700.0 < median < 1500.0 else "raw counts"
 
 
-def _lengths(vectors: Floats) -> Floats:
+def _vector_lengths(vectors: Floats) -> Floats:
     with np.errstate(over="ignore"):  # an infinite length fails the checks as well
         return np.asarray(np.sqrt(np.sum(vectors * vectors, axis=1)), dtype=np.float64)
