@@ -14,12 +14,12 @@ from walks import insoles
 from solepath import Session
 from solepath.show.page.scene.scene import Scene
 from solepath.show.page.server import connection, server, watcher
-from solepath.show.page.server.server import MOST_CONNECTIONS, MOST_WATCHERS, Page
+from solepath.show.page.server.server import MAX_CONNECTIONS, MAX_WATCHERS, Page
 
 
 async def test_the_number_of_watchers_is_limited() -> None:
     async with served() as (_, client, url):
-        watching = [await client.ws_connect(f"{url}ws") for _ in range(MOST_WATCHERS)]
+        watching = [await client.ws_connect(f"{url}ws") for _ in range(MAX_WATCHERS)]
         assert await rejection_status(client.ws_connect(f"{url}ws")) == 503
         await watching[0].close()
         await asyncio.sleep(0.1)
@@ -29,7 +29,7 @@ async def test_the_number_of_watchers_is_limited() -> None:
 async def test_idle_connections_are_limited_and_closed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(server, "IDLE", 0.5)
     async with served() as (page, client, url):
-        idle = [await raw(page) for _ in range(MOST_CONNECTIONS)]
+        idle = [await raw(page) for _ in range(MAX_CONNECTIONS)]
         for _, writer in idle:
             writer.write(b"GET / HTTP/1.1\r\nHost: loc")
         reader, writer = await raw(page)
@@ -50,10 +50,10 @@ async def test_a_client_that_requests_and_does_not_read_is_closed_soon(
 ) -> None:
     monkeypatch.setattr(server, "IDLE", 0.5)
     monkeypatch.setattr(connection, "LONGEST", 0.7)
-    monkeypatch.setattr(server, "MOST_CONNECTIONS", MOST_WATCHERS)
+    monkeypatch.setattr(server, "MAX_CONNECTIONS", MAX_WATCHERS)
     async with served(scene=Scene("x" * 120_000, "default")) as (page, client, url):
         silent = []
-        for _ in range(MOST_WATCHERS):
+        for _ in range(MAX_WATCHERS):
             one = socket.socket()
             one.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
             one.setblocking(False)

@@ -30,8 +30,8 @@ from solepath import (
 )
 from solepath.emulate.routes.building import BUILDING
 from solepath.show.page.messages import encode
-from solepath.show.page.scene.lists import MOST_POINTS, RECENT
-from solepath.show.page.scene.log import MOST_LINES
+from solepath.show.page.scene.lists import MAX_POINTS, RECENT
+from solepath.show.page.scene.log import MAX_LINES
 from solepath.show.page.scene.scene import Scene
 
 LISTS = ("phases", "tracks", "places", "log")
@@ -81,7 +81,7 @@ class Reader:
 
 @cache
 def long_way() -> list[Event]:
-    return [step(1.0 + k, 0.7 * k) for k in range(MOST_POINTS + 2 * RECENT)]
+    return [step(1.0 + k, 0.7 * k) for k in range(MAX_POINTS + 2 * RECENT)]
 
 
 def agree(events: list[Event], looks: list[int], scene: Scene | None = None) -> Reader:
@@ -117,7 +117,7 @@ def test_the_changes_add_up_to_the_scene_of_a_late_watcher(data: st.DataObject) 
 
 
 @settings(max_examples=8)
-@given(st.lists(st.integers(0, MOST_POINTS + 2 * RECENT), max_size=30))
+@given(st.lists(st.integers(0, MAX_POINTS + 2 * RECENT), max_size=30))
 def test_a_long_track_is_thinned_alike_on_both_sides(looks: list[int]) -> None:
     agree(long_way(), looks)
 
@@ -162,9 +162,9 @@ def test_hours_of_walking_do_not_make_a_scene_larger() -> None:
             scene.take(None, [event])
         if lap % 125 == 124:
             message = scene.whole()[0]
-            assert all(len(track) <= MOST_POINTS for track in message["tracks"].values())
-            assert len(message["places"]) <= MOST_POINTS
-            assert len(message["log"]) == MOST_LINES
+            assert all(len(track) <= MAX_POINTS for track in message["tracks"].values())
+            assert len(message["places"]) <= MAX_POINTS
+            assert len(message["log"]) == MAX_LINES
             assert all(len(phases) < 100 for phases in message["phases"].values())
             sizes.append(len(pickle.dumps(scene)))
     assert max(sizes[2:]) < 1.3 * max(sizes[:2])

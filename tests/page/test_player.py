@@ -246,10 +246,10 @@ def test_a_computer_that_slept_plays_on_where_it_was():
 
 
 def test_saved_moments_are_few_however_long_the_recording_is(monkeypatch):
-    monkeypatch.setattr(playing, "MOST_SAVED", 8)
+    monkeypatch.setattr(playing, "MAX_SAVED_STATES", 8)
     one = player(spacing=0.04)
     run_out(one)
-    assert len(one._saved) <= playing.MOST_SAVED and one.spacing > 0.04
+    assert len(one._saved) <= playing.MAX_SAVED_STATES and one.spacing > 0.04
     times = [moment.t for moment in one._saved]
     assert times == sorted(times) and times[0] == START
     between = [after - before for before, after in zip(times, times[1:], strict=False)]

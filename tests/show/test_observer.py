@@ -34,7 +34,7 @@ from solepath.emulate.walk import emulate
 from solepath.show.links import LinkLedger
 from solepath.show.observer import Observer
 from solepath.show.tables.summary import status
-from solepath.show.track import MOST_POINTS, LiveTrack
+from solepath.show.track import MAX_POINTS, LiveTrack
 
 LEFT = Site.LEFT_FOOT
 
@@ -191,10 +191,10 @@ def test_events_with_a_number_that_is_not_finite_are_left_out() -> None:
 
 def test_a_live_track_is_bounded_and_keeps_its_start_and_both_feet() -> None:
     track = LiveTrack()
-    for k in range(5 * MOST_POINTS):
+    for k in range(5 * MAX_POINTS):
         for foot in Foot:
             track.add(foot, 0.2 * k, 0.0)
-    assert len(track.points) <= MOST_POINTS and track.points[0] == (Foot.LEFT, 0.0, 0.0)
+    assert len(track.points) <= MAX_POINTS and track.points[0] == (Foot.LEFT, 0.0, 0.0)
     counts = [sum(point[0] is foot for point in track.points) for foot in Foot]
     assert min(counts) > 0.4 * sum(counts)
-    assert track.points[-1][1] > 0.99 * 0.2 * 5 * MOST_POINTS
+    assert track.points[-1][1] > 0.99 * 0.2 * 5 * MAX_POINTS

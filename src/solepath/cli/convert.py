@@ -207,7 +207,7 @@ def _replacing(out: Path) -> Iterator[Path]:
     """Yield a file to write that replaces `out` when it is complete, and is removed when it is not."""
     files = FileReplacements()
     try:
-        yield files.beside(out, read_only=True)
+        yield files.temporary_path(out, read_only=True)
         files.keep()
     except OSError as error:
         raise Failure(f"{printable(str(out))}: {os_error_text(error)}") from None

@@ -97,7 +97,7 @@ def run(options: argparse.Namespace) -> int:
             seconds = _straight(reading, session, results)
         else:
             shown = _played(reading, session, results, plan, calibration, view, pace)
-        if reading.failure is None or results.observer.items:
+        if reading.failure is None or results.observer.item_count:
             results.print(seconds)
     if reading.failure is None:
         return 0

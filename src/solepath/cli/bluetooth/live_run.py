@@ -21,7 +21,7 @@ from ...recipes import Recipe
 from ...recording import PacketWriter, RecordingError, os_error_text, printable
 from ...session import Session
 from ...show.observer import Observer
-from ...show.output import EVENTS, GAIT_CYCLES, PLACES, STRIDES, TRACK, TrackFiles
+from ...show.output import EVENTS_FILE, GAIT_CYCLES_FILE, PLACES_FILE, STRIDES_FILE, TRACK_FILE, TrackFiles
 from ...show.page.scene.scene import Scene
 from ...show.tables.summary import place_lines, status, summary
 from ...types import Packet
@@ -163,7 +163,7 @@ def check_all_writable(record: Path | None, out: Path | None, places: bool = Fal
     try:
         if out is not None:
             out.mkdir(parents=True, exist_ok=True)
-        names = (EVENTS, TRACK, STRIDES, GAIT_CYCLES, *([PLACES] if places else []))
+        names = (EVENTS_FILE, TRACK_FILE, STRIDES_FILE, GAIT_CYCLES_FILE, *([PLACES_FILE] if places else []))
         for path in [*([record] if record else []), *([out / name for name in names] if out else [])]:
             check_writable(path)
     except OSError as error:

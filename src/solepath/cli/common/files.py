@@ -37,7 +37,7 @@ def write_json(path: Path, value: Any) -> None:
 class FileReplacements:
     """Replaces files when they are complete.
 
-    `beside` returns where to write instead; `keep` moves what was written there to its place, `discard` removes it. The
+    `temporary_path` returns where to write instead; `keep` moves what was written there to its place, `discard` removes it. The
     temporary file is in the same directory, so that at any moment a file is either as it was or as it is to be,
     whatever ends the program. A path that is no regular file, such as a pipe, is written in place: it holds nothing
     that could be kept."""
@@ -45,7 +45,7 @@ class FileReplacements:
     _places: dict[Path, Path] = field(factory=dict, init=False)
     """Temporary path -> path of the file that it replaces."""
 
-    def beside(self, path: Path, *, read_only: bool = False) -> Path:
+    def temporary_path(self, path: Path, *, read_only: bool = False) -> Path:
         """Return an empty file in the directory of `path`; OSError, naming `path`, when it cannot be written.
 
         With `read_only`, a file without write permission is replaced all the same, and stays without it."""

@@ -11,7 +11,7 @@ from ...events import Event
 from ...floorplan.plan import FloorPlan
 from ...recording import printable
 from ...show.observer import Observer
-from ...show.output import PLAN, TrackFiles, naming
+from ...show.output import PLAN_FILE, TrackFiles, os_errors_naming
 from ...show.report import Report
 from ...show.tables.plan import PlanPicture
 from ...show.tables.summary import place_lines, summary
@@ -56,12 +56,12 @@ class Results:
     def open_files(self) -> None:
         """Open the files, also for a recording of nothing."""
         if self._files is None and self.out is not None:
-            self._files = TrackFiles(self.out, places=self.plan is not None, beside=self._files_out.beside)
+            self._files = TrackFiles(self.out, places=self.plan is not None, path_to_write=self._files_out.temporary_path)
             self._open.callback(self._files.close)
             if self.plan is not None:
-                self._picture_at = self._files_out.beside(self.out / PLAN)
+                self._picture_at = self._files_out.temporary_path(self.out / PLAN_FILE)
         if self._report_at is None and self.report is not None:
-            self._report_at = self._report_out.beside(self.report)
+            self._report_at = self._report_out.temporary_path(self.report)
 
     def add(self, item: Packet | Sample | None, events: list[Event]) -> None:
         """Add an item and the events of the session for it; None and the last events at the end."""
@@ -77,7 +77,7 @@ class Results:
         """Put files and report in their places and print the summary; `seconds` is the wall time that it took."""
         self._open.close()
         if self._picture is not None and self._picture_at is not None and self.out is not None:
-            with naming(self.out):
+            with os_errors_naming(self.out):
                 self._picture.write(self._picture_at, self.title)
         self._files_out.keep()
         print(summary(self.observer, title=self.title, seconds=seconds))
@@ -86,7 +86,7 @@ class Results:
         if self.out is not None:
             print(f"written to {printable(str(self.out))}")
         if self._report is not None and self._report_at is not None and self.report is not None:
-            with naming(self.report):
+            with os_errors_naming(self.report):
                 self._report.write(self._report_at)
             self._report_out.keep()
             print(f"report in {printable(str(self.report))}")

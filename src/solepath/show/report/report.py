@@ -23,7 +23,7 @@ from ...events import (
 from ...floorplan.plan import FloorPlan
 from ...types import Foot, Packet, Phase, Sample
 from ..observer import Observer
-from ..output import naming
+from ..output import os_errors_naming
 from .bounded import T, Thinned
 from .clock import ReportClock
 from .figures.activity import activity_figure
@@ -138,7 +138,7 @@ class Report:
 
     def write(self, path: Path) -> None:
         """Write the page to a file, UTF-8. OSError, naming the file, when it cannot be written (the disk is full)."""
-        with naming(path):
+        with os_errors_naming(path):
             path.write_bytes(self.text().encode("utf-8"))
 
     def text(self) -> str:

@@ -28,9 +28,9 @@ def overview(observer: Observer, clock: ReportClock, has_data: bool, measured: d
     a track."""
     if not has_data:
         return ["Nothing was heard of either foot."]
-    time = observer.time
-    lines = [f"The recording lasts {duration_text(time.total if time.count else clock.end - clock.start)}."]
-    if time.count > 1:
+    time = observer.covered_time
+    lines = [f"The recording lasts {duration_text(time.total if time.stretch_count else clock.end - clock.start)}."]
+    if time.stretch_count > 1:
         lines = [f"The recording lasts {duration_text(time.total)}; its times go back in between."]
     stepped = {foot: observer.feet[foot] for foot in Foot if foot in observer.feet and observer.feet[foot].strides}
     for foot, one in stepped.items():
@@ -43,10 +43,10 @@ def overview(observer: Observer, clock: ReportClock, has_data: bool, measured: d
         lines.append("No foot took a step.")
     if observer.fused is not None:
         lines.append(f"Both feet together went {number(observer.fused.distance, 1)} m.")
-    spans = observer.timeline.lasted(clock.end)
+    spans = observer.timeline.durations(clock.end)
     if spans:
         lines.append(f"Activities: {', '.join([f'{named(what)} {duration_text(t)}' for what, t in spans.items()])}.")
-    for counted, what in ((observer.flights, "Flights of stairs"), (observer.rides, "Lift rides")):
+    for counted, what in ((observer.flights, "Flights of stairs"), (observer.elevator_rides, "Lift rides")):
         ways = [f"{counted[up]} {'up' if up else 'down'}" for up in (True, False) if counted[up]]
         if ways:
             lines.append(f"{what}: {', '.join(ways)}.")

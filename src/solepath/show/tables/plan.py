@@ -14,7 +14,7 @@ from attrs import define, field
 
 from ...events import Event, Placed, PlaceLost
 from ...floorplan.plan import Connector, ConnectorKind, ConnectorStop, FloorPlan, Level, Point
-from ..output import naming
+from ..output import os_errors_naming
 
 WIDTH = 720.0
 """Largest width of the drawing of a level by default, px."""
@@ -62,7 +62,7 @@ class PlanPicture:
         """Write the picture to a file, UTF-8. OSError, naming the file, when it cannot be written (full disk)."""
         tree = ElementTree(self.drawn(title))
         indent(tree, space=" ")
-        with naming(path):
+        with os_errors_naming(path):
             tree.write(path, encoding="utf-8", xml_declaration=True)
 
     def drawn(self, title: str) -> Element:

@@ -10,14 +10,14 @@ from ...recording import printable
 from ...types import SITE_OF_FOOT, Foot, Site, Turn, WalkingMode
 from ..links import LinkLedger
 from ..observer import GAIT_EVENTS, FootCounts, Observer
-from ..places import MOST_LISTED, PlaceCounts
+from ..places import MAX_LISTED, PlaceCounts
 from .gait import gait_lines
 from .table import milliseconds, number, table
 
 
 def summary(observer: Observer, *, title: str, seconds: float) -> str:
     """Return the summary of one recording; `seconds` is the wall time that it took."""
-    duration = observer.time.total
+    duration = observer.covered_time.total
     lines = [f"{title}: {duration:.1f} s"]
     lines += _feet(observer)
     lines += _together(observer)
@@ -68,9 +68,9 @@ def _together(observer: Observer) -> list[str]:
 def activity_lines(observer: Observer) -> list[str]:
     """Return a line for each kind of activity, flight, ride and turn; none when nothing was reported."""
     lines = []
-    if lasted := observer.timeline.lasted(observer.now):
-        lines.append("activities: " + ", ".join(f"{what} {number(t, 0)} s" for what, t in lasted.items()))
-    for counted, one in ((observer.flights, "flight"), (observer.rides, "lift ride")):
+    if durations := observer.timeline.durations(observer.now):
+        lines.append("activities: " + ", ".join(f"{what} {number(t, 0)} s" for what, t in durations.items()))
+    for counted, one in ((observer.flights, "flight"), (observer.elevator_rides, "lift ride")):
         ways = [f"{counted[up]} {'up' if up else 'down'}" for up in (True, False) if counted[up]]
         if ways:
             lines.append(f"{one}s: {', '.join(ways)}")
@@ -118,7 +118,7 @@ def link_health(observer: Observer) -> list[str]:
 
 def latency(observer: Observer) -> list[str]:
     """Return a line with the median latency of each gait event, radio included; nothing when there were no events."""
-    medians = {GAIT_EVENTS[kind]: median(known.elements()) for kind, known in observer.delays.items() if known}
+    medians = {GAIT_EVENTS[kind]: median(known.elements()) for kind, known in observer.latencies.items() if known}
     known = [f"{name} {milliseconds(1e-4 * tenths)} ms" for name, tenths in medians.items()]
     return [f"known after it happened, median: {', '.join(known)}"] if known else []
 
@@ -148,9 +148,9 @@ def _link(site: Site, link: LinkLedger, now: float) -> str:
 def place_lines(counts: PlaceCounts) -> list[str]:
     """Return the lines about the place over a whole recording."""
     lines = []
-    if counts.found is not None:
-        strides, t = counts.found
-        share = f"; one place for {counts.decided} of {counts.places} steps"
+    if counts.first_decided is not None:
+        strides, t = counts.first_decided
+        share = f"; one place for {counts.decided_count} of {counts.places} steps"
         lines.append(f"place: found after {strides} step{'s' * (strides != 1)}, at {number(t, 1)} s{share}")
     else:
         lines.append(f"place: not found; {counts.places} steps with several candidates")
@@ -160,13 +160,13 @@ def place_lines(counts: PlaceCounts) -> list[str]:
         several = len(counts.last.candidates)
         uncertainty = f", one of {several} candidates" if several > 1 else f", within {number(counts.last.spread, 1)} m"
         lines.append(f"at the end: level {printable(counts.last.level)}, {at}{uncertainty}")
-    if counts.levels:
-        levels = ", ".join([f"{printable(name)} from {number(t, 1)} s" for t, name in counts.levels])
-        more = counts.changes - MOST_LISTED
+    if counts.level_starts:
+        levels = ", ".join([f"{printable(name)} from {number(t, 1)} s" for t, name in counts.level_starts])
+        more = counts.level_changes - MAX_LISTED
         lines.append(f"levels: {levels}{f' and {more} more' if more > 0 else ''}")
-    lines += [f"from {number(t, 1)} s without a place: {printable(what)}" for t, what in counts.lost]
-    if counts.losses > MOST_LISTED:
-        lines.append(f"and {counts.losses - MOST_LISTED} times more")
+    lines += [f"from {number(t, 1)} s without a place: {printable(what)}" for t, what in counts.first_losses]
+    if counts.loss_count > MAX_LISTED:
+        lines.append(f"and {counts.loss_count - MAX_LISTED} times more")
     return lines
 
 

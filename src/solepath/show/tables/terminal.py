@@ -60,7 +60,7 @@ def picture(observer: Observer, title: str) -> Group:
     return Group(
         Panel(feet, title=title, width=PLOT[0] + 4),
         Panel(Text("\n".join(lines)), title="track", width=PLOT[0] + 4),
-        Panel(Text("\n".join(health)), title=f"link, {observer.items} packets", width=PLOT[0] + 4),
+        Panel(Text("\n".join(health)), title=f"link, {observer.item_count} packets", width=PLOT[0] + 4),
     )
 
 

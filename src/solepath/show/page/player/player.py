@@ -28,7 +28,7 @@ from .playback import Playback
 
 SPACING = 10.0
 """Time of the recording between two saved states at first, s; so much is computed again in a fifth of a second."""
-MOST_SAVED = 60
+MAX_SAVED_STATES = 60
 """Largest number of saved states: with more, every other one is dropped and the spacing doubles."""
 LONGEST = 0.25
 """Wall time that counts as passed at once, s: after the computer slept, nothing of the recording is skipped."""
@@ -56,7 +56,7 @@ class Player:
     result does not depend on the commands.
 
     The scene at a time of the recording, and the session's snapshot there, are the same whatever was played, skipped or
-    seen again before. Memory: the items (PackedItems says how much), and MOST_SAVED saved states of some 0.1 MB."""
+    seen again before. Memory: the items (PackedItems says how much), and MAX_SAVED_STATES saved states of some 0.1 MB."""
 
     items: PackedItems
     session: Session
@@ -65,7 +65,7 @@ class Player:
     fault: str = ""
     on_events: OnEvents | None = None
     spacing: float = SPACING
-    """Time of the recording between two saved states, s; it doubles when there are MOST_SAVED."""
+    """Time of the recording between two saved states, s; it doubles when there are MAX_SAVED_STATES."""
     playback: Playback = field(init=False)
     _next: int = field(default=0, init=False)
     """Index of the item that comes next."""
@@ -204,7 +204,7 @@ class Player:
         session = json.dumps(self.session.snapshot()).encode()
         packed = pickle.dumps(scene, pickle.HIGHEST_PROTOCOL)  # only this process reads it
         self._saved.append(_SavedState(t, self._next, zlib.compress(session, 1), zlib.compress(packed, 1)))
-        if len(self._saved) > MOST_SAVED:
+        if len(self._saved) > MAX_SAVED_STATES:
             del self._saved[1::2]
             self.spacing *= 2.0
 

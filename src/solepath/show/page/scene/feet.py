@@ -14,10 +14,10 @@ from ...observer import FootCounts
 from ..messages import rounded, rounded_all
 from .lists import Recent, WalkedTrack
 
-PHASES_KEPT = 20.0
+PHASE_HISTORY = 20.0
 """Time for which phases are kept, s."""
-MOST_PHASES = 500
-"""Largest number of phases that are kept; no foot goes through more in PHASES_KEPT."""
+MAX_PHASES = 500
+"""Largest number of phases that are kept; no foot goes through more in PHASE_HISTORY."""
 MIN_PEAK_SHARE = 0.002
 """Share of a cell's full scale that the brightest colour means at least: an unloaded sole shows only noise."""
 
@@ -32,7 +32,7 @@ class FootScene:
     foot: Foot
     has_data: bool = field(default=False, init=False)
     phase: Phase | None = field(default=None, init=False)
-    phases: Recent[tuple[float, str | None]] = field(factory=lambda: Recent(MOST_PHASES), init=False)
+    phases: Recent[tuple[float, str | None]] = field(factory=lambda: Recent(MAX_PHASES), init=False)
     """Start of each recent phase, s, and its name; None for a time in which nothing comes of the foot."""
     position: Vec3 | None = field(default=None, init=False)
     track: WalkedTrack = field(factory=WalkedTrack, init=False)
@@ -73,7 +73,7 @@ class FootScene:
         if phases.items and t < phases.items[-1][0]:
             t = phases.items[-1][0]  # the event is dated before the last reported phase
         phases.add((t, None if phase is None else phase.value))
-        while len(phases.items) > 1 and phases.items[1][0] <= t - PHASES_KEPT:
+        while len(phases.items) > 1 and phases.items[1][0] <= t - PHASE_HISTORY:
             phases.items.popleft()
 
     def add_stride(self, event: StrideTaken) -> None:

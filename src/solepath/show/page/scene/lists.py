@@ -19,7 +19,7 @@ T = TypeVar("T")
 TrackPoint = tuple[float | None, ...]
 """(t, x, y, z) in s and m."""
 
-MOST_POINTS = 2000
+MAX_POINTS = 2000
 """Largest number of points of a track; with one more, every second one is left out."""
 RECENT = 1000
 """Number of points that a reader may be behind."""
@@ -31,7 +31,7 @@ SPACING = 0.02
 class ThinnedTrack(Generic[T]):
     """Points of a track from its start to now, thinned evenly.
 
-    When there is one more than MOST_POINTS, the points with odd indices (from 0) are left out. The first and the newest
+    When there is one more than MAX_POINTS, the points with odd indices (from 0) are left out. The first and the newest
     point stay."""
 
     points: list[T] = field(factory=list)
@@ -42,7 +42,7 @@ class ThinnedTrack(Generic[T]):
     def add(self, point: T) -> None:
         """Add one point."""
         self.points.append(point)
-        if len(self.points) > MOST_POINTS:
+        if len(self.points) > MAX_POINTS:
             self.points = self.points[::2]
         self._recent.append(point)
         self.count += 1

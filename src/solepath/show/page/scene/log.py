@@ -36,7 +36,7 @@ from ...observer import Observer
 from ..messages import rounded
 from .lists import Recent
 
-MOST_LINES = 50
+MAX_LINES = 50
 LOW_BATTERY = 0.15
 """Charge at or below which the battery is reported, 0 to 1."""
 FAULTS = {
@@ -56,7 +56,7 @@ LogLine = tuple[float | None, str, str]
 class SceneLog:
     """The newest sentences on what happened."""
 
-    lines: Recent[LogLine] = field(factory=lambda: Recent(MOST_LINES))
+    lines: Recent[LogLine] = field(factory=lambda: Recent(MAX_LINES))
 
     def add_event(self, event: Event, before: Observer) -> None:
         """Add a line for an event that deserves one and was not just reported.

@@ -10,7 +10,7 @@ from ....events import Candidate, Placed, WearerMoved
 from ..messages import rounded, rounded_all
 from .lists import ThinnedTrack, WalkedTrack
 
-MOST_CANDIDATES = 40
+MAX_CANDIDATES = 40
 
 PlacePoint = tuple[float | None, str, float | None, float | None, float | None]
 """(t, level, x, y, z) in s and m."""
@@ -73,7 +73,7 @@ def _place(place: Placed) -> dict[str, Any]:
         "position": rounded_all(place.position),
         "decided": len(place.candidates) <= 1,
         "spread": rounded(place.spread, 2),
-        "candidates": [_candidate(one) for one in place.candidates[:MOST_CANDIDATES]],
+        "candidates": [_candidate(one) for one in place.candidates[:MAX_CANDIDATES]],
     }
 
 

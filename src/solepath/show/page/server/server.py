@@ -25,8 +25,8 @@ from .client_errors import ClientErrors
 from .connection import HEADERS, BrowserConnection, ImmediateClose
 from .watcher import Watcher
 
-MOST_WATCHERS = 8
-MOST_CONNECTIONS = 64
+MAX_WATCHERS = 8
+MAX_CONNECTIONS = 64
 """Connections at one time, with those that request files or nothing."""
 IDLE = 10.0
 """Time after which a connection that requests nothing, or half of something, is closed, s."""
@@ -41,7 +41,7 @@ class Page:
     None for 8765 or, when that is taken, a free one. `token` is random when it is None. `commands` is called with each
     command of a watcher who has the token; it is None where there is nothing to play.
 
-    A watcher gets the changes 1 to 30 times a second, less often when it reads slowly; there are at most MOST_WATCHERS.
+    A watcher gets the changes 1 to 30 times a second, less often when it reads slowly; there are at most MAX_WATCHERS.
     `port` and `url` raise RuntimeError before the context is entered. The page is for one event loop, from which
     `scene` also takes its events.
 
@@ -97,8 +97,8 @@ class Page:
 
     def _connect(self) -> asyncio.BaseProtocol:
         """Return the protocol for a new connection."""
-        if self._server is None or len(self._server.connections) >= MOST_CONNECTIONS:
-            self.client_errors.report(f"more than {MOST_CONNECTIONS} connections at once: one is refused")
+        if self._server is None or len(self._server.connections) >= MAX_CONNECTIONS:
+            self.client_errors.report(f"more than {MAX_CONNECTIONS} connections at once: one is refused")
             return ImmediateClose()
         return BrowserConnection(self._server, IDLE)
 
@@ -137,8 +137,8 @@ class Page:
             raise AccessDenied("somebody wants to speak another protocol", 400)
         self._access.check_origin(request.headers.getall("Origin", []), host)
         steers = self._access.may_steer(request.query.getall("token", []))
-        if len(self._watchers) >= MOST_WATCHERS:
-            raise AccessDenied(f"more than {MOST_WATCHERS} browsers want to watch", 503)
+        if len(self._watchers) >= MAX_WATCHERS:
+            raise AccessDenied(f"more than {MAX_WATCHERS} browsers want to watch", 503)
         watcher = Watcher(self, steers)
         self._watchers.add(watcher)
         try:
