@@ -27,7 +27,7 @@ async def test_the_number_of_watchers_is_limited() -> None:
 
 
 async def test_idle_connections_are_limited_and_closed(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(server, "IDLE", 0.5)
+    monkeypatch.setattr(server, "IDLE_TIMEOUT", 0.5)
     async with served() as (page, client, url):
         idle = [await raw(page) for _ in range(MAX_CONNECTIONS)]
         for _, writer in idle:
@@ -48,8 +48,8 @@ GET = b"GET /style.css HTTP/1.1\r\nHost: localhost\r\n\r\n"
 async def test_a_client_that_requests_and_does_not_read_is_closed_soon(
     requests: tuple[bytes, ...], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(server, "IDLE", 0.5)
-    monkeypatch.setattr(connection, "LONGEST", 0.7)
+    monkeypatch.setattr(server, "IDLE_TIMEOUT", 0.5)
+    monkeypatch.setattr(connection, "MAX_UNWATCHED_TIME", 0.7)
     monkeypatch.setattr(server, "MAX_CONNECTIONS", MAX_WATCHERS)
     async with served(scene=Scene("x" * 120_000, "default")) as (page, client, url):
         silent = []
@@ -79,9 +79,9 @@ async def test_a_client_that_requests_and_does_not_read_is_closed_soon(
 async def test_a_browser_that_reads_may_watch_longer_than_other_connections_last(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(server, "IDLE", 0.1)
-    monkeypatch.setattr(connection, "LONGEST", 0.2)
-    monkeypatch.setattr(watcher, "HEARTBEAT", 0.05)
+    monkeypatch.setattr(server, "IDLE_TIMEOUT", 0.1)
+    monkeypatch.setattr(connection, "MAX_UNWATCHED_TIME", 0.2)
+    monkeypatch.setattr(watcher, "MAX_FRAME_INTERVAL", 0.05)
     async with served() as (_, client, url), client.ws_connect(f"{url}ws") as watching:
         for _ in range(12):
             await watching.receive_str()
@@ -111,7 +111,7 @@ async def test_watchers_do_not_change_the_events_of_a_session() -> None:
 
 
 async def test_a_browser_that_reads_slowly_is_shown_less_and_the_newest(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(watcher, "INTERVAL", 0.001)
+    monkeypatch.setattr(watcher, "FRAME_INTERVAL", 0.001)
     async with served() as (page, _, _):
         reader, writer = await deaf(page, 65_536)
         (slow,) = page._watchers
@@ -136,8 +136,8 @@ async def test_a_browser_that_reads_slowly_is_shown_less_and_the_newest(monkeypa
 async def test_a_browser_that_reads_nothing_gets_nothing_more_and_is_let_go(
     monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    monkeypatch.setattr(watcher, "PATIENCE", 0.5)
-    monkeypatch.setattr(watcher, "INTERVAL", 0.001)
+    monkeypatch.setattr(watcher, "READ_TIMEOUT", 0.5)
+    monkeypatch.setattr(watcher, "FRAME_INTERVAL", 0.001)
     async with served(scene=Scene("x" * 20_000, "default")) as (page, client, url):
         _, writer = await deaf(page)
         async with client.ws_connect(f"{url}ws") as other:

@@ -32,7 +32,7 @@ async def test_the_page_shows_no_walking_while_no_sensor_sends(chromium: Browser
         await view.until("document.getElementById('activity').textContent === 'Walking'")
         assert all([float(await view.text(name)) > 0.0 for name in FIGURES])
         rows = await view.tab.locator("#gait-rows tr").all_inner_texts()
-        assert rows[0].split()[:3] == ["strides", *[str(n) for n in strides(scene.whole()[0]["frame"]["gait"])]]
+        assert rows[0].split()[:3] == ["strides", *[str(n) for n in strides(scene.whole_message()[0]["frame"]["gait"])]]
         angle = next(row for row in rows if row.startswith("toe-off"))
         assert angle.rstrip().endswith("°"), "degrees, not a share of an angle"
         assert "settle with 30 and more" in await view.text("gait-note")
@@ -50,7 +50,7 @@ async def test_the_page_shows_no_walking_while_no_sensor_sends(chromium: Browser
 
 async def test_all_see_the_colours_that_the_session_chose(chromium: Browser) -> None:
     scene = after(12.0)
-    top = scene.scales.units["kPa"].top
+    top = scene.scales.units["kPa"].end
     scale_text = f"document.getElementById('scale-top').textContent.endsWith('{top:.0f} kPa')"
     async with opened(chromium, scene) as (first, _):
         await first.until(scale_text)

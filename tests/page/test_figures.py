@@ -32,7 +32,7 @@ from solepath import (
 from solepath.body.gait.means import GaitMeans
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
-from solepath.show.page.scene.scales import LEAST, scale_end
+from solepath.show.page.scene.scales import FIRST_ENDS, scale_end
 from solepath.show.page.scene.scene import Scene
 from solepath.show.tables.gait import MIN_STRIDES, gait_lines, gait_rows
 
@@ -114,7 +114,7 @@ def test_one_cell_with_a_peak_does_not_make_the_forefoot_pale() -> None:
 
 def test_a_knock_of_a_hundredth_of_a_second_does_not_either() -> None:
     knock = [pressed(2.0, LEFT, [900.0] * 96), pressed(2.01, LEFT, [10.0] * 96)]
-    assert frame(shown([*worn(), *knock, *knock, *knock]))["scales"]["kPa"]["top"] == LEAST["kPa"]
+    assert frame(shown([*worn(), *knock, *knock, *knock]))["scales"]["kPa"]["top"] == FIRST_ENDS["kPa"]
 
 
 def test_a_scale_is_for_both_feet_and_only_grows() -> None:

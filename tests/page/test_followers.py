@@ -30,7 +30,7 @@ from solepath import (
 )
 from solepath.emulate.routes.building import BUILDING
 from solepath.show.page.messages import encode
-from solepath.show.page.scene.lists import MAX_POINTS, RECENT
+from solepath.show.page.scene.lists import MAX_POINTS, MAX_BEHIND
 from solepath.show.page.scene.log import MAX_LINES
 from solepath.show.page.scene.scene import Scene
 
@@ -81,25 +81,25 @@ class Reader:
 
 @cache
 def long_way() -> list[Event]:
-    return [step(1.0 + k, 0.7 * k) for k in range(MAX_POINTS + 2 * RECENT)]
+    return [step(1.0 + k, 0.7 * k) for k in range(MAX_POINTS + 2 * MAX_BEHIND)]
 
 
 def agree(events: list[Event], looks: list[int], scene: Scene | None = None) -> Reader:
     """Check that a watcher who reads after so many events each ends with the scene of one who comes at the end."""
     scene = Scene("a walk", "default", plan=BUILDING) if scene is None else scene
     reader = Reader()
-    message, cursor = scene.whole()
+    message, cursor = scene.whole_message()
     reader.take(encode(message))
     for index, event in enumerate(events):
         scene.take(None, [event])
         for _ in range(looks.count(index)):
-            news, cursor = scene.since(cursor)
+            news, cursor = scene.message_since(cursor)
             if news is not None:
                 reader.take(encode(news))
-    news, cursor = scene.since(cursor)
+    news, cursor = scene.message_since(cursor)
     if news is not None:
         reader.take(encode(news))
-    late = json.loads(encode(scene.whole()[0]))
+    late = json.loads(encode(scene.whole_message()[0]))
     for one in (late, reader.scene):
         for key in LISTS:
             one["frame"].pop(key, None)
@@ -117,15 +117,15 @@ def test_the_changes_add_up_to_the_scene_of_a_late_watcher(data: st.DataObject) 
 
 
 @settings(max_examples=8)
-@given(st.lists(st.integers(0, MAX_POINTS + 2 * RECENT), max_size=30))
+@given(st.lists(st.integers(0, MAX_POINTS + 2 * MAX_BEHIND), max_size=30))
 def test_a_long_track_is_thinned_alike_on_both_sides(looks: list[int]) -> None:
     agree(long_way(), looks)
 
 
 def test_a_page_that_is_far_behind_gets_the_whole_scene_again() -> None:
-    events: list[Event] = [step(1.0 + k, 0.7 * k) for k in range(RECENT + 10)]
+    events: list[Event] = [step(1.0 + k, 0.7 * k) for k in range(MAX_BEHIND + 10)]
     assert agree(events, []).wholes == 2
-    assert agree(events, [RECENT // 2]).wholes == 1
+    assert agree(events, [MAX_BEHIND // 2]).wholes == 1
 
 
 def test_a_page_that_drew_no_soles_draws_again_when_the_cells_are_known() -> None:
@@ -135,17 +135,17 @@ def test_a_page_that_drew_no_soles_draws_again_when_the_cells_are_known() -> Non
     assert len(reader.scene["layouts"]["left"]["cells"]) == 96
     assert reader.scene["layouts"]["left"]["unit"] == "N"
     scene = shown(known)
-    _, cursor = scene.whole()
-    news, _ = shown(known, scene).since(cursor)  # the same once more
+    _, cursor = scene.whole_message()
+    news, _ = shown(known, scene).message_since(cursor)  # the same once more
     assert news is None or news["type"] == "frame"
 
 
 def test_nothing_new_is_no_message() -> None:
     scene = shown(rough()[1])
-    _, cursor = scene.whole()
-    assert scene.since(cursor) == (None, cursor)
+    _, cursor = scene.whole_message()
+    assert scene.message_since(cursor) == (None, cursor)
     scene.tick(scene.now)
-    assert scene.since(cursor)[0] is None
+    assert scene.message_since(cursor)[0] is None
 
 
 def test_hours_of_walking_do_not_make_a_scene_larger() -> None:
@@ -161,7 +161,7 @@ def test_hours_of_walking_do_not_make_a_scene_larger() -> None:
                 event = evolve(event, position=(x + lap, y, z))
             scene.take(None, [event])
         if lap % 125 == 124:
-            message = scene.whole()[0]
+            message = scene.whole_message()[0]
             assert all(len(track) <= MAX_POINTS for track in message["tracks"].values())
             assert len(message["places"]) <= MAX_POINTS
             assert len(message["log"]) == MAX_LINES
@@ -174,11 +174,11 @@ def test_hours_of_walking_do_not_make_a_scene_larger() -> None:
 def test_a_plan_is_drawn_and_written_once_whoever_watches() -> None:
     plan = evolve(BUILDING, name="drawn once")
     scene = Scene("along a corridor", "default", plan=plan)
-    first, _ = scene.whole()
+    first, _ = scene.whole_message()
     copied = deepcopy(scene)
     assert copied.plan is plan
     for one in (scene, copied):
-        message, _ = one.whole()
+        message, _ = one.whole_message()
         assert message["plan"] is first["plan"]
         assert json.loads(encode(message)) == json.loads(json.dumps(message))
         assert message["plan"].text is first["plan"].text

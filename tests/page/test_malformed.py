@@ -114,7 +114,7 @@ async def test_repeated_errors_of_a_client_do_not_fill_the_log(caplog: pytest.Lo
     async with served() as (_, client, url):
         for _ in range(100):
             assert await rejection_status(client.ws_connect(f"{url}ws?token=wrong")) == 403
-    assert len(caplog.records) <= client_errors.AT_ONCE + 1
+    assert len(caplog.records) <= client_errors.BURST_SIZE + 1
 
 
 async def test_no_part_of_the_library_logs_what_a_client_sends(caplog: pytest.LogCaptureFixture) -> None:
@@ -131,9 +131,9 @@ async def test_no_part_of_the_library_logs_what_a_client_sends(caplog: pytest.Lo
 
 def test_errors_that_were_not_logged_are_counted(caplog: pytest.LogCaptureFixture) -> None:
     log = client_errors.ClientErrors(logging.getLogger(LOGGER))
-    for _ in range(client_errors.AT_ONCE + 5):
+    for _ in range(client_errors.BURST_SIZE + 5):
         log.report("somebody did it")
-    assert len(caplog.records) == client_errors.AT_ONCE
-    log._at -= client_errors.EVERY
+    assert len(caplog.records) == client_errors.BURST_SIZE
+    log._updated_at -= client_errors.LINE_INTERVAL
     log.report("somebody did it")
     assert caplog.records[-1].getMessage() == "somebody did it (5 more were not logged)"

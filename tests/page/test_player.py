@@ -17,8 +17,8 @@ from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.walk import emulate, sampled
 from solepath.show.page.messages import Command
 from solepath.show.page.player import player as playing
-from solepath.show.page.player.packed_items import CHUNK, PackedItems
-from solepath.show.page.player.player import FASTEST, SLOWEST, Player
+from solepath.show.page.player.packed_items import CHUNK_SIZE, PackedItems
+from solepath.show.page.player.player import MAX_SPEED, MIN_SPEED, Player
 from solepath.show.page.scene.scene import Scene
 
 ROUTE = Route().stand(0.5).walk(2.0, speed=1.3).stop(0.5)
@@ -84,7 +84,7 @@ def run_out(one: Player) -> None:
 
 def shown(one: Player) -> dict:
     """Return what a new watcher sees, without how the player came there."""
-    message, _ = one.scene.whole()
+    message, _ = one.scene.whole_message()
     message["frame"]["playback"] = (one.playback.t, one.playback.seeking)
     return message
 
@@ -98,7 +98,7 @@ def straight(t: float) -> tuple[dict, dict]:
     """Return scene and snapshot at `t` of a run without commands."""
     one = player()
     if t > START:
-        one.speed(8.0)
+        one.set_speed(8.0)
         play_until(one, t)
     else:
         one.feed_due(never)
@@ -130,7 +130,7 @@ def test_what_is_shown_at_a_time_is_the_same_whatever_was_played_before(actions,
             settle(one)
         else:
             one.feed_due(slices(action))
-        one.scene.whole()  # somebody watches
+        one.scene.whole_message()  # somebody watches
     stop_at(one, end)
     assert one.playback.t == end and one.playback.seeking is None
     assert (shown(one), one.session.snapshot()) == straight(end)
@@ -148,8 +148,8 @@ def test_items_are_passed_on_once_and_in_order_whatever_is_done_on_the_page(acti
             one.advance(5.0 * action)
             one.feed_due(slices(80))
     while one.run_through(slices(500)):
-        assert one.done < len(PACKETS) or one.playback.state != "ended"
-    assert one.done == len(PACKETS)
+        assert one.delivered_count < len(PACKETS) or one.playback.state != "ended"
+    assert one.delivered_count == len(PACKETS)
     assert [item for item, _ in passed_on] == [*PACKETS, None]
     session = Session(poses=True, pressures=True)
     assert [events for _, events in passed_on] == [*(session.feed(packet) for packet in PACKETS), session.finish()]
@@ -161,7 +161,7 @@ def test_a_recording_plays_at_the_requested_speed_and_stops_at_its_end():
     one.feed_due(never)
     pass_by(one, 0.1)
     assert one.playback.t == pytest.approx(START + 0.1)
-    one.speed(10.0)
+    one.set_speed(10.0)
     pass_by(one, 0.1)
     assert one.playback.t == pytest.approx(START + 1.1)
     one.pause()
@@ -185,10 +185,10 @@ def test_going_back_from_the_end_plays_on_and_the_pace_has_bounds():
     one.seek(END - 1.0)
     settle(one)
     assert one.playback.state == "playing" and one.playback.t == END - 1.0
-    one.speed(1000.0)
-    assert one.playback.speed == FASTEST
-    one.speed(0.0)
-    assert one.playback.speed == SLOWEST
+    one.set_speed(1000.0)
+    assert one.playback.speed == MAX_SPEED
+    one.set_speed(0.0)
+    assert one.playback.speed == MIN_SPEED
     stop_at(one, -1e9)
     assert one.playback.state == "paused" and one.playback.t == START
 
@@ -209,7 +209,7 @@ def test_a_seek_reports_its_progress_and_continues_in_slices():
 
 def test_the_page_shows_the_time_up_to_which_the_session_was_fed_also_when_it_cannot_keep_up():
     one = player()
-    one.speed(FASTEST)
+    one.set_speed(MAX_SPEED)
     slow = 0
     while one.playback.state != "ended":
         one.advance(WALL)
@@ -217,7 +217,7 @@ def test_the_page_shows_the_time_up_to_which_the_session_was_fed_also_when_it_ca
         slow += behind
         fed = one.items.t(one._next - 1)
         assert one.playback.t == fed if behind else fed <= one.playback.t <= one.items.end
-        message, _ = one.scene.whole()
+        message, _ = one.scene.whole_message()
         # the newest sample's own time may be told a little later than its packet came
         assert message["frame"]["playback"]["t"] <= message["frame"]["t"] < one.playback.t + 0.03
     assert slow > 10
@@ -288,7 +288,7 @@ def test_samples_play_like_packets():
     assert shown(one)["frame"]["feet"]["left"]["steps"] > 0
 
 
-@given(st.lists(st.floats(-1e6, 1e6), max_size=3 * CHUNK), st.integers(0, 2**32))
+@given(st.lists(st.floats(-1e6, 1e6), max_size=3 * CHUNK_SIZE), st.integers(0, 2**32))
 def test_packed_items_come_out_unchanged_and_are_due_in_order(times, seed):
     packets = [Packet(t, Site.LEFT_FOOT, "insole/frame", bytes([k % 256]), str(seed)) for k, t in enumerate(times)]
     kept = PackedItems(packets)

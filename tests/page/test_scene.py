@@ -118,7 +118,7 @@ def test_an_insole_without_an_inertial_sensor_shows_its_cells_and_phases() -> No
 
 def test_sensors_without_cells_show_steps_and_no_soles() -> None:
     _, events = fed(emulate(SHORT, devices={Site.LEFT_FOOT: CC2650(), Site.RIGHT_FOOT: CC2650()}, seed=1).packets)
-    message = json.loads(encode(shown(events).whole()[0]))
+    message = json.loads(encode(shown(events).whole_message()[0]))
     assert message["layouts"] == {"left": None, "right": None}
     for foot in Foot:
         one = message["frame"]["feet"][foot.value]
@@ -215,7 +215,7 @@ def test_an_activity_that_was_taken_back_is_not_shown() -> None:
 def test_a_place_is_shown_until_it_is_lost() -> None:
     events = eventful()
     scene = shown([event for event in events if not isinstance(event, PlaceLost)], Scene("", "", plan=BUILDING))
-    message = json.loads(encode(scene.whole()[0]))
+    message = json.loads(encode(scene.whole_message()[0]))
     assert message["frame"]["place"]["candidates"][0]["origin"] == "stairs A"
     assert len(message["places"]) == 1, "of several candidates on several levels there is no one place"
     assert [line for line in message["log"] if line[1] == "place"]
@@ -241,10 +241,10 @@ def test_an_event_without_a_finite_time_is_not_shown() -> None:
 
 def test_a_frame_holds_the_state_of_playback() -> None:
     scene = Scene("a walk", "default", "recording", playback=Playback(start=0.0, end=9.0, t=0.0))
-    _, cursor = scene.whole()
+    _, cursor = scene.whole_message()
     assert scene.playback is not None
     scene.playback.state, scene.playback.t = "playing", 1.0
-    news, _ = scene.since(cursor)
+    news, _ = scene.message_since(cursor)
     assert news == {
         "type": "frame",
         "t": 0.0,

@@ -105,8 +105,7 @@ class RecentLoss:
         self.seconds[-1][2] += lost
 
     def share(self, now: float) -> float | None:
-        """Return the lost share, 0 to 1, of the packets sent in the window before `now`, s; None if none was received.
-        """
+        """Return the share of packets before `now`, s, that were lost, 0 to 1; None if none was received."""
         recent = [counts for counts in self.seconds if now - LOSS_WINDOW - 1.0 < counts[0] <= now]
         received, lost = sum([counts[1] for counts in recent]), sum([counts[2] for counts in recent])
         return lost / (received + lost) if received else None
@@ -178,7 +177,7 @@ class LinkLedger:
     _recent: deque[float] = field(factory=lambda: deque(maxlen=MAX_RATE_SAMPLES))
     """Arrivals of the newest samples, s."""
     _recent_start: float = 0.0
-    """Arrival of the first sample since the start or the last set-back clock, s: the rate is counted from there."""
+    """Arrival of the first sample after `_recent` was empty, s: a stream that has just started is not slow."""
     _losses: RecentLoss = field(factory=RecentLoss)
 
     def add_packet(self, t: float) -> None:
@@ -187,8 +186,7 @@ class LinkLedger:
         self._losses.add(t, 1, 0)
 
     def add_sample(self, t: float, known_at: float) -> None:
-        """Add a used sample of time `t` that came at `known_at`, both in s; a sample with the last `t` does not count.
-        """
+        """Add a used sample of time `t` that came at `known_at`, both s; a repeated `t` does not count."""
         if t == self._t:
             return
         self._t, self.last_sample_at, self.is_counted = t, known_at, True

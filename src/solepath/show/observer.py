@@ -260,7 +260,9 @@ class Observer:
                     self.wear_problems, f"{site.words}: the insole never unloads; phases come from the inertial sensor"
                 )
             case FeetSwapped():
-                _add_new_sentence(self.wear_problems, "the feet look swapped: what comes as the left one is like a right one")
+                _add_new_sentence(
+                    self.wear_problems, "the feet look swapped: what comes as the left one is like a right one"
+                )
             case _:
                 pass
 

@@ -54,7 +54,9 @@ class Timeline:
     def spans(self, until: float) -> list[tuple[float, float, Activity]]:
         """Return (start, end, activity) of all activities until `until`, s, in order of time."""
         edges = [*[t for t in self._starts if t < until], until]
-        return [(start, end, activity) for (start, end), activity in zip(pairwise(edges), self._activities, strict=False)]
+        return [
+            (start, end, activity) for (start, end), activity in zip(pairwise(edges), self._activities, strict=False)
+        ]
 
     def durations(self, until: float) -> dict[Activity, float]:
         """Return the total duration of each activity until `until`, s; activities that never came are left out."""

@@ -56,7 +56,9 @@ class Results:
     def open_files(self) -> None:
         """Open the files, also for a recording of nothing."""
         if self._files is None and self.out is not None:
-            self._files = TrackFiles(self.out, places=self.plan is not None, path_to_write=self._files_out.temporary_path)
+            self._files = TrackFiles(
+                self.out, places=self.plan is not None, path_to_write=self._files_out.temporary_path
+            )
             self._open.callback(self._files.close)
             if self.plan is not None:
                 self._picture_at = self._files_out.temporary_path(self.out / PLAN_FILE)

@@ -80,12 +80,12 @@ def view_of(options: argparse.Namespace) -> View | None:
 
 def pace_of(options: argparse.Namespace, default: float) -> float:
     """Return --speed for the page. Failure when no player plays at that speed."""
-    from ...show.page.messages import FASTEST, SLOWEST
+    from ...show.page.messages import MAX_SPEED, MIN_SPEED
 
     if options.speed is None:
         return default
-    if not SLOWEST <= options.speed <= FASTEST:
-        raise Failure(f"--speed {options.speed:g}: on the page it is from {SLOWEST:g} to {FASTEST:g}")
+    if not MIN_SPEED <= options.speed <= MAX_SPEED:
+        raise Failure(f"--speed {options.speed:g}: on the page it is from {MIN_SPEED:g} to {MAX_SPEED:g}")
     return float(options.speed)
 
 
@@ -134,7 +134,7 @@ def play(player: Player, view: View, pace: float) -> None:
             await playing.run(page, stop, once=once)
         return 0
 
-    player.speed(pace)
+    player.set_speed(pace)
     run_to_end(played)
 
 
@@ -146,15 +146,15 @@ def run_rest(player: Player, what: str) -> None:
     from .loop import stop_flag
 
     items = player.items
-    left = len(items) - player.done
+    left = len(items) - player.delivered_count
     with progress_bar("computing", len(items), enabled=left > LONG) as show, stop_flag() as stop_requested:
         if left > 0:
             print(f"the rest of the {what}, as fast as it can be computed; Ctrl-C again gives it up ...", flush=True)
         fed = count(1)
         while player.run_through(lambda: next(fed) % ITEMS == 0 or stop_requested()):
-            show(player.done)
+            show(player.delivered_count)
             if stop_requested():
-                at = items.t(player.done - 1) if player.done else items.start
+                at = items.t(player.delivered_count - 1) if player.delivered_count else items.start
                 note(
                     f"given up after {at - items.start:.1f} of {items.end - items.start:.1f} s: nothing is summed up "
                     "or written, and what was written before stays as it is"
