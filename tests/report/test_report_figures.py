@@ -10,12 +10,12 @@ from pages import parsed
 from solepath import FootPressed, GaitCycleMeasured
 from solepath.body.gait.means import Figure, GaitParameters, StrideFigures
 from solepath.emulate.routes.building import BUILDING
-from solepath.show.report.bounded import Thinned
+from solepath.show.report.bounded import ThinnedList
 from solepath.show.report.clock import ReportClock, duration_text
 from solepath.show.report.figures.axes import AxisScale, line, tick_labels, ticks
 from solepath.show.report.figures.cycle import contacts, neither, overlaps
 from solepath.show.report.figures.pressure import SHADES
-from solepath.show.report.soles import KEPT, STATIONS, ReportSole
+from solepath.show.report.soles import MAX_SAMPLES, STATIONS, ReportSole
 from solepath.show.tables.plan import PlanPicture, blend
 from solepath.types import Cell, Foot, Layout
 
@@ -42,16 +42,16 @@ def test_a_scale_of_nothing_and_a_line_through_one_place_are_drawn_too() -> None
 
 @given(st.integers(0, 3000), st.integers(4, 100))
 def test_of_a_long_row_few_are_kept_evenly_with_the_first_and_the_last(count: int, most: int) -> None:
-    row: Thinned[tuple[int]] = Thinned()
+    row: ThinnedList[tuple[int]] = ThinnedList()
     for k in range(count):
         row.add((k,), most)
-    kept = [k for (k,) in row]
+    items = [k for (k,) in row]
     assert len(row) <= most
     assert row.count == count
     if count:
-        assert kept[0] == 0 and kept[-1] == count - 1
-        assert len({b - a for a, b in zip(kept[:-1], kept[1:-1], strict=False)}) <= 1, "evenly"
-        assert len(kept) >= min(count, most // 2)
+        assert items[0] == 0 and items[-1] == count - 1
+        assert len({b - a for a, b in zip(items[:-1], items[1:-1], strict=False)}) <= 1, "evenly"
+        assert len(items) >= min(count, most // 2)
 
 
 def test_times_are_shown_in_a_suitable_unit() -> None:
@@ -114,7 +114,7 @@ def pressed(sole: ReportSole, start: float, heel: float) -> None:
         values = (load * (1.0 - share), load * share)
         centre = (0.05 + 0.15 * share, 0.0) if load else None
         t = start + 0.01 * k
-        sole.press(FootPressed(t=t, known_at=t, foot=L, values=values, force=load, centre=centre))
+        sole.add_sample(FootPressed(t=t, known_at=t, foot=L, values=values, force=load, centre=centre))
 
 
 def walked() -> ReportSole:
@@ -128,10 +128,10 @@ def walked() -> ReportSole:
 
 def test_loads_of_a_contact_are_means_and_peaks_of_each_cell_and_the_centre_goes_from_heel_to_toe() -> None:
     sole = walked()
-    assert sole.contacts == 3 and sole.unit == "N" and sole.mapped
-    assert [one / 3 for one in sole.means] == pytest.approx([50.0, 50.0], rel=0.02)
-    assert [one / 3 for one in sole.peaks] == pytest.approx([100.0, 100.0], rel=0.02)
-    assert [one / 3 for one in sole.forces] == pytest.approx([100.0] * STATIONS)
+    assert sole.contacts == 3 and sole.unit == "N" and sole.drawable_layout
+    assert [one / 3 for one in sole.mean_sums] == pytest.approx([50.0, 50.0], rel=0.02)
+    assert [one / 3 for one in sole.peak_sums] == pytest.approx([100.0, 100.0], rel=0.02)
+    assert [one / 3 for one in sole.force_sums] == pytest.approx([100.0] * STATIONS)
     path = sole.mean_path
     assert len(path) == STATIONS
     assert path[0] == pytest.approx((0.05, 0.0), abs=0.004) and path[-1] == pytest.approx((0.2, 0.0), abs=0.004)
@@ -158,9 +158,9 @@ def test_soles_keep_little_however_long_they_are_walked_on() -> None:
     sole = ReportSole()
     for k in range(30):
         pressed(sole, 1.0 * k, 100.0)
-    assert len(sole.newest) <= KEPT
-    sole.press(FootPressed(t=99.0, known_at=99.0, foot=L, values=(1.0, 2.0, 3.0), force=6.0, centre=None))
-    assert sole.standing == [1.0, 2.0, 3.0] and sole.samples == 1, "another insole begins anew"
+    assert len(sole.newest) <= MAX_SAMPLES
+    sole.add_sample(FootPressed(t=99.0, known_at=99.0, foot=L, values=(1.0, 2.0, 3.0), force=6.0, centre=None))
+    assert sole.cell_sums == [1.0, 2.0, 3.0] and sole.samples == 1, "another insole begins anew"
 
 
 def test_more_load_is_darker() -> None:

@@ -62,7 +62,7 @@ def test_loss_is_a_share_of_packets_not_of_samples(batch: int) -> None:
 def test_a_frame_in_fragments_is_one_packet() -> None:
     observer = observed(frames(CLEAN, mtu=60))
     link = observer.links[LEFT]
-    assert link.received == link.samples < 0.5 * observer.items
+    assert link.received == link.samples < 0.5 * observer.item_count
 
 
 def test_received_and_lost_frames_are_all_that_were_sent_whatever_came_damaged_or_twice() -> None:
@@ -147,7 +147,7 @@ def test_a_packet_that_is_rejected_is_no_sign_of_time_passing() -> None:
     for t in (1.0, 1e9, inf, nan, 2.0):
         packet = Packet(t, LEFT, "insole/nothing" if t != 2.0 else "receiver/tick", b"")
         observer.take(packet, session.feed(packet))
-    assert (observer.items, observer.now, observer.time.total) == (5, 2.0, 0.0)
+    assert (observer.item_count, observer.now, observer.covered_time.total) == (5, 2.0, 0.0)
 
 
 def test_a_clock_that_was_set_back_goes_on_from_there() -> None:
@@ -156,7 +156,7 @@ def test_a_clock_that_was_set_back_goes_on_from_there() -> None:
     for packet in shifted:
         observer.take(packet, session.feed(packet))
     assert observer.now == pytest.approx(shifted[-1].t, abs=0.1)
-    assert observer.time.total == pytest.approx(shifted[-1].t - 1000.0, abs=1.0)
+    assert observer.covered_time.total == pytest.approx(shifted[-1].t - 1000.0, abs=1.0)
     for line in status(observer):
         assert " 100 Hz" in line or " 99 Hz" in line, line
 

@@ -131,7 +131,7 @@ def _draw(demo: Demo, speed: float) -> None:
 
     from rich.console import Console
 
-    from ..show.tables.terminal import FRAMES, picture, screen
+    from ..show.tables.terminal import FRAME_RATE, picture, screen
 
     def title() -> str:
         return f"{demo.observer.now:5.1f} of {demo.duration:.1f} s, {speed:g} times real time"
@@ -139,7 +139,7 @@ def _draw(demo: Demo, speed: float) -> None:
     console, started = Console(), monotonic()
     with screen(console) as drawn:
         for packet in demo.play():
-            if (ahead := packet.t / speed - (monotonic() - started)) > 0.5 / FRAMES:
+            if (ahead := packet.t / speed - (monotonic() - started)) > 0.5 / FRAME_RATE:
                 drawn.draw(demo.observer, title())
                 sleep(ahead)
             else:

@@ -105,7 +105,7 @@ class RecentLoss:
         self.seconds[-1][2] += lost
 
     def share(self, now: float) -> float | None:
-        """Return the share of packets before `now`, s, that were lost, 0 to 1; None if none was received."""
+        """Return the share, 0 to 1, of the packets in the window before `now`, s, that were lost; None if none came."""
         recent = [counts for counts in self.seconds if now - LOSS_WINDOW - 1.0 < counts[0] <= now]
         received, lost = sum([counts[1] for counts in recent]), sum([counts[2] for counts in recent])
         return lost / (received + lost) if received else None

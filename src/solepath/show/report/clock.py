@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from attrs import frozen
 
-LONG = 300.0
+MINUTES_FROM = 300.0
 """Duration above which a recording is drawn in minutes, s."""
-FAR = 1e5
+FAR_START = 1e5
 """Start time from which on the clock did not start with the recording, s."""
 
 
@@ -20,12 +20,12 @@ class ReportClock:
     @property
     def origin(self) -> float:
         """Time from which the report's times count, s."""
-        return self.start if abs(self.start) >= FAR else 0.0
+        return self.start if abs(self.start) >= FAR_START else 0.0
 
     @property
     def per_unit(self) -> float:
         """Seconds of the unit on axes."""
-        return 60.0 if self.end - self.start > LONG else 1.0
+        return 60.0 if self.end - self.start > MINUTES_FROM else 1.0
 
     @property
     def label(self) -> str:

@@ -28,7 +28,7 @@ DEFINITIONS = {
     "terminal_double_support": "from the other foot's contact to this one's toe-off; below zero a flight",
 }
 """One line for each parameter; GaitCycleMeasured has the full definitions."""
-COLUMNS = [
+COLUMN_DEFINITIONS = [
     ("steady strides", "neither first nor last of a walk, nor in a turn, on stairs or with samples missing"),
     ("both", "mean of the feet's means; SD from the mean of their variances (Galna et al. 2013)"),
     ("CV", "standard deviation / mean, of both feet (Hausdorff 2005)"),
@@ -75,4 +75,6 @@ def _notes(parent: Element, known: list[GaitParameters]) -> None:
     folded = add(parent, "details", open="open")
     add(folded, "summary", "What the parameters mean")
     named = {row.name: row.label for one in known for row in gait_rows(one)}
-    terms(folded, [(named[name], meaning) for name, meaning in DEFINITIONS.items() if name in named] + COLUMNS)
+    terms(
+        folded, [(named[name], meaning) for name, meaning in DEFINITIONS.items() if name in named] + COLUMN_DEFINITIONS
+    )

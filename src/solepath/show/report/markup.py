@@ -8,9 +8,9 @@ from xml.etree.ElementTree import Element, SubElement
 from ...recording import printable
 from .style import STYLE
 
-LONGEST = 300
+MAX_LENGTH = 300
 """Characters of a sentence from outside that are shown."""
-MOST = 40
+MAX_LISTED = 40
 """Sentences of a list that are shown."""
 
 
@@ -21,7 +21,7 @@ def add(parent: Element, tag: str, text: str = "", **attributes: str) -> Element
     named = {name.removesuffix("_").replace("_", "-"): printable(value, 10**6) for name, value in attributes.items()}
     made = SubElement(parent, tag, named)
     if text:
-        made.text = printable(text, LONGEST)
+        made.text = printable(text, MAX_LENGTH)
     return made
 
 
@@ -48,10 +48,10 @@ def sentences(parent: Element, texts: Sequence[str]) -> None:
     """Add a list of sentences, and how many more there are."""
     if texts:
         listed = add(parent, "ul")
-        for one in texts[:MOST]:
+        for one in texts[:MAX_LISTED]:
             add(listed, "li", one)
-        if len(texts) > MOST:
-            add(listed, "li", f"and {len(texts) - MOST} more")
+        if len(texts) > MAX_LISTED:
+            add(listed, "li", f"and {len(texts) - MAX_LISTED} more")
 
 
 def terms(parent: Element, entries: Iterable[tuple[str, str]], **attributes: str) -> None:

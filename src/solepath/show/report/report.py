@@ -24,7 +24,7 @@ from ...floorplan.plan import FloorPlan
 from ...types import Foot, Packet, Phase, Sample
 from ..observer import Observer
 from ..output import os_errors_naming
-from .bounded import T, Thinned
+from .bounded import T, ThinnedList
 from .clock import ReportClock
 from .figures.activity import activity_figure
 from .figures.cycle import cycle_figure
@@ -36,11 +36,11 @@ from .markup import add, section, sentences, skeleton, table, terms
 from .soles import ReportSole
 from .words import CAUTION, limitations, link_rows, overview, problems, sensors
 
-STRIDES, PLACES, POINTS = 1200, 1000, 1500
+MAX_STRIDES, MAX_PLACES, MAX_POINTS = 1200, 1000, 1500
 """Strides of a foot, places on the plan, and points of a track that are kept: more are thinned evenly."""
-CANDIDATES = 40
+MAX_CANDIDATES = 40
 """Candidates of a place that are kept, the heaviest."""
-OFTEN = 0.5
+HEIGHT_INTERVAL = 0.5
 """Shortest time between two heights of a standing foot that are kept, s."""
 
 
@@ -58,8 +58,8 @@ def _installed() -> str:
         return ""
 
 
-def _of_both() -> dict[Foot, Thinned[T]]:
-    return {foot: Thinned() for foot in Foot}
+def _of_both() -> dict[Foot, ThinnedList[T]]:
+    return {foot: ThinnedList() for foot in Foot}
 
 
 @define
@@ -78,14 +78,14 @@ class Report:
     version: str = field(factory=_installed)
     observer: Observer = field(factory=Observer)
     soles: dict[Foot, ReportSole] = field(factory=dict, init=False)
-    strides: dict[Foot, Thinned[GaitCycleMeasured]] = field(factory=_of_both, init=False)
-    prints: dict[Foot, Thinned[StrideTaken]] = field(factory=_of_both, init=False)
-    heights: dict[Foot, Thinned[FootMoved]] = field(factory=_of_both, init=False)
-    wearer_track: Thinned[WearerMoved] = field(factory=Thinned, init=False)
-    places: Thinned[Placed | PlaceLost] = field(factory=Thinned, init=False)
-    sampled: tuple[float, float] | None = field(default=None, init=False)
+    strides: dict[Foot, ThinnedList[GaitCycleMeasured]] = field(factory=_of_both, init=False)
+    footprints: dict[Foot, ThinnedList[StrideTaken]] = field(factory=_of_both, init=False)
+    heights: dict[Foot, ThinnedList[FootMoved]] = field(factory=_of_both, init=False)
+    wearer_track: ThinnedList[WearerMoved] = field(factory=ThinnedList, init=False)
+    places: ThinnedList[Placed | PlaceLost] = field(factory=ThinnedList, init=False)
+    sample_span: tuple[float, float] | None = field(default=None, init=False)
     """Times of the first and the last sample, s."""
-    spanned: tuple[float, float] | None = field(default=None, init=False)
+    event_span: tuple[float, float] | None = field(default=None, init=False)
     """Times of the earliest and the latest event, s."""
 
     def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
@@ -98,27 +98,27 @@ class Report:
                 self._draw(event)
 
     def _draw(self, event: Event) -> None:
-        self.spanned = _wider(self.spanned, event.t)
+        self.event_span = _extend(self.event_span, event.t)
         match event:
             case FootMoved():
-                self.sampled = _wider(self.sampled, event.t)
+                self.sample_span = _extend(self.sample_span, event.t)
                 self._height(event)
             case FootPressed():
-                self.sampled = _wider(self.sampled, event.t)
-                self._sole(event.foot).press(event)
+                self.sample_span = _extend(self.sample_span, event.t)
+                self._sole(event.foot).add_sample(event)
             case GaitCycleMeasured():
-                self.strides[event.foot].add(event, STRIDES)
+                self.strides[event.foot].add(event, MAX_STRIDES)
                 self._sole(event.foot).stride(event)
             case StrideTaken(final=True):
-                self.prints[event.foot].add(event, POINTS)
+                self.footprints[event.foot].add(event, MAX_POINTS)
             case WearerMoved():
-                self.wearer_track.add(event, POINTS)
+                self.wearer_track.add(event, MAX_POINTS)
             case LayoutKnown(site=site, layout=layout) if site.foot is not None:
                 self._sole(site.foot).layout = layout
             case Placed(candidates=candidates):
-                self.places.add(evolve(event, candidates=candidates[:CANDIDATES]), PLACES)
+                self.places.add(evolve(event, candidates=candidates[:MAX_CANDIDATES]), MAX_PLACES)
             case PlaceLost():
-                self.places.add(event, PLACES)
+                self.places.add(event, MAX_PLACES)
             case _:
                 pass
 
@@ -127,13 +127,13 @@ class Report:
 
     def _height(self, event: FootMoved) -> None:
         last = self.heights[event.foot].last
-        if event.phase is Phase.STATIONARY and (last is None or not 0.0 <= event.t - last.t < OFTEN):
-            self.heights[event.foot].add(event, POINTS)
+        if event.phase is Phase.STATIONARY and (last is None or not 0.0 <= event.t - last.t < HEIGHT_INTERVAL):
+            self.heights[event.foot].add(event, MAX_POINTS)
 
     @property
     def clock(self) -> ReportClock:
         """Clock of the report's times."""
-        start, end = self.sampled or self.spanned or (0.0, 0.0)
+        start, end = self.sample_span or self.event_span or (0.0, 0.0)
         return ReportClock(start, end)
 
     def write(self, path: Path) -> None:
@@ -149,7 +149,7 @@ class Report:
         self._facts(main, clock)
         part = section(main, "summary", "Summary")
         measured = {foot: some.count for foot, some in self.strides.items()}
-        sentences(part, overview(self.observer, clock, self.spanned is not None, measured))
+        sentences(part, overview(self.observer, clock, self.event_span is not None, measured))
         part = section(main, "gait", "Gait")
         if not gait_tables(part, self.observer.gait):
             add(part, "p", NO_STRIDE if not any(measured.values()) else NO_STEADY)
@@ -170,7 +170,7 @@ class Report:
         return "<!DOCTYPE html>\n" + tostring(html, encoding="unicode", method="html") + "\n"
 
     def _facts(self, main: Element, clock: ReportClock) -> None:
-        when = f"{clock.start:.1f} to {clock.end:.1f} s of its own clock" if self.spanned else ""
+        when = f"{clock.start:.1f} to {clock.end:.1f} s of its own clock" if self.event_span else ""
         facts = [("When", self.when), ("Recording", when), ("Sensors", sensors(self.observer))]
         facts += [("Recipe", self.recipe), ("Made by", f"solepath {self.version}".rstrip())]
         terms(main, [(name, words) for name, words in facts if words], class_="facts")
@@ -180,9 +180,9 @@ class Report:
         shown = add(part, "div", class_="figures")
         if self.plan is not None and not plan_figure(shown, self.plan, list(self.places)):
             add(shown, "p", "Where on the floor plan the wearer was is not known.")
-        prints = {foot: list(some) for foot, some in self.prints.items() if len(some)}
-        wearer_track: Sequence[TimedPosition] = list(self.wearer_track) or max(prints.values(), key=len, default=[])
-        if not track_figure(shown, wearer_track, prints, clock):
+        footprints = {foot: list(some) for foot, some in self.footprints.items() if len(some)}
+        wearer_track: Sequence[TimedPosition] = list(self.wearer_track) or max(footprints.values(), key=len, default=[])
+        if not track_figure(shown, wearer_track, footprints, clock):
             add(shown, "p", "There is no track: no foot with a motion sensor took two steps.")
         height_figure(shown, {foot: list(some) for foot, some in self.heights.items()}, clock)
 
@@ -202,5 +202,5 @@ class Report:
             sentences(part, limits)
 
 
-def _wider(span: tuple[float, float] | None, t: float) -> tuple[float, float]:
+def _extend(span: tuple[float, float] | None, t: float) -> tuple[float, float]:
     return (t, t) if span is None else (min(span[0], t), max(span[1], t))

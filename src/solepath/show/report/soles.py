@@ -12,13 +12,13 @@ from attrs import define, field
 from ...events import FootPressed, GaitCycleMeasured
 from ...types import Layout
 
-KEPT = 2000
+MAX_SAMPLES = 2000
 """Samples of a foot that are kept: 5 s at 400 Hz, and more than a stride of a walker."""
-LONGEST = 2.5
+MAX_CONTACT_TIME = 2.5
 """Longest contact that counts as that of a step, s."""
 STATIONS = 51
 """Stations over a contact from heel-strike to toe-off, evenly spaced."""
-PATHS = 20
+MAX_PATHS = 20
 """Single paths of the centre of pressure that are kept, the newest."""
 
 Pair = tuple[float, float]
@@ -32,32 +32,32 @@ class ReportSole:
     samples: int = 0
     contacts: int = 0
     """Number of strides in the sums."""
-    means: list[float] = field(factory=list)
+    mean_sums: list[float] = field(factory=list)
     """Sum over contacts of each cell's mean over the contact."""
-    peaks: list[float] = field(factory=list)
+    peak_sums: list[float] = field(factory=list)
     """Sum over contacts of each cell's highest value."""
-    forces: list[float] = field(factory=list)
+    force_sums: list[float] = field(factory=list)
     """Sum over contacts of the force at each station."""
     path: list[tuple[float, float, int]] = field(factory=list)
     """Sums over contacts of x and y of the centre of pressure at each station, and in how many it was known."""
-    paths: deque[list[Pair]] = field(factory=lambda: deque(maxlen=PATHS))
-    standing: list[float] = field(factory=list)
+    paths: deque[list[Pair]] = field(factory=lambda: deque(maxlen=MAX_PATHS))
+    cell_sums: list[float] = field(factory=list)
     """Sum of each cell over all samples, for a wearer who takes no stride."""
-    newest: deque[FootPressed] = field(factory=lambda: deque(maxlen=KEPT))
+    newest: deque[FootPressed] = field(factory=lambda: deque(maxlen=MAX_SAMPLES))
 
-    def press(self, event: FootPressed) -> None:
+    def add_sample(self, event: FootPressed) -> None:
         """Add one sample; one with another number of cells than before restarts the sums."""
-        if len(self.standing) != len(event.values):
+        if len(self.cell_sums) != len(event.values):
             self._reset(len(event.values))
         self.samples += 1
-        self.standing = [a + b for a, b in zip(self.standing, event.values, strict=True)]
+        self.cell_sums = [a + b for a, b in zip(self.cell_sums, event.values, strict=True)]
         if self.newest and event.t <= self.newest[-1].t:
             self.newest.clear()
         self.newest.append(event)
 
     def _reset(self, cells: int) -> None:
-        self.standing, self.means, self.peaks = [0.0] * cells, [0.0] * cells, [0.0] * cells
-        self.forces, self.path = [0.0] * STATIONS, [(0.0, 0.0, 0)] * STATIONS
+        self.cell_sums, self.mean_sums, self.peak_sums = [0.0] * cells, [0.0] * cells, [0.0] * cells
+        self.force_sums, self.path = [0.0] * STATIONS, [(0.0, 0.0, 0)] * STATIONS
         self.samples = self.contacts = 0
         self.newest.clear()
         self.paths.clear()
@@ -65,7 +65,7 @@ class ReportSole:
     def stride(self, event: GaitCycleMeasured) -> None:
         """Add the contact of a stride, if it was walked and hardly any of its samples are missing."""
         missing = event.degraded and not event.steady
-        if missing or event.running or not 0.0 < event.t_toe_off - event.t_start <= LONGEST:
+        if missing or event.running or not 0.0 < event.t_toe_off - event.t_start <= MAX_CONTACT_TIME:
             return
         kept = list(self.newest)
         times = [one.t for one in kept]
@@ -75,13 +75,13 @@ class ReportSole:
             return
         count = len(contact)
         columns = list(zip(*[one.values for one in contact], strict=True))
-        self.means = [a + sum(column) / count for a, column in zip(self.means, columns, strict=True)]
-        self.peaks = [a + max(column) for a, column in zip(self.peaks, columns, strict=True)]
+        self.mean_sums = [a + sum(column) / count for a, column in zip(self.mean_sums, columns, strict=True)]
+        self.peak_sums = [a + max(column) for a, column in zip(self.peak_sums, columns, strict=True)]
         self.contacts += 1
         path = []
         for k in range(STATIONS):
             one = contact[round(k * (count - 1) / (STATIONS - 1))]
-            self.forces[k] += one.force
+            self.force_sums[k] += one.force
             if one.centre is not None:
                 (x, y, n), (a, b) = self.path[k], one.centre
                 self.path[k] = (x + a, y + b, n + 1)
@@ -99,6 +99,6 @@ class ReportSole:
         return "N" if self.layout is not None and self.layout.scale is not None else "counts"
 
     @property
-    def mapped(self) -> Layout | None:
+    def drawable_layout(self) -> Layout | None:
         """Layout of the cells; None when it is not known or does not fit their number."""
-        return self.layout if self.layout is not None and len(self.layout.cells) == len(self.standing) > 0 else None
+        return self.layout if self.layout is not None and len(self.layout.cells) == len(self.cell_sums) > 0 else None

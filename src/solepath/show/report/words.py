@@ -9,14 +9,14 @@ from ..observer import Observer
 from ..tables.summary import link_health, wear_lines
 from ..tables.table import number
 from .clock import ReportClock, duration_text
-from .figures.activity import named
+from .figures.activity import activity_words
 
 CAUTION = (
     "These are measurements of foot-worn sensors, for whoever knows how to read them. They are no diagnosis and come "
     "from no medical device."
 )
 
-LONGEST_NAME = 60
+MAX_NAME_LENGTH = 60
 """Characters of a device's name that are shown, so that it leaves room for the rest."""
 TURNS = {Turn.LEFT: "to the left", Turn.RIGHT: "to the right", Turn.ABOUT: "about"}
 
@@ -45,7 +45,9 @@ def overview(observer: Observer, clock: ReportClock, has_data: bool, measured: d
         lines.append(f"Both feet together went {number(observer.fused.distance, 1)} m.")
     spans = observer.timeline.durations(clock.end)
     if spans:
-        lines.append(f"Activities: {', '.join([f'{named(what)} {duration_text(t)}' for what, t in spans.items()])}.")
+        lines.append(
+            f"Activities: {', '.join([f'{activity_words(what)} {duration_text(t)}' for what, t in spans.items()])}."
+        )
     for counted, what in ((observer.flights, "Flights of stairs"), (observer.elevator_rides, "Lift rides")):
         ways = [f"{counted[up]} {'up' if up else 'down'}" for up in (True, False) if counted[up]]
         if ways:
@@ -82,7 +84,7 @@ def sensors(observer: Observer) -> str:
     """Return the sensors in one line."""
     lines = []
     for site, link in _links(observer):
-        named_so = f" ({printable(link.name, LONGEST_NAME)})" if link.name else ""
+        named_so = f" ({printable(link.name, MAX_NAME_LENGTH)})" if link.name else ""
         what = [word for word, there in (("motion", link.has_motion), ("pressure", link.has_pressure)) if there]
         lines.append(f"{site.words}{named_so}{': ' + ' and '.join(what) if what else ''}")
     return "; ".join(lines) if lines else "none was heard"

@@ -10,11 +10,11 @@ from ..clock import ReportClock, duration_text
 from ..markup import add, figure
 from .axes import AxisScale, drawing, grid, ticks, write
 
-ROW = 20.0
+ROW_HEIGHT = 20.0
 LEFT = 96.0
 
 
-def named(activity: Activity) -> str:
+def activity_words(activity: Activity) -> str:
     """Return an activity in words, such as "stairs up"."""
     return activity.value.replace("_", " ").lower()
 
@@ -24,22 +24,24 @@ def activity_figure(parent: Element, spans: list[tuple[float, float, Activity]],
     rows = [one for one in Activity if any(what is one for _, _, what in spans)]
     if not rows:
         return False
-    height = 8.0 + ROW * len(rows) + 36.0
+    height = 8.0 + ROW_HEIGHT * len(rows) + 36.0
     total = {one: sum([b - a for a, b, what in spans if what is one]) for one in rows}
-    what = "; ".join([f"{named(one)} {duration_text(total[one])}" for one in rows])
+    what = "; ".join([f"{activity_words(one)} {duration_text(total[one])}" for one in rows])
     svg = drawing("activities", "Activities over time", f"How long in all: {what}.", height)
     x = AxisScale(*clock.span, LEFT, 390.0)
-    bottom = 8.0 + ROW * len(rows)
+    bottom = 8.0 + ROW_HEIGHT * len(rows)
     lines = grid(svg, x, AxisScale(0.0, 1.0, bottom, 8.0), ticks(*clock.span, 6), [])
     for k, one in enumerate(rows):
-        y = 8.0 + ROW * k
-        lines.set("d", f"{lines.get('d')}M{px(LEFT)} {px(y + ROW)}H390")
-        write(svg, LEFT - 6.0, y + 14.0, named(one), "tick", "end")
+        y = 8.0 + ROW_HEIGHT * k
+        lines.set("d", f"{lines.get('d')}M{px(LEFT)} {px(y + ROW_HEIGHT)}H390")
+        write(svg, LEFT - 6.0, y + 14.0, activity_words(one), "tick", "end")
         bars = []
         for a, b, did in spans:
             if did is one:
                 start, end = x.at(clock.of(a)), x.at(clock.of(b))
-                bars.append(f"M{px(start)} {px(y + 4.0)}H{px(max(end, start + 0.6))}v{px(ROW - 8.0)}H{px(start)}z")
+                bars.append(
+                    f"M{px(start)} {px(y + 4.0)}H{px(max(end, start + 0.6))}v{px(ROW_HEIGHT - 8.0)}H{px(start)}z"
+                )
         add(svg, "path", d="".join(bars), class_="bar")
     write(svg, 0.5 * (LEFT + 390.0), bottom + 30.0, clock.label, "label", "middle")
     figure(parent, svg, "Activities over time")

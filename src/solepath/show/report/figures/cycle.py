@@ -10,10 +10,10 @@ from ...tables.plan import px
 from ..markup import add, figure
 from .axes import AxisScale, drawing, write
 
-BARS = (30.0, 66.0)
+BAR_TOPS = (30.0, 66.0)
 """Upper edges of the bars, px."""
-THICK = 24.0
-LEAST = 0.005
+BAR_HEIGHT = 24.0
+MIN_SHARE = 0.005
 """Share of the cycle below which a span is left out."""
 
 
@@ -46,7 +46,7 @@ def contacts(parameters: GaitParameters) -> dict[Foot, list[tuple[float, float]]
 def overlaps(one: list[tuple[float, float]], other: list[tuple[float, float]]) -> list[tuple[float, float]]:
     """Return the spans that both have in common."""
     both = [(max(a, c), min(b, d)) for a, b in one for c, d in other]
-    return sorted([(a, b) for a, b in both if b - a > LEAST])
+    return sorted([(a, b) for a, b in both if b - a > MIN_SHARE])
 
 
 def neither(one: list[tuple[float, float]], other: list[tuple[float, float]]) -> list[tuple[float, float]]:
@@ -56,7 +56,7 @@ def neither(one: list[tuple[float, float]], other: list[tuple[float, float]]) ->
         if a > last:
             free.append((last, a))
         last = max(last, b)
-    return [(a, b) for a, b in free if b - a > LEAST]
+    return [(a, b) for a, b in free if b - a > MIN_SHARE]
 
 
 def cycle_figure(parent: Element, parameters: GaitParameters) -> bool:
@@ -71,9 +71,9 @@ def cycle_figure(parent: Element, parameters: GaitParameters) -> bool:
     flights = neither(*[known[foot] for foot in feet]) if len(feet) == 2 else []
     parts += [f"double support {100.0 * sum([b - a for a, b in both]):.0f} %"] if len(feet) == 2 and both else []
     parts += [f"flight {100.0 * sum([b - a for a, b in flights]):.0f} %"] if flights else []
-    bars = dict(zip(feet, BARS, strict=False))
+    bars = dict(zip(feet, BAR_TOPS, strict=False))
     x = AxisScale(0.0, 1.0, 44.0, 388.0)
-    top, bottom = bars[feet[0]] - 8.0, bars[feet[-1]] + THICK + 8.0
+    top, bottom = bars[feet[0]] - 8.0, bars[feet[-1]] + BAR_HEIGHT + 8.0
     what = f"Shares of the cycle: {', '.join(parts)}."
     svg = drawing(f"cycle-{how}", f"Mean gait cycle, {how}", what, bottom + 38.0)
     for shaded, kind, word in ((both, "double", "double"), (flights, "flight", "flight")):
@@ -84,12 +84,12 @@ def cycle_figure(parent: Element, parameters: GaitParameters) -> bool:
                 write(svg, 0.5 * (x.at(a) + x.at(b)), top - 4.0, word if b - a > 0.09 else word[0], "tick", "middle")
     for foot in feet:
         y = bars[foot]
-        add(svg, "rect", class_="swing", x=px(x.start), y=px(y), width=px(x.end - x.start), height=px(THICK))
+        add(svg, "rect", class_="swing", x=px(x.start), y=px(y), width=px(x.end - x.start), height=px(BAR_HEIGHT))
         write(svg, x.start - 6.0, y + 16.0, foot.value, "tick", "end")
         stood = known[foot]
         for a, b in stood:
             left, wide = x.at(a), x.at(b) - x.at(a)
-            add(svg, "rect", class_=f"stance {foot}", x=px(left), y=px(y), width=px(wide), height=px(THICK))
+            add(svg, "rect", class_=f"stance {foot}", x=px(left), y=px(y), width=px(wide), height=px(BAR_HEIGHT))
         a, b = max(stood, key=lambda span: span[1] - span[0])
         share = sum([d - c for c, d in stood])
         write(svg, 0.5 * (x.at(a) + x.at(b)), y + 16.0, f"stance {100.0 * share:.0f} %", "onbar", "middle")

@@ -14,7 +14,7 @@ from .stride import legend
 
 SHADES = ("#fff7e0", "#fee0a0", "#fdbb6b", "#f98b4a", "#e8562f", "#c0241f", "#7d0b1e")
 """Colours from no load to the highest: darker is more, on a grey printer too."""
-TALL = 250.0
+SOLE_HEIGHT = 250.0
 """Height of a sole, px."""
 THIRDS = ("heel", "midfoot", "forefoot")
 
@@ -26,15 +26,15 @@ def pressure_figures(parent: Element, soles: dict[Foot, ReportSole]) -> bool:
         return False
     walked = {foot: sole for foot, sole in pressed.items() if sole.contacts}
     if walked:
-        maps = {foot: layout for foot, sole in walked.items() if (layout := sole.mapped)}
-        means = {foot: [v / walked[foot].contacts for v in walked[foot].means] for foot in maps}
-        peaks = {foot: [v / walked[foot].contacts for v in walked[foot].peaks] for foot in maps}
+        maps = {foot: layout for foot, sole in walked.items() if (layout := sole.drawable_layout)}
+        means = {foot: [v / walked[foot].contacts for v in walked[foot].mean_sums] for foot in maps}
+        peaks = {foot: [v / walked[foot].contacts for v in walked[foot].peak_sums] for foot in maps}
         _map(parent, "mean", "Mean load of a contact", walked, maps, means, paths=True)
         _map(parent, "peak", "Peak load of a contact", walked, maps, peaks, paths=False)
         _forces(parent, walked)
     else:
-        maps = {foot: layout for foot, sole in pressed.items() if (layout := sole.mapped)}
-        means = {foot: [v / pressed[foot].samples for v in pressed[foot].standing] for foot in maps}
+        maps = {foot: layout for foot, sole in pressed.items() if (layout := sole.drawable_layout)}
+        means = {foot: [v / pressed[foot].samples for v in pressed[foot].cell_sums] for foot in maps}
         _map(parent, "standing", "Mean load of the whole recording", pressed, maps, means, paths=False)
         add(parent, "p", "No whole stride was walked: the loads are means over the whole recording.")
     if maps:
@@ -84,11 +84,11 @@ def _map(
         x = maps[foot].cells[k].x / max(maps[foot].length, 1e-6)
         load = f"{values[k]:.3g} {soles[foot].unit} a cell"
         texts.append(f"{foot}: highest {load}, at {100.0 * x:.0f} % of the length from the heel")
-    svg = drawing(f"pressure-{name}", title, f"{'; '.join(texts)}.", TALL + 66.0)
+    svg = drawing(f"pressure-{name}", title, f"{'; '.join(texts)}.", SOLE_HEIGHT + 66.0)
     for foot, layout in maps.items():
         shares = [load / highest if highest > 0.0 else 0.0 for load in loads[foot]]
         _sole(svg, foot, layout, shares, soles[foot] if paths else None)
-    y = TALL + 40.0
+    y = SOLE_HEIGHT + 40.0
     for k in range(30):
         add(svg, "rect", x=px(110.0 + 6.0 * k), y=px(y), width="6.4", height="9", fill=blend(SHADES, k / 29.0))
     write(svg, 104.0, y + 9.0, "0", "tick", "end")
@@ -106,11 +106,13 @@ def _sole(svg: Element, foot: Foot, layout: Layout, shares: list[float], walked:
     middle = 110.0 if foot is Foot.LEFT else 290.0
     xs, ys = [cell.x for cell in layout.cells], [cell.y for cell in layout.cells]
     r = radius(layout)
-    scale = min((TALL - 10.0) / max(max(xs) - min(xs) + 2.0 * r, 1e-3), 150.0 / max(max(ys) - min(ys) + 2.0 * r, 1e-3))
+    scale = min(
+        (SOLE_HEIGHT - 10.0) / max(max(xs) - min(xs) + 2.0 * r, 1e-3), 150.0 / max(max(ys) - min(ys) + 2.0 * r, 1e-3)
+    )
     centre_x, centre_y = 0.5 * (min(xs) + max(xs)), 0.5 * (min(ys) + max(ys))
 
     def at(x: float, y: float) -> tuple[float, float]:
-        return middle - (y - centre_y) * scale, 26.0 + 0.5 * TALL - (x - centre_x) * scale
+        return middle - (y - centre_y) * scale, 26.0 + 0.5 * SOLE_HEIGHT - (x - centre_x) * scale
 
     write(svg, middle, 14.0, foot.value, "label", "middle")
     cells = add(svg, "g", class_="cells")
@@ -129,7 +131,7 @@ def _sole(svg: Element, foot: Foot, layout: Layout, shares: list[float], walked:
 
 
 def _forces(parent: Element, soles: dict[Foot, ReportSole]) -> None:
-    curves = {foot: [force / sole.contacts for force in sole.forces] for foot, sole in soles.items()}
+    curves = {foot: [force / sole.contacts for force in sole.force_sums] for foot, sole in soles.items()}
     unit = _unit(soles)
     texts = [f"{foot}: at most {max(curve):.0f} {soles[foot].unit}" for foot, curve in curves.items()]
     svg = drawing("force", "Mean force over a contact", f"{'; '.join(texts)}.", 190.0)

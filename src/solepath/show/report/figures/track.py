@@ -15,15 +15,15 @@ from ...tables.plan import PlanPicture, px
 from ..clock import ReportClock
 from ..markup import add, figure
 from .axes import WIDTH, AxisScale, Chart, Point, around, drawing, grid, line, marks, tick_labels, ticks, write
-from .stride import SHAPES, legend
+from .stride import FOOT_MARKS, legend
 
-PRINTS = 160
+MAX_FOOTPRINTS = 160
 """Footprints that are drawn at the most: more would hide the track."""
-TALLEST = 420.0
+MAX_HEIGHT = 420.0
 """Largest height of the drawing of a track, px."""
-BESIDE = 1.2
+MAX_OFFSET = 1.2
 """Largest distance of a stride's foot from the wearer's track, m; more means that the feet's tracks drift apart."""
-SMALLEST = 4.0
+MIN_EXTENT = 4.0
 """Length that the longer side shows at least, m, so that standing still is not magnified."""
 
 
@@ -32,29 +32,31 @@ TimedPosition = FootMoved | StrideTaken | WearerMoved
 FootPositions = Mapping[Foot, Sequence[TimedPosition]]
 
 
-def track_figure(parent: Element, track: Sequence[TimedPosition], prints: FootPositions, clock: ReportClock) -> bool:
+def track_figure(
+    parent: Element, track: Sequence[TimedPosition], footprints: FootPositions, clock: ReportClock
+) -> bool:
     """Draw the track from above, x to the right and y up; return False when there is none.
 
-    `track` is the wearer's, or a foot's where only feet are known. `prints` is where the feet stood."""
-    few = sum([len(some) for some in prints.values()]) <= PRINTS
-    off = _largest_offset(track, prints)
-    beside = few and off <= BESIDE
-    every = [*track, *(one for some in prints.values() for one in some if beside)]
+    `track` is the wearer's, or a foot's where only feet are known. `footprints` is where the feet stood."""
+    few = sum([len(some) for some in footprints.values()]) <= MAX_FOOTPRINTS
+    off = _largest_offset(track, footprints)
+    beside = few and off <= MAX_OFFSET
+    every = [*track, *(one for some in footprints.values() for one in some if beside)]
     if len(track) < 2:
         return False
     xs, ys = [one.position[0] for one in every], [one.position[1] for one in every]
     across, up = max(xs) - min(xs), max(ys) - min(ys)
     room = max(0.06 * max(across, up), 0.4)
     middle = 0.5 * (min(xs) + max(xs)), 0.5 * (min(ys) + max(ys))
-    wide = max(across + 2.0 * room, SMALLEST)
+    wide = max(across + 2.0 * room, MIN_EXTENT)
     top, left, right, bottom = 10.0, 34.0, 8.0, 34.0
     inner = WIDTH - left - right
     high = max(up + 2.0 * room, 0.34 * wide)
-    scale = min(inner / wide, (TALLEST - top - bottom) / high)
+    scale = min(inner / wide, (MAX_HEIGHT - top - bottom) / high)
     wide, height = inner / scale, high * scale + top + bottom
     x = AxisScale(middle[0] - 0.5 * wide, middle[0] + 0.5 * wide, left, WIDTH - right)
     y = AxisScale(middle[1] - 0.5 * high, middle[1] + 0.5 * high, height - bottom, top)
-    length = sum([_apart(a, b) for a, b in zip(track, track[1:], strict=False)])
+    length = sum([_distance(a, b) for a, b in zip(track, track[1:], strict=False)])
     what = f"The track from above, {across:.1f} m by {up:.1f} m, {length:.0f} m long as drawn."
     svg = drawing("track", "Track from above", what, height)
     _grid(svg, x, y)
@@ -64,8 +66,8 @@ def track_figure(parent: Element, track: Sequence[TimedPosition], prints: FootPo
 
     add(svg, "path", d=line([at(one) for one in track]), class_="way")
     if beside:
-        for foot, some in prints.items():
-            if d := marks([at(one) for one in some], SHAPES[foot]):
+        for foot, some in footprints.items():
+            if d := marks([at(one) for one in some], FOOT_MARKS[foot]):
                 add(svg, "path", d=d, class_=f"mark {foot}")
     _times(svg, track, at, clock)
     for one, word, below in ((track[0], "start", -6.0), (track[-1], "end", 13.0)):
@@ -74,24 +76,24 @@ def track_figure(parent: Element, track: Sequence[TimedPosition], prints: FootPo
         aside, anchor = (-8.0, "end") if a > 0.85 * WIDTH else (8.0, "start")
         write(svg, a + aside, b + below, word, "halo strong", anchor)
     notes = ["x along the first heading; the numbers along the way are times."]
-    if beside and any(prints.values()):
+    if beside and any(footprints.values()):
         notes.append("\N{BLACK CIRCLE} where the left foot stood, \N{MULTIPLICATION SIGN} the right one.")
-    if off > BESIDE:
+    if off > MAX_OFFSET:
         notes.append(f"The tracks of the single feet come to lie up to {off:.1f} m off it and are not shown.")
     figure(parent, svg, "Track from above", *notes)
     return True
 
 
-def _largest_offset(track: Sequence[TimedPosition], prints: FootPositions) -> float:
+def _largest_offset(track: Sequence[TimedPosition], footprints: FootPositions) -> float:
     """Return the largest distance of a print from the wearer's position at that time, m."""
     times, farthest = [one.t for one in track], 0.0
-    for one in [one for some in prints.values() for one in some] if track else []:
+    for one in [one for some in footprints.values() for one in some] if track else []:
         k = bisect_left(times, one.t)
-        farthest = max(farthest, min([_apart(one, other) for other in track[max(k - 1, 0) : k + 1]], default=0.0))
+        farthest = max(farthest, min([_distance(one, other) for other in track[max(k - 1, 0) : k + 1]], default=0.0))
     return farthest
 
 
-def _apart(a: TimedPosition, b: TimedPosition) -> float:
+def _distance(a: TimedPosition, b: TimedPosition) -> float:
     (x, y, _), (x1, y1, _) = a.position, b.position
     dx, dy = x1 - x, y1 - y
     return float((dx * dx + dy * dy) ** 0.5)
