@@ -58,7 +58,7 @@ def test_the_examples_of_the_protocol_are_what_is_sent() -> None:
 
 
 def test_the_protocol_states_the_bounds_of_the_speed() -> None:
-    assert f"so many times real time, {SLOWEST:g} to {FASTEST:g} |" in PAGE
+    assert f"so many times real time, {MIN_SPEED:g} to {MAX_SPEED:g} |" in PAGE
 
 
 def test_the_commands_of_the_protocol_are_commands() -> None:

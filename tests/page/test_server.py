@@ -89,7 +89,7 @@ async def test_the_page_is_made_of_the_files_that_are_installed() -> None:
                     assert (head.status, await head.read()) == (200, b"")
                     assert head.headers["Content-Length"] == answer.headers["Content-Length"]
                 kind = answer.headers["Content-Type"].partition(";")[0]
-                assert kind == server.KINDS[f".{(name or 'index.html').rpartition('.')[2]}"]
+                assert kind == server.CONTENT_TYPES[f".{(name or 'index.html').rpartition('.')[2]}"]
         text = "".join((files("solepath.show.page.server") / "static" / name).read_text() for name in names)
         for elsewhere in ("https:", "//cdn"):
             assert elsewhere not in text.replace('"https:"', "").replace("'https:'", "")

@@ -13,7 +13,7 @@ from solepath.emulate.routes.building import BUILDING
 from solepath.show.report.bounded import ThinnedList
 from solepath.show.report.clock import ReportClock, duration_text
 from solepath.show.report.figures.axes import AxisScale, line, tick_labels, ticks
-from solepath.show.report.figures.cycle import contacts, neither, overlaps
+from solepath.show.report.figures.cycle import stance_spans, gaps, overlaps
 from solepath.show.report.figures.pressure import SHADES
 from solepath.show.report.soles import MAX_SAMPLES, STATIONS, ReportSole
 from solepath.show.tables.plan import PlanPicture, blend
@@ -56,8 +56,8 @@ def test_of_a_long_row_few_are_kept_evenly_with_the_first_and_the_last(count: in
 
 def test_times_are_shown_in_a_suitable_unit() -> None:
     assert ReportClock(0.0, 100.0).label == "time, s"
-    assert ReportClock(0.0, 900.0).of(120.0) == 2.0
-    assert ReportClock(1.7e9, 1.7e9 + 900.0).of(1.7e9 + 120.0) == 2.0
+    assert ReportClock(0.0, 900.0).axis_value(120.0) == 2.0
+    assert ReportClock(1.7e9, 1.7e9 + 900.0).axis_value(1.7e9 + 120.0) == 2.0
     low, high = ReportClock(5.0, 5.0).span
     assert low < high
     assert [duration_text(t) for t in (0.0, 59.6, 90.0, 3725.0)] == ["0.0 s", "1 min 0 s", "1 min 30 s", "1 h 2 min"]
@@ -76,23 +76,23 @@ def cycle(left: StrideFigures | None, right: StrideFigures | None, running: bool
 
 
 def test_a_walker_stands_on_both_feet_twice_a_cycle() -> None:
-    known = contacts(cycle(figures(0.6, 0.5), figures(0.6, 0.5)))
+    known = stance_spans(cycle(figures(0.6, 0.5), figures(0.6, 0.5)))
     assert known[L] == [(0.0, 0.6)]
     assert known[R] == [(0.0, pytest.approx(0.1)), (0.5, 1.0)]
     assert overlaps(known[L], known[R]) == [(0.0, pytest.approx(0.1)), (0.5, 0.6)]
-    assert neither(known[L], known[R]) == []
+    assert gaps(known[L], known[R]) == []
 
 
 def test_a_runner_flies_twice_a_cycle() -> None:
-    known = contacts(cycle(figures(0.35, 0.5), figures(0.35, None), True))
+    known = stance_spans(cycle(figures(0.35, 0.5), figures(0.35, None), True))
     assert overlaps(known[L], known[R]) == []
-    assert neither(known[L], known[R]) == [(0.35, 0.5), (0.85, 1.0)]
+    assert gaps(known[L], known[R]) == [(0.35, 0.5), (0.85, 1.0)]
 
 
 def test_a_foot_that_comes_down_nobody_knows_when_is_not_drawn_beside_the_other() -> None:
-    assert contacts(cycle(figures(0.6, None), figures(0.7, None))) == {L: [(0.0, 0.6)]}
-    assert contacts(cycle(None, figures(0.7, None))) == {R: [(0.0, 0.7)]}
-    only_right = contacts(cycle(figures(0.6, None), figures(0.6, 0.4)))
+    assert stance_spans(cycle(figures(0.6, None), figures(0.7, None))) == {L: [(0.0, 0.6)]}
+    assert stance_spans(cycle(None, figures(0.7, None))) == {R: [(0.0, 0.7)]}
+    only_right = stance_spans(cycle(figures(0.6, None), figures(0.6, 0.4)))
     assert only_right[R][-1][0] == pytest.approx(0.6)
 
 
@@ -122,7 +122,7 @@ def walked() -> ReportSole:
     for k in range(4):
         pressed(sole, 1.0 * k, 100.0)
         if k:
-            sole.stride(stride(1.0 * k, k + 0.6, k + 1.0))
+            sole.add_cycle(stride(1.0 * k, k + 0.6, k + 1.0))
     return sole
 
 
@@ -150,7 +150,7 @@ def test_loads_of_a_contact_are_means_and_peaks_of_each_cell_and_the_centre_goes
 )
 def test_a_contact_that_is_run_missing_or_too_long_does_not_count(other: dict[str, object]) -> None:
     sole = walked()
-    sole.stride(stride(3.0, 3.6, 4.0, **other))
+    sole.add_cycle(stride(3.0, 3.6, 4.0, **other))
     assert sole.contacts == 3
 
 

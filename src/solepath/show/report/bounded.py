@@ -1,4 +1,4 @@
-"""Keeps few values of a long walk, evenly spread, however long it is."""
+"""Keeps a limited number of evenly spaced items of a walk of any length."""
 
 from __future__ import annotations
 
@@ -12,18 +12,17 @@ T = TypeVar("T")
 
 @define
 class ThinnedList(Generic[T]):
-    """The first and the last item, and evenly spaced ones between them.
-
-    `add` is given how many are kept."""
+    """The first and the last item of a sequence, and evenly spaced items between them."""
 
     items: list[T] = field(factory=list, init=False)
     interval: int = field(default=1, init=False)
-    """Interval of the items that are kept."""
+    """Number of added items from one of `items` to the next."""
     count: int = field(default=0, init=False)
+    """Number of items that were ever added."""
     last: T | None = field(default=None, init=False)
 
     def add(self, item: T, max_count: int) -> None:
-        """Add one item; fewer than `max_count` are kept."""
+        """Add one item; `items` then holds at most `max_count`."""
         if self.count % self.interval == 0:
             if len(self.items) >= max_count:
                 self.items = self.items[::2]

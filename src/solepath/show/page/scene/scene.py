@@ -145,7 +145,7 @@ class Scene:
     def _pressed(self, event: FootPressed) -> None:
         if self._connected(event.foot):
             self.feet[event.foot].add_pressure(event)
-            self.scales.press(event.foot, event.values)
+            self.scales.add_sample(event.foot, event.values)
 
     def _phase_started(self, event: HeelStrike | FootFlat | HeelOff | ToeOff) -> None:
         if self._connected(event.foot):
@@ -158,14 +158,14 @@ class Scene:
         foot = event.site.foot
         if foot is not None and self.feet[foot].set_layout(event.layout):
             self.layout_count += 1
-            self.scales.wear(foot, event.layout, foot in self.newtons or event.layout.scale is not None)
+            self.scales.set_layout(foot, event.layout, foot in self.newtons or event.layout.scale is not None)
 
     def _reset(self, event: ClockReset) -> None:
         if event.site.foot is not None:
             self.pace.reset(event.site.foot)
 
     def _placed(self, event: Placed) -> None:
-        level = self.wearer.found(event)
+        level = self.wearer.add_place(event)
         if level is not None:
             self.log.add(event.t, "place", f"on {self._level(level)}")
 
@@ -280,9 +280,9 @@ HANDLERS: dict[type, Callable[[Scene, Any], None]] = {
     ToeOff: Scene._phase_started,
     StrideTaken: Scene._stride_taken,
     GaitCycleMeasured: lambda scene, event: scene.pace.add_stride(event),
-    WearerMoved: lambda scene, event: scene.wearer.stepped(event),
+    WearerMoved: lambda scene, event: scene.wearer.add_position(event),
     Placed: Scene._placed,
-    PlaceLost: lambda scene, event: scene.wearer.lose(),
+    PlaceLost: lambda scene, event: scene.wearer.forget_level(),
     LayoutKnown: Scene._layout_known,
     ClockReset: Scene._reset,
 }

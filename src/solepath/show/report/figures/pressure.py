@@ -1,4 +1,6 @@
-"""Draws the load of the soles: maps with the path of the centre of pressure, and the force over a contact."""
+"""Draws the load of the soles: maps with the path of the centre of pressure, and the force over a contact.
+
+A contact is the time from heel-strike to toe-off."""
 
 from __future__ import annotations
 
@@ -9,18 +11,18 @@ from ....types import Foot, Layout
 from ...tables.plan import blend, px
 from ..markup import add, figure, table
 from ..soles import STATIONS, ReportSole
-from .axes import Chart, around, drawing, line, write
+from .axes import Chart, padded_range, drawing, line, write
 from .stride import legend
 
 SHADES = ("#fff7e0", "#fee0a0", "#fdbb6b", "#f98b4a", "#e8562f", "#c0241f", "#7d0b1e")
-"""Colours from no load to the highest: darker is more, on a grey printer too."""
+"""Colours from no load to the highest; a higher load is darker, also on a black-and-white printer."""
 SOLE_HEIGHT = 250.0
-"""Height of a sole, px."""
+"""Height of the drawing of a sole, px."""
 THIRDS = ("heel", "midfoot", "forefoot")
 
 
 def pressure_figures(parent: Element, soles: dict[Foot, ReportSole]) -> bool:
-    """Draw maps and curves of what is known; return False when there is no pressure."""
+    """Draw the maps and curves for which there is data; return False when there is no pressure."""
     pressed = {foot: soles[foot] for foot in Foot if foot in soles and soles[foot].samples}
     if not pressed:
         return False
@@ -54,7 +56,7 @@ def _unit(soles: dict[Foot, ReportSole]) -> str:
 
 
 def radius(layout: Layout) -> float:
-    """Return the largest radius of a drawn cell that does not hide its neighbours, m."""
+    """Return the radius of a drawn cell, m: such that most cells just touch, within 2 and 20 mm."""
     places = [(cell.x, cell.y) for cell in layout.cells]
     if len(places) < 2:
         return 0.01
@@ -93,16 +95,16 @@ def _map(
         add(svg, "rect", x=px(110.0 + 6.0 * k), y=px(y), width="6.4", height="9", fill=blend(SHADES, k / 29.0))
     write(svg, 104.0, y + 9.0, "0", "tick", "end")
     write(svg, 296.0, y + 9.0, f"{highest:.3g} {unit} a cell", "tick")
-    notes = [f"{one[0].upper()}{one[1:]}." for one in texts]
+    notes = [f"{text[0].upper()}{text[1:]}." for text in texts]
     if paths:
         notes.append("Line: mean path of the centre of pressure, from heel-strike (ring) on; thin: single steps.")
     figure(parent, svg, title, *notes)
 
 
 def _sole(svg: Element, foot: Foot, layout: Layout, shares: list[float], walked: ReportSole | None) -> None:
-    """Draw a sole seen from above, the toe up.
+    """Draw a sole seen from above, with the toe up.
 
-    `shares` are the loads over the highest one. `walked` is the sole whose paths are drawn on it."""
+    `shares` are the loads relative to the highest load. `walked` is the sole whose paths are drawn; None for none."""
     middle = 110.0 if foot is Foot.LEFT else 290.0
     xs, ys = [cell.x for cell in layout.cells], [cell.y for cell in layout.cells]
     r = radius(layout)
@@ -137,7 +139,7 @@ def _forces(parent: Element, soles: dict[Foot, ReportSole]) -> None:
     svg = drawing("force", "Mean force over a contact", f"{'; '.join(texts)}.", 190.0)
     values = [value for curve in curves.values() for value in curve]
     labels = ("% of the contact, from heel-strike to toe-off", f"sum of the cells, {unit}")
-    chart = Chart.of(svg, (0.0, 100.0), around(values, least=1.0, zero=True), labels, 190.0)
+    chart = Chart.of(svg, (0.0, 100.0), padded_range(values, least=1.0, zero=True), labels, 190.0)
     for foot, curve in curves.items():
         chart.path([(100.0 * k / (STATIONS - 1), value) for k, value in enumerate(curve)], f"line {foot}")
     legend(svg, list(curves), lines=True)
@@ -146,7 +148,7 @@ def _forces(parent: Element, soles: dict[Foot, ReportSole]) -> None:
 
 
 def _thirds(parent: Element, maps: dict[Foot, Layout], loads: dict[Foot, list[float]]) -> None:
-    """Add a table of the load's shares on the thirds of the insole's length."""
+    """Add a table of the load's shares, %, on the thirds of the insole's length."""
     rows = []
     for k, name in enumerate(THIRDS):
         row = [f"{name} third, %"]
