@@ -30,7 +30,7 @@ from solepath import (
 )
 from solepath.emulate.routes.building import BUILDING
 from solepath.show.page.messages import encode
-from solepath.show.page.scene.lists import MAX_POINTS, MAX_BEHIND
+from solepath.show.page.scene.lists import MAX_BEHIND, MAX_POINTS
 from solepath.show.page.scene.log import MAX_LINES
 from solepath.show.page.scene.scene import Scene
 

@@ -13,7 +13,7 @@ from solepath.emulate.routes.building import BUILDING
 from solepath.show.report.bounded import ThinnedList
 from solepath.show.report.clock import ReportClock, duration_text
 from solepath.show.report.figures.axes import AxisScale, line, tick_labels, ticks
-from solepath.show.report.figures.cycle import stance_spans, gaps, overlaps
+from solepath.show.report.figures.cycle import gaps, overlaps, stance_spans
 from solepath.show.report.figures.pressure import SHADES
 from solepath.show.report.soles import MAX_SAMPLES, STATIONS, ReportSole
 from solepath.show.tables.plan import PlanPicture, blend

@@ -69,8 +69,8 @@ class Report:
     """Collects the events of a session with `poses` and `pressures`, in bounded memory, then writes the report.
 
     `title` is the title of the page, such as the recording's name. `plan` is the session's floor plan. `recipe` is the
-    name of the recipe. `when` is the time of the walk as text, since the report reads no clock. `version` is solepath's.
-    The report feeds `observer`, which must be new. An event with a number that is not finite is left out."""
+    name of the recipe. `when` is the time of the walk as text, since the report reads no clock. `version` is that of
+    solepath. The report feeds `observer`, which must be new. An event with a number that is not finite is left out."""
 
     title: str
     plan: FloorPlan | None = None
@@ -79,9 +79,9 @@ class Report:
     version: str = field(factory=_installed)
     observer: Observer = field(factory=Observer)
     soles: dict[Foot, ReportSole] = field(factory=dict, init=False)
-    strides: dict[Foot, ThinnedList[GaitCycleMeasured]] = field(factory=_of_both, init=False)
-    footprints: dict[Foot, ThinnedList[StrideTaken]] = field(factory=_of_both, init=False)
-    heights: dict[Foot, ThinnedList[FootMoved]] = field(factory=_of_both, init=False)
+    strides: dict[Foot, ThinnedList[GaitCycleMeasured]] = field(factory=_list_of_each_foot, init=False)
+    footprints: dict[Foot, ThinnedList[StrideTaken]] = field(factory=_list_of_each_foot, init=False)
+    heights: dict[Foot, ThinnedList[FootMoved]] = field(factory=_list_of_each_foot, init=False)
     wearer_track: ThinnedList[WearerMoved] = field(factory=ThinnedList, init=False)
     places: ThinnedList[Placed | PlaceLost] = field(factory=ThinnedList, init=False)
     sample_span: tuple[float, float] | None = field(default=None, init=False)

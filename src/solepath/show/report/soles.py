@@ -40,8 +40,7 @@ class ReportSole:
     force_sums: list[float] = field(factory=list)
     """Sum over contacts of the force at each station."""
     path_sums: list[tuple[float, float, int]] = field(factory=list)
-    """Sums over contacts of x and y of the centre of pressure at each station, and number of contacts where it was known.
-    """
+    """Sums of x and y of the centre of pressure at each station, m, and number of contacts in which it was known."""
     paths: deque[list[Pair]] = field(factory=lambda: deque(maxlen=MAX_PATHS))
     cell_sums: list[float] = field(factory=list)
     """Sum of each cell over all samples, which is shown when no contact was counted."""
@@ -92,7 +91,7 @@ class ReportSole:
 
     @property
     def mean_path(self) -> list[Pair]:
-        """Mean path of the centre of pressure, m, sole frame, from the stations known in at least half of the contacts."""
+        """Mean path of the centre of pressure, m, sole frame, where it was known in half of the contacts or more."""
         return [(x / n, y / n) for x, y, n in self.path_sums if n > 0 and 2 * n >= self.contacts]
 
     @property

@@ -11,7 +11,7 @@ from ....types import Foot, Layout
 from ...tables.plan import blend, px
 from ..markup import add, figure, table
 from ..soles import STATIONS, ReportSole
-from .axes import Chart, padded_range, drawing, line, write
+from .axes import Chart, drawing, line, padded_range, write
 from .stride import legend
 
 SHADES = ("#fff7e0", "#fee0a0", "#fdbb6b", "#f98b4a", "#e8562f", "#c0241f", "#7d0b1e")

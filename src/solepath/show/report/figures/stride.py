@@ -10,7 +10,7 @@ from ....types import Foot
 from ...tables.plan import px
 from ..clock import ReportClock
 from ..markup import add, figure
-from .axes import Chart, padded_range, drawing, write
+from .axes import Chart, drawing, padded_range, write
 
 HEIGHT = 190.0
 DISC_MARK, CROSS_MARK = "h0", "m-2.6-2.6l5.2 5.2m0-5.2l-5.2 5.2"

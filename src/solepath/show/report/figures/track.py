@@ -16,11 +16,11 @@ from ....types import Foot
 from ...tables.plan import PlanPicture, px
 from ..clock import ReportClock
 from ..markup import add, figure
-from .axes import WIDTH, AxisScale, Chart, Point, padded_range, drawing, grid, line, marks, tick_labels, ticks, write
+from .axes import WIDTH, AxisScale, Chart, Point, drawing, grid, line, marks, padded_range, tick_labels, ticks, write
 from .stride import FOOT_MARKS, legend
 
 MAX_FOOTPRINTS = 160
-"""Largest number of footprints that are drawn; more would hide the track. A footprint is the position of a foot-flat."""
+"""Largest number of footprints, the positions of foot-flats, that are drawn; more would hide the track."""
 MAX_HEIGHT = 420.0
 """Largest height of the drawing of a track, px."""
 MAX_OFFSET = 1.2
