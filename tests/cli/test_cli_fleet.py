@@ -23,7 +23,7 @@ pytest.importorskip("bytewax", reason="bytewax is not installed: it has no wheel
 import pyarrow.compute
 
 from solepath.cli.fleet_demo import verdict
-from solepath.cli.fleet_table import of_kills, of_worth
+from solepath.cli.fleet_table import kill_lines, effect_line
 from solepath.events import HeelStrike
 from solepath.fleet import NumberedEvent
 from solepath.fleet.demo.child import _read_status
@@ -178,12 +178,12 @@ def test_kills_that_cost_nothing_are_not_counted_as_tests() -> None:
     started = Cost(Kill(None, 0.1), False, 0.0, 0.0, 1.0, 0)
     hit = Cost(Kill(0.5, 0.1), True, 0.5, 0.1, 1.0, 12)
     engine = Engine(2.0, 1.0, 0.1, 8, 1.0, None, None, 100, 8)
-    (line,) = of_kills(engine, 1, Outcome([started], []))
+    (line,) = kill_lines(engine, 1, Outcome([started], []))
     assert "the same events" not in line and line.endswith("nothing was lost that had to come back")
-    assert of_kills(engine, 2, Outcome([hit], []))[0].endswith("12 went on from their states; the same events")
-    assert of_kills(engine, 1, Outcome([started], ["w00001"]))[0].endswith("; other events")
-    assert of_worth([Outcome([started], [])]).endswith("or kill more often (--kills).")
-    assert of_worth([Outcome([started, hit], [])]) == (
+    assert kill_lines(engine, 2, Outcome([hit], []))[0].endswith("12 went on from their states; the same events")
+    assert kill_lines(engine, 1, Outcome([started], ["w00001"]))[0].endswith("; other events")
+    assert effect_line([Outcome([started], [])]).endswith("or kill more often (--kills).")
+    assert effect_line([Outcome([started, hit], [])]) == (
         "of 2 kills 1 had something read again, and 1 had wearers go on from states"
     )
 

@@ -70,7 +70,8 @@ class Report:
 
     `title` is the title of the page, such as the recording's name. `plan` is the session's floor plan. `recipe` is the
     name of the recipe. `when` is the time of the walk as text, since the report reads no clock. `version` is that of
-    solepath. The report feeds `observer`, which must be new. An event with a number that is not finite is left out."""
+    solepath. The report feeds `observer`, which counts that session. An event with a number that is not finite is left
+    out."""
 
     title: str
     plan: FloorPlan | None = None

@@ -27,7 +27,7 @@ Pair = tuple[float, float]
 
 @define
 class ReportSole:
-    """The load of one foot's sole; loads are in the unit of the samples, positions in the sole frame, m."""
+    """The load of one foot's sole; loads are in the unit of the samples, positions in the foot frame, m."""
 
     layout: Layout | None = None
     samples: int = 0
@@ -91,7 +91,7 @@ class ReportSole:
 
     @property
     def mean_path(self) -> list[Pair]:
-        """Mean path of the centre of pressure, m, sole frame, where it was known in half of the contacts or more."""
+        """Mean path of the centre of pressure, m, foot frame, where it was known in half of the contacts or more."""
         return [(x / n, y / n) for x, y, n in self.path_sums if n > 0 and 2 * n >= self.contacts]
 
     @property
