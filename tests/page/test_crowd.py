@@ -8,7 +8,17 @@ from contextlib import suppress
 
 import pytest
 from aiohttp import ClientError, ClientSession
-from served import Connection, closed, frame_of, handshake, raw, rejection_status, scene_of, sees, served
+from served import (
+    Connection,
+    check_watching,
+    close_code,
+    frame_of,
+    handshake,
+    open_raw,
+    rejection_status,
+    scene_of,
+    served,
+)
 from walks import insoles
 
 from solepath import Session
@@ -23,16 +33,16 @@ async def test_the_number_of_watchers_is_limited() -> None:
         assert await rejection_status(client.ws_connect(f"{url}ws")) == 503
         await watching[0].close()
         await asyncio.sleep(0.1)
-        await sees(client, url)
+        await check_watching(client, url)
 
 
 async def test_idle_connections_are_limited_and_closed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(server, "IDLE_TIMEOUT", 0.5)
     async with served() as (page, client, url):
-        idle = [await raw(page) for _ in range(MAX_CONNECTIONS)]
+        idle = [await open_raw(page) for _ in range(MAX_CONNECTIONS)]
         for _, writer in idle:
             writer.write(b"GET / HTTP/1.1\r\nHost: loc")
-        reader, writer = await raw(page)
+        reader, writer = await open_raw(page)
         assert await reader.read() == b"", "there is no room"
         for reader, writer in idle:
             assert await reader.read() == b""
@@ -89,7 +99,7 @@ async def test_a_browser_that_reads_may_watch_longer_than_other_connections_last
 
 async def deaf(page: Page, room: int = 4096) -> Connection:
     """Connect a watcher that never reads."""
-    reader, writer = await raw(page)
+    reader, writer = await open_raw(page)
     writer.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, room)
     writer.transport.pause_reading()
     writer.write(handshake())
@@ -159,10 +169,10 @@ async def test_a_page_closes_its_sockets_and_does_not_wait_for_a_browser_that_re
     async with ClientSession() as client:
         async with Page(Scene("", ""), port=0) as page:
             _, unread = await deaf(page)
-            idle = await raw(page)
+            idle = await open_raw(page)
             watching = await client.ws_connect(f"{page.url.partition('#')[0]}ws")
             await scene_of(watching)
-            answering = asyncio.create_task(closed(watching))
+            answering = asyncio.create_task(close_code(watching))
         assert await answering == 1001  # which the page takes for an end in order
         assert await idle[0].read() == b""
         unread.close()

@@ -11,7 +11,7 @@ from typing import Any
 from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from page_events import eventful, rough
+from page_events import events_of_all_kinds, rough_walk
 from shown import later, shown
 
 from solepath import (
@@ -38,23 +38,23 @@ LISTS = ("phases", "tracks", "places", "log")
 
 
 def step(t: float, x: float, foot: Foot = Foot.LEFT) -> StrideTaken:
-    """Return a stride that ends at x m."""
-    first = next(event for event in rough()[1] if isinstance(event, StrideTaken))
+    """Return a stride that ends at `x`, m, at time `t`, s."""
+    first = next(event for event in rough_walk()[1] if isinstance(event, StrideTaken))
     return evolve(first, foot=foot, t=t, known_at=t, t_start=t - 1.0, t_end=t, position=(x, 0.0, 0.0))
 
 
 class Reader:
-    """Does what protocol/page.md tells a page to do."""
+    """A page as protocol/page.md describes it, without any drawing."""
 
     def __init__(self) -> None:
         self.scene: dict[str, Any] = {}
-        self.wholes = 0
+        self.scene_count = 0
 
     def take(self, text: str) -> None:
         message = json.loads(text)
         if message["type"] == "scene":
             self.scene = message
-            self.wholes += 1
+            self.scene_count += 1
             return
         now = self.scene["frame"]
         for key, value in message.items():
@@ -80,19 +80,19 @@ class Reader:
 
 
 @cache
-def long_way() -> list[Event]:
+def long_track() -> list[Event]:
     return [step(1.0 + k, 0.7 * k) for k in range(MAX_POINTS + 2 * MAX_BEHIND)]
 
 
-def agree(events: list[Event], looks: list[int], scene: Scene | None = None) -> Reader:
-    """Check that a watcher who reads after so many events each ends with the scene of one who comes at the end."""
+def agree(events: list[Event], read_indices: list[int], scene: Scene | None = None) -> Reader:
+    """Check that a watcher who reads after each of these events ends with the scene of a watcher who comes last."""
     scene = Scene("a walk", "default", plan=BUILDING) if scene is None else scene
     reader = Reader()
     message, cursor = scene.whole_message()
     reader.take(encode(message))
     for index, event in enumerate(events):
         scene.take(None, [event])
-        for _ in range(looks.count(index)):
+        for _ in range(read_indices.count(index)):
             news, cursor = scene.message_since(cursor)
             if news is not None:
                 reader.take(encode(news))
@@ -111,27 +111,27 @@ def agree(events: list[Event], looks: list[int], scene: Scene | None = None) -> 
 @settings(max_examples=8)
 @given(st.data())
 def test_the_changes_add_up_to_the_scene_of_a_late_watcher(data: st.DataObject) -> None:
-    events = eventful()
-    looks = data.draw(st.lists(st.integers(0, len(events) - 1), max_size=40))
-    agree(events, looks)
+    events = events_of_all_kinds()
+    read_indices = data.draw(st.lists(st.integers(0, len(events) - 1), max_size=40))
+    agree(events, read_indices)
 
 
 @settings(max_examples=8)
 @given(st.lists(st.integers(0, MAX_POINTS + 2 * MAX_BEHIND), max_size=30))
-def test_a_long_track_is_thinned_alike_on_both_sides(looks: list[int]) -> None:
-    agree(long_way(), looks)
+def test_a_long_track_is_thinned_alike_on_both_sides(read_indices: list[int]) -> None:
+    agree(long_track(), read_indices)
 
 
 def test_a_page_that_is_far_behind_gets_the_whole_scene_again() -> None:
     events: list[Event] = [step(1.0 + k, 0.7 * k) for k in range(MAX_BEHIND + 10)]
-    assert agree(events, []).wholes == 2
-    assert agree(events, [MAX_BEHIND // 2]).wholes == 1
+    assert agree(events, []).scene_count == 2
+    assert agree(events, [MAX_BEHIND // 2]).scene_count == 1
 
 
 def test_a_page_that_drew_no_soles_draws_again_when_the_cells_are_known() -> None:
-    known = [event for event in rough()[1] if isinstance(event, LayoutKnown) and event.site is Site.LEFT_FOOT]
+    known = [event for event in rough_walk()[1] if isinstance(event, LayoutKnown) and event.site is Site.LEFT_FOOT]
     reader = agree(list(known), [0])
-    assert reader.wholes == 2
+    assert reader.scene_count == 2
     assert len(reader.scene["layouts"]["left"]["cells"]) == 96
     assert reader.scene["layouts"]["left"]["unit"] == "N"
     scene = shown(known)
@@ -141,7 +141,7 @@ def test_a_page_that_drew_no_soles_draws_again_when_the_cells_are_known() -> Non
 
 
 def test_nothing_new_is_no_message() -> None:
-    scene = shown(rough()[1])
+    scene = shown(rough_walk()[1])
     _, cursor = scene.whole_message()
     assert scene.message_since(cursor) == (None, cursor)
     scene.tick(scene.now)
@@ -150,11 +150,11 @@ def test_nothing_new_is_no_message() -> None:
 
 def test_hours_of_walking_do_not_make_a_scene_larger() -> None:
     many = FootMoved | FootPressed | PacketsLost | PacketRejected | SampleGap
-    once = [event for event in eventful() if not isinstance(event, many)]
+    once = [event for event in events_of_all_kinds() if not isinstance(event, many)]
     length = once[-1].known_at + 1.0
     scene, sizes = Scene("hours", "default", plan=BUILDING), []
     for lap in range(500):
-        for event in eventful() if lap % 125 == 124 else once:
+        for event in events_of_all_kinds() if lap % 125 == 124 else once:
             event = later(event, lap * length)
             if isinstance(event, StrideTaken | WearerMoved | Placed):
                 x, y, z = event.position

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from pages import parsed
+from pages import parse_page
 
 from solepath import FootPressed, GaitCycleMeasured
 from solepath.body.gait.means import Figure, GaitParameters, StrideFigures
@@ -106,8 +106,8 @@ def stride(start: float, off: float, end: float, **other: object) -> GaitCycleMe
     return GaitCycleMeasured(**(nothing | known | times | {"degraded": False, "steady": True} | other))  # type: ignore[arg-type]
 
 
-def pressed(sole: ReportSole, start: float, heel: float) -> None:
-    """Add a second of samples at 100 Hz; the load goes from heel to toe until 0.6 s."""
+def add_second(sole: ReportSole, start: float, heel: float) -> None:
+    """Add 1 s of samples at 100 Hz; the load goes from heel to toe within the first 0.6 s."""
     for k in range(100):
         share = min(k / 60.0, 1.0)
         load = heel if k <= 60 else 0.0
@@ -117,17 +117,17 @@ def pressed(sole: ReportSole, start: float, heel: float) -> None:
         sole.add_sample(FootPressed(t=t, known_at=t, foot=L, values=values, force=load, centre=centre))
 
 
-def walked() -> ReportSole:
+def walked_sole() -> ReportSole:
     sole = ReportSole(Layout(1, L, (Cell(0.05, 0.0), Cell(0.2, 0.0)), 0.25, 1.0))
     for k in range(4):
-        pressed(sole, 1.0 * k, 100.0)
+        add_second(sole, 1.0 * k, 100.0)
         if k:
             sole.add_cycle(stride(1.0 * k, k + 0.6, k + 1.0))
     return sole
 
 
 def test_loads_of_a_contact_are_means_and_peaks_of_each_cell_and_the_centre_goes_from_heel_to_toe() -> None:
-    sole = walked()
+    sole = walked_sole()
     assert sole.contacts == 3 and sole.unit == "N" and sole.drawable_layout
     assert [one / 3 for one in sole.mean_sums] == pytest.approx([50.0, 50.0], rel=0.02)
     assert [one / 3 for one in sole.peak_sums] == pytest.approx([100.0, 100.0], rel=0.02)
@@ -149,7 +149,7 @@ def test_loads_of_a_contact_are_means_and_peaks_of_each_cell_and_the_centre_goes
     ],
 )
 def test_a_contact_that_is_run_missing_or_too_long_does_not_count(other: dict[str, object]) -> None:
-    sole = walked()
+    sole = walked_sole()
     sole.add_cycle(stride(3.0, 3.6, 4.0, **other))
     assert sole.contacts == 3
 
@@ -157,7 +157,7 @@ def test_a_contact_that_is_run_missing_or_too_long_does_not_count(other: dict[st
 def test_soles_keep_little_however_long_they_are_walked_on() -> None:
     sole = ReportSole()
     for k in range(30):
-        pressed(sole, 1.0 * k, 100.0)
+        add_second(sole, 1.0 * k, 100.0)
     assert len(sole.newest) <= MAX_SAMPLES
     sole.add_sample(FootPressed(t=99.0, known_at=99.0, foot=L, values=(1.0, 2.0, 3.0), force=6.0, centre=None))
     assert sole.cell_sums == [1.0, 2.0, 3.0] and sole.samples == 1, "another insole begins anew"
@@ -183,4 +183,4 @@ def test_the_legend_of_a_narrow_plan_stays_within_the_picture() -> None:
 
 def test_the_reader_of_pages_rejects_unclosed_tags() -> None:
     with pytest.raises(AssertionError):
-        parsed("<p><b>no</p>")
+        parse_page("<p><b>no</p>")
