@@ -204,7 +204,6 @@ async def test_a_plan_shows_the_wearer_once_the_place_is_decided_and_drops_wrong
 
 async def test_a_lost_link_shows_and_recovers(chromium: Browser) -> None:
     """Emulated devices in real time; one of them is out of reach for 1.5 s."""
-
     scene, session = empty_scene(), Session(poses=True, pressures=True)
     faults = parse_faults("1.5 left_foot vanish 1.5")
     devices = dict.fromkeys((LEFT, RIGHT), Insole(cells=16))
@@ -231,7 +230,6 @@ async def test_a_lost_link_shows_and_recovers(chromium: Browser) -> None:
 
 async def test_the_page_reconnects_by_itself_or_on_request_after_the_server_had_ended(chromium: Browser) -> None:
     """First the network between them fails; then the program ends, and another one takes its place."""
-
     scene, token, line = scene_after(10.0, "before"), "the same as before", Line()
     async with AsyncExitStack() as stack:
         async with Page(scene, port=0, token=token) as first, line.to(first.port) as port:
