@@ -17,8 +17,8 @@ def test_help_names_every_command_and_loads_nothing_heavy():
         "try: main(['--help'])\nexcept SystemExit as stop: status = stop.code\n"
         "print(status, sorted({'numpy', 'rich', 'asyncio', 'bleak'} & set(sys.modules)))"
     )
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
-    *text, last = done.stdout.splitlines()
+    result = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    *text, last = result.stdout.splitlines()
     assert last == "0 []"
     assert all(any(line.split()[:1] == [command] for line in text) for command in ("demo", "track", "evaluate"))
 
@@ -43,22 +43,22 @@ def test_the_demo_ends_with_a_table_against_the_truth_in_plain_text(demo):
 
 
 def test_the_recording_of_the_demo_gives_track_the_same_steps(demo, folder):
-    done = solepath("track", folder / "demo.jsonl", "--out", folder / "demo")
-    assert done.returncode == 0 and done.stderr == ""
+    result = solepath("track", folder / "demo.jsonl", "--out", folder / "demo")
+    assert result.returncode == 0 and result.stderr == ""
     found = next(line for line in demo.stdout.splitlines() if line.startswith("steps found")).split()[2:]
     feet = [row["foot"] for row in rows_in(folder / "demo" / "strides.csv")]
     assert [str(feet.count("left")), str(feet.count("right"))] == found
 
 
 def test_a_straight_demo_is_as_long_and_as_lossy_as_requested():
-    done = solepath("demo", "--distance", "8", "--loss", "0.2", "--jitter", "0")
-    assert done.returncode == 0 and done.stderr == ""
-    first = done.stdout.splitlines()[0]
+    result = solepath("demo", "--distance", "8", "--loss", "0.2", "--jitter", "0")
+    assert result.returncode == 0 and result.stderr == ""
+    first = result.stdout.splitlines()[0]
     assert first.startswith("An emulated wearer walks 8 m in ") and first.endswith("; 20 % of the packets get lost.")
-    lost, of = re.search(r"^(\d+) of (\d+) packets lost$", done.stdout, re.MULTILINE).groups()
+    lost, of = re.search(r"^(\d+) of (\d+) packets lost$", result.stdout, re.MULTILINE).groups()
     assert int(lost) / int(of) == pytest.approx(0.2, abs=0.03)
     # nothing is later than anything else, so most is known as soon as it can be: the next sample, 15 ms on the way
-    known = re.search(r"median: heel-strike (\d+) ms", done.stdout)
+    known = re.search(r"median: heel-strike (\d+) ms", result.stdout)
     assert int(known[1]) < 30
 
 
@@ -74,8 +74,8 @@ def test_a_straight_demo_is_as_long_and_as_lossy_as_requested():
     ],
 )
 def test_a_demo_with_impossible_options_is_rejected(option, value, complaint):
-    done = run("demo", option, value)
-    assert done.returncode == 2 and complaint in done.stderr
+    result = run("demo", option, value)
+    assert result.returncode == 2 and complaint in result.stderr
 
 
 def test_in_a_terminal_the_demo_is_drawn_as_it_goes_and_ends_with_the_same_table():

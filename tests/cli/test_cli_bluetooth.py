@@ -15,20 +15,20 @@ from solepath.types import Site
 
 
 def test_scan_lists_the_insoles_that_are_there(insoles: str) -> None:
-    done = run("scan", "--via", insoles, "--seconds", 1)
-    rows = [line.split() for line in done.stdout.splitlines()[2:]]
+    result = run("scan", "--via", insoles, "--seconds", 1)
+    rows = [line.split() for line in result.stdout.splitlines()[2:]]
     assert rows == [
         ["F0:5E:00:00:00:01", "insole", "-50", "solepath", "L"],
         ["F0:5E:00:00:00:02", "insole", "-50", "solepath", "R"],
     ]
-    assert done.stderr == ""
+    assert result.stderr == ""
 
 
 def test_live_connects_to_the_insoles_it_finds_and_reports_their_links(insoles: str) -> None:
-    done = run("live", "--via", insoles, "--duration", 7)
-    assert "left foot: 100 Hz, 0.0 % lost, battery 87 %, -50 dBm" in done.stdout
-    assert "right foot: 100 Hz, 0.0 % lost, battery 87 %, -50 dBm" in done.stdout
-    assert done.stderr == ""
+    result = run("live", "--via", insoles, "--duration", 7)
+    assert "left foot: 100 Hz, 0.0 % lost, battery 87 %, -50 dBm" in result.stdout
+    assert "right foot: 100 Hz, 0.0 % lost, battery 87 %, -50 dBm" in result.stdout
+    assert result.stderr == ""
 
 
 def test_what_record_writes_gives_the_same_events_as_live(insoles: str, tmp_path: Path) -> None:

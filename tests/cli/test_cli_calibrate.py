@@ -49,8 +49,8 @@ def test_a_recipe_of_pressure_rejects_samples_without_any(bare):
 
 def test_track_runs_with_a_calibration(packets, folder):
     write_calibration(folder / "shoe.json", Calibration(shoe=ShoeGeometry(height=0.03)))
-    done = run("track", packets, "--calibration", folder / "shoe.json")
-    assert done.returncode == 0 and done.stderr == ""
+    result = run("track", packets, "--calibration", folder / "shoe.json")
+    assert result.returncode == 0 and result.stderr == ""
 
 
 def test_evaluate_runs_with_a_calibration_and_rejects_a_file_that_is_none(folder, tmp_path):
@@ -91,9 +91,9 @@ def calibrated(path: Path) -> Calibration:
 
 def test_noise_of_a_walk_is_learnt_for_every_cell_of_both_feet(packets, tmp_path):
     out = tmp_path / "me.json"
-    done = run("calibrate", "noise", packets, "--share", "0.2", "--out", out)
-    assert done.returncode == 0 and done.stderr == ""
-    header, _, left, right, last = done.stdout.splitlines()
+    result = run("calibrate", "noise", packets, "--share", "0.2", "--out", out)
+    assert result.returncode == 0 and result.stderr == ""
+    header, _, left, right, last = result.stdout.splitlines()
     assert header.split() == ["foot", "cells", "mean", "noise", "largest"]
     assert left.split()[:2] == ["left", "96"] and right.split()[:2] == ["right", "96"]
     assert last == f"written to {out}"
@@ -124,9 +124,9 @@ def test_what_is_learnt_goes_beside_what_the_file_holds_already(tmp_path):
 def test_the_drift_is_learnt_from_laps_of_a_square(tmp_path):
     walk, out = emulate(square(3), devices={Site.RIGHT_FOOT: boot(Foot.RIGHT, 50.0)}, seed=2), tmp_path / "me.json"
     laps = recorded(tmp_path / "laps.jsonl", walk.packets)
-    done = run("calibrate", "square", laps, "--out", out)
-    assert done.returncode == 0 and done.stderr == ""
-    assert done.stdout.startswith("right foot: 120 visits of 40 marks, drift ")
+    result = run("calibrate", "square", laps, "--out", out)
+    assert result.returncode == 0 and result.stderr == ""
+    assert result.stdout.startswith("right foot: 120 visits of 40 marks, drift ")
     assert set(calibrated(out).drift) == {Foot.RIGHT}
 
 
@@ -135,9 +135,9 @@ def test_the_offset_of_touchdowns_is_learnt_from_a_walk_over_marks(tmp_path):
     recorded(tmp_path / "walk.jsonl", walk.packets)
     write_marks(tmp_path / "marks.csv", marks(walk.walker))
     out = tmp_path / "me.json"
-    done = run("calibrate", "modes", tmp_path / "walk.jsonl", tmp_path / "marks.csv", "--heading", "0", "--out", out)
-    assert done.returncode == 0 and done.stderr == ""
-    header, _, left, right, _ = done.stdout.splitlines()
+    result = run("calibrate", "modes", tmp_path / "walk.jsonl", tmp_path / "marks.csv", "--heading", "0", "--out", out)
+    assert result.returncode == 0 and result.stderr == ""
+    header, _, left, right, _ = result.stdout.splitlines()
     assert header.split() == ["foot", "mode", "forward", "cm", "left", "cm"]
     assert [line.split()[:2] for line in (left, right)] == [["left", "STRAIGHT"], ["right", "STRAIGHT"]]
     assert set(calibrated(out).modes) == set(Foot)
@@ -175,9 +175,9 @@ def test_a_file_that_is_no_calibration_is_not_overwritten(tmp_path):
 
 
 def test_every_kind_of_calibration_is_in_the_help():
-    done = run("calibrate", "--help")
-    assert done.returncode == 0
-    words = {line.split()[0] for line in done.stdout.splitlines() if line.strip()}
+    result = run("calibrate", "--help")
+    assert result.returncode == 0
+    words = {line.split()[0] for line in result.stdout.splitlines() if line.strip()}
     assert words >= {"noise", "shoe", "square", "newton", "modes"}
 
 
@@ -202,17 +202,17 @@ def test_an_impossible_calibration_does_not_replace_a_known_one(tmp_path):
 @pytest.mark.parametrize("closed", ["<&-", ">&-", "2>&-", "<&- >&- 2>&-"])
 def test_streams_that_are_closed_stop_nothing(bare, closed):
     command = f'"{sys.executable}" -m solepath track "{bare}" {closed}'
-    done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, timeout=60)
-    assert done.returncode == 0 and "Traceback" not in done.stderr
+    result = subprocess.run(["sh", "-c", command], capture_output=True, text=True, timeout=60)
+    assert result.returncode == 0 and "Traceback" not in result.stderr
 
 
 def test_a_full_device_is_reported_in_one_line(bare):
     command = f'"{sys.executable}" -m solepath track "{bare}" >/dev/full'
-    done = subprocess.run(["sh", "-c", command], capture_output=True, text=True, timeout=60)
-    assert done.returncode == 2 and done.stderr.count("\n") == 1 and "No space left" in done.stderr
+    result = subprocess.run(["sh", "-c", command], capture_output=True, text=True, timeout=60)
+    assert result.returncode == 2 and result.stderr.count("\n") == 1 and "No space left" in result.stderr
 
 
 def test_a_seed_below_zero_is_rejected():
     for command in (["reproduce", "kupt-dfpc"], ["demo"], ["emulate"]):
-        done = run(*command, "--seed", "-1")
-        assert done.returncode == 2 and "'-1' is not a whole number" in done.stderr
+        result = run(*command, "--seed", "-1")
+        assert result.returncode == 2 and "'-1' is not a whole number" in result.stderr

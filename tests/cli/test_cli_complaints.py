@@ -43,9 +43,9 @@ def wait_for_sockets(process: subprocess.Popen[str]) -> None:
 
 
 def complaint(*arguments: object) -> str:
-    done = run(*arguments, expect=2)
-    assert done.stderr.count("\n") == 1 and done.stderr.startswith("solepath: "), done.stderr
-    return done.stderr.removeprefix("solepath: ").rstrip()
+    result = run(*arguments, expect=2)
+    assert result.stderr.count("\n") == 1 and result.stderr.startswith("solepath: "), result.stderr
+    return result.stderr.removeprefix("solepath: ").rstrip()
 
 
 @pytest.mark.parametrize("command", ["scan", "live", "record"])
@@ -118,12 +118,12 @@ def test_a_full_disk_ends_live_with_a_summary_and_a_line_that_names_the_director
     if not Path("/dev/full").exists():
         pytest.skip("no /dev/full here")
     (tmp_path / "track.csv").symlink_to("/dev/full")
-    done = run(
+    result = run(
         "live", "--via", insoles, "--left", "solepath L", "--out", tmp_path, "--duration", 9, "--record",
         tmp_path / "walk.jsonl", expect=2,
     )  # fmt: skip
-    assert done.stderr == f"solepath: {tmp_path}: no space left on device\n"
-    assert "recipe default: " in done.stdout and "written to" not in done.stdout
+    assert result.stderr == f"solepath: {tmp_path}: no space left on device\n"
+    assert "recipe default: " in result.stdout and "written to" not in result.stdout
     assert list(read_packets(tmp_path / "walk.jsonl"))
 
 
@@ -131,8 +131,8 @@ def test_a_full_disk_ends_live_with_a_summary_and_a_line_that_names_the_director
 def test_a_path_that_cannot_be_written_is_rejected_before_the_search(command: str, tmp_path: Path) -> None:
     option = {"live": "--record", "record": "--out"}[command]
     nowhere = tmp_path / "nowhere" / "walk.jsonl"
-    done = run(command, "--via", "tcp:127.0.0.1:1", option, nowhere, expect=2)
-    assert (done.stdout, done.stderr) == ("", f"solepath: {nowhere}: no such file or directory\n")
+    result = run(command, "--via", "tcp:127.0.0.1:1", option, nowhere, expect=2)
+    assert (result.stdout, result.stderr) == ("", f"solepath: {nowhere}: no such file or directory\n")
 
 
 @pytest.mark.parametrize(
@@ -189,8 +189,8 @@ def test_a_kind_that_is_named_is_that_of_the_device_that_is_not(tmp_path: Path) 
             time.sleep(2.0)
             first.kill()
         time.sleep(0.5)
-        done = run("record", "--via", where, "--profile", "cc2541-20hz", "--out", file, "--duration", 5)
-    assert "taken for the right foot's" in done.stderr
+        result = run("record", "--via", where, "--profile", "cc2541-20hz", "--out", file, "--duration", 5)
+    assert "taken for the right foot's" in result.stderr
     periods = {packet.data for packet in read_packets(file) if packet.channel == "cc2541/accelerometer-period"}
     assert periods == {b"\x05"}
 

@@ -35,11 +35,11 @@ def recording(path: Path) -> Path:
 
 def test_a_phones_log_becomes_a_recording_that_track_takes(log, tmp_path):
     out = tmp_path / "walk.jsonl"
-    done = convert(log, out)
-    assert (done.returncode, done.stderr) == (0, "")
+    result = convert(log, out)
+    assert (result.returncode, result.stderr) == (0, "")
     frames = [p for p in walks.insoles().packets if p.channel == "insole/frame"]
     half = sum(p.site is Site.LEFT_FOOT for p in frames)
-    assert done.stdout.splitlines() == [
+    assert result.stdout.splitlines() == [
         f"{RIGHT}  right_foot, insole: {len(frames) - half} notifications",
         f"{LEFT}  left_foot, insole: {half} notifications",
         f"{len(frames) + 2} packets written to {out}",
@@ -56,8 +56,8 @@ def test_either_becomes_mcap(log, tmp_path):
     reader = pytest.importorskip("mcap.reader", reason="the extra mcap is not installed")
     for source in (log, recording(tmp_path / "walk.jsonl")):
         out = tmp_path / "WALK.MCAP"
-        done = convert(source, out)
-        assert (done.returncode, done.stderr) == (0, "")
+        result = convert(source, out)
+        assert (result.returncode, result.stderr) == (0, "")
         with out.open("rb") as file:
             summary = reader.make_reader(file).get_summary()
         topics = {channel.topic for channel in summary.channels.values()}
@@ -72,8 +72,8 @@ def test_the_site_and_the_channel_can_be_given(tmp_path):
         log.notify(0x40, 0x2B, bytes(18))
     path, out = log.save(tmp_path / "phone.log"), tmp_path / "walk.jsonl"
     assert f"3 values of {TAG} left out: no discovery says what is 0x002b (18 bytes)" in complaint(path, out)
-    done = convert(path, out, "--site", f"{TAG}=pelvis", "--handle", f"{TAG.lower()}/0x2b=cc2650/movement")
-    assert done.returncode == 0
+    result = convert(path, out, "--site", f"{TAG}=pelvis", "--handle", f"{TAG.lower()}/0x2b=cc2650/movement")
+    assert result.returncode == 0
     assert {(p.site, p.channel) for p in read_packets(out)} == {
         (Site.PELVIS, "receiver/connected"), (Site.PELVIS, "cc2650/movement"),
     }  # fmt: skip
@@ -83,8 +83,8 @@ def test_the_site_and_the_channel_can_be_given(tmp_path):
 def test_an_option_that_cannot_be_parsed_is_named(log, tmp_path):
     for option, wishes in (("--site", ("left_foot", f"{TAG}=hand")), ("--handle", ("0x2b", "x=y", "0=a/b"))):
         for wish in wishes:
-            done = convert(log, tmp_path / "walk.jsonl", option, wish)
-            assert done.returncode == 2 and f"argument {option}: {wish!r} is not " in done.stderr
+            result = convert(log, tmp_path / "walk.jsonl", option, wish)
+            assert result.returncode == 2 and f"argument {option}: {wish!r} is not " in result.stderr
 
 
 def test_options_without_use_are_errors_and_nothing_is_written(log, tmp_path):
@@ -112,9 +112,9 @@ def test_packets_before_a_damage_are_converted_and_the_damage_is_reported(log, t
         source = recording(tmp_path / "damaged.jsonl")
         source.write_text(source.read_text() + "{}\n")
         flaw = '"t" is missing'
-    done = convert(source, out)
-    assert done.returncode == 2 and done.stderr.count("\n") == 1 and flaw in done.stderr
-    assert f" packets written to {out}" in done.stdout and out.stat().st_size > 10_000
+    result = convert(source, out)
+    assert result.returncode == 2 and result.stderr.count("\n") == 1 and flaw in result.stderr
+    assert f" packets written to {out}" in result.stdout and out.stat().st_size > 10_000
 
 
 def test_what_cannot_be_converted_replaces_nothing(log, tmp_path):
@@ -196,14 +196,14 @@ sys.exit(main(["convert", *sys.argv[1:]]))
 @pytest.mark.parametrize("name", ["walk.jsonl", "walk.mcap"])
 def test_a_disk_that_fills_up_is_one_line_and_leaves_no_half_file(log, tmp_path, name):
     out = tmp_path / name
-    done = subprocess.run([sys.executable, "-c", LITTLE_ROOM, log, out], capture_output=True, text=True)
-    assert (done.returncode, done.stderr) == (2, f"solepath: {out}: file too large\n")
+    result = subprocess.run([sys.executable, "-c", LITTLE_ROOM, log, out], capture_output=True, text=True)
+    assert (result.returncode, result.stderr) == (2, f"solepath: {out}: file too large\n")
     assert list(tmp_path.iterdir()) == []
 
 
 def test_without_mcap_the_message_names_the_package(log, tmp_path):
     code = "import sys; sys.modules['mcap'] = None; from solepath.cli import main; sys.exit(main(sys.argv[1:]))"
     out = tmp_path / "walk.mcap"
-    done = subprocess.run([sys.executable, "-c", code, "convert", log, out], capture_output=True, text=True)
-    assert done.returncode == 2
-    assert done.stderr == "solepath: writing MCAP needs the package mcap: pip install 'solepath[mcap]'\n"
+    result = subprocess.run([sys.executable, "-c", code, "convert", log, out], capture_output=True, text=True)
+    assert result.returncode == 2
+    assert result.stderr == "solepath: writing MCAP needs the package mcap: pip install 'solepath[mcap]'\n"

@@ -31,10 +31,10 @@ def data(tmp_path_factory) -> Path:
 
 
 def test_evaluate_scores_what_there_is_in_tables_and_json(data, tmp_path):
-    done = solepath("evaluate", "--json", tmp_path / "scores.json", SOLEPATH_DATA=str(data))
-    assert done.returncode == 0 and done.stderr == ""
-    assert no_control_codes(done.stdout)
-    assert "failed: " in done.stdout and "broken.npz: is empty" in done.stdout
+    result = solepath("evaluate", "--json", tmp_path / "scores.json", SOLEPATH_DATA=str(data))
+    assert result.returncode == 0 and result.stderr == ""
+    assert no_control_codes(result.stdout)
+    assert "failed: " in result.stdout and "broken.npz: is empty" in result.stdout
     scores = json.loads((tmp_path / "scores.json").read_text())["default"]["xio_closed_walks"]
     assert list(scores["recordings"]) == ["loop"] and len(scores["failures"]) == 1
     figures = scores["recordings"]["loop"]
@@ -42,13 +42,13 @@ def test_evaluate_scores_what_there_is_in_tables_and_json(data, tmp_path):
     # exact samples: the loop closes within the foot's own placement
     assert figures["end_error_2d"] < 0.5
     assert scores["summary"]["all"]["mean"]["end_error"] == figures["end_error"]
-    assert f"{figures['end_error']:.3f}" in done.stdout
+    assert f"{figures['end_error']:.3f}" in result.stdout
 
 
 def test_evaluate_in_short_is_a_markdown_table(data):
-    done = solepath("evaluate", data, "--markdown", "--recipe", "default")
-    assert done.returncode == 0 and "not scored: " in done.stderr and "broken.npz: is empty" in done.stderr
-    head, rule, first, second, third = done.stdout.splitlines()
+    result = solepath("evaluate", data, "--markdown", "--recipe", "default")
+    assert result.returncode == 0 and "not scored: " in result.stderr and "broken.npz: is empty" in result.stderr
+    head, rule, first, second, third = result.stdout.splitlines()
     assert (head, rule) == ("| data | measured | came to |", "|---|---|---|")
     assert first.startswith("| a closed loop, one shoe: `xio_closed_walks`, 1 recording | from end to start, in space ")
     assert second.startswith("|  | from end to start, horizontal | 0.") and second.endswith(" m |")

@@ -23,7 +23,7 @@ pytest.importorskip("bytewax", reason="bytewax is not installed: it has no wheel
 import pyarrow.compute
 
 from solepath.cli.fleet_demo import verdict
-from solepath.cli.fleet_table import of_kills, of_worth
+from solepath.cli.fleet_table import effect_line, kill_lines
 from solepath.events import HeelStrike
 from solepath.fleet import NumberedEvent
 from solepath.fleet.demo.child import _read_status
@@ -63,12 +63,12 @@ def kept(tmp_path_factory: pytest.TempPathFactory) -> Kept:
 
 
 def test_a_killed_fleet_emits_the_same_events_as_one_that_is_not(kept: Kept) -> None:
-    done, out = kept
-    assert (done.returncode, done.stderr) == (0, "")
-    assert "sessions alone: the same events" in done.stdout
-    assert "1 loses some of what is sent for good, 1 sends any bytes" in done.stdout
-    assert re.search(r"killed run 1: .*, with \d+ % read; .* s replayed, .*; the same events", done.stdout)
-    rows = dict(re.findall(r"^(\S.*?)  +(\d+)$", done.stdout, re.MULTILINE))
+    result, out = kept
+    assert (result.returncode, result.stderr) == (0, "")
+    assert "sessions alone: the same events" in result.stdout
+    assert "1 loses some of what is sent for good, 1 sends any bytes" in result.stdout
+    assert re.search(r"killed run 1: .*, with \d+ % read; .* s replayed, .*; the same events", result.stdout)
+    rows = dict(re.findall(r"^(\S.*?)  +(\d+)$", result.stdout, re.MULTILINE))
     assert (rows["wearers"], rows["kills"], rows["of them with the same events"]) == ("12", "2", "2")
     figures = json.loads(out.with_suffix(".json").read_text())
     assert figures["ratio"] > 0.0 and len(figures["kills"]) == 2 and figures["runs"][0]["equal"]
@@ -103,8 +103,8 @@ def test_missing_rejection_or_loss_events_are_found_out(kept: Kept) -> None:
 def test_the_query_that_is_printed_counts_the_events(kept: Kept) -> None:
     pytest.importorskip("duckdb")
     (line,) = (line for line in kept[0].stdout.splitlines() if line.startswith("python -c"))
-    done = subprocess.run([sys.executable, *shlex.split(line)[1:]], capture_output=True, text=True, check=True)
-    assert "HeelStrike" in done.stdout
+    result = subprocess.run([sys.executable, *shlex.split(line)[1:]], capture_output=True, text=True, check=True)
+    assert "HeelStrike" in result.stdout
 
 
 def test_one_event_less_in_one_part_is_named_and_the_status_is_1(
@@ -178,12 +178,12 @@ def test_kills_that_cost_nothing_are_not_counted_as_tests() -> None:
     started = Cost(Kill(None, 0.1), False, 0.0, 0.0, 1.0, 0)
     hit = Cost(Kill(0.5, 0.1), True, 0.5, 0.1, 1.0, 12)
     engine = Engine(2.0, 1.0, 0.1, 8, 1.0, None, None, 100, 8)
-    (line,) = of_kills(engine, 1, Outcome([started], []))
+    (line,) = kill_lines(engine, 1, Outcome([started], []))
     assert "the same events" not in line and line.endswith("nothing was lost that had to come back")
-    assert of_kills(engine, 2, Outcome([hit], []))[0].endswith("12 went on from their states; the same events")
-    assert of_kills(engine, 1, Outcome([started], ["w00001"]))[0].endswith("; other events")
-    assert of_worth([Outcome([started], [])]).endswith("or kill more often (--kills).")
-    assert of_worth([Outcome([started, hit], [])]) == (
+    assert kill_lines(engine, 2, Outcome([hit], []))[0].endswith("12 went on from their states; the same events")
+    assert kill_lines(engine, 1, Outcome([started], ["w00001"]))[0].endswith("; other events")
+    assert effect_line([Outcome([started], [])]).endswith("or kill more often (--kills).")
+    assert effect_line([Outcome([started, hit], [])]) == (
         "of 2 kills 1 had something read again, and 1 had wearers go on from states"
     )
 
@@ -216,15 +216,15 @@ def test_impossible_options_are_reported_in_one_line(tmp_path: Path) -> None:
 
 def test_what_is_not_installed_is_named() -> None:
     program = "import sys; sys.modules['bytewax'] = None; from solepath.cli import main; sys.exit(main(['fleet-demo']))"
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
-    assert (done.returncode, done.stdout, done.stderr.count("\n")) == (2, "", 1)
-    assert "pip install 'solepath[bytewax]'" in done.stderr
+    result = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert (result.returncode, result.stdout, result.stderr.count("\n")) == (2, "", 1)
+    assert "pip install 'solepath[bytewax]'" in result.stderr
 
 
 @pytest.mark.soak
 def test_a_thousand_wearers_are_killed_ten_times(tmp_path: Path) -> None:
-    done = run("fleet-demo", "--wearers", 1000, "--kills", 10, "--json", tmp_path / "figures.json")
-    assert (done.returncode, done.stderr) == (0, ""), done.stdout
+    result = run("fleet-demo", "--wearers", 1000, "--kills", 10, "--json", tmp_path / "figures.json")
+    assert (result.returncode, result.stderr) == (0, ""), result.stdout
     kills = json.loads((tmp_path / "figures.json").read_text())["kills"]
     assert len(kills) == 10
     assert sum(bool(kill["replayed"]) for kill in kills) >= 6

@@ -30,7 +30,7 @@ def test_a_file_is_removed_when_ctrl_c_comes_while_it_is_made(tmp_path: Path, mo
 
     monkeypatch.setattr(Path, "open", opened_then_stopped)
     with pytest.raises(KeyboardInterrupt):
-        files.beside(tmp_path / "track.csv")
+        files.temporary_path(tmp_path / "track.csv")
     monkeypatch.undo()
     assert len(list(tmp_path.iterdir())) == 1
     files.discard()
@@ -42,7 +42,7 @@ def test_a_file_is_there_as_it_was_until_it_is_kept(kept: bool, tmp_path: Path) 
     earlier = tmp_path / "track.csv"
     earlier.write_text("earlier")
     files = FileReplacements()
-    files.beside(earlier).write_text("later")
+    files.temporary_path(earlier).write_text("later")
     assert earlier.read_text() == "earlier"
     if kept:
         files.keep()
@@ -58,7 +58,7 @@ def test_another_programs_file_is_not_thrown_away(tmp_path: Path, monkeypatch: p
     another = tmp_path / f".solepath-{os.getpid()}-7.part"
     another.write_text("half of a track")
     with pytest.raises(OSError, match=r"track\.csv"):
-        files.beside(tmp_path / "track.csv")
+        files.temporary_path(tmp_path / "track.csv")
     files.discard()
     assert another.read_text() == "half of a track"
 
@@ -132,9 +132,9 @@ def test_names_that_are_no_text_and_hold_control_codes_are_shown_without(recordi
     here.mkdir()
     walk = here / recording.name.replace("walk", "\x1b]0;\udcff")
     walk.write_bytes(recording.read_bytes())
-    done = run("track", walk, "--out", here / "out", "--report", here / "r.html")
-    assert (done.returncode, done.stderr) == (0, "")
-    assert "\x1b" not in done.stdout and done.stdout.encode("utf-8")
+    result = run("track", walk, "--out", here / "out", "--report", here / "r.html")
+    assert (result.returncode, result.stderr) == (0, "")
+    assert "\x1b" not in result.stdout and result.stdout.encode("utf-8")
     assert "\x1b" not in (here / "r.html").read_text(encoding="utf-8")
-    done = run("demo", "--terminal", "--distance", 1, "--record", here / "demo.jsonl")
-    assert done.returncode == 0 and "\x1b" not in done.stdout and done.stdout.encode("utf-8")
+    result = run("demo", "--terminal", "--distance", 1, "--record", here / "demo.jsonl")
+    assert result.returncode == 0 and "\x1b" not in result.stdout and result.stdout.encode("utf-8")

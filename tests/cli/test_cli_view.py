@@ -89,10 +89,10 @@ def test_without_a_terminal_the_demo_plays_to_its_end_by_itself_at_a_port_that_i
     with ExitStack() as stack:
         with suppress(OSError):  # somebody else has it
             stack.enter_context(socket.create_server(("127.0.0.1", 8765)))
-        done = run("demo", "--distance", 2, "--view", "--speed", 32)
-    assert (done.returncode, done.stderr) == (0, "")
-    found = re.search(r"\nthe page: http://127.0.0.1:(\d+)/", done.stdout)
-    assert found is not None and found[1] != "8765" and "\nagainst the truth" in done.stdout
+        result = run("demo", "--distance", 2, "--view", "--speed", 32)
+    assert (result.returncode, result.stderr) == (0, "")
+    found = re.search(r"\nthe page: http://127.0.0.1:(\d+)/", result.stdout)
+    assert found is not None and found[1] != "8765" and "\nagainst the truth" in result.stdout
 
 
 def test_what_track_writes_does_not_depend_on_the_page_which_is_there_before_anything_is_computed(
@@ -139,11 +139,11 @@ def test_a_damaged_recording_is_played_up_to_the_damage_and_a_public_page_is_rep
     lines = recording.read_text().splitlines()
     torn = tmp_path / "torn.jsonl"
     torn.write_text("\n".join([*lines[: len(lines) // 2], "what?", *lines[len(lines) // 2 :]]))
-    done = run("track", torn, "--view", "0.0.0.0:0", "--speed", 32)
-    damage, warning = done.stderr.splitlines()
-    assert done.returncode == 2 and f"torn.jsonl: line {len(lines) // 2 + 1}: is not JSON" in damage
+    result = run("track", torn, "--view", "0.0.0.0:0", "--speed", 32)
+    damage, warning = result.stderr.splitlines()
+    assert result.returncode == 2 and f"torn.jsonl: line {len(lines) // 2 + 1}: is not JSON" in damage
     assert "can be reached from other machines" in warning
-    assert re.match(r"the page: http://[^/]+:\d+/#token=\S{16,}\n", done.stdout)
+    assert re.match(r"the page: http://[^/]+:\d+/#token=\S{16,}\n", result.stdout)
 
 
 @pytest.mark.parametrize("where", ["8765", "here", ":80", "127.0.0.1:", "127.0.0.1:70000", "127.0.0.1:-1"])

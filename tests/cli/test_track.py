@@ -51,13 +51,13 @@ def tracked(packets, folder) -> tuple[subprocess.CompletedProcess[str], Path]:
 
 
 def test_track_sums_up_in_plain_text(tracked, packets):
-    done, out = tracked
-    assert done.returncode == 0 and done.stderr == ""
-    assert no_control_codes(done.stdout)
+    result, out = tracked
+    assert result.returncode == 0 and result.stderr == ""
+    assert no_control_codes(result.stdout)
     arrivals = [packet.t for packet in read_packets(packets)]
-    assert done.stdout.startswith(f"{packets.name}, recipe default: {arrivals[-1] - arrivals[0]:.1f} s\n")
-    assert "packets lost" in done.stdout and "rejected (" in done.stdout
-    assert f"written to {out}" in done.stdout
+    assert result.stdout.startswith(f"{packets.name}, recipe default: {arrivals[-1] - arrivals[0]:.1f} s\n")
+    assert "packets lost" in result.stdout and "rejected (" in result.stdout
+    assert f"written to {out}" in result.stdout
 
 
 def test_events_are_strict_json_with_their_times_and_feet(tracked):
@@ -122,8 +122,8 @@ def test_events_of_the_link_name_the_foot_too(tracked, events_of):
 
 def test_a_recording_of_one_foot_is_of_the_foot_that_is_named(one_foot, tmp_path):
     for arguments, foot in (((), "right"), (("--foot", "left"), "left")):
-        done = solepath("track", one_foot, *arguments, "--out", tmp_path)
-        assert done.returncode == 0
+        result = solepath("track", one_foot, *arguments, "--out", tmp_path)
+        assert result.returncode == 0
         assert {row["foot"] for row in rows_in(tmp_path / "track.csv")} == {foot}
         # nothing is missing of these samples; of the packets above something is in every step
         assert {(row["foot"], row["degraded"]) for row in rows_in(tmp_path / "strides.csv")} == {(foot, "0")}
@@ -143,10 +143,10 @@ def test_the_times_written_are_the_recordings_own(one_foot, tmp_path):
 def test_a_recording_cut_in_the_middle_of_a_line_is_reported_and_loses_nothing_before(packets, tracked, tmp_path):
     cut = tmp_path / "cut.jsonl"
     cut.write_bytes(packets.read_bytes()[:-40])
-    done = solepath("track", cut, "--out", tmp_path)
-    assert done.returncode == 0
+    result = solepath("track", cut, "--out", tmp_path)
+    assert result.returncode == 0
     lines = packets.read_bytes().count(b"\n")
-    assert done.stderr == f"solepath: {cut}: line {lines}: cut off in the middle; everything before it is used\n"
+    assert result.stderr == f"solepath: {cut}: line {lines}: cut off in the middle; everything before it is used\n"
     assert len(rows_in(tmp_path / "strides.csv")) == len(rows_in(tracked[1] / "strides.csv"))
 
 
@@ -155,9 +155,9 @@ def test_a_bad_row_ends_the_walk_there_and_what_came_before_is_written(one_foot,
         columns = {key: archive[key] for key in archive.files}
     columns["acc"][700, 1] = np.nan
     np.savez(tmp_path / "bad.npz", **columns)
-    done = solepath("track", tmp_path / "bad.npz", "--out", tmp_path)
-    assert one_line(done).endswith("bad.npz: acc, row 700: is nan, not a finite number (t = 7 s)")
-    assert "recipe default: 7.0 s" in done.stdout
+    result = solepath("track", tmp_path / "bad.npz", "--out", tmp_path)
+    assert one_line(result).endswith("bad.npz: acc, row 700: is nan, not a finite number (t = 7 s)")
+    assert "recipe default: 7.0 s" in result.stdout
     assert [float(row["t_s"]) for row in rows_in(tmp_path / "track.csv")][-1] == columns["t"][699]
     assert rows_in(tmp_path / "strides.csv")
 
@@ -166,8 +166,8 @@ def test_a_line_that_is_not_json_ends_the_walk_there(packets, tmp_path):
     lines = packets.read_bytes().splitlines(keepends=True)
     half = len(lines) // 2
     (tmp_path / "bad.jsonl").write_bytes(b"".join([*lines[:half], b"\x1b[31moh no\n", *lines[half:]]))
-    done = solepath("track", tmp_path / "bad.jsonl", "--out", tmp_path)
-    assert one_line(done).endswith(f"bad.jsonl: line {half + 1}: is not JSON")
+    result = solepath("track", tmp_path / "bad.jsonl", "--out", tmp_path)
+    assert one_line(result).endswith(f"bad.jsonl: line {half + 1}: is not JSON")
     assert rows_in(tmp_path / "track.csv")
 
 
@@ -194,16 +194,16 @@ def test_a_file_that_cannot_be_used_gets_one_line_and_status_2_and_replaces_noth
 
 def test_a_header_alone_is_a_whole_recording_of_nothing(tmp_path):
     (tmp_path / "nothing.jsonl").write_text('{"format": "solepath-packets", "version": 1}\n')
-    done = run("track", tmp_path / "nothing.jsonl", "--out", tmp_path)
-    assert done.returncode == 0 and done.stderr.endswith("nothing.jsonl: holds no packets\n")
-    assert "nothing was heard of either foot" in done.stdout
+    result = run("track", tmp_path / "nothing.jsonl", "--out", tmp_path)
+    assert result.returncode == 0 and result.stderr.endswith("nothing.jsonl: holds no packets\n")
+    assert "nothing was heard of either foot" in result.stdout
     assert events_in(tmp_path) == rows_in(tmp_path / "track.csv") == rows_in(tmp_path / "strides.csv") == []
 
 
 def test_packets_of_the_other_foot_only_are_an_error(tmp_path):
     left = recorded(tmp_path / "left.jsonl", [Packet(1.0, Site.LEFT_FOOT, "device/battery", b"\x63")])
-    done = run("track", left, "--foot", "right", "--out", tmp_path / "out")
-    assert one_line(done).endswith("left.jsonl: holds no packets of the right foot")
+    result = run("track", left, "--foot", "right", "--out", tmp_path / "out")
+    assert one_line(result).endswith("left.jsonl: holds no packets of the right foot")
     assert not (tmp_path / "out").exists()
 
 

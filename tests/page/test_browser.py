@@ -11,18 +11,18 @@ import pytest
 from airs import memory
 from attrs import define, field
 from benches import LEFT, RIGHT
-from browsers import PATIENCE, UNREACHABLE, Browser, Browsing, Window, window
+from browsers import MAX_WAIT, UNREACHABLE, Browser, Browsing, Window, window
 from shown import (
     CONNECTED,
     PacketEvents,
-    after,
-    again,
-    between,
-    fresh,
+    empty_scene,
     meanwhile,
-    opened,
+    open_page,
+    packets_between,
+    repeat_walk,
+    scene_after,
     show,
-    square,
+    square_walk,
     squares,
     walked,
 )
@@ -39,11 +39,11 @@ from solepath.show.page.scene.scene import Scene
 from solepath.show.page.server.server import Page
 from solepath.types import Foot
 
-PHONE = 360
+PHONE_WIDTH = 360
 """Width of a phone's screen, px."""
 MINUTE = 60.0
-MARGIN = 0.7e6
-"""Growth that is allowed, bytes; eight more minutes of tracks are 1800 points."""
+MAX_HEAP_GROWTH = 0.7e6
+"""Largest growth of the heap that is allowed, bytes; eight more minutes of tracks are 1800 points."""
 FEET = ("left", "right")
 
 
@@ -64,7 +64,7 @@ def offline(words: str) -> str:
 
 @define
 class Line:
-    """A connection between a browser and the server at `port` that can be cut."""
+    """A connection, which can be cut, between a browser and the server at `port`."""
 
     port: int = 0
     whole: bool = True
@@ -72,7 +72,7 @@ class Line:
 
     @asynccontextmanager
     async def to(self, port: int) -> AsyncIterator[int]:
-        """Yield the port that stands for this one."""
+        """Yield the port of a proxy for the server at `port`."""
         self.port = port
         async with await asyncio.start_server(self._join, "127.0.0.1", 0) as server:
             yield server.sockets[0].getsockname()[1]
@@ -109,19 +109,19 @@ def link(site: str, state: str) -> str:
 
 
 async def test_the_page_connects_and_names_what_it_shows(chromium: Browser) -> None:
-    async with opened(chromium, fresh("Ward 3, corridor")) as (view, _):
+    async with open_page(chromium, empty_scene("Ward 3, corridor")) as (view, _):
         assert await view.text("title") == "Ward 3, corridor"
         assert await view.text("recipe") == "default"
         assert "Ward 3, corridor" in await view.tab.title()
 
 
 async def test_both_soles_change_in_picture_and_description(chromium: Browser) -> None:
-    scene = after(6.0)
-    async with opened(chromium, scene) as (view, _):
+    scene = scene_after(6.0)
+    async with open_page(chromium, scene) as (view, _):
         await view.until(f"{link('left', 'ok')} && {link('right', 'ok')}")
         seen: dict[str, set[str]] = {foot: set() for foot in FEET}
         descriptions: dict[str, set[str | None]] = {foot: set() for foot in FEET}
-        async with meanwhile(show(scene, between(6.0, 40.0))), asyncio.timeout(PATIENCE):
+        async with meanwhile(show(scene, packets_between(6.0, 40.0))), asyncio.timeout(MAX_WAIT):
             while min(map(len, seen.values())) < 10 or min(map(len, descriptions.values())) < 3:
                 for foot in FEET:
                     seen[foot].add(await picture(view, f"sole-{foot}"))
@@ -132,13 +132,13 @@ async def test_both_soles_change_in_picture_and_description(chromium: Browser) -
 
 
 async def test_the_track_and_the_ribbon_grow_with_every_step(chromium: Browser) -> None:
-    scene = after(6.0)
-    async with opened(chromium, scene) as (view, _):
+    scene = scene_after(6.0)
+    async with open_page(chromium, scene) as (view, _):
         await view.until("Number(document.getElementById('track').dataset.points) > 0")
         before = {name: await picture(view, name) for name in ("track", "ribbon")}
         points = int(await view.tab.locator("#track").get_attribute("data-points"))
         steps, description = int(await view.text("steps")), await words(view, "track")
-        await show(scene, between(6.0, 12.0), speed=4.0)
+        await show(scene, packets_between(6.0, 12.0), speed=4.0)
         await view.until(f"Number(document.getElementById('steps').textContent) >= {steps + 8}")
         assert int(await view.tab.locator("#track").get_attribute("data-points")) > points
         assert await words(view, "track") != description
@@ -147,7 +147,7 @@ async def test_the_track_and_the_ribbon_grow_with_every_step(chromium: Browser) 
 
 
 async def test_a_late_watcher_sees_the_track_from_its_start(chromium: Browser) -> None:
-    async with opened(chromium, after(40.0)) as (view, _):
+    async with open_page(chromium, scene_after(40.0)) as (view, _):
         await view.until("Number(document.getElementById('track').dataset.points) > 100")
         await view.until("document.querySelectorAll('#gait-rows tr').length >= 8")
         assert await view.text("activity") == "Walking"
@@ -155,9 +155,9 @@ async def test_a_late_watcher_sees_the_track_from_its_start(chromium: Browser) -
 
 
 async def test_when_the_walk_stops_the_last_figures_stay(chromium: Browser) -> None:
-    scene = after(6.0)
-    async with opened(chromium, scene) as (view, _):
-        await show(scene, between(6.0, 6.5))
+    scene = scene_after(6.0)
+    async with open_page(chromium, scene) as (view, _):
+        await show(scene, packets_between(6.0, 6.5))
         for foot in Foot:
             force = scene.feet[foot].force
             assert force > 0.0
@@ -181,7 +181,7 @@ async def test_a_plan_shows_the_wearer_once_the_place_is_decided_and_drops_wrong
         return Placed(t=t, known_at=t, level=level, position=(x, 5.0, 0.0), spread=1.0, candidates=tuple(candidates))
 
     scene = Scene("a building", "default", "live", plan=BUILDING)
-    async with opened(chromium, scene) as (view, _):
+    async with open_page(chromium, scene) as (view, _):
         seen = "document.getElementById('track').dataset"
         note = "document.getElementById('track-note').innerText"
         await view.until(f"{seen}.view === 'track' && {note}.startsWith('Where on the plan is not known yet')")
@@ -204,15 +204,14 @@ async def test_a_plan_shows_the_wearer_once_the_place_is_decided_and_drops_wrong
 
 async def test_a_lost_link_shows_and_recovers(chromium: Browser) -> None:
     """Emulated devices in real time; one of them is out of reach for 1.5 s."""
-
-    scene, session = fresh(), Session(poses=True, pressures=True)
+    scene, session = empty_scene(), Session(poses=True, pressures=True)
     faults = parse_faults("1.5 left_foot vanish 1.5")
     devices = dict.fromkeys((LEFT, RIGHT), Insole(cells=16))
     bench = Bench(Route().stand(30.0), devices=devices, faults=faults)
     bench.prepare()
     configs = [DeviceConfig(one.site, one.address) for one in bench.peripherals]
     async with (
-        opened(chromium, scene) as (view, _),
+        open_page(chromium, scene) as (view, _),
         memory(bench) as backend,
         Devices(configs, backend=backend) as found,
     ):
@@ -231,8 +230,7 @@ async def test_a_lost_link_shows_and_recovers(chromium: Browser) -> None:
 
 async def test_the_page_reconnects_by_itself_or_on_request_after_the_server_had_ended(chromium: Browser) -> None:
     """First the network between them fails; then the program ends, and another one takes its place."""
-
-    scene, token, line = after(10.0, "before"), "the same as before", Line()
+    scene, token, line = scene_after(10.0, "before"), "the same as before", Line()
     async with AsyncExitStack() as stack:
         async with Page(scene, port=0, token=token) as first, line.to(first.port) as port:
             view = await stack.enter_async_context(window(chromium, first.url.replace(str(first.port), str(port))))
@@ -244,7 +242,7 @@ async def test_the_page_reconnects_by_itself_or_on_request_after_the_server_had_
             await view.tab.locator("#offline").wait_for(state="hidden")
             await first.__aexit__(None, None, None)
             await view.until(offline("has ended"))
-            async with Page(after(12.0, "after"), port=0, token=token) as second:
+            async with Page(scene_after(12.0, "after"), port=0, token=token) as second:
                 line.port = second.port
                 await view.tab.locator("#retry").click()
                 await view.until(f"{CONNECTED} && document.getElementById('title').textContent === 'after'")
@@ -254,17 +252,17 @@ async def test_the_page_reconnects_by_itself_or_on_request_after_the_server_had_
 
 async def test_device_names_are_shown_as_text(chromium: Browser) -> None:
     hostile = "<img src=x onerror=\"document.title='broken'\"><script>document.title='broken'</script>"
-    scene = after(6.0, hostile)
+    scene = scene_after(6.0, hostile)
     name = hostile.ljust(248, "W")  # as long as a device can have one
     scene.take(None, [Connected(t=6.0, known_at=6.0, site=LEFT, device="F0:5E:00:00:00:01", name=name, signal=-50)])
     scene.take(None, [LinkTrouble(t=6.0, known_at=6.0, site=LEFT, what="W" * 300)])
-    async with opened(chromium, scene, width=PHONE) as (view, _):
+    async with open_page(chromium, scene, width=PHONE_WIDTH) as (view, _):
         assert await view.text("title") == hostile
         await view.until("document.getElementById('links').textContent.includes('onerror')")
         await view.until("document.getElementById('links').textContent.includes('WWW')")
-        assert await view.tab.evaluate("document.scrollingElement.scrollWidth") <= PHONE
+        assert await view.tab.evaluate("document.scrollingElement.scrollWidth") <= PHONE_WIDTH
         ends = "[...document.querySelectorAll('#links *')].map(e => e.getBoundingClientRect().right)"
-        assert await view.tab.evaluate(f"Math.max(...{ends})") <= PHONE
+        assert await view.tab.evaluate(f"Math.max(...{ends})") <= PHONE_WIDTH
         assert await view.tab.locator("main img, main script, header img, header script").count() == 0
         assert await view.tab.title() != "broken"
 
@@ -273,23 +271,25 @@ async def stays_as_large(
     chromium: Browser, walk: Iterable[PacketEvents], speeds: tuple[float, float] = (1.0, 1.0)
 ) -> None:
     """Compare the page after two minutes of a walk with that after the rest of it, and print the cost."""
-    scene, clock = fresh(), asyncio.get_running_loop().time
-    async with opened(chromium, scene) as (view, _):
+    scene, clock = empty_scene(), asyncio.get_running_loop().time
+    async with open_page(chromium, scene) as (view, _):
         started, used = clock(), process_time()
         await show(scene, walk, speeds[0], until=2.0 * MINUTE)
         heap, elements = await view.memory()
         await show(scene, walk, speeds[1], until=10.0 * MINUTE)
-        after = await view.memory()
+        final_memory = await view.memory()
         seconds, frames = clock() - started, await view.tab.evaluate("solepath.frames")
         print(f"{frames / seconds:.1f} frames a second, {process_time() - used:.1f} s of {seconds:.0f} used")
-        print(f"bytes and elements: {heap} and {elements} after 2 min, {after[0]} and {after[1]} after 10")
-        assert after[0] < heap + MARGIN
-        assert after[1] == elements
+        print(
+            f"bytes and elements: {heap} and {elements} after 2 min, {final_memory[0]} and {final_memory[1]} after 10"
+        )
+        assert final_memory[0] < heap + MAX_HEAP_GROWTH
+        assert final_memory[1] == elements
         assert await view.tab.locator("#log > *").count() <= 50
 
 
 async def test_ten_minutes_of_two_feet_leave_the_page_as_large_as_it_was(chromium: Browser) -> None:
-    await stays_as_large(chromium, again(square(), 10.0 * MINUTE), (40.0, 80.0))
+    await stays_as_large(chromium, repeat_walk(square_walk(), 10.0 * MINUTE), (40.0, 80.0))
 
 
 @pytest.mark.soak

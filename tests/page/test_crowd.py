@@ -8,31 +8,41 @@ from contextlib import suppress
 
 import pytest
 from aiohttp import ClientError, ClientSession
-from served import Connection, closed, frame_of, handshake, raw, rejection_status, scene_of, sees, served
+from served import (
+    Connection,
+    check_watching,
+    close_code,
+    frame_of,
+    handshake,
+    open_raw,
+    rejection_status,
+    scene_of,
+    served,
+)
 from walks import insoles
 
 from solepath import Session
 from solepath.show.page.scene.scene import Scene
 from solepath.show.page.server import connection, server, watcher
-from solepath.show.page.server.server import MOST_CONNECTIONS, MOST_WATCHERS, Page
+from solepath.show.page.server.server import MAX_CONNECTIONS, MAX_WATCHERS, Page
 
 
 async def test_the_number_of_watchers_is_limited() -> None:
     async with served() as (_, client, url):
-        watching = [await client.ws_connect(f"{url}ws") for _ in range(MOST_WATCHERS)]
+        watching = [await client.ws_connect(f"{url}ws") for _ in range(MAX_WATCHERS)]
         assert await rejection_status(client.ws_connect(f"{url}ws")) == 503
         await watching[0].close()
         await asyncio.sleep(0.1)
-        await sees(client, url)
+        await check_watching(client, url)
 
 
 async def test_idle_connections_are_limited_and_closed(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(server, "IDLE", 0.5)
+    monkeypatch.setattr(server, "IDLE_TIMEOUT", 0.5)
     async with served() as (page, client, url):
-        idle = [await raw(page) for _ in range(MOST_CONNECTIONS)]
+        idle = [await open_raw(page) for _ in range(MAX_CONNECTIONS)]
         for _, writer in idle:
             writer.write(b"GET / HTTP/1.1\r\nHost: loc")
-        reader, writer = await raw(page)
+        reader, writer = await open_raw(page)
         assert await reader.read() == b"", "there is no room"
         for reader, writer in idle:
             assert await reader.read() == b""
@@ -48,12 +58,12 @@ GET = b"GET /style.css HTTP/1.1\r\nHost: localhost\r\n\r\n"
 async def test_a_client_that_requests_and_does_not_read_is_closed_soon(
     requests: tuple[bytes, ...], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(server, "IDLE", 0.5)
-    monkeypatch.setattr(connection, "LONGEST", 0.7)
-    monkeypatch.setattr(server, "MOST_CONNECTIONS", MOST_WATCHERS)
+    monkeypatch.setattr(server, "IDLE_TIMEOUT", 0.5)
+    monkeypatch.setattr(connection, "MAX_UNWATCHED_TIME", 0.7)
+    monkeypatch.setattr(server, "MAX_CONNECTIONS", MAX_WATCHERS)
     async with served(scene=Scene("x" * 120_000, "default")) as (page, client, url):
         silent = []
-        for _ in range(MOST_WATCHERS):
+        for _ in range(MAX_WATCHERS):
             one = socket.socket()
             one.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
             one.setblocking(False)
@@ -79,9 +89,9 @@ async def test_a_client_that_requests_and_does_not_read_is_closed_soon(
 async def test_a_browser_that_reads_may_watch_longer_than_other_connections_last(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(server, "IDLE", 0.1)
-    monkeypatch.setattr(connection, "LONGEST", 0.2)
-    monkeypatch.setattr(watcher, "HEARTBEAT", 0.05)
+    monkeypatch.setattr(server, "IDLE_TIMEOUT", 0.1)
+    monkeypatch.setattr(connection, "MAX_UNWATCHED_TIME", 0.2)
+    monkeypatch.setattr(watcher, "MAX_FRAME_INTERVAL", 0.05)
     async with served() as (_, client, url), client.ws_connect(f"{url}ws") as watching:
         for _ in range(12):
             await watching.receive_str()
@@ -89,7 +99,7 @@ async def test_a_browser_that_reads_may_watch_longer_than_other_connections_last
 
 async def deaf(page: Page, room: int = 4096) -> Connection:
     """Connect a watcher that never reads."""
-    reader, writer = await raw(page)
+    reader, writer = await open_raw(page)
     writer.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, room)
     writer.transport.pause_reading()
     writer.write(handshake())
@@ -111,7 +121,7 @@ async def test_watchers_do_not_change_the_events_of_a_session() -> None:
 
 
 async def test_a_browser_that_reads_slowly_is_shown_less_and_the_newest(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(watcher, "INTERVAL", 0.001)
+    monkeypatch.setattr(watcher, "FRAME_INTERVAL", 0.001)
     async with served() as (page, _, _):
         reader, writer = await deaf(page, 65_536)
         (slow,) = page._watchers
@@ -136,8 +146,8 @@ async def test_a_browser_that_reads_slowly_is_shown_less_and_the_newest(monkeypa
 async def test_a_browser_that_reads_nothing_gets_nothing_more_and_is_let_go(
     monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    monkeypatch.setattr(watcher, "PATIENCE", 0.5)
-    monkeypatch.setattr(watcher, "INTERVAL", 0.001)
+    monkeypatch.setattr(watcher, "READ_TIMEOUT", 0.5)
+    monkeypatch.setattr(watcher, "FRAME_INTERVAL", 0.001)
     async with served(scene=Scene("x" * 20_000, "default")) as (page, client, url):
         _, writer = await deaf(page)
         async with client.ws_connect(f"{url}ws") as other:
@@ -159,10 +169,10 @@ async def test_a_page_closes_its_sockets_and_does_not_wait_for_a_browser_that_re
     async with ClientSession() as client:
         async with Page(Scene("", ""), port=0) as page:
             _, unread = await deaf(page)
-            idle = await raw(page)
+            idle = await open_raw(page)
             watching = await client.ws_connect(f"{page.url.partition('#')[0]}ws")
             await scene_of(watching)
-            answering = asyncio.create_task(closed(watching))
+            answering = asyncio.create_task(close_code(watching))
         assert await answering == 1001  # which the page takes for an end in order
         assert await idle[0].read() == b""
         unread.close()

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from browsers import Browser
-from shown import after, between, opened, show
+from shown import open_page, packets_between, scene_after, show
 
 from solepath import Disconnected
 from solepath.types import SITE_OF_FOOT, Foot
 
 FIGURES = ("cadence", "speed")
-WATCH = """() => {
+WATCH_SCRIPT = """() => {
     window.unlike = [];
     window.changes = 0;
     const words = (id) => document.getElementById(id).textContent;
@@ -27,12 +27,12 @@ WATCH = """() => {
 
 
 async def test_the_page_shows_no_walking_while_no_sensor_sends(chromium: Browser) -> None:
-    scene = after(12.0)
-    async with opened(chromium, scene) as (view, _):
+    scene = scene_after(12.0)
+    async with open_page(chromium, scene) as (view, _):
         await view.until("document.getElementById('activity').textContent === 'Walking'")
         assert all([float(await view.text(name)) > 0.0 for name in FIGURES])
         rows = await view.tab.locator("#gait-rows tr").all_inner_texts()
-        assert rows[0].split()[:3] == ["strides", *[str(n) for n in strides(scene.whole()[0]["frame"]["gait"])]]
+        assert rows[0].split()[:3] == ["strides", *[str(n) for n in strides(scene.whole_message()[0]["frame"]["gait"])]]
         angle = next(row for row in rows if row.startswith("toe-off"))
         assert angle.rstrip().endswith("°"), "degrees, not a share of an angle"
         assert "settle with 30 and more" in await view.text("gait-note")
@@ -49,21 +49,21 @@ async def test_the_page_shows_no_walking_while_no_sensor_sends(chromium: Browser
 
 
 async def test_all_see_the_colours_that_the_session_chose(chromium: Browser) -> None:
-    scene = after(12.0)
-    top = scene.scales.units["kPa"].top
+    scene = scene_after(12.0)
+    top = scene.scales.units["kPa"].end
     scale_text = f"document.getElementById('scale-top').textContent.endsWith('{top:.0f} kPa')"
-    async with opened(chromium, scene) as (first, _):
+    async with open_page(chromium, scene) as (first, _):
         await first.until(scale_text)
-        async with opened(chromium, scene) as (late, _):
+        async with open_page(chromium, scene) as (late, _):
             await late.until(scale_text)
 
 
 async def test_picture_and_words_of_a_sole_are_of_one_moment(chromium: Browser) -> None:
-    scene = after(6.0)
-    async with opened(chromium, scene) as (view, _):
+    scene = scene_after(6.0)
+    async with open_page(chromium, scene) as (view, _):
         await view.until("document.getElementById('sole-left').ariaLabel.includes(' newton')")
-        await view.tab.evaluate(WATCH)
-        await show(scene, between(6.0, 10.0))
+        await view.tab.evaluate(WATCH_SCRIPT)
+        await show(scene, packets_between(6.0, 10.0))
         await view.until("window.changes >= 4")
         assert await view.tab.evaluate("window.unlike") == []
 

@@ -9,7 +9,7 @@ from math import radians
 from attrs import evolve
 from hypothesis import given
 from hypothesis import strategies as st
-from page_events import moved
+from page_events import foot_moved
 from shown import frame, shown
 from walks import insoles
 
@@ -32,7 +32,7 @@ from solepath import (
 from solepath.body.gait.means import GaitMeans
 from solepath.emulate.routes.route import Route
 from solepath.emulate.sensors.insoles import layout
-from solepath.show.page.scene.scales import LEAST, scale_end
+from solepath.show.page.scene.scales import FIRST_ENDS, scale_end
 from solepath.show.page.scene.scene import Scene
 from solepath.show.tables.gait import MIN_STRIDES, gait_lines, gait_rows
 
@@ -45,7 +45,7 @@ def walk() -> tuple[Event, ...]:
     return tuple(Session(poses=True, pressures=True).feed(insoles(WALK).packets))
 
 
-def until(t: float) -> Scene:
+def scene_until(t: float) -> Scene:
     return shown([event for event in walk() if event.known_at <= t])
 
 
@@ -54,24 +54,26 @@ def changed(t: float, activity: Activity) -> ActivityChanged:
 
 
 def test_the_activity_is_unknown_while_no_foot_sends() -> None:
-    scene = shown([moved(1.0), moved(1.0, RIGHT), changed(1.0, Activity.WALKING)])
+    scene = shown([foot_moved(1.0), foot_moved(1.0, RIGHT), changed(1.0, Activity.WALKING)])
     assert frame(scene)["activity"] == {"now": "WALKING", "since": 1.0, "last": None}
-    shown([moved(1.0 + 0.1 * k) for k in range(60)], scene)
+    shown([foot_moved(1.0 + 0.1 * k) for k in range(60)], scene)
     assert frame(scene)["activity"]["now"] == "WALKING", "the other foot is heard"
     scene.tick(12.0)
     assert frame(scene)["activity"] == {"now": "UNKNOWN", "since": 6.9, "last": "WALKING"}
-    shown([moved(12.5)], scene)
+    shown([foot_moved(12.5)], scene)
     assert frame(scene)["activity"] == {"now": "WALKING", "since": 1.0, "last": None}
 
 
 def test_a_lost_connection_ends_what_is_known_at_once() -> None:
-    scene = shown([moved(1.0), changed(1.0, Activity.WALKING), Disconnected(t=1.2, known_at=1.2, site=Site.LEFT_FOOT)])
+    scene = shown(
+        [foot_moved(1.0), changed(1.0, Activity.WALKING), Disconnected(t=1.2, known_at=1.2, site=Site.LEFT_FOOT)]
+    )
     assert frame(scene)["activity"]["last"] == "WALKING"
     assert frame(scene)["pace"] is None
 
 
 def test_the_pace_is_that_of_the_newest_strides() -> None:
-    scene = until(8.0)
+    scene = scene_until(8.0)
     strides = [event for event in walk() if isinstance(event, GaitCycleMeasured) and event.known_at <= 8.0]
     newest = [[one for one in strides if one.foot is foot][-2:] for foot in Foot]
     assert [len(some) for some in newest] == [2, 2]
@@ -82,12 +84,12 @@ def test_the_pace_is_that_of_the_newest_strides() -> None:
 
 
 def test_a_wearer_who_stands_or_whose_sensors_are_silent_has_no_pace() -> None:
-    assert frame(until(1.2))["pace"] is None
+    assert frame(scene_until(1.2))["pace"] is None
     assert frame(shown(walk()))["pace"] is None
-    scene = until(8.0)
+    scene = scene_until(8.0)
     scene.tick(10.0)
     assert frame(scene)["pace"] is None
-    scene = shown([changed(7.9, Activity.STANDING)], until(8.0))
+    scene = shown([changed(7.9, Activity.STANDING)], scene_until(8.0))
     assert frame(scene)["pace"] is None, "no stride came since"
 
 
@@ -97,7 +99,7 @@ def pressed(t: float, foot: Foot, kilopascals: list[float]) -> FootPressed:
     return FootPressed(t=t, known_at=t, foot=foot, values=values, force=sum(values), centre=None)
 
 
-def worn() -> list[Event]:
+def layout_events() -> list[Event]:
     known = [event for event in walk() if isinstance(event, LayoutKnown)]
     assert all(event.layout.scale is not None for event in known)
     return list(known)
@@ -106,19 +108,19 @@ def worn() -> list[Event]:
 def test_one_cell_with_a_peak_does_not_make_the_forefoot_pale() -> None:
     forefoot = [300.0] * 30 + [0.0] * 66
     peaked = [1500.0, *forefoot[1:]]
-    scene = shown([*worn(), *[pressed(2.0 + 0.01 * k, LEFT, peaked) for k in range(500)]])
+    scene = shown([*layout_events(), *[pressed(2.0 + 0.01 * k, LEFT, peaked) for k in range(500)]])
     assert frame(scene)["scales"] == {"kPa": {"top": 400.0, "beyond": True}}
-    scene = shown([*worn(), *[pressed(2.0 + 0.01 * k, LEFT, forefoot) for k in range(500)]])
+    scene = shown([*layout_events(), *[pressed(2.0 + 0.01 * k, LEFT, forefoot) for k in range(500)]])
     assert frame(scene)["scales"] == {"kPa": {"top": 400.0, "beyond": False}}
 
 
 def test_a_knock_of_a_hundredth_of_a_second_does_not_either() -> None:
     knock = [pressed(2.0, LEFT, [900.0] * 96), pressed(2.01, LEFT, [10.0] * 96)]
-    assert frame(shown([*worn(), *knock, *knock, *knock]))["scales"]["kPa"]["top"] == LEAST["kPa"]
+    assert frame(shown([*layout_events(), *knock, *knock, *knock]))["scales"]["kPa"]["top"] == FIRST_ENDS["kPa"]
 
 
 def test_a_scale_is_for_both_feet_and_only_grows() -> None:
-    scene, tops = shown(worn()), []
+    scene, tops = shown(layout_events()), []
     for event in walk():
         scene.take(None, [event])
         tops.append(frame(scene)["scales"]["kPa"]["top"] if isinstance(event, GaitCycleMeasured) else None)
@@ -137,7 +139,7 @@ def test_a_scale_ends_at_a_round_number_that_is_not_far_above(value: float) -> N
 
 
 def test_cells_that_nobody_turns_into_newtons_end_in_counts() -> None:
-    known = [event for event in worn() if isinstance(event, LayoutKnown)]
+    known = [event for event in layout_events() if isinstance(event, LayoutKnown)]
     bare = [evolve(event, layout=evolve(event.layout, scale=None)) for event in known]
     scene = shown([*bare, *[pressed(2.0 + 0.01 * k, LEFT, [300.0] * 96) for k in range(5)]])
     assert [*frame(scene)["scales"]] == ["counts"]
@@ -149,7 +151,7 @@ def test_a_loss_is_that_of_the_last_ten_seconds() -> None:
     def feed_samples(start: float, end: float) -> None:
         for k in range(round(100 * (end - start))):
             t = start + 0.01 * k
-            scene.take(Packet(t + 0.02, Site.LEFT_FOOT, "insole/frame", b""), [moved(t, known_at=t + 0.02)])
+            scene.take(Packet(t + 0.02, Site.LEFT_FOOT, "insole/frame", b""), [foot_moved(t, known_at=t + 0.02)])
 
     feed_samples(0.0, 2.0)
     shown([PacketsLost(t=12.0, known_at=12.0, site=Site.LEFT_FOOT, channel="insole/frame", count=1000)], scene)
@@ -165,7 +167,7 @@ def test_a_loss_is_that_of_the_last_ten_seconds() -> None:
 
 
 def strides(feet: tuple[Foot, ...], count: int, angles: tuple[float, float] = (0.1, -0.05)) -> list[GaitCycleMeasured]:
-    """Return steady strides, one more of each foot than will count."""
+    """Return strides of each foot, one more than the `count` that are steady."""
     first = next(event for event in walk() if isinstance(event, GaitCycleMeasured) and event.steady)
     angle = dict(zip(Foot, angles, strict=True))
     return [

@@ -11,7 +11,7 @@ from typing import Any
 from attrs import evolve
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from page_events import eventful, rough
+from page_events import events_of_all_kinds, rough_walk
 from shown import later, shown
 
 from solepath import (
@@ -30,31 +30,31 @@ from solepath import (
 )
 from solepath.emulate.routes.building import BUILDING
 from solepath.show.page.messages import encode
-from solepath.show.page.scene.lists import MOST_POINTS, RECENT
-from solepath.show.page.scene.log import MOST_LINES
+from solepath.show.page.scene.lists import MAX_BEHIND, MAX_POINTS
+from solepath.show.page.scene.log import MAX_LINES
 from solepath.show.page.scene.scene import Scene
 
 LISTS = ("phases", "tracks", "places", "log")
 
 
 def step(t: float, x: float, foot: Foot = Foot.LEFT) -> StrideTaken:
-    """Return a stride that ends at x m."""
-    first = next(event for event in rough()[1] if isinstance(event, StrideTaken))
+    """Return a stride that ends at `x`, m, at time `t`, s."""
+    first = next(event for event in rough_walk()[1] if isinstance(event, StrideTaken))
     return evolve(first, foot=foot, t=t, known_at=t, t_start=t - 1.0, t_end=t, position=(x, 0.0, 0.0))
 
 
 class Reader:
-    """Does what protocol/page.md tells a page to do."""
+    """A page as protocol/page.md describes it, without any drawing."""
 
     def __init__(self) -> None:
         self.scene: dict[str, Any] = {}
-        self.wholes = 0
+        self.scene_count = 0
 
     def take(self, text: str) -> None:
         message = json.loads(text)
         if message["type"] == "scene":
             self.scene = message
-            self.wholes += 1
+            self.scene_count += 1
             return
         now = self.scene["frame"]
         for key, value in message.items():
@@ -80,26 +80,26 @@ class Reader:
 
 
 @cache
-def long_way() -> list[Event]:
-    return [step(1.0 + k, 0.7 * k) for k in range(MOST_POINTS + 2 * RECENT)]
+def long_track() -> list[Event]:
+    return [step(1.0 + k, 0.7 * k) for k in range(MAX_POINTS + 2 * MAX_BEHIND)]
 
 
-def agree(events: list[Event], looks: list[int], scene: Scene | None = None) -> Reader:
-    """Check that a watcher who reads after so many events each ends with the scene of one who comes at the end."""
+def agree(events: list[Event], read_indices: list[int], scene: Scene | None = None) -> Reader:
+    """Check that a watcher who reads after each of these events ends with the scene of a watcher who comes last."""
     scene = Scene("a walk", "default", plan=BUILDING) if scene is None else scene
     reader = Reader()
-    message, cursor = scene.whole()
+    message, cursor = scene.whole_message()
     reader.take(encode(message))
     for index, event in enumerate(events):
         scene.take(None, [event])
-        for _ in range(looks.count(index)):
-            news, cursor = scene.since(cursor)
+        for _ in range(read_indices.count(index)):
+            news, cursor = scene.message_since(cursor)
             if news is not None:
                 reader.take(encode(news))
-    news, cursor = scene.since(cursor)
+    news, cursor = scene.message_since(cursor)
     if news is not None:
         reader.take(encode(news))
-    late = json.loads(encode(scene.whole()[0]))
+    late = json.loads(encode(scene.whole_message()[0]))
     for one in (late, reader.scene):
         for key in LISTS:
             one["frame"].pop(key, None)
@@ -111,60 +111,60 @@ def agree(events: list[Event], looks: list[int], scene: Scene | None = None) -> 
 @settings(max_examples=8)
 @given(st.data())
 def test_the_changes_add_up_to_the_scene_of_a_late_watcher(data: st.DataObject) -> None:
-    events = eventful()
-    looks = data.draw(st.lists(st.integers(0, len(events) - 1), max_size=40))
-    agree(events, looks)
+    events = events_of_all_kinds()
+    read_indices = data.draw(st.lists(st.integers(0, len(events) - 1), max_size=40))
+    agree(events, read_indices)
 
 
 @settings(max_examples=8)
-@given(st.lists(st.integers(0, MOST_POINTS + 2 * RECENT), max_size=30))
-def test_a_long_track_is_thinned_alike_on_both_sides(looks: list[int]) -> None:
-    agree(long_way(), looks)
+@given(st.lists(st.integers(0, MAX_POINTS + 2 * MAX_BEHIND), max_size=30))
+def test_a_long_track_is_thinned_alike_on_both_sides(read_indices: list[int]) -> None:
+    agree(long_track(), read_indices)
 
 
 def test_a_page_that_is_far_behind_gets_the_whole_scene_again() -> None:
-    events: list[Event] = [step(1.0 + k, 0.7 * k) for k in range(RECENT + 10)]
-    assert agree(events, []).wholes == 2
-    assert agree(events, [RECENT // 2]).wholes == 1
+    events: list[Event] = [step(1.0 + k, 0.7 * k) for k in range(MAX_BEHIND + 10)]
+    assert agree(events, []).scene_count == 2
+    assert agree(events, [MAX_BEHIND // 2]).scene_count == 1
 
 
 def test_a_page_that_drew_no_soles_draws_again_when_the_cells_are_known() -> None:
-    known = [event for event in rough()[1] if isinstance(event, LayoutKnown) and event.site is Site.LEFT_FOOT]
+    known = [event for event in rough_walk()[1] if isinstance(event, LayoutKnown) and event.site is Site.LEFT_FOOT]
     reader = agree(list(known), [0])
-    assert reader.wholes == 2
+    assert reader.scene_count == 2
     assert len(reader.scene["layouts"]["left"]["cells"]) == 96
     assert reader.scene["layouts"]["left"]["unit"] == "N"
     scene = shown(known)
-    _, cursor = scene.whole()
-    news, _ = shown(known, scene).since(cursor)  # the same once more
+    _, cursor = scene.whole_message()
+    news, _ = shown(known, scene).message_since(cursor)  # the same once more
     assert news is None or news["type"] == "frame"
 
 
 def test_nothing_new_is_no_message() -> None:
-    scene = shown(rough()[1])
-    _, cursor = scene.whole()
-    assert scene.since(cursor) == (None, cursor)
+    scene = shown(rough_walk()[1])
+    _, cursor = scene.whole_message()
+    assert scene.message_since(cursor) == (None, cursor)
     scene.tick(scene.now)
-    assert scene.since(cursor)[0] is None
+    assert scene.message_since(cursor)[0] is None
 
 
 def test_hours_of_walking_do_not_make_a_scene_larger() -> None:
     many = FootMoved | FootPressed | PacketsLost | PacketRejected | SampleGap
-    once = [event for event in eventful() if not isinstance(event, many)]
+    once = [event for event in events_of_all_kinds() if not isinstance(event, many)]
     length = once[-1].known_at + 1.0
     scene, sizes = Scene("hours", "default", plan=BUILDING), []
     for lap in range(500):
-        for event in eventful() if lap % 125 == 124 else once:
+        for event in events_of_all_kinds() if lap % 125 == 124 else once:
             event = later(event, lap * length)
             if isinstance(event, StrideTaken | WearerMoved | Placed):
                 x, y, z = event.position
                 event = evolve(event, position=(x + lap, y, z))
             scene.take(None, [event])
         if lap % 125 == 124:
-            message = scene.whole()[0]
-            assert all(len(track) <= MOST_POINTS for track in message["tracks"].values())
-            assert len(message["places"]) <= MOST_POINTS
-            assert len(message["log"]) == MOST_LINES
+            message = scene.whole_message()[0]
+            assert all(len(track) <= MAX_POINTS for track in message["tracks"].values())
+            assert len(message["places"]) <= MAX_POINTS
+            assert len(message["log"]) == MAX_LINES
             assert all(len(phases) < 100 for phases in message["phases"].values())
             sizes.append(len(pickle.dumps(scene)))
     assert max(sizes[2:]) < 1.3 * max(sizes[:2])
@@ -174,11 +174,11 @@ def test_hours_of_walking_do_not_make_a_scene_larger() -> None:
 def test_a_plan_is_drawn_and_written_once_whoever_watches() -> None:
     plan = evolve(BUILDING, name="drawn once")
     scene = Scene("along a corridor", "default", plan=plan)
-    first, _ = scene.whole()
+    first, _ = scene.whole_message()
     copied = deepcopy(scene)
     assert copied.plan is plan
     for one in (scene, copied):
-        message, _ = one.whole()
+        message, _ = one.whole_message()
         assert message["plan"] is first["plan"]
         assert json.loads(encode(message)) == json.loads(json.dumps(message))
         assert message["plan"].text is first["plan"].text

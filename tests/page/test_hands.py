@@ -9,7 +9,7 @@ from contextlib import asynccontextmanager
 from typing import Any
 
 from browsers import Browser, Window
-from shown import CONNECTED, after, meanwhile, opened, placed, walked
+from shown import CONNECTED, meanwhile, open_page, scene_after, scene_on_plan, walked
 
 from solepath import Session
 from solepath.emulate.routes.route import Route
@@ -18,9 +18,9 @@ from solepath.show.page.player.player import Player
 from solepath.show.page.player.player_loop import PlayerLoop
 from solepath.show.page.scene.scene import Playback, Scene
 
-NARROW = 360
+NARROW_WIDTH = 360
 """Width of a narrow window, px."""
-FAINT = """() => {
+FIND_FAINT_TEXTS = """() => {
     const pen = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
     const luminance = (colours) => {
         for (const colour of ["#fff", ...colours]) {
@@ -48,7 +48,7 @@ FAINT = """() => {
 """Script that finds texts with less contrast than WCAG 2.2 requires at level AA (1.4.3)."""
 
 
-COVERED = """() => {
+FIND_COVER = """() => {
     const at = document.activeElement, { x, y, width, height } = at.getBoundingClientRect();
     for (const share of [0.1, 0.5, 0.9]) {
         const on = document.elementFromPoint(x + width / 2, y + share * height);
@@ -56,7 +56,7 @@ COVERED = """() => {
     }
     return null;
 }"""
-"""Script that finds what hides a part of the control that has the focus, or null."""
+"""Script that returns what hides a part of the control that has the focus, or null."""
 
 WALK = Route().stand(1.0).walk(16.0, 1.3).stop(2.0)
 """Walk of about 16 s."""
@@ -64,12 +64,12 @@ WALK = Route().stand(1.0).walk(16.0, 1.3).stop(2.0)
 
 @asynccontextmanager
 async def played(chromium: Browser, **given: Any) -> AsyncIterator[tuple[Window, Playback]]:
-    """Yield a page that plays a recording of WALK, and its player's state; `given` goes to `opened`."""
+    """Yield a page that plays a recording of WALK, and its player's state; `given` goes to `open_page`."""
     packets = PackedItems(walked(WALK, cells=16))
     player = Player(packets, Session(poses=True, pressures=True), Scene("a recording", "default", "recording"))
     playing = PlayerLoop(player)
     async with (
-        opened(chromium, player.scene, playing.command, **given) as (view, page),
+        open_page(chromium, player.scene, playing.command, **given) as (view, page),
         meanwhile(playing.run(page, asyncio.Event())),
     ):
         await view.tab.locator("#playback").wait_for(state="visible")
@@ -98,9 +98,9 @@ async def test_the_space_bar_pauses_and_goes_on_and_the_arrows_seek(chromium: Br
 
 
 async def test_during_a_seek_the_page_shows_its_position_and_its_target(chromium: Browser) -> None:
-    scene = after(22.0)
+    scene = scene_after(22.0)
     scene.playback = Playback(start=0.0, end=150.0, t=22.0, state="playing", seeking=115.0)
-    async with opened(chromium, scene, width=NARROW, height=740) as (view, _):
+    async with open_page(chromium, scene, width=NARROW_WIDTH, height=740) as (view, _):
         await view.until("document.getElementById('seeking').innerText === 'Going to 1:55, now at 0:22'")
         await view.until("document.querySelector('main').ariaBusy === 'true'")
         await view.until("document.getElementById('announcer').textContent.includes('Going to 1:55')")
@@ -120,7 +120,7 @@ async def test_the_speed_is_chosen_from_a_list(chromium: Browser) -> None:
 
 
 async def test_plus_minus_and_zero_zoom_the_track(chromium: Browser) -> None:
-    async with opened(chromium, after(20.0)) as (view, _):
+    async with open_page(chromium, scene_after(20.0)) as (view, _):
         await view.until("Number(document.getElementById('track').dataset.points) > 0")
         for key in "+-":
             await view.tab.keyboard.press(key)
@@ -130,13 +130,13 @@ async def test_plus_minus_and_zero_zoom_the_track(chromium: Browser) -> None:
 
 
 async def test_the_tab_key_reaches_every_control_in_the_order_of_the_page(chromium: Browser) -> None:
-    async with played(chromium, width=NARROW, height=800) as (view, _):
+    async with played(chromium, width=NARROW_WIDTH, height=800) as (view, _):
         await view.tab.keyboard.press("Space")
         await view.until("document.getElementById('play').ariaLabel === 'Play'")
-        assert await view.tab.evaluate("document.scrollingElement.scrollWidth") <= NARROW
+        assert await view.tab.evaluate("document.scrollingElement.scrollWidth") <= NARROW_WIDTH
         # so that some of them lie where the playback bar is
         low = await view.tab.evaluate("document.getElementById('zoom').getBoundingClientRect().bottom")
-        await view.tab.set_viewport_size({"width": NARROW, "height": round(low) + 10})
+        await view.tab.set_viewport_size({"width": NARROW_WIDTH, "height": round(low) + 10})
         controls = await view.tab.evaluate(
             """() => [...document.querySelectorAll("a[href], button, input, select, summary, [tabindex]")]
                 .filter((one) => one.checkVisibility() && !one.disabled && one.tabIndex >= 0)
@@ -151,7 +151,7 @@ async def test_the_tab_key_reaches_every_control_in_the_order_of_the_page(chromi
                 "() => { const at = document.activeElement, style = getComputedStyle(at);"
                 " return style.outlineStyle !== 'none' || style.boxShadow !== 'none'; }"
             ), f"nothing shows where the focus is: {await view.tab.evaluate('document.activeElement.outerHTML')}"
-            assert await view.tab.evaluate(COVERED) is None
+            assert await view.tab.evaluate(FIND_COVER) is None
         assert reached == controls
 
 
@@ -166,7 +166,7 @@ async def test_a_page_that_may_only_watch_pauses_nothing(chromium: Browser) -> N
 
 
 async def test_a_screen_reader_finds_landmarks_pictures_in_words_and_a_table(chromium: Browser) -> None:
-    async with opened(chromium, after(40.0)) as (view, _):
+    async with open_page(chromium, scene_after(40.0)) as (view, _):
         await view.until("[...document.querySelectorAll('canvas')].every((one) => !one.ariaLabel.includes('yet'))")
         names = await view.names()
         roles = [role for role, _ in names]
@@ -188,20 +188,20 @@ async def test_a_phone_has_nothing_to_scroll_sideways_light_and_dark(chromium: B
         grounds = []
         for scheme in ("light", "dark"):
             await view.tab.emulate_media(color_scheme=scheme)
-            assert await view.tab.evaluate("document.scrollingElement.scrollWidth") <= NARROW
+            assert await view.tab.evaluate("document.scrollingElement.scrollWidth") <= NARROW_WIDTH
             ground = await view.tab.evaluate("getComputedStyle(document.body).backgroundColor")
             grounds.append(sum(map(int, re.findall(r"\d+", ground)[:3])))
         assert grounds[0] > 3 * 200 and grounds[1] < 3 * 55
 
-    for scene in (after(40.0), placed(29.0)):
-        async with opened(chromium, scene, width=NARROW, height=740) as (view, _):
+    for scene in (scene_after(40.0), scene_on_plan(29.0)):
+        async with open_page(chromium, scene, width=NARROW_WIDTH, height=740) as (view, _):
             await view.until("document.querySelectorAll('#gait-rows tr').length > 0")
             await narrow(view)
 
 
 async def test_every_text_stands_out_from_its_ground_light_and_dark(chromium: Browser) -> None:
     for dark in (False, True):
-        async with opened(chromium, after(40.0), dark=dark) as (view, _):
+        async with open_page(chromium, scene_after(40.0), dark=dark) as (view, _):
             await view.until("document.querySelectorAll('#gait-rows tr').length > 0")
             await view.tab.locator("summary").click()
-            assert await view.tab.evaluate(FAINT) == []
+            assert await view.tab.evaluate(FIND_FAINT_TEXTS) == []

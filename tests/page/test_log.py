@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import pi
 
 from attrs import evolve
-from page_events import eventful, moved
+from page_events import events_of_all_kinds, foot_moved
 from shown import shown
 
 from solepath import (
@@ -25,7 +25,7 @@ from solepath.types import Turn
 
 
 def test_every_event_is_either_a_sentence_or_none() -> None:
-    lines = [line for event in eventful() if (line := sentence(event)) is not None]
+    lines = [line for event in events_of_all_kinds() if (line := sentence(event)) is not None]
     assert {kind for kind, _ in lines} <= {"link", "wear", "gait", "place"}
     assert all(text and "\n" not in text and "_" not in text for _, text in lines)
 
@@ -49,8 +49,8 @@ def test_a_silence_that_the_link_reported_is_not_reported_again_for_the_foot() -
     stale = StreamStale(t=1.0, known_at=2.0, site=Site.LEFT_FOOT, silent_for=1.0)
     silent = FootSilent(t=1.0, known_at=2.5, foot=Foot.LEFT, silent_for=1.5)
     resumed = FootResumed(t=3.0, known_at=3.0, foot=Foot.LEFT, silent_for=2.0)
-    assert len(shown([moved(0.5), stale, silent]).log.lines.items) == 1
-    assert len(shown([moved(1.9), moved(2.5), silent, resumed]).log.lines.items) == 2
+    assert len(shown([foot_moved(0.5), stale, silent]).log.lines.items) == 1
+    assert len(shown([foot_moved(1.9), foot_moved(2.5), silent, resumed]).log.lines.items) == 2
 
 
 def test_a_device_name_cannot_break_a_line() -> None:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 from browsers import Browser
-from shown import fresh, opened
+from shown import empty_scene, open_page
 
-PLAYED = """async ([speed, real, paused]) => {
+PLAY_SCRIPT = """async ([speed, real, paused]) => {
     const { Pace } = await import("/pace.js");
     const pace = new Pace();
     const state = { generation: 1, t: 0, playback: { state: "playing", speed, t: 0, seeking: null } };
@@ -34,8 +34,8 @@ PLAYED = """async ([speed, real, paused]) => {
 async def test_what_scrolls_keeps_to_what_was_played_also_where_it_cannot_be_played_so_fast(
     chromium: Browser, paused: bool
 ) -> None:
-    async with opened(chromium, fresh()) as (view, _):
+    async with open_page(chromium, empty_scene()) as (view, _):
         for speed, real, off in ((1.0, 1.0, 0.05), (16.0, 16.0, 0.6), (16.0, 8.0, 0.3), (32.0, 2.5, 0.3)):
-            played = await view.tab.evaluate(PLAYED, [speed, real, paused])
+            played = await view.tab.evaluate(PLAY_SCRIPT, [speed, real, paused])
             assert -off < played["least"] and played["most"] < off
             assert played["back"] <= (0.1 if paused else 0.0)

@@ -17,75 +17,75 @@ from solepath.emulate.sensors.insole_device import Insole
 from solepath.emulate.walk import emulate, sampled
 from solepath.show.page.messages import Command
 from solepath.show.page.player import player as playing
-from solepath.show.page.player.packed_items import CHUNK, PackedItems
-from solepath.show.page.player.player import FASTEST, SLOWEST, Player
+from solepath.show.page.player.packed_items import CHUNK_SIZE, PackedItems
+from solepath.show.page.player.player import MAX_SPEED, MIN_SPEED, Player
 from solepath.show.page.scene.scene import Scene
 
 ROUTE = Route().stand(0.5).walk(2.0, speed=1.3).stop(0.5)
 BAD_RADIO = Radio(loss=0.05, duplicate=0.01, corrupt=0.01, jitter=0.03)
 INSOLES = dict.fromkeys((Site.LEFT_FOOT, Site.RIGHT_FOOT), Insole(cells=24, rate=40.0))
-SILENT = (1.0, 2.9)
-"""Time in which nothing comes of the left foot, s."""
+SILENT_SPAN = (1.0, 2.9)
+"""Time from and to which the left foot sends nothing, s."""
 PACKETS = tuple(
     packet
     for packet in emulate(ROUTE, devices=INSOLES, radio=BAD_RADIO, seed=5).packets
-    if packet.site is Site.RIGHT_FOOT or not SILENT[0] < packet.t < SILENT[1]
+    if packet.site is Site.RIGHT_FOOT or not SILENT_SPAN[0] < packet.t < SILENT_SPAN[1]
 )
-WALL = 0.05
+CLOCK_INTERVAL = 0.05
 """Time between two reads of the clock, s."""
 
 
 def slices(items: int) -> Callable[[], bool]:
-    """Return a function that stops after so many items."""
-    looks = count(1)
-    return lambda: next(looks) >= items
+    """Return a function that returns True from its call number `items` on."""
+    counter = count(1)
+    return lambda: next(counter) >= items
 
 
 def never() -> bool:
     return False
 
 
-def player(items: PackedItems | None = None, **given: object) -> Player:
+def make_player(items: PackedItems | None = None, **given: object) -> Player:
     session = Session(poses=True, pressures=True)
     return Player(
         PackedItems(PACKETS) if items is None else items, session, Scene("a walk", "default", "recording"), **given
     )
 
 
-def play_until(one: Player, t: float) -> None:
-    """Play in real time, and on to the moment `t` itself."""
-    one.play()
-    while one.playback.t + WALL * one.playback.speed < t:
-        pass_by(one, WALL)
-    pass_by(one, (t - one.playback.t) / one.playback.speed)
+def play_until(player: Player, t: float) -> None:
+    """Play in real time, and end exactly at the time `t`, s."""
+    player.play()
+    while player.playback.t + CLOCK_INTERVAL * player.playback.speed < t:
+        pass_by(player, CLOCK_INTERVAL)
+    pass_by(player, (t - player.playback.t) / player.playback.speed)
 
 
-def settle(one: Player, items: int = 100) -> None:
-    while one.feed_due(slices(items)):
+def settle(player: Player, items: int = 100) -> None:
+    while player.feed_due(slices(items)):
         pass
 
 
-def pass_by(one: Player, seconds: float) -> None:
-    """Let so much wall time pass, s, in which the player keeps up."""
-    one.advance(seconds)
-    one.feed_due(never)
+def pass_by(player: Player, seconds: float) -> None:
+    """Let wall time pass, s; the player keeps up."""
+    player.advance(seconds)
+    player.feed_due(never)
 
 
-def stop_at(one: Player, t: float, items: int = 100) -> None:
-    one.pause()
-    one.seek(t)
-    settle(one, items)
+def stop_at(player: Player, t: float, items: int = 100) -> None:
+    player.pause()
+    player.seek(t)
+    settle(player, items)
 
 
-def run_out(one: Player) -> None:
-    while one.run_through(slices(1000)):
+def run_out(player: Player) -> None:
+    while player.run_through(slices(1000)):
         pass
 
 
-def shown(one: Player) -> dict:
-    """Return what a new watcher sees, without how the player came there."""
-    message, _ = one.scene.whole()
-    message["frame"]["playback"] = (one.playback.t, one.playback.seeking)
+def shown(player: Player) -> dict:
+    """Return the message that a new watcher gets, without the state and the speed of the playback."""
+    message, _ = player.scene.whole_message()
+    message["frame"]["playback"] = (player.playback.t, player.playback.seeking)
     return message
 
 
@@ -94,16 +94,16 @@ START = PackedItems(PACKETS).start
 
 
 @cache
-def straight(t: float) -> tuple[dict, dict]:
+def state_without_commands(t: float) -> tuple[dict, dict]:
     """Return scene and snapshot at `t` of a run without commands."""
-    one = player()
+    player = make_player()
     if t > START:
-        one.speed(8.0)
-        play_until(one, t)
+        player.set_speed(8.0)
+        play_until(player, t)
     else:
-        one.feed_due(never)
-    assert one.playback.t == pytest.approx(t, abs=1e-9)
-    return shown(one), one.session.snapshot()
+        player.feed_due(never)
+    assert player.playback.t == pytest.approx(t, abs=1e-9)
+    return shown(player), player.session.snapshot()
 
 
 TIMES = st.sampled_from([START, *(round(START + share * (END - START), 3) for share in (0.1, 0.3, 0.5, 0.7, 0.9)), END])
@@ -121,105 +121,105 @@ ACTIONS = st.one_of(
 @settings(max_examples=10)
 @given(actions=st.lists(ACTIONS, max_size=8), end=TIMES)
 def test_what_is_shown_at_a_time_is_the_same_whatever_was_played_before(actions, end):
-    one = player(spacing=0.7)  # a walk of four seconds has one moment otherwise
+    player = make_player(spacing=0.7)  # a walk of four seconds has one moment otherwise
     for action in actions:
         if isinstance(action, Command):
-            one.command(action)
+            player.command(action)
         elif isinstance(action, float):
-            one.advance(action)
-            settle(one)
+            player.advance(action)
+            settle(player)
         else:
-            one.feed_due(slices(action))
-        one.scene.whole()  # somebody watches
-    stop_at(one, end)
-    assert one.playback.t == end and one.playback.seeking is None
-    assert (shown(one), one.session.snapshot()) == straight(end)
+            player.feed_due(slices(action))
+        player.scene.whole_message()  # somebody watches
+    stop_at(player, end)
+    assert player.playback.t == end and player.playback.seeking is None
+    assert (shown(player), player.session.snapshot()) == state_without_commands(end)
 
 
 @settings(max_examples=5)
 @given(actions=st.lists(ACTIONS, max_size=6))
 def test_items_are_passed_on_once_and_in_order_whatever_is_done_on_the_page(actions):
     passed_on: list[tuple[Packet | Sample | None, list[Event]]] = []
-    one = player(spacing=0.7, on_events=lambda item, events: passed_on.append((item, events)))
+    player = make_player(spacing=0.7, on_events=lambda item, events: passed_on.append((item, events)))
     for action in actions:
         if isinstance(action, Command):
-            one.command(action)
+            player.command(action)
         else:
-            one.advance(5.0 * action)
-            one.feed_due(slices(80))
-    while one.run_through(slices(500)):
-        assert one.done < len(PACKETS) or one.playback.state != "ended"
-    assert one.done == len(PACKETS)
+            player.advance(5.0 * action)
+            player.feed_due(slices(80))
+    while player.run_through(slices(500)):
+        assert player.delivered_count < len(PACKETS) or player.playback.state != "ended"
+    assert player.delivered_count == len(PACKETS)
     assert [item for item, _ in passed_on] == [*PACKETS, None]
     session = Session(poses=True, pressures=True)
     assert [events for _, events in passed_on] == [*(session.feed(packet) for packet in PACKETS), session.finish()]
 
 
 def test_a_recording_plays_at_the_requested_speed_and_stops_at_its_end():
-    one = player()
-    assert (one.playback.state, one.playback.speed, one.playback.t) == ("playing", 1.0, START)
-    one.feed_due(never)
-    pass_by(one, 0.1)
-    assert one.playback.t == pytest.approx(START + 0.1)
-    one.speed(10.0)
-    pass_by(one, 0.1)
-    assert one.playback.t == pytest.approx(START + 1.1)
-    one.pause()
-    one.advance(0.1)
-    assert not one.feed_due(never) and one.playback.t == pytest.approx(START + 1.1)
-    one.play()
+    player = make_player()
+    assert (player.playback.state, player.playback.speed, player.playback.t) == ("playing", 1.0, START)
+    player.feed_due(never)
+    pass_by(player, 0.1)
+    assert player.playback.t == pytest.approx(START + 0.1)
+    player.set_speed(10.0)
+    pass_by(player, 0.1)
+    assert player.playback.t == pytest.approx(START + 1.1)
+    player.pause()
+    player.advance(0.1)
+    assert not player.feed_due(never) and player.playback.t == pytest.approx(START + 1.1)
+    player.play()
     for _ in range(100):
-        pass_by(one, 0.1)
-    assert (one.playback.state, one.playback.t) == ("ended", END)
-    one.play()
-    assert one.playback.state == "playing" and one.playback.t == START
-    one.advance(0.1)
-    settle(one)
-    assert one.playback.t == pytest.approx(START + 1.0)
+        pass_by(player, 0.1)
+    assert (player.playback.state, player.playback.t) == ("ended", END)
+    player.play()
+    assert player.playback.state == "playing" and player.playback.t == START
+    player.advance(0.1)
+    settle(player)
+    assert player.playback.t == pytest.approx(START + 1.0)
 
 
 def test_going_back_from_the_end_plays_on_and_the_pace_has_bounds():
-    one = player()
-    run_out(one)
-    assert one.playback.state == "ended"
-    one.seek(END - 1.0)
-    settle(one)
-    assert one.playback.state == "playing" and one.playback.t == END - 1.0
-    one.speed(1000.0)
-    assert one.playback.speed == FASTEST
-    one.speed(0.0)
-    assert one.playback.speed == SLOWEST
-    stop_at(one, -1e9)
-    assert one.playback.state == "paused" and one.playback.t == START
+    player = make_player()
+    run_out(player)
+    assert player.playback.state == "ended"
+    player.seek(END - 1.0)
+    settle(player)
+    assert player.playback.state == "playing" and player.playback.t == END - 1.0
+    player.set_speed(1000.0)
+    assert player.playback.speed == MAX_SPEED
+    player.set_speed(0.0)
+    assert player.playback.speed == MIN_SPEED
+    stop_at(player, -1e9)
+    assert player.playback.state == "paused" and player.playback.t == START
 
 
 def test_a_seek_reports_its_progress_and_continues_in_slices():
-    one = player()
-    one.pause()
-    one.seek(END - 0.5)
-    reached = [one.playback.t]
-    while one.feed_due(slices(25)):
-        assert one.playback.seeking == END - 0.5
-        reached.append(one.playback.t)
+    player = make_player()
+    player.pause()
+    player.seek(END - 0.5)
+    reached = [player.playback.t]
+    while player.feed_due(slices(25)):
+        assert player.playback.seeking == END - 0.5
+        reached.append(player.playback.t)
     assert len(reached) > 5 and reached == sorted(reached)
-    assert one.playback.seeking is None and one.playback.t == END - 0.5
-    one.advance(10.0)  # it is still paused
-    assert not one.feed_due(never) and one.playback.t == END - 0.5
+    assert player.playback.seeking is None and player.playback.t == END - 0.5
+    player.advance(10.0)  # it is still paused
+    assert not player.feed_due(never) and player.playback.t == END - 0.5
 
 
 def test_the_page_shows_the_time_up_to_which_the_session_was_fed_also_when_it_cannot_keep_up():
-    one = player()
-    one.speed(FASTEST)
+    player = make_player()
+    player.set_speed(MAX_SPEED)
     slow = 0
-    while one.playback.state != "ended":
-        one.advance(WALL)
-        behind = one.feed_due(slices(5))
+    while player.playback.state != "ended":
+        player.advance(CLOCK_INTERVAL)
+        behind = player.feed_due(slices(5))
         slow += behind
-        fed = one.items.t(one._next - 1)
-        assert one.playback.t == fed if behind else fed <= one.playback.t <= one.items.end
-        message, _ = one.scene.whole()
+        fed = player.items.t(player._next - 1)
+        assert player.playback.t == fed if behind else fed <= player.playback.t <= player.items.end
+        message, _ = player.scene.whole_message()
         # the newest sample's own time may be told a little later than its packet came
-        assert message["frame"]["playback"]["t"] <= message["frame"]["t"] < one.playback.t + 0.03
+        assert message["frame"]["playback"]["t"] <= message["frame"]["t"] < player.playback.t + 0.03
     assert slow > 10
 
 
@@ -230,9 +230,9 @@ def test_a_foot_is_shown_as_silent_from_the_same_time_however_often_the_scene_is
     samples = PackedItems(sample for sample in sampled(ROUTE, seed=5).samples if not left(sample))
     looks = []
     for items in (1, 9, 1000):
-        one = player(samples)
-        stop_at(one, 3.2, items)
-        looks.append(shown(one))
+        player = make_player(samples)
+        stop_at(player, 3.2, items)
+        looks.append(shown(player))
     assert looks[0] == looks[1] == looks[2]
     phases = looks[0]["phases"]["left"]
     assert [t for t, phase in phases if phase is None] == [pytest.approx(2.1, abs=0.02)]
@@ -240,55 +240,55 @@ def test_a_foot_is_shown_as_silent_from_the_same_time_however_often_the_scene_is
 
 
 def test_a_computer_that_slept_plays_on_where_it_was():
-    one = player()
-    pass_by(one, 3600.0)
-    assert one.playback.t < START + 1.0
+    player = make_player()
+    pass_by(player, 3600.0)
+    assert player.playback.t < START + 1.0
 
 
 def test_saved_moments_are_few_however_long_the_recording_is(monkeypatch):
-    monkeypatch.setattr(playing, "MOST_SAVED", 8)
-    one = player(spacing=0.04)
-    run_out(one)
-    assert len(one._saved) <= playing.MOST_SAVED and one.spacing > 0.04
-    times = [moment.t for moment in one._saved]
+    monkeypatch.setattr(playing, "MAX_SAVED_STATES", 8)
+    player = make_player(spacing=0.04)
+    run_out(player)
+    assert len(player._saved) <= playing.MAX_SAVED_STATES and player.spacing > 0.04
+    times = [moment.t for moment in player._saved]
     assert times == sorted(times) and times[0] == START
     between = [after - before for before, after in zip(times, times[1:], strict=False)]
-    assert max(between) < 3.0 * one.spacing  # wherever one seeks to, little is to be computed
+    assert max(between) < 3.0 * player.spacing  # wherever one seeks to, little is to be computed
 
 
 def test_a_damaged_recording_plays_up_to_the_damage_and_reports_it():
     half = PACKETS[: len(PACKETS) // 2]
-    one = player(PackedItems(half), fault="walk.jsonl: line 500: is not JSON")
-    assert all("line 500" not in line[2] for line in shown(one)["log"])
-    run_out(one)
-    assert one.playback.t == half[-1].t and one.playback.state == "ended"
-    assert shown(one)["log"][-1][1:] == ("link", "walk.jsonl: line 500: is not JSON")
-    stop_at(one, START)
-    assert all("line 500" not in line[2] for line in shown(one)["log"])
+    player = make_player(PackedItems(half), fault="walk.jsonl: line 500: is not JSON")
+    assert all("line 500" not in line[2] for line in shown(player)["log"])
+    run_out(player)
+    assert player.playback.t == half[-1].t and player.playback.state == "ended"
+    assert shown(player)["log"][-1][1:] == ("link", "walk.jsonl: line 500: is not JSON")
+    stop_at(player, START)
+    assert all("line 500" not in line[2] for line in shown(player)["log"])
 
 
 def test_a_recording_of_nothing_is_at_its_end_at_once():
-    one = player(PackedItems())
-    assert not one.feed_due(never)
-    assert one.playback.state == "ended"
-    one.play()
-    one.seek(3.0)
-    settle(one)
-    assert (one.playback.state, one.playback.t) == ("ended", 0.0)
+    player = make_player(PackedItems())
+    assert not player.feed_due(never)
+    assert player.playback.state == "ended"
+    player.play()
+    player.seek(3.0)
+    settle(player)
+    assert (player.playback.state, player.playback.t) == ("ended", 0.0)
 
 
 def test_samples_play_like_packets():
     samples = sampled(ROUTE, seed=5).samples
-    one = player(PackedItems(samples))
-    one.seek(samples[-1].t - 0.3)
-    settle(one)
+    player = make_player(PackedItems(samples))
+    player.seek(samples[-1].t - 0.3)
+    settle(player)
     session = Session(poses=True, pressures=True)
     session.feed(sample for sample in samples if sample.t <= samples[-1].t - 0.3)
-    assert one.session.snapshot() == session.snapshot()
-    assert shown(one)["frame"]["feet"]["left"]["steps"] > 0
+    assert player.session.snapshot() == session.snapshot()
+    assert shown(player)["frame"]["feet"]["left"]["steps"] > 0
 
 
-@given(st.lists(st.floats(-1e6, 1e6), max_size=3 * CHUNK), st.integers(0, 2**32))
+@given(st.lists(st.floats(-1e6, 1e6), max_size=3 * CHUNK_SIZE), st.integers(0, 2**32))
 def test_packed_items_come_out_unchanged_and_are_due_in_order(times, seed):
     packets = [Packet(t, Site.LEFT_FOOT, "insole/frame", bytes([k % 256]), str(seed)) for k, t in enumerate(times)]
     kept = PackedItems(packets)

@@ -6,14 +6,14 @@ import json
 import re
 
 from here import PROTOCOL
-from page_events import eventful, fed
+from page_events import events_of_all_kinds, feed_session
 from shown import later, shown
 from walks import insoles
 
 from solepath import PlaceLost
 from solepath.emulate.routes.building import BUILDING
 from solepath.emulate.routes.route import Route
-from solepath.show.page.messages import FASTEST, SLOWEST, encode, parse_command
+from solepath.show.page.messages import MAX_SPEED, MIN_SPEED, encode, parse_command
 from solepath.show.page.player.playback import Playback
 from solepath.show.page.scene.scene import Scene
 
@@ -27,11 +27,11 @@ def keys(title: str) -> set[str]:
 
 
 def test_messages_are_made_of_the_keys_that_the_protocol_names() -> None:
-    events = [event for event in eventful() if not isinstance(event, PlaceLost)]
+    events = [event for event in events_of_all_kinds() if not isinstance(event, PlaceLost)]
     scene = shown(events, Scene("a walk", "default", "recording", BUILDING, Playback(0.0, 1.0, 0.0)))
-    for event in fed(insoles(Route().stand(1.5).walk(14.0, 1.3).stop(1.0)).packets)[1]:
+    for event in feed_session(insoles(Route().stand(1.5).walk(14.0, 1.3).stop(1.0)).packets)[1]:
         scene.take(None, [later(event, 100.0)])
-    message = json.loads(encode(scene.whole()[0]))
+    message = json.loads(encode(scene.whole_message()[0]))
     frame = message["frame"]
     assert message.keys() == keys("`scene`")
     assert frame.keys() == keys("`frame`")
@@ -51,14 +51,14 @@ def test_messages_are_made_of_the_keys_that_the_protocol_names() -> None:
 
 def test_the_examples_of_the_protocol_are_what_is_sent() -> None:
     news, before = [json.loads(text) for text in re.findall(r"^```json\n(.*?)^```", PAGE, re.MULTILINE | re.DOTALL)]
-    assert json.loads(encode(Scene("left and right insole", "default").whole()[0])) == before
+    assert json.loads(encode(Scene("left and right insole", "default").whole_message()[0])) == before
     assert news.keys() <= keys("`frame`")
     assert news["feet"]["left"].keys() == keys("foot")
     assert news["links"]["left foot"].keys() == keys("link")
 
 
 def test_the_protocol_states_the_bounds_of_the_speed() -> None:
-    assert f"so many times real time, {SLOWEST:g} to {FASTEST:g} |" in PAGE
+    assert f"so many times real time, {MIN_SPEED:g} to {MAX_SPEED:g} |" in PAGE
 
 
 def test_the_commands_of_the_protocol_are_commands() -> None:

@@ -7,7 +7,7 @@ import json
 from math import inf, nan
 
 from attrs import evolve
-from page_events import eventful, fed, moved, rough
+from page_events import events_of_all_kinds, feed_session, foot_moved, rough_walk
 from shown import frame, later, shown
 from walks import SHORT, insoles, samples
 
@@ -42,7 +42,7 @@ LEFT, RIGHT = Foot.LEFT, Foot.RIGHT
 
 
 def test_a_page_shows_where_the_feet_and_the_wearer_are() -> None:
-    session, events = rough()
+    session, events = rough_walk()
     content = frame(shown(events))
     for foot in Foot:
         one = content["feet"][foot.value]
@@ -58,7 +58,7 @@ def test_a_page_shows_where_the_feet_and_the_wearer_are() -> None:
 
 
 def test_cells_are_one_byte_each_of_the_highest_so_far() -> None:
-    _, events = rough()
+    _, events = rough_walk()
     pressed = [event for event in events if isinstance(event, FootPressed) and event.foot is LEFT]
     content = frame(shown(events))["feet"]["left"]
     assert content["peak"] == round(max(max(event.values) for event in pressed), 3)
@@ -71,7 +71,7 @@ def test_cells_are_one_byte_each_of_the_highest_so_far() -> None:
 
 
 def test_the_gait_is_the_table_of_the_terminal() -> None:
-    _, events = fed(insoles(Route().stand(1.5).walk(14.0, 1.3).stop(1.0)).packets)
+    _, events = feed_session(insoles(Route().stand(1.5).walk(14.0, 1.3).stop(1.0)).packets)
     scene = shown(events)
     content, means = frame(scene)["gait"], scene.observer.gait
     parameters = means.of(False)
@@ -87,9 +87,9 @@ def test_the_gait_is_the_table_of_the_terminal() -> None:
 
 
 def test_support_is_known_only_while_both_feet_send() -> None:
-    scene = shown([moved(1.0), moved(1.0, foot=RIGHT)])
+    scene = shown([foot_moved(1.0), foot_moved(1.0, foot=RIGHT)])
     assert frame(scene)["support"] == "FLIGHT"
-    shown([moved(1.0 + 0.1 * k) for k in range(30)], scene)
+    shown([foot_moved(1.0 + 0.1 * k) for k in range(30)], scene)
     scene.tick(4.0)
     content = frame(scene)
     assert content["support"] is None
@@ -98,7 +98,7 @@ def test_support_is_known_only_while_both_feet_send() -> None:
 
 
 def test_one_foot_alone_is_shown_alone() -> None:
-    _, events = fed([packet for packet in insoles().packets if packet.site is Site.RIGHT_FOOT])
+    _, events = feed_session([packet for packet in insoles().packets if packet.site is Site.RIGHT_FOOT])
     content = frame(shown(events))
     assert content["feet"]["left"] is None
     assert content["feet"]["right"]["steps"] > 2
@@ -108,7 +108,7 @@ def test_one_foot_alone_is_shown_alone() -> None:
 
 def test_an_insole_without_an_inertial_sensor_shows_its_cells_and_phases() -> None:
     bare = [evolve(one, acc=None, gyro=None) for one in samples()]
-    content = frame(shown(fed(bare)[1]))
+    content = frame(shown(feed_session(bare)[1]))
     for foot in Foot:
         one = content["feet"][foot.value]
         assert one["cells"] is not None and one["rate"] == 100 and one["position"] is None
@@ -117,8 +117,10 @@ def test_an_insole_without_an_inertial_sensor_shows_its_cells_and_phases() -> No
 
 
 def test_sensors_without_cells_show_steps_and_no_soles() -> None:
-    _, events = fed(emulate(SHORT, devices={Site.LEFT_FOOT: CC2650(), Site.RIGHT_FOOT: CC2650()}, seed=1).packets)
-    message = json.loads(encode(shown(events).whole()[0]))
+    _, events = feed_session(
+        emulate(SHORT, devices={Site.LEFT_FOOT: CC2650(), Site.RIGHT_FOOT: CC2650()}, seed=1).packets
+    )
+    message = json.loads(encode(shown(events).whole_message()[0]))
     assert message["layouts"] == {"left": None, "right": None}
     for foot in Foot:
         one = message["frame"]["feet"][foot.value]
@@ -128,14 +130,14 @@ def test_sensors_without_cells_show_steps_and_no_soles() -> None:
 
 
 def test_other_recipes_are_shown_as_well() -> None:
-    _, events = fed(insoles().packets, PRESSURE_CONTOUR)
+    _, events = feed_session(insoles().packets, PRESSURE_CONTOUR)
     content = frame(shown(events))
     assert content["feet"]["left"]["steps"] == len([e for e in events if isinstance(e, StrideTaken) and e.foot is LEFT])
     assert content["feet"]["right"]["phase"] is not None
 
 
 def test_feet_that_fall_silent_show_nothing_and_come_back() -> None:
-    _, events = rough()
+    _, events = rough_walk()
     scene = shown(events)
     end = scene.now
     scene.tick(end + 5.0)
@@ -158,21 +160,21 @@ def test_a_link_is_waiting_then_ok_then_lost_and_ok_again() -> None:
         return str(frame(scene)["links"]["left foot"]["state"])
 
     assert state() == "waiting"
-    shown([moved(1.0 + 0.01 * k) for k in range(100)], scene)
+    shown([foot_moved(1.0 + 0.01 * k) for k in range(100)], scene)
     assert state() == "ok"
     assert frame(scene)["links"]["left foot"]["rate"] == 100
-    shown([Disconnected(t=2.0, known_at=2.0, site=site), moved(1.99, known_at=2.05)], scene)
+    shown([Disconnected(t=2.0, known_at=2.0, site=site), foot_moved(1.99, known_at=2.05)], scene)
     assert state() == "lost", "what was still under way is no connection"
     scene.tick(7.0)
     assert frame(scene)["links"]["left foot"]["silent_for"] > 4.9
     assert frame(scene)["links"]["left foot"]["rate"] == 0
     shown([Connected(t=7.5, known_at=7.5, site=site, device="", name="Insole", signal=-50)], scene)
     assert state() == "waiting"
-    shown([moved(8.0)], scene)
+    shown([foot_moved(8.0)], scene)
     assert state() == "ok"
     shown([StreamStale(t=8.5, known_at=9.0, site=site, silent_for=1.0)], scene)
     assert state() == "silent"
-    shown([StreamResumed(t=9.4, known_at=9.4, site=site, silent_for=1.4), moved(9.4)], scene)
+    shown([StreamResumed(t=9.4, known_at=9.4, site=site, silent_for=1.4), foot_moved(9.4)], scene)
     assert state() == "ok"
 
 
@@ -189,14 +191,14 @@ def test_losses_are_shares_of_the_packets_that_were_sent() -> None:
     for k in range(30):
         t = 0.02 * k + 0.05
         packet = Packet(t, Site.LEFT_FOOT, "insole/frame", b"")
-        scene.take(packet, [moved(t - 0.05, known_at=t), moved(t - 0.04, known_at=t)])
+        scene.take(packet, [foot_moved(t - 0.05, known_at=t), foot_moved(t - 0.04, known_at=t)])
     shown([PacketsLost(t=0.7, known_at=0.7, site=Site.LEFT_FOOT, channel="insole/frame", count=10)], scene)
     link = frame(scene)["links"]["left foot"]
     assert (link["lost"], link["loss"]) == (10, 0.25)
 
 
 def test_samples_that_came_in_no_packets_have_no_loss() -> None:
-    _, events = fed(samples())
+    _, events = feed_session(samples())
     links = frame(shown(events))["links"]
     assert [link["loss"] for link in links.values()] == [None, None]
     assert [link["rate"] for link in links.values()] == [100, 100]
@@ -213,9 +215,9 @@ def test_an_activity_that_was_taken_back_is_not_shown() -> None:
 
 
 def test_a_place_is_shown_until_it_is_lost() -> None:
-    events = eventful()
+    events = events_of_all_kinds()
     scene = shown([event for event in events if not isinstance(event, PlaceLost)], Scene("", "", plan=BUILDING))
-    message = json.loads(encode(scene.whole()[0]))
+    message = json.loads(encode(scene.whole_message()[0]))
     assert message["frame"]["place"]["candidates"][0]["origin"] == "stairs A"
     assert len(message["places"]) == 1, "of several candidates on several levels there is no one place"
     assert [line for line in message["log"] if line[1] == "place"]
@@ -224,7 +226,7 @@ def test_a_place_is_shown_until_it_is_lost() -> None:
 
 
 def test_numbers_that_are_not_finite_are_shown_as_null() -> None:
-    odd = evolve(moved(1.0), position=(nan, inf, -inf))
+    odd = evolve(foot_moved(1.0), position=(nan, inf, -inf))
     pressed = FootPressed(t=1.0, known_at=1.0, foot=LEFT, values=(nan, inf, 1.0), force=nan, centre=(nan, 0.0))
     content = frame(shown([odd, pressed, evolve(pressed, t=1.01, known_at=1.01)]))["feet"]["left"]
     assert content["position"] == [None, None, None]
@@ -233,18 +235,20 @@ def test_numbers_that_are_not_finite_are_shown_as_null() -> None:
 
 
 def test_an_event_without_a_finite_time_is_not_shown() -> None:
-    events = [moved(1.0)]
+    events = [foot_moved(1.0)]
     for time in (nan, inf, -inf):
         for field in ("t", "known_at"):
-            assert encode(frame(shown([*events, evolve(moved(1.0), **{field: time})]))) == encode(frame(shown(events)))
+            assert encode(frame(shown([*events, evolve(foot_moved(1.0), **{field: time})]))) == encode(
+                frame(shown(events))
+            )
 
 
 def test_a_frame_holds_the_state_of_playback() -> None:
     scene = Scene("a walk", "default", "recording", playback=Playback(start=0.0, end=9.0, t=0.0))
-    _, cursor = scene.whole()
+    _, cursor = scene.whole_message()
     assert scene.playback is not None
     scene.playback.state, scene.playback.t = "playing", 1.0
-    news, _ = scene.since(cursor)
+    news, _ = scene.message_since(cursor)
     assert news == {
         "type": "frame",
         "t": 0.0,

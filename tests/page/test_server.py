@@ -12,7 +12,18 @@ import pytest
 from aiohttp import WSCloseCode, WSMsgType
 from hypothesis import given
 from hypothesis import strategies as st
-from served import LOGGER, TOKEN, closed, handshake, raw, rejection_status, reply, scene_of, sees, served
+from served import (
+    LOGGER,
+    TOKEN,
+    check_watching,
+    close_code,
+    fetch_reply,
+    handshake,
+    open_raw,
+    rejection_status,
+    scene_of,
+    served,
+)
 from walks import insoles
 
 from solepath import Foot, LinkTrouble, Session, Site
@@ -89,7 +100,7 @@ async def test_the_page_is_made_of_the_files_that_are_installed() -> None:
                     assert (head.status, await head.read()) == (200, b"")
                     assert head.headers["Content-Length"] == answer.headers["Content-Length"]
                 kind = answer.headers["Content-Type"].partition(";")[0]
-                assert kind == server.KINDS[f".{(name or 'index.html').rpartition('.')[2]}"]
+                assert kind == server.CONTENT_TYPES[f".{(name or 'index.html').rpartition('.')[2]}"]
         text = "".join((files("solepath.show.page.server") / "static" / name).read_text() for name in names)
         for elsewhere in ("https:", "//cdn"):
             assert elsewhere not in text.replace('"https:"', "").replace("'https:'", "")
@@ -100,7 +111,9 @@ async def test_the_page_is_made_of_the_files_that_are_installed() -> None:
 )
 async def test_there_are_no_other_files(path: str) -> None:
     async with served() as (page, _, _):
-        answer = await reply(page, f"GET /{path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode())
+        answer = await fetch_reply(
+            page, f"GET /{path} HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n".encode()
+        )
         assert answer.split(b" ")[1] in (b"404", b"400")
 
 
@@ -113,7 +126,7 @@ async def test_files_can_only_be_got(method: str) -> None:
 async def test_only_a_get_becomes_a_socket() -> None:
     async with served() as (page, _, _):
         for method in (b"POST", b"HEAD", b"PUT"):
-            reader, writer = await raw(page)
+            reader, writer = await open_raw(page)
             writer.write(handshake().replace(b"GET", method, 1))
             assert (await reader.readline()).split(b" ")[1] in (b"400", b"405")
             writer.close()
@@ -128,7 +141,7 @@ async def test_what_is_no_request_is_answered_with_the_headers_of_every_answer_a
 ) -> None:
     async with served() as (page, _, _):
         for prefix in (b"", b"GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"):
-            _, rejection, answer = (await reply(page, prefix + sent)).partition(b" 400 Bad Request")
+            _, rejection, answer = (await fetch_reply(page, prefix + sent)).partition(b" 400 Bad Request")
             assert rejection and b"EVIL" not in answer
             assert b"aiohttp" not in answer and b"Python" not in answer
             for name, value in HEADERS.items():
@@ -169,7 +182,7 @@ async def test_who_has_no_token_or_nothing_to_play_watches_and_is_shown_out_on_t
     async with served(commands=on_command) as (_, client, url), client.ws_connect(f"{url}ws{query}") as watching:
         assert (await scene_of(watching))["control"] is False
         await watching.send_str('{"do":"pause"}')
-        assert await closed(watching) == 1008
+        assert await close_code(watching) == 1008
     assert commands == []
     assert [one.name for one in caplog.records] == [LOGGER]
 
@@ -192,7 +205,7 @@ async def test_its_own_page_may_watch() -> None:
     async with served() as (page, client, url):
         for host in ("127.0.0.1", "localhost"):
             own = f"http://{host}:{page.port}"
-            await sees(client, url, headers={"Origin": own, "Host": own[7:]})
+            await check_watching(client, url, headers={"Origin": own, "Host": own[7:]})
 
 
 @pytest.mark.parametrize(
@@ -205,7 +218,7 @@ async def test_its_own_page_may_watch() -> None:
 )  # fmt: skip
 async def test_a_name_that_somebody_else_could_point_here_is_no_host(host: str, status: bytes) -> None:
     async with served() as (page, _, _):
-        answer = await reply(page, f"GET / HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n".encode())
+        answer = await fetch_reply(page, f"GET / HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n".encode())
         assert answer.split(b" ")[1] == status
 
 
@@ -237,7 +250,7 @@ async def test_ipv6_of_this_machine_serves_as_well() -> None:
         pytest.skip("no IPv6 here")
     async with served(host="::1") as (page, client, url):
         assert url == f"http://[::1]:{page.port}/"
-        await sees(client, url, headers={"Origin": url.rstrip("/")})
+        await check_watching(client, url, headers={"Origin": url.rstrip("/")})
 
 
 async def test_a_taken_port_is_an_error_or_another_one_is_found() -> None:

@@ -14,7 +14,7 @@ from attrs import evolve
 from floors import LOW, OFFICE, Pedestrian, office
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from pages import Node, parsed, read
+from pages import Node, parse_page, read_page
 from shown import later
 from walks import insoles, of, run_session
 
@@ -32,19 +32,19 @@ from solepath.types import Foot
 
 CORNER = Route().stand(1.5).walk(12.0, 1.3).turn(radians(90), radius=1.5).walk(3.0).stop(1.0)
 LEADS = {"src", "href", "action", "data", "poster", "srcset", "xlink:href", "background", "formaction", "ping", "style"}
-"""Attributes that fetch something or lead elsewhere."""
+"""Attributes with which an element loads something or links to another page."""
 NO_NUMBER = re.compile(r"\b(nan|inf)\b", re.IGNORECASE)
 
 
 @cache
-def walked() -> tuple[Event, ...]:
+def walk_events() -> tuple[Event, ...]:
     """Return all events of a session with insoles on a walk round a corner."""
     return tuple(run_session(insoles(CORNER, cells=24).packets, poses=True, pressures=True))
 
 
-def of_the_left_foot() -> list[Event]:
-    """Return these events without those of the right foot."""
-    return [event for event in walked() if getattr(event, "foot", Foot.LEFT) is Foot.LEFT]
+def left_foot_events() -> list[Event]:
+    """Return the events of `walk_events` without those of the right foot."""
+    return [event for event in walk_events() if getattr(event, "foot", Foot.LEFT) is Foot.LEFT]
 
 
 def report_of(*events: Event, title: str = "a walk", **more: str) -> Report:
@@ -54,7 +54,7 @@ def report_of(*events: Event, title: str = "a walk", **more: str) -> Report:
 
 
 def shown(report: Report) -> Node:
-    return parsed(report.text())
+    return parse_page(report.text())
 
 
 def captions(page: Node) -> list[str]:
@@ -62,18 +62,18 @@ def captions(page: Node) -> list[str]:
 
 
 def rows_of(page: Node) -> dict[str, list[str]]:
-    """Return the gait table: a row's name -> its cells."""
+    """Return the cells of each row of the gait table by the row's name."""
     table = page.named("gait")
     return {row.first("th").text: [cell.text for cell in row.all("td")] for row in table.all("tr")}
 
 
 def test_the_gait_table_has_the_numbers_of_the_session() -> None:
     means = GaitMeans()
-    for event in of(GaitCycleMeasured, walked()):
+    for event in of(GaitCycleMeasured, walk_events()):
         means.add(event, 10**9)
     parameters = means.of(False)
     assert parameters is not None
-    rows = rows_of(shown(report_of(*walked())))
+    rows = rows_of(shown(report_of(*walk_events())))
     for row in gait_rows(parameters):
         spread = "" if row.sd is None else f" \N{PLUS-MINUS SIGN} {number(row.sd, row.digits)}"
         both = f"{number(row.both, row.digits)}{spread}"
@@ -84,15 +84,15 @@ def test_the_gait_table_has_the_numbers_of_the_session() -> None:
 
 
 def test_the_summary_holds_duration_distance_and_activities() -> None:
-    page = shown(report_of(*walked(), when="on Monday"))
+    page = shown(report_of(*walk_events(), when="on Monday"))
     sentences = [one.text for one in page.first("ul").all("li")]
     for foot in Foot:
-        taken = [event for event in of(StrideTaken, walked()) if event.foot is foot]
+        taken = [event for event in of(StrideTaken, walk_events()) if event.foot is foot]
         distance = sum(event.length for event in taken)
         assert f"The {foot.value} foot took {len(taken)} strides over {distance:.1f} m." in sentences
     assert any(one.startswith("Activities: standing ") and " walking " in one for one in sentences)
     assert "Turns: 1 to the left." in sentences
-    samples = [event.t for event in of(FootMoved, walked())]
+    samples = [event.t for event in of(FootMoved, walk_events())]
     facts = page.named("facts").text
     assert "on Monday" in facts and "default" in facts and "solepath 1.0" in facts
     assert f"{min(samples):.1f} to {max(samples):.1f} s" in facts
@@ -101,14 +101,14 @@ def test_the_summary_holds_duration_distance_and_activities() -> None:
 
 
 def test_runs_and_walks_have_a_table_each() -> None:
-    strides = of(GaitCycleMeasured, walked())
+    strides = of(GaitCycleMeasured, walk_events())
     runs = [evolve(later(one, 60.0), stance_time=0.3) for one in strides]
     captions = [one.first("caption").text for one in shown(report_of(*strides, *runs)).all("table")]
     assert [one.partition(":")[0] for one in captions if "steady" in one] == ["Walking", "Running"]
 
 
 def test_a_recording_whose_clock_started_long_ago_is_shown_from_its_start() -> None:
-    moved = [later(event, 1.7e9) for event in of(FootMoved, walked())]
+    moved = [later(event, 1.7e9) for event in of(FootMoved, walk_events())]
     assert "time from the beginning, s" in shown(report_of(*moved)).text
 
 
@@ -118,7 +118,7 @@ def test_faults_are_shown_in_words_and_in_the_table_of_links() -> None:
         PacketsLost(t=3.0, known_at=3.0, site=Site.LEFT_FOOT, channel="insole/frame", count=11),
         LinkTrouble(t=4.0, known_at=4.0, site=Site.LEFT_FOOT, what="the battery is nearly empty"),
     ]
-    page = shown(report_of(*link, *walked()))
+    page = shown(report_of(*link, *walk_events()))
     health = next(one for one in page.all("section") if one.attributes["aria-labelledby"] == "health")
     assert "11" in health.text and "the battery is nearly empty" in health.text
     assert "left foot (sole 7)" in page.named("facts").text
@@ -157,16 +157,16 @@ def test_a_long_name_hides_nothing_else() -> None:
         Connected(t=0.0, known_at=0.0, site=site, device="a", name=f"{site.value} {'W' * 240}", signal=None)
         for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)
     ]
-    facts = shown(report_of(*names, *walked())).named("facts").text
+    facts = shown(report_of(*names, *walk_events())).named("facts").text
     assert "left_foot WWW" in facts and "right_foot WWW" in facts and facts.count("motion and pressure") == 2
 
 
 def test_the_file_leads_nowhere_and_runs_nothing(tmp_path: Path) -> None:
     path = tmp_path / "report.html"
-    report_of(*walked()).write(path)
+    report_of(*walk_events()).write(path)
     text = path.read_text(encoding="utf-8")
     assert text.startswith('<!DOCTYPE html>\n<html lang="en">')
-    page = read(path)
+    page = read_page(path)
     for one in page.all():
         assert one.tag not in {"script", "link", "iframe", "object", "embed", "img", "image", "use", "a", "base"}
         assert not LEADS & one.attributes.keys()
@@ -198,7 +198,7 @@ def test_a_file_that_cannot_be_written_is_named(tmp_path: Path) -> None:
 
 
 def test_a_screen_reader_finds_its_way() -> None:
-    page = shown(report_of(*walked()))
+    page = shown(report_of(*walk_events()))
     assert page.first("html").attributes["lang"] == "en"
     assert [one.text for one in page.all("h1")] == ["a walk"]
     headings = {one.text for one in page.all("h2")}
@@ -216,7 +216,7 @@ def test_a_screen_reader_finds_its_way() -> None:
 
 
 def test_there_is_a_figure_for_what_there_is() -> None:
-    assert captions(shown(report_of(*walked()))) == [
+    assert captions(shown(report_of(*walk_events()))) == [
         "Mean gait cycle, walking", "Stride length over time", "Stride time over time", "Speed over time",
         "Track from above", "Height of the feet over time", "Mean load of a contact", "Peak load of a contact",
         "Mean force over a contact", "Activities over time",
@@ -236,13 +236,13 @@ def test_there_is_a_sentence_for_what_there_is_not() -> None:
 
 
 def test_one_foot_alone_has_its_own_report() -> None:
-    page = shown(report_of(*[event for event in of_the_left_foot() if not isinstance(event, WearerMoved)]))
+    page = shown(report_of(*[event for event in left_foot_events() if not isinstance(event, WearerMoved)]))
     assert {"Mean gait cycle, walking", "Track from above", "Mean load of a contact"} <= set(captions(page))
     assert all(cells[1] == "-" for name, cells in rows_of(page).items() if name != "parameter")
 
 
 def test_pressure_alone_has_times_and_no_track() -> None:
-    only = of((GaitCycleMeasured, FootPressed, LayoutKnown), walked())
+    only = of((GaitCycleMeasured, FootPressed, LayoutKnown), walk_events())
     lost = {"stride_length": None, "speed": None, "clearance": None, "turning_angle": None, "rise": None}
     events = [evolve(event, **lost) if isinstance(event, GaitCycleMeasured) else event for event in only]
     page = shown(report_of(*events))
@@ -269,7 +269,7 @@ def test_any_events_in_any_order_make_a_page_without_a_number_that_is_none(
     events: list[Event], seed: int, count: int
 ) -> None:
     report = Report("any", BUILDING)
-    report.take(None, [*events, *Random(seed).sample(walked(), count), *events])
+    report.take(None, [*events, *Random(seed).sample(walk_events(), count), *events])
     for svg in shown(report).all("svg"):
         for one in svg.all():
             coordinates = {k: v for k, v in one.attributes.items() if k not in ("id", "class", "aria-labelledby")}
@@ -278,8 +278,8 @@ def test_any_events_in_any_order_make_a_page_without_a_number_that_is_none(
 
 def test_memory_does_not_grow_with_the_time_walked() -> None:
     kinds = (GaitCycleMeasured, StrideTaken, WearerMoved)
-    events = [event for kind in kinds for event in of(kind, of_the_left_foot())[-4:]]
-    report, sizes = report_of(*walked()), []
+    events = [event for kind in kinds for event in of(kind, left_foot_events())[-4:]]
+    report, sizes = report_of(*walk_events()), []
     for k in range(1, 501):
         report.take(None, [evolve(event, t=event.t + 20.0 * k) for event in events])
         if k in (250, 500):

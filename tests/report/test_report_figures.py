@@ -5,17 +5,17 @@ from __future__ import annotations
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from pages import parsed
+from pages import parse_page
 
 from solepath import FootPressed, GaitCycleMeasured
 from solepath.body.gait.means import Figure, GaitParameters, StrideFigures
 from solepath.emulate.routes.building import BUILDING
-from solepath.show.report.bounded import Thinned
+from solepath.show.report.bounded import ThinnedList
 from solepath.show.report.clock import ReportClock, duration_text
 from solepath.show.report.figures.axes import AxisScale, line, tick_labels, ticks
-from solepath.show.report.figures.cycle import contacts, neither, overlaps
+from solepath.show.report.figures.cycle import gaps, overlaps, stance_spans
 from solepath.show.report.figures.pressure import SHADES
-from solepath.show.report.soles import KEPT, STATIONS, ReportSole
+from solepath.show.report.soles import MAX_SAMPLES, STATIONS, ReportSole
 from solepath.show.tables.plan import PlanPicture, blend
 from solepath.types import Cell, Foot, Layout
 
@@ -42,22 +42,22 @@ def test_a_scale_of_nothing_and_a_line_through_one_place_are_drawn_too() -> None
 
 @given(st.integers(0, 3000), st.integers(4, 100))
 def test_of_a_long_row_few_are_kept_evenly_with_the_first_and_the_last(count: int, most: int) -> None:
-    row: Thinned[tuple[int]] = Thinned()
+    row: ThinnedList[tuple[int]] = ThinnedList()
     for k in range(count):
         row.add((k,), most)
-    kept = [k for (k,) in row]
+    items = [k for (k,) in row]
     assert len(row) <= most
     assert row.count == count
     if count:
-        assert kept[0] == 0 and kept[-1] == count - 1
-        assert len({b - a for a, b in zip(kept[:-1], kept[1:-1], strict=False)}) <= 1, "evenly"
-        assert len(kept) >= min(count, most // 2)
+        assert items[0] == 0 and items[-1] == count - 1
+        assert len({b - a for a, b in zip(items[:-1], items[1:-1], strict=False)}) <= 1, "evenly"
+        assert len(items) >= min(count, most // 2)
 
 
 def test_times_are_shown_in_a_suitable_unit() -> None:
     assert ReportClock(0.0, 100.0).label == "time, s"
-    assert ReportClock(0.0, 900.0).of(120.0) == 2.0
-    assert ReportClock(1.7e9, 1.7e9 + 900.0).of(1.7e9 + 120.0) == 2.0
+    assert ReportClock(0.0, 900.0).axis_value(120.0) == 2.0
+    assert ReportClock(1.7e9, 1.7e9 + 900.0).axis_value(1.7e9 + 120.0) == 2.0
     low, high = ReportClock(5.0, 5.0).span
     assert low < high
     assert [duration_text(t) for t in (0.0, 59.6, 90.0, 3725.0)] == ["0.0 s", "1 min 0 s", "1 min 30 s", "1 h 2 min"]
@@ -76,23 +76,23 @@ def cycle(left: StrideFigures | None, right: StrideFigures | None, running: bool
 
 
 def test_a_walker_stands_on_both_feet_twice_a_cycle() -> None:
-    known = contacts(cycle(figures(0.6, 0.5), figures(0.6, 0.5)))
+    known = stance_spans(cycle(figures(0.6, 0.5), figures(0.6, 0.5)))
     assert known[L] == [(0.0, 0.6)]
     assert known[R] == [(0.0, pytest.approx(0.1)), (0.5, 1.0)]
     assert overlaps(known[L], known[R]) == [(0.0, pytest.approx(0.1)), (0.5, 0.6)]
-    assert neither(known[L], known[R]) == []
+    assert gaps(known[L], known[R]) == []
 
 
 def test_a_runner_flies_twice_a_cycle() -> None:
-    known = contacts(cycle(figures(0.35, 0.5), figures(0.35, None), True))
+    known = stance_spans(cycle(figures(0.35, 0.5), figures(0.35, None), True))
     assert overlaps(known[L], known[R]) == []
-    assert neither(known[L], known[R]) == [(0.35, 0.5), (0.85, 1.0)]
+    assert gaps(known[L], known[R]) == [(0.35, 0.5), (0.85, 1.0)]
 
 
 def test_a_foot_that_comes_down_nobody_knows_when_is_not_drawn_beside_the_other() -> None:
-    assert contacts(cycle(figures(0.6, None), figures(0.7, None))) == {L: [(0.0, 0.6)]}
-    assert contacts(cycle(None, figures(0.7, None))) == {R: [(0.0, 0.7)]}
-    only_right = contacts(cycle(figures(0.6, None), figures(0.6, 0.4)))
+    assert stance_spans(cycle(figures(0.6, None), figures(0.7, None))) == {L: [(0.0, 0.6)]}
+    assert stance_spans(cycle(None, figures(0.7, None))) == {R: [(0.0, 0.7)]}
+    only_right = stance_spans(cycle(figures(0.6, None), figures(0.6, 0.4)))
     assert only_right[R][-1][0] == pytest.approx(0.6)
 
 
@@ -106,32 +106,32 @@ def stride(start: float, off: float, end: float, **other: object) -> GaitCycleMe
     return GaitCycleMeasured(**(nothing | known | times | {"degraded": False, "steady": True} | other))  # type: ignore[arg-type]
 
 
-def pressed(sole: ReportSole, start: float, heel: float) -> None:
-    """Add a second of samples at 100 Hz; the load goes from heel to toe until 0.6 s."""
+def add_second(sole: ReportSole, start: float, heel: float) -> None:
+    """Add 1 s of samples at 100 Hz; the load goes from heel to toe within the first 0.6 s."""
     for k in range(100):
         share = min(k / 60.0, 1.0)
         load = heel if k <= 60 else 0.0
         values = (load * (1.0 - share), load * share)
         centre = (0.05 + 0.15 * share, 0.0) if load else None
         t = start + 0.01 * k
-        sole.press(FootPressed(t=t, known_at=t, foot=L, values=values, force=load, centre=centre))
+        sole.add_sample(FootPressed(t=t, known_at=t, foot=L, values=values, force=load, centre=centre))
 
 
-def walked() -> ReportSole:
+def walked_sole() -> ReportSole:
     sole = ReportSole(Layout(1, L, (Cell(0.05, 0.0), Cell(0.2, 0.0)), 0.25, 1.0))
     for k in range(4):
-        pressed(sole, 1.0 * k, 100.0)
+        add_second(sole, 1.0 * k, 100.0)
         if k:
-            sole.stride(stride(1.0 * k, k + 0.6, k + 1.0))
+            sole.add_cycle(stride(1.0 * k, k + 0.6, k + 1.0))
     return sole
 
 
 def test_loads_of_a_contact_are_means_and_peaks_of_each_cell_and_the_centre_goes_from_heel_to_toe() -> None:
-    sole = walked()
-    assert sole.contacts == 3 and sole.unit == "N" and sole.mapped
-    assert [one / 3 for one in sole.means] == pytest.approx([50.0, 50.0], rel=0.02)
-    assert [one / 3 for one in sole.peaks] == pytest.approx([100.0, 100.0], rel=0.02)
-    assert [one / 3 for one in sole.forces] == pytest.approx([100.0] * STATIONS)
+    sole = walked_sole()
+    assert sole.contacts == 3 and sole.unit == "N" and sole.drawable_layout
+    assert [one / 3 for one in sole.mean_sums] == pytest.approx([50.0, 50.0], rel=0.02)
+    assert [one / 3 for one in sole.peak_sums] == pytest.approx([100.0, 100.0], rel=0.02)
+    assert [one / 3 for one in sole.force_sums] == pytest.approx([100.0] * STATIONS)
     path = sole.mean_path
     assert len(path) == STATIONS
     assert path[0] == pytest.approx((0.05, 0.0), abs=0.004) and path[-1] == pytest.approx((0.2, 0.0), abs=0.004)
@@ -149,18 +149,18 @@ def test_loads_of_a_contact_are_means_and_peaks_of_each_cell_and_the_centre_goes
     ],
 )
 def test_a_contact_that_is_run_missing_or_too_long_does_not_count(other: dict[str, object]) -> None:
-    sole = walked()
-    sole.stride(stride(3.0, 3.6, 4.0, **other))
+    sole = walked_sole()
+    sole.add_cycle(stride(3.0, 3.6, 4.0, **other))
     assert sole.contacts == 3
 
 
 def test_soles_keep_little_however_long_they_are_walked_on() -> None:
     sole = ReportSole()
     for k in range(30):
-        pressed(sole, 1.0 * k, 100.0)
-    assert len(sole.newest) <= KEPT
-    sole.press(FootPressed(t=99.0, known_at=99.0, foot=L, values=(1.0, 2.0, 3.0), force=6.0, centre=None))
-    assert sole.standing == [1.0, 2.0, 3.0] and sole.samples == 1, "another insole begins anew"
+        add_second(sole, 1.0 * k, 100.0)
+    assert len(sole.newest) <= MAX_SAMPLES
+    sole.add_sample(FootPressed(t=99.0, known_at=99.0, foot=L, values=(1.0, 2.0, 3.0), force=6.0, centre=None))
+    assert sole.cell_sums == [1.0, 2.0, 3.0] and sole.samples == 1, "another insole begins anew"
 
 
 def test_more_load_is_darker() -> None:
@@ -183,4 +183,4 @@ def test_the_legend_of_a_narrow_plan_stays_within_the_picture() -> None:
 
 def test_the_reader_of_pages_rejects_unclosed_tags() -> None:
     with pytest.raises(AssertionError):
-        parsed("<p><b>no</p>")
+        parse_page("<p><b>no</p>")

@@ -34,7 +34,7 @@ from solepath.emulate.walk import emulate
 from solepath.show.links import LinkLedger
 from solepath.show.observer import Observer
 from solepath.show.tables.summary import status
-from solepath.show.track import MOST_POINTS, LiveTrack
+from solepath.show.track import MAX_POINTS, LiveTrack
 
 LEFT = Site.LEFT_FOOT
 
@@ -62,7 +62,7 @@ def test_loss_is_a_share_of_packets_not_of_samples(batch: int) -> None:
 def test_a_frame_in_fragments_is_one_packet() -> None:
     observer = observed(frames(CLEAN, mtu=60))
     link = observer.links[LEFT]
-    assert link.received == link.samples < 0.5 * observer.items
+    assert link.received == link.samples < 0.5 * observer.item_count
 
 
 def test_received_and_lost_frames_are_all_that_were_sent_whatever_came_damaged_or_twice() -> None:
@@ -147,7 +147,7 @@ def test_a_packet_that_is_rejected_is_no_sign_of_time_passing() -> None:
     for t in (1.0, 1e9, inf, nan, 2.0):
         packet = Packet(t, LEFT, "insole/nothing" if t != 2.0 else "receiver/tick", b"")
         observer.take(packet, session.feed(packet))
-    assert (observer.items, observer.now, observer.time.total) == (5, 2.0, 0.0)
+    assert (observer.item_count, observer.now, observer.covered_time.total) == (5, 2.0, 0.0)
 
 
 def test_a_clock_that_was_set_back_goes_on_from_there() -> None:
@@ -156,7 +156,7 @@ def test_a_clock_that_was_set_back_goes_on_from_there() -> None:
     for packet in shifted:
         observer.take(packet, session.feed(packet))
     assert observer.now == pytest.approx(shifted[-1].t, abs=0.1)
-    assert observer.time.total == pytest.approx(shifted[-1].t - 1000.0, abs=1.0)
+    assert observer.covered_time.total == pytest.approx(shifted[-1].t - 1000.0, abs=1.0)
     for line in status(observer):
         assert " 100 Hz" in line or " 99 Hz" in line, line
 
@@ -191,10 +191,10 @@ def test_events_with_a_number_that_is_not_finite_are_left_out() -> None:
 
 def test_a_live_track_is_bounded_and_keeps_its_start_and_both_feet() -> None:
     track = LiveTrack()
-    for k in range(5 * MOST_POINTS):
+    for k in range(5 * MAX_POINTS):
         for foot in Foot:
             track.add(foot, 0.2 * k, 0.0)
-    assert len(track.points) <= MOST_POINTS and track.points[0] == (Foot.LEFT, 0.0, 0.0)
+    assert len(track.points) <= MAX_POINTS and track.points[0] == (Foot.LEFT, 0.0, 0.0)
     counts = [sum(point[0] is foot for point in track.points) for foot in Foot]
     assert min(counts) > 0.4 * sum(counts)
-    assert track.points[-1][1] > 0.99 * 0.2 * 5 * MOST_POINTS
+    assert track.points[-1][1] > 0.99 * 0.2 * 5 * MAX_POINTS

@@ -31,7 +31,7 @@ def test_standing_that_turns_out_to_be_a_lift_ride_was_never_standing():
     standing = changed(4.0, Activity.STANDING, final=False)
     line = timeline(changed(1.0, Activity.WALKING), standing, changed(5.0, Activity.ELEVATOR_UP, revises=4.0))
     assert line.at(4.5) is Activity.WALKING and line.at(5.0) is Activity.ELEVATOR_UP
-    assert line.lasted(9.0) == {Activity.WALKING: 4.0, Activity.ELEVATOR_UP: 4.0}
+    assert line.durations(9.0) == {Activity.WALKING: 4.0, Activity.ELEVATOR_UP: 4.0}
 
 
 def test_an_event_dated_before_an_earlier_one_takes_its_place():
@@ -41,7 +41,7 @@ def test_an_event_dated_before_an_earlier_one_takes_its_place():
 
 def test_time_before_the_first_activity_and_after_the_end_counts_for_none():
     line = timeline(changed(2.0, Activity.WALKING))
-    assert line.spans(1.0) == [] and line.lasted(2.0) == {}
+    assert line.spans(1.0) == [] and line.durations(2.0) == {}
 
 
 def test_a_timeline_of_too_many_changes_leaves_out_what_was_short_and_keeps_the_newest():

@@ -29,7 +29,7 @@ from solepath.show.tables.summary import link_health, status, summary, wear_line
 from solepath.show.tables.table import milliseconds, number, percent, table
 from solepath.types import Foot, Packet, Sample, Site, WalkingMode
 
-STEP = stride(
+STRIDE = stride(
     Foot.LEFT, 2.0, (1.25, 0.0, 0.0), known_at=2.0625, position=(1.25, 0.0, 0.0), degraded=True,
     covariance=(1e-4, 0.0, 0.0, 1e-4, 0.0, 1e-4),
 )  # fmt: skip
@@ -72,7 +72,7 @@ def test_a_summary_counts_the_events_of_each_foot():
         observer.take(Sample(n * 0.25 + (1.5 if n > 5 else 0.0), Site.LEFT_FOOT), [])
     strike = HeelStrike(t=1.9375, known_at=2.0, foot=Foot.LEFT)
     gap = SampleGap(t=1.25, known_at=3.0, site=Site.LEFT_FOOT, duration=1.75)
-    observer.take(None, [gap, strike, evolve(strike, final=False), STEP])
+    observer.take(None, [gap, strike, evolve(strike, final=False), STRIDE])
     left, link = observer.feet[Foot.LEFT], observer.links[Site.LEFT_FOOT]
     assert (link.samples, link.gaps, link.gap_time, link.rate) == (11, 1, 1.75, 4.0)
     assert (left.events[HeelStrike], left.strides, left.degraded, left.distance) == (1, 1, 1, 1.25)

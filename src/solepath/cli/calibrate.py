@@ -11,12 +11,12 @@ from ..calibration import Calibration, InsoleCalibration, merged
 from ..recording import printable
 from ..show.tables.table import number, table
 from ..types import Foot
-from .common.failure import Failure, count, degrees_of, positive, recipe_named, share
+from .common.failure import Failure, parse_count, parse_degrees, parse_positive, parse_share, recipe_named
 from .common.files import check_writable
 from .common.inputs import add_foot, check_pressure, foot_of, source_of
 
-MERGED = "What FILE holds already of other kinds, or of the other foot, stays."
-"""Sentence of the help text on what stays in FILE."""
+MERGE_NOTE = "What FILE holds already of other kinds, or of the other foot, stays."
+"""Sentence of the help text: a calibration is merged with what FILE already has."""
 
 
 def add_to(commands: Any) -> None:
@@ -24,7 +24,7 @@ def add_to(commands: Any) -> None:
     command: argparse.ArgumentParser = commands.add_parser(
         "calibrate",
         help="learn about a wearer, shoes and insoles",
-        description=f"Make a calibration for `track`, `live` and `evaluate` (--calibration FILE). {MERGED}",
+        description=f"Make a calibration for `track`, `live` and `evaluate` (--calibration FILE). {MERGE_NOTE}",
     )
     kinds = command.add_subparsers(metavar="KIND", dest="kind", required=True)
     for add in (_add_noise, _add_shoe, _add_square, _add_toe_out, _add_newton, _add_modes):
@@ -45,7 +45,7 @@ def run(options: argparse.Namespace) -> int:
     known = read_calibration(options.out) if options.out.exists() else Calibration()
     learnt, lines = options.learn(options, known)
     whole = merged(known, learnt)
-    problem = unusable(whole)
+    problem = unusable(whole)  # a reason, or None
     if problem is not None:
         raise Failure(f"nothing is written, for this cannot be: {problem}")
     write_calibration(options.out, whole)
@@ -53,11 +53,11 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-Learnt = tuple[Calibration, list[str]]
-"""Calibration that was learnt, and the lines that report it."""
+LearntCalibration = tuple[Calibration, list[str]]
+"""A calibration that was learnt, and the lines that report it."""
 
 
-def _recording(command: argparse.ArgumentParser) -> None:
+def _add_recording(command: argparse.ArgumentParser) -> None:
     command.add_argument("file", metavar="RECORDING", type=Path, help="packets (.jsonl) or samples (.npz, .csv)")
     add_foot(command)
 
@@ -70,17 +70,17 @@ def _add_noise(kinds: Any) -> None:
         epilog="example: solepath calibrate noise walk.jsonl --out me.json",
     )
     command.set_defaults(learn=_noise)
-    _recording(command)
+    _add_recording(command)
     command.add_argument(
         "--share",
         metavar="SHARE",
-        type=share,
+        type=parse_share,
         default=0.15,
         help="of the samples with the least load that are taken for swing (default: 0.15)",
     )
 
 
-def _noise(options: argparse.Namespace, known: Calibration) -> Learnt:
+def _noise(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
     from ..papers.kupt_dfpc.noise import pressure_noise
     from ..recording.decoded import decode_recording
 
@@ -88,8 +88,8 @@ def _noise(options: argparse.Namespace, known: Calibration) -> Learnt:
         raise Failure("--share 0: of no samples at all nothing is learnt")
     learnt = pressure_noise(decode_recording(source_of(options.file, foot_of(options))).samples, options.share, known)
     rows = [
-        [foot.value, str(len(one.noise)), number(sum(one.noise) / len(one.noise)), number(max(one.noise))]
-        for foot, one in learnt.insoles.items()
+        [foot.value, str(len(insole.noise)), number(sum(insole.noise) / len(insole.noise)), number(max(insole.noise))]
+        for foot, insole in learnt.insoles.items()
     ]
     return learnt, [table(["foot", "cells", "mean noise", "largest"], rows)]
 
@@ -106,7 +106,7 @@ def _add_shoe(kinds: Any) -> None:
     command.add_argument("file", metavar="POSTURES", type=Path, help="the csv file")
 
 
-def _shoe(options: argparse.Namespace, known: Calibration) -> Learnt:
+def _shoe(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
     from ..papers.kupt_dfpc.shoe import fit_shoe
 
     fit = fit_shoe(options.file)
@@ -128,14 +128,16 @@ def _add_square(kinds: Any) -> None:
         epilog="example: solepath calibrate square laps.jsonl --out me.json",
     )
     command.set_defaults(learn=_square)
-    _recording(command)
+    _add_recording(command)
     command.add_argument(
         "--marks",
         metavar="MARKS",
         type=Path,
         help="a csv file of the visits, mark and t (s); without it they are counted",
     )
-    command.add_argument("--steps", metavar="N", type=count, default=40, help="marks around the square (default: 40)")
+    command.add_argument(
+        "--steps", metavar="N", type=parse_count, default=40, help="marks around the square (default: 40)"
+    )
     command.add_argument(
         "--recipe",
         metavar="NAME",
@@ -147,7 +149,7 @@ def _add_square(kinds: Any) -> None:
     )
 
 
-def _square(options: argparse.Namespace, known: Calibration) -> Learnt:
+def _square(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
     from ..papers.pressure_contour.square import read_marks, square_drift
 
     recipe = recipe_named(options.recipe)
@@ -155,17 +157,17 @@ def _square(options: argparse.Namespace, known: Calibration) -> Learnt:
     marks = read_marks(options.marks) if options.marks else None
     source = source_of(options.file, foot)
     check_pressure(recipe, source)
-    found = square_drift(source, foot=foot, marks=marks, steps_per_lap=options.steps, recipe=recipe, calibration=known)
-    x, y = found.slope
-    if found.agreed:
+    drift = square_drift(source, foot=foot, marks=marks, steps_per_lap=options.steps, recipe=recipe, calibration=known)
+    x, y = drift.slope
+    if drift.agreed:
         verdict = "the laps agree on it, and it is taken off later"
     elif options.whole:
         verdict = "the laps do not agree on it, and it is taken off all the same"
     else:
         verdict = "the laps do not agree on it, so that nothing is taken off (--whole does all the same)"
-    return Calibration(drift={found.foot: found.slope if options.whole else found.kept}), [
-        f"{found.foot} foot: {found.visits} visits of {found.marks} marks, drift {1000.0 * x:.2f}, "
-        f"{1000.0 * y:.2f} mm/s within {1000.0 * found.scatter:.2f}: {verdict}"
+    return Calibration(drift={drift.foot: drift.slope if options.whole else drift.kept}), [
+        f"{drift.foot} foot: {drift.visits} visits of {drift.marks} marks, drift {1000.0 * x:.2f}, "
+        f"{1000.0 * y:.2f} mm/s within {1000.0 * drift.scatter:.2f}: {verdict}"
     ]
 
 
@@ -178,25 +180,28 @@ def _add_toe_out(kinds: Any) -> None:
         epilog="example: solepath calibrate toe-out corridor.jsonl --distance 20 --out me.json",
     )
     command.set_defaults(learn=_toe_out)
-    _recording(command)
-    command.add_argument("--distance", metavar="M", type=positive, required=True, help="length of the walk, m")
+    _add_recording(command)
+    command.add_argument("--distance", metavar="M", type=parse_positive, required=True, help="length of the walk, m")
 
 
-def _toe_out(options: argparse.Namespace, known: Calibration) -> Learnt:
+def _toe_out(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
     from ..papers.footstep_tracker.toe_out import toe_out, toe_out_calibration
 
-    found = toe_out(source_of(options.file, foot_of(options)), options.distance)
-    angles = ["none" if one.angle is None else number(degrees(one.angle)) for one in found]
+    feet = toe_out(source_of(options.file, foot_of(options)), options.distance)
+    angles = ["none" if foot.angle is None else number(degrees(foot.angle)) for foot in feet]
     rows = [
-        [one.foot.value, str(one.steps), number(one.along, 2), angle] for one, angle in zip(found, angles, strict=True)
+        [foot.foot.value, str(foot.steps), number(foot.along, 2), angle]
+        for foot, angle in zip(feet, angles, strict=True)
     ]
     lines = [table(["foot", "steps", "along the foot m", "toe-out degrees"], rows)]
-    if all([one.angle is None for one in found]):
-        far = " and ".join([f"{one.along:.1f} m of the {one.foot} foot" for one in found])
-        raise Failure(f"nothing is learnt: the steps come to {far}, less than the {options.distance:g} m of the walk")
+    if all([foot.angle is None for foot in feet]):
+        lengths = " and ".join([f"{foot.along:.1f} m of the {foot.foot} foot" for foot in feet])
+        raise Failure(
+            f"nothing is learnt: the steps come to {lengths}, less than the {options.distance:g} m of the walk"
+        )
     if "none" in angles:
         lines.append("none: these steps come to less than the walk, which no angle explains: nothing is learnt of it")
-    return toe_out_calibration(found), lines
+    return toe_out_calibration(feet), lines
 
 
 def _add_newton(kinds: Any) -> None:
@@ -212,7 +217,7 @@ def _add_newton(kinds: Any) -> None:
     command.add_argument("--foot", choices=["left", "right"], help="whose insole it is (default: both are alike)")
 
 
-def _newton(options: argparse.Namespace, known: Calibration) -> Learnt:
+def _newton(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
     from ..papers.walking_modes.newton import fit_gauge
 
     foot = foot_of(options)
@@ -240,12 +245,12 @@ def _add_modes(kinds: Any) -> None:
     command.add_argument(
         "--heading",
         metavar="DEGREES",
-        type=degrees_of,
+        type=parse_degrees,
         help="where the wearer looks at the start, in the world that all sensors share (default: the first step says)",
     )
 
 
-def _modes(options: argparse.Namespace, known: Calibration) -> Learnt:
+def _modes(options: argparse.Namespace, known: Calibration) -> LearntCalibration:
     from ..papers.walking_modes.calibrate import fit_modes
     from ..recording.decoded import decode_recording
 

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from ..recording.btsnoop import BtsnoopLog
     from ..recording.mcap import McapWriter
 
-LONG = 4_000_000
-"""Size from which on there is a progress bar, bytes."""
+MIN_PROGRESS_SIZE = 4_000_000
+"""Size of a file above which there is a progress bar, bytes; chosen by hand."""
 RECORDING, MCAP = ".jsonl", ".mcap"
 
 
@@ -88,14 +88,14 @@ def run(options: argparse.Namespace) -> int:
     from ..show.tables.progress import progress_bar
 
     source, out = options.source, options.out
-    make = _maker(out)
+    open_writer = _writer_class(out)
     log: BtsnoopLog | None = None
     packets: Iterable[Packet]
     total = source.stat().st_size if source.is_file() else 0
-    with progress_bar(printable(source.name), total, enabled=total > LONG) as show:
+    with progress_bar(printable(source.name), total, enabled=total > MIN_PROGRESS_SIZE) as show:
         if is_btsnoop(source):
-            log = _opened(options)
-            packets, header = _shown(log, show), log.header
+            log = _open_log(options)
+            packets, header = _with_progress(log, show), log.header
         elif options.sites or options.handles:
             raise Failure("--site and --handle are for btsnoop logs; a recording knows its sites and channels")
         elif out.suffix.lower() == RECORDING:
@@ -103,7 +103,7 @@ def run(options: argparse.Namespace) -> int:
         else:
             header = read_header(source)
             packets = read_packets(source, report=note, progress=show)
-        count, damage = _write(packets, header, make, source, out)
+        count, damage = _write(packets, header, open_writer, source, out)
     for device in [] if log is None else log.devices.values():
         if device.site is not None and device.count:
             kind = "" if device.profile is None else f", {device.profile.name}"
@@ -114,7 +114,7 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _opened(options: argparse.Namespace) -> BtsnoopLog:
+def _open_log(options: argparse.Namespace) -> BtsnoopLog:
     from ..link.catalogue import PROFILES
     from ..recording.btsnoop import open_btsnoop
 
@@ -126,28 +126,28 @@ def _opened(options: argparse.Namespace) -> BtsnoopLog:
     return open_btsnoop(options.source, sites=sites, handles=handles, report=note)
 
 
-def _by_key(option: str, given: Iterable[tuple[_Key, _Value]]) -> dict[_Key, _Value]:
-    """Return the values by their keys; Failure when a key is given twice."""
-    found: dict[_Key, _Value] = {}
-    for key, value in given:
-        if key in found:
+def _by_key(option: str, pairs: Iterable[tuple[_Key, _Value]]) -> dict[_Key, _Value]:
+    """Return the values of an option by their keys; raise Failure when a key is given twice."""
+    values: dict[_Key, _Value] = {}
+    for key, value in pairs:
+        if key in values:
             name = key if isinstance(key, str) else f"{key[0]}/{key[1]:#06x}".removeprefix("/")
             raise Failure(f"{option} is given twice for {name}")
-        found[key] = value
-    return found
+        values[key] = value
+    return values
 
 
-def _shown(log: BtsnoopLog, show: Callable[[int], None]) -> Iterator[Packet]:
+def _with_progress(log: BtsnoopLog, show: Callable[[int], None]) -> Iterator[Packet]:
     for packet in log:
         show(log.done)
         yield packet
 
 
-Make = Callable[[Path, Mapping[str, Any]], "PacketWriter | McapWriter"]
+OpenWriter = Callable[[Path, Mapping[str, Any]], "PacketWriter | McapWriter"]
 
 
-def _maker(out: Path) -> Make:
-    """Return the class that writes a file of this name; Failure when there is none."""
+def _writer_class(out: Path) -> OpenWriter:
+    """Return the class that writes a file of this name; raise Failure when there is none."""
     suffix = out.suffix.lower()
     if suffix == RECORDING:
         return PacketWriter
@@ -163,17 +163,17 @@ def _maker(out: Path) -> Make:
 
 
 def _write(
-    packets: Iterable[Packet], header: Mapping[str, Any], make: Make, source: Path, out: Path
+    packets: Iterable[Packet], header: Mapping[str, Any], open_writer: OpenWriter, source: Path, out: Path
 ) -> tuple[int, RecordingError | None]:
-    """Write the packets to `out`; return how many, and what was wrong with the source after them.
+    """Write the packets to `out`; return their number, and the fault of the source that ended them, or None.
 
-    When nothing could be read, or not everything be written, `out` is as it was before."""
+    If no packet could be read, or not every packet be written, `out` stays as it was."""
     if out.exists() and out.samefile(source):
         raise Failure(f"{printable(str(out))}: is what is to be converted")
     damage: RecordingError | None = None
-    with _replacing(out) as path:
+    with _replacement(out) as path:
         try:
-            writer = make(path, header)
+            writer = open_writer(path, header)
             try:
                 for packet in _until_damage(packets):
                     if isinstance(packet, RecordingError):
@@ -195,7 +195,7 @@ def _write(
 def _until_damage(packets: Iterable[Packet]) -> Iterator[Packet | RecordingError]:
     """Yield the packets, and at the end the error that stopped the reading, if any.
 
-    This keeps errors of reading apart from those of writing."""
+    So errors of reading can be distinguished from errors of writing."""
     try:
         yield from packets
     except RecordingError as error:
@@ -203,11 +203,11 @@ def _until_damage(packets: Iterable[Packet]) -> Iterator[Packet | RecordingError
 
 
 @contextmanager
-def _replacing(out: Path) -> Iterator[Path]:
-    """Yield a file to write that replaces `out` when it is complete, and is removed when it is not."""
+def _replacement(out: Path) -> Iterator[Path]:
+    """Yield the path of a temporary file, which replaces `out` if it is complete at the end, and else is removed."""
     files = FileReplacements()
     try:
-        yield files.beside(out, read_only=True)
+        yield files.temporary_path(out, read_only=True)
         files.keep()
     except OSError as error:
         raise Failure(f"{printable(str(out))}: {os_error_text(error)}") from None

@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING, Any
 
 from ..recording import PacketWriter, printable
 from ..types import Foot
-from .common.failure import Failure, is_installed, note, positive, seconds, seed, share
-from .common.view import View, add_speed, add_view, pace_of, play, run_rest, view_of
+from .common.failure import Failure, is_installed, note, parse_positive, parse_seconds, parse_seed, parse_share
+from .common.view import PageAddress, add_speed, add_view, compute_rest, play, speed_of, view_of
 
 if TYPE_CHECKING:
     from ..lab.emulated.demo import Demo
 
-REPORT_EVERY = 10.0
-"""Time of the walk between two lines where there is no terminal, s."""
-PACE = 2.0
-"""Speed in a terminal, in multiples of real time: there is less to see than on a page."""
+REPORT_INTERVAL = 10.0
+"""Time of the walk between two lines without a terminal, s."""
+TERMINAL_SPEED = 2.0
+"""Speed in a terminal, in multiples of real time; it is higher than on a page, since there is less to see."""
 
 
 def add_to(commands: Any) -> None:
@@ -30,24 +30,31 @@ def add_to(commands: Any) -> None:
         "live, on a page in the browser where aiohttp is installed; without a terminal it is computed as fast as it "
         "can be.",
     )
-    command.add_argument("--seed", metavar="N", type=seed, default=1, help="another walk of this route (default: 1)")
+    command.add_argument(
+        "--seed", metavar="N", type=parse_seed, default=1, help="another walk of this route (default: 1)"
+    )
     route = command.add_mutually_exclusive_group()
     route.add_argument(
-        "--distance", metavar="M", type=positive, help="walk so many metres straight on instead of the scripted route"
+        "--distance",
+        metavar="M",
+        type=parse_positive,
+        help="walk so many metres straight on instead of the scripted route",
     )
     route.add_argument(
         "--building",
         action="store_true",
         help="walk through an emulated building, with its floor plan: a lift, corridors, stairs",
     )
-    command.add_argument("--loss", metavar="SHARE", type=share, help="share of packets lost, 0 to 1 (default: 0.03)")
     command.add_argument(
-        "--jitter", metavar="S", type=seconds, help="how much later than others a packet may come (default: 0.03)"
+        "--loss", metavar="SHARE", type=parse_share, help="share of packets lost, 0 to 1 (default: 0.03)"
+    )
+    command.add_argument(
+        "--jitter", metavar="S", type=parse_seconds, help="how much later than others a packet may come (default: 0.03)"
     )
     shown = command.add_mutually_exclusive_group()
     add_view(command, shown, "show it")
     shown.add_argument("--terminal", action="store_true", help="show it in the terminal, not in the browser")
-    add_speed(command, f"1 on the page, {PACE:g} in the terminal")
+    add_speed(command, f"1 on the page, {TERMINAL_SPEED:g} in the terminal")
     command.add_argument("--record", metavar="FILE", type=Path, help="write the packets as a recording for `track`")
     command.set_defaults(run=run)
 
@@ -61,17 +68,17 @@ def run(options: argparse.Namespace) -> int:
     from ..show.tables.summary import latency
 
     view = _view(options)
-    pace = 1.0 if view is None else pace_of(options, 1.0)
-    air = radio(options.loss, options.jitter)
+    pace = 1.0 if view is None else speed_of(options, 1.0)
+    emulated_radio = radio(options.loss, options.jitter)
     if options.building:
-        demo = make_indoors(options.seed, air, pressures=view is not None)
+        demo = make_indoors(options.seed, emulated_radio, pressures=view is not None)
     else:
         route = ROUTE if options.distance is None else straight(options.distance)
-        demo = make_demo(options.seed, route, air, pressures=view is not None)
-    far = f"{demo.walk.walker.route.length:.0f} m{' through a building' if options.building else ''}"
+        demo = make_demo(options.seed, route, emulated_radio, pressures=view is not None)
+    distance = f"{demo.walk.walker.route.length:.0f} m{' through a building' if options.building else ''}"
     print(
-        f"An emulated wearer walks {far} in {demo.duration:.0f} s with an insole in each shoe; "
-        f"{100 * air.loss:.3g} % of the packets get lost.",
+        f"An emulated wearer walks {distance} in {demo.duration:.0f} s with an insole in each shoe; "
+        f"{100 * emulated_radio.loss:.3g} % of the packets get lost.",
         flush=True,
     )
     if options.record:
@@ -79,7 +86,7 @@ def run(options: argparse.Namespace) -> int:
     if view is not None:
         _show(demo, view, pace)
     elif sys.stdout.isatty() and is_installed("rich"):
-        _draw(demo, PACE if options.speed is None else options.speed)
+        _draw(demo, TERMINAL_SPEED if options.speed is None else options.speed)
     else:
         if sys.stdout.isatty():
             note("the live view needs rich (pip install rich); plain text without it")
@@ -92,21 +99,21 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def _view(options: argparse.Namespace) -> View | None:
-    """Return where the page is to be served; None when it is shown otherwise."""
+def _view(options: argparse.Namespace) -> PageAddress | None:
+    """Return the address of the page; None when the demo is shown without a page."""
     if options.terminal and options.no_browser:
         raise Failure("--no-browser is for the page, and --terminal shows none")
     view = view_of(options)
     if view is not None or options.terminal or not sys.stdout.isatty():
         return view
     if is_installed("aiohttp"):
-        return View(browser=not options.no_browser)
+        return PageAddress(browser=not options.no_browser)
     note("the page in the browser needs aiohttp (pip install 'solepath[view]')")
     return None
 
 
-def _show(demo: Demo, view: View, pace: float) -> None:
-    """Show the demo on a page; the walk is computed to its end, whatever was watched."""
+def _show(demo: Demo, view: PageAddress, pace: float) -> None:
+    """Show the demo on a page; when that ends, compute the rest of the walk."""
     from ..show.page.player.packed_items import PackedItems
     from ..show.page.player.player import Player
     from ..show.page.scene.scene import Scene
@@ -114,7 +121,7 @@ def _show(demo: Demo, view: View, pace: float) -> None:
     scene = Scene("An emulated walk", "default", "demo", plan=None if demo.plan is None else demo.plan.plan)
     player = Player(PackedItems(demo.walk.packets), demo.session, scene, demo.plan, on_events=demo.add_events)
     play(player, view, pace)
-    run_rest(player, "walk")
+    compute_rest(player, "walk")
 
 
 def _record(demo: Demo, path: Path) -> None:
@@ -131,31 +138,31 @@ def _draw(demo: Demo, speed: float) -> None:
 
     from rich.console import Console
 
-    from ..show.tables.terminal import FRAMES, picture, screen
+    from ..show.tables.terminal import FRAME_RATE, picture, screen
 
     def title() -> str:
         return f"{demo.observer.now:5.1f} of {demo.duration:.1f} s, {speed:g} times real time"
 
     console, started = Console(), monotonic()
-    with screen(console) as drawn:
+    with screen(console) as display:
         for packet in demo.play():
-            if (ahead := packet.t / speed - (monotonic() - started)) > 0.5 / FRAMES:
-                drawn.draw(demo.observer, title())
-                sleep(ahead)
+            if (wait := packet.t / speed - (monotonic() - started)) > 0.5 / FRAME_RATE:
+                display.draw(demo.observer, title())
+                sleep(wait)
             else:
-                drawn.show(demo.observer, title())
+                display.show(demo.observer, title())
     console.print(picture(demo.observer, title()))
 
 
 def _print_progress(demo: Demo) -> None:
-    """Print lines of plain text instead of a picture, as fast as they are computed."""
+    """Compute the demo as fast as possible and print lines of plain text instead of a picture."""
     from ..show.tables.plot import plot
     from ..show.tables.summary import link_health
 
-    due = REPORT_EVERY
+    due = REPORT_INTERVAL
     for packet in demo.play():
         if packet.t >= due:
-            due += REPORT_EVERY
+            due += REPORT_INTERVAL
             feet = (f"{foot} {demo.observer.foot(foot).strides} steps" for foot in Foot)
             print(f"{packet.t:6.1f} s  {', '.join(feet)}", flush=True)
     print(

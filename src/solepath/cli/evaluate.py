@@ -80,10 +80,12 @@ def run(options: argparse.Namespace) -> int:
     from ..show.tables.progress import progress_bar
 
     walks = [data_set.name for data_set in EMULATED]
-    recorded, walked = ([name for name in options.only if (name in walks) is made] for made in (False, True))
+    recorded, walked = (
+        [name for name in options.only if (name in walks) is is_emulated] for is_emulated in (False, True)
+    )
     emulated = bool(walked) or options.emulated and not options.only
-    named = os.environ.get(ENVIRONMENT)
-    folder = options.dir or (Path(named) if named and (recorded or not emulated) else None)
+    default_folder = os.environ.get(ENVIRONMENT)
+    folder = options.dir or (Path(default_folder) if default_folder and (recorded or not emulated) else None)
     if folder is None and (recorded or not emulated):
         raise Failure(f"evaluate needs DIR, or the environment variable {ENVIRONMENT}, or --emulated")
     if options.walks < 1 or options.seed < 0:
@@ -95,25 +97,25 @@ def run(options: argparse.Namespace) -> int:
             raise Failure("--ablation chooses the recipes itself, so it goes without --recipe")
         chosen = list(ablation.recipes())
     results = []
-    before = read_scores(options.compare) if options.compare else None
+    old_scores = read_scores(options.compare) if options.compare else None
     with progress_bar("recordings", 100) as show:
 
         def percent(done: int, total: int) -> None:
             show(100 * done // total)
 
-        how: dict[str, Any] = {
+        common_options: dict[str, Any] = {
             "calibration": calibration_of(options), "processes": max(1, options.processes), "progress": percent,
         }  # fmt: skip
-        parts: list[Iterator[Result]] = []
+        evaluations: list[Iterator[Result]] = []
         if options.ablation and folder is not None and not options.only:
-            main = {column.data_set for column in ablation.COLUMNS}
-            recorded = [data_set.name for data_set in find(folder) if data_set.name in main]
+            main_sets = {column.data_set for column in ablation.COLUMNS}
+            recorded = [data_set.name for data_set in find(folder) if data_set.name in main_sets]
         if folder is not None and (recorded or not options.only):
-            parts.append(evaluate(folder, chosen or known, only=recorded, **how))
+            evaluations.append(evaluate(folder, chosen or known, only=recorded, **common_options))
         if emulated:
             seeds = range(options.seed, options.seed + options.walks)
-            parts.append(evaluate_emulated(chosen or [DEFAULT], seeds, only=walked, **how))
-        for result in chain(*parts):
+            evaluations.append(evaluate_emulated(chosen or [DEFAULT], seeds, only=walked, **common_options))
+        for result in chain(*evaluations):
             results.append(result)
             if not options.markdown and not options.ablation:
                 print(score_table(result), end="\n\n", flush=True)
@@ -122,10 +124,10 @@ def run(options: argparse.Namespace) -> int:
     elif options.markdown:
         print(accuracy_table(results))
     if options.ablation or options.markdown:
-        for failed in (sentence for result in results for sentence in result.failures):
-            note(f"not scored: {failed}")
-    if before is not None:
-        print(comparison_tables(before, as_json(results)))
+        for failure in (sentence for result in results for sentence in result.failures):
+            note(f"not scored: {failure}")
+    if old_scores is not None:
+        print(comparison_tables(old_scores, as_json(results)))
     if options.json:
         write_json(options.json, as_json(results))
     return 0

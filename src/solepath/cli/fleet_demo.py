@@ -1,4 +1,6 @@
-"""`solepath fleet-demo`: runs emulated wearers through a stream engine that is killed, and measures the cost."""
+"""`solepath fleet-demo`: runs emulated wearers through a stream engine that is killed, and measures the cost.
+
+The times below were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -13,18 +15,18 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..recording import printable
-from .common.failure import Failure, count, is_installed, positive, recipe_named, seed
+from .common.failure import Failure, is_installed, parse_count, parse_positive, parse_seed, recipe_named
 from .common.files import check_writable, write_json
 
 if TYPE_CHECKING:
     from ..fleet.demo.stage import DemoStage
 
-DIFFERS = 1
+DIFFERENCE_STATUS = 1
 """Exit status when the events of two runs differ."""
-LONGEST = 3600.0
-"""Longest walk that can be asked for, s."""
-WALKED, LEAST, MOST = 1200.0, 4.0, 20.0
-"""Total walking time of all wearers, and least and most of each, when no time is given, s."""
+MAX_WALK_TIME = 3600.0
+"""Longest walk that an option may request, s."""
+DEFAULT_TOTAL_TIME, MIN_DEFAULT_TIME, MAX_DEFAULT_TIME = 1200.0, 4.0, 20.0
+"""Default walking time of all wearers together, and its least and greatest value for each wearer, s."""
 
 
 def add_to(commands: Any) -> None:
@@ -38,21 +40,25 @@ def add_to(commands: Any) -> None:
         "without an engine. Exit status 1 when they do not.",
         epilog="example: solepath fleet-demo --wearers 1000 --kills 10 --out fleet",
     )
-    command.add_argument("--wearers", metavar="N", type=count, default=100, help="how many wearers (default: 100)")
-    command.add_argument("--kills", metavar="K", type=seed, default=3, help="how many kills (default: 3)")
+    command.add_argument(
+        "--wearers", metavar="N", type=parse_count, default=100, help="how many wearers (default: 100)"
+    )
+    command.add_argument("--kills", metavar="K", type=parse_seed, default=3, help="how many kills (default: 3)")
     command.add_argument(
         "--seconds",
         metavar="S",
-        type=positive,
-        help=f"how long each wearer walks (default: {LEAST:g} for {WALKED / LEAST:.0f} wearers and more, up to "
-        f"{MOST:g} for fewer)",
+        type=parse_positive,
+        help=f"how long each wearer walks (default: {MIN_DEFAULT_TIME:g} for "
+        f"{DEFAULT_TOTAL_TIME / MIN_DEFAULT_TIME:.0f} wearers and more, up to {MAX_DEFAULT_TIME:g} for fewer)",
     )
     command.add_argument("--recipe", metavar="NAME", default="default", help="recipe of the sessions")
-    command.add_argument("--seed", metavar="X", type=seed, default=1, help="other wearers, other kills (default: 1)")
+    command.add_argument(
+        "--seed", metavar="X", type=parse_seed, default=1, help="other wearers, other kills (default: 1)"
+    )
     command.add_argument(
         "--processes",
         metavar="P",
-        type=count,
+        type=parse_count,
         default=min(2, os.cpu_count() or 1),
         help="processes of the engine (default: 2, where there are two processors)",
     )
@@ -72,29 +78,29 @@ def run(options: argparse.Namespace) -> int:
     from ..fleet.demo.stage import DemoStage
     from ..fleet.demo.wearers import DemoPlan
     from .common.loop import stop_signals_raise
-    from .fleet_table import figures, table_of
+    from .fleet_table import figures, result_table
 
-    seconds = options.seconds or min(max(WALKED / options.wearers, LEAST), MOST)
+    seconds = options.seconds or min(max(DEFAULT_TOTAL_TIME / options.wearers, MIN_DEFAULT_TIME), MAX_DEFAULT_TIME)
     plan = DemoPlan(options.wearers, seconds, options.seed, options.recipe, options.processes)
     with stop_signals_raise(), _directory(options) as directory:
         stage = DemoStage(directory, plan)
         try:
-            differences = play(stage, options.kills, keep=options.keep)
-        except (RunFailed, UnreadableEvents) as failed:
-            raise Failure(str(failed)) from None
-        print(f"\n{table_of(stage)}")
+            differences = run_all(stage, options.kills, keep=options.keep)
+        except (RunFailed, UnreadableEvents) as error:
+            raise Failure(str(error)) from None
+        print(f"\n{result_table(stage)}")
         if options.json is not None:
             write_json(options.json, {**figures(stage), "differences": differences})
         if options.out is not None:
-            _leave(stage, options.out)
+            _copy_events(stage, options.out)
         return verdict(differences, [outcome.differences for outcome in stage.outcomes])
 
 
-def play(stage: DemoStage, kills: int, *, keep: bool) -> list[str]:
-    """Do all runs and print each as it ends.
+def run_all(stage: DemoStage, kills: int, *, keep: bool) -> list[str]:
+    """Do all runs, print each as it ends, and return the differences of the uninterrupted run.
 
-    Return what differed between the uninterrupted run and the sessions alone."""
-    from .fleet_table import of_kills, of_worth
+    They are differences of its events from those of the sessions without an engine."""
+    from .fleet_table import effect_line, kill_lines
 
     plan = stage.plan
     stage.prepare()
@@ -113,32 +119,33 @@ def play(stage: DemoStage, kills: int, *, keep: bool) -> list[str]:
     differences = stage.compare()
     print(f"sessions alone: {'other' if differences else 'the same'} events", flush=True)
     for number, outcome in enumerate(stage.killed(kills, keep=keep), 1):
-        for line in of_kills(engine, number, outcome):
+        for line in kill_lines(engine, number, outcome):
             print(line, flush=True)
-    print(of_worth(stage.outcomes))
+    print(effect_line(stage.outcomes))
     return differences
 
 
-def _counted(count: int, one: str, many: str) -> str:
-    return f"{count} {one if count == 1 else many}"
+def _counted(count: int, singular: str, plural: str) -> str:
+    return f"{count} {singular if count == 1 else plural}"
 
 
 def verdict(alone: list[str], killed: list[list[str]]) -> int:
-    """Return the exit status, and print why it is not 0.
+    """Return the exit status, and print the differences if it is not 0.
 
-    The reasons are what differed from the sessions alone, and in each killed run."""
-    wrong = [f"sessions alone: {line}" for line in alone]
-    wrong += [f"killed run {number}: {line}" for number, lines in enumerate(killed, 1) for line in lines]
-    if wrong:
-        print("\n".join(["", "The events differ from those of the uninterrupted run.", *wrong]))
-    return DIFFERS if wrong else 0
+    `alone` are the differences between the uninterrupted run and the sessions without an engine; `killed` are those
+    between the uninterrupted run and each killed run."""
+    lines = [f"sessions alone: {line}" for line in alone]
+    lines += [f"killed run {number}: {line}" for number, run_lines in enumerate(killed, 1) for line in run_lines]
+    if lines:
+        print("\n".join(["", "The events differ from those of the uninterrupted run.", *lines]))
+    return DIFFERENCE_STATUS if lines else 0
 
 
 def _check(options: argparse.Namespace) -> None:
-    """Raise Failure for options that would only fail after a while."""
+    """Raise Failure at once for options that would otherwise fail only later."""
     recipe_named(options.recipe)
-    if options.seconds is not None and options.seconds > LONGEST:
-        raise Failure(f"--seconds {options.seconds:g}: {LONGEST:g} is the most")
+    if options.seconds is not None and options.seconds > MAX_WALK_TIME:
+        raise Failure(f"--seconds {options.seconds:g}: {MAX_WALK_TIME:g} is the most")
     if options.seconds is not None and options.seconds < 1.0:
         raise Failure(f"--seconds {options.seconds:g}: a walk takes at least 1")
     if options.processes > options.wearers:
@@ -154,8 +161,8 @@ def _check(options: argparse.Namespace) -> None:
 
 @contextmanager
 def _directory(options: argparse.Namespace) -> Iterator[Path]:
-    """Yield the directory of the runs; it is removed at the end unless it is to be kept."""
-    made = options.out is not None and not options.out.exists()
+    """Yield the directory of the runs; at the end it is removed, unless --keep was given."""
+    is_new = options.out is not None and not options.out.exists()
     if options.out is not None:
         options.out.mkdir(parents=True, exist_ok=True)
         directory = options.out.resolve() / "runs"
@@ -169,13 +176,13 @@ def _directory(options: argparse.Namespace) -> Iterator[Path]:
             print(f"what the runs wrote is in {directory}")
         else:
             shutil.rmtree(directory, ignore_errors=True)
-            if made:
+            if is_new:
                 with suppress(OSError):  # the directory is not empty
                     directory.parent.rmdir()
 
 
-def _leave(stage: DemoStage, out: Path) -> None:
-    """Copy the events of the uninterrupted run, and print how to look at them."""
+def _copy_events(stage: DemoStage, out: Path) -> None:
+    """Copy the events of the uninterrupted run to `out`, and print a command that shows them."""
     from shlex import quote
 
     events_directory = out / "events"

@@ -1,6 +1,7 @@
 """`solepath`: the parser, and the handling of errors of all commands.
 
-Exit status: 0 done; 2 the command line or a file is wrong, with one line on stderr; 130 interrupted."""
+Exit status: 0 for success; 2 for an error in the command line or a file, with one line on stderr; 130 if interrupted.
+"""
 
 from __future__ import annotations
 
@@ -31,7 +32,7 @@ def parser() -> argparse.ArgumentParser:
 
 
 def run(arguments: Sequence[str] | None) -> int:
-    """Run one command; errors are raised."""
+    """Run one command and return the exit status; errors are raised."""
     top = parser()
     options = top.parse_args(arguments)
     if options.version:
@@ -47,18 +48,18 @@ def run(arguments: Sequence[str] | None) -> int:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command and return the exit status."""
+    """Run one command and return the exit status; errors become a line on stderr."""
     _open_closed()
     try:
         status = run(arguments)
         sys.stdout.flush()
         return status
-    except (Failure, RecordingError, CalibrationError) as wrong:
-        note(str(wrong))
+    except (Failure, RecordingError, CalibrationError) as error:
+        note(str(error))
     except KeyboardInterrupt:
         return 130
     except BrokenPipeError:
-        # the reader closed the pipe; without this Python would report it again when it closes stdout
+        # the reader closed the pipe; without this line Python would report that again when it closes stdout
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except OSError as error:
@@ -67,7 +68,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _open_closed() -> None:
-    """Open /dev/null for each standard stream that was closed before the start, and is None."""
+    """Open /dev/null for each standard stream that was closed before the start; Python sets such a stream to None."""
     for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
         if getattr(sys, name) is None:
             setattr(sys, name, os.fdopen(os.open(os.devnull, os.O_RDWR), mode, encoding="utf-8"))

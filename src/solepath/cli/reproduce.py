@@ -9,11 +9,11 @@ from pathlib import Path
 from typing import Any
 
 from ..recording import printable
-from .common.failure import Failure, count, need, seed
+from .common.failure import Failure, parse_count, parse_seed, require
 from .common.files import check_writable, write_json
 
 NAMES = ("kupt-dfpc", "pressure-contour", "walking-modes", "footstep-tracker", "shoe-sensing")
-"""Modules of lab.reproduce, of which only the one that is asked for is imported."""
+"""Names of the experiments, each a module of lab.reproduce; only the requested one is imported."""
 
 
 def add_to(commands: Any) -> None:
@@ -27,9 +27,11 @@ def add_to(commands: Any) -> None:
     )
     command.add_argument("name", metavar="NAME", help=", ".join(NAMES))
     command.add_argument(
-        "--walks", metavar="N", type=count, help="so many walks, or wearers (default: as many as the paper)"
+        "--walks", metavar="N", type=parse_count, help="so many walks, or wearers (default: as many as the paper)"
     )
-    command.add_argument("--seed", metavar="S", type=seed, default=1, help="other walks and other sensors (default: 1)")
+    command.add_argument(
+        "--seed", metavar="S", type=parse_seed, default=1, help="other walks and other sensors (default: 1)"
+    )
     command.add_argument("--json", metavar="FILE", type=Path, help="write the table as JSON too")
     command.add_argument(
         "--figure",
@@ -40,7 +42,7 @@ def add_to(commands: Any) -> None:
         help="draw the paper's main figure into this file, .png, .svg or .pdf (default: NAME.png)",
     )
     command.add_argument(
-        "--processes", metavar="N", type=count, default=os.cpu_count() or 1, help="how many walks at a time"
+        "--processes", metavar="N", type=parse_count, default=os.cpu_count() or 1, help="how many walks at a time"
     )
     command.set_defaults(run=run)
 
@@ -64,24 +66,24 @@ def run(options: argparse.Namespace) -> int:
             show(100 * done // total)
 
         module = import_module(f"solepath.lab.reproduce.{options.name.replace('-', '_')}")
-        done = module.reproduce(options.walks, options.seed, processes=options.processes, progress=percent)
-    print(reproduced(done))
+        experiment = module.reproduce(options.walks, options.seed, processes=options.processes, progress=percent)
+    print(reproduced(experiment))
     if options.json is not None:
-        write_json(options.json, as_json(done))
+        write_json(options.json, as_json(experiment))
     if figure is not None:
         from ..lab.tables.figures import draw
 
-        draw(done, figure)
+        draw(experiment, figure)
         print(f"figure drawn in {printable(str(figure))}")
     return 0
 
 
 def _figure(options: argparse.Namespace) -> Path | None:
-    """Return the path of the figure, None without one; Failure when it could not be drawn there."""
+    """Return the path of the figure, None without one; raise Failure when it could not be drawn."""
     path: Path | None = options.figure
     if path is None:
         return None
-    need("figures need", "figures", "matplotlib")
+    require("figures need", "figures", "matplotlib")
     if path == Path():
         path = Path(f"{options.name}.png")
     from ..lab.tables.figures import formats

@@ -22,16 +22,16 @@ from .common.inputs import (
     foot_of,
     source_of,
 )
-from .common.view import View, add_speed, add_view, need_page, newtons_of, pace_of, play, run_rest, view_of
+from .common.view import PageAddress, add_speed, add_view, compute_rest, need_page, newtons_of, play, speed_of, view_of
 
 if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
     from .common.results import Results
 
-LONG = 4_000_000
-"""Size of a recording of packets from which on there is a progress bar, bytes."""
-LONG_SAMPLES = 40_000
-"""Number of samples from which on there is a progress bar: about a second of computing."""
+MIN_PROGRESS_SIZE = 4_000_000
+"""Size of a recording of packets above which there is a progress bar, bytes; chosen by hand."""
+MIN_PROGRESS_SAMPLES = 40_000
+"""Number of samples above which there is a progress bar: about a second of computing."""
 
 
 def add_to(commands: Any) -> None:
@@ -70,7 +70,7 @@ def run(options: argparse.Namespace) -> int:
     calibration = calibration_of(options)
     need_page(options, options.view is not None)
     view = view_of(options)
-    pace = 1.0 if view is None else pace_of(options, 1.0)
+    pace = 1.0 if view is None else speed_of(options, 1.0)
     source = source_of(options.file, foot_of(options))
     check_pressure(recipe, source)
     plan, start = floorplan_of(options)
@@ -82,32 +82,32 @@ def run(options: argparse.Namespace) -> int:
         floorplan=plan,
         start=start,
     )
-    reading = _Reading(source)
+    recording = _Recording(source)
     results = Results(
         f"{printable(options.file.name)}, recipe {recipe.name}",
         options.out,
         options.report,
         plan=None if plan is None else plan.plan,
         recipe=recipe.name,
-        when=_when(source),
+        when=_start_text(source),
     )
     seconds, shown = 0.0, False
     with stop_signals_raise(), results:
         if view is None:
-            seconds = _straight(reading, session, results)
+            seconds = _run_directly(recording, session, results)
         else:
-            shown = _played(reading, session, results, plan, calibration, view, pace)
-        if reading.failure is None or results.observer.items:
+            shown = _run_on_page(recording, session, results, plan, calibration, view, pace)
+        if recording.failure is None or results.observer.item_count:
             results.print(seconds)
-    if reading.failure is None:
+    if recording.failure is None:
         return 0
     if shown:
         return 2  # the reason was already printed
-    raise reading.failure
+    raise recording.failure
 
 
-def _when(source: Source) -> str:
-    """Return when the recording started, as text; "" when it does not say."""
+def _start_text(source: Source) -> str:
+    """Return the date and time at which the recording started, as text; "" when it is not known."""
     if source.samples is not None:
         return ""
     try:
@@ -117,10 +117,10 @@ def _when(source: Source) -> str:
     return "" if moment is None else f"{moment[0]:%Y-%m-%d %H:%M} UTC"
 
 
-class _Reading:
-    """The items of a recording up to a fault in it, with a progress bar for a long one.
+class _Recording:
+    """The packets or samples of a recording up to the first fault, with a progress bar for a long recording.
 
-    `failure` is the fault."""
+    `failure` is the fault, None when there was none."""
 
     def __init__(self, source: Source) -> None:
         self.source = source
@@ -130,7 +130,7 @@ class _Reading:
         from ..show.tables.progress import progress_bar
 
         source = self.source
-        long = source.total > (LONG if source.samples is None else LONG_SAMPLES)
+        long = source.total > (MIN_PROGRESS_SIZE if source.samples is None else MIN_PROGRESS_SAMPLES)
         with progress_bar(printable(source.path.name), source.total, enabled=long) as show:
             try:
                 for item in source:
@@ -140,44 +140,44 @@ class _Reading:
                 self.failure = error
 
 
-def _straight(reading: _Reading, session: Session, results: Results) -> float:
-    """Run the recording through the session item by item; return how long that took, s."""
+def _run_directly(recording: _Recording, session: Session, results: Results) -> float:
+    """Run the recording through the session without a page; return the wall time that it took, s."""
     from time import perf_counter
 
     start = perf_counter()
-    for item in reading:
+    for item in recording:
         results.open_files()
         results.add(item, session.feed(item))
-    if reading.failure is None:
+    if recording.failure is None:
         results.open_files()  # for a recording without items
-    # items before a fault in the file are a walk of their own: it is finished and written like any other
+    # the items before a fault in the file count as a whole walk, which is finished and written
     results.add(None, session.finish())
     return perf_counter() - start
 
 
-def _played(
-    reading: _Reading,
+def _run_on_page(
+    recording: _Recording,
     session: Session,
     results: Results,
     plan: IndexedPlan | None,
     calibration: Calibration | None,
-    view: View,
+    view: PageAddress,
     pace: float,
 ) -> bool:
-    """Run the recording by a player on a page; return whether there was anything to play.
+    """Play the recording on a page; return whether there was anything to play.
 
-    The player passes on every item once and in order, whatever is done on the page, and what nobody has watched is
-    computed at the end. The result is that of `_straight`."""
+    The player passes every item to `results` once and in order, whatever is done on the page; what was not played is
+    computed at the end. The results are those of `_run_directly`."""
     from ..show.page.player.packed_items import PackedItems
     from ..show.page.player.player import Player
     from ..show.page.scene.scene import Scene
 
-    items = PackedItems(reading)
-    shown, fault = len(items) > 0, "" if reading.failure is None else str(reading.failure)
+    items = PackedItems(recording)
+    shown, fault = len(items) > 0, "" if recording.failure is None else str(recording.failure)
     if shown or not fault:
         results.open_files()
     scene = Scene(
-        printable(reading.source.path.name),
+        printable(recording.source.path.name),
         session.recipe.name,
         "recording",
         plan=None if plan is None else plan.plan,
@@ -188,5 +188,5 @@ def _played(
         if fault:
             note(fault)
         play(player, view, pace)
-    run_rest(player, "recording")
+    compute_rest(player, "recording")
     return shown

@@ -1,10 +1,11 @@
-"""Counts what a session was fed and what it reported, for all who show it.
+"""Counts what a session was fed and what it reported, for every display.
 
     observer = Observer()
     observer.take(packet, session.feed(packet))
     observer.take(None, session.finish())
 
 Terminal, summary, page and report read from it. links.py defines what counts as lost or rejected, and what a rate is.
+An item is a packet or a sample. Numbers without a source were chosen by hand and not swept.
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ from ..events import (
 )
 from ..link.decoder import Decoder
 from ..types import SITE_OF_FOOT, Foot, Packet, Phase, Sample, Site, Turn, Vec3, WalkingMode
-from .links import SET_BACK, CoveredTime, LinkLedger, is_frame_fragment, is_sample_channel
+from .links import SET_BACK_TOLERANCE, CoveredTime, LinkLedger, is_frame_fragment, is_sample_channel
 from .places import PlaceCounts
 from .timeline import Timeline
 from .track import LiveTrack
@@ -59,20 +60,20 @@ GAIT_EVENTS: dict[type[Event], str] = {
 }
 """Events that start the phases of a foot, with their names."""
 REJECTIONS = (PacketRejected, SampleRejected)
-"""Events that change nothing, and are no sign that time passes either."""
-ALL_STRIDES = 10**9
-"""More strides than anybody takes, so that the means are over all of them."""
-MOST_NAMED_CELLS = 8
-"""Cells that a sentence names one by one at the most."""
-MOST_SENTENCES = 100
-"""Different sentences of one kind that are kept; later ones are not."""
-MOST_CHANGES = 2000
-"""Changes of activity that are kept; of more, the shortest activities are left out."""
+"""Events of packets and samples that were not used; they do not advance the time."""
+UNLIMITED_STRIDES = 10**9
+"""Number of strides that nobody reaches, so that means are over all strides with equal weights."""
+MAX_NAMED_CELLS = 8
+"""Largest number of cells that a sentence names one by one."""
+MAX_SENTENCES = 100
+"""Largest number of different sentences of one kind that are kept; later ones are left out."""
+MAX_ACTIVITY_CHANGES = 2000
+"""Largest number of activity changes that are kept; with more, the shortest activities are left out."""
 
 
 @define
 class FootCounts:
-    """Counts of one foot from the start until now."""
+    """The counts of one foot from the start until now."""
 
     strides: int = 0
     """Number of final strides."""
@@ -89,20 +90,18 @@ class FootCounts:
 
 @define
 class Observer:
-    """Counts over a session from its start until now.
+    """The counts of a session from its start until now.
 
-    The session is made with `poses=True`. Memory is bounded. An event that holds a number that is not finite is left
-    out."""
+    The session is made with `poses=True`. Memory is bounded. An event with a number that is not finite is left out."""
 
-    items: int = 0
-    """Packets and samples that were fed, used or not."""
+    item_count: int = 0
+    """Number of items that were fed, used or not."""
     now: float = -inf
-    """Latest known moment, s; after a clock was set back, by that clock."""
-    time: CoveredTime = field(factory=CoveredTime)
-    """Time from the first to the last packet or sample that was used, s. Packets count by their arrival, samples that
-    never were packets by their own time."""
+    """Latest known moment, s. When a clock is set back, it goes back too."""
+    covered_time: CoveredTime = field(factory=CoveredTime)
+    """Time from the first to the last used item, s. The time of a packet is its arrival; that of a sample its own."""
     links: dict[Site, LinkLedger] = field(factory=dict)
-    """Ledger of every site of which anything came."""
+    """Ledger of every site that has sent anything."""
     feet: dict[Foot, FootCounts] = field(factory=dict)
     track: LiveTrack = field(factory=LiveTrack)
     timeline: Timeline = field(factory=Timeline)
@@ -110,49 +109,49 @@ class Observer:
     gait: GaitMeans = field(factory=GaitMeans)
     """Means of all steady strides, with equal weights."""
     recent_gait: GaitMeans = field(factory=GaitMeans)
-    """Means of the steady strides as `Session.gait` has them: old strides fade."""
+    """Means of the steady strides as in `Session.gait`: older strides weigh less."""
     places: PlaceCounts = field(factory=PlaceCounts)
     fused: StrideFused | None = None
-    """The last StrideFused: how far the wearer went by both feet."""
+    """The last StrideFused: the distance walked by both feet."""
     modes: Counter[WalkingMode] = field(factory=Counter)
     """Number of touchdowns in each walking mode."""
     flights: Counter[bool] = field(factory=Counter)
     """Number of flights of stairs upwards (True) and downwards (False)."""
-    rides: Counter[bool] = field(factory=Counter)
-    """Number of rides in a lift upwards (True) and downwards (False)."""
+    elevator_rides: Counter[bool] = field(factory=Counter)
+    """Number of elevator rides upwards (True) and downwards (False)."""
     turns: Counter[Turn] = field(factory=Counter)
-    delays: dict[type[Event], Counter[int]] = field(factory=lambda: {kind: Counter() for kind in GAIT_EVENTS})
-    """For each gait event, how often it was known so many tenths of a millisecond after it happened."""
+    latencies: dict[type[Event], Counter[int]] = field(factory=lambda: {kind: Counter() for kind in GAIT_EVENTS})
+    """For each gait event, how often each latency occurred; a latency is in 0.1 ms."""
     limitations: list[str] = field(factory=list)
-    """Limitations of the session; each sentence stands once, here and in the three lists that follow."""
+    """Different sentences on limitations of the session."""
     suspect_scales: list[str] = field(factory=list)
-    """Sentences on accelerometers whose scale cannot be right."""
+    """Different sentences on accelerometers whose scale cannot be right."""
     wear_problems: list[str] = field(factory=list)
-    """Sentences on how sensors are worn wrongly, or on faulty cells."""
+    """Different sentences on sensors that are worn wrongly, and on faulty cells."""
     troubles: list[str] = field(factory=list)
-    """Sentences on what the receiver could not do."""
+    """Different sentences on what the receiver could not do."""
     silences: Counter[Foot] = field(factory=Counter)
-    """Number of times at which nothing came of a foot while the other one walked on."""
+    """Number of times that a foot sent nothing while the other one walked on."""
     _other_decoders: dict[Site, Decoder] = field(factory=dict)
-    """Decoders that count the samples of sites that are not feet, since a session reports nothing of them."""
+    """Decoders that count the samples of sites that are not feet; a session has no event for these samples."""
 
     def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
-        """Add what the session was fed and the events that it returned for it.
+        """Add an item that the session was fed, and the events that it returned.
 
-        An item of None means that nothing came: time passed or the session ended."""
+        None as the item means that nothing came: time passed or the session ended."""
         self.count_item(item, events)
         for event in events:
             self.add(event)
 
     def count_item(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
-        """Count the item alone, the first half of `take`; `events` say whether it was used, and `add` takes them."""
+        """Count an item but not its events, which only tell whether it was used; `add` counts events."""
         if item is None:
             return
-        self.items += 1
+        self.item_count += 1
         rejection = PacketRejected if isinstance(item, Packet) else SampleRejected
         if any([isinstance(event, rejection) for event in events]):
             return
-        self.time.add(item.t)
+        self.covered_time.add(item.t)
         self.advance(item.t)
         if isinstance(item, Sample):
             self.link(item.site).add_sample(item.t, item.t if item.known_at is None else item.known_at)
@@ -162,25 +161,25 @@ class Observer:
             self.link(item.site).add_packet(item.t)
         if item.site.foot is None:
             decoder = self._other_decoders.setdefault(item.site, Decoder(item.site))
-            for one in decoder.feed(item):
-                if isinstance(one, Sample):
-                    self.link(item.site).add_sample(one.t, item.t)
+            for record in decoder.feed(item):
+                if isinstance(record, Sample):
+                    self.link(item.site).add_sample(record.t, item.t)
 
     def advance(self, now: float) -> None:
-        """Advance the time to `now` s on the clock of the packets, whether or not anything came."""
+        """Advance the time to `now`, s, on the clock of the packets."""
         if self.now < now < inf:
             self.now = now
 
     def add(self, event: Event) -> bool:
-        """Add the next event of the session, in the order of reporting; return False when it is left out."""
+        """Count the next event of the session, in the order of reporting; return False when it is left out."""
         if not has_valid_numbers(event):
             return False
         if not isinstance(event, REJECTIONS):
             self.advance(event.known_at)
         match event:
             case FootMoved(t=t, known_at=known_at, foot=foot, position=position):
-                one, link = self.foot(foot), self.link(SITE_OF_FOOT[foot])
-                one.phase, one.position = event.phase, position
+                counts, link = self.foot(foot), self.link(SITE_OF_FOOT[foot])
+                counts.phase, counts.position = event.phase, position
                 link.add_sample(t, known_at)
                 link.has_motion = True
                 self.track.add(foot, position[0], position[1])
@@ -189,46 +188,46 @@ class Observer:
                 link.add_sample(t, known_at)
                 link.has_pressure = True
             case HeelStrike() | FootFlat() | HeelOff() | ToeOff():
-                self._phase(event)
+                self._count_gait_event(event)
             case _:
                 site = getattr(event, "site", None)
                 if site is not None:
                     self.link(site).add_event(event)
-                self._count(event)
-                self._note(event)
+                self._count_event(event)
+                self._add_fault(event)
                 self.places.add(event)
         return True
 
     def link(self, site: Site) -> LinkLedger:
-        """Return the ledger of a site, a new one where there is none."""
-        found = self.links.get(site)
-        if found is None:
-            found = self.links[site] = LinkLedger(counted=site.foot is not None)
-        return found
+        """Return the ledger of a site; it is made on first use."""
+        ledger = self.links.get(site)
+        if ledger is None:
+            ledger = self.links[site] = LinkLedger(is_counted=site.foot is not None)
+        return ledger
 
     def foot(self, foot: Foot) -> FootCounts:
-        """Return the counts of a foot, new ones where there are none."""
+        """Return the counts of a foot; they are made on first use."""
         return self.feet.setdefault(foot, FootCounts())
 
-    def _phase(self, event: HeelStrike | FootFlat | HeelOff | ToeOff) -> None:
+    def _count_gait_event(self, event: HeelStrike | FootFlat | HeelOff | ToeOff) -> None:
         if event.final:
             self.foot(event.foot).events[type(event)] += 1
-            self.delays[type(event)][round(1e4 * (event.known_at - event.t))] += 1
+            self.latencies[type(event)][round(1e4 * (event.known_at - event.t))] += 1
 
-    def _count(self, event: Event) -> None:
+    def _count_event(self, event: Event) -> None:
         match event:
             case StrideTaken(final=True):
-                one = self.foot(event.foot)
-                one.strides += 1
-                one.degraded += event.degraded
-                one.distance += event.length
+                counts = self.foot(event.foot)
+                counts.strides += 1
+                counts.degraded += event.degraded
+                counts.distance += event.length
             case GaitCycleMeasured():
-                self.gait.add(event, ALL_STRIDES)
+                self.gait.add(event, UNLIMITED_STRIDES)
                 self.recent_gait.add(event)
-            case ClockReset(known_at=known_at) if known_at < self.now - SET_BACK:
+            case ClockReset(known_at=known_at) if known_at < self.now - SET_BACK_TOLERANCE:
                 self.now = known_at
             case ActivityChanged():
-                self.timeline.add(event, MOST_CHANGES)
+                self.timeline.add(event, MAX_ACTIVITY_CHANGES)
             case StrideFused(final=True):
                 self.fused = event
             case TouchedDown(mode=mode, final=True):
@@ -236,7 +235,7 @@ class Observer:
             case FlightClimbed(up=up, final=True):
                 self.flights[up] += 1
             case LiftRidden(up=up, final=True):
-                self.rides[up] += 1
+                self.elevator_rides[up] += 1
             case TurnMade(turn=turn, final=True) if turn is not None:
                 self.turns[turn] += 1
             case FootSilent(foot=foot):
@@ -244,45 +243,47 @@ class Observer:
             case _:
                 pass
 
-    def _note(self, event: Event) -> None:
-        """Keep a sentence on a fault, once."""
+    def _add_fault(self, event: Event) -> None:
+        """Add a sentence on a fault, unless it is there already."""
         match event:
             case LinkTrouble(site=site, what=what):
-                _add_once(self.troubles, f"{site.words}: {what}")
+                _add_new_sentence(self.troubles, f"{site.words}: {what}")
             case Limitation(site=site, what=what):
-                _add_once(self.limitations, what if site is None else f"{site.words}: {what}")
+                _add_new_sentence(self.limitations, what if site is None else f"{site.words}: {what}")
             case ScaleSuspect(site=site, magnitude=magnitude, suggestion=suggestion):
                 more = f": {suggestion}" if suggestion else ""
-                _add_once(self.suspect_scales, f"{site.words}: |acc| is {magnitude:.2f} m/s^2 at rest{more}")
+                _add_new_sentence(self.suspect_scales, f"{site.words}: |acc| is {magnitude:.2f} m/s^2 at rest{more}")
             case CellsFailed(site=site, fault=fault, cells=cells):
-                _add_once(self.wear_problems, f"{site.words}: {_cell_words(cells)} {fault.value}, left out")
+                _add_new_sentence(self.wear_problems, f"{site.words}: {_cell_words(cells)} {fault.value}, left out")
             case InsoleNeverUnloads(site=site):
-                _add_once(
+                _add_new_sentence(
                     self.wear_problems, f"{site.words}: the insole never unloads; phases come from the inertial sensor"
                 )
             case FeetSwapped():
-                _add_once(self.wear_problems, "the feet look swapped: what comes as the left one is like a right one")
+                _add_new_sentence(
+                    self.wear_problems, "the feet look swapped: what comes as the left one is like a right one"
+                )
             case _:
                 pass
 
     @property
     def known_feet(self) -> list[Foot]:
-        """Feet of which anything is known."""
+        """Feet with any count or sample."""
         return [foot for foot in Foot if foot in self.feet or self.samples(foot)]
 
     def samples(self, foot: Foot) -> int:
-        """Return the number of samples of a foot that were used."""
+        """Return the number of used samples of a foot."""
         link = self.links.get(SITE_OF_FOOT[foot])
         return 0 if link is None else link.samples
 
 
-def _add_once(sentences: list[str], one: str) -> None:
-    if one not in sentences and len(sentences) < MOST_SENTENCES:
-        sentences.append(one)
+def _add_new_sentence(sentences: list[str], sentence: str) -> None:
+    if sentence not in sentences and len(sentences) < MAX_SENTENCES:
+        sentences.append(sentence)
 
 
 def _cell_words(numbers: tuple[int, ...]) -> str:
-    """Return the cells in words: their numbers, or how many they are when there are too many to name."""
-    if len(numbers) > MOST_NAMED_CELLS:
+    """Return the cells in words: their numbers, or only their count when there are more than MAX_NAMED_CELLS."""
+    if len(numbers) > MAX_NAMED_CELLS:
         return f"{len(numbers)} cells"
     return f"cell{'s' * (len(numbers) > 1)} {', '.join(map(str, numbers))}"

@@ -1,8 +1,8 @@
 """Writes the files of `track`: events.jsonl, track.csv, strides.csv and gait_cycles.csv, with a floor plan places.csv.
 
 events.jsonl is for programs, in SI units and radians. The tables are for people, with the unit of a column in its
-header and angles in degrees. Times are the recording's own, written so that reading gives the same float again; places
-are in m to the micrometre."""
+header and angles in degrees. Times are on the recording's clock, written so that reading gives the same float again.
+Positions are in m, world frame, with six digits after the point; places are in m, plan frame, with three."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from attrs import define, field
 
 from ..events import Event, FootMoved, GaitCycleMeasured, LiveEvent, Placed, StrideTaken
 
-EVENTS, TRACK, STRIDES, GAIT_CYCLES = "events.jsonl", "track.csv", "strides.csv", "gait_cycles.csv"
-PLACES, PLAN = "places.csv", "plan.svg"
+EVENTS_FILE, TRACK_FILE, STRIDES_FILE, GAIT_CYCLES_FILE = "events.jsonl", "track.csv", "strides.csv", "gait_cycles.csv"
+PLACES_FILE, PLAN_FILE = "places.csv", "plan.svg"
 TRACK_COLUMNS = ("t_s", "foot", "x_m", "y_m", "z_m", "phase")
 STRIDE_COLUMNS = (
     "foot", "t_start_s", "t_end_s", "x_m", "y_m", "z_m", "stride_length_m", "heading_change_deg", "height_change_m",
     "degraded",
 )  # fmt: skip
-CYCLE_TIMES = ("t_start", "t_toe_off", "t")
-CYCLE_MEASURES = (
+CYCLE_TIME_FIELDS = ("t_start", "t_toe_off", "t")
+CYCLE_MEASURE_FIELDS = (
     ("stride_time", "s"),
     ("stance_time", "s"),
     ("swing_time", "s"),
@@ -52,8 +52,8 @@ CYCLE_MEASURES = (
 CYCLE_COLUMNS = (
     "foot",
     "number",
-    *[f"{name}_s" for name in CYCLE_TIMES],
-    *[f"{name}_{unit}" if unit else name for name, unit in CYCLE_MEASURES],
+    *[f"{name}_s" for name in CYCLE_TIME_FIELDS],
+    *[f"{name}_{unit}" if unit else name for name, unit in CYCLE_MEASURE_FIELDS],
     "degraded",
     "steady",
 )
@@ -69,8 +69,8 @@ def _stride_row(event: StrideTaken) -> list[str]:
 
 def _cycle_row(event: GaitCycleMeasured) -> list[str]:
     """Return the row of a gait cycle; a value that is not known is left empty."""
-    times = [repr(getattr(event, name)) for name in CYCLE_TIMES]
-    measures = [_measure(getattr(event, name), unit) for name, unit in CYCLE_MEASURES]
+    times = [repr(getattr(event, name)) for name in CYCLE_TIME_FIELDS]
+    measures = [_measure(getattr(event, name), unit) for name, unit in CYCLE_MEASURE_FIELDS]
     return [event.foot.value, str(event.number), *times, *measures, str(int(event.degraded)), str(int(event.steady))]
 
 
@@ -81,15 +81,15 @@ def _measure(value: float | None, unit: str) -> str:
 
 
 def _place_row(event: Placed) -> list[str]:
-    first = event.candidates[0]
+    heaviest = event.candidates[0]
     numbers = [f"{value:.3f}" for value in (*event.position, event.spread)]
-    heading = "" if first.heading is None else f"{degrees(first.heading):.2f}"
-    return [repr(event.t), event.level, *numbers, heading, str(len(event.candidates)), f"{first.weight:.4f}"]
+    heading = "" if heaviest.heading is None else f"{degrees(heaviest.heading):.2f}"
+    return [repr(event.t), event.level, *numbers, heading, str(len(event.candidates)), f"{heaviest.weight:.4f}"]
 
 
 @contextmanager
-def naming(path: Path) -> Iterator[None]:
-    """Name `path` in every OSError that is raised within: for a full disk the system does not say what was written."""
+def os_errors_naming(path: Path) -> Iterator[None]:
+    """Name `path` in every OSError within the context: for a full disk the system does not name the file."""
     try:
         yield
     except OSError as error:
@@ -101,15 +101,15 @@ class TrackFiles:
     """The files that are written to `directory`, which is made when there is none.
 
     Files of an earlier run are replaced. A FootMoved is a row of track.csv, a final StrideTaken one of strides.csv, a
-    GaitCycleMeasured one of gait_cycles.csv, a Placed one of places.csv (its heaviest candidate's, and how many there
-    are), and every event but the live ones (LiveEvent) a line of events.jsonl. `places` says that the session has a
-    floor plan; without one there is no places.csv. `beside` returns the path to write instead of a file's own, such as
-    that of a temporary file which is renamed in the end. Every method raises OSError, naming the directory, when the
-    files cannot be made or written (the disk is full)."""
+    GaitCycleMeasured one of gait_cycles.csv. A Placed is a row of places.csv with its heaviest candidate and the number
+    of candidates. Every event except a LiveEvent is a line of events.jsonl. `places` says that the session has a floor
+    plan; without one there is no places.csv. `path_to_write` turns the path of a file into the path to write, such as
+    that of a temporary file which is renamed in the end; None writes to the path itself. Every method raises OSError,
+    naming the directory, when the files cannot be made or written (the disk is full)."""
 
     directory: Path
     places: bool = False
-    beside: Callable[[Path], Path] | None = None
+    path_to_write: Callable[[Path], Path] | None = None
     _stack: ExitStack = field(factory=ExitStack, init=False)
     _events: TextIO = field(init=False)
     _track: TextIO = field(init=False)
@@ -119,17 +119,17 @@ class TrackFiles:
 
     def __attrs_post_init__(self) -> None:
         self.directory.mkdir(parents=True, exist_ok=True)
-        self._events, self._track = self._open(EVENTS), self._open(TRACK)
+        self._events, self._track = self._open(EVENTS_FILE), self._open(TRACK_FILE)
         self._track.write(",".join(TRACK_COLUMNS) + "\n")
-        self._strides = self._table(STRIDES, STRIDE_COLUMNS)
-        self._cycles = self._table(GAIT_CYCLES, CYCLE_COLUMNS)
+        self._strides = self._table(STRIDES_FILE, STRIDE_COLUMNS)
+        self._cycles = self._table(GAIT_CYCLES_FILE, CYCLE_COLUMNS)
         if self.places:
-            self._places = self._table(PLACES, PLACE_COLUMNS)
+            self._places = self._table(PLACES_FILE, PLACE_COLUMNS)
 
     def _open(self, name: str) -> TextIO:
         path = self.directory / name
-        if self.beside is not None:
-            path = self.beside(path)
+        if self.path_to_write is not None:
+            path = self.path_to_write(path)
         return self._stack.enter_context(path.open("w", encoding="utf-8", newline=""))
 
     def _table(self, name: str, columns: tuple[str, ...]) -> Any:
@@ -138,10 +138,10 @@ class TrackFiles:
         return table
 
     def write(self, event: Event) -> None:
-        """Write one event. OSError names the directory."""
+        """Write one event; an OSError names the directory."""
         try:
             self._write(event)
-        except OSError as error:  # the same as `naming`, which would be slow for each event
+        except OSError as error:  # the same as `os_errors_naming`, which would be slow for each event
             raise OSError(error.errno, error.strerror, str(self.directory)) from None
 
     def _write(self, event: Event) -> None:
@@ -159,6 +159,6 @@ class TrackFiles:
             self._places.writerow(_place_row(event))
 
     def close(self) -> None:
-        """Close all files. OSError names the directory."""
-        with naming(self.directory):
+        """Close all files; an OSError names the directory."""
+        with os_errors_naming(self.directory):
             self._stack.close()

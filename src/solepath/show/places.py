@@ -1,4 +1,4 @@
-"""Counts what became known of the wearer's place on a floor plan."""
+"""Counts the wearer's places on a floor plan, the changes of level, and the losses of the place."""
 
 from __future__ import annotations
 
@@ -6,35 +6,35 @@ from attrs import define, field
 
 from ..events import Event, Placed, PlaceLost, StrideTaken
 
-MOST_LISTED = 20
-"""Level changes, and losses, that are kept one by one at the most."""
+MAX_LISTED = 20
+"""Largest number of level changes, and of losses, that are kept with their times; chosen by hand."""
 
 
 @define
 class PlaceCounts:
-    """Counts of places over a whole recording; level changes and losses have their time, s."""
+    """The counts of places over a whole recording; times are in s."""
 
     strides: int = 0
     """Number of final strides of both feet."""
     places: int = 0
-    decided: int = 0
-    """Number of places with one candidate only."""
-    found: tuple[int, float] | None = None
-    """Number of strides before the first place with one candidate only, and its time, s."""
-    levels: list[tuple[float, str]] = field(factory=list)
-    """Time and level of the first place with one candidate only, and of the first MOST_LISTED changes of level."""
+    decided_count: int = 0
+    """Number of decided places: those with one candidate only."""
+    first_decided: tuple[int, float] | None = None
+    """Number of strides before the first decided place, and its time, s."""
+    level_starts: list[tuple[float, str]] = field(factory=list)
+    """Time and level of the first decided place, and of the first MAX_LISTED changes of level."""
     level: str | None = None
-    """Level of the last place with one candidate only."""
-    changes: int = 0
-    """Number of changes of that level."""
-    lost: list[tuple[float, str]] = field(factory=list)
-    """Time and reason of the first MOST_LISTED losses."""
-    losses: int = 0
+    """Level of the last decided place."""
+    level_changes: int = 0
+    """Number of changes of `level`."""
+    first_losses: list[tuple[float, str]] = field(factory=list)
+    """Time and reason of the first MAX_LISTED losses."""
+    loss_count: int = 0
     last: Placed | None = None
-    """The newest place; None while there is none."""
+    """The newest place; None before the first one and after a loss."""
 
     def add(self, event: Event) -> None:
-        """Add any event of the session."""
+        """Count an event of the session, of any class."""
         match event:
             case StrideTaken(final=True):
                 self.strides += 1
@@ -42,21 +42,21 @@ class PlaceCounts:
                 self.last = event
                 self.places += 1
                 if len(event.candidates) == 1:
-                    self._decided(event)
+                    self._add_decided(event)
             case PlaceLost():
-                self.losses += 1
-                if len(self.lost) < MOST_LISTED:
-                    self.lost.append((event.t, event.what))
+                self.loss_count += 1
+                if len(self.first_losses) < MAX_LISTED:
+                    self.first_losses.append((event.t, event.what))
                 self.last = None
             case _:
                 pass
 
-    def _decided(self, event: Placed) -> None:
-        self.decided += 1
-        if self.found is None:
-            self.found = (self.strides, event.t)
+    def _add_decided(self, event: Placed) -> None:
+        self.decided_count += 1
+        if self.first_decided is None:
+            self.first_decided = (self.strides, event.t)
         if event.level != self.level:
-            self.changes += self.level is not None
+            self.level_changes += self.level is not None
             self.level = event.level
-            if len(self.levels) <= MOST_LISTED:
-                self.levels.append((event.t, event.level))
+            if len(self.level_starts) <= MAX_LISTED:
+                self.level_starts.append((event.t, event.level))

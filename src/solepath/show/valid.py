@@ -9,21 +9,21 @@ import attrs
 
 from ..events import Event, FootMoved, FootPressed, GaitCycleMeasured
 
-LARGEST = 1e12
-"""Limit of every number of an event, in whatever unit; a larger one counts as no number."""
-SHORTEST_STRIDE = 1e-3
-"""Shortest stride time that is accepted, s."""
+MAX_MAGNITUDE = 1e12
+"""Limit of every number of an event, in its SI unit; a larger number counts as not finite. Chosen by hand."""
+MIN_STRIDE_TIME = 1e-3
+"""Shortest stride time that is accepted, s; chosen by hand."""
 
 
 def has_valid_numbers(event: Event) -> bool:
-    """Return whether every number in an event is finite; quickly for the events of every sample."""
+    """Return whether every number in an event is finite; the events of every sample have a fast path."""
     match event:
         case FootMoved(t=t, known_at=known_at, position=(x, y, z)):
-            return abs(t) + abs(known_at) + abs(x) + abs(y) + abs(z) < LARGEST
+            return abs(t) + abs(known_at) + abs(x) + abs(y) + abs(z) < MAX_MAGNITUDE
         case FootPressed(values=values):
             return is_valid((event.t, event.known_at, event.force, event.centre)) and isfinite(sum(values))
         case GaitCycleMeasured(stride_time=stride_time):
-            return is_valid(event) and stride_time >= SHORTEST_STRIDE
+            return is_valid(event) and stride_time >= MIN_STRIDE_TIME
         case _:
             return is_valid(event)
 
@@ -31,7 +31,7 @@ def has_valid_numbers(event: Event) -> bool:
 def is_valid(value: Any) -> bool:
     """Return whether every number in a record is finite and smaller than LARGEST."""
     if isinstance(value, float):
-        return isfinite(value) and abs(value) < LARGEST
+        return isfinite(value) and abs(value) < MAX_MAGNITUDE
     if isinstance(value, tuple):
         return all(map(is_valid, value))
     if attrs.has(type(value)):

@@ -1,6 +1,6 @@
-"""The short tables of README.md and docs/accuracy.md, made from the long tables and the output of commands.
+"""Makes the short tables of README.md and docs/accuracy.md from the long tables and the output of commands.
 
-A row is (what, came to). Each table is made by itself, so that those can be refreshed that can be computed.
+A row is (measure, result). Each table is made separately, so that any table whose data are present can be refreshed.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ INSOLES = [
     "--markdown",
 ]
 QUICK = [word for data_set in DATASETS if not data_set.folds for word in ("--only", data_set.name)]
-"""All data but those for which a recipe must first learn, in folds, which takes minutes."""
+"""Options for all data sets except those with cross-validation, which takes minutes."""
 ACTIVITIES = [
     *(word for data in ("hugadb", "stairs") for word in ("--only", data)),
     *(word for name in ("default", "footstep-tracker") for word in ("--recipe", name)),
@@ -51,25 +51,25 @@ IN_SHORT = {
     "emulated_long_way": ("off at the end, horizontal", "stride length error"),
     "emulated_half_hour": ("off at the end, horizontal",),
 }
-"""Measures of each data set in the short table, without their counts."""
+"""Measures of each data set that the short table has, without their counts."""
 SHORTER = {"the same / sqrt 2 (ARMSE2d)": "position error, ARMSE2d"}
 
 
 def in_short(*tables: list[str]) -> list[Row]:
     """Return a row for each data set, from the lines of tables as `evaluate --markdown` prints them.
 
-    The first figure is the default recipe's."""
-    found: dict[str, tuple[str, dict[str, str]]] = {}
+    The figures are those of the first recipe, which is the default one."""
+    figures_of: dict[str, tuple[str, dict[str, str]]] = {}
     for line in (line for table in tables for line in table[2:]):
-        title, what, came_to = (cell.strip() for cell in line.split("|")[1:4])
+        title, measure, result = (cell.strip() for cell in line.split("|")[1:4])
         if title:
             figures: dict[str, str] = {}
-            found.setdefault(title.split("`")[1], (title, figures))
-        figures[re.sub(r"^\d+ | \(\d+\)$", "", what)] = came_to
+            figures_of.setdefault(title.split("`")[1], (title, figures))
+        figures[re.sub(r"^\d+ | \(\d+\)$", "", measure)] = result
     rows = []
     for name, measures in IN_SHORT.items():
-        title, figures = found[name]
-        rows.append((title, "; ".join(f"{SHORTER.get(what, what)}: {figures[what]}" for what in measures)))
+        title, figures = figures_of[name]
+        rows.append((title, "; ".join(f"{SHORTER.get(measure, measure)}: {figures[measure]}" for measure in measures)))
     return rows
 
 
@@ -130,5 +130,5 @@ def measured(printed: str) -> list[Row]:
 
 
 def lines(what: str, rows: list[Row]) -> list[str]:
-    """Return a table in Markdown; `what` is the head of its first column."""
-    return [f"| {what} | came to |", "|---|---|", *(f"| {first} | {came_to} |" for first, came_to in rows)]
+    """Return a table in Markdown; `what` is the heading of its first column."""
+    return [f"| {what} | came to |", "|---|---|", *(f"| {measure} | {result} |" for measure, result in rows)]

@@ -1,4 +1,4 @@
-"""Quotations in README.md and docs/: blocks and tables below their marks, and how exactly they must hold."""
+"""Finds the blocks and tables below marks in README.md and docs/, and compares them with what is computed."""
 
 import re
 
@@ -9,7 +9,7 @@ PAGES = {
     path.relative_to(ROOT).as_posix(): path.read_text(encoding="utf-8")
     for path in (ROOT / "README.md", *sorted((DOCS).glob("*.md")))
 }
-"""Pages for newcomers, by their paths."""
+"""Texts of README.md and of the pages in docs/, by their paths."""
 README = PAGES["README.md"]
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 
@@ -26,7 +26,7 @@ def page_of(mark: str) -> str:
 
 
 def below(mark: str) -> list[str]:
-    """Return the lines of the first block or table below the comment <!-- mark -->, on whichever page."""
+    """Return the lines of the block or table below the comment <!-- mark -->, which is on one page."""
     lines = PAGES[page_of(mark)].split(f"<!-- {mark} -->\n", 1)[1].splitlines()
     if lines[0].startswith("```"):
         return lines[1 : lines.index("```", 1)]
@@ -35,7 +35,7 @@ def below(mark: str) -> list[str]:
 
 
 def nearly_the_same(quoted: list[str], fresh: list[str]) -> None:
-    """Check that lines are the same but for the last digits of their figures."""
+    """Check that lines are the same, except that a figure may differ by one in its last digit."""
     assert [NUMBER.sub("#", line) for line in quoted] == [NUMBER.sub("#", line) for line in fresh]
     for old, new in zip(quoted, fresh, strict=True):
         for a, b in zip(NUMBER.findall(old), NUMBER.findall(new), strict=True):

@@ -1,6 +1,6 @@
 """A real browser for the tests of the page: Chromium driven by Playwright, on the loop of the page's server.
 
-Nothing here waits without an end: a test that takes longer than LONGEST fails.
+Every wait is limited: a test that takes longer than MAX_TEST_TIME fails.
 """
 
 from __future__ import annotations
@@ -34,16 +34,16 @@ FLAGS = (
     "--disable-component-update",
     "--disable-sync",
 )
-LONGEST = 120.0
+MAX_TEST_TIME = 120.0
 """Longest time of a test, s."""
-PATIENCE = 20.0
+MAX_WAIT = 20.0
 """Longest wait for a condition, s."""
 UNREACHABLE = re.compile(r"net::ERR_CONNECTION_REFUSED|net::ERR_CONNECTION_RESET|ERR_SOCKET_NOT_CONNECTED")
-"""What Chromium itself writes to the console while there is no server."""
+"""Messages that Chromium writes to the console while there is no server."""
 
 
 def why_not() -> str | None:
-    """Return why there can be no browser here; None where there can."""
+    """Return the reason why no browser can be started here; None if one can."""
     if async_playwright is None:
         return "playwright is not installed"
     if program() is None:
@@ -57,12 +57,12 @@ def program() -> str | None:
 
 @define
 class Browsing:
-    """A browser, and the loop that it lives on between tests."""
+    """A browser, and the event loop on which it stays between tests."""
 
     runner: asyncio.Runner
     browser: Browser
 
-    def run(self, main: Callable[[Browser], Awaitable[T]], longest: float = LONGEST) -> T:
+    def run(self, main: Callable[[Browser], Awaitable[T]], longest: float = MAX_TEST_TIME) -> T:
         async def timed() -> T:
             async with asyncio.timeout(longest):
                 return await main(self.browser)
@@ -84,7 +84,7 @@ def browsing() -> Iterator[Browsing]:
 
 
 async def _within(work: Awaitable[T]) -> T:
-    async with asyncio.timeout(LONGEST):
+    async with asyncio.timeout(MAX_TEST_TIME):
         return await work
 
 
@@ -92,8 +92,8 @@ async def _within(work: Awaitable[T]) -> T:
 class Window:
     """A page that is open.
 
-    `complaints` holds what it wrote to its console, and errors that it did not catch. `requests` holds every address
-    that it requested, those of its sockets too."""
+    `complaints` holds the messages of its console, and errors that it did not catch. `requests` holds every address
+    that it requested, those of WebSockets included."""
 
     tab: Tab
     devtools: CDPSession
@@ -101,26 +101,26 @@ class Window:
     requests: list[str] = field(factory=list)
 
     async def memory(self) -> tuple[int, int]:
-        """Return bytes of its scripts' heap after garbage collection, and the number of elements of its document.
+        """Return the size of the scripts' heap after garbage collection, bytes, and the number of elements.
 
-        Elements of the log do not count: it has as many sentences as there were, up to fifty."""
+        Elements of the log do not count, since its number of sentences varies, up to fifty."""
         least = inf
-        while (used := await self._collected()) < least:  # what has a finalizer goes later
+        while (used := await self._collected()) < least:  # objects with a finalizer need another collection
             least = used
         elements = await self.tab.evaluate("document.querySelectorAll('*:not(#log *)').length")
         return round(least), elements
 
     async def _collected(self) -> float:
-        """Return the bytes that are used after another collection."""
+        """Return the size of the heap after another garbage collection, bytes."""
         await self.devtools.send("HeapProfiler.collectGarbage")
         await asyncio.sleep(0.1)
         used: float = (await self.devtools.send("Runtime.getHeapUsage"))["usedSize"]
         return used
 
-    async def until(self, condition: str, argument: Any = None, patience: float = PATIENCE) -> None:
-        """Wait until a condition holds in the page, an expression or a function of `argument`; fail if it never does.
+    async def until(self, condition: str, argument: Any = None, patience: float = MAX_WAIT) -> None:
+        """Wait until a condition, an expression or a function of `argument`, holds in the page; else fail.
 
-        The page allows no script of others and thereby forbids Playwright's own way of waiting."""
+        The page forbids scripts from elsewhere, and thereby Playwright's own function for this."""
         try:
             async with asyncio.timeout(patience):
                 while not await self.tab.evaluate(condition, argument):
@@ -130,8 +130,8 @@ class Window:
 
     async def text(self, name: str) -> str:
         """Return the text of the element with this id."""
-        found: str = await self.tab.locator(f"#{name}").inner_text()
-        return found.strip()
+        text: str = await self.tab.locator(f"#{name}").inner_text()
+        return text.strip()
 
     async def names(self) -> list[tuple[str, str]]:
         """Return role and name of everything that is read out, in order."""
@@ -147,19 +147,19 @@ class Window:
 async def window(
     browser: Browser, url: str, *, width: int = 1280, height: int = 900, dark: bool = False
 ) -> AsyncIterator[Window]:
-    """Yield the page at `url` in a window of its own of this size, px."""
+    """Yield the page at `url` in a new window of this size, px."""
     context = await browser.new_context(
         viewport={"width": width, "height": height}, color_scheme="dark" if dark else "light", locale="en-GB"
     )
     try:
-        context.set_default_timeout(PATIENCE * 1000.0)
+        context.set_default_timeout(MAX_WAIT * 1000.0)
         tab = await context.new_page()
-        found = Window(tab, await context.new_cdp_session(tab))
-        tab.on("console", lambda message: found.complaints.append(f"{message.type}: {message.text}"))
-        tab.on("pageerror", lambda error: found.complaints.append(str(error)))
-        context.on("request", lambda request: found.requests.append(request.url))
-        tab.on("websocket", lambda socket: found.requests.append(socket.url))
+        view = Window(tab, await context.new_cdp_session(tab))
+        tab.on("console", lambda message: view.complaints.append(f"{message.type}: {message.text}"))
+        tab.on("pageerror", lambda error: view.complaints.append(str(error)))
+        context.on("request", lambda request: view.requests.append(request.url))
+        tab.on("websocket", lambda socket: view.requests.append(socket.url))
         await tab.goto(url)
-        yield found
+        yield view
     finally:
         await context.close()

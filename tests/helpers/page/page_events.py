@@ -1,4 +1,4 @@
-"""Events that a page can show."""
+"""Makes events that a page can show."""
 
 from __future__ import annotations
 
@@ -30,28 +30,28 @@ from solepath.types import Turn
 from solepath.types.vector import ZERO
 
 
-def fed(items: Iterable[Packet | Sample], recipe: Recipe = DEFAULT) -> tuple[Session, list[Event]]:
-    """Return a session that was fed with all items, and its events."""
+def feed_session(items: Iterable[Packet | Sample], recipe: Recipe = DEFAULT) -> tuple[Session, list[Event]]:
+    """Return a session that was fed with all packets or samples, and its events."""
     session = Session(recipe, poses=True, pressures=True)
     return session, session.feed(items)
 
 
 @cache
-def rough() -> tuple[Session, tuple[Event, ...]]:
-    """Return a short walk of insoles over a bad radio."""
-    session, events = fed(insoles(SHORT, ROUGH).packets)
+def rough_walk() -> tuple[Session, tuple[Event, ...]]:
+    """Return the session and the events of a short walk with insoles over a bad radio."""
+    session, events = feed_session(insoles(SHORT, ROUGH).packets)
     return session, tuple(events)
 
 
-def moved(t: float, foot: Foot = Foot.LEFT, known_at: float | None = None) -> FootMoved:
-    """Return an event of a foot in the air above its start."""
-    at = t if known_at is None else known_at
-    return FootMoved(t=t, known_at=at, foot=foot, position=ZERO, velocity=ZERO, phase=Phase.SWING)
+def foot_moved(t: float, foot: Foot = Foot.LEFT, known_at: float | None = None) -> FootMoved:
+    """Return an event of a foot in swing at the origin."""
+    reported_at = t if known_at is None else known_at
+    return FootMoved(t=t, known_at=reported_at, foot=foot, position=ZERO, velocity=ZERO, phase=Phase.SWING)
 
 
-def eventful() -> list[Event]:
-    """Return the rough walk with events of all other kinds that a page shows."""
-    events = list(rough()[1])
+def events_of_all_kinds() -> list[Event]:
+    """Return the events of the rough walk, and events of all other classes that a page shows."""
+    events = list(rough_walk()[1])
     start, end = events[0].known_at, events[-1].known_at
     middle, third = events[len(events) // 2].known_at, events[len(events) // 3].known_at
     candidate = Candidate("0", (1.0, 2.0, 0.0), 0.5, 0.75, "stairs A")

@@ -1,4 +1,4 @@
-"""An HTML page as a tree, parsed without any code that writes the report."""
+"""Parses an HTML page as a tree, without any code that writes the report."""
 
 from __future__ import annotations
 
@@ -18,25 +18,25 @@ class Node:
     children: list[Node] = field(factory=list)
 
     def all(self, tag: str = "") -> list[Node]:
-        """Return this node and those below, of one tag or of any, in the order of the page."""
-        found = [self] if tag in ("", self.tag) else []
-        return found + [one for child in self.children for one in child.all(tag)]
+        """Return this node and all nodes below it in the order of the page; with `tag`, only those with this tag."""
+        nodes = [self] if tag in ("", self.tag) else []
+        return nodes + [node for child in self.children for node in child.all(tag)]
 
     def first(self, tag: str) -> Node:
         return self.all(tag)[0]
 
     def named(self, name: str) -> Node:
-        """Return the element with this class."""
-        return next(one for one in self.all() if name in one.attributes.get("class", "").split())
+        """Return the first element with this class."""
+        return next(node for node in self.all() if name in node.attributes.get("class", "").split())
 
     @property
     def text(self) -> str:
-        """Text of this node, then of those below."""
-        return " ".join([one for one in [*self.words, *(child.text for child in self.children)] if one])
+        """Text of this node, then of the nodes below it."""
+        return " ".join([text for text in [*self.words, *(child.text for child in self.children)] if text])
 
 
 class Reader(HTMLParser):
-    """Parser of a page as a tree; a tag that is not closed in its turn fails."""
+    """A parser of a page as a tree; a tag that is closed out of order fails."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -56,12 +56,12 @@ class Reader(HTMLParser):
             self.open[-1].words.append(data.strip())
 
 
-def read(path: Path) -> Node:
+def read_page(path: Path) -> Node:
     """Return the page of a file."""
-    return parsed(path.read_text(encoding="utf-8"))
+    return parse_page(path.read_text(encoding="utf-8"))
 
 
-def parsed(text: str) -> Node:
+def parse_page(text: str) -> Node:
     reader = Reader()
     reader.feed(text)
     reader.close()

@@ -1,4 +1,4 @@
-"""A page that is served, and clients that send it requests."""
+"""Serves a page, and sends requests to it."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ async def scene_of(watching: ClientWebSocketResponse) -> dict[str, Any]:
     return message
 
 
-async def sees(client: ClientSession, url: str, **given: Any) -> None:
-    """Check that a watcher is sent the scene; `given` goes to the socket."""
+async def check_watching(client: ClientSession, url: str, **given: Any) -> None:
+    """Check that a watcher gets the scene; `given` are options of the socket."""
     async with client.ws_connect(f"{url}ws", **given) as watching:
         await scene_of(watching)
 
 
-async def closed(watching: ClientWebSocketResponse) -> int | None:
-    """Return the code with which the server closes."""
+async def close_code(watching: ClientWebSocketResponse) -> int | None:
+    """Return the code with which the server closes the socket."""
     while True:
         message = await watching.receive()
         if message.type is not WSMsgType.TEXT:
@@ -51,20 +51,20 @@ async def closed(watching: ClientWebSocketResponse) -> int | None:
 
 
 async def rejection_status(watching: Awaitable[ClientWebSocketResponse]) -> int:
-    """Return the status with which a socket is rejected."""
+    """Return the HTTP status with which a socket is rejected."""
     with pytest.raises(WSServerHandshakeError) as caught:
         await watching
     return caught.value.status
 
 
-async def raw(page: Page) -> Connection:
-    """Open a connection on which nothing was sent yet."""
+async def open_raw(page: Page) -> Connection:
+    """Open a connection, and send nothing."""
     return await asyncio.open_connection("127.0.0.1", page.port)
 
 
-async def reply(page: Page, sent: bytes, ends: bool = False) -> bytes:
-    """Return all that comes for these bytes on a connection of their own; with `ends`, nothing more is sent."""
-    reader, writer = await raw(page)
+async def fetch_reply(page: Page, sent: bytes, ends: bool = False) -> bytes:
+    """Return the whole answer to these bytes on a new connection; with `ends`, close the sending side after them."""
+    reader, writer = await open_raw(page)
     writer.write(sent)
     if ends:
         writer.write_eof()

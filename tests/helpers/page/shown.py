@@ -28,10 +28,10 @@ from solepath.show.page.server.server import Page
 from solepath.types import SITE_OF_FOOT, Foot
 
 REFRESH = 1.0 / 60.0
-"""Time between two parts of what is shown, s."""
-LONGEST_PART = 2.0 * REFRESH
+"""Time between two groups of packets that a scene takes, s."""
+MAX_PART = 2.0 * REFRESH
 TIMES = frozenset({"t", "known_at", "t_start", "t_end", "t_toe_off", "t_heel_strike", "revises"})
-"""Fields of events that are moments, s."""
+"""Fields of events that hold a time, s."""
 CONNECTED = "document.getElementById('connection').dataset.state === 'open'"
 
 PacketEvents = tuple[Packet, tuple[Event, ...]]
@@ -39,7 +39,7 @@ PacketEvents = tuple[Packet, tuple[Event, ...]]
 
 
 def squares(count: int) -> Route:
-    """Return a route so many times round a square of 10 m, back to its start; once takes 43 s."""
+    """Return a route `count` times round a square of 10 m, back to its start; one lap takes 43 s."""
     route = Route().stand(1.0)
     for _ in range(4 * count):
         route = route.walk(10.0, 1.3).turn(pi / 2, radius=1.5)
@@ -47,14 +47,14 @@ def squares(count: int) -> Route:
 
 
 def walked(route: Route, cells: int = 96) -> tuple[Packet, ...]:
-    """Return packets of insoles on both feet at 100 Hz."""
+    """Return the packets of insoles on both feet at 100 Hz on a walk along `route`."""
     return emulate(route, devices={SITE_OF_FOOT[foot]: Insole(cells=cells) for foot in Foot}).packets
 
 
 def packet_events(packets: Iterable[Packet], session: Session | None = None) -> tuple[PacketEvents, ...]:
-    """Return these packets with the events of a session for each."""
-    made = Session(poses=True, pressures=True) if session is None else session
-    return tuple((packet, tuple(made.feed(packet))) for packet in packets)
+    """Return each packet with the events that a session, by default a new one, returns for it."""
+    feeding = Session(poses=True, pressures=True) if session is None else session
+    return tuple((packet, tuple(feeding.feed(packet))) for packet in packets)
 
 
 def shown(events: Iterable[Event], scene: Scene | None = None) -> Scene:
@@ -67,46 +67,46 @@ def shown(events: Iterable[Event], scene: Scene | None = None) -> Scene:
 
 def frame(scene: Scene) -> dict[str, Any]:
     """Return the present frame of a scene, as a page gets it."""
-    whole = json.loads(encode(scene.whole()[0]))["frame"]
+    whole = json.loads(encode(scene.whole_message()[0]))["frame"]
     assert isinstance(whole, dict)
     return whole
 
 
 @cache
-def square() -> tuple[PacketEvents, ...]:
-    """Return the walk once round the square, of which tests use parts."""
+def square_walk() -> tuple[PacketEvents, ...]:
+    """Return a walk of one lap round the square; tests use parts of it."""
     return packet_events(walked(squares(1)))
 
 
 @cache
 def corridor_walk() -> tuple[PacketEvents, ...]:
     """Return the first half a minute of a walk along a corridor, on the building's plan."""
-    way = corridor()
-    session = Session(poses=True, pressures=True, floorplan=BUILDING, start=way.start)
-    return packet_events((packet for packet in walked(way.route) if packet.t < 30.0), session)
+    walk = corridor()
+    session = Session(poses=True, pressures=True, floorplan=BUILDING, start=walk.start)
+    return packet_events((packet for packet in walked(walk.route) if packet.t < 30.0), session)
 
 
-def between(start: float, end: float) -> list[PacketEvents]:
-    """Return the packets and events between these moments of the walk round the square, s."""
-    return [one for one in square() if start < one[0].t <= end]
+def packets_between(start: float, end: float) -> list[PacketEvents]:
+    """Return the packets and events of the walk round the square from `start` to `end`, s."""
+    return [one for one in square_walk() if start < one[0].t <= end]
 
 
-def fresh(title: str = "round a square") -> Scene:
-    """Return the scene of a session that was fed nothing."""
+def empty_scene(title: str = "round a square") -> Scene:
+    """Return a scene without any event."""
     return Scene(title, "default", "live")
 
 
-def after(seconds: float, title: str = "round a square") -> Scene:
-    """Return the scene so many s into the walk round the square."""
-    return _taken(fresh(title), square(), seconds)
+def scene_after(seconds: float, title: str = "round a square") -> Scene:
+    """Return the scene after the first `seconds` of the walk round the square."""
+    return _take_until(empty_scene(title), square_walk(), seconds)
 
 
-def placed(seconds: float) -> Scene:
-    """Return the scene so many s into the walk along the corridor."""
-    return _taken(Scene("along a corridor", "default", "live", plan=BUILDING), corridor_walk(), seconds)
+def scene_on_plan(seconds: float) -> Scene:
+    """Return the scene, with the floor plan, after the first `seconds` of the walk along the corridor."""
+    return _take_until(Scene("along a corridor", "default", "live", plan=BUILDING), corridor_walk(), seconds)
 
 
-def _taken(scene: Scene, walk: Iterable[PacketEvents], seconds: float) -> Scene:
+def _take_until(scene: Scene, walk: Iterable[PacketEvents], seconds: float) -> Scene:
     for packet, events in walk:
         if packet.t > seconds:
             break
@@ -114,31 +114,31 @@ def _taken(scene: Scene, walk: Iterable[PacketEvents], seconds: float) -> Scene:
     return scene
 
 
-def again(walk: tuple[PacketEvents, ...], seconds: float) -> Iterator[PacketEvents]:
-    """Yield the walk, and repeat it from where it ended, for so many s at the least."""
+def repeat_walk(walk: tuple[PacketEvents, ...], seconds: float) -> Iterator[PacketEvents]:
+    """Yield the walk again and again, with times that go on, for `seconds` at least."""
     length = walk[-1][0].t - walk[0][0].t + 0.01
-    return chain.from_iterable(_later(walk, k * length) for k in range(int(seconds / length) + 1))
+    return chain.from_iterable(_shift_walk(walk, k * length) for k in range(int(seconds / length) + 1))
 
 
-def _later(walk: tuple[PacketEvents, ...], by: float) -> Iterator[PacketEvents]:
+def _shift_walk(walk: tuple[PacketEvents, ...], by: float) -> Iterator[PacketEvents]:
     for packet, events in walk:
         yield evolve(packet, t=packet.t + by), tuple(later(event, by) for event in events)
 
 
 def later(event: Event, by: float) -> Event:
-    """Return the event, so many s later."""
-    moved = {
+    """Return the event with all its times later by `by`, s."""
+    times = {
         one.name: value + by
         for one in attrs.fields(type(event))
         if one.name in TIMES and (value := getattr(event, one.name)) is not None
     }
-    return evolve(event, **moved)
+    return evolve(event, **times)
 
 
 async def show(scene: Scene, walk: Iterable[PacketEvents], speed: float = 1.0, until: float | None = None) -> None:
-    """Let the scene take packets when they are due, at so many times real time; until so many s of the walk.
+    """Feed the packets to the scene when they are due, at `speed` times real time, up to the time `until`, s.
 
-    It is slower where that is too fast for the machine: the page has its turn after every part."""
+    It is slower where that is too fast for the machine: the page has its turn after every MAX_PART of the walk."""
     clock = asyncio.get_running_loop().time
     due: float | None = None
     last = clock()
@@ -149,13 +149,13 @@ async def show(scene: Scene, walk: Iterable[PacketEvents], speed: float = 1.0, u
         while packet.t > due:
             await asyncio.sleep(REFRESH)
             now = clock()
-            due += speed * min(now - last, LONGEST_PART)
+            due += speed * min(now - last, MAX_PART)
             last = now
         scene.take(packet, events)
 
 
 @asynccontextmanager
-async def opened(
+async def open_page(
     chromium: Browser,
     scene: Scene,
     commands: Callable[[Command], None] | None = None,
@@ -163,10 +163,10 @@ async def opened(
     token: bool = True,
     **given: Any,
 ) -> AsyncIterator[tuple[Window, Page]]:
-    """Yield the scene's page in a window, connected, and its server.
+    """Yield a window with the scene's page, connected, and the server of the page.
 
-    At the end the page must have complained of nothing and sent requests to nobody else. `token` says whether it may
-    send commands; `given` goes to `window`."""
+    At the end the console of the page must be empty, and it must have sent requests to its server only. `token` says
+    whether it may send commands; `given` are options of `window`."""
     async with Page(scene, port=0, commands=commands) as page:
         url = page.url if token else page.url.partition("#")[0]
         async with window(chromium, url, **given) as view:
@@ -178,12 +178,12 @@ async def opened(
 
 @asynccontextmanager
 async def meanwhile(work: Coroutine[Any, Any, None]) -> AsyncIterator[None]:
-    """Run `work` during the context; what is left of it at the end is cancelled."""
-    going_on = asyncio.create_task(work)
+    """Run `work` during the context, and cancel it at the end."""
+    task = asyncio.create_task(work)
     try:
         yield
     finally:
-        going_on.cancel()
-        await asyncio.wait([going_on])
-    if not going_on.cancelled():
-        going_on.result()
+        task.cancel()
+        await asyncio.wait([task])
+    if not task.cancelled():
+        task.result()

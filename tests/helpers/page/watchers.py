@@ -1,4 +1,4 @@
-"""Commands that serve the page, and a watcher that behaves as a browser."""
+"""Watches the page that a command serves, as a browser would."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ ANYWHERE = ("--view", "127.0.0.1:0")
 
 
 def address(process: subprocess.Popen[str]) -> str:
-    """Return the address of the page, as the command prints it."""
+    """Return the address of the page that the command prints."""
     assert process.stdout is not None
     for line in process.stdout:
         if found := re.search(r"the page: (http://\S+#token=\S+)$", line):
@@ -28,7 +28,7 @@ def address(process: subprocess.Popen[str]) -> str:
 
 
 class Watcher:
-    """State of a page in a browser, and its commands."""
+    """The state of a page as in a browser; it can send commands."""
 
     def __init__(self, socket: aiohttp.ClientWebSocketResponse) -> None:
         self.socket = socket
@@ -37,7 +37,7 @@ class Watcher:
         self.scenes = 0
 
     async def until(self, holds: Callable[[dict[str, Any]], bool]) -> None:
-        """Wait until a condition holds of the frame as it is now."""
+        """Wait until a condition holds for the present frame."""
         async with asyncio.timeout(TAKES):
             while not self.scene or not holds(self.frame):
                 message = json.loads(await self.socket.receive_str())

@@ -1,4 +1,4 @@
-"""Bluetooth of the commands: reaching it, listening for a time, and one line when there is none."""
+"""Opens the Bluetooth of a command, listens for a time, and turns errors of Bluetooth into one line."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ..common.loop import run_to_end
 
 
 def listen_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> int:
-    """Run `main` as run_to_end does; an error of Bluetooth is a Failure."""
+    """Run `main` as run_to_end does; raise Failure for an error of Bluetooth."""
     try:
         return run_to_end(main)
     except BluetoothError as error:
@@ -23,7 +23,7 @@ def listen_to_end(main: Callable[[asyncio.Event], Coroutine[Any, Any, int]]) -> 
 
 @asynccontextmanager
 async def backend_of(via: str | None) -> AsyncIterator[Backend]:
-    """Yield the Bluetooth of `--via`. Failure when it cannot be reached."""
+    """Yield the Bluetooth of `--via`, or this machine's for None; raise Failure when it cannot be reached."""
     if via is None:
         yield NATIVE
         return
@@ -41,10 +41,12 @@ async def backend_of(via: str | None) -> AsyncIterator[Backend]:
         yield backend
 
 
-async def until(packets: AsyncIterable[Packet], stop: asyncio.Event, seconds: float | None) -> AsyncIterator[Packet]:
-    """Yield `packets` until `stop` is set, or for so many seconds.
+async def packets_until(
+    packets: AsyncIterable[Packet], stop: asyncio.Event, seconds: float | None
+) -> AsyncIterator[Packet]:
+    """Yield `packets` until `stop` is set or `seconds` have passed; None means without a limit.
 
-    Devices send a packet four times a second at least."""
+    Both are checked at each packet; devices send at least four packets a second."""
     loop = asyncio.get_running_loop()
     end = None if seconds is None else loop.time() + seconds
     async for packet in packets:

@@ -1,4 +1,6 @@
-"""Options of the devices that a command listens to, by which Bluetooth, and for how long."""
+"""Defines the options of the devices that a command listens to, of the Bluetooth, and of the time.
+
+The times below were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -6,21 +8,21 @@ import argparse
 from typing import TYPE_CHECKING
 
 from ...types import Site
-from ..common.failure import Failure, attended, need, note, positive
+from ..common.failure import Failure, has_terminal, note, parse_positive, require
 
 if TYPE_CHECKING:
     from ...ble import DeviceConfig, Found
 
 SCAN_TIME = 4.0
-"""Time for which devices are searched when none was named, s."""
+"""Time of the search for devices when none was named, s."""
 LISTEN_TIME = 30.0
-"""Time for which a command listens without a terminal to end it from and without --duration, s."""
+"""Time for which a command listens when there is no terminal to end it from and no --duration, s."""
 SERVE_TIME = 600.0
-"""Time for which emulated devices are served without a terminal and without --duration, s."""
+"""Time for which emulated devices are served when there is no terminal and no --duration, s."""
 
 
 def add_via(command: argparse.ArgumentParser) -> None:
-    """Add --via, which Bluetooth to use, to a command."""
+    """Add --via, the Bluetooth to use, to a command."""
     command.add_argument(
         "--via",
         metavar="tcp:HOST:PORT",
@@ -48,13 +50,13 @@ def add_duration(command: argparse.ArgumentParser, unattended: float) -> None:
     command.add_argument(
         "--duration",
         metavar="S",
-        type=positive,
+        type=parse_positive,
         help=f"end by itself after so long (default: at Ctrl-C; {unattended:g} s without a terminal)",
     )
 
 
 def named_devices(options: argparse.Namespace) -> list[DeviceConfig]:
-    """Return the devices that were named, none when none was. Failure for a site or profile that does not exist."""
+    """Return the devices that the options name; raise Failure for a site or profile that does not exist."""
     from ...ble import DeviceConfig
     from ...ble.config import check_configs
     from ...link.catalogue import BY_NAME
@@ -79,20 +81,24 @@ def named_devices(options: argparse.Namespace) -> list[DeviceConfig]:
 
 
 def choose_devices(found: list[Found], kind: str | None) -> list[DeviceConfig]:
-    """Return the devices to listen to when none was named.
+    """Return the devices to listen to when none was named; raise Failure where the choice is not clear.
 
-    They are two insoles, which report their feet, as soon as one is found; else the one other device, on the right foot
-    as in `track`. `kind` is the profile that was named. Failure where that is not clear."""
+    If any insole is found, the devices are two insoles, which report their feet themselves; else the only device found,
+    on the right foot as in `track`. `kind` is the profile that was named; None for any."""
     from ...ble import DeviceConfig
     from ...link.catalogue import BY_NAME
     from ...link.devices.insole import PROFILE as INSOLE
 
     named = None if kind is None else BY_NAME[kind]
     if named is not None:
-        known = [one for one in found if named.matches_name(one.name) or not {*named.services}.isdisjoint(one.services)]
+        known = [
+            device
+            for device in found
+            if named.matches_name(device.name) or not {*named.services}.isdisjoint(device.services)
+        ]
     else:
-        known = [one for one in found if one.profile is not None]
-    if any(one.profile is INSOLE for one in known):
+        known = [device for device in found if device.profile is not None]
+    if any(device.profile is INSOLE for device in known):
         return [DeviceConfig(None, profile=INSOLE), DeviceConfig(None, profile=INSOLE)]
     if len(known) == 1:
         note(f"{known[0].name}: taken for the right foot's (--left {known[0].address} says otherwise)")
@@ -101,20 +107,20 @@ def choose_devices(found: list[Found], kind: str | None) -> list[DeviceConfig]:
         raise Failure(f"no {named.name} is heard: switch it on, or say which device it is with --left and --right")
     if not known:
         raise Failure("no device is heard that is known here: switch it on, or say which with --left and --right")
-    names = ", ".join(f"{one.address} ({one.name})" for one in known)
+    names = ", ".join(f"{device.address} ({device.name})" for device in known)
     raise Failure(f"{len(known)} devices are heard, {names}: say which is where with --left and --right")
 
 
 def need_bleak() -> None:
-    """Raise Failure where the `ble` extra is not installed."""
-    need("Bluetooth needs", "ble", "bleak", "bleak_retry_connector")
+    """Raise Failure if the `ble` extra is not installed."""
+    require("Bluetooth needs", "ble", "bleak", "bleak_retry_connector")
 
 
-def how_long(options: argparse.Namespace) -> float | None:
-    """Return --duration, or the default without it, s; None until Ctrl-C."""
+def listening_time(options: argparse.Namespace) -> float | None:
+    """Return --duration or its default, s; None to listen until Ctrl-C."""
     if options.duration is not None:
         return float(options.duration)
-    if attended():
+    if has_terminal():
         return None
     print(f"no terminal to end this from: it ends after {LISTEN_TIME:g} s (--duration says otherwise)", flush=True)
     return LISTEN_TIME

@@ -7,13 +7,13 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ..common.failure import need, positive, seed
+from ..common.failure import parse_positive, parse_seed, require
 from .devices import SERVE_TIME, add_duration
 
-HERE = "127.0.0.1:9735"
-KINDS = ("insole", "cc2650", "cc2541", "cc2541-20hz")
-WALKED = 300.0
-"""Distance that the wearer walks by default, m: four minutes."""
+DEFAULT_ADDRESS = "127.0.0.1:9735"
+DEVICE_KINDS = ("insole", "cc2650", "cc2541", "cc2541-20hz")
+DEFAULT_DISTANCE = 300.0
+"""Distance that the wearer walks by default, m: about four minutes of walking."""
 
 
 def add_to(commands: Any) -> None:
@@ -28,13 +28,20 @@ def add_to(commands: Any) -> None:
         "solepath live --via tcp:127.0.0.1:9735",
     )
     command.add_argument(
-        "--listen", metavar="HOST:PORT", default=HERE, help=f"where to (default: {HERE}; port 0: any that is free)"
+        "--listen",
+        metavar="HOST:PORT",
+        default=DEFAULT_ADDRESS,
+        help=f"where to (default: {DEFAULT_ADDRESS}; port 0: any that is free)",
     )
     command.add_argument(
-        "--device", choices=KINDS, default="insole", help="what is worn on both feet (default: insole)"
+        "--device", choices=DEVICE_KINDS, default="insole", help="what is worn on both feet (default: insole)"
     )
-    command.add_argument("--distance", metavar="M", type=positive, default=WALKED, help="how far (default: 300)")
-    command.add_argument("--seed", metavar="N", type=seed, default=1, help="another walk of this route (default: 1)")
+    command.add_argument(
+        "--distance", metavar="M", type=parse_positive, default=DEFAULT_DISTANCE, help="how far (default: 300)"
+    )
+    command.add_argument(
+        "--seed", metavar="N", type=parse_seed, default=1, help="another walk of this route (default: 1)"
+    )
     command.add_argument("--mtu", metavar="N", type=int, default=247, help="that insoles agree to (default: 247)")
     command.add_argument("--faults", metavar="FILE", type=Path, help="a script of what goes wrong")
     add_duration(command, SERVE_TIME)
@@ -43,9 +50,9 @@ def add_to(commands: Any) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Serve the devices; return the exit status."""
-    need("emulated Bluetooth needs", "loopback", "bleak", "bumble")
+    require("emulated Bluetooth needs", "loopback", "bleak", "bumble")
     from ..common.loop import run_to_end
-    from .emulate_run import prepared, serve_devices
+    from .emulate_run import prepare_bench, serve_devices
 
-    # not on the loop: computing a walk takes a while, and Ctrl-C ends that at once
-    return run_to_end(partial(serve_devices, options, prepared(options)))
+    # the walk is computed before the loop starts, so that Ctrl-C can end the computing at once
+    return run_to_end(partial(serve_devices, options, prepare_bench(options)))

@@ -1,4 +1,4 @@
-"""The work of `solepath emulate` after its options are read."""
+"""Does the work of `solepath emulate` after its options are read."""
 
 from __future__ import annotations
 
@@ -17,25 +17,25 @@ from ...emulate.sensors.device import Device
 from ...link.devices import cc2541, cc2650, insole
 from ...recording import printable
 from ...types import Site
-from ..common.failure import Failure, attended, host_and_port, in_words
+from ..common.failure import Failure, address_error_text, has_terminal, host_and_port
 from .devices import SERVE_TIME
 
-LONGEST = 5000.0
+MAX_DISTANCE = 5000.0
 """Longest walk, m; a longer one would take minutes and gigabytes to compute."""
-RESTART_AFTER = 10.0
-"""Time without a connection after which the walk restarts at the next one, s."""
-REPORT_EVERY, REDRAW_EVERY = 10.0, 1.0
-"""Time between two lines on the state, without a terminal and in one, s."""
-LONG = 500.0
-"""Distance from which on computing the walk takes some seconds, m."""
+RESTART_DELAY = 10.0
+"""Time without a connection after which the next connection restarts the walk, s."""
+REPORT_INTERVAL, REDRAW_INTERVAL = 10.0, 1.0
+"""Time between two lines on the state, s: without a terminal, and in a terminal."""
+SLOW_DISTANCE = 500.0
+"""Distance above which computing the walk takes some seconds, m."""
 WALK_DELAY = 1.0
-"""Time from the first connection to the start of the walk, s; the walk starts with standing."""
+"""Time from the first connection to the start of the walk, s; the wearer stands at first."""
 
 
-def prepared(options: argparse.Namespace) -> Bench:
-    """Return the devices and their wearer, who stands. Failure for what cannot be emulated."""
-    if options.distance > LONGEST:
-        raise Failure(f"--distance {options.distance:g}: {LONGEST:g} m is as far as emulated wearers walk")
+def prepare_bench(options: argparse.Namespace) -> Bench:
+    """Return the devices and their wearer, who stands; raise Failure for options that cannot be emulated."""
+    if options.distance > MAX_DISTANCE:
+        raise Failure(f"--distance {options.distance:g}: {MAX_DISTANCE:g} m is as far as emulated wearers walk")
     if not 23 <= options.mtu <= 517:
         raise Failure(f"--mtu {options.mtu}: an MTU is from 23 to 517")
     host_and_port("--listen", options.listen)
@@ -58,26 +58,26 @@ def prepared(options: argparse.Namespace) -> Bench:
         if options.faults is None:
             raise
         raise Failure(f"{options.faults}: {error}") from None
-    if options.distance > LONG:
+    if options.distance > SLOW_DISTANCE:
         print(f"working out a walk of {options.distance:g} m ...", flush=True)
     bench.prepare()
     return bench
 
 
 async def serve_devices(options: argparse.Namespace, bench: Bench, stop: asyncio.Event) -> int:
-    """Serve until `stop` is set or the time is over; return the exit status."""
+    """Serve the devices until `stop` is set or the time is over; return the exit status."""
     bench.walk_from(asyncio.get_running_loop().time() + 1e6)  # the wearer stands until a device is connected
     async with AsyncExitStack() as stack:
         try:
-            where = host_and_port("--listen", options.listen)
-            at, number = await stack.enter_async_context(serve(bench.peripherals, *where))
+            address = host_and_port("--listen", options.listen)
+            host, port = await stack.enter_async_context(serve(bench.peripherals, *address))
         except OSError as error:
-            raise Failure(f"--listen {options.listen}: {in_words(error)}") from None
-        print(f"serving at tcp:{at}:{number}", flush=True)
+            raise Failure(f"--listen {options.listen}: {address_error_text(error)}") from None
+        print(f"serving at tcp:{host}:{port}", flush=True)
         for peripheral in bench.peripherals:
             print(f"  {peripheral.address}  {peripheral.site.words}  {printable(peripheral.name)}", flush=True)
         seconds = options.duration
-        if seconds is None and not attended():
+        if seconds is None and not has_terminal():
             seconds = SERVE_TIME
         tasks = [asyncio.create_task(work) for work in (_walk_when_connected(bench), _print_status(bench))]
         try:
@@ -93,12 +93,12 @@ async def serve_devices(options: argparse.Namespace, bench: Bench, stop: asyncio
 
 
 async def _print_status(bench: Bench) -> None:
-    """Print the state: one line that changes in a terminal, else a line now and then."""
+    """Print the state: in a terminal one line that changes, else a line every REPORT_INTERVAL s."""
     loop = asyncio.get_running_loop()
     started, live = loop.time(), sys.stdout.isatty()
     try:
         while True:
-            await asyncio.sleep(REDRAW_EVERY if live else REPORT_EVERY)
+            await asyncio.sleep(REDRAW_INTERVAL if live else REPORT_INTERVAL)
             line = f"{loop.time() - started:6.0f} s  {'; '.join(map(_state, bench.peripherals))}"
             print(f"\r{line}\x1b[K" if live else line, end="" if live else "\n", flush=True)
     finally:
@@ -113,15 +113,15 @@ def _state(peripheral: Peripheral) -> str:
 
 
 async def _walk_when_connected(bench: Bench) -> None:
-    """Start the walk when the first device is connected, and restart it when none was for RESTART_AFTER s."""
+    """Start the walk at the first connection, and restart it at the next one after RESTART_DELAY s without any."""
     loop = asyncio.get_running_loop()
-    alone_since: float | None = float("-inf")
+    unconnected_since: float | None = float("-inf")
     while True:
         now = loop.time()
         if not any(peripheral.is_connected for peripheral in bench.peripherals):
-            alone_since = now if alone_since is None else alone_since
-        elif alone_since is not None:
-            if now - alone_since > RESTART_AFTER:
+            unconnected_since = now if unconnected_since is None else unconnected_since
+        elif unconnected_since is not None:
+            if now - unconnected_since > RESTART_DELAY:
                 bench.walk_from(now + WALK_DELAY)
-            alone_since = None
+            unconnected_since = None
         await asyncio.sleep(0.01)

@@ -1,4 +1,4 @@
-"""The work of `solepath live` and `solepath record` after their options are read."""
+"""Does the work of `solepath live` and `solepath record` after their options are read."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ from ...recipes import Recipe
 from ...recording import PacketWriter, RecordingError, os_error_text, printable
 from ...session import Session
 from ...show.observer import Observer
-from ...show.output import EVENTS, GAIT_CYCLES, PLACES, STRIDES, TRACK, TrackFiles
+from ...show.output import EVENTS_FILE, GAIT_CYCLES_FILE, PLACES_FILE, STRIDES_FILE, TRACK_FILE, TrackFiles
 from ...show.page.scene.scene import Scene
 from ...show.tables.summary import place_lines, status, summary
 from ...types import Packet
 from ..common.failure import Failure, is_installed, note
 from ..common.files import check_writable
 from ..common.loop import unless_stopped
-from ..common.view import View, newtons_of, page_of
-from .backend import backend_of, until
-from .devices import SCAN_TIME, choose_devices, how_long, named_devices
+from ..common.view import PageAddress, newtons_of, serve_page
+from .backend import backend_of, packets_until
+from .devices import SCAN_TIME, choose_devices, listening_time, named_devices
 
 
 async def listen(
@@ -39,13 +39,13 @@ async def listen(
     calibration: Calibration | None,
     plan: IndexedPlan | None,
     start: Start | None,
-    view: View | None,
+    view: PageAddress | None,
     stop: asyncio.Event,
 ) -> int:
     """Receive until `stop` is set or the time is over; return the exit status."""
     devices = named_devices(options)
     check_all_writable(options.record, options.out, plan is not None)
-    seconds = how_long(options)
+    seconds = listening_time(options)
     session = Session(
         recipe, calibration=calibration, poses=True, pressures=view is not None, floorplan=plan, start=start
     )
@@ -61,13 +61,13 @@ async def listen(
         if view is not None:
             drawn = None if plan is None else plan.plan
             scene = Scene("Live", recipe.name, "live", plan=drawn, newtons=newtons_of(calibration), observer=observer)
-            await stack.enter_async_context(page_of(scene, view))
-        # only now: a search that finds nothing must not replace files of an earlier run
+            await stack.enter_async_context(serve_page(scene, view))
+        # the files are opened only now: a search that finds nothing must not replace files of an earlier run
         files = LiveFiles(options.record, options.out, plan is not None)
         live = LiveSession(session, observer if scene is None else scene, files)
         try:
-            with shown(observer, "Ctrl-C ends" if seconds is None else f"{seconds:g} s") as report:
-                async for packet in until(packets, stop, seconds):
+            with show_state(observer, "Ctrl-C ends" if seconds is None else f"{seconds:g} s") as report:
+                async for packet in packets_until(packets, stop, seconds):
                     live.take(packet)
                     report()
                     if files.failure is not None:
@@ -90,38 +90,38 @@ async def listen(
 
 @define
 class LiveSession:
-    """A session that is shown and written while it runs."""
+    """A session that is shown and written while it runs; `watcher` counts it, and `files` gets its events."""
 
     session: Session
     watcher: Observer | Scene
     files: LiveFiles
 
     def take(self, packet: Packet) -> None:
-        """Add the next packet."""
-        self.files.packet(packet)
+        """Feed the next packet to the session; write and show the packet and its events."""
+        self.files.write_packet(packet)
         self._show(packet, self.session.feed(packet))
 
     def finish(self) -> None:
-        """Show and write what was held back, and close the files."""
+        """Finish the session, write and show its last events, and close the files."""
         self._show(None, self.session.finish())
         self.files.close()
 
     def _show(self, packet: Packet | None, events: list[Event]) -> None:
         self.watcher.take(packet, events)
         for event in events:
-            self.files.event(event)
+            self.files.write_event(event)
 
 
 @define(init=False)
 class LiveFiles:
-    """The files that are written while a session runs; `failure` says why nothing is written any more."""
+    """The files that are written while a session runs; `failure` says why writing has stopped, None while it works."""
 
     failure: str | None
     _packets: PacketWriter | None
     _events: TrackFiles | None
 
     def __init__(self, record: Path | None, out: Path | None, places: bool = False) -> None:
-        """Open the files; `places` says that there is a floor plan. Failure when one cannot be opened."""
+        """Open the files; `places` says that there is a floor plan. Raise Failure when one cannot be opened."""
         self.failure = self._packets = self._events = None
         try:
             if record is not None:
@@ -130,23 +130,23 @@ class LiveFiles:
                 self._events = TrackFiles(out, places=places)
         except (RecordingError, OSError) as error:
             self.close()
-            raise Failure(_words(error)) from None
+            raise Failure(_error_text(error)) from None
 
-    def packet(self, packet: Packet) -> None:
-        """Write a packet of the recording."""
+    def write_packet(self, packet: Packet) -> None:
+        """Write a packet into the recording."""
         if self._packets is not None and self.failure is None:
             try:
                 self._packets.write(packet)
             except RecordingError as error:
-                self.failure = _words(error)
+                self.failure = _error_text(error)
 
-    def event(self, event: Event) -> None:
-        """Write an event."""
+    def write_event(self, event: Event) -> None:
+        """Write an event into the files of `out`."""
         if self._events is not None:
             try:
                 self._events.write(event)
             except OSError as error:
-                self._events, self.failure = None, self.failure or _words(error)
+                self._events, self.failure = None, self.failure or _error_text(error)
 
     def close(self) -> None:
         """Close all files."""
@@ -155,36 +155,36 @@ class LiveFiles:
                 if file is not None:
                     file.close()
             except (RecordingError, OSError) as error:
-                self.failure = self.failure or _words(error)
+                self.failure = self.failure or _error_text(error)
 
 
 def check_all_writable(record: Path | None, out: Path | None, places: bool = False) -> None:
-    """Raise Failure now when these files cannot be opened later; their contents stay."""
+    """Raise Failure if one of these files cannot be written; their contents do not change."""
     try:
         if out is not None:
             out.mkdir(parents=True, exist_ok=True)
-        names = (EVENTS, TRACK, STRIDES, GAIT_CYCLES, *([PLACES] if places else []))
+        names = (EVENTS_FILE, TRACK_FILE, STRIDES_FILE, GAIT_CYCLES_FILE, *([PLACES_FILE] if places else []))
         for path in [*([record] if record else []), *([out / name for name in names] if out else [])]:
             check_writable(path)
     except OSError as error:
-        raise Failure(_words(error)) from None
+        raise Failure(_error_text(error)) from None
 
 
-def _words(error: RecordingError | OSError) -> str:
+def _error_text(error: RecordingError | OSError) -> str:
     if isinstance(error, RecordingError):
         return str(error)
     return f"{error.filename}: {os_error_text(error)}" if error.filename else os_error_text(error)
 
 
-REPORT_EVERY = 5.0
-"""Time between two lines where there is no terminal, s."""
+REPORT_INTERVAL = 5.0
+"""Time between two reports of the state without a terminal, s; chosen by hand."""
 
 
 @contextmanager
-def shown(observer: Observer, title: str) -> Iterator[Callable[[], None]]:
-    """Show the state of the session: a picture in a terminal that can draw one, else lines now and then.
+def show_state(observer: Observer, title: str) -> Iterator[Callable[[], None]]:
+    """Yield a function that shows the state of the session.
 
-    It yields the function that updates it."""
+    It draws a picture in a terminal if rich is installed; else it prints lines every REPORT_INTERVAL s."""
     if sys.stdout.isatty() and is_installed("rich"):
         from rich.console import Console
 
@@ -194,13 +194,13 @@ def shown(observer: Observer, title: str) -> Iterator[Callable[[], None]]:
             yield lambda: drawn.show(observer, title)
         return
     started: float | None = None
-    due = REPORT_EVERY
+    due = REPORT_INTERVAL
 
     def report() -> None:
         nonlocal started, due
         started = observer.now if started is None else started
         if observer.now - started >= due:
-            due += REPORT_EVERY
+            due += REPORT_INTERVAL
             print("\n".join(f"{observer.now - started:6.1f} s  {line}" for line in status(observer)), flush=True)
 
     yield report

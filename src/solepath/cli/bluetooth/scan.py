@@ -1,4 +1,4 @@
-"""`solepath scan`: lists the devices that are there."""
+"""`solepath scan`: lists the devices that advertise."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from ...recording import printable
 from ...show.tables.table import table
-from ..common.failure import positive
+from ..common.failure import parse_positive
 from .devices import SCAN_TIME, add_via, need_bleak
 
 if TYPE_CHECKING:
@@ -23,7 +23,11 @@ def add_to(commands: Any) -> None:
         epilog="example: solepath scan --seconds 8",
     )
     command.add_argument(
-        "--seconds", metavar="S", type=positive, default=SCAN_TIME, help=f"how long to listen (default: {SCAN_TIME:g})"
+        "--seconds",
+        metavar="S",
+        type=parse_positive,
+        default=SCAN_TIME,
+        help=f"how long to listen (default: {SCAN_TIME:g})",
     )
     command.add_argument("--all", action="store_true", help="devices of kinds that are not known here too")
     add_via(command)
@@ -49,11 +53,16 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _print_devices(found: list[Found], show_all: bool) -> None:
-    known = [one for one in found if one.profile is not None]
-    if shown := found if show_all else known:
+    known = [device for device in found if device.profile is not None]
+    if listed := found if show_all else known:
         rows = [
-            [one.address, one.profile.name if one.profile else "-", str(one.signal), printable(one.name, 40) or "-"]
-            for one in shown
+            [
+                device.address,
+                device.profile.name if device.profile else "-",
+                str(device.signal),
+                printable(device.name, 40) or "-",
+            ]
+            for device in listed
         ]
         print(table(["address", "kind", "dBm", "name"], rows))
     else:

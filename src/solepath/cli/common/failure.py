@@ -1,4 +1,4 @@
-"""Errors that stop a command, and checks of its options."""
+"""Defines the errors that stop a command, and the checks of its options."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from math import isfinite, nan, radians
 from ...recipes import Recipe, by_name
 from ...recording import printable
 
-LONGEST = 2000
-"""Characters of a sentence that are shown."""
+MAX_LENGTH = 2000
+"""Largest number of characters of a sentence that are shown; chosen by hand."""
 
 
 class Failure(Exception):
@@ -23,61 +23,61 @@ class Failure(Exception):
 
 
 def note(sentence: str) -> None:
-    """Print one line on stderr that does not stop anything."""
+    """Print one line on stderr and go on."""
     sys.stdout.flush()
-    print(f"solepath: {printable(sentence, LONGEST)}", file=sys.stderr)
+    print(f"solepath: {printable(sentence, MAX_LENGTH)}", file=sys.stderr)
 
 
-def attended() -> bool:
-    """Return whether there is a terminal to end a command from."""
+def has_terminal() -> bool:
+    """Return whether there is a terminal, from which a command can be ended."""
     return sys.stdin.isatty() or sys.stdout.isatty()
 
 
 def is_installed(package: str) -> bool:
-    """Return whether a package of an extra is installed; it is not imported."""
+    """Return whether a package of an extra is installed, without importing it."""
     return find_spec(package) is not None
 
 
-def need(what: str, extra: str, *packages: str) -> None:
-    """Raise Failure, with the command to install them, when one of these packages is not installed."""
+def require(what: str, extra: str, *packages: str) -> None:
+    """Raise Failure when one of the packages of an extra is not installed; it says how to install the extra.
+
+    `what` is the start of the sentence, such as "Bluetooth needs"."""
     for package in packages:
         if not is_installed(package):
             raise Failure(f"{what} {package}: pip install 'solepath[{extra}]'")
 
 
 def host_and_port(option: str, text: str, hint: str = "") -> tuple[str, int]:
-    """Return host and port of HOST:PORT; an IPv6 host may stand in brackets. Failure for anything else."""
+    """Return host and port of HOST:PORT, where an IPv6 host may have brackets; raise Failure for other text."""
     host, colon, port = text.rpartition(":")
     if not colon or not host or not (port.isascii() and port.isdecimal()) or int(port) > 65535:
         raise Failure(f"{option} {printable(text, 80)}: that is not HOST:PORT{hint}")
     return host.removeprefix("[").removesuffix("]"), int(port)
 
 
-def in_words(error: OSError) -> str:
-    """Return what the system says of an error of an address.
-
-    Errors of name servers have no number; they are given in their own words."""
-    known = error.errno is not None and error.errno > 0
-    return (os.strerror(error.errno or 0) if known else error.strerror or str(error)).lower()
+def address_error_text(error: OSError) -> str:
+    """Return the system's text for an error of an address; an error of a name server has only a text of its own."""
+    has_number = error.errno is not None and error.errno > 0
+    return (os.strerror(error.errno or 0) if has_number else error.strerror or str(error)).lower()
 
 
-def _number(text: str, what: str, holds: Callable[[float], bool]) -> float:
-    """Return the finite number of `text`; argparse says that it is not `what` when it is none or `holds` is false."""
+def _number(text: str, what: str, is_valid: Callable[[float], bool]) -> float:
+    """Return the finite number in `text`; raise an error of argparse, "is not `what`", for other text or values."""
     try:
         value = float(text)
     except ValueError:
         value = nan
-    if not (isfinite(value) and holds(value)):
+    if not (isfinite(value) and is_valid(value)):
         raise argparse.ArgumentTypeError(f"{text!r} is not {what}")
     return value
 
 
-def positive(text: str) -> float:
+def parse_positive(text: str) -> float:
     """Parse an option of argparse: a finite number above 0."""
     return _number(text, "a positive number", lambda value: value > 0.0)
 
 
-def count(text: str) -> int:
+def parse_count(text: str) -> int:
     """Parse an option of argparse: a whole number above 0."""
     value = int(text) if text.isdecimal() and len(text) < 10 else 0
     if value <= 0:
@@ -85,30 +85,30 @@ def count(text: str) -> int:
     return value
 
 
-def seed(text: str) -> int:
+def parse_seed(text: str) -> int:
     """Parse an option of argparse: a whole number of 0 or more."""
     if not text.isdecimal() or len(text) > 18:
         raise argparse.ArgumentTypeError(f"{text[:40]!r} is not a whole number of 0 or more")
     return int(text)
 
 
-def share(text: str) -> float:
+def parse_share(text: str) -> float:
     """Parse an option of argparse: a number from 0 to 1."""
     return _number(text, "a number from 0 to 1", lambda value: 0.0 <= value <= 1.0)
 
 
-def seconds(text: str) -> float:
+def parse_seconds(text: str) -> float:
     """Parse an option of argparse: a finite number of seconds, 0 or more."""
     return _number(text, "a number of seconds", lambda value: value >= 0.0)
 
 
-def degrees_of(text: str) -> float:
+def parse_degrees(text: str) -> float:
     """Parse an option of argparse: a finite angle in degrees, returned in rad."""
     return radians(_number(text, "a number of degrees", lambda _: True))
 
 
 def recipe_named(name: str) -> Recipe:
-    """Return the recipe of this name; Failure when there is none."""
+    """Return the recipe of this name; raise Failure when there is none."""
     try:
         return by_name(name)
     except ValueError as error:

@@ -1,4 +1,4 @@
-"""Files that a command writes: tried before the work, and put in place of an earlier run's only when complete."""
+"""Checks the files of a command before its work, and replaces files of an earlier run only by complete ones."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ _numbers = count()
 
 
 def check_writable(path: Path) -> None:
-    """Check that a file can be written, before a long recording is read; its contents stay. OSError when it cannot."""
-    there = path.exists()
-    if not there or path.is_file() or path.is_dir():  # closing would end a pipe
+    """Check that a file can be written, without changing its contents; raise OSError when it cannot."""
+    exists = path.exists()
+    if not exists or path.is_file() or path.is_dir():  # closing would end a pipe
         path.open("ab").close()
-    if not there:
+    if not exists:
         path.unlink()
 
 
 def write_json(path: Path, value: Any) -> None:
-    """Write a value as JSON that people can read too. OSError when it cannot be written."""
+    """Write a value as indented JSON; raise OSError when it cannot be written."""
     with path.open("w", encoding="utf-8") as file:
         json.dump(value, file, indent=1, allow_nan=False)
         file.write("\n")
@@ -37,53 +37,54 @@ def write_json(path: Path, value: Any) -> None:
 class FileReplacements:
     """Replaces files when they are complete.
 
-    `beside` returns where to write instead; `keep` moves what was written there to its place, `discard` removes it. The
-    temporary file is in the same directory, so that at any moment a file is either as it was or as it is to be,
-    whatever ends the program. A path that is no regular file, such as a pipe, is written in place: it holds nothing
-    that could be kept."""
+    `temporary_path` returns a file to write instead of the real one. `keep` moves all temporary files to their targets;
+    `discard` removes them. A temporary file is in the directory of its target, so that at any moment, whatever ends the
+    program, a target is either unchanged or complete. A path that is no regular file, such as a pipe, is written
+    directly: it has no contents that could be lost."""
 
-    _places: dict[Path, Path] = field(factory=dict, init=False)
-    """Temporary path -> path of the file that it replaces."""
+    _targets: dict[Path, Path] = field(factory=dict, init=False)
+    """Path of the file that each temporary path replaces."""
 
-    def beside(self, path: Path, *, read_only: bool = False) -> Path:
-        """Return an empty file in the directory of `path`; OSError, naming `path`, when it cannot be written.
+    def temporary_path(self, path: Path, *, read_only: bool = False) -> Path:
+        """Make an empty file in the directory of `path` and return it; raise OSError, naming `path`, when that fails.
 
-        With `read_only`, a file without write permission is replaced all the same, and stays without it."""
-        place = Path(os.path.realpath(path))  # the target of a link
-        there = place.exists()
-        if place.is_dir():
+        With `read_only`, a file without write permission is replaced as well; the new file has no such permission
+        either."""
+        target = Path(os.path.realpath(path))  # a link stays, the file that it points to is replaced
+        exists = target.exists()
+        if target.is_dir():
             raise IsADirectoryError(EISDIR, os.strerror(EISDIR), str(path))
-        if there and not place.is_file():
+        if exists and not target.is_file():
             return path
-        if there and not read_only:
-            place.open("ab").close()
-        written = place.with_name(f".solepath-{os.getpid()}-{next(_numbers)}.part")
-        self._places[written] = place  # before it exists: Ctrl-C may come between any two lines
+        if exists and not read_only:
+            target.open("ab").close()
+        temporary = target.with_name(f".solepath-{os.getpid()}-{next(_numbers)}.part")
+        self._targets[temporary] = target  # before it exists: Ctrl-C may come between any two lines
         try:
-            written.open("xb").close()
-            if there:
-                shutil.copymode(place, written)  # the new file has the same permissions
-                written.chmod(written.stat().st_mode | S_IWUSR)
+            temporary.open("xb").close()
+            if exists:
+                shutil.copymode(target, temporary)  # the new file has the same permissions
+                temporary.chmod(temporary.stat().st_mode | S_IWUSR)
         except OSError as error:
             if isinstance(error, FileExistsError):
-                del self._places[written]  # the file belongs to another program and stays
+                del self._targets[temporary]  # the file belongs to another program and stays
             raise OSError(error.errno, error.strerror, str(path)) from None
-        return written
+        return temporary
 
     def keep(self) -> None:
-        """Move all temporary files to their places. OSError, naming the file, when one cannot be moved."""
-        for written, place in list(self._places.items()):
+        """Move all temporary files to their targets; raise OSError, naming the target, when one cannot be moved."""
+        for temporary, target in list(self._targets.items()):
             try:
-                if place.exists():
-                    shutil.copymode(place, written)
-                os.replace(written, place)
+                if target.exists():
+                    shutil.copymode(target, temporary)
+                os.replace(temporary, target)
             except OSError as error:
-                raise OSError(error.errno, error.strerror, str(place)) from None
-            del self._places[written]
+                raise OSError(error.errno, error.strerror, str(target)) from None
+            del self._targets[temporary]
 
     def discard(self) -> None:
         """Remove all temporary files."""
-        for written in self._places:
+        for temporary in self._targets:
             with suppress(OSError):
-                written.unlink()
-        self._places.clear()
+                temporary.unlink()
+        self._targets.clear()

@@ -1,4 +1,4 @@
-"""Inputs of a command: the recording and its foot, the calibration, the floor plan and the start on it."""
+"""Reads the inputs of a command: the recording and its foot, the calibration, the floor plan and the start on it."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def foot_of(options: argparse.Namespace) -> Foot | None:
 
 
 def source_of(path: Path, foot: Foot | None = None) -> Source:
-    """Open a recording and note its flaws. RecordingError when it cannot be used."""
+    """Open a recording and print its flaws on stderr; raise RecordingError when it cannot be used."""
     return open_source(path, foot, report=note)
 
 
@@ -42,11 +42,11 @@ def check_pressure(recipe: Recipe, source: Source) -> None:
     """Raise Failure when the recipe needs pressure cells and the recording has none.
 
     It reads packets only until the first sample with pressure."""
-    if recipe.needs_pressure and not _pressed(source):
+    if recipe.needs_pressure and not _has_pressure(source):
         raise Failure(f"recipe {recipe.name} needs pressure cells; {printable(str(source.path))} has none")
 
 
-def _pressed(source: Source) -> bool:
+def _has_pressure(source: Source) -> bool:
     """Return whether the recording has pressure, or cannot be read."""
     if source.samples is not None:
         return any("pressure" in table.columns for table in source.samples.tables)
@@ -54,8 +54,8 @@ def _pressed(source: Source) -> bool:
     try:
         for item in open_source(source.path, source.foot, report=_ignore):
             if isinstance(item, Packet):
-                found = decoders.setdefault(item.site, Decoder(item.site)).feed(item)
-                if any(isinstance(one, Sample) and one.pressure for one in found):
+                records = decoders.setdefault(item.site, Decoder(item.site)).feed(item)
+                if any(isinstance(record, Sample) and record.pressure for record in records):
                     return True
     except RecordingError:
         return True  # the run itself reports what is wrong with it
@@ -77,7 +77,7 @@ def add_calibration(command: argparse.ArgumentParser) -> None:
 
 
 def calibration_of(options: argparse.Namespace) -> Calibration | None:
-    """Return the calibration of --calibration, None without it. CalibrationError when the file is none."""
+    """Return the calibration of --calibration, None without it; raise CalibrationError when the file is malformed."""
     from ...calibration.file import read_calibration
 
     return None if options.calibration is None else read_calibration(options.calibration)
@@ -100,9 +100,9 @@ def add_floorplan(command: argparse.ArgumentParser) -> None:
 
 
 def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start | None]:
-    """Return the plan of --floorplan and the start of --start; warnings about the plan go to stderr.
+    """Return the plan of --floorplan and the start of --start; print warnings about the plan on stderr.
 
-    Failure when the plan cannot be used, or nobody can start there."""
+    Failure is raised when the plan cannot be used, or when a walk cannot start there."""
     from ...body.place.arrivals import start_error
     from ...floorplan.checks import warnings
     from ...floorplan.importers.reading import read_floorplan
@@ -127,7 +127,9 @@ def floorplan_of(options: argparse.Namespace) -> tuple[IndexedPlan | None, Start
 
 
 def start_of(text: str) -> Start:
-    """Return the start of LEVEL,X,Y or LEVEL,X,Y,HEADING; the level's name may have commas. Failure for other text."""
+    """Return the start of LEVEL,X,Y or LEVEL,X,Y,HEADING: plan frame, m and degrees; raise Failure for other text.
+
+    The name of the level may contain commas."""
     from ...floorplan.plan import Start
     from ...floorplan.records import no_start
 

@@ -1,4 +1,4 @@
-"""Results of `solepath track`: a summary, files, a picture of the plan, a report."""
+"""Writes the results of `solepath track`: a summary, files, a picture of the plan, a report."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ...events import Event
 from ...floorplan.plan import FloorPlan
 from ...recording import printable
 from ...show.observer import Observer
-from ...show.output import PLAN, TrackFiles, naming
+from ...show.output import PLAN_FILE, TrackFiles, os_errors_naming
 from ...show.report import Report
 from ...show.tables.plan import PlanPicture
 from ...show.tables.summary import place_lines, summary
@@ -21,13 +21,13 @@ from .files import FileReplacements, check_writable
 
 @define
 class Results:
-    """Gathers the results of one recording, and writes them at the end.
+    """The results of one recording, which are collected and written at the end.
 
     `out` is the directory of the files, `report` the file of the report; None means that it is not written. Every
     method raises OSError when something cannot be written.
 
-    Files of an earlier run are replaced by complete ones, after the recording was read to its end. Whatever ends the
-    run before that leaves all files as they were."""
+    Files of an earlier run are replaced by complete ones after the recording was read to its end. If the run ends
+    earlier for any reason, all files stay as they were."""
 
     title: str
     out: Path | None = None
@@ -41,10 +41,10 @@ class Results:
     _report: Report | None = field(init=False)
     _files: TrackFiles | None = field(default=None, init=False)
     _open: ExitStack = field(factory=ExitStack, init=False)
-    _files_out: FileReplacements = field(factory=FileReplacements, init=False)
-    _report_out: FileReplacements = field(factory=FileReplacements, init=False)
-    _picture_at: Path | None = field(default=None, init=False)
-    _report_at: Path | None = field(default=None, init=False)
+    _file_replacements: FileReplacements = field(factory=FileReplacements, init=False)
+    _report_replacement: FileReplacements = field(factory=FileReplacements, init=False)
+    _picture_path: Path | None = field(default=None, init=False)
+    _report_path: Path | None = field(default=None, init=False)
 
     def __attrs_post_init__(self) -> None:
         self._picture = None if self.plan is None else PlanPicture(self.plan)
@@ -54,17 +54,19 @@ class Results:
             self._report = Report(self.title, self.plan, self.recipe, self.when, observer=self.observer)
 
     def open_files(self) -> None:
-        """Open the files, also for a recording of nothing."""
+        """Open the files, if they are not open."""
         if self._files is None and self.out is not None:
-            self._files = TrackFiles(self.out, places=self.plan is not None, beside=self._files_out.beside)
+            self._files = TrackFiles(
+                self.out, places=self.plan is not None, path_to_write=self._file_replacements.temporary_path
+            )
             self._open.callback(self._files.close)
             if self.plan is not None:
-                self._picture_at = self._files_out.beside(self.out / PLAN)
-        if self._report_at is None and self.report is not None:
-            self._report_at = self._report_out.beside(self.report)
+                self._picture_path = self._file_replacements.temporary_path(self.out / PLAN_FILE)
+        if self._report_path is None and self.report is not None:
+            self._report_path = self._report_replacement.temporary_path(self.report)
 
     def add(self, item: Packet | Sample | None, events: list[Event]) -> None:
-        """Add an item and the events of the session for it; None and the last events at the end."""
+        """Add a packet or sample and its events; at the end of the recording None and the last events."""
         watcher = self.observer if self._report is None else self._report
         watcher.take(item, events)
         for event in events:
@@ -74,30 +76,30 @@ class Results:
                 self._picture.add(event)
 
     def print(self, seconds: float) -> None:
-        """Put files and report in their places and print the summary; `seconds` is the wall time that it took."""
+        """Complete files and report, and print the summary; `seconds` is the wall time that computing took."""
         self._open.close()
-        if self._picture is not None and self._picture_at is not None and self.out is not None:
-            with naming(self.out):
-                self._picture.write(self._picture_at, self.title)
-        self._files_out.keep()
+        if self._picture is not None and self._picture_path is not None and self.out is not None:
+            with os_errors_naming(self.out):
+                self._picture.write(self._picture_path, self.title)
+        self._file_replacements.keep()
         print(summary(self.observer, title=self.title, seconds=seconds))
         if self._picture is not None:
             print("\n".join(place_lines(self.observer.places)))
         if self.out is not None:
             print(f"written to {printable(str(self.out))}")
-        if self._report is not None and self._report_at is not None and self.report is not None:
-            with naming(self.report):
-                self._report.write(self._report_at)
-            self._report_out.keep()
+        if self._report is not None and self._report_path is not None and self.report is not None:
+            with os_errors_naming(self.report):
+                self._report.write(self._report_path)
+            self._report_replacement.keep()
             print(f"report in {printable(str(self.report))}")
 
     def __enter__(self) -> Results:
         return self
 
     def __exit__(self, *error: object) -> None:
-        """Close the files and remove those that are not in their places."""
+        """Close the files and remove temporary ones that were not moved to their targets."""
         try:
             self._open.close()
         finally:
-            self._files_out.discard()
-            self._report_out.discard()
+            self._file_replacements.discard()
+            self._report_replacement.discard()

@@ -1,4 +1,4 @@
-"""Encodes and parses the messages between server and page: JSON, strict both ways (protocol/page.md)."""
+"""Encodes and parses the messages between server and page: JSON, checked in both directions (protocol/page.md)."""
 
 from __future__ import annotations
 
@@ -10,21 +10,21 @@ from typing import Any
 
 from attrs import frozen
 
-VALUED = {"play": False, "pause": False, "speed": True, "seek": True}
-"""Commands, with whether each has a value."""
-SLOWEST, FASTEST = 0.1, 32.0
+TAKES_VALUE = {"play": False, "pause": False, "speed": True, "seek": True}
+"""Commands; True for one with a value."""
+MIN_SPEED, MAX_SPEED = 0.1, 32.0
 """Bounds of the speed at which a recording is played, in multiples of real time."""
-LONGEST = 4096
-"""Largest message from a page, bytes."""
+MAX_MESSAGE_SIZE = 4096
+"""Size of the largest message from a page, bytes; chosen by hand."""
 
 
 class CommandError(ValueError):
-    """A text that is no command; the message says why.
+    """A text that is not a command; the message says why.
 
-    `is_json` says whether the text is JSON at least."""
+    `is_json` says whether the text is JSON."""
 
-    def __init__(self, why: str, *, is_json: bool = True) -> None:
-        super().__init__(why)
+    def __init__(self, reason: str, *, is_json: bool = True) -> None:
+        super().__init__(reason)
         self.is_json = is_json
 
 
@@ -32,15 +32,15 @@ class CommandError(ValueError):
 class Command:
     """A checked request of a page (protocol/page.md), made by `parse_command`.
 
-    `do` is "play", "pause", "speed" (`value` times real time) or "seek" (to `value` s of the recording's time). `value`
-    is None for "play" and "pause"."""
+    `do` is "play", "pause", "speed" or "seek". `value` is the speed in multiples of real time, or the time to seek, s,
+    on the recording's clock; it is None for "play" and "pause"."""
 
     do: str
     value: float | None = None
 
 
 def parse_command(text: str) -> Command:
-    """Return the command that a text encodes; CommandError for any text that is none."""
+    """Return the command that a text encodes; raise CommandError for any other text."""
     try:
         message = json.loads(text, parse_constant=_no_number, object_pairs_hook=_unique_members)
     except CommandError:
@@ -50,38 +50,40 @@ def parse_command(text: str) -> Command:
     if not isinstance(message, dict):
         raise CommandError("a message is no JSON object")
     do = message.get("do")
-    if not isinstance(do, str) or do not in VALUED:
+    if not isinstance(do, str) or do not in TAKES_VALUE:
         raise CommandError("a message asks for nothing that there is")
-    if message.keys() != ({"do", "value"} if VALUED[do] else {"do"}):
+    if message.keys() != ({"do", "value"} if TAKES_VALUE[do] else {"do"}):
         raise CommandError(f"a message to {do} has other members than it should")
-    if not VALUED[do]:
+    if not TAKES_VALUE[do]:
         return Command(do)
     value = message["value"]
     if isinstance(value, bool) or not isinstance(value, int | float) or not _is_finite(value):
         raise CommandError(f"a message to {do} has a value that is no number")
-    if do == "speed" and not SLOWEST <= value <= FASTEST:
-        raise CommandError(f"a message asks for another speed than {SLOWEST:g} to {FASTEST:g}")
+    if do == "speed" and not MIN_SPEED <= value <= MAX_SPEED:
+        raise CommandError(f"a message asks for another speed than {MIN_SPEED:g} to {MAX_SPEED:g}")
     return Command(do, float(value))
 
 
 def encode(message: dict[str, Any]) -> str:
-    """Return a message of the server as text; ValueError for a number that is not finite.
+    """Return a message of the server as text; raise ValueError for a number that is not finite.
 
-    A member that keeps its own text (EncodedOnce) is not encoded again: a floor plan may have megabytes, and is sent to
+    A member that keeps its text (EncodedOnce) is not encoded again: a floor plan may have megabytes, and is sent to
     each watcher and after each seek."""
-    encoded = {key: value for key, value in message.items() if isinstance(value, EncodedOnce)}
-    text = _json({key: value for key, value in message.items() if key not in encoded} if encoded else message)
-    for key, value in encoded.items():
+    encoded_members = {key: value for key, value in message.items() if isinstance(value, EncodedOnce)}
+    text = _json(
+        {key: value for key, value in message.items() if key not in encoded_members} if encoded_members else message
+    )
+    for key, value in encoded_members.items():
         text = f"{text[:-1]}{',' if len(text) > 2 else ''}{_json(key)}:{value.text}}}"
     return text
 
 
 class EncodedOnce(dict[str, Any]):
-    """A part of messages that never changes and is sent often: its text is made once, on first use."""
+    """A member of messages that never changes and is sent often; it is encoded once, on first use."""
 
     @cached_property
     def text(self) -> str:
-        """The part as JSON."""
+        """The member as JSON."""
         return _json(self)
 
     def __deepcopy__(self, memo: dict[int, Any]) -> EncodedOnce:
@@ -111,10 +113,10 @@ def _is_finite(value: float) -> bool:
 
 
 def rounded(value: float | None, digits: int = 3) -> float | None:
-    """Return `value` with so many digits after the point; None for one that is not finite, which JSON lacks."""
+    """Return `value` with `digits` digits after the point; None if it is not finite, since JSON has no such numbers."""
     return None if value is None or not isfinite(value) else round(value, digits)
 
 
 def rounded_all(values: Iterable[float], digits: int = 3) -> list[float | None]:
-    """Return each value rounded, by default to the millimetre for places in m; None for a number that is not finite."""
+    """Return each value with `digits` digits after the point; None for a number that is not finite."""
     return [rounded(value, digits) for value in values]

@@ -1,4 +1,4 @@
-"""Keeps few values of a long walk, evenly spread, however long it is."""
+"""Keeps a limited number of evenly spaced items of a walk of any length."""
 
 from __future__ import annotations
 
@@ -11,32 +11,31 @@ T = TypeVar("T")
 
 
 @define
-class Thinned(Generic[T]):
-    """The first and the last item, and evenly spaced ones between them.
+class ThinnedList(Generic[T]):
+    """The first and the last item of a sequence, and evenly spaced items between them."""
 
-    `add` is given how many are kept."""
-
-    kept: list[T] = field(factory=list, init=False)
-    every: int = field(default=1, init=False)
-    """Interval of the items that are kept."""
+    items: list[T] = field(factory=list, init=False)
+    interval: int = field(default=1, init=False)
+    """Number of added items from one of `items` to the next."""
     count: int = field(default=0, init=False)
+    """Number of items that were ever added."""
     last: T | None = field(default=None, init=False)
 
-    def add(self, item: T, most: int) -> None:
-        """Add one item; fewer than `most` are kept."""
-        if self.count % self.every == 0:
-            if len(self.kept) >= most:
-                self.kept = self.kept[::2]
-                self.every *= 2
-            if self.count % self.every == 0:
-                self.kept.append(item)
+    def add(self, item: T, max_count: int) -> None:
+        """Add one item; `items` then holds at most `max_count`."""
+        if self.count % self.interval == 0:
+            if len(self.items) >= max_count:
+                self.items = self.items[::2]
+                self.interval *= 2
+            if self.count % self.interval == 0:
+                self.items.append(item)
         self.count += 1
         self.last = item
 
     def __iter__(self) -> Iterator[T]:
-        yield from self.kept
-        if self.last is not None and self.kept and self.kept[-1] is not self.last:
+        yield from self.items
+        if self.last is not None and self.items and self.items[-1] is not self.last:
             yield self.last
 
     def __len__(self) -> int:
-        return len(self.kept)
+        return len(self.items)

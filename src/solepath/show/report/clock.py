@@ -1,31 +1,33 @@
-"""Times in the report: the recording's own, or, where its clock counts from long ago, from its start."""
+"""Formats the times of a report: on the recording's clock, or from its start if the clock started long before.
+
+The two limits were chosen by hand and not swept."""
 
 from __future__ import annotations
 
 from attrs import frozen
 
-LONG = 300.0
-"""Duration above which a recording is drawn in minutes, s."""
-FAR = 1e5
-"""Start time from which on the clock did not start with the recording, s."""
+MINUTES_FROM = 300.0
+"""Duration above which axes are in minutes, s."""
+FAR_START = 1e5
+"""Start time from which times count from the start of the recording, s: its clock started long before."""
 
 
 @frozen
 class ReportClock:
-    """Clock of one recording, from `start` to `end`, s."""
+    """The times of one recording in its report; `start` and `end` are on the recording's clock, s."""
 
     start: float
     end: float
 
     @property
     def origin(self) -> float:
-        """Time from which the report's times count, s."""
-        return self.start if abs(self.start) >= FAR else 0.0
+        """Time on the recording's clock that is 0 in the report, s."""
+        return self.start if abs(self.start) >= FAR_START else 0.0
 
     @property
     def per_unit(self) -> float:
-        """Seconds of the unit on axes."""
-        return 60.0 if self.end - self.start > LONG else 1.0
+        """Duration of the unit of time axes, s: 60 for minutes, else 1."""
+        return 60.0 if self.end - self.start > MINUTES_FROM else 1.0
 
     @property
     def label(self) -> str:
@@ -35,21 +37,21 @@ class ReportClock:
 
     @property
     def span(self) -> tuple[float, float]:
-        """Ends of a time axis, in its unit."""
-        low, high = self.of(self.start), self.of(self.end)
+        """Lower and upper end of a time axis, in its unit."""
+        low, high = self.axis_value(self.start), self.axis_value(self.end)
         return (low, high) if high > low else (low - 0.5, low + 0.5)
 
-    def of(self, t: float) -> float:
-        """Return the value of `t`, in s, on a time axis."""
+    def axis_value(self, t: float) -> float:
+        """Return `t`, s on the recording's clock, as a value on a time axis, in its unit."""
         return (t - self.origin) / self.per_unit
 
     def text(self, t: float) -> str:
-        """Return `t`, in s, as text for a sentence."""
+        """Return `t`, s on the recording's clock, as text for a sentence."""
         return f"{t - self.origin:.1f} s"
 
 
 def duration_text(seconds: float) -> str:
-    """Return a duration in words."""
+    """Return a duration as text in s, min or h."""
     if seconds < 9.95:
         return f"{seconds:.1f} s"
     whole = round(seconds)

@@ -1,4 +1,4 @@
-"""The gait table, and what its parameters mean."""
+"""Adds the gait tables to a report, and the definitions of their parameters."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ DEFINITIONS = {
     "initial_double_support": "from this foot's contact to the other's toe-off; below zero a flight (Novacheck 1998)",
     "terminal_double_support": "from the other foot's contact to this one's toe-off; below zero a flight",
 }
-"""One line for each parameter; GaitCycleMeasured has the full definitions."""
-COLUMNS = [
+"""Short definition of each parameter; GaitCycleMeasured has the full definitions."""
+COLUMN_DEFINITIONS = [
     ("steady strides", "neither first nor last of a walk, nor in a turn, on stairs or with samples missing"),
     ("both", "mean of the feet's means; SD from the mean of their variances (Galna et al. 2013)"),
     ("CV", "standard deviation / mean, of both feet (Hausdorff 2005)"),
@@ -38,29 +38,29 @@ COLUMNS = [
 
 
 def gait_tables(parent: Element, means: GaitMeans) -> bool:
-    """Add a table for walking and one for running; return False when there are no steady strides."""
-    known = [one for one in (means.of(False), means.of(True)) if one is not None]
-    for one in known:
-        _table(parent, one)
-    if known:
-        _notes(parent, known)
-    return bool(known)
+    """Add a table for walking and one for running; return False if there are no steady strides."""
+    tables = [parameters for parameters in (means.of(False), means.of(True)) if parameters is not None]
+    for parameters in tables:
+        _table(parent, parameters)
+    if tables:
+        _notes(parent, tables)
+    return bool(tables)
 
 
 def _table(parent: Element, parameters: GaitParameters) -> None:
     columns = [parameters.feet.get(foot) for foot in Foot]
     what = "Running" if parameters.running else "Walking"
     strides = [strides_of(parameters, foot) for foot in Foot]
-    rows = [["steady strides", *[number(one, 0) for one in strides], "-", "-", "-"]]
-    together = parameters.both if None not in columns else None
-    rows.append(["cadence, steps/min", *[_cadence(one) for one in (*columns, together)], "-", "-"])
-    # the standard deviation stands on its own line
+    rows = [["steady strides", *[number(count, 0) for count in strides], "-", "-", "-"]]
+    both = parameters.both if None not in columns else None
+    rows.append(["cadence, steps/min", *[_cadence(figures) for figures in (*columns, both)], "-", "-"])
+    # the standard deviation is on a line of its own
     rows += [[f"{row.label}, {row.unit}", *row.cells("\n\N{PLUS-MINUS SIGN}")] for row in gait_rows(parameters)]
     caption = f"{what}: means of steady strides, of both feet \N{PLUS-MINUS SIGN} standard deviation"
     table(parent, caption, HEADER, rows, "numbers gait")
     if parameters.coordination is not None:
         add(parent, "p", f"Phase coordination index: {percent(parameters.coordination)} % (Plotnik et al. 2007).")
-    count = sum([one for one in strides if one is not None])
+    count = sum([foot_count for foot_count in strides if foot_count is not None])
     if count < MIN_STRIDES:
         text = f"Of {count} strides: figures settle with {MIN_STRIDES} and more (Galna et al. 2013)."
         add(parent, "p", text, class_="note")
@@ -70,9 +70,10 @@ def _cadence(figures: StrideFigures | None) -> str:
     return "-" if figures is None or figures.stride_time is None else number(120.0 / figures.stride_time.mean, 1)
 
 
-def _notes(parent: Element, known: list[GaitParameters]) -> None:
-    """Add what the words of the table mean, in a part that can be folded on a screen."""
-    folded = add(parent, "details", open="open")
-    add(folded, "summary", "What the parameters mean")
-    named = {row.name: row.label for one in known for row in gait_rows(one)}
-    terms(folded, [(named[name], meaning) for name, meaning in DEFINITIONS.items() if name in named] + COLUMNS)
+def _notes(parent: Element, tables: list[GaitParameters]) -> None:
+    """Add the definitions of the parameters, in an element that can be folded on a screen."""
+    details = add(parent, "details", open="open")
+    add(details, "summary", "What the parameters mean")
+    labels = {row.name: row.label for parameters in tables for row in gait_rows(parameters)}
+    meanings = [(labels[name], meaning) for name, meaning in DEFINITIONS.items() if name in labels]
+    terms(details, meanings + COLUMN_DEFINITIONS)

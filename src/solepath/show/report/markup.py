@@ -1,4 +1,4 @@
-"""Makes HTML elements; text stays text, since the tree is escaped when it is written."""
+"""Makes HTML elements; text cannot become markup, since the tree is escaped when it is written."""
 
 from __future__ import annotations
 
@@ -8,21 +8,23 @@ from xml.etree.ElementTree import Element, SubElement
 from ...recording import printable
 from .style import STYLE
 
-LONGEST = 300
-"""Characters of a sentence from outside that are shown."""
-MOST = 40
-"""Sentences of a list that are shown."""
+MAX_LENGTH = 300
+"""Largest number of characters of a text that are shown; chosen by hand."""
+MAX_LISTED = 40
+"""Largest number of sentences of a list that are shown; chosen by hand."""
 
 
 def add(parent: Element, tag: str, text: str = "", **attributes: str) -> Element:
     """Add a new last child to `parent` and return it.
 
-    In names of attributes a trailing underscore is dropped, and others become hyphens."""
-    named = {name.removesuffix("_").replace("_", "-"): printable(value, 10**6) for name, value in attributes.items()}
-    made = SubElement(parent, tag, named)
+    In names of attributes a trailing underscore is dropped, and other underscores become hyphens."""
+    html_attributes = {
+        name.removesuffix("_").replace("_", "-"): printable(value, 10**6) for name, value in attributes.items()
+    }
+    element = SubElement(parent, tag, html_attributes)
     if text:
-        made.text = printable(text, LONGEST)
-    return made
+        element.text = printable(text, MAX_LENGTH)
+    return element
 
 
 def skeleton(title: str) -> tuple[Element, Element]:
@@ -38,39 +40,39 @@ def skeleton(title: str) -> tuple[Element, Element]:
 
 
 def section(parent: Element, name: str, title: str) -> Element:
-    """Add a section with a heading and return it."""
-    made = add(parent, "section", aria_labelledby=name)
-    add(made, "h2", title, id=name)
-    return made
+    """Add a section with a heading, whose id is `name`, and return the section."""
+    element = add(parent, "section", aria_labelledby=name)
+    add(element, "h2", title, id=name)
+    return element
 
 
 def sentences(parent: Element, texts: Sequence[str]) -> None:
-    """Add a list of sentences, and how many more there are."""
+    """Add a list of the first MAX_LISTED sentences, and the number of those left out."""
     if texts:
-        listed = add(parent, "ul")
-        for one in texts[:MOST]:
-            add(listed, "li", one)
-        if len(texts) > MOST:
-            add(listed, "li", f"and {len(texts) - MOST} more")
+        items = add(parent, "ul")
+        for text in texts[:MAX_LISTED]:
+            add(items, "li", text)
+        if len(texts) > MAX_LISTED:
+            add(items, "li", f"and {len(texts) - MAX_LISTED} more")
 
 
 def terms(parent: Element, entries: Iterable[tuple[str, str]], **attributes: str) -> None:
-    """Add words with their meanings."""
-    listed = add(parent, "dl", **attributes)
+    """Add a list of words with their meanings."""
+    definitions = add(parent, "dl", **attributes)
     for word, meaning in entries:
-        add(listed, "dt", word)
-        add(listed, "dd", meaning)
+        add(definitions, "dt", word)
+        add(definitions, "dd", meaning)
 
 
 def figure(parent: Element, svg: Element, caption: str, *notes: str) -> Element:
-    """Add a drawing with a caption, and notes in smaller words below."""
-    made = add(parent, "figure")
-    made.append(svg)
-    figcaption = add(made, "figcaption")
+    """Add a drawing with a caption, and notes in smaller letters below."""
+    element = add(parent, "figure")
+    element.append(svg)
+    figcaption = add(element, "figcaption")
     add(figcaption, "strong", caption)
     for note in notes:
         add(figcaption, "span", note, **{"class": "note"})
-    return made
+    return element
 
 
 def table(
@@ -78,19 +80,19 @@ def table(
 ) -> Element:
     """Add a table whose first column names its rows.
 
-    Its roles stand beside the tags: on a phone the rows are laid out as grids, and a screen reader takes a table with
-    such a style for no table."""
-    made = add(parent, "table", role="table", class_=kind)
-    add(made, "caption", caption)
-    top = add(add(made, "thead", role="rowgroup"), "tr", role="row")
+    Every tag has its role as an attribute: on a phone the style sheet lays the rows out as grids, and a screen reader
+    would not recognize such a table by its tags."""
+    element = add(parent, "table", role="table", class_=kind)
+    add(element, "caption", caption)
+    header_row = add(add(element, "thead", role="rowgroup"), "tr", role="row")
     for name in header:
-        add(top, "th", name, scope="col", role="columnheader")
-    body = add(made, "tbody", role="rowgroup")
+        add(header_row, "th", name, scope="col", role="columnheader")
+    body = add(element, "tbody", role="rowgroup")
     for first, *others in rows:
         row = add(body, "tr", role="row")
         add(row, "th", first, scope="row", role="rowheader")
         for cell in others:
             cell_element = add(row, "td", role="cell")
-            for part in cell.split("\n"):
-                add(cell_element, "span", part)
-    return made
+            for line in cell.split("\n"):
+                add(cell_element, "span", line)
+    return element

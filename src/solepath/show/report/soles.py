@@ -1,6 +1,7 @@
-"""Sums the load of the soles over the strides that were measured, whatever their number.
+"""Sums the load of each sole over its contacts, in memory that does not grow with their number.
 
-A sample is kept until its stride is reported, which is up to a second after the stride has ended."""
+A contact is the time from heel-strike to toe-off. A sample is kept until its gait cycle is reported, which is up to a
+second after the cycle has ended. Numbers without a source were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -12,86 +13,86 @@ from attrs import define, field
 from ...events import FootPressed, GaitCycleMeasured
 from ...types import Layout
 
-KEPT = 2000
-"""Samples of a foot that are kept: 5 s at 400 Hz, and more than a stride of a walker."""
-LONGEST = 2.5
-"""Longest contact that counts as that of a step, s."""
+MAX_SAMPLES = 2000
+"""Largest number of samples of a foot that are kept: 5 s at 400 Hz, longer than a gait cycle."""
+MAX_CONTACT_TIME = 2.5
+"""Longest contact that is counted, s; in a longer one the wearer stands."""
 STATIONS = 51
-"""Stations over a contact from heel-strike to toe-off, evenly spaced."""
-PATHS = 20
-"""Single paths of the centre of pressure that are kept, the newest."""
+"""Number of evenly spaced moments of a contact at which force and centre of pressure are summed."""
+MAX_PATHS = 20
+"""Largest number of single paths of the centre of pressure; the newest are kept."""
 
 Pair = tuple[float, float]
 
 
 @define
 class ReportSole:
-    """Load of one foot's sole; loads in the unit of the samples, places in the foot frame, m."""
+    """The load of one foot's sole; loads are in the unit of the samples, positions in the foot frame, m."""
 
     layout: Layout | None = None
     samples: int = 0
     contacts: int = 0
-    """Number of strides in the sums."""
-    means: list[float] = field(factory=list)
+    """Number of contacts in the sums."""
+    mean_sums: list[float] = field(factory=list)
     """Sum over contacts of each cell's mean over the contact."""
-    peaks: list[float] = field(factory=list)
+    peak_sums: list[float] = field(factory=list)
     """Sum over contacts of each cell's highest value."""
-    forces: list[float] = field(factory=list)
+    force_sums: list[float] = field(factory=list)
     """Sum over contacts of the force at each station."""
-    path: list[tuple[float, float, int]] = field(factory=list)
-    """Sums over contacts of x and y of the centre of pressure at each station, and in how many it was known."""
-    paths: deque[list[Pair]] = field(factory=lambda: deque(maxlen=PATHS))
-    standing: list[float] = field(factory=list)
-    """Sum of each cell over all samples, for a wearer who takes no stride."""
-    newest: deque[FootPressed] = field(factory=lambda: deque(maxlen=KEPT))
+    path_sums: list[tuple[float, float, int]] = field(factory=list)
+    """Sums of x and y of the centre of pressure at each station, m, and number of contacts in which it was known."""
+    paths: deque[list[Pair]] = field(factory=lambda: deque(maxlen=MAX_PATHS))
+    cell_sums: list[float] = field(factory=list)
+    """Sum of each cell over all samples, which is shown when no contact was counted."""
+    newest: deque[FootPressed] = field(factory=lambda: deque(maxlen=MAX_SAMPLES))
 
-    def press(self, event: FootPressed) -> None:
-        """Add one sample; one with another number of cells than before restarts the sums."""
-        if len(self.standing) != len(event.values):
+    def add_sample(self, event: FootPressed) -> None:
+        """Add one sample; when the number of cells changes, all sums restart."""
+        if len(self.cell_sums) != len(event.values):
             self._reset(len(event.values))
         self.samples += 1
-        self.standing = [a + b for a, b in zip(self.standing, event.values, strict=True)]
+        self.cell_sums = [a + b for a, b in zip(self.cell_sums, event.values, strict=True)]
         if self.newest and event.t <= self.newest[-1].t:
             self.newest.clear()
         self.newest.append(event)
 
     def _reset(self, cells: int) -> None:
-        self.standing, self.means, self.peaks = [0.0] * cells, [0.0] * cells, [0.0] * cells
-        self.forces, self.path = [0.0] * STATIONS, [(0.0, 0.0, 0)] * STATIONS
+        self.cell_sums, self.mean_sums, self.peak_sums = [0.0] * cells, [0.0] * cells, [0.0] * cells
+        self.force_sums, self.path_sums = [0.0] * STATIONS, [(0.0, 0.0, 0)] * STATIONS
         self.samples = self.contacts = 0
         self.newest.clear()
         self.paths.clear()
 
-    def stride(self, event: GaitCycleMeasured) -> None:
-        """Add the contact of a stride, if it was walked and hardly any of its samples are missing."""
-        missing = event.degraded and not event.steady
-        if missing or event.running or not 0.0 < event.t_toe_off - event.t_start <= LONGEST:
+    def add_cycle(self, event: GaitCycleMeasured) -> None:
+        """Add the contact of a gait cycle, if it is one of walking and has almost all its samples."""
+        lacks_samples = event.degraded and not event.steady
+        if lacks_samples or event.running or not 0.0 < event.t_toe_off - event.t_start <= MAX_CONTACT_TIME:
             return
-        kept = list(self.newest)
-        times = [one.t for one in kept]
+        samples = list(self.newest)
+        times = [sample.t for sample in samples]
         first, last = bisect_left(times, event.t_start), bisect_right(times, event.t_toe_off)
-        contact = kept[first:last]
+        contact = samples[first:last]
         if len(contact) < 3 or first == 0:
             return
         count = len(contact)
-        columns = list(zip(*[one.values for one in contact], strict=True))
-        self.means = [a + sum(column) / count for a, column in zip(self.means, columns, strict=True)]
-        self.peaks = [a + max(column) for a, column in zip(self.peaks, columns, strict=True)]
+        columns = list(zip(*[sample.values for sample in contact], strict=True))
+        self.mean_sums = [a + sum(column) / count for a, column in zip(self.mean_sums, columns, strict=True)]
+        self.peak_sums = [a + max(column) for a, column in zip(self.peak_sums, columns, strict=True)]
         self.contacts += 1
         path = []
         for k in range(STATIONS):
-            one = contact[round(k * (count - 1) / (STATIONS - 1))]
-            self.forces[k] += one.force
-            if one.centre is not None:
-                (x, y, n), (a, b) = self.path[k], one.centre
-                self.path[k] = (x + a, y + b, n + 1)
-                path.append(one.centre)
+            sample = contact[round(k * (count - 1) / (STATIONS - 1))]
+            self.force_sums[k] += sample.force
+            if sample.centre is not None:
+                (x, y, n), (a, b) = self.path_sums[k], sample.centre
+                self.path_sums[k] = (x + a, y + b, n + 1)
+                path.append(sample.centre)
         self.paths.append(path)
 
     @property
     def mean_path(self) -> list[Pair]:
-        """Mean path of the centre of pressure, where it was known in at least half of the contacts."""
-        return [(x / n, y / n) for x, y, n in self.path if n > 0 and 2 * n >= self.contacts]
+        """Mean path of the centre of pressure, m, foot frame, where it was known in half of the contacts or more."""
+        return [(x / n, y / n) for x, y, n in self.path_sums if n > 0 and 2 * n >= self.contacts]
 
     @property
     def unit(self) -> str:
@@ -99,6 +100,6 @@ class ReportSole:
         return "N" if self.layout is not None and self.layout.scale is not None else "counts"
 
     @property
-    def mapped(self) -> Layout | None:
-        """Layout of the cells; None when it is not known or does not fit their number."""
-        return self.layout if self.layout is not None and len(self.layout.cells) == len(self.standing) > 0 else None
+    def drawable_layout(self) -> Layout | None:
+        """Layout of the cells; None if it is not known or has another number of cells than the samples."""
+        return self.layout if self.layout is not None and len(self.layout.cells) == len(self.cell_sums) > 0 else None

@@ -1,4 +1,4 @@
-"""Puts a walk into words."""
+"""Puts the counts of an observer into the sentences of a report."""
 
 from __future__ import annotations
 
@@ -9,47 +9,49 @@ from ..observer import Observer
 from ..tables.summary import link_health, wear_lines
 from ..tables.table import number
 from .clock import ReportClock, duration_text
-from .figures.activity import named
+from .figures.activity import activity_words
 
 CAUTION = (
     "These are measurements of foot-worn sensors, for whoever knows how to read them. They are no diagnosis and come "
     "from no medical device."
 )
 
-LONGEST_NAME = 60
-"""Characters of a device's name that are shown, so that it leaves room for the rest."""
+MAX_NAME_LENGTH = 60
+"""Largest number of characters of a device's name that are shown, so that there is room for the rest of the line."""
 TURNS = {Turn.LEFT: "to the left", Turn.RIGHT: "to the right", Turn.ABOUT: "about"}
 
 
-def overview(observer: Observer, clock: ReportClock, has_data: bool, measured: dict[Foot, int]) -> list[str]:
-    """Return the walk in sentences.
+def overview(observer: Observer, clock: ReportClock, has_data: bool, cycle_counts: dict[Foot, int]) -> list[str]:
+    """Return the sentences of the summary.
 
-    `has_data` says that anything came at all. `measured` is the number of gait cycles of each foot, for a foot without
-    a track."""
+    `has_data` says that there was any event. `cycle_counts`, the number of gait cycles of each foot, is used for a foot
+    without a track."""
     if not has_data:
         return ["Nothing was heard of either foot."]
-    time = observer.time
-    lines = [f"The recording lasts {duration_text(time.total if time.count else clock.end - clock.start)}."]
-    if time.count > 1:
+    time = observer.covered_time
+    lines = [f"The recording lasts {duration_text(time.total if time.stretch_count else clock.end - clock.start)}."]
+    if time.stretch_count > 1:
         lines = [f"The recording lasts {duration_text(time.total)}; its times go back in between."]
-    stepped = {foot: observer.feet[foot] for foot in Foot if foot in observer.feet and observer.feet[foot].strides}
-    for foot, one in stepped.items():
-        far = f" over {number(one.distance, 1)} m" if one.distance > 0.0 else ""
-        lines.append(f"The {foot} foot took {one.strides} stride{'s' * (one.strides != 1)}{far}.")
-    for foot, count in measured.items():
-        if count and foot not in stepped:
+    tracked = {foot: observer.feet[foot] for foot in Foot if foot in observer.feet and observer.feet[foot].strides}
+    for foot, counts in tracked.items():
+        distance = f" over {number(counts.distance, 1)} m" if counts.distance > 0.0 else ""
+        lines.append(f"The {foot} foot took {counts.strides} stride{'s' * (counts.strides != 1)}{distance}.")
+    for foot, count in cycle_counts.items():
+        if count and foot not in tracked:
             lines.append(f"The {foot} foot took {count} stride{'s' * (count != 1)}; how far is not known.")
-    if not stepped and not any(measured.values()):
+    if not tracked and not any(cycle_counts.values()):
         lines.append("No foot took a step.")
     if observer.fused is not None:
         lines.append(f"Both feet together went {number(observer.fused.distance, 1)} m.")
-    spans = observer.timeline.lasted(clock.end)
+    spans = observer.timeline.durations(clock.end)
     if spans:
-        lines.append(f"Activities: {', '.join([f'{named(what)} {duration_text(t)}' for what, t in spans.items()])}.")
-    for counted, what in ((observer.flights, "Flights of stairs"), (observer.rides, "Lift rides")):
-        ways = [f"{counted[up]} {'up' if up else 'down'}" for up in (True, False) if counted[up]]
-        if ways:
-            lines.append(f"{what}: {', '.join(ways)}.")
+        lines.append(
+            f"Activities: {', '.join([f'{activity_words(what)} {duration_text(t)}' for what, t in spans.items()])}."
+        )
+    for up_counts, name in ((observer.flights, "Flights of stairs"), (observer.elevator_rides, "Lift rides")):
+        directions = [f"{up_counts[up]} {'up' if up else 'down'}" for up in (True, False) if up_counts[up]]
+        if directions:
+            lines.append(f"{name}: {', '.join(directions)}.")
     turns = [f"{observer.turns[turn]} {words}" for turn, words in TURNS.items() if observer.turns[turn]]
     if turns:
         lines.append(f"Turns: {', '.join(turns)}.")
@@ -57,34 +59,34 @@ def overview(observer: Observer, clock: ReportClock, has_data: bool, measured: d
 
 
 def problems(observer: Observer) -> list[str]:
-    """Return what was wrong with sensors, their wearing and their links; nothing when all is well."""
-    found = [*wear_lines(observer), *link_health(observer)]
-    found += [
-        f"{foot} foot: in {one.degraded} of {one.strides} strides samples are missing or saturated"
+    """Return sentences on the faults of sensors, their wearing and their links; none without faults."""
+    faults = [*wear_lines(observer), *link_health(observer)]
+    faults += [
+        f"{foot} foot: in {counts.degraded} of {counts.strides} strides samples are missing or saturated"
         for foot in Foot
-        if (one := observer.feet.get(foot)) is not None and one.degraded
+        if (counts := observer.feet.get(foot)) is not None and counts.degraded
     ]
-    found += [
+    faults += [
         f"{foot} foot: {link.gaps} gaps in the samples, {number(link.gap_time)} s in all"
         for foot in Foot
         if (link := observer.links.get(SITE_OF_FOOT[foot])) is not None and link.gaps
     ]
-    found += [f"suspect scale, {what}" for what in observer.suspect_scales]
-    return [f"{one[0].upper()}{one[1:]}." for one in found if one]
+    faults += [f"suspect scale, {text}" for text in observer.suspect_scales]
+    return [f"{text[0].upper()}{text[1:]}." for text in faults if text]
 
 
 def limitations(observer: Observer) -> list[str]:
-    """Return what the recipe had to do without."""
-    return [f"{one[0].upper()}{one[1:]}." for one in observer.limitations if one]
+    """Return sentences on what the recipe had to do without."""
+    return [f"{text[0].upper()}{text[1:]}." for text in observer.limitations if text]
 
 
 def sensors(observer: Observer) -> str:
-    """Return the sensors in one line."""
+    """Return the sensors in one line, with the names of the devices and the kinds of their data."""
     lines = []
     for site, link in _links(observer):
-        named_so = f" ({printable(link.name, LONGEST_NAME)})" if link.name else ""
-        what = [word for word, there in (("motion", link.has_motion), ("pressure", link.has_pressure)) if there]
-        lines.append(f"{site.words}{named_so}{': ' + ' and '.join(what) if what else ''}")
+        name = f" ({printable(link.name, MAX_NAME_LENGTH)})" if link.name else ""
+        kinds = [kind for kind, present in (("motion", link.has_motion), ("pressure", link.has_pressure)) if present]
+        lines.append(f"{site.words}{name}{': ' + ' and '.join(kinds) if kinds else ''}")
     return "; ".join(lines) if lines else "none was heard"
 
 

@@ -1,1 +1,1 @@
-"""Tables, figures in words and the live terminal for people; nothing is computed here."""
+"""Puts counts and gait parameters into tables, sentences, a floor plan and the live terminal."""

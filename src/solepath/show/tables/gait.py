@@ -1,4 +1,4 @@
-"""Names, units and digits of the gait parameters, the same in every table, and their table in plain text.
+"""Makes the rows of the gait parameters, with names, units and digits, and their table in plain text.
 
 The tables of the terminal, the page and the report all use these rows."""
 
@@ -12,12 +12,11 @@ from ...body.gait.means import Figure, GaitMeans, GaitParameters
 from ...types import Foot
 from .table import number, percent, table
 
-DEGREES = "deg"
+DEGREE_UNIT = "deg"
 MIN_STRIDES = 30
-"""Strides of both feet together below which standard deviation and CV mean little (Galna et al. 2013).
-
-body/gait/means.py uses the same number."""
-ROWS: tuple[tuple[str, str, str, int, float], ...] = (
+"""Number of strides, of both feet together, below which standard deviation and coefficient of variation (CV) mean
+little (Galna et al. 2013); body/gait/means.py uses the same number."""
+PARAMETERS: tuple[tuple[str, str, str, int, float], ...] = (
     ("stride_time", "stride time", "s", 3, 1.0),
     ("step_time", "step time", "s", 3, 1.0),
     ("stride_length", "stride length", "m", 3, 1.0),
@@ -25,10 +24,10 @@ ROWS: tuple[tuple[str, str, str, int, float], ...] = (
     ("step_width", "step width", "m", 3, 1.0),
     ("speed", "speed", "m/s", 2, 1.0),
     ("clearance", "rise of the sensor", "m", 3, 1.0),
-    ("toe_off_angle", "toe-off angle", DEGREES, 1, degrees(1.0)),
-    ("heel_strike_angle", "heel-strike angle", DEGREES, 1, degrees(1.0)),
+    ("toe_off_angle", "toe-off angle", DEGREE_UNIT, 1, degrees(1.0)),
+    ("heel_strike_angle", "heel-strike angle", DEGREE_UNIT, 1, degrees(1.0)),
 )
-"""Parameter of StrideFigures, its label, its unit in tables, its digits, and how many of that unit one SI unit is."""
+"""Field of StrideFigures, its label, unit in tables, digits after the point, and factor from the SI unit."""
 SHARES = (
     ("stance_time", "stance"),
     ("single_support", "single support"),
@@ -40,14 +39,14 @@ SHARES = (
 
 @frozen
 class GaitRow:
-    """One parameter of steady strides.
+    """The row of one gait parameter, from steady strides.
 
-    `left`, `right`, `both` and `sd` are in `unit`; they are None where they are not known: a share of the stride has no
-    `sd`, and when only one foot is known there is no value of both. `cv` and `asymmetry` are shares (0.05 is 5 %), as
-    in Figure and GaitParameters; when only one foot is known, `cv` is its own.
+    `left`, `right`, `both` and `sd` (standard deviation) are in `unit`, and None where they are not known. A share of
+    the stride time has no `sd`. When only one foot is known, `both` and `sd` are None, and `cv` is that foot's. Both
+    `cv` and `asymmetry` are shares (0.05 is 5 %), as in Figure and GaitParameters.
 
-    An angle is measured against the flat sole, so that its mean may be near zero or differ in sign between the feet,
-    and a share of it says nothing. It has a `difference`, right - left in `unit`, instead of `cv` and `asymmetry`."""
+    An angle has a `difference`, right - left in `unit`, instead of `cv` and `asymmetry`. It is measured against the
+    flat sole, so that its mean may be near zero or differ in sign between the feet; a share of it would say nothing."""
 
     name: str
     label: str
@@ -62,11 +61,11 @@ class GaitRow:
     difference: float | None
 
     def cells(self, separator: str) -> list[str]:
-        """Return the cells of a table: left, right, both +- SD (`separator` between the two), CV in %, asymmetry."""
+        """Return the cells of a table: left, right, mean `separator` SD of both, CV in %, asymmetry."""
         both = number(self.both, self.digits) + (
             "" if self.sd is None else f"{separator} {number(self.sd, self.digits)}"
         )
-        feet = [number(one, self.digits) for one in (self.left, self.right)]
+        feet = [number(value, self.digits) for value in (self.left, self.right)]
         return [*feet, both, percent(self.cv), self.asymmetry_text]
 
     @property
@@ -78,10 +77,10 @@ class GaitRow:
 
 
 def gait_rows(parameters: GaitParameters) -> list[GaitRow]:
-    """Return a row for each parameter that was measured, in the order in which they are shown."""
+    """Return a row for each parameter that was measured, in the order of the table."""
     feet = [parameters.feet.get(foot) for foot in Foot]
     rows = []
-    for name, label, unit, digits, scale in ROWS:
+    for name, label, unit, digits, scale in PARAMETERS:
         figure: Figure | None = getattr(parameters.both, name)
         if figure is None:
             continue
@@ -91,8 +90,8 @@ def gait_rows(parameters: GaitParameters) -> list[GaitRow]:
         if left is not None and right is not None:
             both = scale * figure.mean
             sd = None if figure.sd is None else scale * figure.sd
-            difference = right - left if unit == DEGREES else None
-        cv, asymmetry = (None, None) if unit == DEGREES else (figure.cv, parameters.asymmetry(name))
+            difference = right - left if unit == DEGREE_UNIT else None
+        cv, asymmetry = (None, None) if unit == DEGREE_UNIT else (figure.cv, parameters.asymmetry(name))
         rows.append(GaitRow(name, label, unit, digits, left, right, both, sd, cv, asymmetry, difference))
     for name, label in SHARES:
         share = parameters.both.share(name)
@@ -100,23 +99,23 @@ def gait_rows(parameters: GaitParameters) -> list[GaitRow]:
             shares = [None if one is None else one.share(name) for one in feet]
             left, right = [None if one is None else 100.0 * one for one in shares]
             both = None if left is None or right is None else 100.0 * share
-            # a flight has no asymmetry: relative to a mean below zero its sign would be wrong
-            flies = left is None or right is None or min(left, right) <= 0.0
-            asymmetry = None if flies else parameters.asymmetry(name)
+            # a double support below zero is a flight phase; relative to a mean below zero the sign would be wrong
+            has_no_asymmetry = left is None or right is None or min(left, right) <= 0.0
+            asymmetry = None if has_no_asymmetry else parameters.asymmetry(name)
             rows.append(GaitRow(name, label, "%", 1, left, right, both, None, None, asymmetry, None))
     return rows
 
 
 def strides_of(parameters: GaitParameters, foot: Foot) -> int | None:
-    """Return the number of a foot's strides behind the means; None when it took none."""
+    """Return the number of a foot's strides in the means; None when it took none."""
     figures = parameters.feet.get(foot)
     return None if figures is None or figures.stride_time is None else figures.stride_time.strides
 
 
 def gait_lines(means: GaitMeans) -> list[str]:
-    """Return a table for walking and one for running, each of steady strides and followed by a blank line.
+    """Return the lines of a table for walking and one for running, each with a blank line after it.
 
-    There are no lines when there were no steady strides."""
+    A table without steady strides is left out."""
     lines: list[str] = []
     for running in (False, True):
         parameters = means.of(running)

@@ -7,16 +7,15 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from time import monotonic
 
-EVERY = 0.1
+UPDATE_INTERVAL = 0.1
 """Time between two updates of the bar, s."""
 
 
 @contextmanager
 def progress_bar(what: str, total: int, *, enabled: bool = True) -> Iterator[Callable[[int], None]]:
-    """Yield a function that takes how much of `total` is done.
+    """Yield a function to call with the number of `total` units that are done; it updates the bar `what`.
 
-    It shows nothing when stderr is no terminal, when rich (the `live` extra) is not installed, or when it is not
-    `enabled`."""
+    Nothing is shown if `enabled` is false, stderr is not a terminal, or rich (the `live` extra) is not installed."""
     if not enabled or not sys.stderr.isatty():
         yield _ignore
         return
@@ -26,20 +25,20 @@ def progress_bar(what: str, total: int, *, enabled: bool = True) -> Iterator[Cal
     except ImportError:
         yield _ignore
         return
-    # text that is printed meanwhile goes above the bar, unless stdout is a file
-    lifted = sys.stdout.isatty()
-    with Progress(console=Console(stderr=True), transient=True, redirect_stdout=lifted) as bar:
+    # rich prints text for a terminal above the bar; text for a file must stay as it is
+    redirect_stdout = sys.stdout.isatty()
+    with Progress(console=Console(stderr=True), transient=True, redirect_stdout=redirect_stdout) as bar:
         task = bar.add_task(what, total=total)
-        shown = 0.0
+        updated_at = 0.0
 
         def show(done: int) -> None:
-            nonlocal shown
-            if (now := monotonic()) - shown > EVERY:
-                shown = now
+            nonlocal updated_at
+            if (now := monotonic()) - updated_at > UPDATE_INTERVAL:
+                updated_at = now
                 bar.update(task, completed=done)
 
         yield show
 
 
 def _ignore(done: int) -> None:
-    """Do nothing, where no bar is shown."""
+    """Do nothing, since no bar is shown."""

@@ -1,4 +1,4 @@
-"""Puts the counts of an observer into words: the summary at the end, and links and place at this moment."""
+"""Puts the counts of an observer into words: a summary of a recording, and the present state of links and place."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from ...recording import printable
 from ...types import SITE_OF_FOOT, Foot, Site, Turn, WalkingMode
 from ..links import LinkLedger
 from ..observer import GAIT_EVENTS, FootCounts, Observer
-from ..places import MOST_LISTED, PlaceCounts
+from ..places import MAX_LISTED, PlaceCounts
 from .gait import gait_lines
 from .table import milliseconds, number, table
 
 
 def summary(observer: Observer, *, title: str, seconds: float) -> str:
-    """Return the summary of one recording; `seconds` is the wall time that it took."""
-    duration = observer.time.total
+    """Return the summary of one recording; `seconds` is the wall time that computing it took."""
+    duration = observer.covered_time.total
     lines = [f"{title}: {duration:.1f} s"]
-    lines += _feet(observer)
-    lines += _together(observer)
+    lines += _foot_table(observer)
+    lines += _fused_feet(observer)
     lines += activity_lines(observer)
     if gait := gait_lines(observer.gait):
         lines += ["", *gait]
@@ -36,26 +36,28 @@ def summary(observer: Observer, *, title: str, seconds: float) -> str:
     return "\n".join(lines)
 
 
-def _feet(observer: Observer) -> list[str]:
-    """Return a table of the feet, and a line for what is missing of each."""
+def _foot_table(observer: Observer) -> list[str]:
+    """Return a table of the feet, and lines about missing samples."""
     if not observer.known_feet:
         return ["nothing was heard of either foot"]
     header = ["foot", "samples", "Hz", "steps", "distance m", *[f"{name}s" for name in GAIT_EVENTS.values()]]
     rows, missing = [], []
     for foot in observer.known_feet:
-        one = observer.feet.get(foot, FootCounts())
+        counts = observer.feet.get(foot, FootCounts())
         link = observer.links.get(SITE_OF_FOOT[foot], LinkLedger())
-        row = [f"{foot}", str(link.samples), number(link.rate, 1), str(one.strides), number(one.distance)]
-        rows.append([*row, *[str(one.events[kind]) for kind in GAIT_EVENTS]])
+        row = [f"{foot}", str(link.samples), number(link.rate, 1), str(counts.strides), number(counts.distance)]
+        rows.append([*row, *[str(counts.events[kind]) for kind in GAIT_EVENTS]])
         if link.gaps:
             missing.append(f"{foot}: {link.gaps} gaps in the samples, {link.gap_time:.2f} s in all")
-        if one.degraded:
-            missing.append(f"{foot}: {one.degraded} of {one.strides} steps degraded by missing or saturated samples")
+        if counts.degraded:
+            missing.append(
+                f"{foot}: {counts.degraded} of {counts.strides} steps degraded by missing or saturated samples"
+            )
     return ["", table(header, rows), "", *missing]
 
 
-def _together(observer: Observer) -> list[str]:
-    """Return the lines about both feet together; none when the recipe treats each foot by itself."""
+def _fused_feet(observer: Observer) -> list[str]:
+    """Return the lines about the fused track and the walking modes; none if the recipe treats each foot by itself."""
     lines = []
     if (fused := observer.fused) is not None:
         lines.append(f"both feet fused: {number(fused.distance)} m, at the end by the {fused.chosen} foot's path")
@@ -66,14 +68,14 @@ def _together(observer: Observer) -> list[str]:
 
 
 def activity_lines(observer: Observer) -> list[str]:
-    """Return a line for each kind of activity, flight, ride and turn; none when nothing was reported."""
+    """Return a line each for activities, flights of stairs, elevator rides and turns; none for what never came."""
     lines = []
-    if lasted := observer.timeline.lasted(observer.now):
-        lines.append("activities: " + ", ".join(f"{what} {number(t, 0)} s" for what, t in lasted.items()))
-    for counted, one in ((observer.flights, "flight"), (observer.rides, "lift ride")):
-        ways = [f"{counted[up]} {'up' if up else 'down'}" for up in (True, False) if counted[up]]
-        if ways:
-            lines.append(f"{one}s: {', '.join(ways)}")
+    if durations := observer.timeline.durations(observer.now):
+        lines.append("activities: " + ", ".join(f"{what} {number(t, 0)} s" for what, t in durations.items()))
+    for counts, name in ((observer.flights, "flight"), (observer.elevator_rides, "lift ride")):
+        directions = [f"{counts[up]} {'up' if up else 'down'}" for up in (True, False) if counts[up]]
+        if directions:
+            lines.append(f"{name}s: {', '.join(directions)}")
     if observer.turns:
         turns = ", ".join(f"{turn} {observer.turns[turn]}" for turn in Turn if observer.turns[turn])
         lines.append(f"turns: {turns}")
@@ -81,7 +83,7 @@ def activity_lines(observer: Observer) -> list[str]:
 
 
 def wear_lines(observer: Observer) -> list[str]:
-    """Return a line for each fault in how sensors are worn; none when all is well."""
+    """Return a line for each fault in how sensors are worn; none without faults."""
     silent = {foot: observer.silences[foot] for foot in Foot if observer.silences[foot]}
     return [
         *observer.wear_problems,
@@ -90,7 +92,7 @@ def wear_lines(observer: Observer) -> list[str]:
 
 
 def link_health(observer: Observer) -> list[str]:
-    """Return a line for each kind of fault of the links; none when all went well."""
+    """Return a line for each kind of fault of the links; none without faults."""
     lines, links = [], list(observer.links.values())
     if lost := sum([link.lost for link in links]):
         received = sum([link.received for link in links])
@@ -117,14 +119,14 @@ def link_health(observer: Observer) -> list[str]:
 
 
 def latency(observer: Observer) -> list[str]:
-    """Return a line with the median latency of each gait event, radio included; nothing when there were no events."""
-    medians = {GAIT_EVENTS[kind]: median(known.elements()) for kind, known in observer.delays.items() if known}
-    known = [f"{name} {milliseconds(1e-4 * tenths)} ms" for name, tenths in medians.items()]
-    return [f"known after it happened, median: {', '.join(known)}"] if known else []
+    """Return a line with the median latency of each gait event, radio included; none without events."""
+    medians = {GAIT_EVENTS[kind]: median(counts.elements()) for kind, counts in observer.latencies.items() if counts}
+    texts = [f"{name} {milliseconds(1e-4 * tenths)} ms" for name, tenths in medians.items()]
+    return [f"known after it happened, median: {', '.join(texts)}"] if texts else []
 
 
 def status(observer: Observer) -> list[str]:
-    """Return a line for each known site, in the order of Site, and one for the place once it is known."""
+    """Return a line on the link of each site, in the order of Site, and one on the place if it is known."""
     lines = [_link(site, observer.links[site], observer.now) for site in Site if site in observer.links]
     place = observer.places.last
     return lines if place is None else [*lines, place_line(place)]
@@ -148,33 +150,33 @@ def _link(site: Site, link: LinkLedger, now: float) -> str:
 def place_lines(counts: PlaceCounts) -> list[str]:
     """Return the lines about the place over a whole recording."""
     lines = []
-    if counts.found is not None:
-        strides, t = counts.found
-        share = f"; one place for {counts.decided} of {counts.places} steps"
+    if counts.first_decided is not None:
+        strides, t = counts.first_decided
+        share = f"; one place for {counts.decided_count} of {counts.places} steps"
         lines.append(f"place: found after {strides} step{'s' * (strides != 1)}, at {number(t, 1)} s{share}")
     else:
         lines.append(f"place: not found; {counts.places} steps with several candidates")
     if counts.last is not None:
         x, y, _ = counts.last.position
-        at = f"({number(x, 1)}, {number(y, 1)}) m"
-        several = len(counts.last.candidates)
-        uncertainty = f", one of {several} candidates" if several > 1 else f", within {number(counts.last.spread, 1)} m"
-        lines.append(f"at the end: level {printable(counts.last.level)}, {at}{uncertainty}")
-    if counts.levels:
-        levels = ", ".join([f"{printable(name)} from {number(t, 1)} s" for t, name in counts.levels])
-        more = counts.changes - MOST_LISTED
-        lines.append(f"levels: {levels}{f' and {more} more' if more > 0 else ''}")
-    lines += [f"from {number(t, 1)} s without a place: {printable(what)}" for t, what in counts.lost]
-    if counts.losses > MOST_LISTED:
-        lines.append(f"and {counts.losses - MOST_LISTED} times more")
+        position = f"({number(x, 1)}, {number(y, 1)}) m"
+        count = len(counts.last.candidates)
+        uncertainty = f", one of {count} candidates" if count > 1 else f", within {number(counts.last.spread, 1)} m"
+        lines.append(f"at the end: level {printable(counts.last.level)}, {position}{uncertainty}")
+    if counts.level_starts:
+        levels = ", ".join([f"{printable(name)} from {number(t, 1)} s" for t, name in counts.level_starts])
+        unlisted = counts.level_changes - MAX_LISTED
+        lines.append(f"levels: {levels}{f' and {unlisted} more' if unlisted > 0 else ''}")
+    lines += [f"from {number(t, 1)} s without a place: {printable(what)}" for t, what in counts.first_losses]
+    if counts.loss_count > MAX_LISTED:
+        lines.append(f"and {counts.loss_count - MAX_LISTED} times more")
     return lines
 
 
 def place_line(place: Placed) -> str:
-    """Return a line that says where the wearer is now."""
+    """Return a line with the wearer's present level and position, m, plan frame."""
     x, y, _ = place.position
-    several = len(place.candidates)
-    at = f"place: level {printable(place.level)}, ({number(x, 1)}, {number(y, 1)}) m"
-    if several == 1:
-        return f"{at}, within {number(place.spread, 1)} m"
-    return f"{at}, {100.0 * place.candidates[0].weight:.0f} % sure, one of {several} candidates"
+    count = len(place.candidates)
+    text = f"place: level {printable(place.level)}, ({number(x, 1)}, {number(y, 1)}) m"
+    if count == 1:
+        return f"{text}, within {number(place.spread, 1)} m"
+    return f"{text}, {100.0 * place.candidates[0].weight:.0f} % sure, one of {count} candidates"

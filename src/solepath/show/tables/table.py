@@ -1,4 +1,4 @@
-"""Plain text tables."""
+"""Formats numbers and tables as plain text."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 
 def table(header: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return columns padded with blanks, the first aligned left, the others right; a row without cells is a rule."""
+    """Return a table padded with spaces, the first column aligned left, the others right; an empty row is a line."""
     widths = [max(len(row[c]) for row in (header, *rows) if row) for c in range(len(header))]
     rule = "  ".join("-" * width for width in widths)
     lines = [_line(header, widths), rule, *(_line(row, widths) if row else rule for row in rows)]
@@ -19,15 +19,15 @@ def _line(cells: Sequence[str], widths: Sequence[int]) -> str:
 
 
 def number(value: float | None, digits: int = 2) -> str:
-    """Return `value` with so many digits after the point; a dash for None."""
+    """Return `value` with `digits` digits after the point; a dash for None."""
     return "-" if value is None else f"{value:.{digits}f}"
 
 
 def percent(share: float | None, digits: int = 1) -> str:
-    """Return a share as a number of percent; a dash for None."""
+    """Return a share, 0 to 1, in percent without the sign; a dash for None."""
     return "-" if share is None else f"{100.0 * share:.{digits}f}"
 
 
 def milliseconds(seconds: float | None) -> str:
-    """Return seconds as a whole number of milliseconds; a dash for None."""
+    """Return a time in s as a whole number of ms; a dash for None."""
     return "-" if seconds is None else f"{1000.0 * seconds:.0f}"

@@ -18,34 +18,34 @@ from .plot import plot
 from .summary import link_health, status, wear_lines
 from .table import number
 
-FRAMES = 12.0
-"""Pictures a second."""
-PLOT = (72, 18)
+FRAME_RATE = 12.0
+"""Largest number of pictures a second; chosen by hand."""
+PLOT_SIZE = (72, 18)
 """Width and height of the plot of the track, characters."""
-COLOURS = {Phase.LOADING: "yellow", Phase.STATIONARY: "green", Phase.PUSH_OFF: "magenta", Phase.SWING: "cyan"}
+PHASE_COLOURS = {Phase.LOADING: "yellow", Phase.STATIONARY: "green", Phase.PUSH_OFF: "magenta", Phase.SWING: "cyan"}
 
 
 class Screen:
-    """A picture that is redrawn as a session goes on; `show` is cheap as long as no new one is due."""
+    """A picture in the terminal that is redrawn while a session runs."""
 
     def __init__(self, live: Live) -> None:
         self._live = live
-        self._drawn = -1.0
+        self._drawn_at = -1.0
 
     def show(self, observer: Observer, title: str) -> None:
-        """Draw the picture when 1 / FRAMES s have passed since the last one."""
-        if monotonic() - self._drawn > 1.0 / FRAMES:
+        """Draw the picture if 1 / FRAME_RATE s have passed since the last one; this makes most calls cheap."""
+        if monotonic() - self._drawn_at > 1.0 / FRAME_RATE:
             self.draw(observer, title)
 
     def draw(self, observer: Observer, title: str) -> None:
         """Draw the picture now."""
         self._live.update(picture(observer, title), refresh=True)
-        self._drawn = monotonic()
+        self._drawn_at = monotonic()
 
 
 @contextmanager
 def screen(console: Console) -> Iterator[Screen]:
-    """Yield a screen that is wiped at the end of the context."""
+    """Yield a screen that is cleared at the end of the context."""
     with Live(console=console, auto_refresh=False, transient=True) as live:
         yield Screen(live)
 
@@ -55,19 +55,25 @@ def picture(observer: Observer, title: str) -> Group:
     feet = Table.grid(expand=False, padding=(0, 3))
     for foot in Foot:
         feet.add_row(*_foot(observer, foot))
-    lines = plot(observer.track.points, *PLOT)
+    lines = plot(observer.track.points, *PLOT_SIZE)
     health = status(observer) + wear_lines(observer) + link_health(observer)
     return Group(
-        Panel(feet, title=title, width=PLOT[0] + 4),
-        Panel(Text("\n".join(lines)), title="track", width=PLOT[0] + 4),
-        Panel(Text("\n".join(health)), title=f"link, {observer.items} packets", width=PLOT[0] + 4),
+        Panel(feet, title=title, width=PLOT_SIZE[0] + 4),
+        Panel(Text("\n".join(lines)), title="track", width=PLOT_SIZE[0] + 4),
+        Panel(Text("\n".join(health)), title=f"link, {observer.item_count} packets", width=PLOT_SIZE[0] + 4),
     )
 
 
 def _foot(observer: Observer, foot: Foot) -> tuple[Text, ...]:
-    one = observer.feet.get(foot, FootCounts())
-    phase = Text("-" if one.phase is None else f"{one.phase:10}")
-    if one.phase is not None:
-        phase.stylize(f"bold {COLOURS[one.phase]}")
-    where = "" if one.position is None else "at " + " ".join(number(v).rjust(6) for v in one.position) + " m"
-    return (Text(f"{foot}"), phase, Text(f"{one.strides:3d} steps"), Text(f"{one.distance:6.2f} m"), Text(where))
+    counts = observer.feet.get(foot, FootCounts())
+    phase = Text("-" if counts.phase is None else f"{counts.phase:10}")
+    if counts.phase is not None:
+        phase.stylize(f"bold {PHASE_COLOURS[counts.phase]}")
+    position = "" if counts.position is None else "at " + " ".join(number(v).rjust(6) for v in counts.position) + " m"
+    return (
+        Text(f"{foot}"),
+        phase,
+        Text(f"{counts.strides:3d} steps"),
+        Text(f"{counts.distance:6.2f} m"),
+        Text(position),
+    )

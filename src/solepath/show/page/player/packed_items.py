@@ -9,51 +9,51 @@ from collections.abc import Iterable
 
 from ....types import Packet, Sample
 
-CHUNK = 256
-"""Items that are compressed together."""
+CHUNK_SIZE = 256
+"""Number of items that are compressed together, chosen by hand; an item is a packet or a sample."""
 
 
 class PackedItems:
-    """A sequence to which items are added at the end, in the order in which a session takes them.
+    """A compressed sequence of items, in the order in which they are fed to a session; items are added at the end.
 
-    A packet of an insole of 96 cells takes about 135 bytes in here, so that two feet at 100 Hz take about 100 MB an
-    hour; a sample of such an insole takes about 260. Reading items one after the other costs some microseconds each."""
+    A packet of an insole of 96 cells takes about 135 bytes here, so that two feet at 100 Hz take about 100 MB an hour;
+    a sample of such an insole takes about 260 bytes. Reading items in order takes some microseconds each."""
 
-    __slots__ = ("_chunks", "_open", "_times", "_unpacked")
+    __slots__ = ("_chunks", "_uncompressed", "_times", "_cached_chunk")
 
     def __init__(self, items: Iterable[Packet | Sample] = ()) -> None:
         self._chunks: list[bytes] = []
-        self._open: list[Packet | Sample] = []
+        self._uncompressed: list[Packet | Sample] = []
         self._times = array("d")
-        self._unpacked: tuple[int, list[Packet | Sample]] = (-1, [])
+        self._cached_chunk: tuple[int, list[Packet | Sample]] = (-1, [])
         for item in items:
             self.append(item)
 
     def append(self, item: Packet | Sample) -> None:
         """Add one item at the end."""
         self._times.append(max(item.t, self._times[-1]) if self._times else item.t)
-        self._open.append(item)
-        if len(self._open) == CHUNK:
+        self._uncompressed.append(item)
+        if len(self._uncompressed) == CHUNK_SIZE:
             # only this process reads the pickle
-            self._chunks.append(zlib.compress(pickle.dumps(self._open, pickle.HIGHEST_PROTOCOL), 1))
-            self._open = []
+            self._chunks.append(zlib.compress(pickle.dumps(self._uncompressed, pickle.HIGHEST_PROTOCOL), 1))
+            self._uncompressed = []
 
     def __len__(self) -> int:
         return len(self._times)
 
     def __getitem__(self, index: int) -> Packet | Sample:
-        chunk, row = divmod(index, CHUNK)
+        chunk, row = divmod(index, CHUNK_SIZE)
         if chunk == len(self._chunks):
-            return self._open[row]
-        if self._unpacked[0] != chunk:
-            self._unpacked = (chunk, pickle.loads(zlib.decompress(self._chunks[chunk])))
-        return self._unpacked[1][row]
+            return self._uncompressed[row]
+        if self._cached_chunk[0] != chunk:
+            self._cached_chunk = (chunk, pickle.loads(zlib.decompress(self._chunks[chunk])))
+        return self._cached_chunk[1][row]
 
     def t(self, index: int) -> float:
         """Return the time at which the item at `index` is due, s.
 
-        It is the item's own time, or the latest of those before it where a clock was set back, since nothing can be
-        played before what came before it."""
+        It is the largest time of this item and all items before it, so that the order stays where a clock was set back.
+        """
         return self._times[index]
 
     @property

@@ -1,4 +1,4 @@
-"""The state of playing a recording."""
+"""The position and speed at which a recording is played."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from ..messages import rounded
 
 @define
 class Playback:
-    """Position and speed of a player, which writes it; times are the recording's own, s.
+    """The position and speed of a player; times are on the recording's clock, s. The player writes the fields.
 
-    `state` is "playing", "paused" or "ended". `speed` is in multiples of real time. `seeking` is the time that a seek
-    is on its way to, None when there is none."""
+    `state` is "playing", "paused" or "ended". `speed` is in multiples of real time. `seeking` is the target of a seek
+    that has not ended; None when there is none."""
 
     start: float
     end: float

@@ -1,11 +1,12 @@
 """Plays a recording: feeds a session at the pace of a watcher, with pause, speed and seek.
 
     player = Player(PackedItems(source), Session(poses=True, pressures=True), Scene(...))
-    player.advance(0.02)                    # so much wall time passed
-    player.feed_due(should_stop)            # feed what is due, until `should_stop()`
+    player.advance(0.02)                    # 0.02 s of wall time passed
+    player.feed_due(should_stop)            # feed the items that are due, until `should_stop()`
     player.seek(30.0)
 
-It reads no clock and knows no event loop; player_loop.py does."""
+The player reads no clock and uses no event loop; player_loop.py does. Numbers without a source were chosen by hand and
+not swept."""
 
 from __future__ import annotations
 
@@ -21,25 +22,26 @@ from ....events import Event
 from ....floorplan.index import IndexedPlan
 from ....session import Session
 from ....types import Packet, Sample
-from ..messages import FASTEST, SLOWEST, Command
+from ..messages import MAX_SPEED, MIN_SPEED, Command
 from ..scene.scene import Scene
 from .packed_items import PackedItems
 from .playback import Playback
 
-SPACING = 10.0
-"""Time of the recording between two saved states at first, s; so much is computed again in a fifth of a second."""
-MOST_SAVED = 60
-"""Largest number of saved states: with more, every other one is dropped and the spacing doubles."""
-LONGEST = 0.25
-"""Wall time that counts as passed at once, s: after the computer slept, nothing of the recording is skipped."""
+STATE_SPACING = 10.0
+"""First distance between two saved states in time of the recording, s; computing 10 s again takes some 0.2 s."""
+MAX_SAVED_STATES = 60
+"""Largest number of saved states; with more, every second one is dropped and the spacing doubles."""
+MAX_ELAPSED = 0.25
+"""Longest wall time that one call of `advance` counts, s: after the computer slept, nothing is skipped."""
 
 OnEvents = Callable[[Packet | Sample | None, list[Event]], None]
-"""Takes an item and the events that the session reported of it; None and the last events at the end."""
+"""Function that gets each item with the events that the session returned for it; at the end None and the last events.
+"""
 
 
 @frozen
 class _SavedState:
-    """State of the player at a time, before the item `next` was fed; `session` and `scene` are compressed."""
+    """The state of the player at a time, before the item `next` was fed; `session` and `scene` are compressed."""
 
     t: float
     next: int
@@ -49,14 +51,14 @@ class _SavedState:
 
 @define
 class Player:
-    """Plays `items` through `session` into `scene`, both new, as a watcher commands.
+    """Plays `items` through a new `session` into a new `scene`, as a watcher commands.
 
-    `plan` is the floor plan of the session. `fault` says why the recording goes no further than its last item; the
-    scene shows it there. `on_events` gets every item once and in order, however often it is played again, so that its
-    result does not depend on the commands.
+    `plan` is the floor plan of the session. `fault` says why the recording cannot be read beyond its last item; the
+    scene shows it at the end. `on_events` gets every item once and in order, however often the item is played, so that
+    its result does not depend on the commands.
 
-    The scene at a time of the recording, and the session's snapshot there, are the same whatever was played, skipped or
-    seen again before. Memory: the items (PackedItems says how much), and MOST_SAVED saved states of some 0.1 MB."""
+    The scene at a time of the recording, and the session's snapshot there, do not depend on what was played, skipped or
+    played again before. Memory: the items (PackedItems says how much), and MAX_SAVED_STATES states of some 0.1 MB."""
 
     items: PackedItems
     session: Session
@@ -64,16 +66,16 @@ class Player:
     plan: IndexedPlan | None = None
     fault: str = ""
     on_events: OnEvents | None = None
-    spacing: float = SPACING
-    """Time of the recording between two saved states, s; it doubles when there are MOST_SAVED."""
+    spacing: float = STATE_SPACING
+    """Time of the recording between two saved states, s; it doubles when there are MAX_SAVED_STATES."""
     playback: Playback = field(init=False)
     _next: int = field(default=0, init=False)
-    """Index of the item that comes next."""
-    _frontier: int = field(default=0, init=False)
-    """Number of items that were ever fed, plus one once `on_events` got the end."""
+    """Index of the next item to feed."""
+    _furthest: int = field(default=0, init=False)
+    """Number of items that were ever fed; one more after `on_events` got the end."""
     _finished: bool = field(default=False, init=False)
     _due: float = field(init=False)
-    """Time up to which the recording is to be played, s."""
+    """Time of the recording up to which items are due, s."""
     _saved: list[_SavedState] = field(factory=list, init=False)
 
     def __attrs_post_init__(self) -> None:
@@ -84,88 +86,88 @@ class Player:
         self._save(start)
 
     def command(self, command: Command) -> None:
-        """Execute a command of the page; a value out of range counts as the nearest in range."""
+        """Execute a command of the page; a value out of range is replaced by the nearest in range."""
         match command.do:
             case "play":
                 self.play()
             case "pause":
                 self.pause()
             case "speed" if command.value is not None:
-                self.speed(command.value)
+                self.set_speed(command.value)
             case "seek" if command.value is not None:
                 self.seek(command.value)
 
     def play(self) -> None:
-        """Continue; from the start, when it had come to the end."""
+        """Continue to play; when the recording had ended, play from its start."""
         if self.playback.state == "ended":
             self.seek(self.playback.start)
         self.playback.state = "playing"
 
     def pause(self) -> None:
-        """Pause, when it is playing."""
+        """Pause, unless the recording is paused or has ended."""
         if self.playback.state == "playing":
             self.playback.state = "paused"
 
-    def speed(self, times: float) -> None:
-        """Set the speed in multiples of real time, limited to SLOWEST to FASTEST."""
-        self.playback.speed = min(max(times, SLOWEST), FASTEST)
+    def set_speed(self, speed: float) -> None:
+        """Set the speed in multiples of real time, limited to MIN_SPEED to MAX_SPEED."""
+        self.playback.speed = min(max(speed, MIN_SPEED), MAX_SPEED)
 
     def seek(self, t: float) -> None:
-        """Go to `t` s of the recording, from the nearest saved state; `feed_due` then computes as fast as it can.
+        """Go to the time `t` of the recording, s; `feed_due` then computes there from the nearest saved state.
 
-        After the end had been reached, it plays on from there."""
-        now = self.playback
-        t = min(max(t, now.start), now.end)
-        there = next(moment for moment in reversed(self._saved) if moment.t <= t)
-        if t < now.t or there.next > self._next:
-            self._restore(there)
-            now.t = max(now.start, there.t)
-            if now.state == "ended":
-                now.state = "playing"
+        A recording that had ended plays on from `t`."""
+        playback = self.playback
+        t = min(max(t, playback.start), playback.end)
+        nearest = next(saved for saved in reversed(self._saved) if saved.t <= t)
+        if t < playback.t or nearest.next > self._next:
+            self._restore(nearest)
+            playback.t = max(playback.start, nearest.t)
+            if playback.state == "ended":
+                playback.state = "playing"
         self._due = t
-        now.seeking = t if self._behind else None
+        playback.seeking = t if self._is_behind else None
 
     def advance(self, seconds: float) -> None:
-        """Let wall time pass; time in which the player could not keep up is not made up for."""
-        now = self.playback
-        if now.state == "playing" and now.t >= self._due:
-            self._due = min(now.end, self._due + min(seconds, LONGEST) * now.speed)
+        """Let wall time pass, s; a player that is behind does not advance, so it never has to catch up."""
+        playback = self.playback
+        if playback.state == "playing" and playback.t >= self._due:
+            self._due = min(playback.end, self._due + min(seconds, MAX_ELAPSED) * playback.speed)
 
     def feed_due(self, should_stop: Callable[[], bool]) -> bool:
-        """Feed what is due, one item at least and no more once `should_stop()`; return whether more is due."""
-        now = self.playback
+        """Feed the items that are due, one at least, until `should_stop()`; return whether more are due."""
+        playback = self.playback
         while self._next < len(self.items) and self.items.t(self._next) <= self._due:
             self._feed()
             if should_stop():
                 break
-        if self._behind:
-            now.t = max(now.t, min(self._due, self.items.t(self._next - 1)))
-            self.scene.tick(now.t)
+        if self._is_behind:
+            playback.t = max(playback.t, min(self._due, self.items.t(self._next - 1)))
+            self.scene.tick(playback.t)
             return True
         if self._next == len(self.items):
             self._finish()
-        now.t, now.seeking = self._due, None
-        self.scene.tick(now.t)
+        playback.t, playback.seeking = self._due, None
+        self.scene.tick(playback.t)
         return False
 
     def run_through(self, should_stop: Callable[[], bool]) -> bool:
-        """Feed as `feed_due`, but to the end at full speed; return whether there is more.
+        """Feed items to the end of the recording until `should_stop()`; return whether there are more.
 
-        When it returns False, `on_events` got all of the recording."""
-        if self._frontier > len(self.items):
+        When it returns False, `on_events` got the whole recording."""
+        if self._furthest > len(self.items):
             return False
-        if self._due < self.playback.end or not self._behind:
+        if self._due < self.playback.end or not self._is_behind:
             self.seek(self.playback.end)
         self.feed_due(should_stop)
-        return self._frontier <= len(self.items)
+        return self._furthest <= len(self.items)
 
     @property
-    def done(self) -> int:
+    def delivered_count(self) -> int:
         """Number of items that `on_events` got."""
-        return min(self._frontier, len(self.items))
+        return min(self._furthest, len(self.items))
 
     @property
-    def _behind(self) -> bool:
+    def _is_behind(self) -> bool:
         if self._next == len(self.items):
             return False
         return self.items.t(self._next) <= self._due
@@ -176,8 +178,8 @@ class Player:
         self.scene.take(item, events)
         t = self.items.t(self._next)
         self._next += 1
-        if self._next > self._frontier:
-            self._frontier = self._next
+        if self._next > self._furthest:
+            self._furthest = self._next
             if self.on_events is not None:
                 self.on_events(item, events)
             if t >= self._saved[-1].t + self.spacing:
@@ -192,25 +194,25 @@ class Player:
         self.scene.take(None, events)
         if self.fault:
             self.scene.log.add(self.items.end, "link", self.fault)
-        if self._frontier <= len(self.items):
-            self._frontier = len(self.items) + 1
+        if self._furthest <= len(self.items):
+            self._furthest = len(self.items) + 1
             if self.on_events is not None:
                 self.on_events(None, events)
 
     def _save(self, t: float) -> None:
         scene = copy(self.scene)
-        # none of them belongs to the saved state, and plans are large
+        # the saved state does without these three: plans are large, and `_restore` sets all of them again
         scene.plan = scene.drawing = scene.playback = None
         session = json.dumps(self.session.snapshot()).encode()
         packed = pickle.dumps(scene, pickle.HIGHEST_PROTOCOL)  # only this process reads it
         self._saved.append(_SavedState(t, self._next, zlib.compress(session, 1), zlib.compress(packed, 1)))
-        if len(self._saved) > MOST_SAVED:
+        if len(self._saved) > MAX_SAVED_STATES:
             del self._saved[1::2]
             self.spacing *= 2.0
 
-    def _restore(self, moment: _SavedState) -> None:
+    def _restore(self, saved: _SavedState) -> None:
         plan, drawing = self.scene.plan, self.scene.drawing
-        self.session = Session.restore(json.loads(zlib.decompress(moment.session)), floorplan=self.plan)
-        self.scene = pickle.loads(zlib.decompress(moment.scene))
+        self.session = Session.restore(json.loads(zlib.decompress(saved.session)), floorplan=self.plan)
+        self.scene = pickle.loads(zlib.decompress(saved.scene))
         self.scene.plan, self.scene.drawing, self.scene.playback = plan, drawing, self.playback
-        self._next, self._finished = moment.next, False
+        self._next, self._finished = saved.next, False

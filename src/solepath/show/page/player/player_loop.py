@@ -1,4 +1,4 @@
-"""Runs a player on an event loop behind a page."""
+"""Runs a player on an event loop behind a page. The times below were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from ..messages import Command
 from ..server.server import Page
 from .player import Player
 
-SLICE = 0.02
-"""Time for which the player may compute before the page gets its turn, s."""
-STEP = 0.02
-"""Time between two reads of the clock while it plays, s."""
-IDLE = 0.5
+TIME_SLICE = 0.02
+"""Longest time for which the player computes before other tasks of the event loop run, s."""
+CLOCK_INTERVAL = 0.02
+"""Time between two reads of the clock while the recording plays, s."""
+IDLE_INTERVAL = 0.5
 """Time between two reads of the clock while nothing plays, s."""
 
 
 class PlayerLoop:
-    """Plays `player` by the event loop's clock: `command` is what a Page is given, `run` the loop."""
+    """Plays `player` by the event loop's clock; a Page calls `command`, and `run` is the loop."""
 
     def __init__(self, player: Player) -> None:
         self.player = player
@@ -29,13 +29,13 @@ class PlayerLoop:
         self._command_received.set()
 
     async def run(self, page: Page, stop: asyncio.Event, *, once: bool = False) -> None:
-        """Run until `stop` is set; with `once` also until the recording was played to its end."""
+        """Run until `stop` is set; with `once`, end when the recording was played to its end."""
         player, loop = self.player, asyncio.get_running_loop()
-        before = loop.time()
+        previous_time = loop.time()
         while not stop.is_set():
             now = loop.time()
-            player.advance(now - before)
-            before, end = now, now + SLICE
+            player.advance(now - previous_time)
+            previous_time, end = now, now + TIME_SLICE
             more = player.feed_due(lambda end=end: loop.time() >= end)  # type: ignore[misc]
             if page.scene is not player.scene:
                 page.scene = player.scene
@@ -47,14 +47,14 @@ class PlayerLoop:
                 await self._wait(stop)
 
     async def _wait(self, stop: asyncio.Event) -> None:
-        """Wait until there may be something to do."""
+        """Wait for the next read of the clock; while nothing plays, also end at a command or at `stop`."""
         if self.player.playback.state == "playing":
-            await asyncio.sleep(STEP)
+            await asyncio.sleep(CLOCK_INTERVAL)
             return
         self._command_received.clear()
         tasks = [asyncio.ensure_future(event.wait()) for event in (self._command_received, stop)]
         try:
-            await asyncio.wait(tasks, timeout=IDLE, return_when=asyncio.FIRST_COMPLETED)
+            await asyncio.wait(tasks, timeout=IDLE_INTERVAL, return_when=asyncio.FIRST_COMPLETED)
         finally:
             for task in tasks:
                 task.cancel()

@@ -1,4 +1,6 @@
-"""One foot as a page shows it: phase, position, pressed cells, and its recent phases."""
+"""Holds what a page shows of one foot: phase, position, cells, and recent phases.
+
+Numbers without a source were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -12,28 +14,29 @@ from ....events import FootMoved, FootPressed, StrideTaken
 from ....types import Foot, Layout, Phase, Vec3
 from ...observer import FootCounts
 from ..messages import rounded, rounded_all
-from .lists import Recent, WalkedTrack
+from .lists import RecentItems, WalkedTrack
 
-PHASES_KEPT = 20.0
+PHASE_HISTORY = 20.0
 """Time for which phases are kept, s."""
-MOST_PHASES = 500
-"""Largest number of phases that are kept; no foot goes through more in PHASES_KEPT."""
+MAX_PHASES = 500
+"""Largest number of phases that are kept; a foot has fewer in PHASE_HISTORY."""
 MIN_PEAK_SHARE = 0.002
-"""Share of a cell's full scale that the brightest colour means at least: an unloaded sole shows only noise."""
+"""Least value of the brightest colour, as a share of a cell's full scale: without it, noise of an unloaded sole would
+look bright."""
 
 
 @define
 class FootScene:
-    """One foot, from events alone.
+    """The state of one foot on a page, from events alone.
 
-    The track has one point where the foot was first seen and one for the end of each stride: live positions within a
+    The track has one point at the first live position and one at the end of each stride, since live positions within a
     stride may still drift."""
 
     foot: Foot
     has_data: bool = field(default=False, init=False)
     phase: Phase | None = field(default=None, init=False)
-    phases: Recent[tuple[float, str | None]] = field(factory=lambda: Recent(MOST_PHASES), init=False)
-    """Start of each recent phase, s, and its name; None for a time in which nothing comes of the foot."""
+    phases: RecentItems[tuple[float, str | None]] = field(factory=lambda: RecentItems(MAX_PHASES), init=False)
+    """Start of each recent phase, s, and its name; None for a time in which the foot sends nothing."""
     position: Vec3 | None = field(default=None, init=False)
     track: WalkedTrack = field(factory=WalkedTrack, init=False)
     layout: Layout | None = field(default=None, init=False)
@@ -42,9 +45,9 @@ class FootScene:
     force: float = field(default=0.0, init=False)
     centre: tuple[float, float] | None = field(default=None, init=False)
     peak: float = field(default=0.0, init=False)
-    """Value that the brightest colour means: the highest value so far."""
-    _shades: tuple[tuple[float, ...] | None, float, str | None] = field(default=(None, 0.0, None), init=False)
-    """Cells and peak, and the text that they were last encoded as."""
+    """Value of the brightest colour, in the unit of the cells: the highest value so far."""
+    _encoded_cells: tuple[tuple[float, ...] | None, float, str | None] = field(default=(None, 0.0, None), init=False)
+    """The cells and the peak that were encoded last, and their text."""
 
     def add_position(self, event: FootMoved) -> None:
         """Add a live position."""
@@ -64,7 +67,7 @@ class FootScene:
             self.peak = largest
 
     def start_phase(self, t: float, phase: Phase | None) -> None:
-        """Start a phase at `t` s; None means that nothing comes of the foot."""
+        """Start a phase at `t`, s; None means that the foot sends nothing."""
         self.has_data = self.has_data or phase is not None
         if phase is self.phase:
             return
@@ -73,7 +76,7 @@ class FootScene:
         if phases.items and t < phases.items[-1][0]:
             t = phases.items[-1][0]  # the event is dated before the last reported phase
         phases.add((t, None if phase is None else phase.value))
-        while len(phases.items) > 1 and phases.items[1][0] <= t - PHASES_KEPT:
+        while len(phases.items) > 1 and phases.items[1][0] <= t - PHASE_HISTORY:
             phases.items.popleft()
 
     def add_stride(self, event: StrideTaken) -> None:
@@ -82,7 +85,7 @@ class FootScene:
             self.track.add_position(event.t, event.position)
 
     def set_layout(self, layout: Layout) -> bool:
-        """Set where the cells are; return whether that is new."""
+        """Set the positions of the cells; return whether they are new."""
         if layout == self.layout:
             return False
         self.layout = layout
@@ -90,12 +93,12 @@ class FootScene:
         return True
 
     def phase_started_after(self, t: float) -> bool:
-        """Return whether the present phase, or the silence of the foot, started after `t` s."""
+        """Return whether the present phase, or the silence of the foot, started after `t`, s."""
         phases = self.phases.items
         return bool(phases) and phases[-1][0] > t
 
     def mark_silent(self, t: float) -> None:
-        """Mark the phase as unknown from `t` s on."""
+        """Mark the phase as unknown from `t`, s, on."""
         self.start_phase(t, None)
         self.cells = self.centre = None
 
@@ -107,7 +110,7 @@ class FootScene:
         return {
             "phase": None if self.phase is None else self.phase.value,
             "position": None if self.position is None else rounded_all(self.position),
-            "cells": self._colours(),
+            "cells": self._encode_cells(),
             "peak": rounded(self.peak),
             "force": None if cells is None else rounded(self.force, 1),
             "centre": None if self.centre is None or cells is None else rounded_all(self.centre, 4),
@@ -116,19 +119,19 @@ class FootScene:
             "distance": rounded(counts.distance, 2),
         }
 
-    def _colours(self) -> str | None:
-        """Return one byte a cell, 255 for the highest value so far, as base64."""
+    def _encode_cells(self) -> str | None:
+        """Return one byte for each cell, 255 for the highest value so far, as base64."""
         cells, peak = self.cells, self.peak
         if cells is None:
             return None
-        if self._shades[0] is not cells or self._shades[1] != peak:
+        if self._encoded_cells[0] is not cells or self._encoded_cells[1] != peak:
             scale = 255.0 / peak if peak > 0.0 else 0.0
             shades = bytes([int(min(255.0, value * scale) + 0.5) if value > 0.0 else 0 for value in cells])
-            self._shades = (cells, peak, b64encode(shades).decode())
-        return self._shades[2]
+            self._encoded_cells = (cells, peak, b64encode(shades).decode())
+        return self._encoded_cells[2]
 
     def layout_message(self, newtons: bool) -> dict[str, Any] | None:
-        """Return the foot's member of "layouts" of a scene; `newtons` says that a calibration turns counts into N."""
+        """Return the foot's member of "layouts" of a scene; `newtons` says that a calibration gives the cells in N."""
         layout = self.layout
         if layout is None:
             return None

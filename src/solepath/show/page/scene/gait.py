@@ -1,4 +1,6 @@
-"""The gait as a page shows it: present activity, pace of the newest strides, and means of steady strides."""
+"""Computes the gait that a page shows: present activity, pace of the newest strides, and means of steady strides.
+
+Numbers without a source were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -12,48 +14,48 @@ from ....types import Activity, Foot
 from ...tables.gait import MIN_STRIDES, GaitRow, gait_rows, strides_of
 from ..messages import rounded
 
-STRIDES = 2
-"""Consecutive strides of a foot that the pace is averaged over: a single one errs by some per cent."""
-PATIENCE = 1.5
-"""Time that the next stride may take, as a multiple of the last one."""
-KNOWN = 1.0
-"""Time after which a stride is known at the latest, s."""
-STILL = (Activity.STANDING, Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN)
+PACE_STRIDES = 2
+"""Number of consecutive strides of a foot over which the pace is averaged: a single one errs by some per cent."""
+MAX_TIME_RATIO = 1.5
+"""Longest time of the next stride, as a multiple of the last stride time; after it the foot has no pace."""
+MAX_STRIDE_LATENCY = 1.0
+"""Longest time from the end of a stride to its event, s."""
+STILL_ACTIVITIES = (Activity.STANDING, Activity.ELEVATOR_UP, Activity.ELEVATOR_DOWN)
 
 
 @define
 class ScenePace:
-    """Newest strides of each foot, from which the present pace is computed; times in s."""
+    """The newest strides of each foot, from which the present pace is computed; times in s."""
 
     strides: dict[Foot, tuple[GaitCycleMeasured, ...]] = field(factory=dict)
 
-    def take(self, stride: GaitCycleMeasured) -> None:
-        """Add one more stride."""
-        before = self.strides.get(stride.foot, ())
-        follows = bool(before) and before[-1].t == stride.t_start
-        self.strides[stride.foot] = (*(before[1 - STRIDES :] if follows else ()), stride)
+    def add_stride(self, stride: GaitCycleMeasured) -> None:
+        """Add the next stride of a foot."""
+        earlier = self.strides.get(stride.foot, ())
+        follows = bool(earlier) and earlier[-1].t == stride.t_start
+        self.strides[stride.foot] = (*(earlier[1 - PACE_STRIDES :] if follows else ()), stride)
 
     def reset(self, foot: Foot) -> None:
-        """Discard the strides of a foot, since later ones do not follow them."""
+        """Discard the strides of a foot: after a reset the next stride does not follow them."""
         self.strides.pop(foot, None)
 
     def frame(self, now: float, activity: Activity, since: float) -> dict[str, Any] | None:
-        """Return the member "pace" of a frame at `now`; None while there is no pace.
+        """Return the member "pace" of a frame at `now`, s; None while there is no pace.
 
-        The wearer does `activity` from time `since` on."""
-        still = activity in STILL
-        walked = [
+        `activity` is the wearer's activity, which started at `since`, s."""
+        is_still = activity in STILL_ACTIVITIES
+        recent = [
             strides
             for strides in self.strides.values()
-            if now - strides[-1].t <= PATIENCE * strides[-1].stride_time + KNOWN
-            and not (still and strides[-1].t <= since)
+            if now - strides[-1].t <= MAX_TIME_RATIO * strides[-1].stride_time + MAX_STRIDE_LATENCY
+            and not (is_still and strides[-1].t <= since)
         ]
-        if not walked:
+        if not recent:
             return None
-        cadence = _mean([_mean([stride.cadence for stride in strides]) for strides in walked])
-        speeds = [[stride.speed for stride in strides if stride.speed is not None] for strides in walked]
-        known = [_mean(some) for some in speeds if some]
-        return {"cadence": rounded(cadence, 1), "speed": rounded(_mean(known), 2) if known else None}
+        cadence = _mean([_mean([stride.cadence for stride in strides]) for strides in recent])
+        speeds = [[stride.speed for stride in strides if stride.speed is not None] for strides in recent]
+        means = [_mean(foot_speeds) for foot_speeds in speeds if foot_speeds]
+        return {"cadence": rounded(cadence, 1), "speed": rounded(_mean(means), 2) if means else None}
 
 
 def _mean(values: list[float]) -> float:
@@ -63,8 +65,8 @@ def _mean(values: list[float]) -> float:
 def activity_frame(since: float, activity: Activity, silent_since: float | None) -> dict[str, Any]:
     """Return the member "activity" of a frame: the present activity and its start, s.
 
-    `silent_since` is the time of the last sample of any foot, s, while no foot sends any; the activity is then unknown.
-    It is None while a foot sends."""
+    `silent_since` is None while a foot sends. While no foot sends, it is the time of the last sample, s, and the
+    activity is unknown."""
     if silent_since is None:
         return {"now": activity.value, "since": rounded(since), "last": None}
     last = None if activity is Activity.UNKNOWN else activity.value
@@ -72,10 +74,10 @@ def activity_frame(since: float, activity: Activity, silent_since: float | None)
 
 
 @define
-class SceneMeasures:
-    """Running means over the newest strides, of walking or of running as the newest stride was.
+class SceneGaitMeans:
+    """The means over the newest strides, of walking or of running, whichever the newest stride was.
 
-    They are computed again when a stride came."""
+    They are computed again after each new stride."""
 
     _newest: tuple[GaitCycleMeasured | None, GaitCycleMeasured | None] = (None, None)
     _frame: dict[str, Any] | None = None

@@ -1,4 +1,4 @@
-"""The links as a page shows them."""
+"""Computes what a page shows of the links."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..messages import rounded
 
 
 def link_frame(link: LinkLedger, now: float) -> dict[str, Any]:
-    """Return one member of "links" of a frame."""
+    """Return one member of "links" of a frame at `now`, s."""
     state = link.state(now)
     silent = state in ("silent", "lost") and link.last_sample_at is not None
     rate = link.recent_rate(now)
@@ -32,7 +32,9 @@ def link_frame(link: LinkLedger, now: float) -> dict[str, Any]:
 
 
 def feet_silent_since(links: dict[Site, LinkLedger], now: float) -> float | None:
-    """Return when the last sample of any foot came, s, while at `now` none sends; None while one does, and before."""
+    """Return the arrival of the last sample of any foot, s, if at `now`, s, no foot sends; None while one does.
+
+    It is also None before the first sample."""
     feet = [link for site, link in links.items() if site.foot is not None]
     last = max([link.last_sample_at for link in feet if link.last_sample_at is not None], default=None)
     return None if any([link.state(now) == "ok" for link in feet]) else last

@@ -1,7 +1,7 @@
-"""Lists that grow while somebody reads along: bounded, and numbered, so that a reader asks for what is new to it.
+"""Bounded lists that grow while readers follow them; a reader gets only the items that are new to it.
 
-The number of a reader is how many items had been added when it read last. A reader that adds the new items by the same
-rule has the same list."""
+A reader passes how many items had been added when it read last. If it adds the new items by the same rule, it has the
+same list. Numbers without a source were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -19,36 +19,36 @@ T = TypeVar("T")
 TrackPoint = tuple[float | None, ...]
 """(t, x, y, z) in s and m."""
 
-MOST_POINTS = 2000
+MAX_POINTS = 2000
 """Largest number of points of a track; with one more, every second one is left out."""
-RECENT = 1000
-"""Number of points that a reader may be behind."""
-SPACING = 0.02
+MAX_BEHIND = 1000
+"""Largest number of new points that a reader can get; with more, it needs the whole list."""
+MIN_SPACING = 0.02
 """Distance from the last point below which a new position adds no point to the track, m."""
 
 
 @define
 class ThinnedTrack(Generic[T]):
-    """Points of a track from its start to now, thinned evenly.
+    """The points of a track from its start to now, evenly thinned.
 
-    When there is one more than MOST_POINTS, the points with odd indices (from 0) are left out. The first and the newest
-    point stay."""
+    With one point more than MAX_POINTS, the points with odd indices (counted from 0) are left out. The first and the
+    newest point stay."""
 
     points: list[T] = field(factory=list)
     count: int = 0
     """Number of points that were ever added."""
-    _recent: deque[T] = field(factory=lambda: deque(maxlen=RECENT))
+    _recent: deque[T] = field(factory=lambda: deque(maxlen=MAX_BEHIND))
 
     def add(self, point: T) -> None:
         """Add one point."""
         self.points.append(point)
-        if len(self.points) > MOST_POINTS:
+        if len(self.points) > MAX_POINTS:
             self.points = self.points[::2]
         self._recent.append(point)
         self.count += 1
 
     def since(self, number: int) -> list[T] | None:
-        """Return the points after the first `number` ever; None when not all of them are known any more."""
+        """Return all points but the first `number` that were ever added; None if not all of them are known any more."""
         new = self.count - number
         if new == 0:
             return []
@@ -59,23 +59,23 @@ class ThinnedTrack(Generic[T]):
 
 @define
 class WalkedTrack(ThinnedTrack[TrackPoint]):
-    """Track of positions, with a point only where the position has changed."""
+    """The track of positions, m, with a point only where the position has changed."""
 
     _last: Vec3 | None = None
     """Position of the newest point, m."""
 
     def add_position(self, t: float, position: Vec3) -> None:
-        """Add the position at `t` s when it is far enough from the last point."""
-        if self._last is None or dist(position, self._last) >= SPACING:
+        """Add the position at `t`, s, unless it is closer than MIN_SPACING to the last point."""
+        if self._last is None or dist(position, self._last) >= MIN_SPACING:
             self._last = position
             self.add((rounded(t), *rounded_all(position)))
 
 
 @define
-class Recent(Generic[T]):
-    """The last `most` items."""
+class RecentItems(Generic[T]):
+    """A list of the last `max_count` items."""
 
-    most: int
+    max_count: int
     items: deque[T] = field(factory=deque)
     count: int = 0
     """Number of items that were ever added."""
@@ -84,10 +84,10 @@ class Recent(Generic[T]):
         """Add one item."""
         self.items.append(item)
         self.count += 1
-        if len(self.items) > self.most:
+        if len(self.items) > self.max_count:
             self.items.popleft()
 
     def since(self, number: int) -> list[T]:
-        """Return the items after the first `number` ever, as far as they are still kept."""
+        """Return all items but the first `number` that were ever added, as far as they are still in the list."""
         new = min(self.count - number, len(self.items))
         return list(self.items)[-new:] if new else []

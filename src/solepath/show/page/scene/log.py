@@ -1,4 +1,4 @@
-"""The log that a page shows: events as sentences, for a wearer or a clinician."""
+"""Turns events into the sentences of a page's log, for a wearer or a clinician."""
 
 from __future__ import annotations
 
@@ -34,18 +34,18 @@ from ....recording import printable
 from ....types import SITE_OF_FOOT, Turn
 from ...observer import Observer
 from ..messages import rounded
-from .lists import Recent
+from .lists import RecentItems
 
-MOST_LINES = 50
+MAX_LINES = 50
 LOW_BATTERY = 0.15
-"""Charge at or below which the battery is reported, 0 to 1."""
+"""Charge, 0 to 1, at or below which the log reports the battery; chosen by hand."""
 FAULTS = {
     CellFault.DEAD: ("cell shows no load", "cells show no load"),
     CellFault.STUCK: ("cell shows one value all the time", "cells show one value all the time"),
     CellFault.SATURATED: ("cell stays at the end of its range", "cells stay at the end of their range"),
     CellFault.MISSING: ("cell sends no number", "cells send no number"),
 }
-"""Words for a fault of one cell and of several."""
+"""Words for a fault of one cell, and of several."""
 TURNS = {Turn.LEFT: "turned left", Turn.RIGHT: "turned right", Turn.ABOUT: "turned about"}
 
 LogLine = tuple[float | None, str, str]
@@ -54,32 +54,32 @@ LogLine = tuple[float | None, str, str]
 
 @define
 class SceneLog:
-    """The newest sentences on what happened."""
+    """The log of a page: the newest MAX_LINES sentences on events."""
 
-    lines: Recent[LogLine] = field(factory=lambda: Recent(MOST_LINES))
+    lines: RecentItems[LogLine] = field(factory=lambda: RecentItems(MAX_LINES))
 
-    def add_event(self, event: Event, before: Observer) -> None:
-        """Add a line for an event that deserves one and was not just reported.
+    def add_event(self, event: Event, observer: Observer) -> None:
+        """Add the line of an event, if it has one and the log does not say the same already.
 
-        `before` is what was observed before the event."""
+        `observer` has not counted the event yet."""
         line = sentence(event)
         if line is None:
             return
-        if isinstance(event, FootSilent) and before.link(SITE_OF_FOOT[event.foot]).state(before.now) != "ok":
+        if isinstance(event, FootSilent) and observer.link(SITE_OF_FOOT[event.foot]).state(observer.now) != "ok":
             return
         if isinstance(event, BatteryLevel):
-            level = before.link(event.site).battery
+            level = observer.link(event.site).battery
             if level is not None and level <= LOW_BATTERY:
                 return
         self.add(event.t, *line)
 
     def add(self, t: float, kind: str, text: str) -> None:
-        """Add a line on what happened at `t` s."""
+        """Add a line on what happened at `t`, s; `kind` is as in `sentence`."""
         self.lines.add((rounded(t), kind, text))
 
 
 def sentence(event: Event) -> tuple[str, str] | None:
-    """Return (kind, sentence) of an event that deserves a line, None of any other.
+    """Return (kind, sentence) for an event that has a line in the log; None for any other.
 
     `kind` is "link", "wear", "gait" or "place"."""
     line = _link(event) or _wear(event) or _gait(event)
@@ -136,11 +136,11 @@ def _gait(event: Event) -> tuple[str, str] | None:
         case TurnMade(turn=turn, angle=angle, final=True) if turn is not None:
             return "gait", f"{TURNS[turn]} by {abs(degrees(angle)):.0f} degrees"
         case FlightClimbed(up=up, steps=steps, height=height, final=True):
-            way = "up" if up else "down"
-            return "gait", f"stairs {way}: {steps} step{'s' * (steps != 1)}, {abs(height):.1f} m"
+            direction = "up" if up else "down"
+            return "gait", f"stairs {direction}: {steps} step{'s' * (steps != 1)}, {abs(height):.1f} m"
         case LiftRidden(up=up, height=height, final=True):
-            far = "" if height is None else f", {abs(height):.1f} m"
-            return "gait", f"a lift {'up' if up else 'down'}{far}"
+            height_text = "" if height is None else f", {abs(height):.1f} m"
+            return "gait", f"a lift {'up' if up else 'down'}{height_text}"
         case PlaceLost(what=what):
             return "place", what
         case _:

@@ -1,4 +1,4 @@
-"""A floor plan as a page draws it."""
+"""Turns a floor plan into what a page draws."""
 
 from __future__ import annotations
 
@@ -8,14 +8,15 @@ from ....floorplan.plan import Connector, Door, FloorPlan, Level, Wall
 from ..messages import EncodedOnce, rounded, rounded_all
 
 
-def drawn(plan: FloorPlan) -> EncodedOnce:
+def draw_plan(plan: FloorPlan) -> EncodedOnce:
     """Return the member "plan" of a scene, in the plan frame, m.
 
-    It holds lines and outlines of each level, and the stops of stairs and lifts. It takes some 10 us a wall."""
+    It holds lines and outlines of each level, and the stops of stairs and elevators. Computing takes some 10 us a wall.
+    """
     return EncodedOnce(
         name=plan.name,
         levels=[_level(level) for level in plan.levels],
-        connectors=[_connector(one) for one in plan.connectors],
+        connectors=[_connector(connector) for connector in plan.connectors],
     )
 
 
@@ -30,17 +31,17 @@ def _level(level: Level) -> dict[str, Any]:
     }
 
 
-def _line(one: Wall | Door) -> list[float | None]:
-    return rounded_all((*one.start, *one.end))
+def _line(wall: Wall | Door) -> list[float | None]:
+    return rounded_all((*wall.start, *wall.end))
 
 
-def _connector(one: Connector) -> dict[str, Any]:
+def _connector(connector: Connector) -> dict[str, Any]:
     stops = [
         {
             "level": stop.level,
             "place": rounded_all(stop.place),
             "outline": [rounded_all(point) for point in stop.outline],
         }
-        for stop in one.stops
+        for stop in connector.stops
     ]
-    return {"kind": one.kind.value, "name": one.name, "stops": stops}
+    return {"kind": connector.kind.value, "name": connector.name, "stops": stops}

@@ -1,9 +1,9 @@
-"""Ends of the colour scales of pressure, decided here so that all watchers see the same colours.
+"""Chooses the ends of the colour scales of pressure, once for all watchers, so that all see the same colours.
 
-A scale is for both feet, ends at a round number, and only ever grows. Its end is at least what a twentieth of a foot's
-cells reaches for three samples. An edge of a shoe that presses on one cell, or on all for a hundredth of a second,
-therefore does not make the load of a whole forefoot pale. A higher value is drawn as the end of the scale, and `beyond`
-says that there is one."""
+A scale is for both feet, ends at a round number, and only ever grows. Its end is at least the value that a twentieth of
+a foot's cells reaches for three samples. Therefore the edge of a shoe that presses on one cell, or on all for a
+hundredth of a second, does not make the load of a whole forefoot pale. A higher value is drawn as the end of the scale,
+and "beyond" says that there was one. Numbers without a source were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -15,77 +15,77 @@ from attrs import define, field
 from ....types import Foot, Layout
 from ..messages import rounded
 
-STEPS = (1.0, 2.0, 4.0, 6.0, 8.0, 10.0)
+END_MULTIPLES = (1.0, 2.0, 4.0, 6.0, 8.0, 10.0)
 """Multiples of a power of ten at which a scale may end."""
-LEAST = {"kPa": 100.0, "N": 1.0, "counts": 1.0}
-"""First end of a scale in each unit: the pressure of standing on both feet in kPa, no load in N and counts."""
-SHARE = 20
-"""Number of cells of which one may be higher than the scale; a smaller insole may have one such cell too."""
-LASTS = 3
-"""Number of samples for which a value must last."""
+FIRST_ENDS = {"kPa": 100.0, "N": 1.0, "counts": 1.0}
+"""First end of a scale in each unit: in kPa the pressure of standing on both feet, in N and counts almost no load."""
+CELLS_PER_OUTLIER = 20
+"""Number of cells for each cell that may be higher than the scale; a smaller insole may have one such cell too."""
+MIN_SAMPLES = 3
+"""Number of consecutive samples with a high value after which the scale grows."""
 
 
 @define
 class UnitScale:
-    """Scale of one unit."""
+    """The colour scale of one unit, from 0 to `end`."""
 
-    top: float
+    end: float
     highest: float = 0.0
     """Highest value of any cell so far."""
 
     def frame(self) -> dict[str, Any]:
         """Return one member of "scales" of a frame."""
-        return {"top": rounded(self.top), "beyond": self.highest > self.top}
+        return {"top": rounded(self.end), "beyond": self.highest > self.end}
 
 
 @define
 class InsoleScale:
-    """Unit of the cells of a foot's insole, and their recent values."""
+    """The unit in which a foot's cells are drawn, and their recent values."""
 
     unit: str
-    per_unit: tuple[float, ...] | None
-    """Value in `unit` of one of the layout's unit, for each cell; None where the units are the same."""
+    factors: tuple[float, ...] | None
+    """Factor for each cell from the sample's unit to `unit`; None where the units are the same."""
     recent: tuple[float, ...] = ()
-    """Value that a twentieth of the cells reached in each of the newest samples."""
+    """Value, in `unit`, that a twentieth of the cells reached in each of the newest samples."""
 
 
 @define
 class Scales:
-    """Scales of all units that are in use, by their names."""
+    """The colour scales of all units in use, and the insole of each foot."""
 
     units: dict[str, UnitScale] = field(factory=dict)
-    worn: dict[Foot, InsoleScale] = field(factory=dict)
+    insoles: dict[Foot, InsoleScale] = field(factory=dict)
 
-    def wear(self, foot: Foot, layout: Layout, newtons: bool) -> None:
+    def set_layout(self, foot: Foot, layout: Layout, newtons: bool) -> None:
         """Set the layout of a foot's cells; `newtons` says that their values are N, not counts."""
         areas = [cell.area for cell in layout.cells]
-        per_unit = None
+        factors = None
         if newtons and areas and all([area > 0.0 for area in areas]):
-            unit, per_unit = "kPa", tuple([0.001 / area for area in areas])
+            unit, factors = "kPa", tuple([0.001 / area for area in areas])
         else:
             unit = "N" if newtons else "counts"
-        self.worn[foot] = InsoleScale(unit, per_unit)
-        self.units.setdefault(unit, UnitScale(LEAST[unit]))
+        self.insoles[foot] = InsoleScale(unit, factors)
+        self.units.setdefault(unit, UnitScale(FIRST_ENDS[unit]))
 
-    def press(self, foot: Foot, values: tuple[float, ...]) -> None:
-        """Add one sample of a foot's cells; before its layout is known, none, since no map is drawn without it."""
-        worn = self.worn.get(foot)
-        if worn is None or not values:
+    def add_sample(self, foot: Foot, values: tuple[float, ...]) -> None:
+        """Add one sample of a foot's cells; it is ignored while the layout of the cells is unknown."""
+        insole = self.insoles.get(foot)
+        if insole is None or not values:
             return
-        if worn.per_unit is not None:
-            values = tuple([value * one for value, one in zip(values, worn.per_unit, strict=False)])
-        scale = self.units[worn.unit]
+        if insole.factors is not None:
+            values = tuple([value * factor for value, factor in zip(values, insole.factors, strict=False)])
+        scale = self.units[insole.unit]
         largest = max(values, default=0.0)
         if scale.highest < largest < inf:
             scale.highest = largest
-        if not largest > scale.top:
-            worn.recent = ()
+        if not largest > scale.end:
+            insole.recent = ()
             return
-        at = min(max(1, len(values) // SHARE), len(values) - 1)
-        worn.recent = (*worn.recent[1 - LASTS :], sorted(values, reverse=True)[at])
-        reached = min(worn.recent)
-        if len(worn.recent) == LASTS and scale.top < reached < inf:
-            scale.top = scale_end(reached)
+        outliers = min(max(1, len(values) // CELLS_PER_OUTLIER), len(values) - 1)
+        insole.recent = (*insole.recent[1 - MIN_SAMPLES :], sorted(values, reverse=True)[outliers])
+        lowest = min(insole.recent)
+        if len(insole.recent) == MIN_SAMPLES and scale.end < lowest < inf:
+            scale.end = scale_end(lowest)
 
     def frame(self) -> dict[str, Any]:
         """Return the member "scales" of a frame."""
@@ -93,6 +93,6 @@ class Scales:
 
 
 def scale_end(value: float) -> float:
-    """Return the end of a scale that holds `value`, which is above zero."""
+    """Return the least end of a scale that is not below `value`, which is above zero."""
     power: float = 10.0 ** floor(log10(value))
-    return next((step * power for step in STEPS if step * power >= value), 10.0 * power)
+    return next((multiple * power for multiple in END_MULTIPLES if multiple * power >= value), 10.0 * power)

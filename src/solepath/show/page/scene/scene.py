@@ -1,6 +1,6 @@
-"""Turns events into messages for a page: a whole scene for a new watcher, then what has changed since.
+"""Turns events into messages for a page: a whole scene for a new watcher, then the changes.
 
-protocol/page.md says what the messages hold. Nothing here knows a clock, a thread or a network."""
+protocol/page.md says what the messages hold. Nothing here uses a clock, a thread or a network."""
 
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ from ...observer import REJECTIONS, FootCounts, Observer
 from ..messages import EncodedOnce, rounded
 from ..player.playback import Playback
 from .feet import FootScene
-from .gait import SceneMeasures, ScenePace, activity_frame
+from .gait import SceneGaitMeans, ScenePace, activity_frame
 from .links import feet_silent_since, link_frame
 from .lists import WalkedTrack
 from .log import SceneLog
-from .plan_drawing import drawn
+from .plan_drawing import draw_plan
 from .scales import Scales
 from .wearer import WearerScene
 
@@ -46,26 +46,26 @@ VERSION = 1
 
 @frozen
 class Cursor:
-    """State of what a watcher has been sent.
+    """The record of what a watcher has been sent.
 
-    `drawn` is the number of layouts when the scene was sent whole. `numbers` is, for each list, how many items it ever
-    had. `values` is, for each other key, the value that was sent last."""
+    `layout_count` is the scene's when it was sent whole. `numbers` is, for each list, how many items were ever added to
+    it. `values` is, for each other key, the value that was sent last."""
 
-    drawn: int
+    layout_count: int
     numbers: dict[str, int]
     values: dict[str, Any]
 
 
 @define
 class Scene:
-    """Picture of one session, which is made with `poses=True` and `pressures=True`.
+    """The state that a page shows of one session, which is made with `poses=True` and `pressures=True`.
 
-    Times are in s on the session's clock; lengths in m, in the world frame, or in the plan's for what is on `plan`.
-    `source` is "live", "demo" or "recording". `newtons` are the feet whose calibration turns counts into N. The player
-    writes `playback`. The scene shows `observer`, and feeds it.
+    Times are in s on the session's clock; positions in m, in the world frame, places on `plan` in the plan frame.
+    `source` is "live", "demo" or "recording". `newtons` are the feet whose calibration turns counts into N. A player
+    writes `playback`. The scene feeds `observer` and shows its counts.
 
-    `take` is cheap: it is called for every packet. `since` costs some 0.1 ms, and is for at most 30 times a second.
-    Memory is bounded, whatever is walked. Two threads must not use a scene at once."""
+    `take` is cheap: it is called for every packet. `message_since` takes some 0.1 ms and is for at most 30 calls a
+    second. Memory is bounded. Two threads must not use a scene at once."""
 
     title: str
     recipe: str
@@ -76,22 +76,22 @@ class Scene:
     observer: Observer = field(factory=Observer)
     feet: dict[Foot, FootScene] = field(factory=lambda: {foot: FootScene(foot) for foot in Foot}, init=False)
     wearer: WearerScene = field(factory=WearerScene, init=False)
-    measured: SceneMeasures = field(factory=SceneMeasures, init=False)
+    gait_means: SceneGaitMeans = field(factory=SceneGaitMeans, init=False)
     pace: ScenePace = field(factory=ScenePace, init=False)
     scales: Scales = field(factory=Scales, init=False)
     log: SceneLog = field(factory=SceneLog, init=False)
-    layouts: int = field(default=0, init=False)
-    """Number of times a layout became known: a page that drew others needs the scene again."""
+    layout_count: int = field(default=0, init=False)
+    """Number of times that a new layout became known; a page that was sent fewer needs the whole scene again."""
     drawing: EncodedOnce | None = field(init=False)
-    """Drawing of the plan, made once for all watchers and all seeks."""
+    """Drawing of the plan, made once for all watchers and all seeks; None without a plan."""
 
     def __attrs_post_init__(self) -> None:
-        self.drawing = None if self.plan is None else drawn(self.plan)
+        self.drawing = None if self.plan is None else draw_plan(self.plan)
 
     def take(self, item: Packet | Sample | None, events: Sequence[Event]) -> None:
-        """Add what the session was fed and the events that it returned for it.
+        """Add a packet or sample that the session was fed, and the events that it returned.
 
-        An item of None means that nothing came: time passed or the session ended."""
+        None as the item means that nothing came: time passed or the session ended."""
         for event in events:
             if not isinstance(event, REJECTIONS):
                 self.tick(event.known_at)  # a silent foot is shown as silent before the event that ends it
@@ -103,7 +103,7 @@ class Scene:
             self._mark_silent_feet()
 
     def tick(self, t: float) -> None:
-        """Advance the time to `t` s on the clock of the packets, whether or not anything came."""
+        """Advance the time to `t`, s, on the clock of the packets."""
         if t > self.now:
             self.observer.advance(t)
             self._mark_silent_feet()
@@ -116,26 +116,26 @@ class Scene:
     def _show(self, event: Event) -> None:
         self.log.add_event(event, self.observer)
         self.observer.add(event)
-        take = HANDLERS.get(type(event))
-        if take is not None:
-            take(self, event)
+        handle = HANDLERS.get(type(event))
+        if handle is not None:
+            handle(self, event)
         if getattr(event, "site", None) is not None:
             self._mark_silent_feet()
 
     def _mark_silent_feet(self) -> None:
-        """Mark the phase of each foot as unknown whose link is silent.
+        """Mark the phase of each foot with a silent link as unknown.
 
-        A phase that started after the silence shows that the foot sends again, though the sample that proves it comes
-        after it."""
-        for foot, one in self.feet.items():
+        A phase that started after the silence shows that the foot sends again; the event of its sample comes after the
+        event of the phase."""
+        for foot, foot_scene in self.feet.items():
             link = self.observer.links.get(SITE_OF_FOOT[foot])
-            if one.phase is None or link is None or link.state(self.now) == "ok":
+            if foot_scene.phase is None or link is None or link.state(self.now) == "ok":
                 continue
-            if not one.phase_started_after(link.silent_from):
-                one.mark_silent(min(self.now, link.silent_from))
+            if not foot_scene.phase_started_after(link.silent_from):
+                foot_scene.mark_silent(min(self.now, link.silent_from))
 
     def _connected(self, foot: Foot) -> bool:
-        """Return whether what comes of a foot is no straggler of a broken connection."""
+        """Return whether a foot is connected; late samples of a broken connection do not count."""
         return self.observer.link(SITE_OF_FOOT[foot]).broken_at is None
 
     def _moved(self, event: FootMoved) -> None:
@@ -145,11 +145,11 @@ class Scene:
     def _pressed(self, event: FootPressed) -> None:
         if self._connected(event.foot):
             self.feet[event.foot].add_pressure(event)
-            self.scales.press(event.foot, event.values)
+            self.scales.add_sample(event.foot, event.values)
 
     def _phase_started(self, event: HeelStrike | FootFlat | HeelOff | ToeOff) -> None:
         if self._connected(event.foot):
-            self.feet[event.foot].start_phase(event.t, PHASES[type(event)])
+            self.feet[event.foot].start_phase(event.t, PHASE_OF_EVENT[type(event)])
 
     def _stride_taken(self, event: StrideTaken) -> None:
         self.feet[event.foot].add_stride(event)
@@ -157,24 +157,24 @@ class Scene:
     def _layout_known(self, event: LayoutKnown) -> None:
         foot = event.site.foot
         if foot is not None and self.feet[foot].set_layout(event.layout):
-            self.layouts += 1
-            self.scales.wear(foot, event.layout, foot in self.newtons or event.layout.scale is not None)
+            self.layout_count += 1
+            self.scales.set_layout(foot, event.layout, foot in self.newtons or event.layout.scale is not None)
 
     def _reset(self, event: ClockReset) -> None:
         if event.site.foot is not None:
             self.pace.reset(event.site.foot)
 
     def _placed(self, event: Placed) -> None:
-        level = self.wearer.found(event)
+        level = self.wearer.add_place(event)
         if level is not None:
             self.log.add(event.t, "place", f"on {self._level(level)}")
 
     def _level(self, level: str) -> str:
-        names = [] if self.plan is None else [one.name for one in self.plan.levels if one.id == level]
+        names = [] if self.plan is None else [known.name for known in self.plan.levels if known.id == level]
         return names[0] if names and names[0] else f"level {level}"
 
-    def whole(self) -> tuple[dict[str, Any], Cursor]:
-        """Return the message "scene" with everything, and the cursor from which `since` continues."""
+    def whole_message(self) -> tuple[dict[str, Any], Cursor]:
+        """Return the message "scene" with everything, and the cursor from which `message_since` continues."""
         values = self._values()
         message = {
             "type": "scene",
@@ -199,22 +199,22 @@ class Scene:
                 "log": [],
             },
         }
-        return message, Cursor(self.layouts, self._numbers(), values)
+        return message, Cursor(self.layout_count, self._numbers(), values)
 
-    def since(self, cursor: Cursor) -> tuple[dict[str, Any] | None, Cursor]:
+    def message_since(self, cursor: Cursor) -> tuple[dict[str, Any] | None, Cursor]:
         """Return the message "frame" with what has changed since `cursor`, and the next cursor.
 
-        The message is None when nothing has changed. It is "scene" for a watcher that is too far behind or has to draw
-        again."""
-        if cursor.drawn != self.layouts:
-            return self.whole()
+        The message is None when nothing has changed. It is "scene" for a watcher that is too far behind or has an old
+        layout."""
+        if cursor.layout_count != self.layout_count:
+            return self.whole_message()
         values, numbers, known = self._values(), self._numbers(), cursor.numbers
         message = {key: value for key, value in values.items() if value != cursor.values[key]}
         if numbers != known:
             tracks = {name: track.since(known[name]) for name, track in self._tracks().items()}
             places = self.wearer.places.since(known["places"])
             if places is None or None in tracks.values():
-                return self.whole()
+                return self.whole_message()
             phases = {foot.value: one.phases.since(known[f"phases {foot}"]) for foot, one in self.feet.items()}
             message |= _filled("tracks", {name: points for name, points in tracks.items() if points})
             message |= _filled("phases", {name: started for name, started in phases.items() if started})
@@ -222,10 +222,10 @@ class Scene:
             message |= _filled("log", self.log.lines.since(known["log"]))
         if not message:
             return None, cursor
-        return {"type": "frame", "t": self._t(), **message}, Cursor(self.layouts, numbers, values)
+        return {"type": "frame", "t": self._t(), **message}, Cursor(self.layout_count, numbers, values)
 
-    def heartbeat(self) -> dict[str, Any]:
-        """Return a frame in which nothing has changed but the time."""
+    def heartbeat_message(self) -> dict[str, Any]:
+        """Return the message "frame" with nothing but the time."""
         return {"type": "frame", "t": self._t()}
 
     def _t(self) -> float:
@@ -240,22 +240,24 @@ class Scene:
         return numbers | {"places": self.wearer.places.count, "log": self.log.lines.count}
 
     def _values(self) -> dict[str, Any]:
-        now, seen = self.now, self.observer
-        links = {site: link_frame(seen.links[site], now) for site in Site if site in seen.links}
+        now, observer = self.now, self.observer
+        links = {site: link_frame(observer.links[site], now) for site in Site if site in observer.links}
         feet: dict[str, Any] = {}
-        for foot, one in self.feet.items():
+        for foot, foot_scene in self.feet.items():
             link = links.get(SITE_OF_FOOT[foot])
-            feet[foot.value] = one.frame(0.0 if link is None else link["rate"], seen.feet.get(foot, NOTHING))
-        silent_since, (since, activity) = feet_silent_since(seen.links, now), seen.timeline.last
+            feet[foot.value] = foot_scene.frame(
+                0.0 if link is None else link["rate"], observer.feet.get(foot, NO_COUNTS)
+            )
+        silent_since, (since, activity) = feet_silent_since(observer.links, now), observer.timeline.last
         return {
             "feet": feet,
             "wearer": self.wearer.wearer_frame(),
-            "place": self.wearer.place_frame(seen.places.last),
+            "place": self.wearer.place_frame(observer.places.last),
             "activity": activity_frame(since, activity, silent_since),
             "pace": None if silent_since is not None else self.pace.frame(now, activity, since),
             "support": self._support(),
             "scales": self.scales.frame(),
-            "gait": self.measured.frame(seen.recent_gait),
+            "gait": self.gait_means.frame(observer.recent_gait),
             "links": {site.words: link for site, link in links.items()},
             "playback": None if self.playback is None else self.playback.frame(),
         }
@@ -265,9 +267,9 @@ class Scene:
         return None if left is None or right is None else SUPPORT[left][right].value
 
 
-NOTHING = FootCounts()
-"""Counts of a foot of which nothing is known."""
-PHASES: dict[type, Phase] = {event: phase for phase, event in EVENT_OF_PHASE.items()}
+NO_COUNTS = FootCounts()
+"""Counts of a foot without any event."""
+PHASE_OF_EVENT: dict[type, Phase] = {event: phase for phase, event in EVENT_OF_PHASE.items()}
 
 HANDLERS: dict[type, Callable[[Scene, Any], None]] = {
     FootMoved: Scene._moved,
@@ -277,14 +279,14 @@ HANDLERS: dict[type, Callable[[Scene, Any], None]] = {
     HeelOff: Scene._phase_started,
     ToeOff: Scene._phase_started,
     StrideTaken: Scene._stride_taken,
-    GaitCycleMeasured: lambda scene, event: scene.pace.take(event),
-    WearerMoved: lambda scene, event: scene.wearer.stepped(event),
+    GaitCycleMeasured: lambda scene, event: scene.pace.add_stride(event),
+    WearerMoved: lambda scene, event: scene.wearer.add_position(event),
     Placed: Scene._placed,
-    PlaceLost: lambda scene, event: scene.wearer.lose(),
+    PlaceLost: lambda scene, event: scene.wearer.forget_level(),
     LayoutKnown: Scene._layout_known,
     ClockReset: Scene._reset,
 }
-"""Change that each event makes in the scene, besides the observer and the log."""
+"""Function that changes the scene at each event; the observer and the log get every event besides."""
 
 
 def _filled(key: str, value: Any) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""The position of the wearer: in the track's own frame, and on the floor plan."""
+"""Holds what a page shows of the wearer: the position in the world frame, and the place on the floor plan, m."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ....events import Candidate, Placed, WearerMoved
 from ..messages import rounded, rounded_all
 from .lists import ThinnedTrack, WalkedTrack
 
-MOST_CANDIDATES = 40
+MAX_CANDIDATES = 40
 
 PlacePoint = tuple[float | None, str, float | None, float | None, float | None]
 """(t, level, x, y, z) in s and m."""
@@ -18,9 +18,9 @@ PlacePoint = tuple[float | None, str, float | None, float | None, float | None]
 
 @define
 class WearerScene:
-    """Tracks of the wearer.
+    """The tracks of the wearer.
 
-    `track` has a point for each stride, `places` one for each place on a level that all its candidates share."""
+    `track` has a point for each stride. `places` has a point for each place whose candidates are all on one level."""
 
     moved: WearerMoved | None = None
     track: WalkedTrack = field(factory=WalkedTrack)
@@ -29,14 +29,14 @@ class WearerScene:
     """The last level that all candidates shared."""
     _place_frame: tuple[Placed | None, dict[str, Any] | None] = (None, None)
 
-    def stepped(self, event: WearerMoved) -> None:
+    def add_position(self, event: WearerMoved) -> None:
         """Add the position of the wearer after a stride."""
         self.moved = event
         self.track.add_position(event.t, event.position)
 
-    def found(self, event: Placed) -> str | None:
-        """Add a place on the plan; return its level when that is new and all candidates share it."""
-        if any([one.level != event.level for one in event.candidates]):
+    def add_place(self, event: Placed) -> str | None:
+        """Add a place on the plan; return its level if that is new and shared by all candidates, else None."""
+        if any([candidate.level != event.level for candidate in event.candidates]):
             return None
         x, y, z = rounded_all(event.position)
         self.places.add((rounded(event.t), event.level, x, y, z))
@@ -45,8 +45,8 @@ class WearerScene:
         self.level = event.level
         return event.level
 
-    def lose(self) -> None:
-        """Forget the level: there is no place any more."""
+    def forget_level(self) -> None:
+        """Forget the level, since the place is lost."""
         self.level = None
 
     def wearer_frame(self) -> dict[str, Any] | None:
@@ -73,18 +73,18 @@ def _place(place: Placed) -> dict[str, Any]:
         "position": rounded_all(place.position),
         "decided": len(place.candidates) <= 1,
         "spread": rounded(place.spread, 2),
-        "candidates": [_candidate(one) for one in place.candidates[:MOST_CANDIDATES]],
+        "candidates": [_candidate(candidate) for candidate in place.candidates[:MAX_CANDIDATES]],
     }
 
 
-def _candidate(one: Candidate) -> dict[str, Any]:
-    x, y, z = rounded_all(one.position)
+def _candidate(candidate: Candidate) -> dict[str, Any]:
+    x, y, z = rounded_all(candidate.position)
     return {
-        "level": one.level,
+        "level": candidate.level,
         "x": x,
         "y": y,
         "z": z,
-        "heading": rounded(one.heading),
-        "weight": rounded(one.weight),
-        "origin": one.origin,
+        "heading": rounded(candidate.heading),
+        "weight": rounded(candidate.weight),
+        "origin": candidate.origin,
     }

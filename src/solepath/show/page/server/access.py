@@ -1,6 +1,6 @@
 """Decides where the page listens, who may see it, and who may control it.
 
-Gait is health data: it is for this machine, or for whoever has the token."""
+Gait is health data: only this machine, or whoever has the token, may see the page."""
 
 from __future__ import annotations
 
@@ -11,36 +11,36 @@ from urllib.parse import urlsplit
 
 from attrs import frozen
 
-PORT = 8765
-"""Port when no other one is given."""
-EVERYWHERE = ("0.0.0.0", "::")
+DEFAULT_PORT = 8765
+"""Port that is used when none is named."""
+ALL_ADDRESSES = ("0.0.0.0", "::")
 
 
 class AccessDenied(Exception):
-    """A request that gets nothing; the message says why, `status` is the HTTP status."""
+    """A request that is rejected; the message says why, `status` is the HTTP status."""
 
-    def __init__(self, why: str, status: int = 403) -> None:
-        super().__init__(why)
+    def __init__(self, reason: str, status: int = 403) -> None:
+        super().__init__(reason)
         self.status = status
 
 
 @frozen
 class PageAccess:
-    """Access to a page that is served at `host`, a name or an address; whoever controls it must know `token`."""
+    """The access to a page that is served at `host`, a name or an address; to control it one must know `token`."""
 
     host: str
     token: str
 
     @property
     def is_public(self) -> bool:
-        """True when other machines than this one reach the page."""
+        """True if other machines than this one can reach the page."""
         return not on_loopback(self.host)
 
     def check_host(self, host: str | None) -> None:
-        """Check the Host header of a request; AccessDenied for a name that is not this page's.
+        """Check the Host header of a request; raise AccessDenied for a name that is not this page's.
 
-        A name that somebody else can let point here would let a page of theirs read this one (DNS rebinding). Addresses
-        point nowhere else."""
+        If any name were accepted, an attacker could point a name of theirs at this machine and read this page from
+        their own (DNS rebinding). An address cannot be redirected so."""
         name = None if host is None else host_of(host)
         if name is None:
             raise AccessDenied("a request does not say to which host it is", 400)
@@ -48,7 +48,7 @@ class PageAccess:
             raise AccessDenied("a request is to a host that this is not")
 
     def check_origin(self, origins: list[str], host: str) -> None:
-        """Check the Origin headers, which a browser sends for the page that asks, against the Host header."""
+        """Check the Origin headers, in which a browser names the requesting page, against the Host header."""
         for origin in origins:
             try:
                 parts = urlsplit(origin)
@@ -57,11 +57,11 @@ class PageAccess:
             if parts.scheme not in ("http", "https") or parts.netloc.lower() != host.lower():
                 raise AccessDenied("a page of another origin wants to watch")
 
-    def may_steer(self, tokens: list[str]) -> bool:
-        """Return whether a watcher that shows these tokens may control the page.
+    def may_control(self, tokens: list[str]) -> bool:
+        """Return whether a watcher that sends these tokens may control the page.
 
-        Without a token it may watch on this machine. AccessDenied for a wrong token, and for none from another machine.
-        """
+        Without a token, a watcher on this machine may only watch. AccessDenied is raised for a wrong token, and for no
+        token if other machines can reach the page."""
         if not tokens:
             if self.is_public:
                 raise AccessDenied("somebody without a token wants to watch from another machine")
@@ -72,10 +72,10 @@ class PageAccess:
 
 
 def host_of(header: str) -> str | None:
-    """Return the host of a Host header in lower case, an IPv6 address without brackets; None when there is none."""
+    """Return the host of a Host header in lower case, an IPv6 address without brackets; None if it is malformed."""
     try:
         parts = urlsplit(f"//{header}")
-        parts.port  # noqa: B018 - ValueError of what is no port
+        parts.port  # noqa: B018 - raises ValueError for a malformed port
     except ValueError:
         return None
     if parts.netloc != header or parts.username is not None or parts.path or not parts.hostname:
@@ -93,34 +93,34 @@ def is_address(name: str) -> bool:
 
 
 def on_loopback(host: str) -> bool:
-    """Return whether only this machine reaches the host."""
+    """Return whether only this machine can reach the host."""
     return host.lower() == "localhost" or (is_address(host) and ip_address(host).is_loopback)
 
 
 def listen(host: str, port: int | None) -> socket.socket:
-    """Return a socket that listens at `host`, a name or an address; OSError when it cannot.
+    """Return a socket that listens at `host`, a name or an address; raise OSError when it cannot.
 
-    `port` 0 takes any free one; None takes PORT or, when that is taken, a free one."""
+    Port 0 stands for any free port; None for DEFAULT_PORT or, when that is taken, any free port."""
     if port is None:
         try:
-            return listen(host, PORT)
+            return listen(host, DEFAULT_PORT)
         except OSError:
             return listen(host, 0)
     name = "127.0.0.1" if host.lower() == "localhost" else host
     family, _, _, _, address = socket.getaddrinfo(name, port, type=socket.SOCK_STREAM)[0]
-    both = name == "::" and socket.has_dualstack_ipv6()
-    return socket.create_server((str(address[0]), port), family=family, dualstack_ipv6=both, backlog=32)
+    dual_stack = name == "::" and socket.has_dualstack_ipv6()
+    return socket.create_server((str(address[0]), port), family=family, dualstack_ipv6=dual_stack, backlog=32)
 
 
 def url_host(host: str) -> str:
-    """Return the host as in a URL; for all addresses the one by which other machines reach this one."""
-    if host in EVERYWHERE:
+    """Return the host as in a URL; for a wildcard address, the one by which other machines reach this one."""
+    if host in ALL_ADDRESSES:
         host = _outward_address()
     return f"[{host}]" if ":" in host else host
 
 
 def _outward_address() -> str:
-    """Return this machine's address towards others; nothing is sent to find it."""
+    """Return the address by which other machines reach this one, found without sending anything."""
     with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
         try:
             probe.connect(("192.0.2.1", 9))

@@ -1,4 +1,6 @@
-"""Connections to the page: how long they may last, and the answer to one that does not speak HTTP."""
+"""Limits the duration of connections to the page, and answers those that do not speak HTTP.
+
+The two numbers were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -11,10 +13,10 @@ from typing import cast
 
 from aiohttp import web
 
-LONGEST = 30.0
-"""Time that a connection may last on which nobody watches, whatever it requests and however slowly it reads, s."""
-BACKLOG = 65_536
-"""Bytes that the system buffers for a slow reader: some seconds of frames."""
+MAX_UNWATCHED_TIME = 30.0
+"""Longest duration of a connection on which nobody watches, s; it does not depend on requests or reading speed."""
+SEND_BUFFER_SIZE = 65_536
+"""Size of the system's send buffer for a slow reader, bytes: some seconds of frames."""
 HEADERS = {
     "Content-Security-Policy": "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
     "connect-src 'self'; base-uri 'none'; frame-ancestors 'none'",
@@ -22,16 +24,17 @@ HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
     "Cache-Control": "no-store",
-    "Server": "solepath",  # else the library sends its version and that of Python
+    "Server": "solepath",  # without this the library sends its version and that of Python
 }
 
 
 class BrowserConnection(web.RequestHandler):
-    """A connection of a browser, with limits on its time.
+    """A connection of a browser, with limits on its duration.
 
-    `has_requested` says that it has sent a request. Before that, and after watching, it may last for `idle` s only."""
+    `has_requested` says that the browser has sent a request. Before that, and after watching, the connection may last
+    for another `idle` s only."""
 
-    __slots__ = ("has_requested", "_timers", "_idle", "_output", "_watches")
+    __slots__ = ("has_requested", "_timers", "_idle", "_output", "_is_watched")
 
     def __init__(self, server: web.Server, idle: float) -> None:
         silent = logging.getLogger("solepath.show.page.http")
@@ -41,10 +44,10 @@ class BrowserConnection(web.RequestHandler):
             loop=asyncio.get_running_loop(),
             keepalive_timeout=idle,
             lingering_time=0.0,
-            access_log=None,  # type: ignore[arg-type] # there is none
+            access_log=None,  # type: ignore[arg-type]
             logger=silent,
         )
-        self.has_requested = self._watches = False
+        self.has_requested = self._is_watched = False
         self._idle = idle
         self._timers: list[asyncio.TimerHandle] = []
         self._output: asyncio.WriteTransport | None = None
@@ -54,27 +57,27 @@ class BrowserConnection(web.RequestHandler):
         super().connection_made(transport)
         accepted = transport.get_extra_info("socket")
         if accepted is not None:
-            accepted.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, BACKLOG)
+            accepted.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, SEND_BUFFER_SIZE)
         self._output = cast(asyncio.WriteTransport, transport)
-        # the library ends only connections that have sent a request, and none in the middle of an answer
+        # the library itself never ends a connection without a request, nor one in the middle of an answer
         self._end_in(self._idle, unless_requested=True)
-        self._end_in(LONGEST)
+        self._end_in(MAX_UNWATCHED_TIME)
 
     def connection_lost(self, exc: BaseException | None) -> None:
         """Cancel the timers."""
-        for end in self._timers:
-            end.cancel()
+        for timer in self._timers:
+            timer.cancel()
         self._output = None
         super().connection_lost(exc)
 
     @contextmanager
     def watching(self) -> Iterator[None]:
-        """Let the connection last for as long as it likes within the context, in which a browser watches on it."""
-        self._watches = True
+        """Lift the limits on the duration within the context, in which a browser watches on the connection."""
+        self._is_watched = True
         try:
             yield
         finally:
-            self._watches = False
+            self._is_watched = False
             self._end_in(self._idle)
 
     def _end_in(self, seconds: float, unless_requested: bool = False) -> None:
@@ -82,13 +85,13 @@ class BrowserConnection(web.RequestHandler):
             self._timers.append(asyncio.get_running_loop().call_later(seconds, self._end, unless_requested))
 
     def _end(self, unless_requested: bool) -> None:
-        if self._output is not None and not self._watches and not (unless_requested and self.has_requested):
-            self._output.abort()  # close() would wait until all was read
+        if self._output is not None and not self._is_watched and not (unless_requested and self.has_requested):
+            self._output.abort()  # close() would wait until the browser has read everything
 
     def handle_error(
         self, request: web.BaseRequest, status: int = 500, exc: BaseException | None = None, message: str | None = None
     ) -> web.StreamResponse:
-        """Answer an error with a fixed text; the library's own answer repeats words of the sender."""
+        """Answer an error with a fixed text; the library's answer would repeat words of the sender."""
         if request.writer.output_size > 0:
             raise ConnectionError("a part of an answer was sent already")
         answer = web.Response(status=status, text="that cannot be answered\n", headers=HEADERS)
@@ -97,7 +100,7 @@ class BrowserConnection(web.RequestHandler):
 
 
 class ImmediateClose(asyncio.Protocol):
-    """Protocol that closes each connection at once."""
+    """A protocol that closes each connection at once."""
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         """Close the connection."""

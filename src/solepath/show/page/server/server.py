@@ -4,7 +4,7 @@
         print(page.url)
         ...                             # scene.take(packet, events), from the same event loop
 
-It needs aiohttp (the extra `view`)."""
+It needs aiohttp (the extra `view`). The limits below were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -25,28 +25,27 @@ from .client_errors import ClientErrors
 from .connection import HEADERS, BrowserConnection, ImmediateClose
 from .watcher import Watcher
 
-MOST_WATCHERS = 8
-MOST_CONNECTIONS = 64
-"""Connections at one time, with those that request files or nothing."""
-IDLE = 10.0
-"""Time after which a connection that requests nothing, or half of something, is closed, s."""
+MAX_WATCHERS = 8
+MAX_CONNECTIONS = 64
+"""Largest number of connections at one time, those of watchers included."""
+IDLE_TIMEOUT = 10.0
+"""Time after which a connection without a complete request is closed, s."""
 METHODS = ("GET", "HEAD")
-KINDS = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
+CONTENT_TYPES = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
 
 
 class Page:
     """Serves `scene` while the context lasts.
 
-    `host` is where it listens; on one that other machines reach, watchers need the token. `port` is 0 for any free one,
-    None for 8765 or, when that is taken, a free one. `token` is random when it is None. `commands` is called with each
-    command of a watcher who has the token; it is None where there is nothing to play.
+    `host` is where the page listens; if other machines can reach it, watchers need the token. `port` is 0 for any free
+    port; None for 8765 or, when that is taken, any free port. `token` is random when it is None. `commands` is called
+    with each command of a watcher who has the token; it is None where there is nothing to play.
 
-    A watcher gets the changes 1 to 30 times a second, less often when it reads slowly; there are at most MOST_WATCHERS.
-    `port` and `url` raise RuntimeError before the context is entered. The page is for one event loop, from which
-    `scene` also takes its events.
+    A watcher gets the changes 1 to 30 times a second, less often when it reads slowly; there are at most MAX_WATCHERS.
+    `port` and `url` raise RuntimeError before the context is entered. Page and `scene` are for one event loop.
 
-    `scene` may be replaced, as after a seek: every watcher gets the new one whole. Entering raises OSError when it
-    cannot listen there."""
+    `scene` may be replaced, as after a seek: every watcher gets the whole new scene. Entering the context raises
+    OSError when the page cannot listen at `host` and `port`."""
 
     def __init__(
         self,
@@ -70,14 +69,14 @@ class Page:
 
     @property
     def port(self) -> int:
-        """Port on which it listens."""
+        """Port on which the page listens."""
         if self._port is None:
             raise RuntimeError("the page is not served yet")
         return self._port
 
     @property
     def url(self) -> str:
-        """Address for a browser, with the token in the part that a browser does not send."""
+        """Address for a browser, with the token in the fragment, which a browser does not send."""
         return f"http://{url_host(self._host)}:{self.port}/#token={self._access.token}"
 
     async def __aenter__(self) -> Page:
@@ -97,10 +96,10 @@ class Page:
 
     def _connect(self) -> asyncio.BaseProtocol:
         """Return the protocol for a new connection."""
-        if self._server is None or len(self._server.connections) >= MOST_CONNECTIONS:
-            self.client_errors.report(f"more than {MOST_CONNECTIONS} connections at once: one is refused")
+        if self._server is None or len(self._server.connections) >= MAX_CONNECTIONS:
+            self.client_errors.report(f"more than {MAX_CONNECTIONS} connections at once: one is refused")
             return ImmediateClose()
-        return BrowserConnection(self._server, IDLE)
+        return BrowserConnection(self._server, IDLE_TIMEOUT)
 
     async def _answer(self, request: web.BaseRequest) -> web.StreamResponse:
         connection = cast(BrowserConnection, request.protocol)
@@ -124,11 +123,11 @@ class Page:
             return web.Response(status=500, headers=HEADERS)
 
     def _file(self, request: web.BaseRequest) -> web.Response:
-        found = self._files.get("index.html" if request.path == "/" else request.path.removeprefix("/"))
-        if found is None:
+        file = self._files.get("index.html" if request.path == "/" else request.path.removeprefix("/"))
+        if file is None:
             return web.Response(status=404, text="there is no such file\n", headers=HEADERS)
-        body, kind = found
-        return web.Response(body=body, content_type=kind, charset="utf-8", headers=HEADERS)
+        body, content_type = file
+        return web.Response(body=body, content_type=content_type, charset="utf-8", headers=HEADERS)
 
     async def _watched(self, request: web.BaseRequest, host: str) -> web.StreamResponse:
         if request.method != "GET":
@@ -136,10 +135,10 @@ class Page:
         if "Sec-WebSocket-Protocol" in request.headers:
             raise AccessDenied("somebody wants to speak another protocol", 400)
         self._access.check_origin(request.headers.getall("Origin", []), host)
-        steers = self._access.may_steer(request.query.getall("token", []))
-        if len(self._watchers) >= MOST_WATCHERS:
-            raise AccessDenied(f"more than {MOST_WATCHERS} browsers want to watch", 503)
-        watcher = Watcher(self, steers)
+        may_control = self._access.may_control(request.query.getall("token", []))
+        if len(self._watchers) >= MAX_WATCHERS:
+            raise AccessDenied(f"more than {MAX_WATCHERS} browsers want to watch", 503)
+        watcher = Watcher(self, may_control)
         self._watchers.add(watcher)
         try:
             return await watcher.watch(request)
@@ -148,10 +147,10 @@ class Page:
 
 
 def _files(folder: Traversable) -> dict[str, tuple[bytes, str]]:
-    """Return the files of the page by name, with content and content type; nothing else can be requested."""
-    found = {}
-    for one in folder.iterdir():
-        kind = KINDS.get(f".{one.name.rpartition('.')[2]}")
-        if kind is not None and one.is_file():
-            found[one.name] = (one.read_bytes(), kind)
-    return found
+    """Return content and content type of the page's files by name; nothing else can be requested."""
+    contents = {}
+    for file in folder.iterdir():
+        content_type = CONTENT_TYPES.get(f".{file.name.rpartition('.')[2]}")
+        if content_type is not None and file.is_file():
+            contents[file.name] = (file.read_bytes(), content_type)
+    return contents

@@ -1,4 +1,6 @@
-"""Serves one browser that watches: the newest state at most 30 times a second, at the pace at which it reads."""
+"""Sends a browser the newest state of the scene, at most 30 times a second and no faster than the browser reads.
+
+The times below were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -9,19 +11,19 @@ from typing import Any, Protocol
 
 from aiohttp import WSCloseCode, WSMsgType, web
 
-from ..messages import LONGEST, Command, CommandError, encode, parse_command
+from ..messages import MAX_MESSAGE_SIZE, Command, CommandError, encode, parse_command
 from ..scene.scene import Cursor, Scene
 from .access import AccessDenied
 from .client_errors import ClientErrors
 from .connection import HEADERS
 
-INTERVAL = 1.0 / 30.0
+FRAME_INTERVAL = 1.0 / 30.0
 """Mean time from one frame to the next, s."""
-HEARTBEAT = 1.0
-"""Longest time between two frames, s, so that a page knows that the server is there."""
-PATIENCE = 10.0
-"""Time for which a browser may read nothing, s."""
-ALIVE = 20.0
+MAX_FRAME_INTERVAL = 1.0
+"""Longest time between two frames, s; a page without frames for longer knows that the server is gone."""
+READ_TIMEOUT = 10.0
+"""Time after which a browser that reads nothing is disconnected, s."""
+PING_INTERVAL = 20.0
 """Time after which a browser that sends nothing gets a ping, s."""
 
 
@@ -34,22 +36,22 @@ class WatchedPage(Protocol):
 
 
 class Watcher:
-    """One browser that watches; `steers` says that it has shown the token."""
+    """The connection to one browser that watches; `may_control` says that the browser has sent the token."""
 
-    def __init__(self, page: WatchedPage, steers: bool) -> None:
+    def __init__(self, page: WatchedPage, may_control: bool) -> None:
         self._page = page
-        self._steers = steers
+        self._may_control = may_control
         self._socket = web.WebSocketResponse(
-            timeout=1.0, heartbeat=ALIVE, compress=False, max_msg_size=LONGEST + 1, autoclose=True
+            timeout=1.0, heartbeat=PING_INTERVAL, compress=False, max_msg_size=MAX_MESSAGE_SIZE + 1, autoclose=True
         )
         self._socket.headers.update(HEADERS)
         self._transport: asyncio.WriteTransport | None = None
         self._scene: Scene | None = None
-        """The scene that was sent, up to `_cursor`."""
+        """The scene of the last message; `_cursor` says how much of it was sent."""
         self._cursor: Cursor | None = None
 
     async def watch(self, request: web.BaseRequest) -> web.StreamResponse:
-        """Serve the browser from the handshake to the end; AccessDenied when the request is not for a WebSocket."""
+        """Serve the browser from the handshake to the end; raise AccessDenied if the request is not for a WebSocket."""
         try:
             await self._socket.prepare(request)
         except web.HTTPException:
@@ -58,24 +60,24 @@ class Watcher:
         if transport is None:
             return self._socket
         self._transport = transport
-        showing = asyncio.create_task(self._show(transport))
+        sending = asyncio.create_task(self._show(transport))
         try:
             await self._listen()
         finally:
-            showing.cancel()
-            await asyncio.gather(showing, return_exceptions=True)
+            sending.cancel()
+            await asyncio.gather(sending, return_exceptions=True)
         return self._socket
 
     async def end(self) -> None:
-        """Send what has changed since the last frame, then close: the page is going away."""
+        """Send what has changed since the last frame, then close the connection, since the page ends."""
         try:
             async with asyncio.timeout(1.0):
                 if self._unread():
                     self._abort()
                 else:
-                    news = self._next()
-                    if news is not None:
-                        await self._socket.send_str(encode(news))
+                    message = self._next()
+                    if message is not None:
+                        await self._socket.send_str(encode(message))
                     await self._socket.close(code=WSCloseCode.GOING_AWAY, message=b"ended")
         except (TimeoutError, ConnectionError):
             self._abort()
@@ -84,7 +86,7 @@ class Watcher:
         try:
             await self._show_all(transport)
         except TimeoutError:
-            self._page.client_errors.report(f"a browser that had read nothing for {PATIENCE:.0f} s was let go")
+            self._page.client_errors.report(f"a browser that had read nothing for {READ_TIMEOUT:.0f} s was let go")
             self._abort()
         except ConnectionError:
             self._abort()
@@ -93,39 +95,39 @@ class Watcher:
             self._abort()
 
     async def _show_all(self, transport: asyncio.WriteTransport) -> None:
-        """Send frames until the socket closes; TimeoutError when the browser does not read."""
+        """Send frames until the socket closes; raise TimeoutError when the browser does not read."""
         loop = asyncio.get_running_loop()
         sent = due = loop.time()
         while not self._socket.closed:
             now = loop.time()
             if self._unread():
-                if now - sent > PATIENCE:
+                if now - sent > READ_TIMEOUT:
                     raise TimeoutError
             else:
                 message = self._next()
-                if message is None and now - sent >= HEARTBEAT:
-                    message = self._page.scene.heartbeat()
+                if message is None and now - sent >= MAX_FRAME_INTERVAL:
+                    message = self._page.scene.heartbeat_message()
                 if message is not None:
-                    async with asyncio.timeout(PATIENCE):
+                    async with asyncio.timeout(READ_TIMEOUT):
                         await self._socket.send_str(encode(message))
                     sent = loop.time()
-            due = max(due + INTERVAL, loop.time())  # a sleep that lasts too long does not delay later frames
+            due = max(due + FRAME_INTERVAL, loop.time())  # a sleep that was too long does not delay later frames
             await asyncio.sleep(due - loop.time())
 
     def _next(self) -> dict[str, Any] | None:
         """Return the next message; None when nothing has changed."""
         newest, message = self._page.scene, None
         if self._cursor is None or newest is not self._scene:
-            message, self._cursor = newest.whole()
+            message, self._cursor = newest.whole_message()
         else:
-            message, self._cursor = newest.since(self._cursor)
+            message, self._cursor = newest.message_since(self._cursor)
         self._scene = newest
         if message is not None and message["type"] == "scene":
-            message["control"] = self._steers and self._page.commands is not None
+            message["control"] = self._may_control and self._page.commands is not None
         return message
 
     def _unread(self) -> bool:
-        """Return whether data is still in the buffer because the browser has not read what came before."""
+        """Return whether the send buffer still holds data that the browser has not read."""
         transport = self._transport
         return transport is not None and transport.get_write_buffer_size() > 0
 
@@ -137,28 +139,28 @@ class Watcher:
         client_errors = self._page.client_errors
         async for message in self._socket:
             if message.type is WSMsgType.TEXT:
-                wrong = self._take(message.data)
+                fault = self._take(message.data)
             elif message.type is WSMsgType.BINARY:
-                wrong = WSCloseCode.UNSUPPORTED_DATA, "a browser sent bytes instead of text"
+                fault = WSCloseCode.UNSUPPORTED_DATA, "a browser sent bytes instead of text"
             else:
                 code = getattr(message.data, "code", None)  # the code with which the library has closed the connection
                 if code in CLOSED_BY_LIBRARY:
                     client_errors.report(CLOSED_BY_LIBRARY[code])
                 return
-            if wrong is not None:
-                code, why = wrong
-                client_errors.report(why)
-                await self._socket.close(code=code, message=why.encode()[:120])
+            if fault is not None:
+                code, reason = fault
+                client_errors.report(reason)
+                await self._socket.close(code=code, message=reason.encode()[:120])
                 return
 
     def _take(self, text: str) -> tuple[int, str] | None:
-        """Execute a message of the page; return the close code and reason when it is wrong, else None."""
+        """Execute a message of the page; return close code and reason if it is not allowed or malformed, else None."""
         try:
             command = parse_command(text)
         except CommandError as error:
             code = WSCloseCode.POLICY_VIOLATION if error.is_json else WSCloseCode.INVALID_TEXT
             return code, f"{error}: its connection is closed"
-        if not self._steers:
+        if not self._may_control:
             return WSCloseCode.POLICY_VIOLATION, f"a browser without the token wants to {command.do}"
         if self._page.commands is None:
             return WSCloseCode.POLICY_VIOLATION, f"a browser wants to {command.do}, and there is nothing to play"
@@ -171,4 +173,4 @@ CLOSED_BY_LIBRARY: dict[int | None, str] = {
     WSCloseCode.INVALID_TEXT: "a browser sent text that is not UTF-8",
     WSCloseCode.MESSAGE_TOO_BIG: "a browser sent more than a message may hold",
 }
-"""Close code, with the error that it means, of connections that the library closed before a message was whole."""
+"""Error that each close code means, for connections that the library closed before a message was complete."""

@@ -1,6 +1,6 @@
-"""Axes for a drawing: ticks at round numbers, a scale from values to pixels, a chart with both.
+"""Draws the axes of a figure: ticks at round numbers, a scale from values to px, a chart with both.
 
-A drawing is 400 px wide and scales with the page: two stand side by side on a desk, one on a phone."""
+A drawing is 400 px wide and scales with the page: two are side by side on a desktop screen, one on a phone."""
 
 from __future__ import annotations
 
@@ -21,13 +21,15 @@ Point = tuple[float, float]
 
 
 def ticks(low: float, high: float, most: int = 6) -> list[float]:
-    """Return at most so many multiples of 1, 2 or 5 times a power of ten within [low, high]; at least one value."""
+    """Return evenly spaced round values within [low, high], at most `most` but at least one.
+
+    Their spacing is 1, 2 or 5 times a power of ten."""
     span = high - low
     if not (isfinite(span) and span > 1e-9 * max(abs(low), abs(high), 1e-300)):
         return [low]
     power = 10.0 ** floor(log10(span / most))
-    for times in (1.0, 2.0, 5.0, 10.0, 20.0):
-        step = times * power
+    for multiple in (1.0, 2.0, 5.0, 10.0, 20.0):
+        step = multiple * power
         first, last = ceil(low / step - 1e-9), floor(high / step + 1e-9)
         if last - first < most:
             return [k * step for k in range(first, last + 1)] or [low]
@@ -35,7 +37,7 @@ def ticks(low: float, high: float, most: int = 6) -> list[float]:
 
 
 def tick_labels(values: Sequence[float]) -> list[str]:
-    """Return labels of ticks, all with as many digits as it takes to distinguish them."""
+    """Return labels of ticks, all with the least number of digits that distinguishes them."""
     if len(values) < 2:
         return [f"{value:.3g}" for value in values]
     step = abs(values[1] - values[0])
@@ -43,21 +45,23 @@ def tick_labels(values: Sequence[float]) -> list[str]:
     return [f"{value if abs(value) > 1e-9 * step else 0.0:.{digits}f}" for value in values]
 
 
-def around(values: Iterable[float], *, least: float, zero: bool = False) -> tuple[float, float]:
-    """Return the lowest and the highest value with a margin, at least `least` apart; with `zero`, 0 is among them."""
+def padded_range(values: Iterable[float], *, least: float, zero: bool = False) -> tuple[float, float]:
+    """Return the ends of an axis: the lowest and the highest value with a margin, at least `least` apart.
+
+    With `zero`, 0 is within them."""
     known = list(values)
     low, high = min(known, default=0.0), max(known, default=0.0)
     if zero:
         low, high = min(low, 0.0), max(high, 0.0)
     missing = max(least - (high - low), 0.0)
-    room = 0.06 * (high - low + missing)
-    low, high = low - 0.5 * missing - room, high + 0.5 * missing + room
+    margin = 0.06 * (high - low + missing)
+    low, high = low - 0.5 * missing - margin, high + 0.5 * missing + margin
     return (max(low, 0.0) if zero and min(known, default=0.0) >= 0.0 else low), high
 
 
 @frozen
 class AxisScale:
-    """Linear scale from values to pixels."""
+    """A linear scale from values, `low` to `high`, to positions, `start` to `end` in px."""
 
     low: float
     high: float
@@ -65,7 +69,7 @@ class AxisScale:
     end: float
 
     def at(self, value: float) -> float:
-        """Return the pixel of a value."""
+        """Return the position of a value, px."""
         span = self.high - self.low
         return self.start if span <= 0.0 else self.start + (value - self.low) / span * (self.end - self.start)
 
@@ -73,7 +77,8 @@ class AxisScale:
 def drawing(name: str, title: str, what: str, height: float) -> Element:
     """Return an empty <svg>.
 
-    `name` is its own on the page; `title` and `what` are for readers who cannot see it."""
+    `name` is unique on the page; a screen reader reads `title` and the description `what` to those who cannot see it.
+    """
     svg = Element("svg", {"viewBox": f"0 0 {px(WIDTH)} {px(height)}", "role": "img"})
     svg.set("aria-labelledby", f"{name}-title {name}-what")
     add(svg, "title", title, id=f"{name}-title")
@@ -82,29 +87,29 @@ def drawing(name: str, title: str, what: str, height: float) -> Element:
 
 
 def write(parent: Element, x: float, y: float, words: str, kind: str = "", anchor: str = "start") -> Element:
-    """Write words at a place; `kind` holds classes of the style sheet."""
+    """Write words at (x, y), px; `kind` holds classes of the style sheet."""
     return add(parent, "text", words, x=px(x), y=px(y), class_=kind, text_anchor=anchor)
 
 
 def line(points: Iterable[Point]) -> str:
-    """Return a path through the points, without those that would not be seen."""
+    """Return an SVG path through the points, px; a point at the same px as the last one is left out."""
     commands: list[str] = []
     last: tuple[str, str] | None = None
     for x, y in points:
-        here = (px(x), px(y))
-        if here != last:
-            commands.append(f"{'L' if commands else 'M'}{here[0]} {here[1]}")
-            last = here
+        rounded_point = (px(x), px(y))
+        if rounded_point != last:
+            commands.append(f"{'L' if commands else 'M'}{rounded_point[0]} {rounded_point[1]}")
+            last = rounded_point
     return "".join(commands) if len(commands) != 1 else f"{commands[0]}h0"
 
 
 def marks(points: Iterable[Point], shape: str) -> str:
-    """Return one path with the same shape at every point."""
+    """Return one SVG path with the same shape at every point, px."""
     return "".join([f"M{px(x)} {px(y)}{shape}" for x, y in points])
 
 
 def grid(svg: Element, x: AxisScale, y: AxisScale, across: Sequence[float], up: Sequence[float]) -> Element:
-    """Draw a grid at these values of x and y, with the values beside the axes; return its path."""
+    """Draw a grid at the values `across` of x and `up` of y, with labels beside the axes; return its path."""
     path = add(svg, "path", class_="grid")
     lines = []
     for value, words in zip(across, tick_labels(across), strict=True):
@@ -119,7 +124,7 @@ def grid(svg: Element, x: AxisScale, y: AxisScale, across: Sequence[float], up: 
 
 @define
 class Chart:
-    """A drawing with two axes; `x` and `y` transform values to its pixels."""
+    """A drawing with two axes; `x` and `y` transform values to px."""
 
     svg: Element
     x: AxisScale
@@ -129,23 +134,23 @@ class Chart:
     def of(
         cls, svg: Element, x: tuple[float, float], y: tuple[float, float], labels: tuple[str, str], height: float
     ) -> Chart:
-        """Make a chart with a grid and labels; that of y stands above the axis."""
-        made = cls(svg, AxisScale(*x, LEFT, WIDTH - RIGHT), AxisScale(*y, height - BOTTOM, TOP))
-        grid(svg, made.x, made.y, ticks(*x, 6), ticks(*y, 5))
+        """Make a chart with a grid and labels from the ranges of its axes; the label of y is above its axis."""
+        chart = cls(svg, AxisScale(*x, LEFT, WIDTH - RIGHT), AxisScale(*y, height - BOTTOM, TOP))
+        grid(svg, chart.x, chart.y, ticks(*x, 6), ticks(*y, 5))
         write(svg, 0.5 * (LEFT + WIDTH - RIGHT), height - 5.0, labels[0], "label", "middle")
         write(svg, 2.0, 12.0, labels[1], "label")
-        return made
+        return chart
 
     def at(self, x: float, y: float) -> Point:
-        """Return the pixel of a point."""
+        """Return the position of a point, px."""
         return self.x.at(x), self.y.at(y)
 
     def path(self, points: Iterable[Point], kind: str) -> None:
-        """Draw a line through the values."""
+        """Draw a line through points, in values of the axes."""
         if d := line([self.at(x, y) for x, y in points]):
             add(self.svg, "path", d=d, class_=kind)
 
     def marks(self, points: Iterable[Point], shape: str, kind: str) -> None:
-        """Draw the same shape at every value."""
+        """Draw the same shape at every point, in values of the axes."""
         if d := marks([self.at(x, y) for x, y in points], shape):
             add(self.svg, "path", d=d, class_=kind)

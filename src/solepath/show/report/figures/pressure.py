@@ -1,4 +1,6 @@
-"""Draws the load of the soles: maps with the path of the centre of pressure, and the force over a contact."""
+"""Draws the load of the soles: maps with the path of the centre of pressure, and the force over a contact.
+
+A contact is the time from heel-strike to toe-off."""
 
 from __future__ import annotations
 
@@ -9,32 +11,32 @@ from ....types import Foot, Layout
 from ...tables.plan import blend, px
 from ..markup import add, figure, table
 from ..soles import STATIONS, ReportSole
-from .axes import Chart, around, drawing, line, write
+from .axes import Chart, drawing, line, padded_range, write
 from .stride import legend
 
 SHADES = ("#fff7e0", "#fee0a0", "#fdbb6b", "#f98b4a", "#e8562f", "#c0241f", "#7d0b1e")
-"""Colours from no load to the highest: darker is more, on a grey printer too."""
-TALL = 250.0
-"""Height of a sole, px."""
+"""Colours from no load to the highest; a higher load is darker, also on a black-and-white printer."""
+SOLE_HEIGHT = 250.0
+"""Height of the drawing of a sole, px."""
 THIRDS = ("heel", "midfoot", "forefoot")
 
 
 def pressure_figures(parent: Element, soles: dict[Foot, ReportSole]) -> bool:
-    """Draw maps and curves of what is known; return False when there is no pressure."""
+    """Draw the maps and curves for which there is data; return False when there is no pressure."""
     pressed = {foot: soles[foot] for foot in Foot if foot in soles and soles[foot].samples}
     if not pressed:
         return False
     walked = {foot: sole for foot, sole in pressed.items() if sole.contacts}
     if walked:
-        maps = {foot: layout for foot, sole in walked.items() if (layout := sole.mapped)}
-        means = {foot: [v / walked[foot].contacts for v in walked[foot].means] for foot in maps}
-        peaks = {foot: [v / walked[foot].contacts for v in walked[foot].peaks] for foot in maps}
+        maps = {foot: layout for foot, sole in walked.items() if (layout := sole.drawable_layout)}
+        means = {foot: [v / walked[foot].contacts for v in walked[foot].mean_sums] for foot in maps}
+        peaks = {foot: [v / walked[foot].contacts for v in walked[foot].peak_sums] for foot in maps}
         _map(parent, "mean", "Mean load of a contact", walked, maps, means, paths=True)
         _map(parent, "peak", "Peak load of a contact", walked, maps, peaks, paths=False)
         _forces(parent, walked)
     else:
-        maps = {foot: layout for foot, sole in pressed.items() if (layout := sole.mapped)}
-        means = {foot: [v / pressed[foot].samples for v in pressed[foot].standing] for foot in maps}
+        maps = {foot: layout for foot, sole in pressed.items() if (layout := sole.drawable_layout)}
+        means = {foot: [v / pressed[foot].samples for v in pressed[foot].cell_sums] for foot in maps}
         _map(parent, "standing", "Mean load of the whole recording", pressed, maps, means, paths=False)
         add(parent, "p", "No whole stride was walked: the loads are means over the whole recording.")
     if maps:
@@ -54,7 +56,7 @@ def _unit(soles: dict[Foot, ReportSole]) -> str:
 
 
 def radius(layout: Layout) -> float:
-    """Return the largest radius of a drawn cell that does not hide its neighbours, m."""
+    """Return the radius of a drawn cell, m: such that most cells just touch, within 2 and 20 mm."""
     places = [(cell.x, cell.y) for cell in layout.cells]
     if len(places) < 2:
         return 0.01
@@ -84,33 +86,35 @@ def _map(
         x = maps[foot].cells[k].x / max(maps[foot].length, 1e-6)
         load = f"{values[k]:.3g} {soles[foot].unit} a cell"
         texts.append(f"{foot}: highest {load}, at {100.0 * x:.0f} % of the length from the heel")
-    svg = drawing(f"pressure-{name}", title, f"{'; '.join(texts)}.", TALL + 66.0)
+    svg = drawing(f"pressure-{name}", title, f"{'; '.join(texts)}.", SOLE_HEIGHT + 66.0)
     for foot, layout in maps.items():
         shares = [load / highest if highest > 0.0 else 0.0 for load in loads[foot]]
         _sole(svg, foot, layout, shares, soles[foot] if paths else None)
-    y = TALL + 40.0
+    y = SOLE_HEIGHT + 40.0
     for k in range(30):
         add(svg, "rect", x=px(110.0 + 6.0 * k), y=px(y), width="6.4", height="9", fill=blend(SHADES, k / 29.0))
     write(svg, 104.0, y + 9.0, "0", "tick", "end")
     write(svg, 296.0, y + 9.0, f"{highest:.3g} {unit} a cell", "tick")
-    notes = [f"{one[0].upper()}{one[1:]}." for one in texts]
+    notes = [f"{text[0].upper()}{text[1:]}." for text in texts]
     if paths:
         notes.append("Line: mean path of the centre of pressure, from heel-strike (ring) on; thin: single steps.")
     figure(parent, svg, title, *notes)
 
 
 def _sole(svg: Element, foot: Foot, layout: Layout, shares: list[float], walked: ReportSole | None) -> None:
-    """Draw a sole seen from above, the toe up.
+    """Draw a sole seen from above, with the toe up.
 
-    `shares` are the loads over the highest one. `walked` is the sole whose paths are drawn on it."""
+    `shares` are the loads relative to the highest load. `walked` is the sole whose paths are drawn; None for none."""
     middle = 110.0 if foot is Foot.LEFT else 290.0
     xs, ys = [cell.x for cell in layout.cells], [cell.y for cell in layout.cells]
     r = radius(layout)
-    scale = min((TALL - 10.0) / max(max(xs) - min(xs) + 2.0 * r, 1e-3), 150.0 / max(max(ys) - min(ys) + 2.0 * r, 1e-3))
+    scale = min(
+        (SOLE_HEIGHT - 10.0) / max(max(xs) - min(xs) + 2.0 * r, 1e-3), 150.0 / max(max(ys) - min(ys) + 2.0 * r, 1e-3)
+    )
     centre_x, centre_y = 0.5 * (min(xs) + max(xs)), 0.5 * (min(ys) + max(ys))
 
     def at(x: float, y: float) -> tuple[float, float]:
-        return middle - (y - centre_y) * scale, 26.0 + 0.5 * TALL - (x - centre_x) * scale
+        return middle - (y - centre_y) * scale, 26.0 + 0.5 * SOLE_HEIGHT - (x - centre_x) * scale
 
     write(svg, middle, 14.0, foot.value, "label", "middle")
     cells = add(svg, "g", class_="cells")
@@ -129,13 +133,13 @@ def _sole(svg: Element, foot: Foot, layout: Layout, shares: list[float], walked:
 
 
 def _forces(parent: Element, soles: dict[Foot, ReportSole]) -> None:
-    curves = {foot: [force / sole.contacts for force in sole.forces] for foot, sole in soles.items()}
+    curves = {foot: [force / sole.contacts for force in sole.force_sums] for foot, sole in soles.items()}
     unit = _unit(soles)
     texts = [f"{foot}: at most {max(curve):.0f} {soles[foot].unit}" for foot, curve in curves.items()]
     svg = drawing("force", "Mean force over a contact", f"{'; '.join(texts)}.", 190.0)
     values = [value for curve in curves.values() for value in curve]
     labels = ("% of the contact, from heel-strike to toe-off", f"sum of the cells, {unit}")
-    chart = Chart.of(svg, (0.0, 100.0), around(values, least=1.0, zero=True), labels, 190.0)
+    chart = Chart.of(svg, (0.0, 100.0), padded_range(values, least=1.0, zero=True), labels, 190.0)
     for foot, curve in curves.items():
         chart.path([(100.0 * k / (STATIONS - 1), value) for k, value in enumerate(curve)], f"line {foot}")
     legend(svg, list(curves), lines=True)
@@ -144,7 +148,7 @@ def _forces(parent: Element, soles: dict[Foot, ReportSole]) -> None:
 
 
 def _thirds(parent: Element, maps: dict[Foot, Layout], loads: dict[Foot, list[float]]) -> None:
-    """Add a table of the load's shares on the thirds of the insole's length."""
+    """Add a table of the load's shares, %, on the thirds of the insole's length."""
     rows = []
     for k, name in enumerate(THIRDS):
         row = [f"{name} third, %"]

@@ -1,4 +1,4 @@
-"""Draws stride length, stride time and speed of each foot over time."""
+"""Draws stride length, stride time and speed of each foot over time. Limits were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -10,90 +10,94 @@ from ....types import Foot
 from ...tables.plan import px
 from ..clock import ReportClock
 from ..markup import add, figure
-from .axes import Chart, around, drawing, write
+from .axes import Chart, drawing, padded_range, write
 
 HEIGHT = 190.0
-DISC, CROSS = "h0", "m-2.6-2.6l5.2 5.2m0-5.2l-5.2 5.2"
-"""Marks of the left and the right foot, which differ without colours too."""
-SHAPES = {Foot.LEFT: DISC, Foot.RIGHT: CROSS}
-DENSE = 240
+DISC_MARK, CROSS_MARK = "h0", "m-2.6-2.6l5.2 5.2m0-5.2l-5.2 5.2"
+"""SVG shapes of the marks of the left and the right foot, which differ also without colours."""
+FOOT_MARKS = {Foot.LEFT: DISC_MARK, Foot.RIGHT: CROSS_MARK}
+MAX_SINGLE_MARKS = 240
 """Number of strides of a foot above which its marks would hide one another."""
-TURNED = 0.35
-"""Turn above which a stride is marked as one in a turn, rad (20 degrees)."""
-
-
-LEAST = 0.2
-"""Smallest range of an axis, in its unit."""
+MIN_TURN = 0.35
+"""Turning angle, either way, above which a stride is marked as one in a turn, rad (20 degrees)."""
+MIN_RANGE = 0.2
+"""Smallest range of the y axis, in its unit."""
 PANELS = (("stride_length", "Stride length", "m"), ("stride_time", "Stride time", "s"), ("speed", "Speed", "m/s"))
 
 
 def stride_figures(parent: Element, strides: dict[Foot, list[GaitCycleMeasured]], clock: ReportClock) -> bool:
-    """Draw a chart for each of the three; return False when there are no strides."""
+    """Draw a chart for each of PANELS; return False when there are no strides."""
     if not any(strides.values()):
         return False
     for name, title, unit in PANELS:
-        known = {
-            foot: [(one, getattr(one, name)) for one in some if getattr(one, name) is not None]
-            for foot, some in strides.items()
+        values = {
+            foot: [(stride, getattr(stride, name)) for stride in foot_strides if getattr(stride, name) is not None]
+            for foot, foot_strides in strides.items()
         }
-        if any(known.values()):
-            _panel(parent, title, unit, known, clock)
-    every = [one for some in strides.values() for one in some]
-    notes = ["faint, strides that do not count in the table"] if any(not one.steady for one in every) else []
-    notes += ["ticks at the bottom, strides in a turn"] if any(map(turns, every)) else []
-    notes += ["ticks at the top, samples missing or saturated"] if any(one.degraded for one in every) else []
-    notes += ["lines, means"] if any(map(dense, strides.values())) else []
+        if any(values.values()):
+            _panel(parent, title, unit, values, clock)
+    all_strides = [stride for foot_strides in strides.values() for stride in foot_strides]
+    notes = ["faint, strides that do not count in the table"] if any(not one.steady for one in all_strides) else []
+    notes += ["ticks at the bottom, strides in a turn"] if any(map(is_in_turn, all_strides)) else []
+    notes += ["ticks at the top, samples missing or saturated"] if any(one.degraded for one in all_strides) else []
+    notes += ["lines, means"] if any(map(is_dense, strides.values())) else []
     if notes:
         add(parent, "p", f"In the figures of strides: {'; '.join(notes)}.", class_="note")
     return True
 
 
-def turns(one: GaitCycleMeasured) -> bool:
+def is_in_turn(stride: GaitCycleMeasured) -> bool:
     """Return whether a stride is marked as one in a turn."""
-    return one.turning_angle is not None and abs(one.turning_angle) > TURNED
+    return stride.turning_angle is not None and abs(stride.turning_angle) > MIN_TURN
 
 
-def dense(some: Sequence[object]) -> bool:
-    """Return whether the marks of so many strides would hide one another."""
-    return len(some) > DENSE
+def is_dense(strides: Sequence[object]) -> bool:
+    """Return whether there are so many strides that their marks would hide one another."""
+    return len(strides) > MAX_SINGLE_MARKS
 
 
-def means(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Return means of as many consecutive points as give some 60 points in all."""
-    count = max(len(points) // 60, 1)
-    groups = [points[k : k + count] for k in range(0, len(points), count)]
-    return [(sum([x for x, _ in one]) / len(one), sum([y for _, y in one]) / len(one)) for one in groups]
+def group_means(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    """Return the mean points of groups of consecutive points; there are some 60 groups, or one for each point."""
+    size = max(len(points) // 60, 1)
+    groups = [points[k : k + size] for k in range(0, len(points), size)]
+    return [(sum([x for x, _ in group]) / len(group), sum([y for _, y in group]) / len(group)) for group in groups]
 
 
 def _panel(
-    parent: Element, title: str, unit: str, known: dict[Foot, list[tuple[GaitCycleMeasured, float]]], clock: ReportClock
+    parent: Element, title: str, unit: str, pairs: dict[Foot, list[tuple[GaitCycleMeasured, float]]], clock: ReportClock
 ) -> None:
-    values = [value for some in known.values() for _, value in some]
+    """Draw one parameter over time from pairs (stride, value)."""
+    values = [value for foot_pairs in pairs.values() for _, value in foot_pairs]
     what = f"{title} of every stride over time: {len(values)} strides, {min(values):.2f} to {max(values):.2f} {unit}."
     svg = drawing(f"stride-{title.split()[-1].lower()}", f"{title} over time", what, HEIGHT)
-    if any(map(dense, known.values())):
+    if any(map(is_dense, pairs.values())):
         svg.set("class", "dense")
-    chart = Chart.of(svg, clock.span, around(values, least=LEAST), (clock.label, f"{title.lower()}, {unit}"), HEIGHT)
-    for foot, some in known.items():
-        for counted in (False, True):
-            points = [(clock.of(one.t), value) for one, value in some if one.steady is counted]
-            chart.marks(points, SHAPES[foot], f"mark {foot}{'' if counted else ' faint'}")
-        if dense(some):
-            chart.path(means([(clock.of(one.t), value) for one, value in some if one.steady]), f"line {foot}")
-    every = [pair for some in known.values() for pair in some]
-    turning = [clock.of(one.t) for one, _ in every if turns(one)]
+    chart = Chart.of(
+        svg, clock.span, padded_range(values, least=MIN_RANGE), (clock.label, f"{title.lower()}, {unit}"), HEIGHT
+    )
+    for foot, foot_pairs in pairs.items():
+        for steady in (False, True):
+            points = [(clock.axis_value(stride.t), value) for stride, value in foot_pairs if stride.steady is steady]
+            chart.marks(points, FOOT_MARKS[foot], f"mark {foot}{'' if steady else ' faint'}")
+        if is_dense(foot_pairs):
+            chart.path(
+                group_means([(clock.axis_value(stride.t), value) for stride, value in foot_pairs if stride.steady]),
+                f"line {foot}",
+            )
+    all_pairs = [pair for foot_pairs in pairs.values() for pair in foot_pairs]
+    turning = [clock.axis_value(stride.t) for stride, _ in all_pairs if is_in_turn(stride)]
     if turning:
         bottom = chart.y.start
         add(svg, "path", class_="turn", d="".join([f"M{px(chart.x.at(t))} {px(bottom)}v-7" for t in turning]))
-    degraded = [clock.of(one.t) for one, _ in every if one.degraded]
+    degraded = [clock.axis_value(stride.t) for stride, _ in all_pairs if stride.degraded]
     if degraded:
         add(svg, "path", class_="missing", d="".join([f"M{px(chart.x.at(t))} {px(chart.y.end)}v5" for t in degraded]))
-    legend(svg, [foot for foot in Foot if known.get(foot)])
+    legend(svg, [foot for foot in Foot if pairs.get(foot)])
     figure(parent, svg, f"{title} over time")
 
 
 def legend(svg: Element, feet: Sequence[Foot], *, lines: bool = False) -> None:
-    """Draw which mark or line is of which foot, above a chart at the right: left solid, right dashed."""
+    """Draw the mark or, with `lines`, the line of each foot above a chart, at its right end."""
     x = 390.0
     for foot in reversed(feet):
         write(svg, x, 12.0, foot.value, "tick", "end")
@@ -102,5 +106,5 @@ def legend(svg: Element, feet: Sequence[Foot], *, lines: bool = False) -> None:
             add(svg, "path", class_=f"line {foot}", d=f"M{px(x - 20.0)} 8h20")
             x -= 30.0
         else:
-            add(svg, "path", class_=f"mark {foot}", d=f"M{px(x)} 8{SHAPES[foot]}")
+            add(svg, "path", class_=f"mark {foot}", d=f"M{px(x)} 8{FOOT_MARKS[foot]}")
             x -= 12.0

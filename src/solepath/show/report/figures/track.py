@@ -1,4 +1,6 @@
-"""Draws the wearer's track from above, on the floor plan when there is one, and its height."""
+"""Draws the wearer's track from above, on the floor plan when there is one, and the height of the feet.
+
+Sizes and limits were chosen by hand and not swept."""
 
 from __future__ import annotations
 
@@ -14,91 +16,95 @@ from ....types import Foot
 from ...tables.plan import PlanPicture, px
 from ..clock import ReportClock
 from ..markup import add, figure
-from .axes import WIDTH, AxisScale, Chart, Point, around, drawing, grid, line, marks, tick_labels, ticks, write
-from .stride import SHAPES, legend
+from .axes import WIDTH, AxisScale, Chart, Point, drawing, grid, line, marks, padded_range, tick_labels, ticks, write
+from .stride import FOOT_MARKS, legend
 
-PRINTS = 160
-"""Footprints that are drawn at the most: more would hide the track."""
-TALLEST = 420.0
+MAX_FOOTPRINTS = 160
+"""Largest number of footprints, the positions of foot-flats, that are drawn; more would hide the track."""
+MAX_HEIGHT = 420.0
 """Largest height of the drawing of a track, px."""
-BESIDE = 1.2
-"""Largest distance of a stride's foot from the wearer's track, m; more means that the feet's tracks drift apart."""
-SMALLEST = 4.0
-"""Length that the longer side shows at least, m, so that standing still is not magnified."""
+MAX_OFFSET = 1.2
+"""Largest distance of a footprint from the wearer's track, m; beyond it the feet's tracks drift apart."""
+MIN_EXTENT = 4.0
+"""Least width that the drawing shows, m, so that standing still is not magnified."""
 
 
 TimedPosition = FootMoved | StrideTaken | WearerMoved
-"""Event with a position of a foot or the wearer, and its time."""
+"""Event with the position of a foot or the wearer, world frame, m."""
 FootPositions = Mapping[Foot, Sequence[TimedPosition]]
 
 
-def track_figure(parent: Element, track: Sequence[TimedPosition], prints: FootPositions, clock: ReportClock) -> bool:
+def track_figure(
+    parent: Element, track: Sequence[TimedPosition], footprints: FootPositions, clock: ReportClock
+) -> bool:
     """Draw the track from above, x to the right and y up; return False when there is none.
 
-    `track` is the wearer's, or a foot's where only feet are known. `prints` is where the feet stood."""
-    few = sum([len(some) for some in prints.values()]) <= PRINTS
-    off = _largest_offset(track, prints)
-    beside = few and off <= BESIDE
-    every = [*track, *(one for some in prints.values() for one in some if beside)]
+    `track` is the wearer's, or a foot's where only feet are known."""
+    is_few = sum([len(prints) for prints in footprints.values()]) <= MAX_FOOTPRINTS
+    offset = _largest_offset(track, footprints)
+    shows_footprints = is_few and offset <= MAX_OFFSET
+    shown = [*track, *(event for prints in footprints.values() for event in prints if shows_footprints)]
     if len(track) < 2:
         return False
-    xs, ys = [one.position[0] for one in every], [one.position[1] for one in every]
+    xs, ys = [event.position[0] for event in shown], [event.position[1] for event in shown]
     across, up = max(xs) - min(xs), max(ys) - min(ys)
-    room = max(0.06 * max(across, up), 0.4)
+    margin = max(0.06 * max(across, up), 0.4)
     middle = 0.5 * (min(xs) + max(xs)), 0.5 * (min(ys) + max(ys))
-    wide = max(across + 2.0 * room, SMALLEST)
+    width_m = max(across + 2.0 * margin, MIN_EXTENT)
     top, left, right, bottom = 10.0, 34.0, 8.0, 34.0
-    inner = WIDTH - left - right
-    high = max(up + 2.0 * room, 0.34 * wide)
-    scale = min(inner / wide, (TALLEST - top - bottom) / high)
-    wide, height = inner / scale, high * scale + top + bottom
-    x = AxisScale(middle[0] - 0.5 * wide, middle[0] + 0.5 * wide, left, WIDTH - right)
-    y = AxisScale(middle[1] - 0.5 * high, middle[1] + 0.5 * high, height - bottom, top)
-    length = sum([_apart(a, b) for a, b in zip(track, track[1:], strict=False)])
+    inner_width = WIDTH - left - right
+    height_m = max(up + 2.0 * margin, 0.34 * width_m)
+    scale = min(inner_width / width_m, (MAX_HEIGHT - top - bottom) / height_m)
+    width_m, height = inner_width / scale, height_m * scale + top + bottom
+    x = AxisScale(middle[0] - 0.5 * width_m, middle[0] + 0.5 * width_m, left, WIDTH - right)
+    y = AxisScale(middle[1] - 0.5 * height_m, middle[1] + 0.5 * height_m, height - bottom, top)
+    length = sum([_distance(a, b) for a, b in zip(track, track[1:], strict=False)])
     what = f"The track from above, {across:.1f} m by {up:.1f} m, {length:.0f} m long as drawn."
     svg = drawing("track", "Track from above", what, height)
     _grid(svg, x, y)
 
-    def at(one: TimedPosition) -> Point:
-        return x.at(one.position[0]), y.at(one.position[1])
+    def point_of(event: TimedPosition) -> Point:
+        return x.at(event.position[0]), y.at(event.position[1])
 
-    add(svg, "path", d=line([at(one) for one in track]), class_="way")
-    if beside:
-        for foot, some in prints.items():
-            if d := marks([at(one) for one in some], SHAPES[foot]):
+    add(svg, "path", d=line([point_of(event) for event in track]), class_="way")
+    if shows_footprints:
+        for foot, prints in footprints.items():
+            if d := marks([point_of(event) for event in prints], FOOT_MARKS[foot]):
                 add(svg, "path", d=d, class_=f"mark {foot}")
-    _times(svg, track, at, clock)
-    for one, word, below in ((track[0], "start", -6.0), (track[-1], "end", 13.0)):
-        a, b = at(one)
+    _times(svg, track, point_of, clock)
+    for event, word, offset_y in ((track[0], "start", -6.0), (track[-1], "end", 13.0)):
+        a, b = point_of(event)
         add(svg, "circle", cx=px(a), cy=px(b), r="4.5", class_=word)
-        aside, anchor = (-8.0, "end") if a > 0.85 * WIDTH else (8.0, "start")
-        write(svg, a + aside, b + below, word, "halo strong", anchor)
+        offset_x, anchor = (-8.0, "end") if a > 0.85 * WIDTH else (8.0, "start")
+        write(svg, a + offset_x, b + offset_y, word, "halo strong", anchor)
     notes = ["x along the first heading; the numbers along the way are times."]
-    if beside and any(prints.values()):
+    if shows_footprints and any(footprints.values()):
         notes.append("\N{BLACK CIRCLE} where the left foot stood, \N{MULTIPLICATION SIGN} the right one.")
-    if off > BESIDE:
-        notes.append(f"The tracks of the single feet come to lie up to {off:.1f} m off it and are not shown.")
+    if offset > MAX_OFFSET:
+        notes.append(f"The tracks of the single feet come to lie up to {offset:.1f} m off it and are not shown.")
     figure(parent, svg, "Track from above", *notes)
     return True
 
 
-def _largest_offset(track: Sequence[TimedPosition], prints: FootPositions) -> float:
-    """Return the largest distance of a print from the wearer's position at that time, m."""
-    times, farthest = [one.t for one in track], 0.0
-    for one in [one for some in prints.values() for one in some] if track else []:
-        k = bisect_left(times, one.t)
-        farthest = max(farthest, min([_apart(one, other) for other in track[max(k - 1, 0) : k + 1]], default=0.0))
-    return farthest
+def _largest_offset(track: Sequence[TimedPosition], footprints: FootPositions) -> float:
+    """Return the largest horizontal distance of a footprint from the wearer's position at that time, m."""
+    times, largest = [event.t for event in track], 0.0
+    for footprint in [event for prints in footprints.values() for event in prints] if track else []:
+        k = bisect_left(times, footprint.t)
+        largest = max(
+            largest, min([_distance(footprint, event) for event in track[max(k - 1, 0) : k + 1]], default=0.0)
+        )
+    return largest
 
 
-def _apart(a: TimedPosition, b: TimedPosition) -> float:
+def _distance(a: TimedPosition, b: TimedPosition) -> float:
     (x, y, _), (x1, y1, _) = a.position, b.position
     dx, dy = x1 - x, y1 - y
     return float((dx * dx + dy * dy) ** 0.5)
 
 
 def _grid(svg: Element, x: AxisScale, y: AxisScale) -> None:
-    """Draw the grid with one step for both axes."""
+    """Draw a grid with the same spacing on both axes."""
     marked = ticks(x.low, x.high, 8)
     step = marked[1] - marked[0] if len(marked) > 1 else 1.0
     up = [k * step for k in range(int(y.low // step) + 1, int(y.high // step) + 1)]
@@ -107,35 +113,35 @@ def _grid(svg: Element, x: AxisScale, y: AxisScale) -> None:
 
 
 def _times(
-    svg: Element, track: Sequence[TimedPosition], at: Callable[[TimedPosition], Point], clock: ReportClock
+    svg: Element, track: Sequence[TimedPosition], point_of: Callable[[TimedPosition], Point], clock: ReportClock
 ) -> None:
-    """Write a few times along the track."""
+    """Write up to seven times along the track, without those that would overlap."""
     if len(track) < 3:
         return
-    tick_times = ticks(clock.of(track[0].t), clock.of(track[-1].t), 7)
+    tick_times = ticks(clock.axis_value(track[0].t), clock.axis_value(track[-1].t), 7)
     unit = "min" if clock.per_unit > 1.0 else "s"
-    taken: list[Point] = []
+    labelled: list[Point] = []
     for value, words in zip(tick_times, tick_labels(tick_times), strict=True):
-        near = min(track, key=lambda one: abs(clock.of(one.t) - value))
-        a, b = at(near)
-        if all(abs(a - c) > 36.0 or abs(b - d) > 14.0 for c, d in taken):
-            taken.append((a, b))
+        nearest = min(track, key=lambda event: abs(clock.axis_value(event.t) - value))
+        a, b = point_of(nearest)
+        if all(abs(a - c) > 36.0 or abs(b - d) > 14.0 for c, d in labelled):
+            labelled.append((a, b))
             add(svg, "circle", cx=px(a), cy=px(b), r="2.4", class_="time")
             write(svg, a, b - 6.0, f"{words} {unit}", "halo tick", "middle")
 
 
 def height_figure(parent: Element, heights: FootPositions, clock: ReportClock) -> bool:
-    """Draw the height of the standing foot over time; return False when there is none."""
-    known = {foot: some for foot, some in heights.items() if len(some) > 1}
-    if not known:
+    """Draw the height of each stationary foot over time, m; return False when there is none."""
+    curves = {foot: events for foot, events in heights.items() if len(events) > 1}
+    if not curves:
         return False
-    values = [one.position[2] for some in known.values() for one in some]
+    values = [event.position[2] for events in curves.values() for event in events]
     what = f"Height of the standing feet over time, {min(values):.2f} to {max(values):.2f} m from where they began."
     svg = drawing("height", "Height over time", what, 180.0)
-    chart = Chart.of(svg, clock.span, around(values, least=1.0), (clock.label, "height, m"), 180.0)
-    for foot, some in known.items():
-        chart.path([(clock.of(one.t), one.position[2]) for one in some], f"line {foot}")
-    legend(svg, list(known), lines=True)
+    chart = Chart.of(svg, clock.span, padded_range(values, least=1.0), (clock.label, "height, m"), 180.0)
+    for foot, events in curves.items():
+        chart.path([(clock.axis_value(event.t), event.position[2]) for event in events], f"line {foot}")
+    legend(svg, list(curves), lines=True)
     figure(parent, svg, "Height of the feet over time", "Of the foot on the ground, against where it began.")
     return True
 
@@ -144,15 +150,15 @@ def plan_figure(parent: Element, plan: FloorPlan, events: Sequence[Placed | Plac
     """Draw the track on the floor plan, as `solepath track` does; return False when there is no place.
 
     Only the levels where the wearer was are shown."""
-    places = [one for one in events if isinstance(one, Placed)]
+    places = [event for event in events if isinstance(event, Placed)]
     if not places:
         return False
-    visited = {one.level for one in places}
+    visited = {place.level for place in places}
     levels = tuple([level for level in plan.levels if level.id in visited])
     shown = evolve(plan, levels=levels) if levels else plan
     picture = PlanPicture(shown, width=380.0, height=420.0, columns=1)
-    for one in events:
-        picture.add(one)
+    for event in events:
+        picture.add(event)
     svg = picture.drawn(plan.name or "Floor plan")
     svg.set("role", "img")
     svg.set("class", "plan")

@@ -3,7 +3,7 @@
 import { nameOf } from "./position.js";
 import { capital, activityText } from "./words.js";
 
-const APART = 1500; // ms; what comes within this time is announced together
+const JOIN_TIME = 1500; // ms; what comes within this time is announced together
 
 export class Announcer {
   #waiting = [];
@@ -23,7 +23,7 @@ export class Announcer {
     this.#timer = setTimeout(() => {
       this.#timer = 0;
       this.element.textContent = this.#waiting.splice(0).join(". ");
-    }, APART);
+    }, JOIN_TIME);
   }
 
   // During a seek nothing on the way is announced.

@@ -1,6 +1,6 @@
 // A canvas that always has as many pixels as the screen shows of it.
 
-const SHARPEST = 2; // device pixels per CSS px; more cost time and show nothing
+const MAX_PIXEL_RATIO = 2; // device pixels per CSS px; more cost time and show nothing
 
 export class Surface {
   width = 0; // CSS px
@@ -19,7 +19,7 @@ export class Surface {
 
   fit() {
     const { clientWidth, clientHeight } = this.canvas;
-    const ratio = Math.min(SHARPEST, devicePixelRatio || 1);
+    const ratio = Math.min(MAX_PIXEL_RATIO, devicePixelRatio || 1);
     if (clientWidth === this.width && clientHeight === this.height && ratio === this.ratio) return;
     Object.assign(this, { width: clientWidth, height: clientHeight, ratio });
     this.canvas.width = Math.round(clientWidth * ratio);

@@ -1,14 +1,14 @@
 // Keeps the focused control visible: the browser scrolls it clear of what sticks to the window's edges.
 
-const SPARE = 12; // px, for the mark of the focus
+const MARGIN = 12; // px, for the mark of the focus
 
 export function keepClear() {
   const banners = document.getElementById("banners");
   const playback = document.getElementById("playback");
   const measure = () => {
     const root = document.documentElement.style;
-    root.scrollPaddingTop = `${Math.round(banners.offsetHeight + SPARE)}px`;
-    root.scrollPaddingBottom = `${Math.round(playback.offsetHeight + SPARE)}px`;
+    root.scrollPaddingTop = `${Math.round(banners.offsetHeight + MARGIN)}px`;
+    root.scrollPaddingBottom = `${Math.round(playback.offsetHeight + MARGIN)}px`;
   };
   const observer = new ResizeObserver(measure);
   for (const one of [banners, playback]) observer.observe(one);

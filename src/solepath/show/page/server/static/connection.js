@@ -3,9 +3,9 @@
 const FIRST_WAIT = 0.5; // s
 const LONGEST_WAIT = 10; // s
 const ENDED_WAIT = 30; // s, after the program ended: perhaps no other one ever starts
-const ENDED = 1001; // close code (protocol/page.md)
+const ENDED_CODE = 1001; // close code (protocol/page.md)
 const IDLE_LIMIT = 6; // s without a message, though one comes at least every second: the connection is dead
-const KEY = "solepath-token";
+const TOKEN_KEY = "solepath-token";
 
 export class Connection {
   #socket = null;
@@ -68,8 +68,8 @@ export class Connection {
   #closed(socket, code) {
     if (socket !== this.#socket) return;
     this.#socket = null;
-    this.#failures = code === ENDED ? 0 : this.#failures + 1;
-    this.#ended ||= code === ENDED;
+    this.#failures = code === ENDED_CODE ? 0 : this.#failures + 1;
+    this.#ended ||= code === ENDED_CODE;
     // The token of a program that ended is rejected by the one that took its place, which may let this page watch.
     const sure = this.#ended ? 1 : 3;
     if (this.#token) this.#withToken = this.#failures < sure || (this.#failures - sure) % 2 === 1;
@@ -99,9 +99,9 @@ export class Connection {
 function claimToken() {
   const given = new URLSearchParams(location.hash.slice(1)).get("token");
   try {
-    if (given) sessionStorage.setItem(KEY, given);
+    if (given) sessionStorage.setItem(TOKEN_KEY, given);
     if (location.hash) history.replaceState(null, "", location.pathname + location.search);
-    return given ?? sessionStorage.getItem(KEY);
+    return given ?? sessionStorage.getItem(TOKEN_KEY);
   } catch {
     return given; // storage may be forbidden
   }

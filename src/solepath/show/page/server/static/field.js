@@ -2,7 +2,7 @@
 
 export const COLUMNS = 64;
 export const ROWS = 160;
-const NEAREST = 6;
+const MAX_NEAREST_CELLS = 6;
 
 export class Field {
   // box: [least x, greatest x, least y, greatest y] of the picture, m, toes up and the wearer's left on the left
@@ -11,7 +11,7 @@ export class Field {
     Object.assign(this.picture, { width: COLUMNS, height: ROWS });
     this.context = this.picture.getContext("2d");
     this.image = this.context.createImageData(COLUMNS, ROWS);
-    this.near = Math.min(NEAREST, cells.length);
+    this.near = Math.min(MAX_NEAREST_CELLS, cells.length);
     this.cells = new Uint16Array(COLUMNS * ROWS * this.near);
     this.weights = new Float32Array(COLUMNS * ROWS * this.near);
     this.cover = new Uint8Array(COLUMNS * ROWS); // opacity: far from all cells nothing is known

@@ -2,8 +2,8 @@
 
 import { child, fixed, percent, show, signed, write } from "./words.js";
 
-const WIDEST = 0.2; // asymmetry that fills half of its bar
-const STEEPEST = 10; // difference that fills half of its bar, degrees
+const FULL_ASYMMETRY = 0.2; // asymmetry that fills half of its bar
+const FULL_DIFFERENCE = 10; // difference that fills half of its bar, degrees
 const UNITS = { deg: "°" };
 
 export class Gait {
@@ -75,7 +75,7 @@ class Row {
     write(this.cv, Number.isFinite(row.cv) ? fixed(100 * row.cv, 1) : "–");
     const turned = Number.isFinite(row.difference); // an angle has a difference, since a share of an angle says nothing
     const known = turned || Number.isFinite(row.asymmetry);
-    const lean = turned ? row.difference / STEEPEST : row.asymmetry / WIDEST;
+    const lean = turned ? row.difference / FULL_DIFFERENCE : row.asymmetry / FULL_ASYMMETRY;
     const degrees = () => `${signed(row.difference, digits)}${UNITS[row.unit] ?? ""}`;
     const share = () => `${signed(100 * row.asymmetry, 1)} %`;
     write(this.share, turned ? degrees() : known ? share() : "–");

@@ -4,9 +4,9 @@ import { Alternative, FONT, Surface, round } from "./canvas.js";
 import { theme } from "./theme.js";
 import { clock, fixed, signed, write } from "./words.js";
 
-const LEAST = 1; // m that are shown at least
-const NAMES = 44; // px for heights as numbers; names of levels stand on their lines
-const OFTEN = 250; // ms
+const MIN_RANGE = 1; // m, least range of heights that is shown
+const LABEL_WIDTH = 44; // px, for heights as numbers; names of levels are on their lines
+const REDRAW_INTERVAL = 250; // ms between two pictures
 
 export class Height {
   uses = ["tracks", "places", "place", "scene", "theme"];
@@ -20,7 +20,7 @@ export class Height {
   }
 
   draw(state, now, changed) {
-    if (now - this.drawn < OFTEN && !changed.has("theme") && !changed.has("scene")) return "later";
+    if (now - this.drawn < REDRAW_INTERVAL && !changed.has("theme") && !changed.has("scene")) return "later";
     this.drawn = now;
     const context = this.surface.begin();
     const { width, height } = this.surface;
@@ -34,12 +34,12 @@ export class Height {
     let [low, high] = points.reduce(([a, b], [, z]) => [Math.min(a, z), Math.max(b, z)], [Infinity, -Infinity]);
     if (!last) [low, high] = [0, 0];
     for (const { z } of lines) if (z > low - 5 && z < high + 5) [low, high] = [Math.min(low, z), Math.max(high, z)];
-    const lacks = Math.max(0, LEAST - (high - low)) / 2;
+    const lacks = Math.max(0, MIN_RANGE - (high - low)) / 2;
     [low, high] = [low - lacks, high + lacks];
     const [top, bottom] = [lines.length > 0 ? 16 : 10, height - 20];
     const y = (z) => bottom - ((z - low) / (high - low)) * (bottom - top);
     const [from, to] = last ? [points[0][0], Math.max(last[0], points[0][0] + 10)] : [0, 10];
-    const side = lines.length > 0 ? 0 : NAMES;
+    const side = lines.length > 0 ? 0 : LABEL_WIDTH;
     const x = (t) => side + ((t - from) / (to - from)) * (width - side - 6);
 
     context.font = FONT;

@@ -1,7 +1,7 @@
-// Takes messages and draws pictures: each change is drawn with the browser's next frame, and only that.
+// Receives messages and draws pictures: each change is drawn with the browser's next frame, and nothing else is drawn.
 //
-// For tests: window.solepath = {frames, messages, state}: frames drawn, messages taken, and the state that they
-// add up to (state.js).
+// For tests: window.solepath = {frames, messages, state}: number of frames drawn, number of messages received, and the
+// state that results from them (state.js).
 
 import { ActivityPanel } from "./activity.js";
 import { Announcer } from "./announce.js";
@@ -78,7 +78,7 @@ function draw(now) {
 
 const uses = (panel, news) => panel.uses.some((name) => news.has(name));
 
-// Choices that the page keeps for the next visit.
+// Marks the changes again that a panel did not draw yet.
 function later(panel, news) {
   for (const name of news) if (panel.uses.includes(name)) changed.add(name);
 }
@@ -113,7 +113,7 @@ const connection = new Connection(
           element("connection-word"),
           { open: "connected", connecting: "connecting", closed: "not connected", ended: "ended" }[how],
         );
-        // only an open connection can be missed; a first try needs no alarm
+        // while the first connection is tried, no alarm is needed
         element("offline").hidden = how === "open" || (how === "connecting" && was === "");
         const left = Math.ceil((at - performance.now()) / 1000);
         const next = how === "connecting" || left < 1 ? "Trying now" : `Trying again in ${left} s`;

@@ -1,15 +1,15 @@
-// Marks on the plane of the track: grid, ruler, feet, the wearer, and their uncertainty. Places are in px.
+// Marks on the plane of the track: grid, ruler, feet, the wearer, and their uncertainty. Positions are in px.
 
 import { round } from "./canvas.js";
 import { label } from "./plan.js";
 import { theme } from "./theme.js";
 import { fixed } from "./words.js";
 
-const SURE = Math.sqrt(5.991); // 95 % of two dimensions: chi squared, 2 degrees of freedom
-const LARGEST = 4000; // px; nothing larger can be seen
+const CONFIDENCE_FACTOR = Math.sqrt(5.991); // 95 % quantile of chi squared with 2 degrees of freedom
+const MAX_RADIUS = 4000; // px; a larger circle goes beyond every screen
 
 // Half axis of the 95 % ellipse for a variance, m.
-export const sure = (variance) => SURE * Math.sqrt(Math.max(0, variance));
+export const sure = (variance) => CONFIDENCE_FACTOR * Math.sqrt(Math.max(0, variance));
 
 // Half axes of the ellipse that holds the position with 95 % probability, m, and the angle of the long one, rad.
 export function axes([xx, xy, , yy]) {
@@ -95,12 +95,12 @@ export function drawDot(context, [x, y]) {
 
 export function drawEllipse(context, [x, y], { long, wide, angle }, scale) {
   context.beginPath();
-  context.ellipse(x, y, Math.min(LARGEST, long * scale), Math.min(LARGEST, wide * scale), -angle, 0, 2 * Math.PI);
+  context.ellipse(x, y, Math.min(MAX_RADIUS, long * scale), Math.min(MAX_RADIUS, wide * scale), -angle, 0, 2 * Math.PI);
   veil(context);
 }
 
 export function drawSpread(context, [x, y], radius) {
-  circle(context, x, y, Math.min(LARGEST, Math.max(0, radius)));
+  circle(context, x, y, Math.min(MAX_RADIUS, Math.max(0, radius)));
   veil(context);
 }
 

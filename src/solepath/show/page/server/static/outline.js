@@ -1,7 +1,7 @@
 // The outline of a sole, as a ring of [x, y] in the foot frame (x to the toe, y to the left, m).
 
-// Left shoe: x, and its extent outwards and inwards there, in shares of the length. Drawn by eye.
-const SOLE = [
+// Left shoe: x, and the y of its outer and inner edge there, as shares of the length. Drawn by eye.
+const SOLE_OUTLINE = [
   [0, 0, 0],
   [0.012, 0.045, -0.045],
   [0.05, 0.09, -0.088],
@@ -17,22 +17,22 @@ const SOLE = [
   [0.98, 0.008, -0.092],
   [1, -0.04, -0.045],
 ];
-const STATIONS = 44;
-const DENSE = 16; // number of cells that show the outline of a sole by themselves
-const COVERED = 0.75; // share of the length
+const STATION_COUNT = 44;
+const MIN_CELLS = 16; // number of cells from which on they show the outline of a sole by themselves
+const MIN_COVERAGE = 0.75; // share of the length that these cells must cover
 
 // Outline of a shoe of `length` m without a known layout.
 export function shoe(foot, length) {
   const side = foot === "left" ? 1 : -1;
-  const ring = (edge) => SOLE.map((row) => [row[0] * length, side * row[edge] * length]);
+  const ring = (edge) => SOLE_OUTLINE.map((row) => [row[0] * length, side * row[edge] * length]);
   return rounded([...ring(1), ...ring(2).reverse().slice(1, -1)]);
 }
 
-// Outline around the cells; where they are few, or cover a part only, that of a shoe wide enough for them.
+// Outline around the cells; if they are few or cover only a part of the length, the outline of a shoe that holds them.
 export function around(cells, length, foot, spacing) {
   const xs = cells.map((cell) => cell[0]);
   const [back, front] = [Math.min(...xs), Math.max(...xs)];
-  if (cells.length >= DENSE && front - back > COVERED * length) return hull(cells, back, front, spacing);
+  if (cells.length >= MIN_CELLS && front - back > MIN_COVERAGE * length) return hull(cells, back, front, spacing);
   const ring = shoe(foot, length);
   const wide = Math.max(...ring.map((point) => Math.abs(point[1])));
   const needed = Math.max(...cells.map((cell) => Math.abs(cell[1]))) + 0.008;
@@ -52,7 +52,7 @@ export function spacing(cells) {
 function hull(cells, back, front, spacing) {
   const margin = Math.min(0.012, Math.max(0.006, 0.75 * spacing));
   const [begin, end] = [back - margin, front + margin];
-  const stations = Array.from({ length: STATIONS }, (_, i) => begin + ((end - begin) * i) / (STATIONS - 1));
+  const stations = Array.from({ length: STATION_COUNT }, (_, i) => begin + ((end - begin) * i) / (STATION_COUNT - 1));
   const reach = stations.map((x) => {
     const off = Math.max(1.1 * spacing, Math.min(...cells.map((cell) => Math.abs(cell[0] - x))) + 1e-6);
     const ys = cells.filter((cell) => Math.abs(cell[0] - x) <= off).map((cell) => cell[1]);

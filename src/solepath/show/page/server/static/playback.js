@@ -2,10 +2,10 @@
 
 import { clock, describe, show, setData, write } from "./words.js";
 
-const STEP = 5; // s
-const LONG_STEP = 30; // s, with Shift
-const PATIENCE = 1500; // ms in which a requested value is shown, until it is reached
-const OFTEN = 150; // ms between seeks while the bar is dragged
+const SEEK_STEP = 5; // s
+const LONG_SEEK_STEP = 30; // s, with Shift
+const MAX_WAIT = 1500; // ms for which a requested time is shown before it is reached
+const SEEK_INTERVAL = 150; // ms between seeks while the bar is dragged
 
 export class Playback {
   uses = ["playback", "scene"];
@@ -37,7 +37,7 @@ export class Playback {
     show(this.playback, playback !== null);
     if (playback === null) return "done";
     const { begin, end, t, state: how, speed, seeking } = playback;
-    const requested = this.#requested && performance.now() - this.#requested.at < PATIENCE ? this.#requested.t : null;
+    const requested = this.#requested && performance.now() - this.#requested.at < MAX_WAIT ? this.#requested.t : null;
     const shown = this.#dragged ? Number(this.seek.value) : (seeking ?? requested ?? t);
     setData(this.playback, { state: how });
     describe(this.play, "aria-label", how === "playing" ? "Pause" : how === "ended" ? "Play again" : "Play");
@@ -72,7 +72,7 @@ export class Playback {
     if (!this.#mayControl()) return false;
     if (key === " ") this.toggle();
     else if (key === "ArrowLeft" || key === "ArrowRight") {
-      const step = (shift ? LONG_STEP : STEP) * (key === "ArrowLeft" ? -1 : 1);
+      const step = (shift ? LONG_SEEK_STEP : SEEK_STEP) * (key === "ArrowLeft" ? -1 : 1);
       this.#request(this.#here() + step, true);
     } else return false;
     return true;
@@ -83,7 +83,7 @@ export class Playback {
   }
 
   #here() {
-    const fresh = this.#requested && performance.now() - this.#requested.at < PATIENCE;
+    const fresh = this.#requested && performance.now() - this.#requested.at < MAX_WAIT;
     return fresh ? this.#requested.t : (this.state.playback.seeking ?? this.state.playback.t);
   }
 
@@ -92,7 +92,7 @@ export class Playback {
     const now = performance.now();
     const value = Math.min(end, Math.max(begin, t));
     this.#requested = { t: value, at: now };
-    if (surely || now - this.#sent > OFTEN) {
+    if (surely || now - this.#sent > SEEK_INTERVAL) {
       this.#sent = now;
       this.send({ do: "seek", value });
     }

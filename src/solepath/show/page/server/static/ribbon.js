@@ -6,9 +6,9 @@ import { FEET } from "./state.js";
 import { theme } from "./theme.js";
 import { LINKS, PHASES, SUPPORTS, clock, wordOf } from "./words.js";
 
-const WINDOW = 8; // s
-const NAMES = 20; // px for the names of the rows
-// Height at the start and at the end.
+const TIME_WINDOW = 8; // s
+const LABEL_WIDTH = 20; // px for the names of the rows
+// Height of a phase at its start and at its end, as shares of the row.
 const RAMPS = { LOADING: [0.32, 1], STATIONARY: [1, 1], PUSH_OFF: [1, 0.32], SWING: [0.08, 0.08] };
 const SHADES = { LOADING: "-soft", STATIONARY: "", PUSH_OFF: "-soft", SWING: "" };
 const SLOW_INTERVAL = 500; // ms between pictures with reduced motion
@@ -28,8 +28,8 @@ export class Ribbon {
     this.drawn = now;
     const context = this.surface.begin();
     const { width, height } = this.surface;
-    const scale = (width - NAMES) / WINDOW;
-    const x = (when) => NAMES + Math.max(0, (when - t + WINDOW) * scale);
+    const scale = (width - LABEL_WIDTH) / TIME_WINDOW;
+    const x = (when) => LABEL_WIDTH + Math.max(0, (when - t + TIME_WINDOW) * scale);
     const band = Math.floor((height - 18 - 16) / 2);
     const rows = { left: [2, band], right: [band + 18, band] };
     this.#seconds(context, x, t, height, state);
@@ -48,7 +48,8 @@ export class Ribbon {
     this.alternative.setText(() => {
       const words = FEET.map((foot) => `${foot} ${heard(state, foot)}`);
       const ground = wordOf(SUPPORTS, state.support) || "not known";
-      return `Phases of both feet over the last ${WINDOW} seconds. Now: ${words.join(", ")}; on the ground: ${ground}`;
+      const now = `Now: ${words.join(", ")}; on the ground: ${ground}`;
+      return `Phases of both feet over the last ${TIME_WINDOW} seconds. ${now}`;
     });
     return "done";
   }
@@ -58,16 +59,16 @@ export class Ribbon {
     context.textAlign = "center";
     context.lineWidth = 1;
     const begin = state.begin;
-    for (let second = Math.ceil(t - begin - WINDOW); second <= t - begin; second++) {
+    for (let second = Math.ceil(t - begin - TIME_WINDOW); second <= t - begin; second++) {
       const at = Math.round(x(begin + second)) + 0.5;
-      if (second < 0 || at < NAMES + 1) continue;
+      if (second < 0 || at < LABEL_WIDTH + 1) continue;
       context.strokeStyle = theme.colours.grid;
       context.beginPath();
       context.moveTo(at, 0);
       context.lineTo(at, height - 15);
       context.stroke();
       context.fillStyle = theme.colours.muted;
-      if (second % 2 === 0 && at > NAMES + 14 && at < this.surface.width - 16)
+      if (second % 2 === 0 && at > LABEL_WIDTH + 14 && at < this.surface.width - 16)
         context.fillText(clock(second), at, height - 3);
     }
   }
@@ -79,12 +80,12 @@ export class Ribbon {
     for (let i = 0; i < phases.length; i++) {
       const [from, phase] = phases[i];
       const to = Math.min(t, phases[i + 1]?.[0] ?? t);
-      if (to <= t - WINDOW || to <= from || phase === "") continue; // "": nothing comes of the foot
+      if (to <= t - TIME_WINDOW || to <= from || phase === "") continue; // "": nothing comes of the foot
       if (phase !== "SWING") ground.push([from, to]);
       const [rise, fall] = RAMPS[phase] ?? [0.5, 0.5];
       const path = paths[SHADES[phase] ?? "-soft"];
       // a ramp that the window cuts starts where the window does
-      const share = Math.max(0, (t - WINDOW - from) / (to - from));
+      const share = Math.max(0, (t - TIME_WINDOW - from) / (to - from));
       const top = rise + (fall - rise) * share;
       path.moveTo(x(from), y + band);
       path.lineTo(x(from), y + band * (1 - top));

@@ -1,10 +1,10 @@
-// Shows that a seek is on its way, which takes as long as its computation: until it is there, the page shows
-// another moment than the bar, and looks so.
+// Shows the progress of a seek, which takes as long as its computation: until it ends, the page shows another moment
+// than the seek bar.
 
 import { clock, describe, show, write } from "./words.js";
 
-const SOON = 400; // ms; a shorter seek needs no words
-const LONG = 900; // ms; a longer seek is announced to a screen reader
+const NOTICE_DELAY = 400; // ms; a shorter seek needs no words
+const ANNOUNCE_DELAY = 900; // ms; a longer seek is announced to a screen reader
 
 export class Seeking {
   uses = ["playback", "scene", "second"];
@@ -23,7 +23,7 @@ export class Seeking {
     const going = seeking !== null;
     this.#since = going ? (this.#since ?? now) : null;
     const passed = going ? now - this.#since : 0;
-    const seen = passed >= SOON;
+    const seen = passed >= NOTICE_DELAY;
     describe(this.main, "aria-busy", String(seen));
     show(this.seeking, seen);
     show(this["seek-way"], seen);
@@ -31,7 +31,7 @@ export class Seeking {
     if (!seen) return going ? "later" : "done";
     write(this.seeking, `Going to ${clock(seeking - begin)}, now at ${clock(t - begin)}`);
     this["seek-done"].style.width = `${(100 * (t - begin)) / Math.max(0.1, end - begin)}%`;
-    if (passed >= LONG && !this.#announced) {
+    if (passed >= ANNOUNCE_DELAY && !this.#announced) {
       this.#announced = true;
       this.announce(`Going to ${clock(seeking - begin)}`);
     }

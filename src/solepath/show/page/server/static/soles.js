@@ -1,4 +1,4 @@
-// Both soles from above: pressure over the cells where their positions are known, else what is known.
+// Draws both soles from above: pressure where the positions of the cells are known, else bars, contact, or outlines.
 
 import { Alternative, Surface, reducedMotion } from "./canvas.js";
 import { Field } from "./field.js";
@@ -8,9 +8,9 @@ import { FEET } from "./state.js";
 import { theme } from "./theme.js";
 import { LINKS, PHASES, capital, fixed, wordOf, show, setData, write } from "./words.js";
 
-const LENGTH = 0.27; // m, of a shoe without a known layout
-const PAD = 6; // px
-const READABLE = 120; // ms between changes of a number, so that it can be read
+const DEFAULT_LENGTH = 0.27; // m, length of a shoe without a known layout
+const PADDING = 6; // px
+const MIN_TEXT_INTERVAL = 120; // ms between changes of a number, so that it can be read
 
 export class Soles {
   // also each second: the newest number may not have been written yet
@@ -83,7 +83,7 @@ class Sole {
   #shape(layout) {
     this.layout = layout;
     const apart = layout && spacing(layout.cells);
-    this.ring = layout ? around(layout.cells, layout.length, this.foot, apart) : shoe(this.foot, LENGTH);
+    this.ring = layout ? around(layout.cells, layout.length, this.foot, apart) : shoe(this.foot, DEFAULT_LENGTH);
     const [xs, ys] = [0, 1].map((k) => this.ring.map((point) => point[k]));
     this.box = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
     this.field = layout && new Field(layout.cells, apart, this.box);
@@ -134,10 +134,10 @@ class Sole {
     });
   }
 
-  // At most as often as one can read it, but with each phase; the last text is written in any case.
+  // Writes the force at most every MIN_TEXT_INTERVAL, but at once with a new phase; the last text is always written.
   #number(words, phase, now) {
     clearTimeout(this.timer);
-    const wait = phase === this.writtenPhase ? READABLE - (now - this.written) : 0;
+    const wait = phase === this.writtenPhase ? MIN_TEXT_INTERVAL - (now - this.written) : 0;
     this.writtenPhase = phase;
     this.put = () => {
       clearTimeout(this.timer);
@@ -158,7 +158,8 @@ class Sole {
   #placed() {
     const { width, height } = this.surface;
     const [back, front, right, left] = this.box;
-    const scale = Math.max(1, Math.min((width - 2 * PAD) / (left - right), (height - 2 * PAD) / (front - back)));
+    const fits = Math.min((width - 2 * PADDING) / (left - right), (height - 2 * PADDING) / (front - back));
+    const scale = Math.max(1, fits);
     const [cx, cy] = [0.5 * (back + front), 0.5 * (left + right)];
     return ([x, y]) => [0.5 * width - scale * (y - cy), 0.5 * height - scale * (x - cx)];
   }

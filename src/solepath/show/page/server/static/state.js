@@ -1,16 +1,16 @@
-// The state that the messages of protocol/page.md add up to. Nothing here draws, and all input is checked here:
-// a panel may rely on points being made of numbers.
+// The state that results from the messages of protocol/page.md. All input is checked here, so that a panel may rely on
+// points being made of numbers. Nothing here draws. Limits were chosen by hand and not swept.
 
-const LONGEST = 2000; // points of a track
-const REMEMBERED = 20; // s of phases
-const LOG_LINES = 50; // sentences of the log
-const TRAIL = 240; // points of a centre of pressure's path
+const MAX_POINTS = 2000; // points of a track
+const PHASE_HISTORY = 20; // s of phases
+const MAX_LOG_LINES = 50; // sentences of the log
+const MAX_TRAIL_POINTS = 240; // points of a centre of pressure's path
 export const FEET = ["left", "right"];
 
-const LARGEST = 1e12; // limit of any number: nothing happens farther away or later, and seconds can still be counted
-const MOST = 500; // limit of cells, candidates and rows of the table: nobody has more, and they would take time
+const MAX_MAGNITUDE = 1e12; // limit of any number: nothing is farther away or later, and seconds can still be counted
+const MAX_ITEMS = 500; // limit of cells, candidates and rows of the table: nobody has more, and they would take time
 
-const sound = (value) => Number.isFinite(value) && Math.abs(value) < LARGEST;
+const sound = (value) => Number.isFinite(value) && Math.abs(value) < MAX_MAGNITUDE;
 const number = (value) => (sound(value) ? value : null);
 const text = (value) => (typeof value === "string" ? value : "");
 const list = (value) => (Array.isArray(value) ? value : []);
@@ -30,8 +30,8 @@ export class State {
     this.plan = null;
     this.layouts = { left: null, right: null };
     this.t = 0;
-    this.begin = 0; // session time that is shown as 0:00
-    this.anyData = false; // true once anything came of a sensor
+    this.begin = 0; // session time that is shown as 0:00, s
+    this.anyData = false; // true once a sensor has sent anything
     this.feet = { left: null, right: null };
     this.trails = { left: [], right: [] };
     this.phases = { left: [], right: [] };
@@ -67,7 +67,7 @@ export class State {
     for (const foot of FEET) this.layouts[foot] = layout(record(message.layouts)[foot]);
     const { tracks, places, phases, log } = message;
     this.#frame({ ...record(message.frame), tracks, places, phases, log }); // the lists of the scene itself are whole
-    return new Set(["scene", "feet", "phases", "tracks", "places", "log", "links", ...Object.keys(READ)]);
+    return new Set(["scene", "feet", "phases", "tracks", "places", "log", "links", ...Object.keys(READERS)]);
   }
 
   #frame(message) {
@@ -81,29 +81,29 @@ export class State {
         insert(this.phases[foot], [t, text(phase)]);
         changed.add("phases");
       }
-      const recent = this.phases[foot].findIndex(([t]) => t > this.t - REMEMBERED);
+      const recent = this.phases[foot].findIndex(([t]) => t > this.t - PHASE_HISTORY);
       if (recent > 1) this.phases[foot].splice(0, recent - 1); // the one before still lasts into the window
     }
     for (const [name, kept] of Object.entries(this.tracks)) {
       for (const point of list(record(message.tracks)[name])) {
         if (!numbers(point, 4)) continue;
         kept.push(point.slice(0, 4));
-        if (kept.length > LONGEST) this.#thin(kept);
+        if (kept.length > MAX_POINTS) this.#thin(kept);
         changed.add("tracks");
       }
     }
     for (const point of list(message.places)) {
       if (!Array.isArray(point) || !numbers(point.slice(2), 2) || number(point[0]) === null) continue;
       this.places.push([point[0], text(point[1]), point[2], point[3], number(point[4]) ?? 0]);
-      if (this.places.length > LONGEST) this.#thin(this.places);
+      if (this.places.length > MAX_POINTS) this.#thin(this.places);
       changed.add("places");
     }
     for (const [t, kind, words] of list(message.log).filter(Array.isArray)) {
       this.log.push([number(t) ?? this.t, text(kind), text(words)]);
-      if (this.log.length > LOG_LINES) this.log.shift();
+      if (this.log.length > MAX_LOG_LINES) this.log.shift();
       changed.add("log");
     }
-    for (const [name, read] of Object.entries(READ)) {
+    for (const [name, read] of Object.entries(READERS)) {
       if (!(name in message)) continue;
       this[name] = read(message[name]);
       changed.add(name);
@@ -143,7 +143,7 @@ export class State {
     if (one.centre === null) return; // in the air the path of the last stance stays
     if (old.centre === null || old.centre === undefined) trail.length = 0;
     trail.push(one.centre);
-    if (trail.length > TRAIL) trail.shift();
+    if (trail.length > MAX_TRAIL_POINTS) trail.shift();
   }
 
   #thin(points) {
@@ -157,8 +157,8 @@ export class State {
 
 const support = (value) => text(value) || null;
 
-// Members that a frame sends whole, and how each is read.
-const READ = { wearer, place, activity, pace, scales, support, gait, playback };
+// Members that a frame sends whole, with the function that checks each.
+const READERS = { wearer, place, activity, pace, scales, support, gait, playback };
 
 // Sorted by time: a phase may become known after one that started later.
 function insert(phases, one) {
@@ -179,7 +179,7 @@ function bytes(encoded) {
 
 function layout(value) {
   const cells = list(value?.cells)
-    .slice(0, MOST)
+    .slice(0, MAX_ITEMS)
     .filter((cell) => numbers(cell, 2))
     .map(([x, y, area]) => [x, y, area > 0 ? area : 0]);
   if (cells.length === 0) return null;
@@ -202,7 +202,7 @@ function wearer(value) {
 function place(value) {
   if (!numbers(value?.position, 2)) return null;
   const candidates = list(value.candidates)
-    .slice(0, MOST)
+    .slice(0, MAX_ITEMS)
     .filter((one) => numbers([one?.x, one?.y], 2))
     .map((one) => ({
       level: text(one.level),
@@ -232,7 +232,7 @@ function scales(value) {
 function gait(value) {
   if (value === null || typeof value !== "object") return null;
   const rows = list(value.rows)
-    .slice(0, MOST)
+    .slice(0, MAX_ITEMS)
     .filter((row) => typeof row?.name === "string");
   return {
     running: value.running === true,

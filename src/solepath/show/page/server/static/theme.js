@@ -1,7 +1,7 @@
 // Dark or light, and the colours of style.css for what is drawn on canvases.
 
-const KEY = "solepath-theme";
-const NAMES = [
+const STORAGE_KEY = "solepath-theme";
+const COLOUR_NAMES = [
   "ground",
   "card",
   "inset",
@@ -52,7 +52,7 @@ export function startTheme(button, changed) {
     theme.dark = chosen ? chosen === "dark" : system.matches;
     document.documentElement.dataset.shown = theme.dark ? "dark" : "light";
     button.setAttribute("aria-label", theme.dark ? "Switch to light colours" : "Switch to dark colours");
-    for (const name of NAMES) theme.colours[name] = resolved(name);
+    for (const name of COLOUR_NAMES) theme.colours[name] = resolved(name);
     theme.stops = theme.dark ? DARK : LIGHT;
     theme.pressure = ramp(theme.stops);
     theme.version += 1;
@@ -71,7 +71,7 @@ let chosenHere = null; // where storage is forbidden
 
 function recall() {
   try {
-    const kept = localStorage.getItem(KEY);
+    const kept = localStorage.getItem(STORAGE_KEY);
     return kept === "dark" || kept === "light" ? kept : chosenHere;
   } catch {
     return chosenHere;
@@ -81,7 +81,7 @@ function recall() {
 function remember(which) {
   chosenHere = which;
   try {
-    localStorage.setItem(KEY, which);
+    localStorage.setItem(STORAGE_KEY, which);
   } catch {
     // the choice lasts until the page is left
   }

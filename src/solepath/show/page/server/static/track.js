@@ -1,5 +1,5 @@
-// The track, seen from above: by itself, or on the floor plan. What does not move is kept as a picture, to which
-// only new points are added as long as the view does not change.
+// Draws the track from above: by itself, or on the floor plan. All that does not move is kept as a picture; while the
+// view does not change, only new points are added to it.
 
 import { Alternative, Surface, reducedMotion } from "./canvas.js";
 import {
@@ -24,11 +24,11 @@ import { theme } from "./theme.js";
 import { View } from "./view.js";
 import { show, setData, write } from "./words.js";
 
-const LEAST = 3; // m that are shown at least
-const [EDGE, BUTTONS] = [20, 56]; // px around the fitted part, and at the buttons
-const JUMP = 5; // m between two places from which on another candidate became the likeliest, and nobody walked there
+const MIN_EXTENT = 3; // m, least width and height that are shown
+const [EDGE_MARGIN, BUTTON_MARGIN] = [20, 56]; // px around the fitted part, and at the buttons
+const MAX_PLACE_JUMP = 5; // m between two places; above it another candidate became the likeliest, without a walk there
 const SLOW_INTERVAL = 200; // ms between pictures with reduced motion
-const WIDTHS = { left: 1.25, right: 1.25, wearer: 3.25 };
+const LINE_WIDTHS = { left: 1.25, right: 1.25, wearer: 3.25 };
 
 export class Track {
   uses = ["tracks", "places", "feet", "wearer", "place", "scene", "theme"];
@@ -57,9 +57,10 @@ export class Track {
   #room() {
     const noted = this.note.offsetHeight; // 0 while hidden
     const upright = getComputedStyle(document.getElementById("zoom")).flexDirection === "column";
-    this.margins = upright ? [EDGE + BUTTONS, 2 * EDGE + noted] : [2 * EDGE, EDGE + BUTTONS + noted];
-    this.view.aside = upright ? (BUTTONS - EDGE) / 2 : 0;
-    this.view.above = (upright ? 0 : (BUTTONS - EDGE) / 2) - noted / 2;
+    const both = EDGE_MARGIN + BUTTON_MARGIN;
+    this.margins = upright ? [both, 2 * EDGE_MARGIN + noted] : [2 * EDGE_MARGIN, both + noted];
+    this.view.aside = upright ? (BUTTON_MARGIN - EDGE_MARGIN) / 2 : 0;
+    this.view.above = (upright ? 0 : (BUTTON_MARGIN - EDGE_MARGIN) / 2) - noted / 2;
   }
 
   get moving() {
@@ -130,14 +131,14 @@ export class Track {
     for (const foot of FEET) if (feet[foot]?.position) hold(feet[foot].position[0], feet[foot].position[1]);
     if (wearer?.covariance) {
       // as much of the uncertainty as leaves the track large enough to see
-      const most = 0.25 * Math.max(LEAST, box[2] - box[0], box[3] - box[1]);
+      const most = 0.25 * Math.max(MIN_EXTENT, box[2] - box[0], box[3] - box[1]);
       const [x, y] = wearer.position;
       const [dx, dy] = [0, 3].map((k) => Math.min(most, sure(wearer.covariance[k])));
       hold(x - dx, y - dy);
       hold(x + dx, y + dy);
     }
     for (const k of [0, 1]) {
-      const lacks = Math.max(0, LEAST - (box[k + 2] - box[k])) / 2;
+      const lacks = Math.max(0, MIN_EXTENT - (box[k + 2] - box[k])) / 2;
       box[k] -= lacks;
       box[k + 2] += lacks;
     }
@@ -168,7 +169,7 @@ export class Track {
     }
     for (const [name, points] of Object.entries(state.tracks)) {
       const from = Math.max(0, this.drawn[name] - 1);
-      if (points.length > from + 1) line(context, points.slice(from), px, WIDTHS[name], theme.colours[name]);
+      if (points.length > from + 1) line(context, points.slice(from), px, LINE_WIDTHS[name], theme.colours[name]);
       this.drawn[name] = points.length;
     }
   }
@@ -180,7 +181,7 @@ export class Track {
     for (let i = Math.max(1, this.drawn.places); i < places.length; i++) {
       const [[, a, x1, y1], [, b, x2, y2]] = [places[i - 1], places[i]];
       const here = a === level && b === level;
-      if (Math.hypot(x2 - x1, y2 - y1) > JUMP || i === since || (i < since && !here)) continue;
+      if (Math.hypot(x2 - x1, y2 - y1) > MAX_PLACE_JUMP || i === since || (i < since && !here)) continue;
       const path = paths[i < since ? "before" : here ? "here" : "elsewhere"];
       path.moveTo(...px([x1, y1]));
       path.lineTo(...px([x2, y2]));
@@ -189,7 +190,7 @@ export class Track {
     stroke(context, paths.before, 1.5, theme.colours["sole-line"]);
     context.setLineDash([]);
     stroke(context, paths.elsewhere, 1.5, theme.colours["sole-line"]);
-    stroke(context, paths.here, WIDTHS.wearer, theme.colours.wearer);
+    stroke(context, paths.here, LINE_WIDTHS.wearer, theme.colours.wearer);
     this.drawn.places = places.length;
   }
 
@@ -199,7 +200,7 @@ export class Track {
       const place = feet[foot]?.position;
       if (!place) continue;
       const last = tracks[foot].at(-1); // a track has the strides that ended; the present one has not
-      if (last) line(context, [last, [0, ...place]], px, WIDTHS[foot], theme.colours[foot]);
+      if (last) line(context, [last, [0, ...place]], px, LINE_WIDTHS[foot], theme.colours[foot]);
       drawFoot(context, foot, px(place));
     }
     if (wearer) drawRing(context, px(wearer.position));

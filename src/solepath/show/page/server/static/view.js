@@ -2,10 +2,10 @@
 
 import { reducedMotion } from "./canvas.js";
 
-const EASE = 220; // ms until two thirds of the way to the goal are done, about
-const [LEAST, MOST] = [0.2, 400]; // px per metre
-const STEP = 1.4;
-const PUSH = 48; // px
+const EASING_TIME = 220; // ms in which the view covers about two thirds of the distance to its goal
+const [MIN_SCALE, MAX_SCALE] = [0.2, 400]; // px per metre
+const ZOOM_FACTOR = 1.4;
+const PUSH_DISTANCE = 48; // px
 
 export class View {
   follows = true; // true while it shows everything by itself
@@ -32,7 +32,7 @@ export class View {
     if (!this.follows || width < 1 || height < 1) return;
     const [x, y] = [0.5 * (box[0] + box[2]), 0.5 * (box[1] + box[3])];
     const fits = Math.min(width / Math.max(1e-3, box[2] - box[0]), height / Math.max(1e-3, box[3] - box[1]));
-    const scale = Math.min(MOST, Math.max(LEAST, fits));
+    const scale = Math.min(MAX_SCALE, Math.max(MIN_SCALE, fits));
     if (this.#goal !== null && this.#suits(box, width, height, scale)) return;
     const first = this.#goal === null;
     this.#goal = { x, y, scale: scale * (1 - spare) };
@@ -52,7 +52,7 @@ export class View {
     if (this.#now === null) return { x: 0, y: 0, scale: 30 };
     const passed = Math.min(100, now - this.#last);
     this.#last = now;
-    const share = this.settled ? 0 : 1 - Math.exp(-passed / EASE);
+    const share = this.settled ? 0 : 1 - Math.exp(-passed / EASING_TIME);
     for (const key of ["x", "y"]) this.#now[key] += share * (this.#goal[key] - this.#now[key]);
     this.#now.scale *= (this.#goal.scale / this.#now.scale) ** share;
     const off = Math.hypot(this.#goal.x - this.#now.x, this.#goal.y - this.#now.y) * this.#now.scale;
@@ -76,12 +76,12 @@ export class View {
   }
 
   zoom(nearer) {
-    this.#take({ ...this.#here(), scale: this.#here().scale * (nearer ? STEP : 1 / STEP) });
+    this.#take({ ...this.#here(), scale: this.#here().scale * (nearer ? ZOOM_FACTOR : 1 / ZOOM_FACTOR) });
   }
 
   push(right, up) {
     const { x, y, scale } = this.#here();
-    this.#take({ x: x + (right * PUSH) / scale, y: y + (up * PUSH) / scale, scale }, true);
+    this.#take({ x: x + (right * PUSH_DISTANCE) / scale, y: y + (up * PUSH_DISTANCE) / scale, scale }, true);
   }
 
   #here() {
@@ -90,7 +90,7 @@ export class View {
 
   #take(view, atOnce) {
     this.follows = false;
-    this.#goal = { ...view, scale: Math.min(MOST, Math.max(LEAST, view.scale)) };
+    this.#goal = { ...view, scale: Math.min(MAX_SCALE, Math.max(MIN_SCALE, view.scale)) };
     if (atOnce || reducedMotion.matches || this.#now === null) this.#now = { ...this.#goal };
     this.moved();
   }
@@ -98,7 +98,7 @@ export class View {
   // Zooms so that the same place stays under the point (px from the canvas's middle).
   #about(px, py, factor) {
     const { x, y, scale } = this.#here();
-    const next = Math.min(MOST, Math.max(LEAST, scale * factor));
+    const next = Math.min(MAX_SCALE, Math.max(MIN_SCALE, scale * factor));
     this.#take({ x: x + px / scale - px / next, y: y - py / scale + py / next, scale: next }, true);
   }
 
