@@ -122,7 +122,7 @@ def test_walking_along_a_line_finds_all_cells_that_are_near_and_no_others(
 ) -> None:
     flat = [(*start, *end) for start, end in (line, *others)]
     grid = Grid(flat, 0.5, 0.25, most)
-    found = grid.near(*flat[0], within)
+    found = grid.find_near(*flat[0], within)
     assert len(dict(found)) == len(found)
     for at in range(grid.columns * grid.rows):
         x, y = grid.left + (at % grid.columns + 0.5) * grid.cell, grid.bottom + (at // grid.columns + 0.5) * grid.cell
@@ -134,7 +134,7 @@ def test_walking_along_a_line_finds_all_cells_that_are_near_and_no_others(
 def test_a_wall_across_the_largest_plan_is_in_the_cells_along_it_only() -> None:
     grid = Grid([(0.0, 0.0, 5000.0, 5000.0)], 2.0, 0.5, 100_000)
     assert grid.columns * grid.rows > 95_000
-    assert len(grid.near(0.0, 0.0, 5000.0, 5000.0, 13.0)) < 1300
+    assert len(grid.find_near(0.0, 0.0, 5000.0, 5000.0, 13.0)) < 1300
 
 
 @settings(max_examples=60)

@@ -142,7 +142,7 @@ def test_an_archive_reads_as_its_folder_does(folder: str, compression: int) -> N
 
 
 def test_a_bomb_is_not_unpacked(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(reading, "LARGEST", 100_000)
+    monkeypatch.setattr(reading, "MAX_FILE_SIZE", 100_000)
     bomb = archive({**imdf_files(), "unit.geojson": b" " * 10_000_000})
     assert len(bomb) < 100_000
     with pytest.raises(FloorPlanError, match="unpacked it is larger than"):
@@ -171,7 +171,7 @@ def test_unreadable_files_are_rejected(tmp_path: Path, monkeypatch: pytest.Monke
     os.mkfifo(tmp_path / "pipe")
     with pytest.raises(FloorPlanError, match="is no regular file$"):
         read_floorplan(tmp_path / "pipe")
-    monkeypatch.setattr(reading, "LARGEST", 1000)
+    monkeypatch.setattr(reading, "MAX_FILE_SIZE", 1000)
     with pytest.raises(FloorPlanError, match="too large for a floor plan$"):
         read_floorplan(FILES / "house.geojson")
 
