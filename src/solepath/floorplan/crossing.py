@@ -81,7 +81,7 @@ class Walls:
         if not length2 <= _MAX_SHORT_MOVE2:  # also if it is NaN
             return self._crosses_far(x0, y0, x1, y1)
         if not (0.0 <= column < self._columns and 0.0 <= row < self._rows):
-            return False  # outside the grid no wall is within REACH
+            return False  # outside the grid no wall is within MAX_SHORT_MOVE
         cell = int(row) * self._columns + int(column)
         if length2 < self._free_distances2[cell]:
             return False

@@ -50,7 +50,7 @@ class Enclosure:
         self.columns, self.rows = ceil(width / self._space) + 3, ceil(depth / self._space) + 3
         self._outside = bytearray(self.columns * self.rows)
         self.outside_numbers: list[int] = []
-        """Numbers (row times `columns` plus column) of the places outside, in the order in which the fill reached them."""
+        """Numbers (row times `columns` plus column) of the places outside, in the order of the flood fill."""
         self._flood(*self._find_barriers(lines))
         self.open_end: Point | None = next(self._find_open_ends(), None)
         """End of a wall, m, that is outside and near no other wall; None when there is none."""

@@ -84,7 +84,7 @@ class Rooms:
         self._cells[row_start : row_start + self._columns] = filled.to_bytes(self._columns, "little")
 
     def inside(self, x: float, y: float) -> bool:
-        """Return whether (x, y), m, is inside; a place on an outline counts to one of the rooms beside it or to none."""
+        """Return whether (x, y), m, is inside; a place on an outline is in one of the rooms beside it or in none."""
         column, row = (x - self._left) * self._per_m, (y - self._bottom) * self._per_m
         if not (0.0 <= column < self._columns and 0.0 <= row < self._rows):
             return False

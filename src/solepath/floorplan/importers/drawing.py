@@ -153,7 +153,7 @@ def merged(walls: set[Wall]) -> list[Wall]:
     joined_walls: list[Wall] = []
     for wall in sorted(walls, key=_line_sort_key):
         if joined_walls:
-            (ax, ay), (bx, by) = last_ends = joined_walls[-1].start, merged[-1].end
+            (ax, ay), (bx, by) = last_ends = joined_walls[-1].start, joined_walls[-1].end
             far_end = max(wall.end, last_ends[1])
             if (distance(ax, ay, bx, by, *wall.start) <= _MERGE_DISTANCE
                     and distance(*last_ends[0], *far_end, *wall.end) <= _MERGE_DISTANCE
