@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from solepath.events import PacketRejected, Rejection, StrideTaken
 from solepath.fleet import End, Fleet, NumberedEvent, NumbersMissing, Sent, SentRejected, Tick, read_line
-from solepath.fleet.step.sent import MOST
+from solepath.fleet.step.sent import MAX_COUNT
 
 STORIES = json.loads((PROTOCOL / "fleet" / "stories.json").read_text())
 FLEET = Fleet()
@@ -75,7 +75,7 @@ def test_rows_that_are_late_or_doubled_within_the_window_give_the_events_and_the
 
 ANY = st.one_of(
     st.builds(shown, st.integers(0, 9), st.integers(0, 2)),
-    st.builds(shown, st.integers(0, MOST), st.integers(0, MOST)),
+    st.builds(shown, st.integers(0, MAX_COUNT), st.integers(0, MAX_COUNT)),
     st.builds(lambda number, run: Sent(WEARER, number, End(), run), st.integers(0, 9), st.integers(0, 2)),
     st.builds(lambda number, t: Sent(WEARER, number, Tick(t)), st.integers(0, 9), st.floats()),
 )
@@ -138,17 +138,21 @@ def test_a_phone_whose_clock_is_put_right_loses_a_window_of_rows_and_no_more() -
 
 
 def test_one_row_of_the_largest_run_there_is_does_not_silence_a_wearer() -> None:
-    _, emitted = FLEET.step(WEARER, None, [*run(NOW, 20), shown(0, MOST), *run(NOW, 400, 20), *run(NOW + 1, 5)])
+    _, emitted = FLEET.step(WEARER, None, [*run(NOW, 20), shown(0, MAX_COUNT), *run(NOW, 400, 20), *run(NOW + 1, 5)])
     there = [*range(20), *range(276, 420)]
-    assert sorted(used(emitted)) == [*[(NOW, number) for number in there], *[(NOW + 1, k) for k in range(5)], (MOST, 0)]
+    assert sorted(used(emitted)) == [
+        *[(NOW, number) for number in there],
+        *[(NOW + 1, k) for k in range(5)],
+        (MAX_COUNT, 0),
+    ]
 
 
-ROWS = st.builds(shown, st.integers(0, 9) | st.integers(0, MOST), st.integers(0, 3) | st.integers(0, MOST))
+ROWS = st.builds(shown, st.integers(0, 9) | st.integers(0, MAX_COUNT), st.integers(0, 3) | st.integers(0, MAX_COUNT))
 ENDS = st.builds(lambda number, of: Sent(WEARER, number, End(), of), st.integers(0, 9), st.integers(0, 3))
 
 
 @settings(max_examples=60)
-@given(before=st.lists(ROWS | ENDS, max_size=14), new=st.integers(0, 5) | st.integers(0, MOST))
+@given(before=st.lists(ROWS | ENDS, max_size=14), new=st.integers(0, 5) | st.integers(0, MAX_COUNT))
 def test_whatever_came_before_a_new_run_is_used_except_a_window_of_rows(before: list[Sent], new: int) -> None:
     before = [one for one in before if one.run != new]
     _, emitted = NARROW.step(WEARER, None, [*before, *run(new, 20)])

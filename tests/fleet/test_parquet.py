@@ -20,7 +20,7 @@ from pyarrow import parquet
 
 from solepath.events import ActivityChanged, HeelStrike
 from solepath.fleet import EVENT_COLUMNS, NumberedEvent, StateRejected, event_row
-from solepath.fleet.parquet import GROUPS, PartFiles
+from solepath.fleet.parquet import MAX_GROUPS, PartFiles
 from solepath.types import Activity, Foot
 
 FIRST = "part-0-00000000.parquet"
@@ -79,11 +79,11 @@ def test_a_part_holds_the_rows_of_its_events_wearer_by_wearer(tmp_path: Path) ->
 
 def test_a_part_that_grows_too_long_is_closed_by_itself(tmp_path: Path) -> None:
     parts = PartFiles(tmp_path, group=2)
-    parts.write(make_events(2 * GROUPS + 1))
+    parts.write(make_events(2 * MAX_GROUPS + 1))
     assert names(tmp_path) == [FIRST]
     assert parts.close() == (parts.run, 2)
-    assert parquet.ParquetFile(file(tmp_path)).num_row_groups == GROUPS
-    assert by_identity(rows(tmp_path)) == by_identity([event_row(one) for one in make_events(2 * GROUPS + 1)])
+    assert parquet.ParquetFile(file(tmp_path)).num_row_groups == MAX_GROUPS
+    assert by_identity(rows(tmp_path)) == by_identity([event_row(one) for one in make_events(2 * MAX_GROUPS + 1)])
 
 
 def test_parts_from_the_resumed_number_on_are_removed_and_no_other_file_is(tmp_path: Path) -> None:

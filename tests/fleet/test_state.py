@@ -18,9 +18,9 @@ from hypothesis import strategies as st
 from solepath import recipes
 from solepath.emulate.routes.building import BUILDING
 from solepath.fleet import End, Fleet, Sent, StateRejected, Tick, Unreadable
-from solepath.fleet.step.keyed import first_number
+from solepath.fleet.step.keyed import first_event_number
 from solepath.fleet.step.order import RejectedItem
-from solepath.fleet.step.state import READERS, VERSION, Identity, read_identity, read_rest, write_state
+from solepath.fleet.step.state import READERS, VERSION, StateHead, read_identity, read_rest, write_state
 from solepath.foot.stance.stance import Detector, Load, Stance
 from solepath.recipes import DEFAULT
 from solepath.session import Session
@@ -58,19 +58,19 @@ def test_a_state_is_as_in_the_protocol(vector: dict[str, Any]) -> None:
     identity = read_identity(state)
     if vector["result"] == "refused":
         known = vector["identity"]
-        assert identity == (None if known is None else Identity(**known))
+        assert identity == (None if known is None else StateHead(**known))
         (first, *_) = FLEET.step(WEARER, state, [shown(300, 7)])[1]
         assert isinstance(first.event, StateRejected)
-        assert first.number == (first_number(7, 300) if known is None else known["next_event"])
+        assert first.number == (first_event_number(7, 300) if known is None else known["next_event"])
         return
     fields = vector["fields"]
     rest = read_rest(state)
-    assert identity == Identity(*[fields[name] for name in ("run", "next", "next_event", "known")])
+    assert identity == StateHead(*[fields[name] for name in ("run", "next", "next_event", "known")])
     assert (rest.ended, rest.failure, rest.session) == (fields["ended"], fields["failure"], None)
     assert [[span.run, span.first, span.end] for span in rest.unused.spans] == fields["spans"]
     assert [[*runs] for runs in rest.unused.forgotten] == fields["forgotten"]
     assert [*astuple(rest.strays)] == fields["strays"]
-    assert [held_as_fields(place, what) for place, what in rest.held.items()] == fields["held"]
+    assert [held_as_fields(place, what) for place, what in rest.held_rows.items()] == fields["held"]
     assert write_state(identity, rest) == state
     assert FLEET.open(WEARER, state).state() == state
 

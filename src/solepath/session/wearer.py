@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from ..floorplan.index import IndexedPlan
 
 _Key = TypeVar("_Key")
-_Value = TypeVar("_Held")
+_Value = TypeVar("_Value")
 _Calibrated = TypeVar("_Calibrated")
 
 
