@@ -13,7 +13,7 @@ PATIENCE = 2.0
 moments = st.lists(
     st.tuples(st.floats(0.0, 3.0), st.sampled_from(["acc", "gyro", "battery", None])), min_size=1, max_size=60
 )
-"""(time since the one before, s; channel of the notification, or None for a check)."""
+"""(time since the previous action, s; channel of the notification, or None for a check)."""
 
 
 def test_a_stream_that_never_started_is_set_up_again_and_then_given_up() -> None:

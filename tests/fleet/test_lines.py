@@ -22,7 +22,7 @@ State = dict[str, int]
 
 
 def read(source: LineSource, part: str = ".", state: State | None = None) -> tuple[list[bytes], State]:
-    """Lines to the end, and the state there."""
+    """Return the lines up to the end, and the state there."""
     partition, lines = source.build_part("phones", part, state), []
     with suppress(StopIteration):
         while True:
@@ -32,7 +32,7 @@ def read(source: LineSource, part: str = ".", state: State | None = None) -> tup
 
 @pytest.fixture
 def put(tmp_path: Path) -> Callable[[str, bytes], None]:
-    """Write something behind what is in a file."""
+    """Append data to a file."""
 
     def write(name: str, data: bytes) -> None:
         path = tmp_path / name

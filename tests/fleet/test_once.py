@@ -1,4 +1,4 @@
-"""Once: of what is delivered at least once, every event the first time."""
+"""Once accepts the first delivery of every event and rejects repeated deliveries."""
 
 from __future__ import annotations
 

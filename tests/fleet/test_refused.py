@@ -51,7 +51,7 @@ IN_ORDER = StateRest(held_rows={(6, 300): Tick(1.0), (6, 302): Tick(2.0), (7, 0)
     ids=["used", "older run", "one of two", "number", "run"],
 )
 def test_a_state_that_holds_what_cannot_be_held_is_rejected(held: list[tuple[int, int]]) -> None:
-    """Its checksum is right: its writer was wrong, or it was damaged before."""
+    """The checksum is right: the writer had a fault, or the data were damaged before."""
     identity = StateHead(6, 299, 1200, 12.25)
     assert read_rest(write_state(identity, IN_ORDER)) == IN_ORDER
     state = write_state(identity, StateRest(held_rows={place: Tick(1.0) for place in held}))
@@ -63,7 +63,7 @@ def test_a_state_that_holds_what_cannot_be_held_is_rejected(held: list[tuple[int
 
 @pytest.mark.parametrize("state", ["spfl", 0.5, 10**30, 41, [115, 112], {}], ids=repr)
 def test_a_state_that_is_no_bytes_is_a_mistake_of_the_job_and_not_of_a_wearer(state: Any) -> None:
-    """All wearers of the job would lose theirs: the job ends, and goes on when it is mended."""
+    """All wearers of the job would lose their states; so the job ends, and continues after a correction."""
     with pytest.raises(TypeError, match="state"):
         FLEET.step(WEARER, state, [])
     with pytest.raises(TypeError, match="state"):
@@ -118,7 +118,7 @@ def runs_out(after: int, sent: Any, known: Any) -> Any:
 
 
 def test_out_of_memory_is_raised_and_the_last_state_can_continue() -> None:
-    """The wearer is not at fault: with more memory the same packet is used."""
+    """Too little memory is no fault of the wearer: with more memory the same packet is used."""
 
     def fleet(most: int) -> Fleet:
         return Fleet(profiles=[evolve(toys.NUMBERED, readers={"toy/more": partial(runs_out, most)})])

@@ -1,4 +1,4 @@
-"""Rows and lines of a fleet: protocol/fleet/lines.json, and anything else that a table or a topic may hold."""
+"""Rows and lines of a fleet: protocol/fleet/lines.json, and any other content of a table or a topic."""
 
 from __future__ import annotations
 

@@ -52,18 +52,16 @@ def walk(name: str, seconds: float, seed: int) -> list[Packet]:
         route = route.walk(6.0, WALKING_SPEED).turn(pi / 2, radius=1.5)
         length += 6.0 + 1.5 * pi / 2
     worn = {site: DEVICES[name] for site in (Site.LEFT_FOOT, Site.RIGHT_FOOT)}
-    received = [
-        packet for packet in emulate(route, devices=worn, radio=POOR_RADIO, seed=seed).packets if packet.t < seconds
-    ]
+    received = [p for p in emulate(route, devices=worn, radio=POOR_RADIO, seed=seed).packets if p.t < seconds]
     if name == SILENT_WALK:
         start, end = (share * seconds for share in SILENCE_SHARES)
         received = [packet for packet in received if not start <= packet.t < end]
     return received
 
 
-POISON_INTERVAL = 97
+POISON_EVERY = 97
 """One wearer in this many sends random bytes; the first is wearer number 3."""
-GAP_INTERVAL = 10
+GAP_EVERY = 10
 """One wearer in this many loses some of its rows; the first is wearer number 5."""
 FIRST_RUN = 1_790_000_000_000
 """Time at which the first phone was started, ms since 1970; it is the number of a run."""
@@ -116,23 +114,15 @@ class DemoWearer:
         name, run, shift = self.name, self.run, self.shift
         # a fast path for packets, the majority, so that the measurement shows the engine's time
         return [
-            Sent(
-                name,
-                row_number,
-                Packet(payload.t + shift, payload.site, payload.channel, payload.data),
-                run + run_index,
-            )
+            Sent(name, n, Packet(payload.t + shift, payload.site, payload.channel, payload.data), run + k)
             if type(payload) is Packet
-            else self._make_row((run_index, row_number, payload))
-            for run_index, row_number, payload in bundles[number]
+            else self._make_row((k, n, payload))
+            for k, n, payload in bundles[number]
         ]
 
     def remarks(self) -> list[Remark]:
         """Return the events that the fleet itself must emit for this wearer."""
-        return [
-            remark if remark.run is None else evolve(remark, run=self.run + remark.run)
-            for remark in self.sending.remarks
-        ]
+        return [r if r.run is None else evolve(r, run=self.run + r.run) for r in self.sending.remarks]
 
     def inputs(self) -> list[DemoPayload]:
         """Return the input of this wearer's session, in order."""
@@ -180,14 +170,10 @@ class Wearers:
         wearers = []
         for number in range(plan.wearers):
             rng = Random(f"wearer {plan.seed} {number}")
-            sendings_of_kind = (
-                poisons
-                if number % POISON_INTERVAL == 3
-                else (gaps or sendings)
-                if number % GAP_INTERVAL == 5
-                else sendings
+            kind = (
+                poisons if number % POISON_EVERY == 3 else (gaps or sendings) if number % GAP_EVERY == 5 else sendings
             )
-            sending = rng.choice(sendings_of_kind)
+            sending = rng.choice(kind)
             run = FIRST_RUN + rng.randrange(10**8)
             wearers.append(DemoWearer(f"w{number:05d}", sending, rng.uniform(0.0, 1e5), run))
         return cls(plan, sendings, poisons, gaps, wearers)

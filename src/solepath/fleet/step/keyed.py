@@ -99,10 +99,10 @@ class Keyed:
             self._has_numbers = False
             return
         window, self._next_event, self._known_at = self._sessions.window, identity.next_event, identity.known
-        self._order = RowOrder(window, identity.run, identity.next_number)
+        self._order = RowOrder(window, identity.run, identity.next)
         try:
             rest = read_rest(state)
-            order_state = (identity.run, identity.next_number, rest.ended, rest.held_rows, rest.unused, rest.strays)
+            order_state = (identity.run, identity.next, rest.ended, rest.held_rows, rest.unused, rest.strays)
             self._order = RowOrder(window, *order_state)
             if rest.failure:
                 self._pending = (WearerFailed, rest.failure)

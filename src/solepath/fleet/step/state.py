@@ -41,7 +41,7 @@ class StateHead:
     """The first part of a state, which every version can read."""
 
     run: int
-    next_number: int
+    next: int
     next_event: int
     """Number of the next event."""
     known: float
@@ -65,7 +65,7 @@ class StateRest:
 
 def write_state(identity: StateHead, rest: StateRest) -> bytes:
     """Return the bytes of a state."""
-    first = _HEAD_FORMAT.pack(MAGIC, VERSION, identity.run, identity.next_number, identity.next_event, identity.known)
+    first = _HEAD_FORMAT.pack(MAGIC, VERSION, identity.run, identity.next, identity.next_event, identity.known)
     unused, strays = rest.unused, rest.strays
     other = b"".join(
         [
