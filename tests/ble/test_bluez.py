@@ -100,12 +100,12 @@ def test_a_scan_lists_advertising_devices_and_leaves_the_adapter_alone_afterward
 
 
 def test_every_frame_of_two_insoles_arrives_once_and_in_order(on_a_bus):
-    both_insoles = bench(left_foot=Insole(), right_foot=Insole())
+    pair = bench(left_foot=Insole(), right_foot=Insole())
     for site in (LEFT, RIGHT):
-        both_insoles[site].log = []
+        pair[site].log = []
 
     async def main(address):
-        async with Bluez(both_insoles.peripherals).serving(address) as bluez:
+        async with Bluez(pair.peripherals).serving(address) as bluez:
             async with Devices([DeviceConfig(None, "solepath R"), DeviceConfig(None, "solepath L")]) as devices:
                 received = await until(
                     devices, lambda received: all(len(of(received, "insole/frame", s)) > 150 for s in (LEFT, RIGHT))
@@ -117,21 +117,13 @@ def test_every_frame_of_two_insoles_arrives_once_and_in_order(on_a_bus):
     received, idle, ended = on_a_bus(main)
     for site in (LEFT, RIGHT):
         arrived = of(received, "insole/frame", site)
-        assert (
-            arrived == [sent.value for sent in both_insoles[site].log if sent.channel == "insole/frame"][: len(arrived)]
-        )
+        assert arrived == [sent.value for sent in pair[site].log if sent.channel == "insole/frame"][: len(arrived)]
         # what is read comes once, although BlueZ tells of it as if it had been notified
-        channels_read_once = [
-            "insole/info",
-            "device/firmware",
-            "device/battery",
-            "insole/control",
-            "receiver/connected",
-        ]
-        assert [len(of(received, channel, site)) for channel in channels_read_once] == [1] * len(channels_read_once)
+        read_once = ["insole/info", "device/firmware", "device/battery", "insole/control", "receiver/connected"]
+        assert [len(of(received, channel, site)) for channel in read_once] == [1] * len(read_once)
     assert not troubles(received)
     assert idle and ended >= 3  # the search, and two connections
-    assert not any(device.is_connected for device in both_insoles.peripherals)
+    assert not any(device.is_connected for device in pair.peripherals)
 
 
 def test_a_sensortag_obeys_its_setup(on_a_bus):

@@ -92,9 +92,9 @@ def test_events_of_a_foot_follow_each_other_and_times_never_run_back(name: str) 
     machine_events = fed_singly(name)
     for foot in {event.foot for event in of(FootMoved, machine_events)}:
         phases = [
-            event_
-            for event_ in machine_events
-            if isinstance(event_, HeelStrike | FootFlat | HeelOff | ToeOff) and event_.foot is foot
+            cue
+            for cue in machine_events
+            if isinstance(cue, HeelStrike | FootFlat | HeelOff | ToeOff) and cue.foot is foot
         ]
         for earlier, later in zip(phases, phases[1:], strict=False):
             assert later.t >= earlier.t and later.known_at >= earlier.known_at

@@ -66,13 +66,11 @@ def test_settings_of_every_part_are_after_a_walk_what_they_were_before_it(name: 
 def test_a_calibration_that_does_not_fit_the_insoles_is_left_out_not_changed() -> None:
     """The insoles report newtons themselves, and have another number of cells than the calibration's noise."""
     cubic = Newtons((0.0, 1.0, 0.0, 0.0))
-    unfitting = Calibration({foot: InsoleCalibration(newtons=cubic, noise=(1.0,) * 9) for foot in Foot})
-    session, plain = Session(calibration=unfitting), Session()
-    emitted, usual_events = session.feed(packets()["whole frames"]), plain.feed(packets()["whole frames"])
+    unfit = Calibration({foot: InsoleCalibration(newtons=cubic, noise=(1.0,) * 9) for foot in Foot})
+    session, plain = Session(calibration=unfit), Session()
+    emitted, usual = session.feed(packets()["whole frames"]), plain.feed(packets()["whole frames"])
     assert changed_in(session) == []
-    assert {type(event).__name__ for event in emitted} - {type(event).__name__ for event in usual_events} == {
-        "Limitation"
-    }
+    assert {type(event).__name__ for event in emitted} - {type(event).__name__ for event in usual} == {"Limitation"}
     assert session.position == plain.position
     for foot, tracker in session.feet.items():
         assert tracker.sole.insole.in_newtons
@@ -92,15 +90,10 @@ def test_sessions_of_one_recipe_hold_one_copy_of_it_and_of_a_recipe_that_was_cha
 
 
 def test_what_a_walk_does_to_parts_does_not_reach_the_recipe() -> None:
-    saved_recipe = machine.save(recipes.DEFAULT)
+    saved = machine.save(recipes.DEFAULT)
     session, second_session = Session(), Session()
     session.feed(samples(cells=0, rate=50.0))
-    assert (
-        machine.save(session.recipe)
-        == machine.save(second_session.recipe)
-        == machine.save(recipes.DEFAULT)
-        == saved_recipe
-    )
+    assert machine.save(session.recipe) == machine.save(second_session.recipe) == machine.save(recipes.DEFAULT) == saved
 
 
 def test_wearers_of_one_kind_of_insole_hold_its_layout_once() -> None:

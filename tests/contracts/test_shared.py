@@ -114,11 +114,9 @@ def test_a_layout_is_shared_only_with_those_that_are_the_same_to_the_bit() -> No
     layout_24 = layout(24, Foot.LEFT)
     for first, second in ((0.0, -0.0), (-0.0, 0.0)):
         number = 40 if str(first) == "0.0" else 41
-        layouts_of_zero = [
-            evolve(layout_24, id=number, cells=(Cell(x, 0.01), *layout_24.cells[1:])) for x in (first, second)
-        ]
-        assert [repr(shared(one)) for one in layouts_of_zero] == [repr(one) for one in layouts_of_zero]
-        sessions = [Session(calibration=Calibration({Foot.LEFT: InsoleCalibration(one)})) for one in layouts_of_zero]
+        pair = [evolve(layout_24, id=number, cells=(Cell(x, 0.01), *layout_24.cells[1:])) for x in (first, second)]
+        assert [repr(shared(one)) for one in pair] == [repr(one) for one in pair]
+        sessions = [Session(calibration=Calibration({Foot.LEFT: InsoleCalibration(one)})) for one in pair]
         for session in sessions:
             session.feed(samples()[:60])
             again = Session.unpack(session.pack())

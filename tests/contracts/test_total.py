@@ -97,25 +97,13 @@ def certainly_bad(packet: Packet, kind: str, number: int, bad_time: float) -> Pa
 
 FEW_EXAMPLES = settings(max_examples=2, phases=[Phase.generate])
 """Settings for tests whose every example is a whole walk: few examples, without shrinking."""
-LIST_SIZES = {"min_size": 8, "max_size": 24}
+SIZES = {"min_size": 8, "max_size": 24}
 """Sizes of lists of unusable items; hypothesis tries the smallest first, and a walk without any would show nothing."""
-PACKET_FAULTS = (
-    "unknown channel",
-    "another device",
-    "no time",
-    "earlier",
-    "site without a sensor",
-    "too long",
-    "nonsense",
-)
+KINDS = ("unknown channel", "another device", "no time", "earlier", "site without a sensor", "too long", "nonsense")
 
 
 @pytest.mark.parametrize("name", PACKET_NAMES)
-@given(
-    st.lists(
-        st.tuples(st.integers(10, 10_000), st.sampled_from(PACKET_FAULTS), st.integers(0, 99), TIMES), **LIST_SIZES
-    )
-)
+@given(st.lists(st.tuples(st.integers(10, 10_000), st.sampled_from(KINDS), st.integers(0, 99), TIMES), **SIZES))
 @FEW_EXAMPLES
 def test_good_packets_give_the_same_events_whatever_comes_between_them(
     name: str, bad: list[tuple[int, str, int, float]]
@@ -203,7 +191,7 @@ def test_a_sample_that_cannot_be_used_changes_nothing_and_is_named(name: str, ki
 
 
 @pytest.mark.parametrize("name", SAMPLE_NAMES)
-@given(st.lists(st.tuples(st.integers(0, 10_000), st.sampled_from(SAMPLE_FAULTS)), **LIST_SIZES))
+@given(st.lists(st.tuples(st.integers(0, 10_000), st.sampled_from(SAMPLE_FAULTS)), **SIZES))
 @FEW_EXAMPLES
 def test_good_samples_give_the_same_events_whatever_comes_between_them(name: str, bad: list[tuple[int, str]]) -> None:
     machine = machines()[name]

@@ -28,7 +28,7 @@ from solepath.fleet.bytewax import gait, purge
 from solepath.session import Session
 from solepath.types import Packet, Site
 
-SNAPSHOT_INTERVAL = timedelta(milliseconds=20)
+INTERVAL = timedelta(milliseconds=20)
 """Time between two snapshots."""
 
 
@@ -69,9 +69,9 @@ def test_each_wearer_has_the_events_of_a_session_of_their_own_also_when_the_job_
     emitted: list[tuple[str, NumberedEvent]] = []
     flow = job(items, emitted, recipe)
     for _ in range(3):
-        run_main(flow, epoch_interval=SNAPSHOT_INTERVAL, recovery_config=store)
+        run_main(flow, epoch_interval=INTERVAL, recovery_config=store)
         assert by_wearer(emitted) != events
-    run_main(flow, epoch_interval=SNAPSHOT_INTERVAL, recovery_config=store)
+    run_main(flow, epoch_interval=INTERVAL, recovery_config=store)
     assert by_wearer(emitted) == events
 
 
@@ -82,9 +82,7 @@ def test_wearers_are_divided_among_workers_and_move_when_their_number_changes(st
     emitted: list[tuple[str, NumberedEvent]] = []
     flow = job([*sent[:third], pause, *sent[third : 2 * third], pause, *sent[2 * third :]], emitted)
     for workers in (2, 3, 1):
-        cluster_main(
-            flow, [], 0, epoch_interval=SNAPSHOT_INTERVAL, recovery_config=store, worker_count_per_proc=workers
-        )
+        cluster_main(flow, [], 0, epoch_interval=INTERVAL, recovery_config=store, worker_count_per_proc=workers)
     assert by_wearer(emitted) == events
 
 
@@ -123,9 +121,7 @@ def test_who_has_ended_is_forgotten_after_a_while_though_the_job_stopped_in_betw
 
     def run(items: list[Any], forget: timedelta | None) -> set[str]:
         """Return the wearers whose state is in the store."""
-        run_main(
-            job([*before, *items, *pauses], [], forget=forget), epoch_interval=SNAPSHOT_INTERVAL, recovery_config=store
-        )
+        run_main(job([*before, *items, *pauses], [], forget=forget), epoch_interval=INTERVAL, recovery_config=store)
         before.extend(items)
         with closing(sqlite3.connect(tmp_path / "part-0.sqlite3")) as parts:
             rows = parts.execute("SELECT state_key FROM snaps WHERE step_id LIKE '%gait%' AND ser_change NOT NULL")

@@ -116,7 +116,7 @@ def test_what_was_given_up_long_ago_is_forgotten_but_nothing_is_used_twice() -> 
     assert late == [*[("rejected", 0, *one) for one in known], ("used", 0, 99, None)], "16 spans are remembered"
 
 
-FUTURE_RUN, CURRENT_RUN = 4_000_000_000_000, 1_790_000_000_000
+FUTURE_RUN, THIS_RUN = 4_000_000_000_000, 1_790_000_000_000
 
 
 def run(of: int, count: int, first: int = 0) -> list[Sent]:
@@ -130,8 +130,8 @@ def used(emitted: list[NumberedEvent]) -> list[tuple[int | None, int | None]]:
 def test_a_phone_whose_clock_is_put_right_loses_a_window_of_rows_and_no_more() -> None:
     state, _ = FLEET.step(WEARER, None, run(FUTURE_RUN, 20))
     for again in (run(FUTURE_RUN, 20), []):
-        _, emitted = FLEET.step(WEARER, state, [*again, *run(CURRENT_RUN, 400)])
-        assert used(emitted) == [(CURRENT_RUN, number) for number in range(256, 400)]
+        _, emitted = FLEET.step(WEARER, state, [*again, *run(THIS_RUN, 400)])
+        assert used(emitted) == [(THIS_RUN, number) for number in range(256, 400)]
         assert [one.event.count for one in emitted if isinstance(one.event, SentRejected)] == [2**k for k in range(9)]
         assert [one.event.count for one in emitted if isinstance(one.event, NumbersMissing)] == [256]
         assert [one.number for one in emitted] == list(range(20, 20 + len(emitted)))
@@ -139,12 +139,12 @@ def test_a_phone_whose_clock_is_put_right_loses_a_window_of_rows_and_no_more() -
 
 def test_one_row_of_the_largest_run_there_is_does_not_silence_a_wearer() -> None:
     _, emitted = FLEET.step(
-        WEARER, None, [*run(CURRENT_RUN, 20), shown(0, MAX_COUNT), *run(CURRENT_RUN, 400, 20), *run(CURRENT_RUN + 1, 5)]
+        WEARER, None, [*run(THIS_RUN, 20), shown(0, MAX_COUNT), *run(THIS_RUN, 400, 20), *run(THIS_RUN + 1, 5)]
     )
     there = [*range(20), *range(276, 420)]
     assert sorted(used(emitted)) == [
-        *[(CURRENT_RUN, number) for number in there],
-        *[(CURRENT_RUN + 1, k) for k in range(5)],
+        *[(THIS_RUN, number) for number in there],
+        *[(THIS_RUN + 1, k) for k in range(5)],
         (MAX_COUNT, 0),
     ]
 

@@ -29,14 +29,14 @@ from solepath.types.vector import IDENTITY, ZERO
 
 STATES = json.loads((PROTOCOL / "fleet" / "states.json").read_text())
 FLEET = Fleet()
-ROWS_TO_MIDDLE = 350
+MIDDLE = 350
 """Number of rows after which the walk has started."""
 
 
 @cache
 def halfway() -> tuple[bytes, int]:
     """Return a state in the middle of a walk, and the number of events before it."""
-    state, emitted = FLEET.step(WEARER, None, walked().sent[:ROWS_TO_MIDDLE])
+    state, emitted = FLEET.step(WEARER, None, walked().sent[:MIDDLE])
     return state, len(emitted)
 
 
@@ -83,12 +83,12 @@ def test_every_version_up_to_the_newest_is_read_and_has_an_example() -> None:
 @settings(max_examples=40)
 @given(state=st.one_of(st.binary(max_size=80), st.binary(max_size=60).map(lambda rest: halfway()[0][:41] + rest)))
 def test_any_bytes_give_a_fresh_start_and_never_an_exception(state: bytes) -> None:
-    sent = [shown(ROWS_TO_MIDDLE, 5), Unreadable(WEARER, "no row"), shown(ROWS_TO_MIDDLE + 1, 5)]
+    sent = [shown(MIDDLE, 5), Unreadable(WEARER, "no row"), shown(MIDDLE + 1, 5)]
     after, emitted = Fleet(window=0).step(WEARER, state, sent)
     assert isinstance(emitted[0].event, StateRejected)
     assert [one.number for one in emitted] == list(range(emitted[0].number, emitted[0].number + len(emitted)))
     assert [what for what, *_ in uses(emitted[1:])][-3:] == ["used", "rejected", "used"]
-    assert Fleet(window=0).step(WEARER, after, [shown(ROWS_TO_MIDDLE + 2, 5)])[1][0].number == emitted[-1].number + 1
+    assert Fleet(window=0).step(WEARER, after, [shown(MIDDLE + 2, 5)])[1][0].number == emitted[-1].number + 1
 
 
 @settings(max_examples=40)
@@ -97,7 +97,7 @@ def test_a_bit_that_fell_over_anywhere_is_noticed_and_no_identity_is_used_again(
     state, before = halfway()
     damaged = bytearray(state)
     damaged[place % len(state)] ^= 1 << bit
-    _, emitted = FLEET.step(WEARER, bytes(damaged), walked().sent[ROWS_TO_MIDDLE : ROWS_TO_MIDDLE + 5])
+    _, emitted = FLEET.step(WEARER, bytes(damaged), walked().sent[MIDDLE : MIDDLE + 5])
     assert isinstance(emitted[0].event, StateRejected)
     assert emitted[0].number >= before
 
@@ -127,11 +127,11 @@ def test_where_nothing_can_be_read_the_first_number_waits_for_a_row_that_has_one
 def test_a_session_of_another_recipe_or_of_a_building_is_rejected_and_the_numbers_go_on() -> None:
     state, before = halfway()
     for fleet in (Fleet(recipes.by_name("kupt-dfpc")), Fleet(evolve(DEFAULT, name="mine")), Fleet(floorplan=BUILDING)):
-        after, emitted = fleet.step(WEARER, state, walked().sent[ROWS_TO_MIDDLE : ROWS_TO_MIDDLE + 50])
+        after, emitted = fleet.step(WEARER, state, walked().sent[MIDDLE : MIDDLE + 50])
         assert isinstance(emitted[0].event, StateRejected) and emitted[0].event.detail
         assert [one.number for one in emitted] == list(range(before, before + len(emitted)))
         assert emitted[0].event.t == read_identity(state).known
-        assert fleet.step(WEARER, after, walked().sent[ROWS_TO_MIDDLE + 50 : ROWS_TO_MIDDLE + 150])[1], (
+        assert fleet.step(WEARER, after, walked().sent[MIDDLE + 50 : MIDDLE + 150])[1], (
             "and the wearer is followed again"
         )
 
@@ -141,7 +141,7 @@ def test_after_the_end_a_tombstone_is_left_which_every_job_can_read() -> None:
     assert len(state) == 54 and FLEET.open(WEARER, state).ended
     other = Fleet(recipes.by_name("kupt-dfpc"))
     assert other.step(WEARER, state, walked().sent) == (state, [])
-    again, more = other.step(WEARER, state, [evolve(one, run=1) for one in walked().sent[:ROWS_TO_MIDDLE]])
+    again, more = other.step(WEARER, state, [evolve(one, run=1) for one in walked().sent[:MIDDLE]])
     assert more[0].number == len(emitted) and not other.open(WEARER, again).ended
 
 
@@ -184,11 +184,11 @@ class Unsound(Detector):
 def test_a_detector_of_ones_own_that_cannot_be_saved_costs_its_wearer_the_session_and_no_more() -> None:
     fleet = Fleet(evolve(DEFAULT, name="unsound", detector=Unsound()), parts=[Unsound])
     keyed = fleet.open(WEARER, None)
-    before = len(keyed.feed(walked().sent[:ROWS_TO_MIDDLE]))
+    before = len(keyed.feed(walked().sent[:MIDDLE]))
     state = keyed.state()
     assert len(state) < 1000
     restored = fleet.open(WEARER, state)
-    rest = walked().sent[ROWS_TO_MIDDLE : ROWS_TO_MIDDLE + 100]
+    rest = walked().sent[MIDDLE : MIDDLE + 100]
     emitted = keyed.feed(rest)
     assert type(emitted[0].event).__name__ == "WearerFailed" and emitted[0].number == before
     assert restored.feed(rest) == emitted, "in memory and from bytes it goes on alike"
@@ -197,11 +197,11 @@ def test_a_detector_of_ones_own_that_cannot_be_saved_costs_its_wearer_the_sessio
 
 def test_a_phone_hands_its_wearer_over() -> None:
     sent, whole = walked().sent, Session()
-    first = [event for one in sent[:ROWS_TO_MIDDLE] for event in whole.feed(one.what)]
+    first = [event for one in sent[:MIDDLE] for event in whole.feed(one.what)]
     state = FLEET.adopt(json.loads(json.dumps(whole.snapshot())))
     assert read_identity(state).known == whole.now
     numbers = count()
-    rest = [evolve(one, number=next(numbers), run=3) for one in sent[ROWS_TO_MIDDLE:]]
+    rest = [evolve(one, number=next(numbers), run=3) for one in sent[MIDDLE:]]
     _, emitted = FLEET.step(WEARER, state, rest)
     assert (*first, *[one.event for one in emitted]) == walked().events
     assert [one.number for one in emitted] == list(range(len(emitted)))

@@ -99,15 +99,9 @@ class Connection:
         """Keep the device connected; never returns."""
         pause, self._no_stream_since = SEARCH_DELAY, _now()
         while True:
-            no_stream_since, report_trouble = self._no_stream_since, self.emitter.report_trouble
+            silent_since, report_trouble = self._no_stream_since, self.emitter.report_trouble
             search = Search(
-                self.scanner,
-                self.config,
-                self.address,
-                self._is_excluded,
-                self.patience,
-                no_stream_since,
-                report_trouble,
+                self.scanner, self.config, self.address, self._is_excluded, self.patience, silent_since, report_trouble
             )
             found = await search.run()
             self._current_address, self.signal = found.address, found.signal if found.signal > WEAKEST_SIGNAL else None

@@ -10,7 +10,7 @@ from .crossing import MAX_CELLS, Walls
 from .enclosure import MAX_PLACES, Enclosure
 from .grid import MAX_CELLS_PER_PLAN, MAX_PLACES_PER_PLAN, share_limit
 from .plan import Connector, FloorPlan, Level, Point
-from .records import MAX_COORDINATE, describe_value, find_type_faults
+from .records import MAX_COORDINATE, describe, find_type_faults
 from .rooms import Rooms
 
 MAX_BUILDING_WIDTH = 5000.0
@@ -60,9 +60,9 @@ def _find_faults(plan: FloorPlan) -> Iterator[str]:
     anchor = plan.anchor
     if anchor is not None:
         if not abs(anchor.bearing) <= 10.0:
-            yield f"the anchor's bearing is {describe_value(anchor.bearing)} rad"
+            yield f"the anchor's bearing is {describe(anchor.bearing)} rad"
         if not (abs(anchor.latitude) <= 89.0 and abs(anchor.longitude) <= 180.0):
-            latitude, longitude = describe_value(anchor.latitude), describe_value(anchor.longitude)
+            latitude, longitude = describe(anchor.latitude), describe(anchor.longitude)
             yield f"the anchor is at latitude {latitude}, longitude {longitude}"
 
 
@@ -92,14 +92,14 @@ def _faults_of_length(plan: FloorPlan) -> Iterator[str]:
 def _faults_of_level(level: Level) -> Iterator[str]:
     name = f"level {level.id!r}"
     if not abs(level.elevation) <= MAX_COORDINATE:
-        yield f"{name}: its elevation is {describe_value(level.elevation)}"
+        yield f"{name}: its elevation is {describe(level.elevation)}"
     for name_of_shape, points in _features_drawn(level):
         for point in points:
             if not _is_place(point):
-                yield f"{name}: {name_of_shape} is at {describe_value(point)}"
+                yield f"{name}: {name_of_shape} is at {describe(point)}"
     for i, wall in enumerate(level.walls):
         if wall.start == wall.end:
-            yield f"{name}: wall {i} has no length, at {describe_value(wall.start)}"
+            yield f"{name}: wall {i} has no length, at {describe(wall.start)}"
     for i, room in enumerate(level.rooms):
         if len(room) < 3:
             yield f"{name}: room {i} has {len(room)} corners"
@@ -116,16 +116,16 @@ def _faults_of_connector(connector: Connector, elevations: dict[str, float]) -> 
             return
         for point in (stop.place, *stop.outline):
             if not _is_place(point):
-                yield f"{name}: its stop at level {stop.level!r} is at {describe_value(point)}"
+                yield f"{name}: its stop at level {stop.level!r} is at {describe(point)}"
         if len(stop.outline) in (1, 2):
             yield f"{name}: its outline at level {stop.level!r} has {len(stop.outline)} corners"
         if elevation_below is not None and not elevations[stop.level] > elevation_below:
             yield f"{name}: its stops are not from the lowest to the highest"
         elevation_below = elevations[stop.level]
     if connector.flights is not None and not 1 <= connector.flights <= 100:
-        yield f"{name}: has {describe_value(connector.flights)} flights a storey"
+        yield f"{name}: has {describe(connector.flights)} flights a storey"
     if connector.rise is not None and not 0.02 <= connector.rise <= 0.6:
-        yield f"{name}: its steps rise {describe_value(connector.rise)} m"
+        yield f"{name}: its steps rise {describe(connector.rise)} m"
 
 
 def _faults_of_units(plan: FloorPlan) -> Iterator[str]:

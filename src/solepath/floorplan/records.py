@@ -45,21 +45,21 @@ def _check_level(level: Level) -> Iterator[str]:
     name = f"level {level.id!r}"
     yield from _check_text(f"{name}: its name", level.name)
     if isinstance(level.ordinal, bool) or not isinstance(level.ordinal, int) or abs(level.ordinal) > MAX_ORDINAL:
-        yield f"{name}: its ordinal is {describe_value(level.ordinal)}, not a whole number up to {MAX_ORDINAL}"
+        yield f"{name}: its ordinal is {describe(level.ordinal)}, not a whole number up to {MAX_ORDINAL}"
     yield from _check_number(f"{name}: its elevation", level.elevation)
     for noun, values, type_ in (("wall", level.walls, Wall), ("door", level.doors, Door), ("room", level.rooms, tuple)):
         yield from _check_all(f"{name}: its {noun}s", values, type_)
     for i, wall in enumerate(level.walls):
         if not (_is_point(wall.start) and _is_point(wall.end)):
-            yield f"{name}: wall {i} is {describe_value((wall.start, wall.end))}, not from (x, y) to (x, y)"
+            yield f"{name}: wall {i} is {describe((wall.start, wall.end))}, not from (x, y) to (x, y)"
     for i, door in enumerate(level.doors):
         if not (_is_point(door.start) and _is_point(door.end)):
-            yield f"{name}: door {i} is {describe_value((door.start, door.end))}, not from (x, y) to (x, y)"
+            yield f"{name}: door {i} is {describe((door.start, door.end))}, not from (x, y) to (x, y)"
         yield from _check_text(f"{name}: the name of door {i}", door.name)
     for i, room in enumerate(level.rooms):
         for point in room:
             if not _is_point(point):
-                yield f"{name}: room {i} has a corner {describe_value(point)}, not (x, y)"
+                yield f"{name}: room {i} has a corner {describe(point)}, not (x, y)"
 
 
 def _check_connector(connector: Connector) -> Iterator[str]:
@@ -72,11 +72,11 @@ def _check_connector(connector: Connector) -> Iterator[str]:
         yield from _check_all(f"{name}: an outline", stop.outline, tuple)
         for point in (stop.place, *stop.outline):
             if not _is_point(point):
-                yield f"{name}: a stop has a place {describe_value(point)}, not (x, y)"
+                yield f"{name}: a stop has a place {describe(point)}, not (x, y)"
     if connector.flights is not None and (
         isinstance(connector.flights, bool) or not isinstance(connector.flights, int)
     ):
-        yield f"{name}: has {describe_value(connector.flights)} flights, not a whole number"
+        yield f"{name}: has {describe(connector.flights)} flights, not a whole number"
     if connector.rise is not None:
         yield from _check_number(f"{name}: the rise of a step", connector.rise)
 
@@ -89,12 +89,12 @@ def no_start(start: Start) -> str | None:
 def _check_start(start: Start) -> Iterator[str]:
     yield from _check_text("its level", start.level)
     if not (_is_point(start.place) and all([abs(value) <= MAX_COORDINATE for value in start.place])):
-        yield f"its place is {describe_value(start.place)}, not (x, y) in m"
+        yield f"its place is {describe(start.place)}, not (x, y) in m"
     heading, spread = start.heading, start.spread
     if heading is not None and not (_is_number(heading) and abs(heading) <= MAX_HEADING):
-        yield f"its heading is {describe_value(heading)}, not in rad"
+        yield f"its heading is {describe(heading)}, not in rad"
     if not (_is_number(spread) and 0.0 <= spread <= MAX_SPREAD):
-        yield f"its spread is {describe_value(spread)}; it can be 0 to {MAX_SPREAD:g} m"
+        yield f"its spread is {describe(spread)}; it can be 0 to {MAX_SPREAD:g} m"
 
 
 def _is_number(value: Any) -> bool:
@@ -107,35 +107,35 @@ def _is_point(value: Any) -> bool:
 
 def _check_number(what: str, value: Any) -> Iterator[str]:
     if not _is_number(value):
-        yield f"{what} is {describe_value(value)}, not a number"
+        yield f"{what} is {describe(value)}, not a number"
 
 
 def _check_text(what: str, value: Any) -> Iterator[str]:
     if not isinstance(value, str):
-        yield f"{what} is {describe_value(value)}, not a text"
+        yield f"{what} is {describe(value)}, not a text"
 
 
 def _check_kind(what: str, value: Any, type_: type) -> Iterator[str]:
     if not isinstance(value, type_):
-        yield f"{what} is {describe_value(value)}, no {type_.__name__}"
+        yield f"{what} is {describe(value)}, no {type_.__name__}"
 
 
 def _check_all(what: str, values: Any, type_: type) -> Iterator[str]:
     if not isinstance(values, tuple):
-        yield f"{what} are {describe_value(values)}, not a tuple"
+        yield f"{what} are {describe(values)}, not a tuple"
     for value in values:
         if not isinstance(value, type_):
-            yield f"{what}: one is {describe_value(value)}, no {type_.__name__}"
+            yield f"{what}: one is {describe(value)}, no {type_.__name__}"
 
 
-def describe_value(value: object) -> str:
+def describe(value: object) -> str:
     """Return a value for use in a sentence: short, on one line, of any type."""
     if isinstance(value, float):
         return f"{value:g}"
     if isinstance(value, int) and not abs(value) < 10**30:
         return "a huge number"
     if isinstance(value, tuple) and len(value) <= 3:
-        return f"({', '.join([describe_value(item) for item in value])})"
+        return f"({', '.join([describe(item) for item in value])})"
     if isinstance(value, str | int | None):
         return repr(value)[:60]
     return f"a {type(value).__name__}"

@@ -23,7 +23,7 @@ from .wearers import DemoPlan, Wearers, prepare
 
 TARGET_SNAPSHOTS = 8
 """Number of snapshots in the time that sessions take without an engine; the engine takes longer."""
-MIN_SNAPSHOT_INTERVAL, MAX_SNAPSHOT_INTERVAL = 0.1, 10.0
+MIN_INTERVAL, MAX_INTERVAL = 0.1, 10.0
 """Shortest and longest time between two snapshots, s; bytewax's default is the longest."""
 
 MIN_WEARERS_FOR_MEMORY = 500
@@ -99,10 +99,8 @@ class DemoStage:
         if self.plan.every is not None:
             return self.plan.every
         if self.sessions is None:
-            return MAX_SNAPSHOT_INTERVAL
-        return min(
-            max(sum(self.samples) / self.sessions.rate / TARGET_SNAPSHOTS, MIN_SNAPSHOT_INTERVAL), MAX_SNAPSHOT_INTERVAL
-        )
+            return MAX_INTERVAL
+        return min(max(sum(self.samples) / self.sessions.rate / TARGET_SNAPSHOTS, MIN_INTERVAL), MAX_INTERVAL)
 
     @property
     def memory(self) -> float | None:
@@ -156,14 +154,12 @@ class DemoStage:
         results = [json.loads((home / f"bare-{part}.json").read_text(encoding="utf-8")) for part in parts]
         states = [state for result in results for state in result["states"]]
         snapshot_time = median(seconds for _, _, seconds in states)
-        without_held, with_held = (
+        sizes, held_sizes = (
             [size for size, held_rows, _ in states if bool(held_rows) is is_held] for is_held in (False, True)
         )
         rate = sum(samples / result["seconds"] for samples, result in zip(self.samples, results, strict=True))
         cpu = sum(result["cpu"] for result in results)
-        self.sessions = Bare(
-            rate, cpu, mean(without_held), max(without_held), max(with_held, default=None), snapshot_time
-        )
+        self.sessions = Bare(rate, cpu, mean(sizes), max(sizes), max(held_sizes, default=None), snapshot_time)
         return self.sessions
 
     def compare(self) -> list[str]:

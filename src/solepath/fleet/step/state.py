@@ -26,9 +26,9 @@ MAX_EVENTS = 2**62
 """Largest number of an event in a state: more than any wearer can have."""
 
 _HEAD_FORMAT = Struct("<4sBqQQd")
-_CHECKSUM_FORMAT = Struct("<I")
+_CHECKSUM = Struct("<I")
 _FLOAT_FORMAT = Struct("<d")
-_ENDED_FLAG, _SESSION_FLAG = 1, 2
+_ENDED, _SESSION = 1, 2
 _PACKET_CODE, _TICK_CODE, _END_CODE, _REJECTED_CODE = range(4)
 
 
@@ -69,7 +69,7 @@ def write_state(identity: StateHead, rest: StateRest) -> bytes:
     unused, strays = rest.unused, rest.strays
     other = b"".join(
         [
-            bytes([rest.ended * _ENDED_FLAG + (rest.session is not None) * _SESSION_FLAG]),
+            bytes([rest.ended * _ENDED + (rest.session is not None) * _SESSION]),
             _encode_counts(len(unused.spans)),
             *[_encode_counts(span.run, span.first, span.end) for span in unused.spans],
             _encode_counts(len(unused.forgotten)),
@@ -80,18 +80,16 @@ def write_state(identity: StateHead, rest: StateRest) -> bytes:
             _encode_pieces(_encode_text(rest.failure)),
         ]
     )
-    return b"".join(
-        [first, _CHECKSUM_FORMAT.pack(crc32(first)), other, _CHECKSUM_FORMAT.pack(crc32(other)), rest.session or b""]
-    )
+    return b"".join([first, _CHECKSUM.pack(crc32(first)), other, _CHECKSUM.pack(crc32(other)), rest.session or b""])
 
 
 def read_identity(state: bytes) -> StateHead | None:
     """Return the first part of a state of any version; None when it is damaged or no state."""
     end = _HEAD_FORMAT.size
     if (
-        len(state) < end + _CHECKSUM_FORMAT.size
+        len(state) < end + _CHECKSUM.size
         or state[:4] != MAGIC
-        or crc32(state[:end]) != _CHECKSUM_FORMAT.unpack_from(state, end)[0]
+        or crc32(state[:end]) != _CHECKSUM.unpack_from(state, end)[0]
     ):
         return None
     _, _, run, number, next_event, known = _HEAD_FORMAT.unpack_from(state)
@@ -106,7 +104,7 @@ def read_rest(state: bytes) -> StateRest:
     if reader is None:
         raise StateError(f"a state of version {state[4]}; this release reads {', '.join(map(str, READERS))}")
     try:
-        return reader(_StateReader(state, _HEAD_FORMAT.size + _CHECKSUM_FORMAT.size))
+        return reader(_StateReader(state, _HEAD_FORMAT.size + _CHECKSUM.size))
     except (ValueError, IndexError, StructError, OverflowError) as error:
         raise StateError(str(error) if isinstance(error, StateError) else "the state was damaged") from None
 
@@ -120,16 +118,14 @@ def _read_version_1(data: _StateReader) -> StateRest:
     held_rows = [((data.read_count(), data.read_count()), _read_payload(data)) for _ in range(data.read_count())]
     failure = data.read_text()
     checked = data.state[start : data.position]
-    if data.take(4) != _CHECKSUM_FORMAT.pack(crc32(checked)):
+    if data.take(4) != _CHECKSUM.pack(crc32(checked)):
         raise StateError("the state was damaged: its checksum is another")
     _, _, run, number, _, _ = _HEAD_FORMAT.unpack_from(data.state)
     places = [(run, number - 1), *[place for place, _ in held_rows]]
     if not all(low < high for low, high in pairwise(places)) or any(max(place) > MAX_COUNT for place in places[1:]):
         raise StateError("the state holds what cannot be held")
-    session = data.state[data.position :] if flags & _SESSION_FLAG else None
-    return StateRest(
-        bool(flags & _ENDED_FLAG), UnusedNumbers(spans, forgotten), strays, dict(held_rows), failure, session
-    )
+    session = data.state[data.position :] if flags & _SESSION else None
+    return StateRest(bool(flags & _ENDED), UnusedNumbers(spans, forgotten), strays, dict(held_rows), failure, session)
 
 
 def _encode_payload(payload: Payload) -> bytes:

@@ -10,7 +10,7 @@ from typing import Any, NoReturn
 from ...types.attrs import evolve, frozen
 from ..outlines import MAX_CLOSING_DISTANCE, Ring, describe_open_ring, make_ring
 from ..plan import Anchor, FloorPlanError, Point
-from ..records import describe_value
+from ..records import describe
 from .earth import south_west
 
 MAX_CORNERS = 1_000_000
@@ -58,9 +58,7 @@ class Feature:
             return value
         if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < MAX_NUMBER:
             return f"{value:g}" if isinstance(value, float) else str(value)
-        return self.fail(
-            f"its {key} is missing" if value is None else f"its {key} is {describe_value(value)}, not a text"
-        )
+        return self.fail(f"its {key} is missing" if value is None else f"its {key} is {describe(value)}, not a text")
 
     def number(self, key: str) -> float | None:
         """Return a property that must be a number; None when it is missing."""
@@ -135,7 +133,7 @@ def read_features(collection: dict[str, Any], kind_key: str, in_properties: bool
             raise FloorPlanError(f"feature {i} is not a GeoJSON Feature")
         raw_id = value.get("id")
         if not (raw_id is None or isinstance(raw_id, str) or type(raw_id) is int and abs(raw_id) < MAX_NUMBER):
-            raise FloorPlanError(f"feature {i}: its id is {describe_value(raw_id)}, neither a text nor a whole number")
+            raise FloorPlanError(f"feature {i}: its id is {describe(raw_id)}, neither a text nor a whole number")
         own_id = "" if raw_id is None else str(raw_id)
         if own_id and own_id in ids:
             raise FloorPlanError(f"two features have the id {own_id!r}")
@@ -202,5 +200,5 @@ def parse_number(value: object, what: str) -> float:
         or not abs(value) < MAX_NUMBER
         or not isfinite(value)
     ):
-        raise FloorPlanError(f"{what} is {describe_value(value)}, not a number that can be")
+        raise FloorPlanError(f"{what} is {describe(value)}, not a number that can be")
     return float(value)

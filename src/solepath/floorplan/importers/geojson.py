@@ -201,25 +201,23 @@ def _written(plan: FloorPlan) -> Iterable[dict[str, Any]]:
         properties = {"name": level.name, "ordinal": level.ordinal, "elevation": level.elevation}
         yield {**_feature("level", None, properties), "id": level.id}
     for level in plan.levels:
-        level_property = {"level": level.id}
+        on_level = {"level": level.id}
         for wall in level.walls:
-            yield _feature("wall", _geometry("LineString", [wall.start, wall.end]), level_property)
+            yield _feature("wall", _geometry("LineString", [wall.start, wall.end]), on_level)
         for door in level.doors:
-            yield _feature(
-                "door", _geometry("LineString", [door.start, door.end]), {**level_property, "name": door.name}
-            )
+            yield _feature("door", _geometry("LineString", [door.start, door.end]), {**on_level, "name": door.name})
         for room in level.rooms:
-            yield _feature("room", _geometry("Polygon", [[*room, room[0]]]), level_property)
+            yield _feature("room", _geometry("Polygon", [[*room, room[0]]]), on_level)
     for i, connector in enumerate(plan.connectors):
-        connector_properties: dict[str, Any] = {
+        optional: dict[str, Any] = {
             "name": connector.name,
             "connector": str(i),
             "flights": connector.flights,
             "rise": connector.rise,
         }
-        connector_properties = {key: value for key, value in connector_properties.items() if value is not None}
+        optional = {key: value for key, value in optional.items() if value is not None}
         for stop in connector.stops:
-            properties = {"level": stop.level, **connector_properties}
+            properties = {"level": stop.level, **optional}
             if stop.outline:
                 closed = [*stop.outline, stop.outline[0]]
                 yield _feature(
