@@ -46,9 +46,7 @@ class Search:
         with self.scanner.listening(self._on_advertisement):
             while True:
                 now = loop.time()
-                self._found = {
-                    address: device for address, device in self._found.items() if now - device.t < SAME_NAME_TIME
-                }
+                self._found = {at: one for at, one in self._found.items() if now - one.t < SAME_NAME_TIME}
                 candidates = [
                     device
                     for device in self._found.values()

@@ -39,10 +39,8 @@ def find_characteristic(client: BleakClient, channel: Channel) -> BleakGATTChara
 
 def find_notifying(client: BleakClient, channel: Channel) -> BleakGATTCharacteristic | None:
     """Return the channel's characteristic if it can notify, else None: some battery levels can only be read."""
-    characteristic = find_characteristic(client, channel)
-    return (
-        characteristic if characteristic is not None and {"notify", "indicate"} & {*characteristic.properties} else None
-    )
+    found = find_characteristic(client, channel)
+    return found if found is not None and {"notify", "indicate"} & {*found.properties} else None
 
 
 def find_missing_stream(client: BleakClient, profile: Profile) -> str | None:

@@ -35,9 +35,7 @@ class NamedFiles:
         A line that is too long is cut at a length that `read_line` rejects. Raises an OSError that names the file when
         one cannot be read."""
         sizes = self._sizes()
-        self.positions = {
-            name: position for name, position in self.positions.items() if position <= sizes.get(name, -1)
-        }
+        self.positions = {name: read for name, read in self.positions.items() if read <= sizes.get(name, -1)}
         for name in sorted(sizes):
             position = self.positions.get(name, 0)
             if position < sizes[name]:

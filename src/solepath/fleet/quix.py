@@ -63,9 +63,7 @@ class _GaitStep:
         self._kept: dict[str, tuple[bytes, Keyed]] = {}
         """Sessions by wearer, the most recently used last."""
 
-    def __call__(
-        self, value: Any, key: Any, _timestamp: int, _headers: Any, state: State[str, bytes]
-    ) -> list[dict[str, Any]]:
+    def __call__(self, value: Any, key: Any, _t: int, _headers: Any, state: State[str, bytes]) -> list[dict[str, Any]]:
         wearer = _parse_wearer(key)
         if wearer is None:  # without a state: its key in the changelog would be this key, however long
             context = message_context()

@@ -53,9 +53,8 @@ class Walls:
 
     def _index(self, grid: Grid) -> None:
         """Add every wall to the cells from which it can be reached."""
-        half_diagonal = (
-            grid.cell * sqrt(0.5) + 1e-6
-        )  # from the centre to a corner, and the rounding of the assignment to cells
+        # from a cell's centre to its corner, m, with a margin for the rounding of the assignment to cells
+        half_diagonal = grid.cell * sqrt(0.5) + 1e-6
         walls_by_cell: dict[int, list[_Wall]] = {}
         distances2: dict[int, float] = {}
         for wall in self._wall_lines:
@@ -100,17 +99,10 @@ class Walls:
         """The ends (ax, ay, bx, by) of every wall, m, in the given order; equal walls appear once."""
         return [wall[3:] for wall in self._wall_lines]
 
-    def has_wall_near(
-        self, x: float, y: float, excluded: tuple[float, float, float, float], distance_limit: float
-    ) -> bool:
-        """Return whether a wall other than `excluded`, in either direction, is within `distance_limit` of (x, y), m.
-
-        `distance_limit` is at most MAX_SHORT_MOVE."""
-        both_directions = (excluded, (excluded[2], excluded[3], excluded[0], excluded[1]))
-        return any(
-            wall[3:] not in both_directions and distance(*wall[3:], x, y) <= distance_limit
-            for wall in self._walls_at(x, y)
-        )
+    def has_wall_near(self, x: float, y: float, excluded: tuple[float, float, float, float], within: float) -> bool:
+        """Return whether a wall other than `excluded`, in either direction, is within `within` <= MAX_SHORT_MOVE, m."""
+        same = (excluded, (excluded[2], excluded[3], excluded[0], excluded[1]))
+        return any(wall[3:] not in same and distance(*wall[3:], x, y) <= within for wall in self._walls_at(x, y))
 
     def _crosses_far(self, x0: float, y0: float, x1: float, y1: float) -> bool:
         if not (isfinite(x0) and isfinite(y0) and isfinite(x1) and isfinite(y1)):

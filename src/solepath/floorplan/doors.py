@@ -45,10 +45,8 @@ class Openings:
 
 def with_doors_cut(level: Level) -> Level:
     """Return the level with a gap in its walls wherever a door lies along them; a second call changes nothing."""
-    return evolve(
-        level,
-        walls=cut_openings(level.walls, Openings([(door.start, door.end) for door in level.doors]), MAX_DOOR_OFFSET),
-    )
+    doors = Openings([(door.start, door.end) for door in level.doors])
+    return evolve(level, walls=cut_openings(level.walls, doors, MAX_DOOR_OFFSET))
 
 
 def cut_openings(

@@ -156,9 +156,8 @@ class CountingPart(StatefulSourcePartition[Keyed, int]):
         wearer = self._wearers[index]
         self._position = position + 1
         os.lseek(self._position_file, 0, os.SEEK_SET)
-        os.write(
-            self._position_file, POSITION_FORMAT.pack(position + 1)
-        )  # for the process that kills this one and measures the cost
+        # for the process that kills this one and measures the cost
+        os.write(self._position_file, POSITION_FORMAT.pack(position + 1))
         bundle = wearer.bundle(number)
         return [(wearer.name, bundle)] if bundle else []
 

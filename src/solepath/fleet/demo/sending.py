@@ -81,9 +81,7 @@ def make_gap(packets: Sequence[Packet], every: float, rng: Random) -> Sending | 
     end = first + LOST_ROWS
     if len(received) < end + TOO_LATE_ROWS + MAX_DELAY_ROWS:
         return None
-    delivered = _disturb(
-        [(row_number, payload) for row_number, payload in enumerate(received) if not first <= row_number < end], rng
-    )
+    delivered = _disturb([(n, payload) for n, payload in enumerate(received) if not first <= n < end], rng)
     index = next(k for k, (number, _) in enumerate(delivered) if number >= end + TOO_LATE_ROWS)
     late = rng.randrange(first, end)
     delivered.insert(index, (late, received[late]))

@@ -123,9 +123,7 @@ class DemoStage:
             run.start()
             reports = run.finish()
         duration = monotonic() - t_start
-        seconds = max(report["ended"] for report in reports) - min(
-            report["started"] for report in reports if report["started"] is not None
-        )
+        seconds = max(r["ended"] for r in reports) - min(r["started"] for r in reports if r["started"] is not None)
         self.engine = Engine(
             whole=duration,
             seconds=seconds,

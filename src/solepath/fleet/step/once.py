@@ -39,11 +39,7 @@ class _ReceivedNumbers:
         for index, (first, end) in enumerate(self.missing):
             if first <= number < end:
                 remaining = [(first, number), (number + 1, end)]
-                ranges = [
-                    *self.missing[:index],
-                    *[span for span in remaining if span[0] < span[1]],
-                    *self.missing[index + 1 :],
-                ]
+                ranges = [*self.missing[:index], *[r for r in remaining if r[0] < r[1]], *self.missing[index + 1 :]]
                 self.missing = ranges[-MAX_RANGES:]
                 return True
         return False

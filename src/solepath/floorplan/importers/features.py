@@ -185,11 +185,7 @@ def parse_positions(value: object, feature: Feature, depth: int = 0) -> Any:
 
 def find_anchor(features: Iterable[Feature]) -> Anchor:
     """Return the south-west corner of all features, degrees, as an anchor."""
-    positions = [
-        position
-        for feature in features
-        for position in (*feature.points, *(position for part in feature.lines for line in part for position in line))
-    ]
+    positions = [p for f in features for p in (*f.points, *(p for part in f.lines for line in part for p in line))]
     return south_west([(latitude, longitude) for longitude, latitude in positions])
 
 
